@@ -1,0 +1,226 @@
+//! The embedded files, read once.
+
+use crate::model::{Document, Erratum, Requirement, Vector};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use std::fmt;
+use std::sync::OnceLock;
+
+/// Version of the data, which every file states and the crate has too.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Everything the crate holds.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Catalogue {
+    /// Documents that sources and readings name.
+    pub documents: Vec<Document>,
+    /// Requirements, by area and number.
+    pub requirements: Vec<Requirement>,
+    /// Errata, by number.
+    pub errata: Vec<Erratum>,
+    /// Vectors of all files.
+    pub vectors: Vec<Vector>,
+}
+
+/// An embedded file is not what this crate's types expect.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LoadError {
+    /// Path of the file in the crate.
+    pub file: &'static str,
+    /// What is wrong with it, and where.
+    pub message: String,
+}
+
+impl fmt::Display for LoadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.file, self.message)
+    }
+}
+
+impl std::error::Error for LoadError {}
+
+/// Everything the crate holds, or what is wrong with a file.
+///
+/// The other functions give nothing where this one gives an error. The crate's own tests make sure that
+/// it doesn't.
+///
+/// ```
+/// let catalogue = ads_cnc_vectors::catalogue()?;
+/// assert!(catalogue.vectors.len() > 100);
+/// # Ok::<(), &ads_cnc_vectors::LoadError>(())
+/// ```
+pub fn catalogue() -> Result<&'static Catalogue, &'static LoadError> {
+    static CATALOGUE: OnceLock<Result<Catalogue, LoadError>> = OnceLock::new();
+    CATALOGUE.get_or_init(read).as_ref()
+}
+
+/// The documents that sources and readings name.
+///
+/// ```
+/// assert!(ads_cnc_vectors::documents().iter().any(|d| d.document == "ads-en" && d.edition == "1.05"));
+/// ```
+pub fn documents() -> &'static [Document] {
+    slice(|all| &all.documents)
+}
+
+/// All requirements.
+///
+/// ```
+/// assert!(ads_cnc_vectors::requirements().iter().all(|r| r.id.starts_with(&r.area)));
+/// ```
+pub fn requirements() -> &'static [Requirement] {
+    slice(|all| &all.requirements)
+}
+
+/// The requirement with this ID.
+///
+/// ```
+/// assert_eq!(ads_cnc_vectors::requirement("VAR-7").unwrap().title, "Elementary variable");
+/// assert!(ads_cnc_vectors::requirement("VAR-0").is_none());
+/// ```
+pub fn requirement(id: &str) -> Option<&'static Requirement> {
+    requirements().iter().find(|item| item.id == id)
+}
+
+/// All errata.
+///
+/// ```
+/// assert!(ads_cnc_vectors::errata().iter().all(|e| !e.ruling.is_empty()));
+/// ```
+pub fn errata() -> &'static [Erratum] {
+    slice(|all| &all.errata)
+}
+
+/// The erratum with this ID.
+///
+/// ```
+/// assert!(ads_cnc_vectors::erratum("E-07").unwrap().ruling.contains("bytes"));
+/// ```
+pub fn erratum(id: &str) -> Option<&'static Erratum> {
+    errata().iter().find(|item| item.id == id)
+}
+
+/// All vectors.
+///
+/// ```
+/// let printed = ads_cnc_vectors::vectors().iter().filter(|v| {
+///     v.provenance.kind == ads_cnc_vectors::ProvenanceKind::Manual
+/// });
+/// assert!(printed.count() > 20);
+/// ```
+pub fn vectors() -> &'static [Vector] {
+    slice(|all| &all.vectors)
+}
+
+/// The vector with this ID.
+///
+/// ```
+/// let count = ads_cnc_vectors::vector("count-printed-123").unwrap();
+/// assert_eq!(count.bytes(), [123, 0, 0, 0]);
+/// ```
+pub fn vector(id: &str) -> Option<&'static Vector> {
+    vectors().iter().find(|item| item.id == id)
+}
+
+fn slice<T>(part: impl Fn(&'static Catalogue) -> &'static Vec<T>) -> &'static [T] {
+    catalogue().map_or(&[], |all| part(all))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RequirementFile {
+    #[serde(rename = "$schema")]
+    _schema: String,
+    #[serde(rename = "version")]
+    _version: String,
+    documents: Vec<Document>,
+    requirements: Vec<Requirement>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ErrataFile {
+    #[serde(rename = "$schema")]
+    _schema: String,
+    #[serde(rename = "version")]
+    _version: String,
+    errata: Vec<Erratum>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct VectorFile {
+    #[serde(rename = "$schema")]
+    _schema: String,
+    #[serde(rename = "version")]
+    _version: String,
+    vectors: Vec<Vector>,
+}
+
+macro_rules! embedded {
+    ($path:literal) => {
+        ($path, include_str!(concat!("../", $path)))
+    };
+}
+
+const REQUIREMENTS: (&str, &str) = embedded!("data/requirements.json");
+const ERRATA: (&str, &str) = embedded!("data/errata.json");
+const VECTORS: [(&str, &str); 4] = [
+    embedded!("data/vectors/address.json"),
+    embedded!("data/vectors/ads.json"),
+    embedded!("data/vectors/com.json"),
+    embedded!("data/vectors/variable.json"),
+];
+
+fn read() -> Result<Catalogue, LoadError> {
+    let requirements: RequirementFile = parse(REQUIREMENTS)?;
+    let errata: ErrataFile = parse(ERRATA)?;
+    let mut vectors = Vec::new();
+    for file in VECTORS {
+        vectors.extend(parse::<VectorFile>(file)?.vectors);
+    }
+    Ok(Catalogue {
+        documents: requirements.documents,
+        requirements: requirements.requirements,
+        errata: errata.errata,
+        vectors,
+    })
+}
+
+fn parse<T: DeserializeOwned>((file, text): (&'static str, &str)) -> Result<T, LoadError> {
+    serde_json::from_str(text).map_err(|error| LoadError { file, message: error.to_string() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_file_loads() {
+        assert_eq!(catalogue().err(), None);
+    }
+
+    #[test]
+    fn a_broken_file_is_named() {
+        let error = parse::<ErrataFile>(("data/broken.json", r#"{"errata":[],"extra":1}"#))
+            .err()
+            .expect("an unknown field");
+        assert_eq!(error.file, "data/broken.json");
+        assert!(error.message.contains("extra"), "{error}");
+    }
+
+    /// Nothing of a vector is lost or changed by the types: what is read writes the same JSON.
+    #[test]
+    fn vectors_survive_a_round_trip() {
+        for (file, text) in VECTORS {
+            let raw: serde_json::Value = serde_json::from_str(text).expect(file);
+            let typed = parse::<VectorFile>((file, text)).expect("loads");
+            let items = raw["vectors"].as_array().expect("a list");
+            assert_eq!(items.len(), typed.vectors.len());
+            for (item, vector) in items.iter().zip(&typed.vectors) {
+                let again = serde_json::to_value(vector).expect("serializes");
+                assert_eq!(&again, item, "{}", vector.id);
+            }
+        }
+    }
+}

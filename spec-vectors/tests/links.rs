@@ -1,0 +1,283 @@
+//! What refers to something else refers to something that is there.
+
+use ads_cnc_vectors::{
+    Basis, Expect, Level, Observable, ProvenanceKind, Requirement, Vector, catalogue, documents,
+    errata, erratum, requirement, requirements, vector, vectors,
+};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn data_is_there() {
+    assert_eq!(catalogue().err(), None);
+    for (what, count) in [
+        ("documents", documents().len()),
+        ("requirements", requirements().len()),
+        ("errata", errata().len()),
+        ("vectors", vectors().len()),
+    ] {
+        assert_ne!(count, 0, "no {what}");
+    }
+}
+
+/// The list of embedded files is written by hand; a file that is missing there would go unnoticed.
+#[test]
+fn every_vector_file_is_embedded() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/vectors");
+    let mut ids = BTreeSet::new();
+    for entry in fs::read_dir(folder).expect("a folder of vectors") {
+        let text = fs::read_to_string(entry.expect("an entry").path()).expect("readable");
+        let file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        for vector in file["vectors"].as_array().expect("a list") {
+            ids.insert(vector["id"].as_str().expect("an ID").to_owned());
+        }
+    }
+    let embedded: BTreeSet<String> = vectors().iter().map(|v| v.id.clone()).collect();
+    assert_eq!(ids, embedded);
+}
+
+#[test]
+fn ids_are_unique() {
+    let unique = |what: &str, ids: Vec<&str>| {
+        let mut seen = BTreeSet::new();
+        for id in ids {
+            assert!(seen.insert(id), "{what} {id} is there twice");
+        }
+    };
+    unique("document", documents().iter().map(|x| x.document.as_str()).collect());
+    unique("requirement", requirements().iter().map(|x| x.id.as_str()).collect());
+    unique("erratum", errata().iter().map(|x| x.id.as_str()).collect());
+    unique("vector", vectors().iter().map(|x| x.id.as_str()).collect());
+}
+
+#[test]
+fn vector_ids_are_slugs() {
+    for v in vectors() {
+        let slug = |part: &str| {
+            !part.is_empty() && part.bytes().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit())
+        };
+        assert!(v.id.split('-').all(slug), "{}", v.id);
+        let words = v.id.split('-').any(|part| part.bytes().any(|c| c.is_ascii_lowercase()));
+        assert!(words, "{} is nothing but a number", v.id);
+    }
+}
+
+#[test]
+fn areas_are_complete() {
+    let mut found: BTreeMap<&str, Vec<u32>> = BTreeMap::new();
+    for r in requirements() {
+        let (area, number) = r.id.split_once('-').expect("area and number");
+        assert_eq!(area, r.area, "{}", r.id);
+        found.entry(area).or_default().push(number.parse().expect("a number"));
+    }
+    for (area, mut numbers) in found {
+        numbers.sort_unstable();
+        let all: Vec<u32> = (1..).take(numbers.len()).collect();
+        assert_eq!(numbers, all, "{area} has gaps");
+    }
+}
+
+#[test]
+fn sources_name_known_editions() {
+    let known: BTreeSet<_> =
+        documents().iter().map(|d| (d.document.as_str(), d.edition.as_str())).collect();
+    let mut used: Vec<(&str, &str, &str)> = Vec::new();
+    for r in requirements() {
+        used.extend(
+            r.sources.iter().map(|s| (r.id.as_str(), s.document.as_str(), s.edition.as_str())),
+        );
+    }
+    for e in errata() {
+        used.extend(
+            e.readings.iter().map(|s| (e.id.as_str(), s.document.as_str(), s.edition.as_str())),
+        );
+    }
+    for v in vectors() {
+        let sources = v.provenance.sources.iter();
+        used.extend(sources.map(|s| (v.id.as_str(), s.document.as_str(), s.edition.as_str())));
+    }
+    for (id, document, edition) in used {
+        assert!(known.contains(&(document, edition)), "{id}: {document} {edition}");
+    }
+}
+
+/// Must for what the documents say or what follows from it, should for the help pages, info for rulings.
+#[test]
+fn levels_follow_the_basis() {
+    const ALWAYS_MUST: [&str; 4] = ["GEN-1", "ADR-9", "VAR-24", "ADS-5"];
+    let level = |r: &Requirement, basis| match basis {
+        _ if ALWAYS_MUST.contains(&r.id.as_str()) => Level::Must,
+        Basis::Stated | Basis::Edition | Basis::Derived => Level::Must,
+        Basis::Online => Level::Should,
+        Basis::Assumed => Level::Info,
+    };
+    for r in requirements() {
+        assert_eq!(r.level, level(r, r.basis), "{}", r.id);
+        for part in &r.parts {
+            assert_eq!(part.level, level(r, part.basis), "{}: {}", r.id, part.text);
+        }
+        if matches!(r.basis, Basis::Stated | Basis::Edition) {
+            assert!(!r.sources.is_empty(), "{} is stated nowhere", r.id);
+        }
+    }
+}
+
+#[test]
+fn vectors_cite_what_exists() {
+    for v in vectors() {
+        assert!(!v.requirements.is_empty(), "{} cites no requirement", v.id);
+        for id in &v.requirements {
+            assert!(requirement(id).is_some(), "{} cites {id}", v.id);
+        }
+        for id in &v.errata {
+            assert!(erratum(id).is_some(), "{} cites {id}", v.id);
+        }
+        if let Some(request) = &v.context.request {
+            let request = vector(request).unwrap_or_else(|| panic!("{} answers {request}", v.id));
+            assert!(request.is_accepted(), "{} answers {}", v.id, request.id);
+            if v.context.service.is_some() {
+                let stated = (v.context.index_group, v.context.index_offset);
+                assert_eq!(address(request), stated, "{} answers {}", v.id, request.id);
+            }
+        }
+    }
+}
+
+/// Group and offset a request goes to: from its context, or its own fields if it is a whole ADS request.
+fn address(request: &Vector) -> (Option<u32>, Option<u32>) {
+    if request.context.service.is_some() {
+        return (request.context.index_group, request.context.index_offset);
+    }
+    let Expect::Accept(accept) = &request.expect else {
+        return (None, None);
+    };
+    let field = |name: &str| u32::try_from(accept.value.get(name)?.tagged()?.integer()?).ok();
+    (field("index_group"), field("index_offset"))
+}
+
+#[test]
+fn every_erratum_is_cited() {
+    let mut cited: BTreeSet<&str> = BTreeSet::new();
+    for r in requirements() {
+        for id in &r.errata {
+            assert!(erratum(id).is_some(), "{} cites {id}", r.id);
+            cited.insert(id);
+        }
+    }
+    cited.extend(vectors().iter().flat_map(|v| v.errata.iter().map(String::as_str)));
+    for e in errata() {
+        assert!(cited.contains(e.id.as_str()), "nothing cites {}", e.id);
+    }
+}
+
+#[test]
+fn rejected_vectors_have_a_sibling() {
+    for v in vectors() {
+        match (&v.expect, &v.sibling) {
+            (Expect::Accept(_), sibling) => assert_eq!(*sibling, None, "{}", v.id),
+            (Expect::Reject(reject), Some(id)) => {
+                let sibling = vector(id).unwrap_or_else(|| panic!("{}: no {id}", v.id));
+                assert!(sibling.is_accepted(), "{}: {id} is rejected too", v.id);
+                assert_eq!(sibling.stream, v.stream, "{}", v.id);
+                assert_eq!(sibling.direction, v.direction, "{}", v.id);
+                assert_ne!(sibling.bytes(), v.bytes(), "{}", v.id);
+                assert!(reject.offset <= v.bytes().len(), "{}", v.id);
+            }
+            (Expect::Reject(_), None) => panic!("{} has no sibling", v.id),
+        }
+    }
+}
+
+#[test]
+fn every_stream_has_both_verdicts() {
+    let mut verdicts: BTreeMap<&str, (u32, u32)> = BTreeMap::new();
+    for v in vectors() {
+        let counts = verdicts.entry(&v.stream).or_default();
+        if v.is_accepted() { counts.0 += 1 } else { counts.1 += 1 }
+    }
+    for (stream, (accepted, rejected)) in verdicts {
+        assert!(accepted > 0 && rejected > 0, "{stream}: {accepted} accepted, {rejected} rejected");
+    }
+}
+
+#[test]
+fn streams_have_segments() {
+    for v in vectors() {
+        assert!(!v.segments.is_empty(), "{}", v.id);
+        // Only a field at the end can be there without a byte.
+        let (_, before) = v.segments.split_last().expect("not empty");
+        for segment in before {
+            assert!(!segment.hex.is_empty(), "{}: {}", v.id, segment.field);
+        }
+        // Two accepted vectors with one stream of bytes would have to be one.
+        if v.is_accepted() {
+            let same = |w: &&Vector| {
+                w.id != v.id && w.is_accepted() && w.stream == v.stream && w.bytes() == v.bytes()
+            };
+            for other in vectors().iter().filter(same) {
+                assert_ne!(other.context, v.context, "{} and {}", v.id, other.id);
+            }
+        }
+    }
+}
+
+/// What can be judged from bytes has bytes that show it.
+#[test]
+fn codec_requirements_have_an_accepted_vector() {
+    let shown: BTreeSet<&str> = vectors()
+        .iter()
+        .filter(|v| v.is_accepted())
+        .flat_map(|v| v.requirements.iter().map(String::as_str))
+        .collect();
+    for r in requirements() {
+        let about_bytes = r.observable.contains(&Observable::Codec);
+        if about_bytes && !r.pending && r.excluded.is_none() {
+            assert!(shown.contains(r.id.as_str()), "{} has no accepted vector", r.id);
+        }
+    }
+}
+
+#[test]
+fn printed_examples_name_their_place() {
+    for v in vectors() {
+        let place = &v.provenance;
+        match place.kind {
+            ProvenanceKind::Manual => {
+                assert!(!place.sources.is_empty(), "{}", v.id);
+                assert!(v.is_accepted(), "{}: a printed example is accepted", v.id);
+            }
+            ProvenanceKind::Derived | ProvenanceKind::Fuzz => {
+                assert!(place.reason.is_some(), "{}", v.id);
+            }
+        }
+        for source in &place.sources {
+            assert!(source.example.is_some(), "{}", v.id);
+        }
+    }
+}
+
+/// The examples in the README are entries of the data, word for word.
+#[test]
+fn readme_shows_real_entries() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = fs::read_to_string(root.join("README.md")).expect("a README");
+    let shown: Vec<serde_json::Value> = readme
+        .split("```json\n")
+        .skip(1)
+        .map(|rest| rest.split("```").next().expect("an end"))
+        .map(|text| serde_json::from_str(text).expect("JSON"))
+        .collect();
+    assert_eq!(shown.len(), 3);
+    for example in shown {
+        let id = example["id"].as_str().expect("an ID");
+        let real = if let Some(found) = vector(id) {
+            serde_json::to_value(found)
+        } else if let Some(found) = requirement(id) {
+            serde_json::to_value(found)
+        } else {
+            serde_json::to_value(erratum(id).unwrap_or_else(|| panic!("{id} is nowhere")))
+        };
+        assert_eq!(example, real.expect("serializes"), "{id}");
+    }
+}

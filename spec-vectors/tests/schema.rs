@@ -1,0 +1,133 @@
+//! Every data file obeys its schema, and the schemas refuse what they should.
+
+use jsonschema::Validator;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn json_file(path: &Path) -> Value {
+    let text = fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+fn schema(name: &str) -> Validator {
+    let schema = json_file(&root().join("schema").join(format!("{name}.schema.json")));
+    jsonschema::draft202012::meta::validate(&schema).unwrap_or_else(|e| panic!("{name}: {e}"));
+    jsonschema::validator_for(&schema).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+fn vector_files() -> Vec<PathBuf> {
+    let folder = root().join("data/vectors");
+    let mut files: Vec<_> = fs::read_dir(folder)
+        .expect("a folder of vectors")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    files.sort();
+    files
+}
+
+fn assert_valid(validator: &Validator, path: &Path) {
+    let document = json_file(path);
+    let errors: Vec<_> = validator
+        .iter_errors(&document)
+        .map(|error| format!("{} at {}", error, error.instance_path()))
+        .collect();
+    assert!(errors.is_empty(), "{}: {errors:#?}", path.display());
+    // the file names the schema it was judged by
+    let named = document["$schema"].as_str().expect("a schema");
+    let target = path.parent().expect("a folder").join(named);
+    assert!(target.is_file(), "{} names {named}", path.display());
+}
+
+#[test]
+fn requirements_obey() {
+    assert_valid(&schema("requirements"), &root().join("data/requirements.json"));
+}
+
+#[test]
+fn errata_obey() {
+    assert_valid(&schema("errata"), &root().join("data/errata.json"));
+}
+
+#[test]
+fn vectors_obey() {
+    let validator = schema("vectors");
+    let files = vector_files();
+    assert!(!files.is_empty());
+    for file in files {
+        assert_valid(&validator, &file);
+    }
+}
+
+/// Each change makes a good document bad, so a schema that accepts everything fails here.
+#[test]
+fn wrong_documents_are_refused() {
+    type Change = fn(&mut Value);
+    type Changes = &'static [(&'static str, Change)];
+    let cases: [(&str, &str, Changes); 3] = [
+        (
+            "requirements",
+            "data/requirements.json",
+            &[
+                ("unknown field", |d| d["requirements"][0]["note"] = json!("x")),
+                ("ID", |d| d["requirements"][0]["id"] = json!("GEN-01")),
+                ("level", |d| d["requirements"][0]["level"] = json!("shall")),
+                ("nothing observable", |d| {
+                    d["requirements"][0]["observable"] = json!([]);
+                }),
+            ],
+        ),
+        (
+            "errata",
+            "data/errata.json",
+            &[
+                ("no readings", |d| d["errata"][0]["readings"] = json!([])),
+                ("status", |d| d["errata"][0]["status"] = json!("fixed")),
+            ],
+        ),
+        (
+            "vectors",
+            "data/vectors/variable.json",
+            &[
+                ("upper-case hex", |d| {
+                    d["vectors"][0]["segments"][0]["hex"] = json!("56 2E 45 00");
+                }),
+                ("hex without spaces", |d| {
+                    d["vectors"][0]["segments"][0]["hex"] = json!("562e4500");
+                }),
+                ("positional ID", |d| d["vectors"][0]["id"] = json!("Case #1")),
+                ("unknown stream", |d| d["vectors"][0]["stream"] = json!("x")),
+                ("no segments", |d| d["vectors"][0]["segments"] = json!([])),
+                ("accepted and rejected", |d| {
+                    d["vectors"][0]["expect"]["reject"] =
+                        json!({"class": "truncated", "offset": 0, "field": "kind"});
+                }),
+                ("sibling of an accepted one", |d| {
+                    d["vectors"][0]["sibling"] = json!("kind-empty");
+                }),
+                ("number as a number", |d| {
+                    d["vectors"][0]["segments"][0]["value"] = json!({"type": "UNS32", "value": 1});
+                }),
+                ("tail and open at once", |d| {
+                    d["vectors"][0]["segments"][0]["value"]["tail"] = json!("00");
+                    d["vectors"][0]["segments"][0]["value"]["open"] = json!(true);
+                }),
+            ],
+        ),
+    ];
+    for (name, file, changes) in cases {
+        let validator = schema(name);
+        let good = json_file(&root().join(file));
+        assert!(validator.is_valid(&good), "{file}");
+        for (what, change) in changes {
+            let mut bad = good.clone();
+            change(&mut bad);
+            assert_ne!(bad, good, "{file}: {what} changes nothing");
+            assert!(!validator.is_valid(&bad), "{file}: {what} was accepted");
+        }
+    }
+}
