@@ -1,0 +1,391 @@
+//! Index groups.
+
+use core::fmt;
+
+use super::{Channel, PlatformAxis, Spindle};
+
+const LOGICAL: u32 = 0x10_0000;
+const ELEMENT: u32 = 0x02_0000;
+const OBJECT: u32 = 0x03_0000;
+const COM_CHANNEL: u32 = 0x100;
+const COM_AXIS: u32 = 0x200;
+
+/// An index group as ADS carries it: any number.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.
+///
+/// ```
+/// use ads_cnc::address::{Addressing, Attribute, Class, ClassGroup, Group, IndexGroup};
+///
+/// let group = IndexGroup::new(0x12_3801);
+/// assert_eq!(
+///     group.parts(),
+///     Some(Group::Class(ClassGroup {
+///         addressing: Addressing::Logical,
+///         class: Class::Hld,
+///         attribute: Attribute::WriteFlag,
+///         instance: 1,
+///     }))
+/// );
+/// // An unknown group stays a number.
+/// assert_eq!(IndexGroup::new(0xF005).parts(), None);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct IndexGroup(u32);
+
+impl IndexGroup {
+    /// Any number.
+    pub const fn new(number: u32) -> Self {
+        Self(number)
+    }
+
+    /// The number.
+    pub const fn get(self) -> u32 {
+        self.0
+    }
+
+    /// What the group addresses, if it is one of the manuals'; [`Group::index_group`] undoes it.
+    pub fn parts(self) -> Option<Group> {
+        let [instance, table, high, highest] = self.0.to_le_bytes();
+        if highest != 0 {
+            return None;
+        }
+        let addressing = match high & 0xF0 {
+            0x10 => Addressing::Logical,
+            0x00 => Addressing::Index,
+            _ => return None,
+        };
+        let access = match high & 0x0F {
+            2 => Access::Element,
+            3 => Access::Object,
+            _ => return None,
+        };
+        let class = Class::from_bits(u32::from(table & 0xF0) << 8)?;
+        match (access, table & 0x0F) {
+            (_, table @ (1 | 2)) if class == Class::PositionController => {
+                let table = if table == 1 { ComTable::Channel } else { ComTable::Axis };
+                Some(Group::Com(ComGroup { addressing, access, table, instance }))
+            }
+            (Access::Element, table) => {
+                let attribute = Attribute::from_table(table)?;
+                // Spindles have no logical form.
+                if class == Class::Spindle && addressing == Addressing::Logical {
+                    return None;
+                }
+                Some(Group::Class(ClassGroup { addressing, class, attribute, instance }))
+            }
+            (Access::Object, _) => None,
+        }
+    }
+}
+
+impl fmt::Debug for IndexGroup {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:#x}", self.0)
+    }
+}
+
+impl fmt::Display for IndexGroup {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:#x}", self.0)
+    }
+}
+
+/// What an index group addresses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Group {
+    /// The COM task, AMS port 553.
+    Com(ComGroup),
+    /// The SDA and GEO tasks, AMS ports 552 and 551. Which of the two serves a class is not
+    /// documented but for the decoder, which SDA serves (ADR-10).
+    Class(ClassGroup),
+}
+
+impl Group {
+    /// The group these parts add up to.
+    pub const fn index_group(self) -> IndexGroup {
+        match self {
+            Self::Com(com) => com.index_group(),
+            Self::Class(class) => class.index_group(),
+        }
+    }
+}
+
+/// Logical addressing or addressing by index (ADR-1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Addressing {
+    /// By the configured number: bit 0x100000 is set.
+    Logical,
+    /// By the rank among what is active.
+    Index,
+}
+
+impl Addressing {
+    const fn bits(self) -> u32 {
+        match self {
+            Self::Logical => LOGICAL,
+            Self::Index => 0,
+        }
+    }
+}
+
+/// The content of elements, or the description of objects (ADR-4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Access {
+    /// Element access, 0x20000.
+    Element,
+    /// Object access, 0x30000.
+    Object,
+}
+
+/// Which of COM's two tables a group addresses (ADR-3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ComTable {
+    /// 0x100: platform (0, or 1: the first channel drives it) and channels.
+    Channel,
+    /// 0x200: platform axes.
+    Axis,
+}
+
+/// The parts of a group of the COM task.
+///
+/// `0x120101` is channel 1 and, as channel 1 drives it, the platform (E-04).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1, 2.1.1 and 2.1.2.
+///
+/// ```
+/// use ads_cnc::address::{Access, Addressing, ComGroup, ComTable};
+///
+/// let list = ComGroup {
+///     addressing: Addressing::Logical,
+///     access: Access::Object,
+///     table: ComTable::Channel,
+///     instance: 1,
+/// };
+/// assert_eq!(list.index_group().get(), 0x13_0101);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ComGroup {
+    /// Logical or by index.
+    pub addressing: Addressing,
+    /// Content or descriptions.
+    pub access: Access,
+    /// Channels or platform axes.
+    pub table: ComTable,
+    /// Channel (0 for the platform) or platform axis.
+    pub instance: u8,
+}
+
+impl ComGroup {
+    /// The platform's own group, channel 0.
+    pub const fn platform(access: Access) -> Self {
+        Self { addressing: Addressing::Logical, access, table: ComTable::Channel, instance: 0 }
+    }
+
+    /// The group these parts add up to.
+    pub const fn index_group(self) -> IndexGroup {
+        let access = match self.access {
+            Access::Element => ELEMENT,
+            Access::Object => OBJECT,
+        };
+        let table = match self.table {
+            ComTable::Channel => COM_CHANNEL,
+            ComTable::Axis => COM_AXIS,
+        };
+        IndexGroup(self.addressing.bits() | access | table | low(self.instance))
+    }
+}
+
+/// The parts of a group of the SDA and GEO tasks (ADR-5, ADR-6).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.1.
+///
+/// ```
+/// use ads_cnc::address::{Attribute, Class, ClassGroup};
+///
+/// assert_eq!(ClassGroup::object_address(Class::Hld).index_group().get(), 0x12_3900);
+/// assert_eq!(ClassGroup::object_address(Class::Spindle).index_group().get(), 0x2_5900);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ClassGroup {
+    /// Logical or by index; [`Class::Spindle`] knows only the latter.
+    pub addressing: Addressing,
+    /// Which class of the CNC.
+    pub class: Class,
+    /// Which attribute of its elements.
+    pub attribute: Attribute,
+    /// Channel or spindle; 0 for the platform and for queries of an object address.
+    pub instance: u8,
+}
+
+impl ClassGroup {
+    /// The group in which the address of a class's instances is asked for; it names none itself.
+    pub const fn object_address(class: Class) -> Self {
+        Self { addressing: class.best(), class, attribute: Attribute::ObjectAddress, instance: 0 }
+    }
+
+    /// The group these parts add up to. A spindle's is by index whatever `addressing` says.
+    pub const fn index_group(self) -> IndexGroup {
+        let addressing = match self.class {
+            Class::Spindle => Addressing::Index,
+            _ => self.addressing,
+        };
+        let sum = addressing.bits() | ELEMENT | self.class.bits() | self.attribute.bits();
+        IndexGroup(sum | low(self.instance))
+    }
+}
+
+/// A class of the CNC (ADR-5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Class {
+    /// Position controller, once in a CNC, with the platform's axes.
+    PositionController,
+    /// Interpolator of a channel.
+    Interpolator,
+    /// Decoder of a channel.
+    Decoder,
+    /// High-level driver of a channel; that of the first has the platform's axes too.
+    Hld,
+    /// Path preparation of a channel.
+    PathPreparation,
+    /// Spindle.
+    Spindle,
+}
+
+impl Class {
+    /// All of them, in the order of their bits.
+    pub const ALL: [Self; 6] = [
+        Self::PositionController,
+        Self::Interpolator,
+        Self::Decoder,
+        Self::Hld,
+        Self::PathPreparation,
+        Self::Spindle,
+    ];
+
+    const fn bits(self) -> u32 {
+        match self {
+            Self::PositionController => 0x0000,
+            Self::Interpolator => 0x1000,
+            Self::Decoder => 0x2000,
+            Self::Hld => 0x3000,
+            Self::PathPreparation => 0x4000,
+            Self::Spindle => 0x5000,
+        }
+    }
+
+    const fn best(self) -> Addressing {
+        match self {
+            Self::Spindle => Addressing::Index,
+            _ => Addressing::Logical,
+        }
+    }
+
+    fn from_bits(bits: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|class| class.bits() == bits)
+    }
+}
+
+/// An attribute of an element (ADR-6).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Attribute {
+    /// The content, of the element's type.
+    Content,
+    /// The name, a string.
+    Name,
+    /// The type's name, a string.
+    Type,
+    /// The length of the content in bytes.
+    Length,
+    /// The unit, a string.
+    Unit,
+    /// Whether write access is permitted, a BOOLEAN (E-11).
+    WriteFlag,
+    /// Channel and axis in, index group and index offset out.
+    ObjectAddress,
+}
+
+impl Attribute {
+    /// All of them, in the order of their bits.
+    pub const ALL: [Self; 7] = [
+        Self::Content,
+        Self::Name,
+        Self::Type,
+        Self::Length,
+        Self::Unit,
+        Self::WriteFlag,
+        Self::ObjectAddress,
+    ];
+
+    /// The attribute's part of the sum, the base 0x300 included.
+    const fn bits(self) -> u32 {
+        match self {
+            Self::Content => 0x300,
+            Self::Name => 0x400,
+            Self::Type => 0x500,
+            Self::Length => 0x600,
+            Self::Unit => 0x700,
+            Self::WriteFlag => 0x800,
+            Self::ObjectAddress => 0x900,
+        }
+    }
+
+    fn from_table(table: u8) -> Option<Self> {
+        Self::ALL.into_iter().find(|attribute| attribute.bits() == u32::from(table) << 8)
+    }
+}
+
+impl Channel {
+    /// The group of this channel's part of a class.
+    pub const fn class(self, class: Class, attribute: Attribute) -> IndexGroup {
+        let (addressing, instance) = (self.addressing(), self.number());
+        ClassGroup { addressing, class, attribute, instance }.index_group()
+    }
+
+    /// The group of this channel in the COM task.
+    pub const fn com(self, access: Access) -> IndexGroup {
+        let (addressing, instance) = (self.addressing(), self.number());
+        ComGroup { addressing, access, table: ComTable::Channel, instance }.index_group()
+    }
+}
+
+impl PlatformAxis {
+    /// The group of this axis in the COM task.
+    pub const fn com(self, access: Access) -> IndexGroup {
+        let addressing = Addressing::Logical;
+        ComGroup { addressing, access, table: ComTable::Axis, instance: self.place() }.index_group()
+    }
+}
+
+impl Spindle {
+    /// The group of this spindle's elements.
+    pub const fn class(self, attribute: Attribute) -> IndexGroup {
+        let (addressing, class) = (Addressing::Index, Class::Spindle);
+        ClassGroup { addressing, class, attribute, instance: self.index() }.index_group()
+    }
+}
+
+const fn low(instance: u8) -> u32 {
+    u32::from_le_bytes([instance, 0, 0, 0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ADR-10: every group of the manuals comes apart and goes together again, and no other
+    /// number of 24 bits comes apart into parts that add up to something else.
+    #[test]
+    fn parts_add_up_to_the_group() {
+        let mut known = 0;
+        for number in 0..=0xFF_FFFF {
+            if let Some(parts) = IndexGroup(number).parts() {
+                assert_eq!(parts.index_group(), IndexGroup(number));
+                known += 1;
+            }
+        }
+        // 2 × 2 × 2 tables of COM; 5 classes × 7 attributes × 2, and the spindle's 7.
+        assert_eq!(known, 256 * (8 + 70 + 7));
+        assert_eq!(IndexGroup(0x0112_0301).parts(), None);
+    }
+}

@@ -1,0 +1,98 @@
+//! Index offsets.
+
+use core::fmt;
+
+use crate::error::{Error, ErrorKind};
+use crate::layout::field::index_offset::{AXIS, ELEMENT};
+
+/// An index offset as ADS carries it: any number.
+///
+/// The manuals print two strides between the axes of a channel (E-01), and an offset does not
+/// tell which was used: `0x10001` is element 1 of axis 1, or of axis 16. Of COM's axes a client
+/// computes nothing; it takes group and offset from the object's descriptor (ADR-8).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1, 2.1.2, 2.2.2 and 4.2.2.
+///
+/// ```
+/// use ads_cnc::address::{AxisStride, IndexOffset};
+///
+/// // "handle by name" of the second axis
+/// let offset = IndexOffset::of_axis(AxisStride::default(), 2, 4)?;
+/// assert_eq!(offset.get(), 0x2_0004);
+/// assert_eq!(offset.axis_and_element(AxisStride::X10000), (2, 4));
+/// assert!(IndexOffset::of_axis(AxisStride::X1000, 1, 0x1000).is_err());
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct IndexOffset(u32);
+
+/// How far an axis is from the next in an index offset.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum AxisStride {
+    /// 0x10000: SDA and GEO (ADR-7), COM by its examples (ADR-8).
+    #[default]
+    X10000,
+    /// 0x1000: COM by its table, and the HLD's first platform axis as printed (E-01).
+    X1000,
+}
+
+impl AxisStride {
+    const fn element_bits(self) -> u32 {
+        match self {
+            Self::X10000 => 16,
+            Self::X1000 => 12,
+        }
+    }
+
+    const fn element_max(self) -> u32 {
+        match self {
+            Self::X10000 => 0xFFFF,
+            Self::X1000 => 0xFFF,
+        }
+    }
+}
+
+impl IndexOffset {
+    /// Any number.
+    pub const fn new(number: u32) -> Self {
+        Self(number)
+    }
+
+    /// The number.
+    pub const fn get(self) -> u32 {
+        self.0
+    }
+
+    /// The offset of an axis's element; axis 0 is the channel itself.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] if the axis has more than 16 bits or the element more than the
+    /// stride leaves it; neither ever carries into the other (ADR-9).
+    pub const fn of_axis(stride: AxisStride, axis: u32, element: u32) -> Result<Self, Error> {
+        if axis > 0xFFFF {
+            return Err(Error::new(ErrorKind::OutOfRange, AXIS, 0, 0xFFFF, axis));
+        }
+        let max = stride.element_max();
+        if element > max {
+            return Err(Error::new(ErrorKind::OutOfRange, ELEMENT, 0, max, element));
+        }
+        Ok(Self((axis << stride.element_bits()) | element))
+    }
+
+    /// Axis and element, read with this stride.
+    pub const fn axis_and_element(self, stride: AxisStride) -> (u32, u32) {
+        (self.0 >> stride.element_bits(), self.0 & stride.element_max())
+    }
+}
+
+impl fmt::Debug for IndexOffset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:#x}", self.0)
+    }
+}
+
+impl fmt::Display for IndexOffset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:#x}", self.0)
+    }
+}

@@ -1,0 +1,129 @@
+//! The channel, platform axis or spindle in the low bits of an index group.
+
+use core::num::NonZeroU8;
+
+use super::Addressing;
+use crate::error::{Error, ErrorKind};
+use crate::layout::field::index_group::INSTANCE;
+
+/// Takes a number into the eight bits it has, never into the field above (ADR-9).
+fn instance(number: u32, least: u8) -> Result<u8, Error> {
+    let bound = if number < u32::from(least) { least } else { u8::MAX };
+    match u8::try_from(number) {
+        Ok(fits) if fits >= least => Ok(fits),
+        _ => Err(Error::new(ErrorKind::OutOfRange, INSTANCE, 0, bound.into(), number)),
+    }
+}
+
+/// A channel, counted from 1 (GEN-6): by its number, or by its rank among the active ones.
+///
+/// By rank, a channel moves when one before it is deactivated (ADR-11), so the manuals
+/// recommend the number, which they call logical addressing.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.
+///
+/// ```
+/// use ads_cnc::address::{Attribute, Channel, Class};
+///
+/// assert_eq!(Channel::new(6)?.class(Class::Interpolator, Attribute::Content).get(), 0x12_1306);
+/// assert_eq!(Channel::by_index(2)?.class(Class::Interpolator, Attribute::Content).get(), 0x2_1302);
+/// assert!(Channel::new(0).is_err() && Channel::new(256).is_err());
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Channel {
+    number: NonZeroU8,
+    addressing: Addressing,
+}
+
+impl Channel {
+    /// The channel with this logical number.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for 0 and for what 8 bits do not hold.
+    pub fn new(number: u32) -> Result<Self, Error> {
+        Self::with_addressing(number, Addressing::Logical)
+    }
+
+    /// The channel of this rank among the active channels.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for 0 and for what 8 bits do not hold.
+    pub fn by_index(rank: u32) -> Result<Self, Error> {
+        Self::with_addressing(rank, Addressing::Index)
+    }
+
+    pub(crate) fn with_addressing(number: u32, addressing: Addressing) -> Result<Self, Error> {
+        let fits = NonZeroU8::new(instance(number, 1)?);
+        let number = fits.ok_or(Error::new(ErrorKind::OutOfRange, INSTANCE, 0, 1, number))?;
+        Ok(Self { number, addressing })
+    }
+
+    /// The number, or the rank.
+    pub const fn number(self) -> u8 {
+        self.number.get()
+    }
+
+    /// Whether [`number`](Self::number) is a number or a rank.
+    pub const fn addressing(self) -> Addressing {
+        self.addressing
+    }
+}
+
+/// A platform axis, counted from 1 in the configured order; its place never changes (ADR-13).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 and 2.1.
+///
+/// ```
+/// use ads_cnc::address::{Access, PlatformAxis};
+///
+/// assert_eq!(PlatformAxis::new(3)?.com(Access::Element).get(), 0x12_0203);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct PlatformAxis(NonZeroU8);
+
+impl PlatformAxis {
+    /// The axis at this place.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for 0 and for what 8 bits do not hold.
+    pub fn new(place: u32) -> Result<Self, Error> {
+        let fits = NonZeroU8::new(instance(place, 1)?);
+        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, INSTANCE, 0, 1, place))
+    }
+
+    /// The place, from 1.
+    pub const fn place(self) -> u8 {
+        self.0.get()
+    }
+}
+
+/// A spindle, counted from 0 (GEN-6) and addressed by index only (ADR-2).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.
+///
+/// ```
+/// use ads_cnc::address::{Attribute, Spindle};
+///
+/// // the third spindle
+/// assert_eq!(Spindle::new(2)?.class(Attribute::Content).get(), 0x2_5302);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Spindle(u8);
+
+impl Spindle {
+    /// The spindle with this index.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for what 8 bits do not hold.
+    pub fn new(index: u32) -> Result<Self, Error> {
+        instance(index, 0).map(Self)
+    }
+
+    /// The index, from 0.
+    pub const fn index(self) -> u8 {
+        self.0
+    }
+}

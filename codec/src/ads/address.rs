@@ -1,0 +1,104 @@
+//! Who speaks to whom.
+
+use core::fmt;
+use core::str::FromStr;
+
+use crate::error::{Error, ErrorKind};
+use crate::layout::field::ams_header::TARGET_NET_ID as NET_ID;
+
+/// An AMS NetId, six bytes written with dots.
+///
+/// ```
+/// use ads_cnc::ads::AmsNetId;
+///
+/// let id: AmsNetId = "192.0.2.7.1.1".parse()?;
+/// assert_eq!(id, AmsNetId([192, 0, 2, 7, 1, 1]));
+/// assert_eq!(id.to_string(), "192.0.2.7.1.1");
+/// for wrong in ["192.0.2.7.1", "192.0.2.7.1.1.1", "192.0.2.7.1.256", "+192.0.2.7.1.1", ""] {
+///     assert!(wrong.parse::<AmsNetId>().is_err());
+/// }
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct AmsNetId(pub [u8; 6]);
+
+impl fmt::Display for AmsNetId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [a, b, c, d, e, g] = self.0;
+        write!(f, "{a}.{b}.{c}.{d}.{e}.{g}")
+    }
+}
+
+impl fmt::Debug for AmsNetId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl FromStr for AmsNetId {
+    type Err = Error;
+
+    /// Reads six numbers of one byte with dots between.
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let mut id = [0; 6];
+        let mut parts = text.split('.');
+        for (at, byte) in (0_u32..).zip(&mut id) {
+            let part = parts.next().ok_or(Error::new(ErrorKind::Mismatch, NET_ID, 0, 6, at))?;
+            // Digits only: the number parser would take a sign too.
+            let digits = part.bytes().all(|byte| byte.is_ascii_digit());
+            let number = part.parse::<u32>().ok().filter(|_| digits).unwrap_or(u32::MAX);
+            let fits = u8::try_from(number);
+            *byte = fits.map_err(|_| Error::new(ErrorKind::OutOfRange, NET_ID, at, 255, number))?;
+        }
+        match crate::bytes::to_u32(parts.count()) {
+            0 => Ok(Self(id)),
+            more => Err(Error::new(ErrorKind::Mismatch, NET_ID, 0, 6, more.saturating_add(6))),
+        }
+    }
+}
+
+/// An AMS port.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct AmsPort(pub u16);
+
+impl AmsPort {
+    /// The GEO task (GEN-4).
+    pub const GEO: Self = Self(551);
+    /// The SDA task (GEN-4).
+    pub const SDA: Self = Self(552);
+    /// The COM task (GEN-4).
+    pub const COM: Self = Self(553);
+}
+
+impl fmt::Display for AmsPort {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl fmt::Debug for AmsPort {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// A NetId and a port: one end of a conversation.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct AmsAddr {
+    /// The device.
+    pub net_id: AmsNetId,
+    /// The port on it.
+    pub port: AmsPort,
+}
+
+impl fmt::Display for AmsAddr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.net_id, self.port)
+    }
+}
+
+impl fmt::Debug for AmsAddr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}

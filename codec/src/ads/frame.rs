@@ -1,0 +1,124 @@
+//! Frames on a TCP stream: AMS/TCP header, AMS header, data.
+
+use super::{AmsHeader, AmsTcpHeader};
+use crate::bytes::{Writer, to_len, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::Stream;
+use crate::layout::field::{ams_header, ams_tcp_header};
+use crate::limits::{ADS_DATA_MAX, AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use crate::stream::{Decode, Encode};
+
+/// One frame: an AMS header and the data behind it.
+///
+/// ```
+/// use ads_cnc::Encode;
+/// use ads_cnc::ads::{
+///     AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags,
+/// };
+///
+/// let end = AmsAddr { net_id: AmsNetId([127, 0, 0, 1, 1, 1]), port: AmsPort::SDA };
+/// let header = AmsHeader {
+///     target: end, source: end, command: Command::WRITE, state_flags: StateFlags::RESPONSE,
+///     data_length: 4, error: AdsError::NONE, invoke_id: 1,
+/// };
+/// let mut buf = [0; 64];
+/// let bytes = FrameRef::new(header, &[0; 4])?.encode(&mut buf)?;
+///
+/// // Bytes come in pieces; a frame comes out when it is whole.
+/// assert_eq!(FrameRef::split(&bytes[..40], 1024)?, None);
+/// let (frame, len) = FrameRef::split(bytes, 1024)?.unwrap();
+/// assert_eq!((frame.header(), frame.data(), len), (header, &[0; 4][..], 42));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FrameRef<'a> {
+    header: AmsHeader,
+    data: &'a [u8],
+}
+
+impl<'a> FrameRef<'a> {
+    /// Bytes of the two headers before the data.
+    pub const HEADERS_LEN: usize = AMS_TCP_HEADER_LEN + AMS_HEADER_LEN;
+
+    /// A frame with this data; the header's `data_length` is set to it.
+    ///
+    /// # Errors
+    /// [`ErrorKind::TooLong`] for data over [`ADS_DATA_MAX`] bytes and the services' headers.
+    pub fn new(header: AmsHeader, data: &'a [u8]) -> Result<Self, Error> {
+        let data_length = to_u32(data.len());
+        check(data_length, to_u32(ADS_DATA_MAX.saturating_add(16)))?;
+        Ok(Self { header: AmsHeader { data_length, ..header }, data })
+    }
+
+    /// The AMS header.
+    pub const fn header(&self) -> AmsHeader {
+        self.header
+    }
+
+    /// The bytes behind the header.
+    pub const fn data(&self) -> &'a [u8] {
+        self.data
+    }
+
+    /// The first frame of `received` and how many bytes it takes; none if more have to come.
+    ///
+    /// # Errors
+    /// As soon as its bytes are there: a `reserved` that is not 0, lengths that disagree or that
+    /// promise more than `max_data` bytes of data. What follows on the stream is lost then.
+    pub fn split(received: &'a [u8], max_data: u32) -> Result<Option<(Self, usize)>, Error> {
+        let Some((tcp, rest)) = received.split_at_checked(AMS_TCP_HEADER_LEN) else {
+            return Ok(None);
+        };
+        let tcp = AmsTcpHeader::decode(tcp)?;
+        if tcp.reserved != 0 {
+            let field = ams_tcp_header::RESERVED;
+            return Err(Error::new(ErrorKind::Mismatch, field, 0, 0, tcp.reserved.into()));
+        }
+        let Some(data_length) = tcp.length.checked_sub(to_u32(AMS_HEADER_LEN)) else {
+            let (field, least) = (ams_tcp_header::LENGTH, to_u32(AMS_HEADER_LEN));
+            return Err(Error::new(ErrorKind::OutOfRange, field, 2, least, tcp.length));
+        };
+        check(data_length, max_data)?;
+        let Some((header, rest)) = rest.split_at_checked(AMS_HEADER_LEN) else {
+            return Ok(None);
+        };
+        let header = AmsHeader::decode(header)?;
+        if header.data_length != data_length {
+            // Counted from the start of the frame, as all offsets here.
+            let (field, at) = (ams_header::DATA_LENGTH, 26);
+            let found = header.data_length;
+            return Err(Error::new(ErrorKind::Mismatch, field, at, data_length, found));
+        }
+        Ok(rest.get(..to_len(data_length)).map(|data| {
+            let len = Self::HEADERS_LEN.saturating_add(data.len());
+            (Self { header, data }, len)
+        }))
+    }
+}
+
+impl Encode for FrameRef<'_> {
+    fn encoded_len(&self) -> usize {
+        Self::HEADERS_LEN.saturating_add(self.data.len())
+    }
+
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        let (mut tcp, mut ams) = ([0; AMS_TCP_HEADER_LEN], [0; AMS_HEADER_LEN]);
+        let length = self.header.data_length.saturating_add(to_u32(AMS_HEADER_LEN));
+        AmsTcpHeader { reserved: 0, length }.encode(&mut tcp)?;
+        self.header.encode(&mut ams)?;
+        Writer::fill(Stream::AmsTcpHeader, self.encoded_len(), buf, |out| {
+            out.put(&tcp);
+            out.put(&ams);
+            out.put(self.data);
+        })
+    }
+}
+
+fn check(data_length: u32, max: u32) -> Result<(), Error> {
+    if data_length <= max {
+        return Ok(());
+    }
+    let limit = max.saturating_add(to_u32(AMS_HEADER_LEN));
+    let found = data_length.saturating_add(to_u32(AMS_HEADER_LEN));
+    Err(Error::new(ErrorKind::TooLong, ams_tcp_header::LENGTH, 2, limit, found))
+}

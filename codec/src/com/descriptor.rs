@@ -1,0 +1,280 @@
+//! One object descriptor.
+
+use core::fmt;
+
+use zerocopy::little_endian::{U16, U32};
+use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
+
+use crate::address::{IndexGroup, IndexOffset};
+use crate::bytes::{Reader, Writer, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::field::object_descriptor::{NAME, TYPE};
+use crate::layout::{Field, Stream};
+use crate::limits::{DESCRIPTOR_LEN, DESCRIPTOR_TEXT_LEN};
+use crate::stream::{Decode, Encode};
+use crate::text::CncStr;
+
+/// The 84 bytes, once for both readings.
+#[derive(
+    Clone, Copy, PartialEq, Eq, Hash, FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned,
+)]
+#[repr(C)]
+pub(super) struct DescriptorLayout {
+    id: U32,
+    size: U32,
+    write_access: U16,
+    not_assigned: U16,
+    index_group: U32,
+    index_offset: U32,
+    name: [u8; DESCRIPTOR_TEXT_LEN],
+    type_name: [u8; DESCRIPTOR_TEXT_LEN],
+}
+
+const _: () = assert!(size_of::<DescriptorLayout>() == DESCRIPTOR_LEN);
+const _: () = assert!(core::mem::offset_of!(DescriptorLayout, type_name) == 52);
+
+/// Whether an object may be written; any value but 0 is TRUE, and is kept (E-08).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+pub struct WriteAccess(pub u16);
+
+impl WriteAccess {
+    /// FALSE, as written.
+    pub const READ_ONLY: Self = Self(0);
+    /// TRUE, as written.
+    pub const WRITABLE: Self = Self(1);
+
+    /// Whether this is TRUE.
+    pub const fn is_writable(self) -> bool {
+        self.0 != 0
+    }
+}
+
+#[doc = include_str!("../../doc/object-descriptor.md")]
+///
+/// Texts end at their first NUL or fill their 32 bytes; what follows the NUL is kept.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
+///
+/// ```
+/// use ads_cnc::{Decode, DescriptorRef};
+///
+/// let mut bytes = [0; 84];
+/// bytes[..4].copy_from_slice(&[82, 0, 0, 0]);
+/// bytes[20..44].copy_from_slice(b"mc_active_single_block_r");
+/// let object = DescriptorRef::decode(&bytes)?;
+/// assert_eq!(object.id(), 82);
+/// assert_eq!(object.name(), "mc_active_single_block_r");
+/// assert!(!object.write_access().is_writable());
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct DescriptorRef<'a>(pub(super) &'a DescriptorLayout);
+
+/// [`DescriptorRef`], owned: 84 bytes, without allocation.
+///
+/// ```
+/// use ads_cnc::address::{IndexGroup, IndexOffset};
+/// use ads_cnc::{Descriptor, Encode, WriteAccess};
+///
+/// let object = Descriptor::new("mc_active_single_block_r", "BOOL")?
+///     .with_id(82)
+///     .with_size(1)
+///     .with_write_access(WriteAccess::READ_ONLY)
+///     .with_content(IndexGroup::new(0x12_0101), IndexOffset::new(3));
+/// let mut buf = [0; 84];
+/// assert_eq!(object.encode(&mut buf)?[..8], [82, 0, 0, 0, 1, 0, 0, 0]);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Descriptor(pub(super) DescriptorLayout);
+
+/// Declares the accessors of both readings.
+macro_rules! accessors {
+    ($lifetime:lifetime) => {
+        /// Unique internal number of the object.
+        pub const fn id(&self) -> u32 {
+            self.0.id.get()
+        }
+
+        /// Bytes of the object's content.
+        pub const fn size(&self) -> u32 {
+            self.0.size.get()
+        }
+
+        /// Whether the content may be written.
+        pub const fn write_access(&self) -> WriteAccess {
+            WriteAccess(self.0.write_access.get())
+        }
+
+        /// The two bytes without a meaning.
+        pub const fn not_assigned(&self) -> u16 {
+            self.0.not_assigned.get()
+        }
+
+        /// Index group of the content.
+        pub const fn index_group(&self) -> IndexGroup {
+            IndexGroup::new(self.0.index_group.get())
+        }
+
+        /// Index offset of the content.
+        pub const fn index_offset(&self) -> IndexOffset {
+            IndexOffset::new(self.0.index_offset.get())
+        }
+
+        /// Name of the object.
+        pub fn name(&self) -> CncStr<$lifetime> {
+            CncStr::until_nul(&self.0.name)
+        }
+
+        /// Name of the content's type: BOOL BYTE SINT WORD INT DWORD DINT LWORD LINT REAL LREAL
+        /// STRING, or any other.
+        pub fn type_name(&self) -> CncStr<$lifetime> {
+            CncStr::until_nul(&self.0.type_name)
+        }
+    };
+}
+
+impl<'a> DescriptorRef<'a> {
+    accessors!('a);
+
+    /// A copy that lives on its own.
+    pub const fn to_owned(self) -> Descriptor {
+        Descriptor(*self.0)
+    }
+}
+
+impl Descriptor {
+    accessors!('_);
+
+    /// An object of this name and type; the other fields are 0.
+    ///
+    /// # Errors
+    /// Those of [`CncStr::new`], and [`ErrorKind::TooLong`] over 32 characters.
+    pub fn new(name: &str, type_name: &str) -> Result<Self, Error> {
+        let mut layout = DescriptorLayout {
+            id: U32::ZERO,
+            size: U32::ZERO,
+            write_access: U16::ZERO,
+            not_assigned: U16::ZERO,
+            index_group: U32::ZERO,
+            index_offset: U32::ZERO,
+            name: [0; DESCRIPTOR_TEXT_LEN],
+            type_name: [0; DESCRIPTOR_TEXT_LEN],
+        };
+        pad(CncStr::new(name)?, NAME, 20, &mut layout.name)?;
+        pad(CncStr::new(type_name)?, TYPE, 52, &mut layout.type_name)?;
+        Ok(Self(layout))
+    }
+
+    /// With this number.
+    #[must_use]
+    pub fn with_id(mut self, id: u32) -> Self {
+        self.0.id = id.into();
+        self
+    }
+
+    /// With this many bytes of content.
+    #[must_use]
+    pub fn with_size(mut self, size: u32) -> Self {
+        self.0.size = size.into();
+        self
+    }
+
+    /// With this access.
+    #[must_use]
+    pub fn with_write_access(mut self, access: WriteAccess) -> Self {
+        self.0.write_access = access.0.into();
+        self
+    }
+
+    /// With these two bytes where nothing is assigned.
+    #[must_use]
+    pub fn with_not_assigned(mut self, not_assigned: u16) -> Self {
+        self.0.not_assigned = not_assigned.into();
+        self
+    }
+
+    /// With its content at this address.
+    #[must_use]
+    pub fn with_content(mut self, group: IndexGroup, offset: IndexOffset) -> Self {
+        self.0.index_group = group.get().into();
+        self.0.index_offset = offset.get().into();
+        self
+    }
+
+    /// The descriptor, borrowed.
+    pub const fn as_ref(&self) -> DescriptorRef<'_> {
+        DescriptorRef(&self.0)
+    }
+}
+
+/// Puts a text into its 32 bytes.
+fn pad(text: CncStr<'_>, field: Field, at: u32, bytes: &mut [u8]) -> Result<(), Error> {
+    let (len, max) = (text.len(), to_u32(bytes.len()));
+    if to_u32(len) > max {
+        return Err(Error::new(ErrorKind::TooLong, field, at, max, to_u32(len)));
+    }
+    text.bytes().zip(bytes).for_each(|(byte, slot)| *slot = byte);
+    Ok(())
+}
+
+impl<'a> Decode<'a> for DescriptorRef<'a> {
+    const STREAM: Stream = Stream::ObjectDescriptor;
+
+    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
+        let mut input = Reader::new(Self::STREAM, bytes)?;
+        let layout = input.fixed()?;
+        input.finish()?;
+        Ok(Self(layout))
+    }
+}
+
+impl<'a> Decode<'a> for Descriptor {
+    const STREAM: Stream = Stream::ObjectDescriptor;
+
+    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
+        DescriptorRef::decode(bytes).map(DescriptorRef::to_owned)
+    }
+}
+
+impl Encode for DescriptorRef<'_> {
+    fn encoded_len(&self) -> usize {
+        DESCRIPTOR_LEN
+    }
+
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        Writer::run(Self::STREAM, DESCRIPTOR_LEN, buf, |out| out.put(self.0.as_bytes()))
+    }
+}
+
+crate::stream::encode_as_ref!(Descriptor);
+
+impl fmt::Debug for DescriptorRef<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Descriptor")
+            .field("id", &self.id())
+            .field("size", &self.size())
+            .field("write_access", &self.write_access())
+            .field("not_assigned", &self.not_assigned())
+            .field("index_group", &self.index_group())
+            .field("index_offset", &self.index_offset())
+            .field("name", &self.name())
+            .field("type_name", &self.type_name())
+            .finish()
+    }
+}
+
+impl fmt::Debug for Descriptor {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.as_ref(), f)
+    }
+}
+
+#[cfg(feature = "arbitrary")]
+impl<'a> arbitrary::Arbitrary<'a> for Descriptor {
+    fn arbitrary(u: &mut arbitrary::Unstructured<'a>) -> arbitrary::Result<Self> {
+        let bytes: [u8; DESCRIPTOR_LEN] = u.arbitrary()?;
+        Ok(Self(zerocopy::transmute!(bytes)))
+    }
+}

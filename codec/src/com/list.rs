@@ -1,0 +1,168 @@
+//! Descriptors in sequence.
+
+use core::fmt;
+
+use zerocopy::{FromBytes as _, IntoBytes as _};
+
+use super::DescriptorRef;
+use super::descriptor::DescriptorLayout;
+use crate::bytes::{Reader, Writer};
+use crate::error::Error;
+use crate::layout::Stream;
+use crate::stream::{Decode, Encode};
+
+#[doc = include_str!("../../doc/object-descriptors.md")]
+///
+/// A record is that of [`DescriptorRef`].
+///
+/// A read whose length is a multiple of 84 is answered with as many, fewer at the list's end.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
+///
+/// ```
+/// use ads_cnc::{Decode, DescriptorsRef};
+///
+/// let descriptors = DescriptorsRef::decode(&[0; 168])?;
+/// assert_eq!(descriptors.len(), 2);
+/// assert!(descriptors.iter().all(|object| object.name().is_empty()));
+/// assert_eq!(
+///     DescriptorsRef::decode(&[0; 85]).unwrap_err().to_string(),
+///     "object-descriptors: id at offset 84: truncated, 4 bytes expected, 1 there"
+/// );
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct DescriptorsRef<'a>(&'a [DescriptorLayout]);
+
+impl<'a> DescriptorsRef<'a> {
+    /// How many.
+    pub const fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there is none; never so after decoding.
+    pub const fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The descriptor at this place, from 0.
+    pub fn get(&self, place: usize) -> Option<DescriptorRef<'a>> {
+        self.0.get(place).map(DescriptorRef)
+    }
+
+    /// At most `count` of them from place `first` on; none beyond the end.
+    pub fn slice(&self, first: usize, count: usize) -> Self {
+        let from = self.0.get(first..).unwrap_or_default();
+        Self(from.get(..count).unwrap_or(from))
+    }
+
+    /// All in their order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = DescriptorRef<'a>> + use<'a> {
+        self.0.iter().map(DescriptorRef)
+    }
+}
+
+impl<'a> Decode<'a> for DescriptorsRef<'a> {
+    const STREAM: Stream = Stream::ObjectDescriptors;
+
+    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
+        Reader::new(Self::STREAM, bytes)?;
+        match <[DescriptorLayout]>::ref_from_bytes(bytes) {
+            Ok(layouts) if !layouts.is_empty() => Ok(Self(layouts)),
+            // The table finds the place, off the fast path.
+            _ => match Self::STREAM.walk(bytes, |_| ()) {
+                Err(error) => Err(error),
+                Ok(()) => Ok(Self(&[])),
+            },
+        }
+    }
+}
+
+impl Encode for DescriptorsRef<'_> {
+    fn encoded_len(&self) -> usize {
+        self.0.as_bytes().len()
+    }
+
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        if self.is_empty() {
+            // No descriptor is no stream: nobody would decode it.
+            Self::STREAM.walk(&[], |_| ())?;
+        }
+        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| out.put(self.0.as_bytes()))
+    }
+}
+
+impl fmt::Debug for DescriptorsRef<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+#[cfg(feature = "alloc")]
+pub use owned::Descriptors;
+
+#[cfg(feature = "alloc")]
+mod owned {
+    use alloc::vec::Vec;
+
+    use super::*;
+    use crate::bridge::{self, Fixed};
+    use crate::com::Descriptor;
+
+    /// [`DescriptorsRef`], owned.
+    ///
+    /// ```
+    /// use ads_cnc::{Descriptor, Descriptors};
+    ///
+    /// let list: Descriptors = [Descriptor::new("a", "BOOL")?, Descriptor::new("b", "INT")?]
+    ///     .into_iter()
+    ///     .collect();
+    /// assert_eq!(list.as_ref().get(1).unwrap().name(), "b");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    #[derive(Clone, Default, PartialEq, Eq, Hash)]
+    pub struct Descriptors(Vec<DescriptorLayout>);
+
+    #[binrw::binread]
+    #[br(little)]
+    struct Wire {
+        #[br(parse_with = bridge::records)]
+        records: Vec<Fixed<DescriptorLayout>>,
+    }
+
+    impl<'a> Decode<'a> for Descriptors {
+        const STREAM: Stream = Stream::ObjectDescriptors;
+
+        fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
+            DescriptorsRef::decode(bytes)?;
+            let Wire { records } = bridge::read(Self::STREAM, bytes)?;
+            Ok(Self(records.into_iter().map(|Fixed(layout)| layout).collect()))
+        }
+    }
+
+    impl Descriptors {
+        /// The descriptors, borrowed.
+        pub fn as_ref(&self) -> DescriptorsRef<'_> {
+            DescriptorsRef(&self.0)
+        }
+
+        /// Adds one at the end.
+        pub fn push(&mut self, object: Descriptor) {
+            self.0.push(object.0);
+        }
+    }
+
+    impl FromIterator<Descriptor> for Descriptors {
+        fn from_iter<I: IntoIterator<Item = Descriptor>>(objects: I) -> Self {
+            Self(objects.into_iter().map(|object| object.0).collect())
+        }
+    }
+
+    crate::stream::encode_as_ref!(Descriptors);
+
+    impl fmt::Debug for Descriptors {
+        fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            fmt::Debug::fmt(&self.as_ref(), f)
+        }
+    }
+}

@@ -1,0 +1,23 @@
+//! The field table of every stream, and a walk over a stream's bytes by its table.
+//!
+//! One table feeds the field an [`Error`](crate::Error) names, the byte tables of the
+//! documentation, the annotation of bytes in tools, and generated field defects.
+//!
+//! ```
+//! use ads_cnc::layout::Stream;
+//!
+//! let mut seen = Vec::new();
+//! Stream::VariableIndexKind
+//!     .walk(b"\x02\0\0\0V.E\0", |segment| seen.push((segment.field.name(), segment.bytes)))?;
+//! assert_eq!(seen, [("index", &b"\x02\0\0\0"[..]), ("kind", b"V.E\0")]);
+//! # Ok::<(), ads_cnc::Error>(())
+//! ```
+
+mod spec;
+mod tables;
+mod walk;
+
+pub use spec::{Field, FieldSpec, Layout, Size, Type};
+pub use tables::Stream;
+pub(crate) use tables::field;
+pub use walk::Segment;

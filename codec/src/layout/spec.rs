@@ -1,0 +1,181 @@
+//! What a table says of a stream and of a field.
+
+use core::fmt;
+
+use super::Stream;
+
+/// The table of one stream.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// The stream's name in vectors and reports.
+    pub name: &'static str,
+    /// What the stream is.
+    pub title: &'static str,
+    /// The requirement that defines it.
+    pub clause: &'static str,
+    /// The most bytes it may have.
+    pub max: u32,
+    /// The fields are one record; the stream is one or more of them.
+    pub repeats: bool,
+    /// The fields in their order on the wire.
+    pub fields: &'static [FieldSpec],
+}
+
+impl Layout {
+    /// Whether every stream of this kind has the same length.
+    pub fn is_fixed(&self) -> bool {
+        !self.repeats
+            && self.fields.iter().all(|row| matches!(row.size, Size::Fixed(_) | Size::Padded(_)))
+    }
+}
+
+/// One row of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FieldSpec {
+    /// The field's name in errors, vectors and reports.
+    pub name: &'static str,
+    /// Offset as the manual prints it, without the part that depends on a count.
+    pub offset: u32,
+    /// Bytes added to `offset` for each counted item before the field.
+    pub per_item: u32,
+    /// How long the field is.
+    pub size: Size,
+    /// The type's name.
+    pub ty: Type,
+    /// What the field says.
+    pub meaning: &'static str,
+    /// The requirement that defines the field.
+    pub clause: &'static str,
+}
+
+/// How long a field is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Size {
+    /// So many bytes.
+    Fixed(u32),
+    /// So many bytes; this and what follows may be absent if the field before is not 0 (ADS-6).
+    FixedUnlessError(u32),
+    /// As many items as the field before says.
+    Items {
+        /// Bytes of one item.
+        each: u32,
+        /// The most items the stream can hold.
+        max: u32,
+    },
+    /// Text that a NUL must end; more NULs may pad it.
+    Terminated {
+        /// The most bytes, NULs included.
+        max: u32,
+        /// Zero bytes are accepted for the empty text.
+        may_be_absent: bool,
+    },
+    /// Text that a NUL or the end of the stream ends; what follows the NUL is kept.
+    Open {
+        /// The most bytes in all.
+        max: u32,
+    },
+    /// Text in so many bytes, padded with NULs if shorter.
+    Padded(u32),
+    /// All that is left.
+    Rest {
+        /// The most bytes.
+        max: u32,
+    },
+}
+
+/// The name of a type on the wire, as the manuals and ADS spell it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Type {
+    /// 16-bit unsigned, little-endian.
+    Uns16,
+    /// 32-bit unsigned, little-endian.
+    Uns32,
+    /// CP1252 text.
+    String,
+    /// Six bytes of an AMS NetId.
+    NetId,
+    /// Uninterpreted bytes.
+    Bytes,
+}
+
+impl fmt::Display for Type {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Uns16 => "UNS16",
+            Self::Uns32 => "UNS32",
+            Self::String => "STRING",
+            Self::NetId => "BYTE[6]",
+            Self::Bytes => "BYTE[]",
+        })
+    }
+}
+
+/// A field of a stream, or the stream as a whole.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Field {
+    stream: Stream,
+    index: u8,
+}
+
+impl Field {
+    pub(crate) const fn new(stream: Stream, index: u8) -> Self {
+        Self { stream, index }
+    }
+
+    /// The stream as a whole: its length, its end.
+    pub const fn whole(stream: Stream) -> Self {
+        Self { stream, index: u8::MAX }
+    }
+
+    /// The field of `stream` with this name.
+    pub fn by_name(stream: Stream, name: &str) -> Option<Self> {
+        stream.fields().find(|field| field.name() == name)
+    }
+
+    /// The stream the field belongs to.
+    pub const fn stream(self) -> Stream {
+        self.stream
+    }
+
+    /// The row of the table; none for the stream as a whole.
+    pub fn spec(self) -> Option<&'static FieldSpec> {
+        self.stream.layout().fields.get(usize::from(self.index))
+    }
+
+    /// The field's name; `stream` for the stream as a whole.
+    pub fn name(self) -> &'static str {
+        self.spec().map_or("stream", |spec| spec.name)
+    }
+}
+
+impl fmt::Display for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.stream.layout().name, self.name())
+    }
+}
+
+impl fmt::Debug for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.stream.layout().name, self.name())
+    }
+}
+
+impl Stream {
+    /// The fields in their order on the wire.
+    pub fn fields(self) -> impl Iterator<Item = Field> {
+        (0u8..).zip(self.layout().fields).map(move |(index, _)| Field::new(self, index))
+    }
+
+    /// The stream with this name.
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|stream| stream.layout().name == name)
+    }
+}
+
+impl fmt::Display for Stream {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.layout().name)
+    }
+}

@@ -1,0 +1,199 @@
+//! The tables themselves: one per stream, in the manual's order of fields.
+
+use super::spec::{Field, FieldSpec, Layout, Size, Type};
+
+const FIXED_4: Size = Size::Fixed(4);
+
+/// Declares [`Stream`], its layouts and, per stream, its rows and a constant for each field.
+/// A stream of records names the module of the record in place of rows.
+macro_rules! layouts {
+    ($(
+        $(#[$doc:meta])*
+        $stream:ident, $module:ident: $name:literal, $title:literal, $clause:literal, max $max:literal
+        $( , records of $record:ident; )?
+        $( {
+            $( $field:ident $field_name:literal @ $offset:literal $(+ $per_item:literal m)?,
+               $size:expr, $ty:ident, $field_clause:literal, $meaning:literal; )+
+        } )?
+    )+) => {
+        /// Every stream this crate reads and writes.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[non_exhaustive]
+        pub enum Stream { $( $(#[$doc])* $stream, )+ }
+
+        impl Stream {
+            /// All of them.
+            pub const ALL: &'static [Self] = &[$( Self::$stream, )+];
+
+            /// The stream's table.
+            pub const fn layout(self) -> &'static Layout {
+                match self { $( Self::$stream => &field::$module::LAYOUT, )+ }
+            }
+        }
+
+        /// A constant for each field, so that no decoder spells a name.
+        pub(crate) mod field { $(
+            #[allow(dead_code, reason = "tables name every field, decoders not all of them")]
+            pub(crate) mod $module {
+                use super::super::*;
+
+                pub(crate) const LAYOUT: Layout = Layout {
+                    name: $name,
+                    title: $title,
+                    clause: $clause,
+                    max: $max,
+                    repeats: false $( | { _ = super::$record::LAYOUT; true } )?,
+                    fields: FIELDS,
+                };
+                $( pub(crate) const FIELDS: &[FieldSpec] = super::$record::LAYOUT.fields; )?
+                $(
+                    pub(crate) const FIELDS: &[FieldSpec] = &[$( FieldSpec {
+                        name: $field_name,
+                        offset: $offset,
+                        per_item: 0 $(+ $per_item)?,
+                        size: $size,
+                        ty: Type::$ty,
+                        meaning: $meaning,
+                        clause: $field_clause,
+                    }, )+];
+                    #[allow(non_camel_case_types, clippy::upper_case_acronyms)]
+                    enum Place { $( $field, )+ }
+                    $(
+                        #[allow(clippy::as_conversions, reason = "a discriminant, no input")]
+                        pub(crate) const $field: Field =
+                            Field::new(Stream::$stream, Place::$field as u8);
+                    )+
+                )?
+            }
+        )+ }
+    };
+}
+
+layouts! {
+    /// AMS/TCP header.
+    AmsTcpHeader, ams_tcp_header: "ams-tcp-header", "AMS/TCP header", "ADS-5", max 6 {
+        RESERVED "reserved" @ 0, Size::Fixed(2), Uns16, "ADS-5", "0 for AMS commands";
+        LENGTH "length" @ 2, FIXED_4, Uns32, "ADS-5", "bytes that follow: AMS header and data";
+    }
+    /// AMS header.
+    AmsHeader, ams_header: "ams-header", "AMS header", "ADS-5", max 32 {
+        TARGET_NET_ID "target_net_id" @ 0, Size::Fixed(6), NetId, "ADS-5", "who receives the frame";
+        TARGET_PORT "target_port" @ 6, Size::Fixed(2), Uns16, "ADS-5", "AMS port of the receiver";
+        SOURCE_NET_ID "source_net_id" @ 8, Size::Fixed(6), NetId, "ADS-5", "who sends the frame";
+        SOURCE_PORT "source_port" @ 14, Size::Fixed(2), Uns16, "ADS-5", "AMS port of the sender";
+        COMMAND "command" @ 16, Size::Fixed(2), Uns16, "ADS-5", "2 Read, 3 Write, 9 ReadWrite, …";
+        STATE_FLAGS "state_flags" @ 18, Size::Fixed(2), Uns16, "ADS-5", "0x0004 request, 0x0005 response";
+        DATA_LENGTH "data_length" @ 20, FIXED_4, Uns32, "ADS-5", "bytes that follow this header";
+        ERROR "error" @ 24, FIXED_4, Uns32, "ADS-5", "AMS error number, 0 for none";
+        INVOKE_ID "invoke_id" @ 28, FIXED_4, Uns32, "ADS-5", "pairs a response with its request";
+    }
+    /// ADS Read, request.
+    ReadRequest, read_request: "read-request", "ADS Read, request", "ADS-1", max 12 {
+        INDEX_GROUP "index_group" @ 0, FIXED_4, Uns32, "ADS-1", "index group";
+        INDEX_OFFSET "index_offset" @ 4, FIXED_4, Uns32, "ADS-1", "index offset";
+        LENGTH "length" @ 8, FIXED_4, Uns32, "ADS-1", "bytes to read at most";
+    }
+    /// ADS Read, reply.
+    ReadReply, read_reply: "read-reply", "ADS Read, reply", "ADS-1", max 0x40_0008 {
+        RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
+        LENGTH "length" @ 4, Size::FixedUnlessError(4), Uns32, "ADS-1", "bytes of data";
+        DATA "data" @ 8, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-1", "the data";
+    }
+    /// ADS Write, request.
+    WriteRequest, write_request: "write-request", "ADS Write, request", "ADS-2", max 0x40_000c {
+        INDEX_GROUP "index_group" @ 0, FIXED_4, Uns32, "ADS-2", "index group";
+        INDEX_OFFSET "index_offset" @ 4, FIXED_4, Uns32, "ADS-2", "index offset";
+        LENGTH "length" @ 8, FIXED_4, Uns32, "ADS-2", "bytes of data";
+        DATA "data" @ 12, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-2", "the data";
+    }
+    /// ADS Write, reply.
+    WriteReply, write_reply: "write-reply", "ADS Write, reply", "ADS-2", max 4 {
+        RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
+    }
+    /// ADS ReadWrite, request.
+    ReadWriteRequest, read_write_request: "read-write-request", "ADS ReadWrite, request", "ADS-3", max 0x40_0010 {
+        INDEX_GROUP "index_group" @ 0, FIXED_4, Uns32, "ADS-3", "index group";
+        INDEX_OFFSET "index_offset" @ 4, FIXED_4, Uns32, "ADS-3", "index offset";
+        READ_LENGTH "read_length" @ 8, FIXED_4, Uns32, "ADS-3", "bytes to read at most";
+        WRITE_LENGTH "write_length" @ 12, FIXED_4, Uns32, "ADS-3", "bytes of data";
+        DATA "data" @ 16, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-3", "the data";
+    }
+    /// ADS ReadWrite, reply.
+    ReadWriteReply, read_write_reply: "read-write-reply", "ADS ReadWrite, reply", "ADS-3", max 0x40_0008 {
+        RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
+        LENGTH "length" @ 4, Size::FixedUnlessError(4), Uns32, "ADS-3", "bytes of data";
+        DATA "data" @ 8, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-3", "the data";
+    }
+    /// Number of objects of a COM list.
+    ObjectCount, object_count: "object-count", "Number of objects, reply", "COM-1", max 4 {
+        COUNT "count" @ 0, FIXED_4, Uns32, "COM-1", "objects in the addressed list";
+    }
+    /// One object descriptor.
+    ObjectDescriptor, object_descriptor: "object-descriptor", "Object descriptor, reply", "COM-2", max 84 {
+        ID "id" @ 0, FIXED_4, Uns32, "COM-2", "unique internal number of the object";
+        SIZE "size" @ 4, FIXED_4, Uns32, "COM-2", "bytes of the object's content";
+        WRITE_ACCESS "write_access" @ 8, Size::Fixed(2), Uns16, "COM-2", "not 0: writable";
+        NOT_ASSIGNED "not_assigned" @ 10, Size::Fixed(2), Uns16, "COM-2", "kept as it is, written as 0";
+        INDEX_GROUP "index_group" @ 12, FIXED_4, Uns32, "COM-5", "index group of the content";
+        INDEX_OFFSET "index_offset" @ 16, FIXED_4, Uns32, "COM-5", "index offset of the content";
+        NAME "name" @ 20, Size::Padded(32), String, "COM-2", "name of the object";
+        TYPE "type" @ 52, Size::Padded(32), String, "COM-2", "BOOL, BYTE, SINT, WORD, …";
+    }
+    /// Object descriptors in sequence.
+    ObjectDescriptors, object_descriptors: "object-descriptors", "Object descriptors in sequence, reply", "COM-3", max 0x40_0000,
+        records of object_descriptor;
+    /// Request of the number of variables.
+    VariableKind, variable_kind: "variable-kind", "Number of variable elements, request", "VAR-1", max 256 {
+        KIND "kind" @ 0, Size::Terminated { max: 256, may_be_absent: true }, String, "VAR-1", "V.G, V.E or V.A; empty for all";
+    }
+    /// Number of variables.
+    VariableCount, variable_count: "variable-count", "Number of variable elements, reply", "VAR-2", max 4 {
+        COUNT "count" @ 0, FIXED_4, Uns32, "VAR-2", "variables of the kind; the largest index is one less";
+    }
+    /// Request of a description.
+    VariableIndexKind, variable_index_kind: "variable-index-kind", "Variable description by index, request", "VAR-3", max 260 {
+        INDEX "index" @ 0, FIXED_4, Uns32, "VAR-3", "index of the variable, from 0";
+        KIND "kind" @ 4, Size::Terminated { max: 256, may_be_absent: false }, String, "VAR-3", "V.G, V.E or V.A";
+    }
+    /// Description of a variable.
+    VariableDescription, variable_description: "variable-description", "Variable description by index, reply", "VAR-4", max 2048 {
+        HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-10", "handle of the variable";
+        TYPE "type" @ 4, FIXED_4, Uns32, "VAR-5", "1 BOOLEAN … 9 STRING";
+        ACCESS "access" @ 8, FIXED_4, Uns32, "VAR-6", "1 READ_ONLY, 2 READ_WRITE";
+        SIZE "size" @ 12, FIXED_4, Uns32, "VAR-8", "bytes of the whole variable";
+        DIMENSION_COUNT "dimension_count" @ 16, FIXED_4, Uns32, "VAR-7", "array dimensions m; 0 for an elementary variable";
+        DIMENSIONS "dimensions" @ 20, Size::Items { each: 4, max: 506 }, Uns32, "VAR-4", "elements in each dimension";
+        NAME "name" @ 20 + 4 m, Size::Open { max: 256 }, String, "VAR-4", "name of the variable";
+    }
+    /// Request by a variable's name.
+    VariableName, variable_name: "variable-name", "Variable by name, request", "VAR-9", max 256 {
+        NAME "name" @ 0, Size::Terminated { max: 256, may_be_absent: false }, String, "VAR-9", "name of the variable";
+    }
+    /// Handle of a variable.
+    VariableHandle, variable_handle: "variable-handle", "Variable handle by name, reply", "VAR-10", max 4 {
+        HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-10", "handle of the variable";
+    }
+    /// Request of a value by handle.
+    VariableHandleRead, variable_handle_read: "variable-handle-read", "Read variable value by handle, request", "VAR-11", max 2048 {
+        HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-11", "handle of the variable";
+        INDEX_COUNT "index_count" @ 4, FIXED_4, Uns32, "VAR-11", "indices n that follow; 0 for the whole variable";
+        INDICES "indices" @ 8, Size::Items { each: 4, max: 510 }, Uns32, "VAR-11", "index in each dimension, from 0";
+    }
+    /// Value of a variable.
+    VariableValue, variable_value: "variable-value", "Variable value, reply", "VAR-14", max 2048 {
+        VALUE "value" @ 0, Size::Rest { max: 2048 }, Bytes, "VAR-14", "one element, or all of the array";
+    }
+    /// An index group put together from its parts; no stream of its own.
+    IndexGroup, index_group: "index-group", "Index group", "ADR-9", max 4 {
+        INSTANCE "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel, platform axis or spindle, 8 bits";
+    }
+    /// An index offset put together from its parts; no stream of its own.
+    IndexOffset, index_offset: "index-offset", "Index offset", "ADR-9", max 4 {
+        AXIS "axis" @ 0, Size::Fixed(4), Uns32, "ADR-9", "axis, 16 bits";
+        ELEMENT "element" @ 0, Size::Fixed(4), Uns32, "ADR-9", "element, 16 or 12 bits";
+    }
+    /// A text before it stands in a stream.
+    Text, text: "text", "Text in CP1252", "GEN-3", max 0xffff_ffff {
+        TEXT "text" @ 0, Size::Rest { max: 0xffff_ffff }, String, "GEN-3", "CP1252 without NUL";
+    }
+}

@@ -1,0 +1,102 @@
+//! One pass over a stream by its table alone.
+
+use super::{Field, Size, Stream};
+use crate::bytes::Reader;
+use crate::error::Error;
+
+/// The bytes of one field, or of one item of a field that has several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Segment<'a> {
+    /// The field.
+    pub field: Field,
+    /// Which record of a stream of records, else 0.
+    pub record: u32,
+    /// Which item of a field with several, else 0.
+    pub item: u32,
+    /// Offset of the bytes in the stream.
+    pub offset: u32,
+    /// The bytes; none for a value or text that has none.
+    pub bytes: &'a [u8],
+}
+
+impl Stream {
+    /// Calls `visit` for each field in turn, up to the end or to the first fault.
+    ///
+    /// # Errors
+    /// Those of the stream's decoders, but for equalities between fields of one frame.
+    pub fn walk<'a>(self, bytes: &'a [u8], visit: impl FnMut(Segment<'a>)) -> Result<(), Error> {
+        let mut walk = Walk { input: Reader::new(self, bytes)?, record: 0, visit };
+        loop {
+            walk.record(self)?;
+            if walk.input.is_empty() || !self.layout().repeats {
+                return walk.input.finish();
+            }
+            walk.record = walk.record.saturating_add(1);
+        }
+    }
+}
+
+struct Walk<'a, V> {
+    input: Reader<'a>,
+    record: u32,
+    visit: V,
+}
+
+impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
+    fn visit(&mut self, field: Field, item: u32, offset: u32, bytes: &'a [u8]) {
+        (self.visit)(Segment { field, record: self.record, item, offset, bytes });
+    }
+
+    fn take(&mut self, field: Field, item: u32, size: u32) -> Result<&'a [u8], Error> {
+        let at = self.input.at();
+        let bytes = self.input.take(field, size)?;
+        self.visit(field, item, at, bytes);
+        Ok(bytes)
+    }
+
+    fn record(&mut self, stream: Stream) -> Result<(), Error> {
+        // The field before and its value: what counts the items of the next.
+        let mut counter = Field::whole(stream);
+        let mut count = 0_u32;
+        for (field, spec) in stream.fields().zip(stream.layout().fields) {
+            match spec.size {
+                Size::FixedUnlessError(_) if count != 0 && self.input.is_empty() => break,
+                Size::Fixed(size) | Size::FixedUnlessError(size) | Size::Padded(size) => {
+                    let number = self.take(field, 0, size)?;
+                    count = number.first_chunk().map_or(0, |le| u32::from_le_bytes(*le));
+                }
+                Size::Items { each: 1, .. } => {
+                    self.take(field, 0, count)?;
+                }
+                Size::Items { each, max } => {
+                    let at = self.input.at();
+                    let items = self.input.items(counter, count, each, max)?;
+                    let starts = (at..).step_by(crate::bytes::to_len(each));
+                    let chunks = items.chunks_exact(crate::bytes::to_len(each).max(1));
+                    for ((item, offset), bytes) in (0..).zip(starts).zip(chunks) {
+                        self.visit(field, item, offset, bytes);
+                    }
+                }
+                Size::Terminated { may_be_absent: true, .. } if self.input.is_empty() => {
+                    self.take(field, 0, 0)?;
+                }
+                Size::Terminated { max, .. } => {
+                    let at = self.input.at();
+                    let bytes = self.input.terminated(field, max)?;
+                    self.visit(field, 0, at, bytes);
+                }
+                Size::Open { max } => self.rest(field, 1, max)?,
+                Size::Rest { max } => self.rest(field, 0, max)?,
+            }
+            counter = field;
+        }
+        Ok(())
+    }
+
+    fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<(), Error> {
+        let at = self.input.at();
+        let bytes = self.input.rest(field, min, max)?;
+        self.visit(field, 0, at, bytes);
+        Ok(())
+    }
+}

@@ -1,0 +1,86 @@
+//! The byte streams with which an ISG/TwinCAT CNC is read and written over ADS.
+//!
+//! Every stream has two readings: `XRef` borrows from the bytes and never allocates; `X`, with the
+//! feature `alloc`, owns what it read. Both accept the same bytes, refuse the others with the same
+//! [`Error`], and encode to the bytes they were read from.
+//!
+//! | manual (`ads-en` 1.05, `ads-de` 1.051) | here |
+//! |---|---|
+//! | 1, code page | [`CncStr`], [`CncString`], [`text`] |
+//! | 2, index groups and offsets | [`address`] |
+//! | 2.1.1, object descriptors | [`ObjectCount`], [`DescriptorRef`], [`DescriptorsRef`] |
+//! | 4.3.1, number of variables | [`VariableKindRef`], [`VariableCount`] |
+//! | 4.3.2, description | [`VariableIndexKindRef`], [`DescriptionRef`] |
+//! | 4.3.3, handle by name | [`VariableNameRef`], [`Handle`] |
+//! | 4.3.4, read by handle | [`HandleReadRef`], [`ValueRef`] |
+//! | 4.3.5, read by name | [`VariableNameRef`], [`ValueRef`] |
+//! | 5, ADS services | [`ads`] |
+//!
+//! [`operation`] puts them together: where a function is, what goes in, what comes out, for
+//! clients and for servers. [`layout`] has the field table of every stream.
+//!
+//! # Features
+//! - `alloc` (default): the owned readings.
+//! - `std`: `std` in the dependencies. The crate itself never needs it.
+//! - `arbitrary`: `Arbitrary` for the owned readings.
+
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+// Bytes from outside reach every line here: nothing may panic on them.
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::arithmetic_side_effects,
+        clippy::as_conversions,
+        clippy::expect_used,
+        clippy::indexing_slicing,
+        clippy::panic,
+        clippy::string_slice,
+        clippy::unreachable,
+        clippy::unwrap_used
+    )
+)]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+#[cfg(any(feature = "std", test))]
+extern crate std;
+
+pub mod address;
+pub mod ads;
+mod com;
+mod error;
+pub mod layout;
+pub mod limits;
+pub mod operation;
+mod stream;
+pub mod text;
+mod variable;
+
+#[cfg(feature = "arbitrary")]
+mod any;
+#[cfg(feature = "alloc")]
+mod bridge;
+mod bytes;
+mod number;
+
+#[cfg(feature = "alloc")]
+pub use com::Descriptors;
+pub use com::{Descriptor, DescriptorRef, DescriptorsRef, ObjectCount, WriteAccess};
+pub use error::{Error, ErrorKind};
+pub use stream::{Decode, Encode};
+pub use text::{CncStr, TextRef};
+#[cfg(feature = "alloc")]
+pub use text::{CncString, Text};
+#[cfg(feature = "alloc")]
+pub use variable::{Description, HandleRead, Value, VariableIndexKind, VariableKind, VariableName};
+pub use variable::{
+    DescriptionRef, Element, Elements, Handle, HandleReadRef, Kind, Numbers, ValueRef,
+    VariableAccess, VariableCount, VariableIndexKindRef, VariableKindRef, VariableNameRef,
+    VariableType,
+};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

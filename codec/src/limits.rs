@@ -1,0 +1,22 @@
+//! The named maxima that every length and count is checked against.
+
+/// Bytes of a text request with its NUL: 255 characters and the NUL (VAR-1, VAR-9).
+pub const TEXT_MAX: usize = 256;
+/// Bytes of an index-and-kind request (VAR-3).
+pub const INDEX_KIND_MAX: usize = 260;
+/// Bytes of a variable stream: description, handle header, value (VAR-4, VAR-11, VAR-14).
+pub const VARIABLE_MAX: usize = 2048;
+/// Dimensions of a description beside a name of one NUL (VAR-24).
+pub const DIMENSIONS_MAX: usize = 506;
+/// Indices of a handle header (VAR-24).
+pub const INDICES_MAX: usize = 510;
+/// Bytes of an object descriptor (COM-2).
+pub const DESCRIPTOR_LEN: usize = 84;
+/// Bytes of the name and of the type in an object descriptor (COM-2).
+pub const DESCRIPTOR_TEXT_LEN: usize = 32;
+/// Data bytes of one ADS request or reply that this crate takes. Nobody documents a limit: assumed.
+pub const ADS_DATA_MAX: usize = 0x40_0000;
+/// Bytes of the AMS/TCP header (ADS-5).
+pub const AMS_TCP_HEADER_LEN: usize = 6;
+/// Bytes of the AMS header (ADS-5).
+pub const AMS_HEADER_LEN: usize = 32;

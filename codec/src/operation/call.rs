@@ -1,0 +1,170 @@
+//! From an ADS request to the function it asks for.
+
+use core::fmt;
+
+use super::{Function, Request, Service, Task};
+use crate::address::{IndexGroup, IndexOffset};
+use crate::ads::{AdsError, AmsPort};
+use crate::bytes::to_u32;
+use crate::error::{Error, ErrorKind};
+use crate::layout::{Field, Stream};
+
+/// An ADS request as it reaches a CNC.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Call<'a> {
+    /// The AMS port it was sent to.
+    pub port: AmsPort,
+    /// The service.
+    pub service: Service,
+    /// Index group.
+    pub index_group: IndexGroup,
+    /// Index offset.
+    pub index_offset: IndexOffset,
+    /// The most bytes the client takes; 0 for a Write.
+    pub read_length: u32,
+    /// The bytes it sent; none for a Read.
+    pub data: &'a [u8],
+}
+
+/// Why a call is none that a CNC answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// No task has this port.
+    Port(AmsPort),
+    /// No function of the task has this index group.
+    Group(IndexGroup),
+    /// No function of the index group has this offset.
+    Offset(IndexOffset),
+    /// The function takes another service: the one it takes, the one asked for.
+    Service(Service, Service),
+    /// The bytes are not what the function takes.
+    Stream(Error),
+}
+
+impl Refusal {
+    /// The number to answer with. Which one a CNC gives is not documented: assumed (ADS-7).
+    pub const fn ads_error(self) -> AdsError {
+        match self {
+            Self::Port(_) => AdsError::TARGET_PORT_NOT_FOUND,
+            Self::Group(_) => AdsError::INVALID_GROUP,
+            Self::Offset(_) => AdsError::INVALID_OFFSET,
+            Self::Service(..) => AdsError::SERVICE_NOT_SUPPORTED,
+            Self::Stream(error) => match error.kind() {
+                ErrorKind::NotCp1252 | ErrorKind::OutOfRange => AdsError::INVALID_DATA,
+                _ => AdsError::INVALID_SIZE,
+            },
+        }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Port(port) => write!(f, "no task has port {port}"),
+            Self::Group(group) => write!(f, "no function has index group {group}"),
+            Self::Offset(offset) => write!(f, "no function has index offset {offset}"),
+            Self::Service(takes, asked) => write!(f, "the function takes {takes}, not {asked}"),
+            Self::Stream(error) => fmt::Display::fmt(error, f),
+        }
+    }
+}
+
+impl core::error::Error for Refusal {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Stream(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl<'a> Call<'a> {
+    /// The function that is called and what it is asked.
+    ///
+    /// SDA and GEO both answer for the classes of the CNC (ADR-10, assumed).
+    ///
+    /// ```
+    /// use ads_cnc::address::{IndexGroup, IndexOffset};
+    /// use ads_cnc::ads::AmsPort;
+    /// use ads_cnc::operation::{Call, Refusal, Request, Service};
+    ///
+    /// let call = Call {
+    ///     port: AmsPort::SDA,
+    ///     service: Service::ReadWrite,
+    ///     index_group: IndexGroup::new(0x12_2301),
+    ///     index_offset: IndexOffset::new(0x46),
+    ///     read_length: 4,
+    ///     data: b"V.E.vartest\0",
+    /// };
+    /// let Ok(Request::HandleByName(request)) = call.dispatch() else { panic!() };
+    /// assert_eq!(request.name.text(), "V.E.vartest");
+    ///
+    /// let read = Call { service: Service::Read, ..call };
+    /// assert_eq!(read.dispatch(), Err(Refusal::Service(Service::ReadWrite, Service::Read)));
+    /// ```
+    ///
+    /// # Errors
+    /// The first [`Refusal`] of port, group, offset, service and bytes.
+    pub fn dispatch(&self) -> Result<Request<'a>, Refusal> {
+        let task = Task::from_port(self.port).ok_or(Refusal::Port(self.port))?;
+        let group = self.index_group.parts().ok_or(Refusal::Group(self.index_group))?;
+        let mut refusal = Refusal::Group(self.index_group);
+        for function in Function::ALL.iter().copied() {
+            let spec = function.spec();
+            // SDA and GEO stand in for each other, COM for none.
+            if (spec.task == Task::Com) != (task == Task::Com) || !spec.group.holds(group) {
+                continue;
+            }
+            if !spec.offset.holds(self.index_offset) {
+                if matches!(refusal, Refusal::Group(_)) {
+                    refusal = Refusal::Offset(self.index_offset);
+                }
+            } else if spec.service != self.service {
+                refusal = Refusal::Service(spec.service, self.service);
+            } else {
+                let request =
+                    self.check_data().and_then(|()| Request::decode(function, group, self));
+                return request.map_err(Refusal::Stream);
+            }
+        }
+        Err(refusal)
+    }
+
+    /// A Read carries no data; on the wire it has no room for any.
+    fn check_data(&self) -> Result<(), Error> {
+        if self.service != Service::Read || self.data.is_empty() {
+            return Ok(());
+        }
+        let whole = Field::whole(Stream::ReadRequest);
+        let given = to_u32(self.data.len()).saturating_add(READ_REQUEST_LEN);
+        let len = READ_REQUEST_LEN;
+        Err(Error::new(ErrorKind::Trailing, whole, len, len, given))
+    }
+}
+
+const READ_REQUEST_LEN: u32 = Stream::ReadRequest.layout().max;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What dispatch would lose it refuses.
+    #[test]
+    fn a_read_has_no_data() {
+        let read = Call {
+            port: AmsPort::COM,
+            service: Service::Read,
+            index_group: IndexGroup::new(0x13_0101),
+            index_offset: IndexOffset::new(1),
+            read_length: 84,
+            data: &[],
+        };
+        assert!(read.dispatch().is_ok());
+        let error = Call { data: &[0], ..read }.dispatch().unwrap_err();
+        assert_eq!(
+            std::format!("{error}"),
+            "read-request: stream at offset 12: trailing bytes, 12 bytes expected, 13 there"
+        );
+    }
+}

@@ -1,0 +1,33 @@
+//! The functions of a CNC: where each is, what goes in, what comes out.
+//!
+//! A client builds an [`Operation`] and sends what it encodes over any transport:
+//!
+//! ```
+//! use ads_cnc::address::Channel;
+//! use ads_cnc::operation::{Operation, ReadByName};
+//!
+//! let op = ReadByName::new(Channel::new(1)?, "V.E.Testvar")?;
+//! let mut buf = [0; 256];
+//! assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_2301, 0x48));
+//! assert_eq!(op.encode(&mut buf)?, b"V.E.Testvar\0");
+//! // … ReadWrite, and then
+//! assert_eq!(op.decode_reply(&[123, 0, 0, 0])?.bytes, [123, 0, 0, 0]);
+//! # Ok::<(), ads_cnc::Error>(())
+//! ```
+//!
+//! A server hands what it received to [`Call::dispatch`] and answers the [`Request`] with a
+//! [`Reply`]. What dispatch makes of an encoded operation encodes to the same bytes.
+
+mod call;
+mod com;
+mod reply;
+mod request;
+mod table;
+mod variable;
+
+pub use call::{Call, Refusal};
+pub use com::{CountObjects, ObjectList, ReadDescriptors};
+pub use reply::Reply;
+pub use request::{Operation, Request};
+pub use table::{Effect, Function, FunctionSpec, GroupRule, OffsetRule, Service, Task};
+pub use variable::{CountVariables, DescribeByIndex, HandleByName, ReadByHandle, ReadByName};

@@ -1,0 +1,135 @@
+//! Typed operations, and all of them as one type.
+
+use super::{
+    Call, CountObjects, CountVariables, DescribeByIndex, Function, HandleByName, ReadByHandle,
+    ReadByName, ReadDescriptors, Reply,
+};
+use crate::address::{Group, IndexGroup, IndexOffset};
+use crate::error::Error;
+use crate::stream::Decode;
+
+pub(super) mod sealed {
+    pub trait Sealed {}
+}
+
+/// A call of one function of the table.
+pub trait Operation: sealed::Sealed {
+    /// Which function.
+    const FUNCTION: Function;
+
+    /// What comes out.
+    type Reply<'r>: Decode<'r>;
+
+    /// Where to send it.
+    fn index_group(&self) -> IndexGroup;
+
+    /// Where to send it.
+    fn index_offset(&self) -> IndexOffset;
+
+    /// The most bytes the reply has, to be sent as the read length.
+    fn read_length(&self) -> u32;
+
+    /// How many bytes [`encode`](Self::encode) writes.
+    fn encoded_len(&self) -> usize;
+
+    /// Writes the data to send, if any, to the front of `buf`.
+    ///
+    /// # Errors
+    /// What the function does not take, or a buffer too small; nothing is written.
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
+
+    /// Reads the data received.
+    ///
+    /// # Errors
+    /// Those of the reply's stream, and a reply longer than was asked for.
+    fn decode_reply<'r>(&self, data: &'r [u8]) -> Result<Self::Reply<'r>, Error> {
+        Self::Reply::decode(data)
+    }
+}
+
+/// Declares [`Request`] and passes what operations have in common on to them.
+macro_rules! requests {
+    ($( $function:ident($operation:ty) => $reply:ident, )+) => {
+        /// Any operation: what a server is asked, what a tool shows.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum Request<'a> {
+            $(
+                #[doc = concat!("See [`", stringify!($function), "`].")]
+                $function($operation),
+            )+
+        }
+
+        impl<'a> Request<'a> {
+            /// Which function is called.
+            pub const fn function(&self) -> Function {
+                match self { $( Self::$function(_) => Function::$function, )+ }
+            }
+
+            /// The call as it goes out: to the function's port, with its service.
+            ///
+            /// # Errors
+            /// Those of [`Operation::encode`].
+            pub fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<Call<'b>, Error> {
+                let spec = self.function().spec();
+                match self { $(
+                    Self::$function(operation) => Ok(Call {
+                        port: spec.task.port(),
+                        service: spec.service,
+                        index_group: operation.index_group(),
+                        index_offset: operation.index_offset(),
+                        read_length: operation.read_length(),
+                        data: operation.encode(buf)?,
+                    }),
+                )+ }
+            }
+
+            /// How many bytes the data of the call has.
+            pub fn encoded_len(&self) -> usize {
+                match self { $( Self::$function(operation) => operation.encoded_len(), )+ }
+            }
+
+            /// Reads the data received.
+            ///
+            /// # Errors
+            /// Those of [`Operation::decode_reply`].
+            pub fn decode_reply<'r>(&self, data: &'r [u8]) -> Result<Reply<'r>, Error> {
+                match self { $(
+                    Self::$function(operation) => {
+                        operation.decode_reply(data).map(Reply::$reply)
+                    }
+                )+ }
+            }
+
+            pub(super) fn decode(
+                function: Function,
+                group: Group,
+                call: &Call<'a>,
+            ) -> Result<Self, Error> {
+                match function { $(
+                    Function::$function => {
+                        <$operation>::dispatched(group, call).map(Self::$function)
+                    }
+                )+ }
+            }
+        }
+
+        $(
+            impl<'a> From<$operation> for Request<'a> {
+                fn from(operation: $operation) -> Self {
+                    Self::$function(operation)
+                }
+            }
+        )+
+    };
+}
+
+requests! {
+    CountObjects(CountObjects) => ObjectCount,
+    ReadDescriptors(ReadDescriptors) => Descriptors,
+    CountVariables(CountVariables<'a>) => VariableCount,
+    DescribeByIndex(DescribeByIndex<'a>) => Description,
+    HandleByName(HandleByName<'a>) => Handle,
+    ReadByHandle(ReadByHandle<'a>) => Value,
+    ReadByName(ReadByName<'a>) => Value,
+}

@@ -1,0 +1,60 @@
+//! The two traits every stream has.
+
+use crate::error::Error;
+use crate::layout::Stream;
+
+/// Reads a stream from all of its bytes.
+///
+/// `XRef` types borrow from the bytes and never allocate; `X` types own what they read. Both
+/// accept the same bytes and refuse the others with the same [`Error`].
+pub trait Decode<'a>: Sized {
+    /// The stream this reads, with its field table.
+    const STREAM: Stream;
+
+    /// Reads the stream; nothing may be left over but what its clause keeps.
+    ///
+    /// # Errors
+    /// The first fault, by field and offset.
+    fn decode(bytes: &'a [u8]) -> Result<Self, Error>;
+}
+
+/// Writes a stream. What was decoded encodes to the same bytes.
+pub trait Encode {
+    /// How many bytes [`encode`](Self::encode) writes.
+    fn encoded_len(&self) -> usize;
+
+    /// Writes the stream to the front of `buf` and returns the bytes written.
+    ///
+    /// # Errors
+    /// A value that no decoder would accept, or a buffer that is too small; nothing is written.
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
+
+    /// The stream in a vector of its own.
+    ///
+    /// # Errors
+    /// A value that no decoder would accept.
+    #[cfg(feature = "alloc")]
+    fn to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
+        // The limit first: a length that is refused anyway is not allocated.
+        let mut bytes = alloc::vec![0; self.encoded_len().min(crate::limits::ADS_DATA_MAX + 64)];
+        self.encode(&mut bytes)?;
+        Ok(bytes)
+    }
+}
+
+/// An owned reading encodes as its borrowed one: there is one encoder.
+macro_rules! encode_as_ref {
+    ($owned:ident) => {
+        impl $crate::stream::Encode for $owned {
+            fn encoded_len(&self) -> usize {
+                $crate::stream::Encode::encoded_len(&self.as_ref())
+            }
+
+            fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
+                $crate::stream::Encode::encode(&self.as_ref(), buf)
+            }
+        }
+    };
+}
+
+pub(crate) use encode_as_ref;

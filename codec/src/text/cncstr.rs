@@ -1,0 +1,190 @@
+//! Borrowed text.
+
+use core::fmt::{self, Write as _};
+use core::hash::{Hash, Hasher};
+
+use super::{char_to_cp1252, cp1252_to_char};
+use crate::bytes::{Writer, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::field;
+
+/// CP1252 text without a NUL, borrowed from a stream or from a Rust string.
+///
+/// ```
+/// use ads_cnc::CncStr;
+///
+/// let wire = CncStr::from_bytes(b"V.E.L\xE4nge")?;
+/// assert_eq!(wire, CncStr::new("V.E.Länge")?);
+/// assert_eq!(wire.to_string(), "V.E.Länge");
+/// assert_eq!(CncStr::new("V.E.Ω").unwrap_err().to_string(), "text: text at offset 4: U+03A9 is not in CP1252");
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy)]
+pub struct CncStr<'a>(Source<'a>);
+
+#[derive(Clone, Copy)]
+enum Source<'a> {
+    Bytes(&'a [u8]),
+    /// Found to fit CP1252, with characters beyond ASCII.
+    Str(&'a str),
+}
+
+impl<'a> CncStr<'a> {
+    /// The text without characters.
+    pub const EMPTY: CncStr<'static> = CncStr(Source::Bytes(&[]));
+
+    /// Takes a Rust string whose characters all are in CP1252.
+    ///
+    /// # Errors
+    /// [`ErrorKind::NotCp1252`], [`ErrorKind::InnerNul`]; the offset counts characters.
+    pub fn new(text: &'a str) -> Result<Self, Error> {
+        let mut ascii = true;
+        for (at, character) in (0_u32..).zip(text.chars()) {
+            ascii &= character.is_ascii();
+            if character == '\0' {
+                return Err(Error::new(ErrorKind::InnerNul, field::text::TEXT, at, 0, at));
+            }
+            if char_to_cp1252(character).is_none() {
+                let point = u32::from(character);
+                return Err(Error::new(ErrorKind::NotCp1252, field::text::TEXT, at, 0, point));
+            }
+        }
+        Ok(Self(if ascii { Source::Bytes(text.as_bytes()) } else { Source::Str(text) }))
+    }
+
+    /// Takes CP1252 bytes. Every byte but NUL is allowed, the five without a character too.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InnerNul`]
+    pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, Error> {
+        match bytes.iter().position(|&byte| byte == 0) {
+            None => Ok(Self(Source::Bytes(bytes))),
+            Some(at) => {
+                let at = to_u32(at);
+                Err(Error::new(ErrorKind::InnerNul, field::text::TEXT, at, 0, at))
+            }
+        }
+    }
+
+    /// The part before the first NUL, or all.
+    pub(crate) fn until_nul(bytes: &'a [u8]) -> Self {
+        let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
+        Self(Source::Bytes(bytes.get(..end).unwrap_or(bytes)))
+    }
+
+    /// Bytes already found to have no NUL.
+    pub(crate) const fn without_nul(bytes: &'a [u8]) -> Self {
+        Self(Source::Bytes(bytes))
+    }
+
+    /// Number of characters, which is that of CP1252 bytes.
+    pub fn len(&self) -> usize {
+        match self.0 {
+            Source::Bytes(bytes) => bytes.len(),
+            Source::Str(text) => text.chars().count(),
+        }
+    }
+
+    /// Whether the text has no character.
+    pub fn is_empty(&self) -> bool {
+        match self.0 {
+            Source::Bytes(bytes) => bytes.is_empty(),
+            Source::Str(text) => text.is_empty(),
+        }
+    }
+
+    /// The characters.
+    pub fn chars(&self) -> Chars<'a> {
+        Chars(match self.0 {
+            Source::Bytes(bytes) => CharSource::Bytes(bytes.iter()),
+            Source::Str(text) => CharSource::Str(text.chars()),
+        })
+    }
+
+    /// The CP1252 bytes.
+    pub fn bytes(&self) -> impl Iterator<Item = u8> + use<'a> {
+        // Every character came from a byte or was found to have one.
+        self.chars().filter_map(char_to_cp1252)
+    }
+
+    pub(crate) fn write(&self, out: &mut Writer<'_>) {
+        match self.0 {
+            Source::Bytes(bytes) => out.put(bytes),
+            Source::Str(_) => self.bytes().for_each(|byte| out.put(&[byte])),
+        }
+    }
+
+    #[cfg(feature = "alloc")]
+    pub(crate) fn to_bytes(self) -> alloc::vec::Vec<u8> {
+        match self.0 {
+            Source::Bytes(bytes) => bytes.into(),
+            Source::Str(_) => self.bytes().collect(),
+        }
+    }
+}
+
+/// The characters of a [`CncStr`].
+#[derive(Clone, Debug)]
+pub struct Chars<'a>(CharSource<'a>);
+
+#[derive(Clone, Debug)]
+enum CharSource<'a> {
+    Bytes(core::slice::Iter<'a, u8>),
+    Str(core::str::Chars<'a>),
+}
+
+impl Iterator for Chars<'_> {
+    type Item = char;
+
+    fn next(&mut self) -> Option<char> {
+        match &mut self.0 {
+            CharSource::Bytes(bytes) => bytes.next().copied().map(cp1252_to_char),
+            CharSource::Str(chars) => chars.next(),
+        }
+    }
+}
+
+impl PartialEq for CncStr<'_> {
+    fn eq(&self, other: &CncStr<'_>) -> bool {
+        match (self.0, other.0) {
+            (Source::Bytes(one), Source::Bytes(two)) => one == two,
+            _ => self.chars().eq(other.chars()),
+        }
+    }
+}
+
+impl Eq for CncStr<'_> {}
+
+impl PartialEq<str> for CncStr<'_> {
+    fn eq(&self, other: &str) -> bool {
+        self.chars().eq(other.chars())
+    }
+}
+
+impl PartialEq<&str> for CncStr<'_> {
+    fn eq(&self, other: &&str) -> bool {
+        *self == **other
+    }
+}
+
+impl Hash for CncStr<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.chars().for_each(|character| character.hash(state));
+    }
+}
+
+impl fmt::Display for CncStr<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.chars().try_for_each(|character| f.write_char(character))
+    }
+}
+
+impl fmt::Debug for CncStr<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_char('"')?;
+        for character in self.chars() {
+            character.escape_debug().try_for_each(|escaped| f.write_char(escaped))?;
+        }
+        f.write_char('"')
+    }
+}

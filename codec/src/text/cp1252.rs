@@ -1,0 +1,35 @@
+//! Code page 1252, one byte a character.
+
+/// Characters of the bytes 0x80..=0x9F; every other byte is the character of its number.
+///
+/// 81 8D 8F 90 9D have no character in the code page. The control characters of the same
+/// number stand for them, so that every byte has one character and comes back from it.
+const HIGH: [char; 32] = [
+    '\u{20AC}', '\u{81}', '\u{201A}', '\u{0192}', '\u{201E}', '\u{2026}', '\u{2020}', '\u{2021}',
+    '\u{02C6}', '\u{2030}', '\u{0160}', '\u{2039}', '\u{0152}', '\u{8D}', '\u{017D}', '\u{8F}',
+    '\u{90}', '\u{2018}', '\u{2019}', '\u{201C}', '\u{201D}', '\u{2022}', '\u{2013}', '\u{2014}',
+    '\u{02DC}', '\u{2122}', '\u{0161}', '\u{203A}', '\u{0153}', '\u{9D}', '\u{017E}', '\u{0178}',
+];
+
+/// The character of a CP1252 byte.
+///
+/// ```
+/// assert_eq!(ads_cnc::text::cp1252_to_char(0x80), '€');
+/// ```
+pub fn cp1252_to_char(byte: u8) -> char {
+    let high = byte.checked_sub(0x80).and_then(|place| HIGH.get(usize::from(place)));
+    high.copied().unwrap_or(char::from(byte))
+}
+
+/// The CP1252 byte of a character, if it has one.
+///
+/// ```
+/// assert_eq!(ads_cnc::text::char_to_cp1252('ß'), Some(0xDF));
+/// assert_eq!(ads_cnc::text::char_to_cp1252('Ω'), None);
+/// ```
+pub fn char_to_cp1252(character: char) -> Option<u8> {
+    match u8::try_from(character) {
+        Ok(byte @ (..=0x7F | 0xA0..)) => Some(byte),
+        _ => (0x80..).zip(HIGH).find_map(|(byte, high)| (high == character).then_some(byte)),
+    }
+}

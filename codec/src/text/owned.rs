@@ -1,0 +1,100 @@
+//! Owned text.
+
+use alloc::borrow::ToOwned as _;
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::{CncStr, TextRef};
+use crate::error::Error;
+
+/// CP1252 text without a NUL, owned.
+///
+/// ```
+/// use ads_cnc::CncString;
+///
+/// let name: CncString = "V.E.Länge".parse()?;
+/// assert_eq!(name.as_bytes(), b"V.E.L\xE4nge");
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct CncString(Vec<u8>);
+
+impl CncString {
+    /// The text, borrowed.
+    pub fn as_cnc_str(&self) -> CncStr<'_> {
+        CncStr::without_nul(&self.0)
+    }
+
+    /// The CP1252 bytes.
+    pub fn as_bytes(&self) -> &[u8] {
+        &self.0
+    }
+}
+
+impl From<CncStr<'_>> for CncString {
+    fn from(text: CncStr<'_>) -> Self {
+        Self(text.to_bytes())
+    }
+}
+
+impl core::str::FromStr for CncString {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        CncStr::new(text).map(Into::into)
+    }
+}
+
+impl fmt::Display for CncString {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.as_cnc_str(), f)
+    }
+}
+
+impl fmt::Debug for CncString {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.as_cnc_str(), f)
+    }
+}
+
+/// A text field with its end, owned: see [`TextRef`].
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub struct Text {
+    /// The text.
+    pub text: CncString,
+    /// The bytes behind the first NUL; none if there is no NUL.
+    pub tail: Option<Vec<u8>>,
+}
+
+impl Text {
+    /// The field, borrowed.
+    pub fn as_ref(&self) -> TextRef<'_> {
+        TextRef::with_tail(self.text.as_cnc_str(), self.tail.as_deref())
+    }
+}
+
+impl fmt::Debug for Text {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.as_ref(), f)
+    }
+}
+
+impl From<TextRef<'_>> for Text {
+    fn from(field: TextRef<'_>) -> Self {
+        Self { text: field.text().into(), tail: field.tail().map(<[u8]>::to_owned) }
+    }
+}
+
+impl From<CncString> for Text {
+    fn from(text: CncString) -> Self {
+        Self { text, tail: Some(Vec::new()) }
+    }
+}
+
+impl core::str::FromStr for Text {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        text.parse::<CncString>().map(Into::into)
+    }
+}

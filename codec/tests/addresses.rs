@@ -1,0 +1,265 @@
+//! Every index group and index offset that the manuals print, put together and taken apart.
+
+use ads_cnc::address::Addressing::{Index, Logical};
+use ads_cnc::address::*;
+use ads_cnc::{Error, ErrorKind};
+use proptest::prelude::*;
+
+fn channel(number: u32) -> Channel {
+    Channel::new(number).unwrap()
+}
+
+/// Takes a printed group apart and puts it together again.
+fn parts(printed: u32) -> Group {
+    let group = IndexGroup::new(printed).parts().unwrap_or_else(|| panic!("{printed:#x}"));
+    assert_eq!(group.index_group().get(), printed);
+    group
+}
+
+fn class(addressing: Addressing, class: Class, attribute: Attribute, instance: u8) -> Group {
+    Group::Class(ClassGroup { addressing, class, attribute, instance })
+}
+
+fn com(addressing: Addressing, access: Access, table: ComTable, instance: u8) -> Group {
+    Group::Com(ComGroup { addressing, access, table, instance })
+}
+
+/// ADR-1, ADR-11: channels 1 and 6, by number and by rank.
+#[test]
+fn channels_by_number_and_by_rank() {
+    let group = |channel: Channel| channel.class(Class::Interpolator, Attribute::Content).get();
+    assert_eq!(group(channel(1)), 0x12_1301);
+    assert_eq!(group(channel(6)), 0x12_1306);
+    assert_eq!(group(Channel::by_index(1).unwrap()), 0x2_1301);
+    assert_eq!(group(Channel::by_index(2).unwrap()), 0x2_1302);
+    for (printed, addressing, instance) in [
+        (0x12_1301, Logical, 1),
+        (0x12_1306, Logical, 6),
+        (0x2_1301, Index, 1),
+        (0x2_1302, Index, 2),
+    ] {
+        let wanted = class(addressing, Class::Interpolator, Attribute::Content, instance);
+        assert_eq!(parts(printed), wanted);
+    }
+}
+
+/// ADR-2, ADR-5: spindles have no logical form, with or without asking for one.
+#[test]
+fn spindles_by_index_only() {
+    let spindle = Spindle::new(2).unwrap();
+    assert_eq!(spindle.class(Attribute::Content).get(), 0x2_5302);
+    assert_eq!(parts(0x2_5302), class(Index, Class::Spindle, Attribute::Content, 2));
+    assert_eq!(parts(0x2_5300), class(Index, Class::Spindle, Attribute::Content, 0));
+    assert_eq!(ClassGroup::object_address(Class::Spindle).index_group().get(), 0x2_5900);
+    assert_eq!(class(Logical, Class::Spindle, Attribute::Content, 2).index_group().get(), 0x2_5302);
+    assert_eq!(IndexGroup::new(0x12_5302).parts(), None);
+}
+
+/// ADR-3, ADR-4, COM-6, COM-7: the groups of the COM task.
+#[test]
+fn groups_of_the_com_task() {
+    let axis = PlatformAxis::new(1).unwrap();
+    for (printed, access, table, instance, built) in [
+        (
+            0x12_0100,
+            Access::Element,
+            ComTable::Channel,
+            0,
+            ComGroup::platform(Access::Element).index_group(),
+        ),
+        (0x12_0101, Access::Element, ComTable::Channel, 1, channel(1).com(Access::Element)),
+        (0x12_0201, Access::Element, ComTable::Axis, 1, axis.com(Access::Element)),
+        (
+            0x13_0100,
+            Access::Object,
+            ComTable::Channel,
+            0,
+            ComGroup::platform(Access::Object).index_group(),
+        ),
+        (0x13_0101, Access::Object, ComTable::Channel, 1, channel(1).com(Access::Object)),
+        (0x13_0201, Access::Object, ComTable::Axis, 1, axis.com(Access::Object)),
+    ] {
+        assert_eq!(built.get(), printed);
+        assert_eq!(parts(printed), com(Logical, access, table, instance));
+    }
+    // Printed as the base of all platform axes, and as a group of its own (E-04).
+    assert_eq!(parts(0x12_0200), com(Logical, Access::Element, ComTable::Axis, 0));
+}
+
+/// ADR-5: a base for each class; of channel 0, which the bases are printed with.
+#[test]
+fn bases_of_the_classes() {
+    for (base, addressing, of) in [
+        (0x12_0300, Logical, Class::PositionController),
+        (0x12_1300, Logical, Class::Interpolator),
+        (0x12_2300, Logical, Class::Decoder),
+        (0x12_3300, Logical, Class::Hld),
+        (0x12_4300, Logical, Class::PathPreparation),
+        (0x2_5300, Index, Class::Spindle),
+    ] {
+        assert_eq!(parts(base), class(addressing, of, Attribute::Content, 0));
+        // ADR-6: the object address is 0x600 over the content, and names no instance.
+        assert_eq!(ClassGroup::object_address(of).index_group().get(), base + 0x600);
+    }
+}
+
+/// ADR-6, SDA-10: the attributes of feedhold.enable, as printed.
+#[test]
+fn attributes_of_an_element() {
+    for (printed, attribute) in [
+        (0x12_3301, Attribute::Content),
+        (0x12_3401, Attribute::Name),
+        (0x12_3501, Attribute::Type),
+        (0x12_3601, Attribute::Length),
+        (0x12_3701, Attribute::Unit),
+        (0x12_3801, Attribute::WriteFlag),
+    ] {
+        assert_eq!(channel(1).class(Class::Hld, attribute).get(), printed);
+        assert_eq!(parts(printed), class(Logical, Class::Hld, attribute, 1));
+    }
+}
+
+/// ADR-10, SDA-3: the printed queries of object addresses and what they answer.
+#[test]
+fn object_addresses() {
+    let query = |of| class(Logical, of, Attribute::ObjectAddress, 0);
+    assert_eq!(parts(0x12_3900), query(Class::Hld));
+    assert_eq!(parts(0x12_2900), query(Class::Decoder));
+    assert_eq!(parts(0x12_3302), class(Logical, Class::Hld, Attribute::Content, 2));
+    assert_eq!(parts(0x12_2301), class(Logical, Class::Decoder, Attribute::Content, 1));
+}
+
+/// ADR-12: each base is printed without the logical bit too, and is the same but for it.
+#[test]
+fn bases_without_the_logical_bit() {
+    for (without, with) in [(0x2_0100, 0x12_0100), (0x2_0200, 0x12_0200), (0x2_0300, 0x12_0300)] {
+        let by_index = match parts(with) {
+            Group::Com(group) => Group::Com(ComGroup { addressing: Index, ..group }),
+            Group::Class(group) => Group::Class(ClassGroup { addressing: Index, ..group }),
+        };
+        assert_eq!(parts(without), by_index);
+    }
+}
+
+/// ADR-10: a group that no manual has stays a number.
+#[test]
+fn unknown_groups_stay_numbers() {
+    for number in [
+        0,
+        0xF005,
+        0x4020,
+        0x12_0001,
+        0x12_0A01,
+        0x12_6301,
+        0x13_0301,
+        0x13_1101,
+        0x22_2301,
+        0x112_2301,
+        u32::MAX,
+    ] {
+        assert_eq!(IndexGroup::new(number).parts(), None, "{number:#x}");
+        assert_eq!(IndexGroup::new(number).get(), number);
+    }
+}
+
+/// ADR-7, ADR-8: both strides, as printed; the wide one unless asked otherwise.
+#[test]
+fn axes_with_both_strides() {
+    let offset = |stride, axis, element| IndexOffset::of_axis(stride, axis, element).unwrap().get();
+    assert_eq!(AxisStride::default(), AxisStride::X10000);
+    for (axis, element, printed) in [
+        (1, 4, 0x1_0004),
+        (2, 4, 0x2_0004),
+        (2, 5, 0x2_0005),
+        (2, 0, 0x2_0000),
+        (1, 1, 0x1_0001),
+        (0, 0x48, 0x48),
+    ] {
+        assert_eq!(offset(AxisStride::X10000, axis, element), printed);
+        let taken = IndexOffset::new(printed).axis_and_element(AxisStride::X10000);
+        assert_eq!(taken, (axis, element));
+    }
+    // The first platform axis of the HLD (E-01).
+    assert_eq!(offset(AxisStride::X1000, 1, 0), 0x1000);
+    assert_eq!(offset(AxisStride::X1000, 1, 1), 0x1001);
+    // An offset does not tell its stride.
+    assert_eq!(offset(AxisStride::X10000, 1, 1), offset(AxisStride::X1000, 16, 1));
+    assert_eq!(IndexOffset::new(0x1_0001).axis_and_element(AxisStride::X1000), (16, 1));
+    // The largest of each.
+    assert_eq!(offset(AxisStride::X10000, 0xFFFF, 0xFFFF), u32::MAX);
+    assert_eq!(offset(AxisStride::X1000, 0xFFFF, 0xFFF), 0x0FFF_FFFF);
+}
+
+fn out_of_range<T: std::fmt::Debug>(result: Result<T, Error>) -> (&'static str, u32, u32) {
+    let error = result.unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::OutOfRange);
+    (error.field().name(), error.expected(), error.found())
+}
+
+/// ADR-9, GEN-6: what does not fit its field is refused with the nearest value that does.
+#[test]
+fn what_does_not_fit_is_refused() {
+    assert_eq!(out_of_range(Channel::new(0)), ("instance", 1, 0));
+    assert_eq!(out_of_range(Channel::new(256)), ("instance", 255, 256));
+    assert_eq!(out_of_range(Channel::by_index(0)), ("instance", 1, 0));
+    assert_eq!(out_of_range(Channel::by_index(u32::MAX)), ("instance", 255, u32::MAX));
+    assert_eq!(out_of_range(PlatformAxis::new(0)), ("instance", 1, 0));
+    assert_eq!(out_of_range(PlatformAxis::new(256)), ("instance", 255, 256));
+    assert_eq!(out_of_range(Spindle::new(256)), ("instance", 255, 256));
+    let offset = IndexOffset::of_axis;
+    let (wide, narrow) = (AxisStride::X10000, AxisStride::X1000);
+    assert_eq!(out_of_range(offset(wide, 0x1_0000, 0)), ("axis", 0xFFFF, 0x1_0000));
+    assert_eq!(out_of_range(offset(narrow, 0x1_0000, 0)), ("axis", 0xFFFF, 0x1_0000));
+    assert_eq!(out_of_range(offset(wide, 1, 0x1_0000)), ("element", 0xFFFF, 0x1_0000));
+    assert_eq!(out_of_range(offset(narrow, 1, 0x1000)), ("element", 0xFFF, 0x1000));
+}
+
+/// ADR-9: no class, attribute or instance changes another part of the sum.
+#[test]
+fn groups_never_carry() {
+    for class in Class::ALL {
+        for attribute in Attribute::ALL {
+            for instance in 1..=u8::MAX {
+                let number = u32::from(instance);
+                let group = match class {
+                    Class::Spindle => Spindle::new(number).unwrap().class(attribute),
+                    _ => channel(number).class(class, attribute),
+                };
+                let one = match class {
+                    Class::Spindle => Spindle::new(1).unwrap().class(attribute),
+                    _ => channel(1).class(class, attribute),
+                };
+                assert_eq!((group.get() ^ one.get()) & !0xFF, 0);
+                assert_eq!(group.get() & 0xFF, number);
+                let Some(Group::Class(parts)) = group.parts() else { panic!("{group}") };
+                let found = (parts.class, parts.attribute, parts.instance);
+                assert_eq!(found, (class, attribute, instance));
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..Default::default() })]
+
+    /// ADR-9: axis and element come back from the offset, or one of them is refused.
+    #[test]
+    fn offsets_never_carry(
+        axis in prop_oneof![0..=0x2_0000_u32, any::<u32>()],
+        element in prop_oneof![0..=0x2000_u32, 0..=0x2_0000_u32, any::<u32>()],
+    ) {
+        for (stride, element_max) in [(AxisStride::X10000, 0xFFFF), (AxisStride::X1000, 0xFFF)] {
+            let fits = axis <= 0xFFFF && element <= element_max;
+            match IndexOffset::of_axis(stride, axis, element) {
+                Ok(offset) => {
+                    prop_assert!(fits);
+                    prop_assert_eq!(offset.axis_and_element(stride), (axis, element));
+                }
+                Err(error) => {
+                    prop_assert!(!fits);
+                    prop_assert_eq!(error.kind(), ErrorKind::OutOfRange);
+                }
+            }
+        }
+    }
+}

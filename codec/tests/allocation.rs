@@ -1,0 +1,145 @@
+//! What decoding and encoding allocate, counted by the allocator of this test binary.
+
+mod common;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use ads_cnc::ads::FrameRef;
+use ads_cnc::layout::Stream;
+use common::{CALLS, Subject, each_sample};
+
+/// Counts by thread, as tests run beside each other.
+struct Counting;
+
+thread_local! {
+    static LIVE: Cell<usize> = const { Cell::new(0) };
+    static PEAK: Cell<usize> = const { Cell::new(0) };
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+// SAFETY: passes every call on to the system's allocator; the counters neither allocate nor are
+// dropped.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        LIVE.set(LIVE.get().saturating_add(layout.size()));
+        PEAK.set(PEAK.get().max(LIVE.get()));
+        COUNT.set(COUNT.get() + 1);
+        // SAFETY: the caller keeps the contract, which is the same.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        // What another thread allocated is not taken off here.
+        LIVE.set(LIVE.get().saturating_sub(layout.size()));
+        // SAFETY: the caller keeps the contract, which is the same.
+        unsafe { System.dealloc(memory, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+/// The most bytes held at once while this runs, and how often it allocated.
+fn measure(run: impl FnOnce()) -> (usize, usize) {
+    let before = (LIVE.get(), COUNT.get());
+    PEAK.set(before.0);
+    run();
+    (PEAK.get() - before.0, COUNT.get() - before.1)
+}
+
+/// The counters count: without this, the tests below could not fail.
+#[test]
+fn the_counters_count() {
+    let held = measure(|| drop(std::hint::black_box(vec![0_u8; 1000])));
+    assert_eq!(held, (1000, 1));
+    let (grown, _) = measure(|| {
+        let mut bytes = std::hint::black_box(vec![0_u8; 1000]);
+        bytes.reserve_exact(1000);
+    });
+    assert_eq!(grown, 3000);
+}
+
+/// Numbers that four bytes on the wire can promise and no stream can hold.
+const HOSTILE: [u32; 6] = [u32::MAX, 0x8000_0000, 0x7FFF_FFFF, 0x4000_0001, 0x0100_0000, 0xFFFF];
+
+/// Every sample, and every sample with each four bytes of it replaced by each hostile number.
+fn hostile() -> impl Iterator<Item = (Stream, Vec<u8>)> {
+    each_sample().flat_map(|(stream, sample)| {
+        let bytes = sample.bytes();
+        let places = 0..bytes.len().saturating_sub(3);
+        let changed = places.flat_map(move |at| {
+            let bytes = sample.bytes();
+            HOSTILE.map(|number| {
+                let mut bytes = bytes.clone();
+                bytes[at..at + 4].copy_from_slice(&number.to_le_bytes());
+                (stream, bytes)
+            })
+        });
+        changed.chain([(stream, bytes)])
+    })
+}
+
+/// No count or length in the bytes makes an owned reading hold more than the bytes warrant.
+#[cfg(feature = "alloc")]
+#[test]
+fn owned_readings_hold_no_more_than_the_input_warrants() {
+    let check = |stream: Stream, bytes: &[u8]| {
+        let decode = Subject::of(stream).owned.len;
+        let (held, _) = measure(|| {
+            let _ = std::hint::black_box(decode(bytes));
+        });
+        assert!(held <= 2 * bytes.len() + 4096, "{stream}: {held} for {}", bytes.len());
+    };
+    for (stream, bytes) in hostile() {
+        check(stream, &bytes);
+    }
+    // Long ones, where a factor shows.
+    let long = |head: &[u8], len: usize| {
+        let mut bytes = head.to_vec();
+        bytes.resize(len, 7);
+        bytes
+    };
+    check(Stream::ObjectDescriptors, &long(&[], 84 * 1000));
+    check(Stream::ReadReply, &long(&[0, 0, 0, 0, 0, 0, 16, 0], 0x10_0008));
+    check(Stream::ReadWriteReply, &long(&[0, 0, 0, 0, 0, 0, 16, 0], 0x10_0008));
+    check(Stream::WriteRequest, &long(&[1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 16, 0], 0x10_000C));
+    check(Stream::VariableValue, &long(&[], 2048));
+    check(Stream::VariableHandleRead, &long(&[1, 1, 1, 1, 0xFE, 1, 0, 0], 2048));
+    check(
+        Stream::VariableDescription,
+        &long(&[[1; 16].as_slice(), &[0xFA, 1, 0, 0]].concat(), 2048),
+    );
+}
+
+/// Views, walks and encoders never allocate, whatever the bytes.
+#[test]
+fn views_walks_and_encoders_allocate_nothing() {
+    for (stream, bytes) in hostile() {
+        let view = Subject::of(stream).view;
+        let mut buf = [0; 1024];
+        let (_, count) = measure(|| {
+            let _ = std::hint::black_box((view.encode)(&bytes, &mut buf));
+            let _ = std::hint::black_box(stream.walk(&bytes, |_| ()));
+        });
+        assert_eq!(count, 0, "{stream}: {bytes:x?}");
+    }
+}
+
+/// Nor do dispatch, the encoding of a request and the splitting of frames.
+#[test]
+fn dispatch_and_frames_allocate_nothing() {
+    for sample in CALLS {
+        let mut buf = [0; 1024];
+        let (_, count) = measure(|| {
+            let request = sample.call.dispatch().unwrap();
+            std::hint::black_box(request.encode(&mut buf).unwrap());
+        });
+        assert_eq!(count, 0, "{}", sample.slug);
+    }
+    let hostile = [0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0, 0];
+    let (_, count) = measure(|| {
+        let _ = std::hint::black_box(FrameRef::split(&hostile, u32::MAX));
+    });
+    assert_eq!(count, 0);
+}

@@ -1,0 +1,75 @@
+//! The feature `arbitrary` makes values that a stream can hold.
+
+#![cfg(feature = "arbitrary")]
+
+mod common;
+
+use ads_cnc::ads::*;
+use ads_cnc::*;
+use arbitrary::{Arbitrary, Unstructured};
+use common::check_value;
+use proptest::prelude::*;
+
+/// Makes a value of these bytes and holds it to the laws; empty bytes make one too.
+fn made<T>(bytes: &[u8]) -> T
+where
+    T: Encode + PartialEq + std::fmt::Debug + for<'a> Decode<'a> + for<'a> Arbitrary<'a>,
+{
+    let value = T::arbitrary(&mut Unstructured::new(bytes)).expect("bytes never run out");
+    check_value(&value);
+    value
+}
+
+macro_rules! each_stream {
+    ($bytes:expr => $( $value:ty )+) => { $( made::<$value>($bytes); )+ };
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..Default::default() })]
+
+    /// Values of all streams encode, whatever bytes they are made of.
+    #[test]
+    fn values_encode(bytes in prop::collection::vec(any::<u8>(), 0..4000)) {
+        each_stream! { &bytes =>
+            AmsTcpHeader AmsHeader ReadRequest ReadReply WriteRequest WriteReply
+            ReadWriteRequest ReadWriteReply ObjectCount Descriptor Descriptors
+            VariableKind VariableCount VariableIndexKind Description VariableName
+            Handle HandleRead Value
+        }
+    }
+}
+
+/// The makers reach what is rare on the wire: each end of a text, data or none, many items.
+#[test]
+fn values_vary() {
+    let mut seen = std::collections::BTreeSet::new();
+    for seed in 0..400_u32 {
+        // A full-period generator is random enough here.
+        let mut state = seed.wrapping_mul(2_654_435_761).wrapping_add(1);
+        let bytes: Vec<u8> = std::iter::repeat_with(|| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            state.to_be_bytes()[0]
+        })
+        .take(64 + seed as usize * 8)
+        .collect();
+        let variable: Description = made(&bytes);
+        seen.insert(match variable.name.tail {
+            None => "open name",
+            Some(tail) if tail.is_empty() => "one NUL",
+            Some(_) => "bytes behind the NUL",
+        });
+        seen.insert(match variable.dimensions.len() {
+            0 => "elementary",
+            1..=9 => "array",
+            _ => "more dimensions than any variable has",
+        });
+        let kind = made::<VariableKind>(&bytes).kind;
+        seen.insert(if kind.tail.is_none() { "no kind" } else { "kind" });
+        seen.insert(if made::<ReadReply>(&bytes).data.is_some() { "data" } else { "no data" });
+        seen.insert(match made::<Descriptors>(&bytes).as_ref().len() {
+            1 => "one descriptor",
+            _ => "descriptors",
+        });
+    }
+    assert_eq!(seen.len(), 12, "{seen:?}");
+}

@@ -1,0 +1,98 @@
+//! Calls as they reach a CNC, written by hand.
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::AmsPort;
+use ads_cnc::operation::{Call, Function, Service};
+
+/// A call of a function.
+pub(crate) struct CallSample {
+    pub(crate) slug: &'static str,
+    pub(crate) function: Function,
+    pub(crate) call: Call<'static>,
+}
+
+const fn read(slug: &'static str, function: Function, place: (u32, u32, u32)) -> CallSample {
+    sample(slug, function, 553, Service::Read, place, b"")
+}
+
+const fn variable(
+    slug: &'static str,
+    function: Function,
+    place: (u32, u32, u32),
+    data: &'static [u8],
+) -> CallSample {
+    sample(slug, function, 552, Service::ReadWrite, place, data)
+}
+
+const fn sample(
+    slug: &'static str,
+    function: Function,
+    port: u16,
+    service: Service,
+    (group, offset, read_length): (u32, u32, u32),
+    data: &'static [u8],
+) -> CallSample {
+    let call = Call {
+        port: AmsPort(port),
+        service,
+        index_group: IndexGroup::new(group),
+        index_offset: IndexOffset::new(offset),
+        read_length,
+        data,
+    };
+    CallSample { slug, function, call }
+}
+
+/// Each function at least once, logically and by index; where printed, as printed.
+pub(crate) const CALLS: &[CallSample] = &[
+    read("objects-of-channel-1", Function::CountObjects, (0x13_0101, 0, 4)),
+    read("objects-of-platform", Function::CountObjects, (0x13_0100, 0, 4)),
+    read("objects-of-axis-2", Function::CountObjects, (0x13_0202, 0, 4)),
+    read("objects-by-index", Function::CountObjects, (0x3_0102, 0, 4)),
+    read("descriptor-printed", Function::ReadDescriptors, (0x13_0101, 0x10, 84)),
+    read("descriptors-two-by-index", Function::ReadDescriptors, (0x3_0101, 1, 168)),
+    read("descriptor-odd-length", Function::ReadDescriptors, (0x13_0101, 1, 100)),
+    variable("count-printed", Function::CountVariables, (0x12_2301, 0x44, 4), b"V.E\0"),
+    variable("count-all", Function::CountVariables, (0x12_2301, 0x44, 4), b"\0"),
+    variable("count-all-of-nothing", Function::CountVariables, (0x12_2301, 0x44, 4), b""),
+    variable(
+        "description-printed",
+        Function::DescribeByIndex,
+        (0x12_2301, 0x45, 2048),
+        b"\x02\0\0\0V.E\0",
+    ),
+    variable("handle-printed", Function::HandleByName, (0x12_2301, 0x46, 4), b"V.E.vartest\0"),
+    variable(
+        "read-by-handle-printed-element",
+        Function::ReadByHandle,
+        (0x12_2301, 0x47, 2048),
+        b"\x41\x23\x01\x20\x01\0\0\0\x04\0\0\0",
+    ),
+    variable(
+        "read-by-handle-printed-array",
+        Function::ReadByHandle,
+        (0x12_2301, 0x47, 2048),
+        b"\x34\x12\x00\x02\0\0\0\0",
+    ),
+    variable(
+        "read-by-name-printed-element",
+        Function::ReadByName,
+        (0x12_2301, 0x48, 2048),
+        b"V.E.Testvar[3]\0",
+    ),
+    variable(
+        "read-by-name-by-index-padded",
+        Function::ReadByName,
+        (0x2_2302, 0x48, 2048),
+        b"V.E.Testvar\0\0\0\0",
+    ),
+    // GEO answers for the classes too (ADR-10, assumed).
+    sample(
+        "handle-from-geo",
+        Function::HandleByName,
+        551,
+        Service::ReadWrite,
+        (0x12_2306, 0x46, 4),
+        b"V.A.ACT_POS.X\0",
+    ),
+];

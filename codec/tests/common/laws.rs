@@ -1,0 +1,122 @@
+//! What holds for any bytes, accepted or not.
+
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::{Call, Refusal, Service, Task};
+use ads_cnc::{Decode, Encode, Error, ErrorKind};
+
+use super::{Reading, Subject};
+
+/// What a buffer holds where nothing was written.
+const UNTOUCHED: u8 = 0x55;
+
+/// All readings and the walk agree, errors included, and what they accept they encode to the same
+/// bytes. Returns their common verdict.
+pub(crate) fn check(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
+    let subject = Subject::of(stream);
+    let verdict = walk(stream, bytes);
+    for reading in subject.readings() {
+        let len = (reading.len)(bytes);
+        assert_eq!(len.map(drop), verdict, "{stream}: {} and walk of {bytes:x?}", reading.name);
+        if let Ok(len) = len {
+            assert_eq!(len, bytes.len(), "{stream}: encoded_len of {bytes:x?}");
+            check_encode(reading, bytes);
+        }
+    }
+    #[cfg(feature = "alloc")]
+    {
+        let same = (subject.same)(bytes);
+        assert_eq!(same, verdict.map(|()| true), "{stream}: view and owned of {bytes:x?}");
+        let vec = (subject.to_vec)(bytes);
+        assert_eq!(vec, verdict.map(|()| bytes.to_vec()), "{stream}: to_vec of {bytes:x?}");
+    }
+    verdict
+}
+
+/// A value encodes to bytes that are read as that value, and that every reading accepts.
+#[cfg(feature = "alloc")]
+pub(crate) fn check_value<T>(value: &T)
+where
+    T: Encode + PartialEq + std::fmt::Debug + for<'a> Decode<'a>,
+{
+    let bytes = value.to_vec().unwrap_or_else(|error| panic!("{value:?}: {error}"));
+    assert_eq!(bytes.len(), value.encoded_len(), "{value:?}");
+    assert_eq!(T::decode(&bytes).as_ref(), Ok(value));
+    assert_eq!(check(T::STREAM, &bytes), Ok(()), "{value:?}");
+}
+
+/// Segments of accepted bytes tile them; an error lies inside the stream that it names.
+fn walk(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
+    let mut end = 0;
+    let verdict = stream.walk(bytes, |segment| {
+        assert_eq!(segment.offset as usize, end, "{stream}: {segment:?}");
+        assert_eq!(segment.bytes, &bytes[end..end + segment.bytes.len()]);
+        end += segment.bytes.len();
+    });
+    match verdict {
+        Ok(()) => assert_eq!(end, bytes.len(), "{stream}: bytes in no segment of {bytes:x?}"),
+        Err(error) => {
+            assert_eq!(error.field().stream(), stream);
+            assert!(error.offset() as usize <= bytes.len(), "{error}");
+        }
+    }
+    verdict
+}
+
+/// Encodes what `bytes` are read as: into too small a buffer nothing, else the same bytes and
+/// nothing behind them.
+fn check_encode(reading: Reading, bytes: &[u8]) {
+    let mut large = vec![UNTOUCHED; bytes.len() + 3];
+    assert_eq!((reading.encode)(bytes, &mut large), Ok(bytes.len()));
+    assert_eq!(large[..bytes.len()], *bytes);
+    assert_eq!(large[bytes.len()..], [UNTOUCHED; 3]);
+
+    let Some(less) = bytes.len().checked_sub(1) else { return };
+    let mut small = vec![UNTOUCHED; less];
+    let error = (reading.encode)(bytes, &mut small).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::BufferTooSmall);
+    let (expected, found) = (error.expected() as usize, error.found() as usize);
+    assert_eq!((expected, found), (bytes.len(), less));
+    assert!(small.iter().all(|&byte| byte == UNTOUCHED));
+}
+
+/// What a call is dispatched to encodes to the same call, and that is dispatched to the same.
+pub(crate) fn check_call(call: &Call<'_>) -> Result<(), Refusal> {
+    let request = call.dispatch()?;
+    let mut buf = vec![0; request.encoded_len()];
+    let again = request.encode(&mut buf).unwrap_or_else(|error| panic!("{request:?}: {error}"));
+
+    let address = |call: &Call<'_>| (call.service, call.index_group, call.index_offset);
+    assert_eq!(address(&again), address(call), "{request:?}");
+    assert_eq!(again.data, call.data, "{request:?}");
+    assert_eq!(again.dispatch(), Ok(request));
+
+    let spec = request.function().spec();
+    assert_eq!(spec.service, call.service);
+    assert_eq!(spec.request.is_none(), call.service == Service::Read);
+    // SDA and GEO stand in for each other.
+    let is_com = |call: &Call<'_>| Task::from_port(call.port) == Some(Task::Com);
+    assert_eq!(is_com(&again), is_com(call));
+    Ok(())
+}
+
+/// An error in the parts that tests compare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Fault {
+    pub(crate) kind: ErrorKind,
+    pub(crate) field: &'static str,
+    pub(crate) offset: usize,
+    pub(crate) expected: usize,
+    pub(crate) found: usize,
+}
+
+impl Fault {
+    pub(crate) fn of(error: Error) -> Self {
+        Self {
+            kind: error.kind(),
+            field: error.field().name(),
+            offset: error.offset() as usize,
+            expected: error.expected() as usize,
+            found: error.found() as usize,
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! What the tests of all streams share: samples, the readings of each stream, and the laws that
+//! hold for them. The fuzz targets hold streams to the same laws through this same file.
+
+#![allow(dead_code, unused_imports, reason = "no test uses all of it")]
+
+mod calls;
+mod laws;
+mod samples;
+mod samples_ads;
+mod subjects;
+
+pub(crate) use calls::{CALLS, CallSample};
+#[cfg(feature = "alloc")]
+pub(crate) use laws::check_value;
+pub(crate) use laws::{Fault, check, check_call};
+pub(crate) use samples::{SAMPLES, Sample, each_sample};
+pub(crate) use subjects::{NO_STREAM, Reading, SUBJECTS, Subject};

@@ -1,0 +1,102 @@
+//! The readings of each stream, as functions over bytes.
+
+use ads_cnc::ads::*;
+use ads_cnc::layout::Stream;
+use ads_cnc::*;
+
+/// One reading of a stream.
+#[derive(Clone, Copy)]
+pub(crate) struct Reading {
+    /// `view` or `owned`.
+    pub(crate) name: &'static str,
+    /// Decodes the bytes and asks how long they are when encoded.
+    pub(crate) len: fn(&[u8]) -> Result<usize, Error>,
+    /// Decodes the bytes and encodes them into the buffer; says how many it wrote.
+    pub(crate) encode: fn(&[u8], &mut [u8]) -> Result<usize, Error>,
+}
+
+/// A stream with its readings.
+pub(crate) struct Subject {
+    pub(crate) stream: Stream,
+    pub(crate) view: Reading,
+    #[cfg(feature = "alloc")]
+    pub(crate) owned: Reading,
+    /// Decodes both and compares them.
+    #[cfg(feature = "alloc")]
+    pub(crate) same: fn(&[u8]) -> Result<bool, Error>,
+    /// Decodes the bytes, owned, and encodes them into a vector.
+    #[cfg(feature = "alloc")]
+    pub(crate) to_vec: fn(&[u8]) -> Result<Vec<u8>, Error>,
+}
+
+impl Subject {
+    pub(crate) fn of(stream: Stream) -> &'static Self {
+        let found = SUBJECTS.iter().find(|subject| subject.stream == stream);
+        found.unwrap_or_else(|| panic!("{stream} has no readings"))
+    }
+
+    pub(crate) fn readings(&self) -> impl Iterator<Item = Reading> {
+        #[cfg(feature = "alloc")]
+        return [self.view, self.owned].into_iter();
+        #[cfg(not(feature = "alloc"))]
+        return [self.view].into_iter();
+    }
+}
+
+/// Tables that errors of addresses and texts refer to; nothing decodes them.
+pub(crate) const NO_STREAM: [Stream; 3] = [Stream::IndexGroup, Stream::IndexOffset, Stream::Text];
+
+macro_rules! reading {
+    ($name:literal, $reading:ty) => {
+        Reading {
+            name: $name,
+            len: |bytes| Ok(<$reading>::decode(bytes)?.encoded_len()),
+            encode: |bytes, buf| Ok(<$reading>::decode(bytes)?.encode(buf)?.len()),
+        }
+    };
+}
+
+macro_rules! subjects {
+    ($( $stream:ident: $view:ty $( , $owned:ty )?; )+) => { &[$( Subject {
+        stream: Stream::$stream,
+        view: reading!("view", $view),
+        #[cfg(feature = "alloc")]
+        owned: subjects!(@owned $view $( , $owned )?),
+        #[cfg(feature = "alloc")]
+        same: subjects!(@same $view $( , $owned )?),
+        #[cfg(feature = "alloc")]
+        to_vec: subjects!(@to_vec $view $( , $owned )?),
+    }, )+] };
+    // A stream of fixed length that holds no text: one type reads and owns it.
+    (@owned $both:ty) => { reading!("owned", $both) };
+    (@owned $view:ty, $owned:ty) => { reading!("owned", $owned) };
+    (@same $both:ty) => { |bytes| <$both>::decode(bytes).map(|_| true) };
+    (@same $view:ty, $owned:ty) => {
+        |bytes| Ok(<$owned>::decode(bytes)?.as_ref() == <$view>::decode(bytes)?)
+    };
+    (@to_vec $both:ty) => { |bytes| <$both>::decode(bytes)?.to_vec() };
+    (@to_vec $view:ty, $owned:ty) => { |bytes| <$owned>::decode(bytes)?.to_vec() };
+}
+
+/// All streams. Fuzz inputs name a stream by its place here: add at the end only.
+pub(crate) static SUBJECTS: &[Subject] = subjects! {
+    AmsTcpHeader: AmsTcpHeader;
+    AmsHeader: AmsHeader;
+    ReadRequest: ReadRequest;
+    ReadReply: ReadReplyRef<'_>, ReadReply;
+    WriteRequest: WriteRequestRef<'_>, WriteRequest;
+    WriteReply: WriteReply;
+    ReadWriteRequest: ReadWriteRequestRef<'_>, ReadWriteRequest;
+    ReadWriteReply: ReadWriteReplyRef<'_>, ReadWriteReply;
+    ObjectCount: ObjectCount;
+    ObjectDescriptor: DescriptorRef<'_>, Descriptor;
+    ObjectDescriptors: DescriptorsRef<'_>, Descriptors;
+    VariableKind: VariableKindRef<'_>, VariableKind;
+    VariableCount: VariableCount;
+    VariableIndexKind: VariableIndexKindRef<'_>, VariableIndexKind;
+    VariableDescription: DescriptionRef<'_>, Description;
+    VariableName: VariableNameRef<'_>, VariableName;
+    VariableHandle: Handle;
+    VariableHandleRead: HandleReadRef<'_>, HandleRead;
+    VariableValue: ValueRef<'_>, Value;
+};

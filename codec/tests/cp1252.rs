@@ -1,0 +1,70 @@
+//! Code page 1252 (GEN-3), judged by another implementation of it.
+
+use ads_cnc::CncStr;
+use ads_cnc::text::{char_to_cp1252, cp1252_to_char};
+use encoding_rs::WINDOWS_1252;
+
+/// Every byte is the character that encoding_rs says.
+#[test]
+fn bytes_decode_as_elsewhere() {
+    for byte in 0..=u8::MAX {
+        let bytes = [byte];
+        let (text, faulty) = WINDOWS_1252.decode_without_bom_handling(&bytes);
+        assert!(!faulty);
+        assert_eq!(text.chars().collect::<Vec<_>>(), [cp1252_to_char(byte)], "{byte:#x}");
+        assert_eq!(char_to_cp1252(cp1252_to_char(byte)), Some(byte));
+    }
+}
+
+/// Of all characters there are, those and only those have a byte that have one in encoding_rs.
+#[test]
+fn characters_encode_as_elsewhere() {
+    let mut encoder = WINDOWS_1252.new_encoder();
+    let mut with_byte = 0;
+    for character in '\0'..=char::MAX {
+        let mut utf8 = [0; 4];
+        let mut byte = [0; 1];
+        let text = character.encode_utf8(&mut utf8);
+        let (result, _, written) =
+            encoder.encode_from_utf8_without_replacement(text, &mut byte, true);
+        let theirs = match result {
+            encoding_rs::EncoderResult::InputEmpty => Some(byte[..written].to_vec()),
+            _ => None,
+        };
+        assert_eq!(char_to_cp1252(character).map(|byte| vec![byte]), theirs, "{character:?}");
+        with_byte += usize::from(theirs.is_some());
+    }
+    assert_eq!(with_byte, 256);
+}
+
+/// Text of any bytes but NUL comes back from its characters: the five bytes without one too.
+#[test]
+fn texts_come_back_from_their_characters() {
+    for byte in 1..=u8::MAX {
+        let bytes = [b'V', byte, b'x'];
+        let wire = CncStr::from_bytes(&bytes).unwrap();
+        let text = wire.to_string();
+        let typed = CncStr::new(&text).unwrap();
+        assert_eq!((typed, typed.len()), (wire, 3));
+        assert_eq!(typed.bytes().collect::<Vec<_>>(), bytes);
+        assert_eq!(wire, *text.as_str());
+    }
+    assert!(CncStr::from_bytes(b"V\0x").is_err());
+    assert!(CncStr::new("V\0x").is_err());
+}
+
+/// The owned text has the same bytes, order and look as the borrowed one.
+#[cfg(feature = "alloc")]
+#[test]
+fn owned_texts_are_the_borrowed_ones() {
+    use ads_cnc::CncString;
+
+    let all: Vec<u8> = (1..=u8::MAX).collect();
+    let wire = CncStr::from_bytes(&all).unwrap();
+    let owned = CncString::from(wire);
+    assert_eq!(owned.as_bytes(), all);
+    assert_eq!(owned.as_cnc_str(), wire);
+    assert_eq!(wire.to_string().parse(), Ok(owned.clone()));
+    assert_eq!(format!("{owned} {owned:?}"), format!("{wire} {wire:?}"));
+    assert!("V.E.Ω".parse::<CncString>().is_err());
+}

@@ -1,0 +1,176 @@
+//! Every sample cut at every length, and with one byte too many: a typed error that names field
+//! and offset, or the clause that allows it, identical from every reading.
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use ads_cnc::Error;
+use ads_cnc::ErrorKind::{self, *};
+use ads_cnc::layout::Stream;
+use common::{Fault, Sample, check, each_sample};
+
+/// What has to come of changed bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Expected {
+    /// The clause that allows it.
+    Accepted(&'static str),
+    Refused(Fault),
+}
+
+fn refused(
+    kind: ErrorKind,
+    field: &'static str,
+    offset: usize,
+    (expected, found): (usize, usize),
+) -> Expected {
+    Expected::Refused(Fault { kind, field, offset, expected, found })
+}
+
+const ADS_6: &str = "ADS-6: an error reply may stop behind the result";
+const COM_3: &str = "COM-3: so many descriptors as there are";
+const E_34: &str = "E-34: NULs may pad the text of a request";
+const VAR_1: &str = "VAR-1: no byte at all asks for all kinds";
+const VAR_4_OPEN: &str = "VAR-4: the name may end with the stream";
+const VAR_4_LONGER: &str = "VAR-4: the name may be longer";
+const VAR_4_BEHIND: &str = "VAR-4: bytes behind the name's NUL are kept";
+const VAR_14: &str = "VAR-14: a value has any length";
+const VAR_14_EMPTY: &str = "VAR-14: a value may be empty";
+
+/// All clauses that allow a sample to lose or gain bytes. Each has to be met below.
+const ALLOWED: [&str; 9] =
+    [ADS_6, COM_3, E_34, VAR_1, VAR_4_OPEN, VAR_4_LONGER, VAR_4_BEHIND, VAR_14, VAR_14_EMPTY];
+
+/// What a text does with a cut and with a byte more.
+#[derive(PartialEq)]
+enum Text {
+    /// Ends with a NUL, NULs may follow.
+    Terminated,
+    /// Ends with a NUL or with the stream, anything may follow.
+    Open,
+}
+
+/// Fields in which a cut or a byte more is not simply too little or too much.
+fn text_of(stream: Stream, field: &str) -> Option<Text> {
+    match (stream, field) {
+        (Stream::VariableKind | Stream::VariableIndexKind, "kind") => Some(Text::Terminated),
+        (Stream::VariableName, "name") => Some(Text::Terminated),
+        (Stream::VariableDescription, "name") => Some(Text::Open),
+        _ => None,
+    }
+}
+
+/// The first `cut` bytes of a sample, by the fields into which a person has cut it.
+fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
+    let (name, start, bytes) = sample
+        .places()
+        .find(|&(_, start, bytes)| (start..start + bytes.len()).contains(&cut))
+        .expect("a cut lies in a field");
+    let there = cut - start;
+    match (text_of(stream, name), stream, name) {
+        (Some(Text::Terminated), ..) => match there {
+            0 if stream == Stream::VariableKind => Expected::Accepted(VAR_1),
+            _ if bytes[..there].contains(&0) => Expected::Accepted(E_34),
+            _ => refused(MissingNul, name, start, (256, there)),
+        },
+        (Some(Text::Open), ..) => match bytes[..there].contains(&0) {
+            _ if there == 0 => refused(Truncated, name, start, (1, 0)),
+            true => Expected::Accepted(VAR_4_BEHIND),
+            false => Expected::Accepted(VAR_4_OPEN),
+        },
+        (None, Stream::VariableValue, _) if cut == 0 => Expected::Accepted(VAR_14_EMPTY),
+        (None, Stream::VariableValue, _) => Expected::Accepted(VAR_14),
+        (None, Stream::ObjectDescriptors, "id") if there == 0 && cut > 0 => {
+            Expected::Accepted(COM_3)
+        }
+        (None, Stream::ReadReply | Stream::ReadWriteReply, "length")
+            if there == 0 && sample.fields[0].1 != [0; 4] =>
+        {
+            Expected::Accepted(ADS_6)
+        }
+        // Too few items are the fault of their number, which stands right before them.
+        (None, _, "dimensions" | "indices") => {
+            let of_items = |&(other, ..): &(&str, usize, &[u8])| other == name;
+            let (_, first, _) = sample.places().find(of_items).unwrap();
+            let count = sample.places().filter(of_items).count();
+            let counter = sample.places().find(|&(_, at, _)| at + 4 == first).unwrap();
+            refused(TooMany, counter.0, counter.1, ((cut - first) / 4, count))
+        }
+        _ => refused(Truncated, name, start, (bytes.len(), there)),
+    }
+}
+
+/// A sample and one byte more.
+fn expect_extra(stream: Stream, sample: &Sample, extra: u8) -> Expected {
+    let len = sample.bytes().len();
+    let last = sample.places().last();
+    let trailing = refused(Trailing, "stream", len, (len, len + 1));
+    match (stream, last) {
+        (Stream::VariableKind, None) if extra == 0 => Expected::Accepted(E_34),
+        (Stream::VariableKind, None) => refused(MissingNul, "kind", 0, (256, 1)),
+        (Stream::VariableValue, _) => Expected::Accepted(VAR_14),
+        (Stream::ObjectDescriptors, _) => refused(Truncated, "id", len, (4, 1)),
+        (Stream::ReadReply | Stream::ReadWriteReply, Some(("result", ..))) => {
+            refused(Truncated, "length", 4, (4, 1))
+        }
+        (_, Some((name, start, bytes))) => match text_of(stream, name) {
+            // The text fills the stream, or as much of it as a text may have.
+            Some(Text::Terminated) if bytes.len() == 256 => {
+                refused(TooLong, "stream", len, (len, len + 1))
+            }
+            Some(Text::Open) if bytes.len() == 256 => refused(TooLong, name, start, (256, 257)),
+            Some(Text::Terminated) if extra == 0 => Expected::Accepted(E_34),
+            Some(Text::Open) if bytes.contains(&0) => Expected::Accepted(VAR_4_BEHIND),
+            Some(Text::Open) => Expected::Accepted(VAR_4_LONGER),
+            _ => trailing,
+        },
+        (_, None) => trailing,
+    }
+}
+
+fn observed(verdict: Result<(), Error>, expected: Expected) -> Expected {
+    match (verdict, expected) {
+        (Ok(()), Expected::Accepted(_)) => expected,
+        (Ok(()), Expected::Refused(_)) => Expected::Accepted("no clause"),
+        (Err(error), _) => Expected::Refused(Fault::of(error)),
+    }
+}
+
+/// Every cut and every byte more is refused where and why it has to be, or allowed by a clause of
+/// the list; and no clause of the list is idle.
+#[test]
+fn every_cut_and_every_byte_more_has_one_outcome() {
+    let mut met = BTreeSet::new();
+    let mut judge = |stream, sample: &Sample, bytes: &[u8], expected: Expected| {
+        let verdict = check(stream, bytes);
+        assert_eq!(observed(verdict, expected), expected, "{stream} {}: {bytes:x?}", sample.slug);
+        if let Expected::Accepted(clause) = expected {
+            met.insert(clause);
+        }
+    };
+    for (stream, sample) in each_sample() {
+        let bytes = sample.bytes();
+        for cut in 0..bytes.len() {
+            judge(stream, sample, &bytes[..cut], expect_cut(stream, sample, cut));
+        }
+        for extra in [0x00, 0xAA] {
+            let more: Vec<u8> = bytes.iter().copied().chain([extra]).collect();
+            judge(stream, sample, &more, expect_extra(stream, sample, extra));
+        }
+    }
+    assert_eq!(met, BTreeSet::from(ALLOWED));
+}
+
+/// Bytes other than NULs behind a request's NUL are trailing, wherever they begin (E-34).
+#[test]
+fn text_behind_the_nul_of_a_request_is_trailing() {
+    for (stream, bytes, end) in [
+        (Stream::VariableName, &b"V.E.a\0b\0"[..], 6),
+        (Stream::VariableName, b"V.E.a\0\0\0b", 8),
+        (Stream::VariableKind, b"\0V.E\0", 1),
+        (Stream::VariableIndexKind, b"\x02\0\0\0V.E\0V", 8),
+    ] {
+        let expected = refused(Trailing, "stream", end, (end, bytes.len()));
+        assert_eq!(observed(check(stream, bytes), expected), expected);
+    }
+}

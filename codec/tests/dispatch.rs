@@ -1,0 +1,232 @@
+//! From a client's operation over the wire to a server's request, and what is refused on the way.
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use ads_cnc::address::{Channel, IndexGroup, IndexOffset, PlatformAxis};
+use ads_cnc::ads::{AdsError, AmsPort};
+use ads_cnc::operation::*;
+use ads_cnc::text::cp1252_to_char;
+use ads_cnc::{Encode as _, ErrorKind, Handle, Kind, Numbers};
+use common::{CALLS, check_call};
+use proptest::prelude::*;
+
+/// Each call reaches the function that a person says, and encodes to itself; every function is
+/// reached.
+#[test]
+fn calls_reach_their_functions() {
+    let mut reached = BTreeSet::new();
+    for sample in CALLS {
+        let request = sample.call.dispatch();
+        assert_eq!(
+            request.map(|request| request.function()),
+            Ok(sample.function),
+            "{}",
+            sample.slug
+        );
+        assert_eq!(check_call(&sample.call), Ok(()), "{}", sample.slug);
+        reached.insert(sample.function);
+    }
+    assert_eq!(reached, Function::ALL.iter().copied().collect());
+}
+
+fn refusal(change: impl FnOnce(&mut Call<'_>)) -> Refusal {
+    let sample = CALLS.iter().find(|sample| sample.slug == "handle-printed").unwrap();
+    let mut call = sample.call;
+    change(&mut call);
+    call.dispatch().unwrap_err()
+}
+
+/// A call that is wrong in one thing is refused for that, with the number that is sent back.
+#[test]
+fn one_fault_is_refused_for_what_it_is() {
+    let group = IndexGroup::new;
+    let offset = IndexOffset::new;
+    let cases = [
+        (refusal(|call| call.port = AmsPort(851)), Refusal::Port(AmsPort(851)), 0x6),
+        // COM answers for no class, SDA for no objects.
+        (refusal(|call| call.port = AmsPort::COM), Refusal::Group(group(0x12_2301)), 0x702),
+        (
+            refusal(|call| call.index_group = group(0x13_0101)),
+            Refusal::Group(group(0x13_0101)),
+            0x702,
+        ),
+        (
+            refusal(|call| call.index_group = group(0x12_2300)),
+            Refusal::Group(group(0x12_2300)),
+            0x702,
+        ),
+        (
+            refusal(|call| call.index_group = group(0x12_2401)),
+            Refusal::Group(group(0x12_2401)),
+            0x702,
+        ),
+        (refusal(|call| call.index_group = group(0xF005)), Refusal::Group(group(0xF005)), 0x702),
+        (refusal(|call| call.index_offset = offset(0x4D)), Refusal::Offset(offset(0x4D)), 0x703),
+        (
+            refusal(|call| call.index_offset = offset(0x1_0046)),
+            Refusal::Offset(offset(0x1_0046)),
+            0x703,
+        ),
+        (
+            refusal(|call| call.service = Service::Write),
+            Refusal::Service(Service::ReadWrite, Service::Write),
+            0x701,
+        ),
+    ];
+    for (refused, wanted, number) in cases {
+        assert_eq!((refused, refused.ads_error()), (wanted, AdsError(number)));
+    }
+    let Refusal::Stream(error) = refusal(|call| call.data = b"V.E.vartest") else { panic!() };
+    assert_eq!((error.kind(), error.field().name()), (ErrorKind::MissingNul, "name"));
+    assert_eq!(Refusal::Stream(error).ads_error(), AdsError::INVALID_SIZE);
+}
+
+/// COM-3: a read that leaves no room for one descriptor is refused by its length; any other asks
+/// for as many as it is a multiple of, or for one.
+#[test]
+fn read_lengths_of_descriptors() {
+    let sample = CALLS.iter().find(|sample| sample.slug == "descriptor-printed").unwrap();
+    for (read_length, count) in [
+        (0, None),
+        (83, None),
+        (84, Some(1)),
+        (85, Some(1)),
+        (167, Some(1)),
+        (168, Some(2)),
+        (420, Some(5)),
+    ] {
+        let call = Call { read_length, ..sample.call };
+        match (call.dispatch(), count) {
+            (Ok(Request::ReadDescriptors(read)), Some(count)) => {
+                assert_eq!((read.count(), read.first()), (count, 0x10));
+            }
+            (Err(refusal), None) => assert_eq!(refusal.ads_error(), AdsError::INVALID_SIZE),
+            (other, _) => panic!("{read_length}: {other:?}"),
+        }
+    }
+}
+
+/// What a client means reaches the server as it was meant, and encodes to the same call.
+fn check_operation<'a, O: Operation + Into<Request<'a>>>(operation: O) {
+    let (group, offset) = (operation.index_group(), operation.index_offset());
+    let (length, len) = (operation.read_length(), operation.encoded_len());
+    let meant: Request<'_> = operation.into();
+    assert_eq!(meant.function(), O::FUNCTION);
+
+    let mut buf = vec![0; len];
+    let call = meant.encode(&mut buf).unwrap();
+    assert_eq!((call.index_group, call.index_offset, call.read_length), (group, offset, length));
+    assert_eq!(call.data.len(), len);
+    assert_eq!(call.dispatch(), Ok(meant));
+    assert_eq!(check_call(&call), Ok(()));
+    if let Some(less) = len.checked_sub(1) {
+        let mut small = vec![0x55; less];
+        assert_eq!(meant.encode(&mut small).unwrap_err().kind(), ErrorKind::BufferTooSmall);
+        assert!(small.iter().all(|&byte| byte == 0x55));
+    }
+}
+
+fn channel() -> impl Strategy<Value = Channel> {
+    (1..=255_u32, any::<bool>()).prop_map(|(number, logical)| {
+        let channel = if logical { Channel::new(number) } else { Channel::by_index(number) };
+        channel.expect("in range")
+    })
+}
+
+/// Text of at most 255 characters, in UTF-8.
+fn text() -> impl Strategy<Value = String> {
+    prop::collection::vec((1..=u8::MAX).prop_map(cp1252_to_char), 0..=255)
+        .prop_map(|characters| characters.into_iter().collect())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..Default::default() })]
+
+    /// dispatch(encode(op)) = op: the functions of the COM task, of each kind of list.
+    #[test]
+    fn operations_on_objects(
+        channel in channel(),
+        axis in (1..=255_u32).prop_map(|place| PlatformAxis::new(place).expect("in range")),
+        first in 1..=u32::MAX,
+        count in 1..=ReadDescriptors::COUNT_MAX,
+    ) {
+        for list in [ObjectList::PLATFORM, channel.into(), axis.into()] {
+            check_operation(CountObjects::new(list));
+            check_operation(ReadDescriptors::new(list, first, count).unwrap());
+        }
+    }
+
+    /// dispatch(encode(op)) = op: the functions of the channel interface, by number and by rank.
+    #[test]
+    fn operations_on_variables(
+        channel in channel(),
+        text in text(),
+        number in any::<u32>(),
+        indices in prop::collection::vec(any::<u32>(), 0..=510),
+    ) {
+        let kind = Kind::new(&text).unwrap();
+        check_operation(CountVariables::new(channel, kind));
+        check_operation(DescribeByIndex::new(channel, number, kind));
+        check_operation(HandleByName::new(channel, &text).unwrap());
+        let indices = Numbers::from(&indices[..]);
+        check_operation(ReadByHandle::new(channel, Handle(number), indices));
+        check_operation(ReadByName::new(channel, &text).unwrap());
+    }
+
+    /// Whatever is called: a refusal, or a request that encodes to the same call. Near the calls
+    /// there are, so that some are accepted.
+    #[test]
+    fn any_call(
+        sample in prop::sample::select(CALLS.iter().map(|sample| sample.call).collect::<Vec<_>>()),
+        port in 550..=554_u16,
+        group in prop::option::of((0..24_u32, 0..24_u32)),
+        offset in prop::option::of(0..0x50_u32),
+        read_length in prop::option::of(any::<u32>()),
+        data in prop::option::of(prop::collection::vec(any::<u8>(), 0..24)),
+    ) {
+        let mut call = sample;
+        call.port = AmsPort(port);
+        if let Some((one, two)) = group {
+            call.index_group = IndexGroup::new(call.index_group.get() ^ (1 << one) ^ (1 << two));
+        }
+        call.index_offset = offset.map_or(call.index_offset, IndexOffset::new);
+        call.read_length = read_length.unwrap_or(call.read_length);
+        if let Some(data) = data.as_deref().filter(|_| call.service != Service::Read) {
+            call.data = data;
+        }
+        let _ = check_call(&call);
+    }
+}
+
+/// A reply is read as what the function answers, and no longer than was asked for.
+#[test]
+fn replies_are_those_of_the_function() {
+    let reply = |slug: &str, data: &[u8]| {
+        let sample = CALLS.iter().find(|sample| sample.slug == slug).unwrap();
+        let request = sample.call.dispatch().unwrap();
+        let mut buf = vec![0; data.len()];
+        request.decode_reply(data).map(|reply| {
+            assert_eq!(reply.encode(&mut buf), Ok(data));
+            assert_eq!(reply.encoded_len(), data.len());
+        })
+    };
+    for (slug, len) in [
+        ("objects-of-channel-1", 4),
+        ("descriptor-printed", 84),
+        ("descriptors-two-by-index", 84),
+        ("descriptors-two-by-index", 168),
+        ("count-printed", 4),
+        ("description-printed", 21),
+        ("handle-printed", 4),
+        ("read-by-handle-printed-array", 20),
+        ("read-by-name-printed-element", 0),
+    ] {
+        assert_eq!(reply(slug, &vec![0; len]), Ok(()), "{slug} {len}");
+    }
+    let error = reply("descriptor-printed", &[0; 168]).unwrap_err();
+    assert_eq!((error.kind(), error.expected(), error.found()), (ErrorKind::TooMany, 1, 2));
+    assert!(reply("count-printed", &[0; 5]).is_err());
+    assert!(reply("description-printed", &[0; 20]).is_err());
+}

@@ -1,0 +1,134 @@
+//! Frames on a TCP stream, however their bytes arrive (ADS-5).
+
+mod common;
+
+use ads_cnc::ErrorKind::{self, *};
+use ads_cnc::ads::{AmsHeader, FrameRef};
+use ads_cnc::{Decode as _, Encode as _};
+use common::{Fault, SAMPLES};
+use proptest::prelude::*;
+
+/// Header of the Read sample: 12 bytes follow it.
+fn header() -> [u8; 32] {
+    let (_, samples) = SAMPLES.iter().find(|(stream, _)| *stream == AmsHeader::STREAM).unwrap();
+    samples[0].bytes().try_into().unwrap()
+}
+
+/// A frame by hand: both headers and data, lengths right.
+fn frame(data: &[u8]) -> Vec<u8> {
+    let length = |more: usize| u32::try_from(data.len() + more).unwrap().to_le_bytes();
+    let mut header = header();
+    header[20..24].copy_from_slice(&length(0));
+    [&[0, 0][..], &length(32), &header, data].concat()
+}
+
+/// A frame comes out when its last byte is there, not before, and comes back byte for byte.
+#[test]
+fn a_frame_comes_out_when_it_is_whole() {
+    let bytes = frame(b"twelve bytes");
+    for cut in 0..bytes.len() {
+        assert_eq!(FrameRef::split(&bytes[..cut], 12), Ok(None), "{cut}");
+    }
+    let (frame, len) = FrameRef::split(&bytes, 12).unwrap().unwrap();
+    assert_eq!((frame.header(), len), (AmsHeader::decode(&header()).unwrap(), 50));
+    assert_eq!(frame.data(), b"twelve bytes");
+    let mut buf = [0; 50];
+    assert_eq!(frame.encode(&mut buf), Ok(&bytes[..]));
+    assert_eq!(frame.encode(&mut [0; 49]).unwrap_err().kind(), BufferTooSmall);
+    assert_eq!(FrameRef::new(frame.header(), frame.data()), Ok(frame));
+}
+
+fn fault(kind: ErrorKind, field: &'static str, offset: usize, numbers: (usize, usize)) -> Fault {
+    let (expected, found) = numbers;
+    Fault { kind, field, offset, expected, found }
+}
+
+/// A fault shows with its last byte, and stays whatever follows.
+#[test]
+fn a_fault_shows_as_soon_as_its_bytes_are_there() {
+    for (at, byte, seen, wanted) in [
+        (1, 0x10, 6, fault(Mismatch, "reserved", 0, (0, 0x1000))),
+        (2, 31, 6, fault(OutOfRange, "length", 2, (32, 31))),
+        (2, 32 + 13, 6, fault(TooLong, "length", 2, (32 + 12, 32 + 13))),
+        (5, 0xFF, 6, fault(TooLong, "length", 2, (32 + 12, 0xFF00_002C))),
+        (26, 11, 38, fault(Mismatch, "data_length", 26, (12, 11))),
+        (29, 1, 38, fault(Mismatch, "data_length", 26, (12, 0x0100_000C))),
+    ] {
+        let mut bytes = frame(b"twelve bytes");
+        bytes[at] = byte;
+        for cut in 0..bytes.len() {
+            let split = FrameRef::split(&bytes[..cut], 12).map_err(Fault::of);
+            let now = if cut < seen { Ok(None) } else { Err(wanted) };
+            assert_eq!(split, now, "byte {at}, cut {cut}");
+        }
+    }
+}
+
+/// A length that overflows with the header's is no short frame.
+#[test]
+fn lengths_do_not_wrap() {
+    let mut bytes = frame(b"");
+    bytes[2..6].copy_from_slice(&[0xFF; 4]);
+    let error = FrameRef::split(&bytes, u32::MAX).unwrap_err();
+    // The length would be right if the two headers' lengths were added in 32 bits.
+    assert_eq!((error.kind(), error.offset()), (Mismatch, 26));
+}
+
+fn config() -> ProptestConfig {
+    ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    /// Frames one behind the other come out one by one, wherever the stream is cut.
+    #[test]
+    fn frames_come_out_in_order(
+        datas in prop::collection::vec(prop::collection::vec(any::<u8>(), 0..40), 1..5),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        let frames: Vec<_> = datas.iter().map(|data| frame(data)).collect();
+        let bytes = frames.concat();
+        let mut rest = &bytes[..cut.index(bytes.len() + 1)];
+        for whole in &frames {
+            match FrameRef::split(rest, 64).unwrap() {
+                Some((frame, len)) => {
+                    prop_assert_eq!(&rest[..len], &whole[..]);
+                    prop_assert_eq!(frame.data(), &whole[38..]);
+                    rest = &rest[len..];
+                }
+                None => {
+                    prop_assert!(rest.len() < whole.len());
+                    break;
+                }
+            }
+        }
+        prop_assert!(rest.is_empty() || whole_is_missing(rest, &frames));
+    }
+
+    /// More bytes never take back what fewer have shown, be it a frame or a fault.
+    #[test]
+    fn verdicts_stay(
+        mut bytes in prop::collection::vec(any::<u8>(), 0..60).prop_map(|data| frame(&data)),
+        change in prop::option::of((0..38usize, any::<u8>())),
+    ) {
+        if let Some((at, byte)) = change {
+            bytes[at] = byte;
+        }
+        let mut verdict = Ok(None);
+        for cut in 0..=bytes.len() {
+            let now = FrameRef::split(&bytes[..cut], 64);
+            prop_assert!(verdict == Ok(None) || verdict == now);
+            if let Ok(Some((frame, len))) = now {
+                let mut buf = [0; 128];
+                prop_assert_eq!(frame.encode(&mut buf), Ok(&bytes[..len]));
+            }
+            verdict = now;
+        }
+    }
+}
+
+/// What is left is the beginning of one of the frames.
+fn whole_is_missing(rest: &[u8], frames: &[Vec<u8>]) -> bool {
+    frames.iter().any(|whole| rest.len() < whole.len() && whole.starts_with(rest))
+}

@@ -1,0 +1,139 @@
+//! Limits: the last that is allowed, the first that is not, when decoding and when encoding.
+
+mod common;
+
+use ads_cnc::ErrorKind::{self, *};
+use ads_cnc::ads::{AdsError, ReadReplyRef};
+use ads_cnc::layout::Stream;
+use ads_cnc::limits::*;
+use ads_cnc::*;
+use common::{Fault, check};
+
+fn fault(kind: ErrorKind, field: &'static str, offset: usize, numbers: (usize, usize)) -> Fault {
+    let (expected, found) = numbers;
+    Fault { kind, field, offset, expected, found }
+}
+
+/// The first byte over a stream's limit is refused, and the last one within is not.
+#[test]
+fn streams_are_as_long_as_they_may_be_and_no_longer() {
+    let filled = |parts: &[&[u8]], len: usize| {
+        let mut bytes = parts.concat();
+        bytes.resize(len, 7);
+        bytes
+    };
+    let data_length = [0, 0, 0x40, 0];
+    for (stream, bytes) in [
+        (Stream::VariableKind, filled(&[b"V.E", &[0; 253]], 256)),
+        (Stream::VariableName, filled(&[&[b'V'; 255], b"\0"], 256)),
+        (Stream::VariableIndexKind, filled(&[&[b'V'; 259], b"\0"], 260)),
+        (Stream::VariableValue, filled(&[], 2048)),
+        // 510 indices; 506 dimensions and a name of 4 bytes; 443 and a name of 256.
+        (Stream::VariableHandleRead, filled(&[&[1; 4], &[0xFE, 1, 0, 0]], 2048)),
+        (Stream::VariableDescription, filled(&[&[1; 16], &[0xFA, 1, 0, 0]], 2048)),
+        (Stream::VariableDescription, filled(&[&[1; 16], &[0xBB, 1, 0, 0]], 2048)),
+        (Stream::WriteRequest, filled(&[&[1; 8], &data_length], ADS_DATA_MAX + 12)),
+        (Stream::ReadWriteRequest, filled(&[&[1; 12], &data_length], ADS_DATA_MAX + 16)),
+        (Stream::ReadReply, filled(&[&[0; 4], &data_length], ADS_DATA_MAX + 8)),
+        (Stream::ReadWriteReply, filled(&[&[0; 4], &data_length], ADS_DATA_MAX + 8)),
+    ] {
+        let max = bytes.len();
+        assert_eq!(check(stream, &bytes), Ok(()));
+        let more = check(stream, &filled(&[&bytes], max + 1)).unwrap_err();
+        assert_eq!(Fault::of(more), fault(TooLong, "stream", max, (max, max + 1)));
+    }
+}
+
+/// A count that does not fit is refused at the count, with what would fit (VAR-24).
+#[test]
+fn counts_that_do_not_fit_are_refused_at_the_count() {
+    let counted = |before: usize, count: u32, rest: usize| {
+        [&vec![1; before][..], &count.to_le_bytes(), &vec![7; rest]].concat()
+    };
+    for (stream, count, rest, fits) in [
+        // 507 dimensions would fill the stream and leave no byte to the name.
+        (Stream::VariableDescription, 507, 2028, 506),
+        (Stream::VariableDescription, 3, 11, 2),
+        (Stream::VariableDescription, u32::MAX, 300, 75),
+        (Stream::VariableHandleRead, 511, 2040, 510),
+        (Stream::VariableHandleRead, 1, 0, 0),
+        // Four times this is 4, in 32 bits.
+        (Stream::VariableHandleRead, 0x4000_0001, 4, 1),
+    ] {
+        let (before, counter) = match stream {
+            Stream::VariableDescription => (16, "dimension_count"),
+            _ => (4, "index_count"),
+        };
+        let error = check(stream, &counted(before, count, rest)).unwrap_err();
+        let wanted = fault(TooMany, counter, before, (fits, count as usize));
+        assert_eq!(Fault::of(error), wanted);
+    }
+}
+
+/// An encoder refuses what no decoder would accept, and writes nothing.
+#[test]
+fn encoders_refuse_what_decoders_would() {
+    const UNTOUCHED: [u8; 4096] = [0x55; 4096];
+    let refusal = |value: &dyn Encode| {
+        let mut buf = UNTOUCHED;
+        let error = value.encode(&mut buf).unwrap_err();
+        assert_eq!(buf, UNTOUCHED);
+        Fault::of(error)
+    };
+    let text = CncStr::from_bytes;
+    let (long, full) = ([b'V'; 256], [b'V'; 255]);
+    let numbers = [7; 511];
+
+    let name = |field| VariableNameRef { name: field };
+    let long_name = name(text(&long).unwrap().into());
+    assert_eq!(refusal(&long_name), fault(TooLong, "name", 0, (256, 257)));
+    let open = name(TextRef::with_tail(text(b"V.E").unwrap(), None));
+    assert_eq!(refusal(&open), fault(MissingNul, "name", 0, (256, 3)));
+    let behind = name(TextRef::with_tail(text(b"V.E").unwrap(), Some(b"\0V")));
+    assert_eq!(refusal(&behind), fault(Trailing, "stream", 5, (5, 6)));
+
+    let kind = Kind::from_field(TextRef::with_tail(text(b"V.E").unwrap(), None));
+    assert_eq!(refusal(&VariableKindRef { kind }), fault(MissingNul, "kind", 0, (256, 3)));
+    let indexed = VariableIndexKindRef { index: 0, kind };
+    assert_eq!(refusal(&indexed), fault(MissingNul, "kind", 4, (256, 3)));
+
+    let indices = HandleReadRef { handle: Handle(1), indices: Numbers::from(&numbers) };
+    assert_eq!(refusal(&indices), fault(TooMany, "index_count", 4, (510, 511)));
+
+    let description = |dimensions, name| DescriptionRef {
+        handle: Handle(1),
+        var_type: VariableType::SGN32,
+        access: VariableAccess::READ_ONLY,
+        size: 4,
+        dimensions: Numbers::from(dimensions),
+        name,
+    };
+    let longest = text(&full).unwrap().into();
+    let no_name = TextRef::with_tail(CncStr::EMPTY, None);
+    let too_long_name = text(&long).unwrap().into();
+    for (value, wanted) in [
+        (description(&numbers[..507], longest), fault(TooMany, "dimension_count", 16, (506, 507))),
+        (description(&numbers[..2], no_name), fault(Truncated, "name", 28, (1, 0))),
+        (description(&numbers[..2], too_long_name), fault(TooLong, "name", 28, (256, 257))),
+        (description(&numbers[..444], longest), fault(TooLong, "stream", 2048, (2048, 2052))),
+    ] {
+        assert_eq!(refusal(&value), wanted);
+    }
+    let success_without_data = ReadReplyRef { result: AdsError::NONE, data: None };
+    assert_eq!(refusal(&success_without_data), fault(Truncated, "length", 4, (4, 0)));
+    let value = ValueRef { bytes: &[0; 2049] };
+    assert_eq!(refusal(&value), fault(TooLong, "stream", 2048, (2048, 2049)));
+    let none = DescriptorsRef::decode(&[0; 84]).unwrap().slice(1, 1);
+    assert_eq!(refusal(&none), fault(Truncated, "id", 0, (4, 0)));
+}
+
+/// A descriptor's texts have 32 bytes, all of which may be used.
+#[test]
+fn descriptor_texts_have_32_bytes() {
+    let full = Descriptor::new(&"n".repeat(32), &"t".repeat(32)).unwrap();
+    assert_eq!((full.name().len(), full.type_name().len()), (32, 32));
+    let name = Descriptor::new(&"n".repeat(33), "BOOL").unwrap_err();
+    assert_eq!(Fault::of(name), fault(TooLong, "name", 20, (32, 33)));
+    let type_name = Descriptor::new("n", &"ß".repeat(33)).unwrap_err();
+    assert_eq!(Fault::of(type_name), fault(TooLong, "type", 52, (32, 33)));
+}

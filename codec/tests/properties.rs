@@ -1,0 +1,78 @@
+//! The laws of all streams over bytes: random ones, and samples with damage.
+
+mod common;
+
+use common::{SUBJECTS, check, each_sample};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::sample::{Index, select};
+
+/// Damage to bytes: at a place, by a byte.
+#[derive(Clone, Debug)]
+enum Damage {
+    Set(Index, u8),
+    Flip(Index, u8),
+    Insert(Index, u8),
+    Remove(Index),
+    Cut(Index),
+    Number(Index, u32),
+}
+
+fn damage() -> impl Strategy<Value = Damage> {
+    let at = any::<Index>;
+    // Numbers around what streams can hold, where counts and lengths go wrong.
+    let number = select(vec![0, 1, 2, 255, 256, 257, 506, 507, 510, 511, 0x4000_0001, u32::MAX]);
+    prop_oneof![
+        (at(), any::<u8>()).prop_map(|(at, byte)| Damage::Set(at, byte)),
+        (at(), 0..8_u8).prop_map(|(at, bit)| Damage::Flip(at, bit)),
+        (at(), select(vec![0, 1, b'V', 0xAA])).prop_map(|(at, byte)| Damage::Insert(at, byte)),
+        at().prop_map(Damage::Remove),
+        at().prop_map(Damage::Cut),
+        (at(), number).prop_map(|(at, number)| Damage::Number(at, number)),
+    ]
+}
+
+impl Damage {
+    fn inflict(&self, bytes: &mut Vec<u8>) {
+        let len = bytes.len();
+        match self {
+            Self::Insert(at, byte) => bytes.insert(at.index(len + 1), *byte),
+            Self::Cut(at) => bytes.truncate(at.index(len + 1)),
+            _ if len == 0 => {}
+            Self::Set(at, byte) => bytes[at.index(len)] = *byte,
+            Self::Flip(at, bit) => bytes[at.index(len)] ^= 1 << bit,
+            Self::Remove(at) => drop(bytes.remove(at.index(len))),
+            // At a multiple of four, where numbers stand.
+            Self::Number(at, number) => {
+                let at = at.index(len) / 4 * 4;
+                let le = number.to_le_bytes();
+                bytes.iter_mut().skip(at).zip(le).for_each(|(byte, new)| *byte = new);
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..Default::default() })]
+
+    /// Random bytes: view, owned and walk agree, and what they accept comes back.
+    #[test]
+    fn any_bytes(
+        subject in 0..SUBJECTS.len(),
+        bytes in vec(prop_oneof![Just(0), 0..4_u8, any::<u8>()], 0..120),
+    ) {
+        let _ = check(SUBJECTS[subject].stream, &bytes);
+    }
+
+    /// Damaged samples: the same, near what is valid.
+    #[test]
+    fn damaged_samples(
+        (stream, mut bytes) in select(
+            each_sample().map(|(stream, sample)| (stream, sample.bytes())).collect::<Vec<_>>()
+        ),
+        damages in vec(damage(), 1..5),
+    ) {
+        damages.iter().for_each(|damage| damage.inflict(&mut bytes));
+        let _ = check(stream, &bytes);
+    }
+}

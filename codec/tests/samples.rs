@@ -1,0 +1,57 @@
+//! The samples: all streams have some, and the field tables cut them as a person did.
+
+mod common;
+
+use std::collections::HashSet;
+
+use ads_cnc::layout::Stream;
+use common::{NO_STREAM, SAMPLES, SUBJECTS, check, each_sample};
+
+/// A new stream cannot be added without samples and readings, once each.
+#[test]
+fn no_stream_is_forgotten() {
+    let sampled: Vec<Stream> = SAMPLES.iter().map(|&(stream, _)| stream).collect();
+    let read: Vec<Stream> = SUBJECTS.iter().map(|subject| subject.stream).collect();
+    for &stream in Stream::ALL {
+        let times = |list: &[Stream]| list.iter().filter(|&&one| one == stream).count();
+        let wanted = usize::from(!NO_STREAM.contains(&stream));
+        assert_eq!((times(&sampled), times(&read)), (wanted, wanted), "{stream}");
+    }
+    assert!(SAMPLES.iter().all(|(_, samples)| !samples.is_empty()));
+}
+
+/// No two samples of a stream share a slug or their bytes.
+#[test]
+fn samples_differ() {
+    for (stream, samples) in SAMPLES {
+        let slugs: HashSet<_> = samples.iter().map(|sample| sample.slug).collect();
+        let bytes: HashSet<_> = samples.iter().map(|sample| sample.bytes()).collect();
+        assert_eq!((slugs.len(), bytes.len()), (samples.len(), samples.len()), "{stream}");
+    }
+}
+
+/// Every sample is accepted and comes back byte for byte from each reading.
+#[test]
+fn samples_are_accepted_and_come_back() {
+    for (stream, sample) in each_sample() {
+        assert_eq!(check(stream, &sample.bytes()), Ok(()), "{stream} {}", sample.slug);
+    }
+}
+
+/// A walk finds the fields where a person, not the tables, has put them.
+#[test]
+fn walks_find_the_fields_of_the_samples() {
+    for (stream, sample) in each_sample() {
+        let bytes = sample.bytes();
+        let mut found = Vec::new();
+        stream
+            .walk(&bytes, |segment| {
+                if !segment.bytes.is_empty() {
+                    found.push((segment.field.name(), segment.offset as usize, segment.bytes));
+                }
+            })
+            .unwrap();
+        let wanted: Vec<_> = sample.places().collect();
+        assert_eq!(found, wanted, "{stream} {}", sample.slug);
+    }
+}

@@ -1,0 +1,214 @@
+//! The field tables: what the documentation shows of them, and that they fit the streams.
+
+mod common;
+
+use std::collections::HashSet;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use ads_cnc::layout::{FieldSpec, Layout, Size, Stream};
+use ads_cnc::limits::*;
+use common::{NO_STREAM, each_sample};
+
+fn streams() -> impl Iterator<Item = Stream> {
+    Stream::ALL.iter().copied().filter(|stream| !NO_STREAM.contains(stream))
+}
+
+/// `codec/doc` shows the tables as they are.
+#[test]
+fn documentation_shows_the_tables() {
+    let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("doc");
+    let write = std::env::var_os("ADS_CNC_WRITE_TABLES").is_some();
+    let mut stale = Vec::new();
+    for stream in streams() {
+        let path = dir.join(format!("{stream}.md"));
+        let table = render(stream);
+        if write {
+            std::fs::write(&path, &table).unwrap();
+        } else if std::fs::read_to_string(&path).ok().as_deref() != Some(&table) {
+            stale.push(path);
+        }
+    }
+    assert!(stale.is_empty(), "run with ADS_CNC_WRITE_TABLES=1 to rewrite {stale:#?}");
+
+    let files = std::fs::read_dir(dir).unwrap().count();
+    assert_eq!(files, streams().count(), "a table of no stream");
+}
+
+fn render(stream: Stream) -> String {
+    let layout = stream.layout();
+    let mut text = format!("{}; {}.\n\n", layout.title, length(layout));
+    if let Some(record) = record(stream) {
+        let of = record.layout().name;
+        writeln!(text, "One or more records, each laid out as `{of}` ({}).", layout.clause)
+            .unwrap();
+        return text;
+    }
+    text += "| offset | size | field | type | meaning | requirement |\n|---|---|---|---|---|---|\n";
+    for (place, row) in layout.fields.iter().enumerate() {
+        let counter = place.checked_sub(1).map(|before| &layout.fields[before]);
+        let offset = match row.per_item {
+            0 => row.offset.to_string(),
+            per_item => format!("{} + {per_item}{}", row.offset, letter(layout.fields)),
+        };
+        writeln!(
+            text,
+            "| {offset} | {} | `{}` | `{}` | {} | {} |",
+            size(row.size, counter),
+            row.name,
+            row.ty,
+            row.meaning,
+            row.clause
+        )
+        .unwrap();
+    }
+    text
+}
+
+fn length(layout: &Layout) -> String {
+    match (layout.is_fixed(), layout.max) {
+        (true, max) => format!("{max} bytes"),
+        (false, max) => format!("at most {max} bytes"),
+    }
+}
+
+/// The stream of one record of a stream of records.
+fn record(stream: Stream) -> Option<Stream> {
+    let fields = stream.layout().fields;
+    stream.layout().repeats.then(|| {
+        let found = streams().find(|one| !one.layout().repeats && one.layout().fields == fields);
+        found.expect("the record is a stream too")
+    })
+}
+
+fn size(size: Size, counter: Option<&FieldSpec>) -> String {
+    match (size, counter) {
+        (Size::Fixed(size) | Size::Padded(size), _) => size.to_string(),
+        (Size::FixedUnlessError(size), Some(error)) => {
+            format!("{size}; the stream may end before it if `{}` is not 0", error.name)
+        }
+        (Size::Items { each: 1, max }, Some(counter)) => format!("`{}` ≤ {max}", counter.name),
+        (Size::Items { each, max }, Some(counter)) => {
+            let letter = letter(std::slice::from_ref(counter));
+            format!("{each} × {letter}, {letter} ≤ {max}")
+        }
+        (Size::Terminated { max, may_be_absent: true }, _) => format!("≤ {max} with NUL, or 0"),
+        (Size::Terminated { max, .. }, _) => format!("≤ {max} with NUL"),
+        (Size::Open { max } | Size::Rest { max }, _) => format!("≤ {max}"),
+        (other, _) => panic!("how is {other:?} shown?"),
+    }
+}
+
+/// The letter by which the manual calls a count: the meaning of the counter has it.
+fn letter(fields: &[FieldSpec]) -> &'static str {
+    let words = fields.iter().flat_map(|row| row.meaning.split(|c: char| !c.is_alphanumeric()));
+    words.into_iter().find(|word| ["m", "n"].contains(word)).expect("a letter for the count")
+}
+
+/// Where the table puts a field there the walk finds it, counted items included.
+#[test]
+fn offsets_are_where_walks_find_the_fields() {
+    for (stream, sample) in each_sample() {
+        let bytes = sample.bytes();
+        let mut items = 0;
+        stream
+            .walk(&bytes, |segment| {
+                let row = segment.field.spec().unwrap();
+                let each = match row.size {
+                    Size::Items { each, .. } => {
+                        items = segment.item + 1;
+                        each
+                    }
+                    _ => 0,
+                };
+                let record = segment.record * DESCRIPTOR_LEN as u32;
+                let table = row.offset + row.per_item * items + each * segment.item + record;
+                assert_eq!(segment.offset, table, "{stream} {}: {segment:?}", sample.slug);
+            })
+            .unwrap();
+    }
+}
+
+/// Fields of a fixed place follow each other without a gap (GEN-2).
+#[test]
+fn streams_are_packed() {
+    for stream in streams() {
+        let mut end = 0;
+        for row in stream.layout().fields {
+            assert_eq!(row.offset, end, "{stream}: {}", row.name);
+            if let Size::Fixed(size) | Size::FixedUnlessError(size) | Size::Padded(size) = row.size
+            {
+                end += size;
+            }
+        }
+    }
+}
+
+/// Requirement IDs have the form of the catalogue.
+#[test]
+fn requirements_are_ids() {
+    let is_id = |id: &str| {
+        id.split_once('-').is_some_and(|(area, number)| {
+            area.len() == 3
+                && area.bytes().all(|byte| byte.is_ascii_uppercase())
+                && !number.is_empty()
+                && number.bytes().all(|byte| byte.is_ascii_digit())
+        })
+    };
+    for layout in Stream::ALL.iter().map(|stream| stream.layout()) {
+        let ids = layout.fields.iter().map(|row| row.clause).chain([layout.clause]);
+        ids.for_each(|id| assert!(is_id(id), "{}: {id}", layout.name));
+    }
+}
+
+/// A name finds one stream and, in it, one field.
+#[test]
+fn names_are_unique() {
+    let names: HashSet<_> = Stream::ALL.iter().map(|stream| stream.layout().name).collect();
+    assert_eq!(names.len(), Stream::ALL.len());
+    for &stream in Stream::ALL {
+        assert_eq!(Stream::by_name(stream.layout().name), Some(stream));
+        let rows = stream.layout().fields;
+        let names: HashSet<_> = rows.iter().map(|row| row.name).collect();
+        assert_eq!(names.len(), rows.len(), "{stream}");
+    }
+}
+
+/// The named limits are the tables' numbers, and hang together as the clauses say.
+#[test]
+fn limits_are_those_of_the_tables() {
+    use Stream as S;
+    let data = |stream: Stream| stream.layout().fields.last().unwrap();
+    for (stream, max) in [
+        (S::AmsTcpHeader, AMS_TCP_HEADER_LEN),
+        (S::AmsHeader, AMS_HEADER_LEN),
+        (S::ReadReply, 8 + ADS_DATA_MAX),
+        (S::WriteRequest, 12 + ADS_DATA_MAX),
+        (S::ReadWriteRequest, 16 + ADS_DATA_MAX),
+        (S::ReadWriteReply, 8 + ADS_DATA_MAX),
+        (S::ObjectDescriptor, DESCRIPTOR_LEN),
+        (S::ObjectDescriptors, ADS_DATA_MAX),
+        (S::VariableKind, TEXT_MAX),
+        (S::VariableIndexKind, INDEX_KIND_MAX),
+        (S::VariableDescription, VARIABLE_MAX),
+        (S::VariableName, TEXT_MAX),
+        (S::VariableHandleRead, VARIABLE_MAX),
+        (S::VariableValue, VARIABLE_MAX),
+    ] {
+        assert_eq!(stream.layout().max as usize, max, "{stream}");
+        let limit = match data(stream).size {
+            Size::Items { each: 1, max } => (max as usize, ADS_DATA_MAX),
+            Size::Items { max, .. } => (max as usize, INDICES_MAX),
+            Size::Padded(size) => (size as usize, DESCRIPTOR_TEXT_LEN),
+            Size::Terminated { max, .. } | Size::Open { max } => (max as usize, TEXT_MAX),
+            Size::Rest { max } => (max as usize, VARIABLE_MAX),
+            _ => continue,
+        };
+        assert_eq!(limit.0, limit.1, "{stream}");
+    }
+    let dimensions = S::VariableDescription.layout().fields[5].size;
+    assert_eq!(dimensions, Size::Items { each: 4, max: DIMENSIONS_MAX as u32 });
+    // VAR-24: what is left of 2048 bytes beside the headers and the shortest name.
+    assert_eq!(DIMENSIONS_MAX, (VARIABLE_MAX - 20 - 1) / 4);
+    assert_eq!(INDICES_MAX, (VARIABLE_MAX - 8) / 4);
+}

@@ -1,0 +1,167 @@
+//! The laws of all streams over values: each encodes to bytes that are read as that value.
+
+#![cfg(feature = "alloc")]
+
+mod common;
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::*;
+use ads_cnc::*;
+use common::check_value;
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+/// CP1252 text of at most `max` bytes.
+fn text(max: usize) -> impl Strategy<Value = CncString> {
+    vec(1..=u8::MAX, 0..=max).prop_map(|bytes| CncStr::from_bytes(&bytes).expect("no NUL").into())
+}
+
+/// Text of a request: padded with NULs or not.
+fn request_text() -> impl Strategy<Value = Text> {
+    (text(255), 0..256_usize).prop_map(|(text, padding)| {
+        let room = 255 - text.as_bytes().len();
+        Text { tail: Some(vec![0; padding.min(room)]), text }
+    })
+}
+
+/// Text of a description: each of its ends, in one byte at least.
+fn open_text() -> impl Strategy<Value = Text> {
+    (text(255), prop::option::of(vec(any::<u8>(), 0..256))).prop_map(|(text, tail)| {
+        let room = 255 - text.as_bytes().len();
+        let tail = tail.map(|tail| tail.into_iter().take(room).collect());
+        let tail = if text.as_bytes().is_empty() { tail.or(Some(vec![])) } else { tail };
+        Text { text, tail }
+    })
+}
+
+fn data() -> impl Strategy<Value = Vec<u8>> {
+    vec(any::<u8>(), 0..300)
+}
+
+/// Result and data of a reply; without data only behind an error (ADS-6).
+fn reply() -> impl Strategy<Value = (AdsError, Option<Vec<u8>>)> {
+    prop_oneof![
+        (any::<u32>(), data()).prop_map(|(result, data)| (AdsError(result), Some(data))),
+        data().prop_map(|data| (AdsError::NONE, Some(data))),
+        (1..=u32::MAX).prop_map(|result| (AdsError(result), None)),
+    ]
+}
+
+fn place() -> impl Strategy<Value = (IndexGroup, IndexOffset)> {
+    (any::<u32>(), any::<u32>())
+        .prop_map(|(group, offset)| (IndexGroup::new(group), IndexOffset::new(offset)))
+}
+
+fn end() -> impl Strategy<Value = AmsAddr> {
+    (any::<[u8; 6]>(), any::<u16>())
+        .prop_map(|(id, port)| AmsAddr { net_id: AmsNetId(id), port: AmsPort(port) })
+}
+
+fn descriptor() -> impl Strategy<Value = Descriptor> {
+    let texts = (vec(1..=127_u8, 0..=32), vec(1..=127_u8, 0..=32));
+    let numbers = (any::<u32>(), any::<u32>(), any::<u16>(), any::<u16>());
+    (texts, numbers, place()).prop_map(|((name, of_type), (id, size, access, free), place)| {
+        let [name, of_type] = [name, of_type].map(|text| String::from_utf8(text).expect("ASCII"));
+        Descriptor::new(&name, &of_type)
+            .expect("at most 32")
+            .with_id(id)
+            .with_size(size)
+            .with_write_access(WriteAccess(access))
+            .with_not_assigned(free)
+            .with_content(place.0, place.1)
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 128, failure_persistence: None, ..Default::default() })]
+
+    /// Every value of a stream that is one number comes back.
+    #[test]
+    fn numbers(number in any::<u32>(), reserved in any::<u16>()) {
+        check_value(&ObjectCount(number));
+        check_value(&VariableCount(number));
+        check_value(&Handle(number));
+        check_value(&WriteReply { result: AdsError(number) });
+        check_value(&AmsTcpHeader { reserved, length: number });
+    }
+
+    /// Every AMS header comes back.
+    #[test]
+    fn ams_headers(
+        (target, source) in (end(), end()),
+        (command, flags) in any::<(u16, u16)>(),
+        (data_length, error, invoke_id) in any::<(u32, u32, u32)>(),
+    ) {
+        let (command, state_flags) = (Command(command), StateFlags(flags));
+        let error = AdsError(error);
+        check_value(&AmsHeader {
+            target, source, command, state_flags, data_length, error, invoke_id,
+        });
+    }
+
+    /// Every ADS request comes back, with data or without.
+    #[test]
+    fn ads_requests((index_group, index_offset) in place(), length in any::<u32>(), data in data()) {
+        check_value(&ReadRequest { index_group, index_offset, length });
+        check_value(&WriteRequest { index_group, index_offset, data: data.clone() });
+        check_value(&ReadWriteRequest { index_group, index_offset, read_length: length, data });
+    }
+
+    /// Every ADS reply comes back, of success and of failure.
+    #[test]
+    fn ads_replies((result, data) in reply()) {
+        check_value(&ReadReply { result, data: data.clone() });
+        check_value(&ReadWriteReply { result, data });
+    }
+
+    /// Every descriptor comes back, alone and among others.
+    #[test]
+    fn descriptors(objects in vec(descriptor(), 1..5)) {
+        check_value(&objects[0]);
+        check_value(&objects.into_iter().collect::<Descriptors>());
+    }
+
+    /// Every request about variables comes back, padding included.
+    #[test]
+    fn variable_requests(
+        text in request_text(), index in any::<u32>(), indices in vec(any::<u32>(), 0..=510),
+    ) {
+        check_value(&VariableName { name: text.clone() });
+        check_value(&VariableKind { kind: text.clone() });
+        check_value(&VariableIndexKind { index, kind: text });
+        check_value(&HandleRead { handle: Handle(index), indices });
+    }
+
+    /// Every description comes back: unknown codes, many dimensions, each end of the name.
+    #[test]
+    fn descriptions(
+        name in open_text(),
+        (handle, var_type, access, size) in any::<(u32, u32, u32, u32)>(),
+        dimensions in vec(any::<u32>(), 0..=443),
+    ) {
+        check_value(&Description {
+            handle: Handle(handle),
+            var_type: VariableType(var_type),
+            access: VariableAccess(access),
+            size,
+            dimensions,
+            name,
+        });
+    }
+
+    /// Every value comes back.
+    #[test]
+    fn values(bytes in vec(any::<u8>(), 0..=2048)) {
+        check_value(&Value { bytes });
+    }
+}
+
+/// The kind that is no byte at all is not the kind that is one NUL, though both mean all (VAR-1).
+#[test]
+fn both_forms_of_no_kind_stay_apart() {
+    let absent = VariableKind { kind: Text { text: CncString::default(), tail: None } };
+    check_value(&absent);
+    assert_eq!(absent.to_vec(), Ok(vec![]));
+    assert_eq!(VariableKindRef { kind: Kind::ALL }.to_vec(), Ok(vec![0]));
+    assert_eq!(VariableKind::decode(&[]).map(|kind| kind.to_vec()), Ok(Ok(vec![])));
+}
