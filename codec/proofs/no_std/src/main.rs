@@ -1,0 +1,116 @@
+//! A program without std that decodes, dispatches and encodes. It exits with 0 if all went well.
+
+#![no_std]
+#![no_main]
+
+use core::arch::{asm, global_asm};
+use core::panic::PanicInfo;
+
+use ads_cnc::address::{Channel, IndexGroup, IndexOffset};
+use ads_cnc::ads::{AmsPort, FrameRef};
+use ads_cnc::operation::{Call, Operation, ReadByName, Request, Service};
+use ads_cnc::{Decode, DescriptionRef, DescriptorsRef, Encode, Error, HandleReadRef};
+
+#[cfg(feature = "alloc")]
+mod bump;
+
+// The kernel enters with a stack that calls have to find aligned.
+global_asm!(".globl _start", "_start:", "and rsp, -16", "call {main}", "ud2", main = sym main);
+
+extern "C" fn main() -> ! {
+    exit(match prove() {
+        Ok(true) => 0,
+        Ok(false) => 1,
+        Err(_) => 2,
+    })
+}
+
+const DESCRIPTION: &[u8] =
+    b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
+
+fn prove() -> Result<bool, Error> {
+    let mut buf = [0; 2048];
+    let description = DescriptionRef::decode(opaque(DESCRIPTION))?;
+    let mut good = description.encode(&mut buf)? == DESCRIPTION;
+    good &= DescriptorsRef::decode(opaque(&[0; 168]))?.len() == 2;
+    good &= HandleReadRef::decode(opaque(&[0; 9])).is_err();
+    good &= FrameRef::split(opaque(&[0; 5]), 64)?.is_none();
+    let op = ReadByName::new(Channel::new(1)?, "V.E.Testvar")?;
+    let call = Call {
+        port: AmsPort::SDA,
+        service: Service::ReadWrite,
+        index_group: op.index_group(),
+        index_offset: op.index_offset(),
+        read_length: op.read_length(),
+        data: op.encode(&mut buf)?,
+    };
+    good &= matches!(call.dispatch(), Ok(Request::ReadByName(again)) if again == op);
+    let (index_group, index_offset) = (IndexGroup::new(0xF005), IndexOffset::new(0));
+    good &= Call { index_group, index_offset, ..call }.dispatch().is_err();
+    #[cfg(any(feature = "alloc", feature = "negative"))]
+    {
+        let owned = ads_cnc::Description::decode(opaque(DESCRIPTION))?;
+        good &= owned.to_vec()? == DESCRIPTION;
+    }
+    Ok(good)
+}
+
+/// Keeps the compiler from reading the bytes itself.
+fn opaque(bytes: &[u8]) -> &[u8] {
+    core::hint::black_box(bytes)
+}
+
+fn exit(code: i32) -> ! {
+    // SAFETY: exit_group takes one number and does not return.
+    unsafe { asm!("syscall", in("rax") 231, in("rdi") code, options(noreturn, nostack)) }
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    exit(3)
+}
+
+/// The compiler calls these where there is no C library. Volatile, or each becomes a call of itself.
+mod memory {
+    /// # Safety
+    /// As C's memcpy.
+    #[unsafe(no_mangle)]
+    unsafe extern "C" fn memcpy(to: *mut u8, from: *const u8, len: usize) -> *mut u8 {
+        for at in 0..len {
+            // SAFETY: both hold `len` bytes.
+            unsafe { to.add(at).write_volatile(from.add(at).read_volatile()) };
+        }
+        to
+    }
+
+    /// # Safety
+    /// As C's memset.
+    #[unsafe(no_mangle)]
+    unsafe extern "C" fn memset(to: *mut u8, byte: i32, len: usize) -> *mut u8 {
+        for at in 0..len {
+            // SAFETY: it holds `len` bytes.
+            unsafe { to.add(at).write_volatile(byte as u8) };
+        }
+        to
+    }
+
+    /// # Safety
+    /// As C's bcmp.
+    #[unsafe(no_mangle)]
+    unsafe extern "C" fn bcmp(one: *const u8, two: *const u8, len: usize) -> i32 {
+        // SAFETY: both hold `len` bytes.
+        let same = |at| unsafe { one.add(at).read_volatile() == two.add(at).read_volatile() };
+        i32::from(!(0..len).all(same))
+    }
+
+    /// # Safety
+    /// As C's memcmp.
+    #[cfg(any(feature = "alloc", feature = "negative"))]
+    #[unsafe(no_mangle)]
+    unsafe extern "C" fn memcmp(one: *const u8, two: *const u8, len: usize) -> i32 {
+        // SAFETY: both hold `len` bytes.
+        let pair = |at| unsafe { (one.add(at).read_volatile(), two.add(at).read_volatile()) };
+        let odd = (0..len).map(pair).find(|(one, two)| one != two);
+        odd.map_or(0, |(one, two)| i32::from(one) - i32::from(two))
+    }
+}
