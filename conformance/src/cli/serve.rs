@@ -1,0 +1,113 @@
+//! `ads-cnc serve`: the simulated CNC as a process.
+
+use std::io::{self, Write as _};
+use std::net::SocketAddr;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use super::{EXIT_INTERNAL, EXIT_USAGE, refuse};
+use crate::cnc::{Cnc, Server};
+use crate::defect::Defect;
+use crate::net;
+
+/// Options of `serve`.
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Loopback address and port to listen on; with port 0 the system picks one.
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:48898")]
+    listen: SocketAddr,
+
+    /// Answer with a seeded defect, such as variable-description.size.flip.
+    #[arg(long, value_name = "ID")]
+    defect: Option<String>,
+
+    /// List the IDs of all defects and end.
+    #[arg(long)]
+    list_defects: bool,
+}
+
+pub(super) fn serve(args: &Args) -> ExitCode {
+    if args.list_defects {
+        return list_defects();
+    }
+    if !args.listen.ip().is_loopback() {
+        let addr = args.listen;
+        return refuse(
+            EXIT_USAGE,
+            format_args!(
+                "{addr} is not a loopback address; the simulated CNC asks nobody who he is, so it is \
+             served on this machine only, for example on 127.0.0.1:48898"
+            ),
+        );
+    }
+    let defect = match args.defect.as_deref().map(|id| Defect::by_id(id).ok_or(id)) {
+        None => None,
+        Some(Ok(defect)) => Some(defect),
+        Some(Err(id)) => return unknown_defect(id),
+    };
+    log_to_stderr();
+    let server = match start(args.listen, defect) {
+        Ok(server) => server,
+        Err(why) => return refuse(EXIT_INTERNAL, why),
+    };
+    let line = format!("listening on {}, AMS NetId {}\n", server.addr(), server.net_id());
+    let mut out = io::stdout().lock();
+    if let Err(error) = out.write_all(line.as_bytes()).and_then(|()| out.flush()) {
+        return refuse(EXIT_INTERNAL, format_args!("nobody can be told where it listens: {error}"));
+    }
+    // Until interrupted: the threads of the server do the rest.
+    loop {
+        std::thread::park();
+    }
+}
+
+fn start(addr: SocketAddr, defect: Option<Defect>) -> Result<Server, String> {
+    let cnc = Cnc::with_default_model().map_err(|error| format!("the default model: {error}"))?;
+    if let Some(defect) = &defect {
+        tracing::warn!("serving with a seeded defect: {defect}");
+    }
+    let listener =
+        net::listen(addr).map_err(|error| format!("cannot listen on {addr}: {error}"))?;
+    let cnc = Arc::new(cnc.with_defect(defect));
+    Server::start(listener, cnc).map_err(|error| format!("cannot serve on {addr}: {error}"))
+}
+
+fn unknown_defect(id: &str) -> ExitCode {
+    let all = Defect::all();
+    let mut some = String::new();
+    // One of each stream is enough to show what IDs look like.
+    for (at, defect) in all.iter().enumerate() {
+        let known = all.iter().take(at).any(|before| before.stream == defect.stream);
+        if !known {
+            some.push_str("\n  ");
+            some.push_str(&defect.id);
+        }
+    }
+    refuse(
+        EXIT_USAGE,
+        format_args!(
+            "no defect has the ID {id}; some that there are:{some}\n--list-defects shows all {}",
+            all.len()
+        ),
+    )
+}
+
+fn list_defects() -> ExitCode {
+    let mut out = io::stdout().lock();
+    for defect in Defect::all() {
+        if writeln!(out, "{}", defect.id).is_err() {
+            // Whoever reads has seen enough.
+            break;
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+fn log_to_stderr() {
+    // Only the first in a process sets it; there is no other.
+    let _already_set = tracing_subscriber::fmt()
+        .with_writer(io::stderr)
+        .with_ansi(false)
+        .without_time()
+        .try_init();
+}

@@ -1,0 +1,48 @@
+//! The simulated CNC: a data model, the answers it gives, and an AMS/TCP server around them.
+//!
+//! [`Cnc::answer`] takes an ADS request and gives data or an error number, [`Cnc::respond`] does
+//! the same with whole frames, [`Server`] with TCP connections. What is unknown or does not fit
+//! is refused with an error number: never with silence, never with a panic.
+//!
+//! ```
+//! use ads_cnc::address::{IndexGroup, IndexOffset};
+//! use ads_cnc::ads::AmsPort;
+//! use ads_cnc::operation::{Call, Service};
+//! use ads_cnc_conformance::cnc::Cnc;
+//!
+//! let cnc = Cnc::with_default_model()?;
+//! let count = Call {
+//!     port: AmsPort::SDA,
+//!     service: Service::ReadWrite,
+//!     index_group: IndexGroup::new(0x12_2301),
+//!     index_offset: IndexOffset::new(0x44),
+//!     read_length: 4,
+//!     data: b"V.E\0",
+//! };
+//! assert_eq!(cnc.answer(&count), Ok(vec![123, 0, 0, 0]));
+//! # Ok::<(), ads_cnc_conformance::cnc::ModelError>(())
+//! ```
+
+mod answer;
+mod check;
+mod default;
+mod model;
+mod respond;
+mod server;
+mod variable;
+
+pub use answer::Cnc;
+pub use check::ModelError;
+pub use default::default_model;
+pub use model::{ChannelModel, Model};
+pub use respond::{DATA_MAX, NET_ID};
+pub use server::{CONNECTIONS_MAX, Server};
+pub use variable::Variable;
+
+fn to_u32(len: usize) -> u32 {
+    u32::try_from(len).unwrap_or(u32::MAX)
+}
+
+fn to_len(number: u32) -> usize {
+    usize::try_from(number).unwrap_or(usize::MAX)
+}

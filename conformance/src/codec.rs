@@ -1,0 +1,395 @@
+//! This project's codec as the vectors see it: bytes in, fields or a refusal out.
+
+use ads_cnc::address::{
+    Access, Addressing, Attribute, AxisStride, Class, ComTable, Group, IndexGroup, IndexOffset,
+};
+use ads_cnc::ads::{
+    AmsHeader, AmsNetId, AmsTcpHeader, ReadReply, ReadRequest, ReadWriteReply, ReadWriteRequest,
+    WriteReply, WriteRequest,
+};
+use ads_cnc::text::cp1252_to_char;
+use ads_cnc::{
+    Decode, Description, Descriptor, DescriptorRef, Descriptors, Element, Encode, Error, ErrorKind,
+    Handle, HandleRead, Numbers, ObjectCount, Text, TextRef, Value as CncValue, VariableCount,
+    VariableIndexKind, VariableKind, VariableName, VariableType,
+};
+use ads_cnc_vectors::{Context, Fields, Hex, Tagged, Type, Value, Vector};
+
+/// What the codec makes of a stream: its fields, and the bytes it encodes to again.
+#[derive(Debug, PartialEq)]
+pub struct Decoded {
+    /// The fields under their names, without what only counts.
+    pub fields: Fields,
+    /// Encoded again.
+    pub bytes: Vec<u8>,
+}
+
+/// Why the codec has no answer.
+#[derive(Debug)]
+pub enum Refused {
+    /// It refuses the bytes.
+    Error(Error),
+    /// It does not know the stream, or the context lacks what it needs.
+    Unsupported(String),
+}
+
+impl From<Error> for Refused {
+    fn from(error: Error) -> Self {
+        Self::Error(error)
+    }
+}
+
+/// The class of an error under the name vectors give it.
+pub fn class(error: &Error) -> &'static str {
+    match error.kind() {
+        ErrorKind::Truncated => "truncated",
+        ErrorKind::Trailing => "trailing",
+        ErrorKind::TooLong => "too-long",
+        ErrorKind::TooMany => "too-many",
+        ErrorKind::MissingNul => "missing-nul",
+        ErrorKind::InnerNul => "inner-nul",
+        ErrorKind::NotCp1252 => "not-text",
+        ErrorKind::OutOfRange => "out-of-range",
+        ErrorKind::Mismatch => "mismatch",
+        _ => "other",
+    }
+}
+
+/// Decodes `bytes` as the stream of `vector`.
+///
+/// # Errors
+/// The codec's refusal.
+pub fn decode(vector: &Vector, bytes: &[u8]) -> Result<Decoded, Refused> {
+    let (fields, bytes) = match vector.stream.as_str() {
+        "ams-tcp-header" => stream(bytes, |header: &AmsTcpHeader| {
+            vec![("reserved", uns16(header.reserved)), ("length", uns32(header.length))]
+        }),
+        "ams-header" => stream(bytes, ams_header),
+        "read-request" => stream(bytes, |read: &ReadRequest| {
+            let mut fields = address(read.index_group, read.index_offset);
+            fields.push(("length", uns32(read.length)));
+            fields
+        }),
+        "read-reply" => {
+            stream(bytes, |reply: &ReadReply| reply_data(reply.result.0, reply.data.as_deref()))
+        }
+        "write-request" => stream(bytes, |write: &WriteRequest| {
+            let mut fields = address(write.index_group, write.index_offset);
+            fields.push(("data", data(&write.data)));
+            fields
+        }),
+        "write-reply" => {
+            stream(bytes, |reply: &WriteReply| vec![("result", uns32(reply.result.0))])
+        }
+        "read-write-request" => stream(bytes, |both: &ReadWriteRequest| {
+            let mut fields = address(both.index_group, both.index_offset);
+            fields.push(("read_length", uns32(both.read_length)));
+            fields.push(("data", data(&both.data)));
+            fields
+        }),
+        "read-write-reply" => stream(bytes, |reply: &ReadWriteReply| {
+            reply_data(reply.result.0, reply.data.as_deref())
+        }),
+        "object-count" => stream(bytes, |count: &ObjectCount| vec![("count", uns32(count.0))]),
+        "object-descriptor" => stream(bytes, |object: &Descriptor| descriptor(object.as_ref())),
+        "object-descriptors" => stream(bytes, |objects: &Descriptors| {
+            let records = objects.as_ref().iter().map(|object| record(descriptor(object)));
+            vec![("descriptors", Value::List(records.collect()))]
+        }),
+        "variable-kind" => {
+            stream(bytes, |request: &VariableKind| vec![("kind", owned_text(&request.kind))])
+        }
+        "variable-count" => stream(bytes, |count: &VariableCount| vec![("count", uns32(count.0))]),
+        "variable-index-kind" => stream(bytes, |request: &VariableIndexKind| {
+            vec![("index", uns32(request.index)), ("kind", owned_text(&request.kind))]
+        }),
+        "variable-description" => stream(bytes, |variable: &Description| {
+            vec![
+                ("handle", uns32(variable.handle.0)),
+                ("type", uns32(variable.var_type.0)),
+                ("access", uns32(variable.access.0)),
+                ("size", uns32(variable.size)),
+                ("dimensions", numbers(&variable.dimensions)),
+                ("name", owned_text(&variable.name)),
+            ]
+        }),
+        "variable-name" => {
+            stream(bytes, |request: &VariableName| vec![("name", owned_text(&request.name))])
+        }
+        "variable-handle" => stream(bytes, |handle: &Handle| vec![("handle", uns32(handle.0))]),
+        "variable-handle-read" => stream(bytes, |request: &HandleRead| {
+            vec![("handle", uns32(request.handle.0)), ("indices", numbers(&request.indices))]
+        }),
+        "variable-value" => {
+            let elements = elements(&vector.context, bytes)?;
+            stream(bytes, |_: &CncValue| vec![("value", elements)])
+        }
+        "index-group" => return index_group(bytes),
+        "index-offset" => return index_offset(&vector.context, bytes),
+        other => return Err(Refused::Unsupported(format!("stream {other}"))),
+    }?;
+    Ok(Decoded { fields, bytes })
+}
+
+/// Fields as a person reads them.
+pub fn show(fields: &Fields) -> String {
+    let field = |(name, value): (&String, &Value)| format!("{name} {}", show_value(value));
+    fields.iter().map(field).collect::<Vec<_>>().join(", ")
+}
+
+fn show_value(value: &Value) -> String {
+    match value {
+        Value::One(one) => show_tagged(one),
+        Value::List(items) => {
+            format!("[{}]", items.iter().map(show_value).collect::<Vec<_>>().join(", "))
+        }
+        Value::Record(fields) => format!("({})", show(fields)),
+    }
+}
+
+fn show_tagged(one: &Tagged) -> String {
+    let mut text = match (one.kind, &one.value, &one.hex) {
+        (Type::String, Some(text), _) => format!("{text:?}"),
+        (_, Some(number), _) => number.clone(),
+        (_, None, hex) => hex.as_ref().map_or_else(String::new, Hex::to_string),
+    };
+    if let Some(tail) = &one.tail {
+        text.push_str(&format!(" and behind its NUL {tail}"));
+    }
+    if one.open {
+        text.push_str(" without NUL");
+    }
+    text
+}
+
+type Named = Vec<(&'static str, Value)>;
+
+fn stream<T>(bytes: &[u8], fields: impl FnOnce(&T) -> Named) -> Result<(Fields, Vec<u8>), Refused>
+where
+    T: for<'a> Decode<'a> + Encode,
+{
+    let value = T::decode(bytes)?;
+    Ok((collect(fields(&value)), value.to_vec()?))
+}
+
+fn collect(fields: Named) -> Fields {
+    fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+}
+
+fn record(fields: Named) -> Value {
+    Value::Record(collect(fields))
+}
+
+fn tagged(kind: Type, value: impl ToString) -> Tagged {
+    let value = Some(value.to_string());
+    Tagged { kind, value, hex: None, bits: None, tail: None, open: false }
+}
+
+fn one(kind: Type, value: impl ToString) -> Value {
+    Value::One(tagged(kind, value))
+}
+
+fn uns16(number: u16) -> Value {
+    one(Type::Uns16, number)
+}
+
+fn uns32(number: u32) -> Value {
+    one(Type::Uns32, number)
+}
+
+fn name(word: &str) -> Value {
+    one(Type::Name, word)
+}
+
+fn numbers(numbers: &[u32]) -> Value {
+    Value::List(numbers.iter().copied().map(uns32).collect())
+}
+
+fn data(bytes: &[u8]) -> Value {
+    let hex = Some(Hex(bytes.to_vec()));
+    Value::One(Tagged { kind: Type::Bytes, value: None, hex, bits: None, tail: None, open: false })
+}
+
+fn owned_text(text: &Text) -> Value {
+    Value::One(text_tagged(text.as_ref()))
+}
+
+fn text_tagged(text: TextRef<'_>) -> Tagged {
+    let bytes: Vec<u8> = text.text().bytes().collect();
+    Tagged {
+        kind: Type::String,
+        value: Some(bytes.iter().copied().map(cp1252_to_char).collect()),
+        hex: Some(Hex(bytes)),
+        bits: None,
+        tail: text.tail().filter(|tail| !tail.is_empty()).map(|tail| Hex(tail.to_vec())),
+        open: text.tail().is_none(),
+    }
+}
+
+/// A text in 32 bytes: its tail counts only if it is more than padding.
+fn padded(bytes: &[u8]) -> Value {
+    let nul = bytes.iter().position(|&byte| byte == 0);
+    let (text, tail) = bytes.split_at(nul.unwrap_or(bytes.len()));
+    let odd = tail.iter().any(|&byte| byte != 0);
+    Value::One(Tagged {
+        kind: Type::String,
+        value: Some(text.iter().copied().map(cp1252_to_char).collect()),
+        hex: Some(Hex(text.to_vec())),
+        bits: None,
+        tail: odd.then(|| Hex(tail.iter().skip(1).copied().collect())),
+        open: nul.is_none(),
+    })
+}
+
+fn address(group: IndexGroup, offset: IndexOffset) -> Named {
+    vec![("index_group", uns32(group.get())), ("index_offset", uns32(offset.get()))]
+}
+
+fn reply_data(result: u32, bytes: Option<&[u8]>) -> Named {
+    let mut fields = vec![("result", uns32(result))];
+    fields.extend(bytes.map(|bytes| ("data", data(bytes))));
+    fields
+}
+
+fn ams_header(header: &AmsHeader) -> Named {
+    let net_id = |id: AmsNetId| one(Type::NetId, id);
+    vec![
+        ("target_net_id", net_id(header.target.net_id)),
+        ("target_port", uns16(header.target.port.0)),
+        ("source_net_id", net_id(header.source.net_id)),
+        ("source_port", uns16(header.source.port.0)),
+        ("command", uns16(header.command.0)),
+        ("state_flags", uns16(header.state_flags.0)),
+        ("data_length", uns32(header.data_length)),
+        ("error", uns32(header.error.0)),
+        ("invoke_id", uns32(header.invoke_id)),
+    ]
+}
+
+fn descriptor(object: DescriptorRef<'_>) -> Named {
+    let mut buf = [0; ads_cnc::limits::DESCRIPTOR_LEN];
+    let bytes = object.encode(&mut buf).unwrap_or_default();
+    vec![
+        ("id", uns32(object.id())),
+        ("size", uns32(object.size())),
+        ("write_access", uns16(object.write_access().0)),
+        ("not_assigned", uns16(object.not_assigned())),
+        ("index_group", uns32(object.index_group().get())),
+        ("index_offset", uns32(object.index_offset().get())),
+        ("name", padded(bytes.get(20..52).unwrap_or_default())),
+        ("type", padded(bytes.get(52..84).unwrap_or_default())),
+    ]
+}
+
+fn elements(context: &Context, bytes: &[u8]) -> Result<Value, Refused> {
+    let lacks = |what: &str| Refused::Unsupported(format!("a value without {what}"));
+    let kind = context.kind.ok_or_else(|| lacks("a type"))?;
+    let dimensions = context.dimensions.as_deref().ok_or_else(|| lacks("dimensions"))?;
+    let var_type = match kind {
+        Type::Boolean => VariableType::BOOLEAN,
+        Type::Sgn08 => VariableType::SGN08,
+        Type::Uns08 => VariableType::UNS08,
+        Type::Sgn16 => VariableType::SGN16,
+        Type::Uns16 => VariableType::UNS16,
+        Type::Sgn32 => VariableType::SGN32,
+        Type::Uns32 => VariableType::UNS32,
+        Type::Real64 => VariableType::REAL64,
+        Type::String => VariableType::STRING,
+        other => return Err(Refused::Unsupported(format!("values of type {other:?}"))),
+    };
+    let value = ads_cnc::ValueRef::decode(bytes)?;
+    let elements = value.elements(var_type, Numbers::from(dimensions))?;
+    Ok(Value::List(elements.map(element).map(Value::One).collect()))
+}
+
+fn element(element: Element<'_>) -> Tagged {
+    match element {
+        Element::Boolean(byte) => tagged(Type::Boolean, byte),
+        Element::Sgn08(number) => tagged(Type::Sgn08, number),
+        Element::Uns08(number) => tagged(Type::Uns08, number),
+        Element::Sgn16(number) => tagged(Type::Sgn16, number),
+        Element::Uns16(number) => tagged(Type::Uns16, number),
+        Element::Sgn32(number) => tagged(Type::Sgn32, number),
+        Element::Uns32(number) => tagged(Type::Uns32, number),
+        Element::Real64(number) => Tagged {
+            bits: Some(format!("{:#018x}", number.to_bits())),
+            ..tagged(Type::Real64, format_args!("{number:?}"))
+        },
+        Element::String(text) => text_tagged(text),
+        other => tagged(Type::Name, format_args!("{other:?}")),
+    }
+}
+
+/// The number of a stream that is no stream of the codec: an address by itself.
+fn number(bytes: &[u8]) -> Result<u32, Refused> {
+    Ok(ObjectCount::decode(bytes)?.0)
+}
+
+fn index_group(bytes: &[u8]) -> Result<Decoded, Refused> {
+    let group = IndexGroup::new(number(bytes)?);
+    let mut fields = vec![("index_group", uns32(group.get()))];
+    let parts = group.parts();
+    match parts {
+        None => {}
+        Some(Group::Com(com)) => fields.extend([
+            ("task", name("COM")),
+            ("addressing", name(addressing(com.addressing))),
+            ("access", name(if com.access == Access::Object { "object" } else { "element" })),
+            ("table", name(if com.table == ComTable::Axis { "axis" } else { "channel" })),
+            ("instance", one(Type::Uns08, com.instance)),
+        ]),
+        Some(Group::Class(class)) => fields.extend([
+            ("task", name("SDA/GEO")),
+            ("addressing", name(addressing(class.addressing))),
+            ("access", name("element")),
+            ("class", name(class_name(class.class))),
+            ("attribute", name(attribute_name(class.attribute))),
+            ("instance", one(Type::Uns08, class.instance)),
+        ]),
+    }
+    let again = parts.map_or(group, Group::index_group);
+    Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
+}
+
+fn addressing(addressing: Addressing) -> &'static str {
+    match addressing {
+        Addressing::Logical => "logical",
+        Addressing::Index => "index",
+    }
+}
+
+fn class_name(class: Class) -> &'static str {
+    match class {
+        Class::PositionController => "position-controller",
+        Class::Interpolator => "interpolator",
+        Class::Decoder => "decoder",
+        Class::Hld => "hld",
+        Class::PathPreparation => "path-preparation",
+        Class::Spindle => "spindle",
+    }
+}
+
+fn attribute_name(attribute: Attribute) -> &'static str {
+    match attribute {
+        Attribute::Content => "content",
+        Attribute::Name => "name",
+        Attribute::Type => "type",
+        Attribute::Length => "length",
+        Attribute::Unit => "unit",
+        Attribute::WriteFlag => "write-flag",
+        Attribute::ObjectAddress => "object-address",
+    }
+}
+
+fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+    let stride = match context.stride {
+        Some(0x1_0000) => AxisStride::X10000,
+        Some(0x1000) => AxisStride::X1000,
+        other => return Err(Refused::Unsupported(format!("an axis stride of {other:?}"))),
+    };
+    let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride);
+    let again = IndexOffset::of_axis(stride, axis, element)?;
+    // Neither has more than 16 bits, or the offset would not have been put together again.
+    let fields = vec![("axis", one(Type::Uns16, axis)), ("element", one(Type::Uns16, element))];
+    Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
+}

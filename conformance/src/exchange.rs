@@ -1,0 +1,160 @@
+//! One request and what came of it, byte for byte.
+
+use std::fmt;
+use std::io;
+use std::time::Duration;
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::{AdsError, AmsHeader, AmsPort};
+use ads_cnc::operation::{Call, Service};
+
+/// One request and what came of it.
+#[derive(Debug)]
+pub struct Exchange {
+    /// Port the request went to.
+    pub port: AmsPort,
+    /// Service.
+    pub service: Service,
+    /// Index group.
+    pub index_group: IndexGroup,
+    /// Index offset.
+    pub index_offset: IndexOffset,
+    /// Read length.
+    pub read_length: u32,
+    /// Data of the request.
+    pub data: Vec<u8>,
+    /// The whole frame sent; empty if none was.
+    pub sent: Vec<u8>,
+    /// The whole frame received, or as much as came.
+    pub received: Vec<u8>,
+    /// The answer with its header, or why there is none.
+    pub outcome: Result<(Answer, AmsHeader), Fault>,
+    /// What is wrong with the frame itself.
+    pub violations: Vec<Violation>,
+}
+
+/// What a target answered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answer {
+    /// Error of the AMS header.
+    pub ams_error: AdsError,
+    /// Result of the service.
+    pub result: AdsError,
+    /// Data; none if the reply stops before it.
+    pub data: Option<Vec<u8>>,
+}
+
+impl Answer {
+    /// The data of a success; none if the answer is an error.
+    pub fn success(&self) -> Option<&[u8]> {
+        match (self.ams_error.is_none(), self.result.is_none()) {
+            (true, true) => Some(self.data.as_deref().unwrap_or_default()),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Answer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.ams_error, self.result, &self.data) {
+            (AdsError::NONE, AdsError::NONE, Some(data)) => write!(f, "{} bytes", data.len()),
+            (AdsError::NONE, AdsError::NONE, None) => f.write_str("success without data"),
+            (AdsError::NONE, result, _) => write!(f, "ADS error {result}"),
+            (error, ..) => write!(f, "AMS error {error}"),
+        }
+    }
+}
+
+/// Why there is no answer.
+#[derive(Debug)]
+pub enum Fault {
+    /// The gate did not let the request through.
+    Refused(String),
+    /// The request has no form on the wire.
+    Unsendable(ads_cnc::Error),
+    /// Nothing came in this time.
+    Silence(Duration),
+    /// The connection was closed.
+    Closed,
+    /// What came is no frame, or no reply of the service.
+    Malformed(ads_cnc::Error),
+    /// The network failed.
+    Io(String),
+}
+
+impl Fault {
+    pub(crate) fn io(error: io::Error) -> Self {
+        Self::Io(error.to_string())
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Refused(why) => write!(f, "not sent, refused for safety: {why}"),
+            Self::Unsendable(error) => write!(f, "not sent: {error}"),
+            Self::Silence(time) => write!(f, "no answer within {} ms", time.as_millis()),
+            Self::Closed => f.write_str("connection closed without an answer"),
+            Self::Malformed(error) => write!(f, "malformed answer: {error}"),
+            Self::Io(error) => write!(f, "network: {error}"),
+        }
+    }
+}
+
+/// A rule that a frame itself breaks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Violation {
+    /// The requirement.
+    pub requirement: &'static str,
+    /// What is wrong.
+    pub what: String,
+}
+
+impl Exchange {
+    pub(crate) fn new(call: &Call<'_>) -> Self {
+        Self {
+            port: call.port,
+            service: call.service,
+            index_group: call.index_group,
+            index_offset: call.index_offset,
+            read_length: call.read_length,
+            data: call.data.to_vec(),
+            sent: Vec::new(),
+            received: Vec::new(),
+            outcome: Err(Fault::Closed),
+            violations: Vec::new(),
+        }
+    }
+
+    /// The answer, if one came.
+    pub fn answer(&self) -> Option<&Answer> {
+        self.outcome.as_ref().ok().map(|(answer, _)| answer)
+    }
+
+    /// What came of it, in a few words.
+    pub fn result(&self) -> String {
+        match &self.outcome {
+            Ok((answer, _)) => answer.to_string(),
+            Err(fault) => fault.to_string(),
+        }
+    }
+
+    /// The call that was sent.
+    pub fn call(&self) -> Call<'_> {
+        Call {
+            port: self.port,
+            service: self.service,
+            index_group: self.index_group,
+            index_offset: self.index_offset,
+            read_length: self.read_length,
+            data: &self.data,
+        }
+    }
+}
+
+impl fmt::Display for Exchange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { port, service, index_group, index_offset, .. } = self;
+        write!(f, "{service} {index_group}, {index_offset} at port {port}")
+    }
+}

@@ -1,0 +1,48 @@
+//! The conformance suite, the simulated CNC and the tools around the codec [`ads_cnc`]: all that
+//! opens a socket or a file.
+//!
+//! | module | what it has |
+//! |---|---|
+//! | [`cnc`] | the simulated CNC: data model, answers, AMS/TCP server |
+//! | [`defect`] | seeded defects: changed bytes around the codec |
+//! | [`suite`] | what is tried, and what comes of it |
+//! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
+//! | [`gate`] | what may be sent to a target |
+//! | [`profile`] | what a target claims |
+//! | [`codec`] | the codec as the vectors see it |
+//! | [`verdict`], [`report`] | what a judgement can be, and how it is shown |
+//! | [`net`] | the one place where sockets are opened |
+//! | [`cli`] | the command line of `ads-cnc` |
+//!
+//! Every byte the simulated CNC sends is encoded by [`ads_cnc`]; there is no second encoder.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+#![deny(clippy::disallowed_methods)]
+// Bytes from outside reach most of these modules: nothing may panic on them.
+#![cfg_attr(
+    not(test),
+    deny(
+        clippy::arithmetic_side_effects,
+        clippy::as_conversions,
+        clippy::expect_used,
+        clippy::indexing_slicing,
+        clippy::panic,
+        clippy::string_slice,
+        clippy::unreachable,
+        clippy::unwrap_used
+    )
+)]
+
+pub mod cli;
+pub mod client;
+pub mod cnc;
+pub mod codec;
+pub mod defect;
+pub mod exchange;
+pub mod gate;
+pub mod net;
+pub mod profile;
+pub mod report;
+pub mod suite;
+pub mod verdict;

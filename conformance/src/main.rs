@@ -1,0 +1,7 @@
+//! The tool `ads-cnc`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ads_cnc_conformance::cli::main()
+}

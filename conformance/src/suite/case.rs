@@ -1,0 +1,138 @@
+//! What a case is and what it finds.
+
+use ads_cnc_vectors::{Level, Vector, requirement};
+
+use super::Probe;
+use crate::exchange::Exchange;
+use crate::verdict::Verdict;
+
+/// One thing the suite tries.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// A slug that keeps its meaning.
+    pub id: String,
+    /// What is tried, in a sentence.
+    pub title: String,
+    /// The requirements it can judge.
+    pub requirements: Vec<&'static str>,
+    /// What it asks of the target beyond a first channel.
+    pub needs: Needs,
+    /// How it is done.
+    pub body: Body,
+}
+
+/// What a case asks of the target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// Well-formed queries.
+    Queries,
+    /// Requests that no client should send: only for a target that cannot move.
+    Malformed,
+    /// A target that claims to answer the manuals' examples.
+    PrintedExamples,
+    /// No target: the codec itself is judged.
+    Codec,
+}
+
+/// How a case is done.
+#[derive(Clone, Copy, Debug)]
+pub enum Body {
+    /// By a function.
+    Probe(fn(&mut Probe<'_>) -> Step),
+    /// By sending a printed request and comparing the reply with the printed one.
+    Printed(&'static Vector),
+    /// By decoding a vector.
+    Vector(&'static Vector),
+}
+
+/// How a step of a case goes on.
+pub type Step<T = ()> = Result<T, Stop>;
+
+/// Why a case ends before its end.
+#[derive(Clone, Debug)]
+pub enum Stop {
+    /// A judgement has been made that leaves nothing to go on with.
+    Judged,
+    /// The target has nothing to try this on.
+    NotApplicable(String),
+    /// What came back does not tell.
+    Inconclusive(String),
+    /// The gate refused.
+    Refused(String),
+    /// The suite itself is wrong.
+    Harness(String),
+}
+
+/// A requirement at a level: that of the catalogue, or of an assumed part.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// The requirement.
+    pub id: &'static str,
+    /// The level it is judged at.
+    pub level: Option<Level>,
+}
+
+impl From<&'static str> for Rule {
+    fn from(id: &'static str) -> Self {
+        Self { id, level: requirement(id).map(|requirement| requirement.level) }
+    }
+}
+
+/// A part of a requirement that is assumed, whatever its rest is.
+pub const fn assumed(id: &'static str) -> Rule {
+    Rule { id, level: Some(Level::Info) }
+}
+
+/// One check of one requirement.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// The requirement.
+    pub requirement: &'static str,
+    /// What came of it.
+    pub verdict: Verdict,
+    /// What was expected; empty for a pass.
+    pub expected: String,
+    /// What was there; empty for a pass.
+    pub found: String,
+    /// The request and the answer in question.
+    pub evidence: Option<Evidence>,
+}
+
+/// The bytes of an exchange, as a report shows them.
+#[derive(Clone, Debug)]
+pub struct Evidence {
+    /// Where the request went.
+    pub call: String,
+    /// Stream of the request's data, by name, if a documented function was asked.
+    pub request_stream: Option<&'static str>,
+    /// Stream of the reply's data.
+    pub reply_stream: Option<&'static str>,
+    /// Data of the request.
+    pub sent: Vec<u8>,
+    /// Data of the reply.
+    pub received: Option<Vec<u8>>,
+    /// What came of it, in a few words.
+    pub result: String,
+    /// The whole frame sent.
+    pub frame_sent: Vec<u8>,
+    /// The whole frame received, or as much as came.
+    pub frame_received: Vec<u8>,
+}
+
+impl From<&Exchange> for Evidence {
+    fn from(exchange: &Exchange) -> Self {
+        let function = exchange.call().dispatch().ok().map(|request| request.function().spec());
+        Self {
+            call: exchange.to_string(),
+            request_stream: function
+                .and_then(|spec| spec.request)
+                .map(|stream| stream.layout().name),
+            reply_stream: function.map(|spec| spec.reply.layout().name),
+            sent: exchange.data.clone(),
+            received: exchange.answer().and_then(|answer| answer.data.clone()),
+            result: exchange.result(),
+            frame_sent: exchange.sent.clone(),
+            frame_received: exchange.received.clone(),
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! Requests that no client should send: each must be answered, and by an error.
+//!
+//! That a CNC refuses what the manuals do not allow is assumed but where they say so; that it
+//! answers at all is not.
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::AmsPort;
+use ads_cnc::operation::{
+    Call, CountObjects, CountVariables, DescribeByIndex, HandleByName, ObjectList, ReadByHandle,
+    ReadByName, ReadDescriptors, Request, Service,
+};
+use ads_cnc::{Kind, Numbers, TextRef};
+
+use super::case::{Case, Rule, Step, Stop, assumed};
+use super::declare;
+use super::probe::{Probe, harness};
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "bad-kind",
+            "A kind with a final dot, without NUL, unknown or too long is answered by an error",
+            ["VAR-1"],
+            Malformed,
+            bad_kind
+        ),
+        declare!(
+            "bad-index-kind",
+            "A request by index that is cut anywhere is answered by an error",
+            ["VAR-3"],
+            Malformed,
+            bad_index_kind
+        ),
+        declare!(
+            "bad-name",
+            "A name without NUL, with bytes behind it or too long is answered by an error",
+            ["VAR-9"],
+            Malformed,
+            bad_name
+        ),
+        declare!(
+            "bad-handle-header",
+            "A handle header that is cut, or whose count lies, is answered by an error",
+            ["VAR-11", "VAR-24"],
+            Malformed,
+            bad_handle_header
+        ),
+        declare!(
+            "bad-address",
+            "An index group, index offset or port that nobody has is answered by an error",
+            ["ADS-4"],
+            Malformed,
+            bad_address
+        ),
+        declare!(
+            "bad-service",
+            "A function is not answered to another service than its own",
+            ["ADS-4"],
+            Malformed,
+            bad_service
+        ),
+        declare!(
+            "bad-read-length",
+            "A read length that does not hold the answer is answered by an error",
+            ["COM-3", "ADS-3"],
+            Malformed,
+            bad_read_length
+        ),
+    ]
+}
+
+/// A good request, and how it is spoilt.
+struct Spoilt<'p, 's> {
+    probe: &'p mut Probe<'s>,
+    good: Vec<u8>,
+    call: Call<'static>,
+}
+
+impl<'p, 's> Spoilt<'p, 's> {
+    fn new<'a>(probe: &'p mut Probe<'s>, request: impl Into<Request<'a>>) -> Step<Self> {
+        let request = request.into();
+        let mut good = vec![0; request.encoded_len()];
+        let call = request.encode(&mut good).map_err(harness)?;
+        let call = Call { data: &[], ..call };
+        Ok(Self { probe, good, call })
+    }
+
+    /// Sends other data in place of the good.
+    fn data(&mut self, rule: impl Into<Rule>, what: &str, data: &[u8]) -> Step {
+        let sibling = Call { data: &self.good, ..self.call };
+        self.probe.refused(rule, what, &Call { data, ..self.call }, &sibling)
+    }
+
+    /// Sends the good data elsewhere or otherwise.
+    fn call(&mut self, rule: impl Into<Rule>, what: &str, spoil: impl Fn(&mut Call<'_>)) -> Step {
+        let sibling = Call { data: &self.good, ..self.call };
+        let mut call = sibling;
+        spoil(&mut call);
+        self.probe.refused(rule, what, &call, &sibling)
+    }
+}
+
+fn bad_kind(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let mut spoilt = Spoilt::new(probe, CountVariables::new(channel, Kind::V_E))?;
+    let long = [b"V.E".as_slice(), &[0; 254]].concat();
+    for (what, data) in [
+        ("a kind with a final dot", &b"V.E.\0"[..]),
+        ("a kind without NUL", b"V.E"),
+        ("bytes behind the NUL", b"V.E\0x"),
+        ("an unknown kind", b"V.X\0"),
+        ("a kind in small letters", b"v.e\0"),
+        ("a kind of 257 bytes", &long),
+    ] {
+        spoilt.data(assumed("VAR-1"), what, data)?;
+    }
+    Ok(())
+}
+
+fn bad_index_kind(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let mut spoilt = Spoilt::new(probe, DescribeByIndex::new(channel, 0, Kind::V_E))?;
+    let good = spoilt.good.clone();
+    for len in 0..good.len() {
+        let what = format!("the request cut to {len} bytes");
+        spoilt.data(assumed("VAR-3"), &what, good.get(..len).unwrap_or_default())?;
+    }
+    let with_dot = [good.get(..7).unwrap_or_default(), &b".\0"[..]].concat();
+    spoilt.data(assumed("VAR-3"), "a kind with a final dot", &with_dot)?;
+    spoilt.data(assumed("VAR-3"), "no kind", b"\0\0\0\0\0")
+}
+
+fn bad_name(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let variables = probe.variables(channel)?;
+    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let text = known.name.text.as_cnc_str();
+    let field = TextRef::from(text);
+    let requests: [Request<'_>; 2] =
+        [HandleByName { channel, name: field }.into(), ReadByName { channel, name: field }.into()];
+    for request in requests {
+        let mut spoilt = Spoilt::new(probe, request)?;
+        let good = spoilt.good.clone();
+        let open = good.split_last().map(|(_, open)| open.to_vec()).unwrap_or_default();
+        let behind = [&good, &b"x"[..]].concat();
+        let long = [&good[..], &vec![0; 257_usize.saturating_sub(good.len())]].concat();
+        for (what, data) in [
+            ("no byte", Vec::new()),
+            ("a name without NUL", open),
+            ("bytes behind the NUL", behind),
+            ("a name of 257 bytes", long),
+        ] {
+            spoilt.data(assumed("VAR-9"), what, &data)?;
+        }
+    }
+    Ok(())
+}
+
+fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let variables = probe.variables(channel)?;
+    let array = variables.iter().find(|variable| variable.dimensions.len() == 1);
+    let array = array.ok_or(Stop::NotApplicable("no variable is an array".to_owned()))?;
+    let request = ReadByHandle::new(channel, array.handle, Numbers::from(&[0]));
+    let mut spoilt = Spoilt::new(probe, request)?;
+    let good = spoilt.good.clone();
+    for len in 0..good.len() {
+        let rule = if len < 8 { assumed("VAR-11") } else { "VAR-24".into() };
+        let what = format!("the header cut to {len} bytes");
+        spoilt.data(rule, &what, good.get(..len).unwrap_or_default())?;
+    }
+    let handle = good.get(..4).unwrap_or_default();
+    for (count, indices) in [(2_u32, 1_usize), (u32::MAX, 1), (0x4000_0001, 1), (511, 511)] {
+        let mut data = handle.to_vec();
+        data.extend(count.to_le_bytes());
+        data.resize(indices.saturating_mul(4).saturating_add(8), 0);
+        let what = format!("a count of {count} beside {indices} indices");
+        spoilt.data("VAR-24", &what, &data)?;
+    }
+    let mut more = good.clone();
+    more.push(0);
+    spoilt.data("VAR-24", "a byte behind the last index", &more)?;
+    let mut fewer = good;
+    fewer.iter_mut().skip(4).take(4).for_each(|byte| *byte = 0);
+    spoilt.data("VAR-24", "a count of 0 beside one index", &fewer)
+}
+
+fn bad_address(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let mut spoilt = Spoilt::new(probe, CountVariables::new(channel, Kind::V_E))?;
+    for group in [0, 0xF005, 0x2301, 0x12_2300, 0x12_2F01, 0x12_F301, 0x112_2301, u32::MAX] {
+        spoilt.call("ADS-4", &format!("the group {group:#x}"), |call| {
+            call.index_group = IndexGroup::new(group);
+        })?;
+    }
+    for offset in [0, 0x43, 0x4D, 0x4E, 0x144, 0x1_0044, u32::MAX] {
+        spoilt.call("ADS-4", &format!("the offset {offset:#x}"), |call| {
+            call.index_offset = IndexOffset::new(offset);
+        })?;
+    }
+    for port in [0, 1, 550, 554, u16::MAX] {
+        spoilt.call("ADS-4", &format!("the port {port}"), |call| call.port = AmsPort(port))?;
+    }
+    spoilt.call("ADS-4", "the port of another task", |call| call.port = AmsPort::COM)?;
+    let mut spoilt = Spoilt::new(probe, CountObjects::new(channel))?;
+    for group in [0x13_0000, 0x13_0300, 0x13_1101, 0x14_0101] {
+        spoilt.call("ADS-4", &format!("the group {group:#x}"), |call| {
+            call.index_group = IndexGroup::new(group);
+        })?;
+    }
+    spoilt.call("ADS-4", "the port of another task", |call| call.port = AmsPort::SDA)
+}
+
+fn bad_service(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let mut spoilt = Spoilt::new(probe, CountVariables::new(channel, Kind::V_E))?;
+    for service in [Service::Read, Service::Write] {
+        spoilt.call("ADS-4", &format!("{service} at 0x44"), |call| call.service = service)?;
+    }
+    let mut spoilt = Spoilt::new(probe, CountObjects::new(channel))?;
+    for service in [Service::ReadWrite, Service::Write] {
+        spoilt
+            .call("ADS-4", &format!("{service} of descriptors"), |call| call.service = service)?;
+    }
+    Ok(())
+}
+
+fn bad_read_length(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let list = ObjectList::from(channel);
+    let one = ReadDescriptors::new(list, 1, 1).map_err(harness)?;
+    let mut spoilt = Spoilt::new(probe, one)?;
+    for length in [0, 4, 83] {
+        let what = format!("a read length of {length} for a descriptor");
+        spoilt.call(assumed("COM-3"), &what, |call| call.read_length = length)?;
+    }
+    let mut spoilt = Spoilt::new(probe, CountVariables::new(channel, Kind::V_E))?;
+    for length in [0, 3] {
+        let what = format!("a read length of {length} for a number");
+        spoilt.call(assumed("ADS-3"), &what, |call| call.read_length = length)?;
+    }
+    let mut spoilt = Spoilt::new(probe, DescribeByIndex::new(channel, 0, Kind::V_E))?;
+    spoilt.call(assumed("ADS-3"), "a read length of 20 for a description", |call| {
+        call.read_length = 20;
+    })
+}

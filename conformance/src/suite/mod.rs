@@ -1,0 +1,47 @@
+//! The suite: what it tries, in which order, and what comes of it.
+
+mod address;
+mod case;
+mod com;
+mod malformed;
+mod outcome;
+mod printed;
+mod probe;
+mod run;
+mod survey;
+mod values;
+mod variable;
+
+pub use case::{Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, assumed};
+pub use outcome::{Outcome, RequirementVerdict, gravest};
+pub use probe::{Probe, Session};
+pub use run::run;
+
+/// Declares a case.
+macro_rules! declare {
+    ($id:literal, $title:literal, [$($requirement:literal),+], $needs:ident, $body:path) => {
+        $crate::suite::Case {
+            id: $id.to_owned(),
+            title: $title.to_owned(),
+            requirements: vec![$($requirement),+],
+            needs: $crate::suite::Needs::$needs,
+            body: $crate::suite::Body::Probe($body),
+        }
+    };
+}
+
+pub(crate) use declare;
+
+/// Every case, in the order it is run.
+pub fn cases() -> Vec<Case> {
+    let mut cases = printed::vector_cases();
+    cases.extend(address::cases());
+    cases.extend(com::cases());
+    cases.extend(variable::cases());
+    cases.extend(values::cases());
+    cases.extend(malformed::cases());
+    cases.extend(printed::printed_cases());
+    // Judges what all the others exchanged, so it comes last.
+    cases.extend(address::frame_cases());
+    cases
+}

@@ -1,0 +1,101 @@
+//! What came of a case.
+
+use super::case::{Case, Judgement, Stop};
+use crate::verdict::Verdict;
+
+/// What came of a case.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The case.
+    pub case: Case,
+    /// For each of its requirements.
+    pub verdicts: Vec<RequirementVerdict>,
+    /// Checks made.
+    pub checks: usize,
+    /// Why it did not run, or not to its end.
+    pub note: Option<String>,
+    /// Whether the gate refused a request of it.
+    pub refused: bool,
+}
+
+/// What came of one requirement in a case.
+#[derive(Clone, Debug)]
+pub struct RequirementVerdict {
+    /// The requirement.
+    pub requirement: &'static str,
+    /// The gravest verdict of its checks.
+    pub verdict: Verdict,
+    /// The checks that were not passed.
+    pub judgements: Vec<Judgement>,
+}
+
+impl Outcome {
+    /// A case that was not tried.
+    pub(super) fn untried(case: Case, verdict: Verdict, note: impl Into<String>) -> Self {
+        let verdicts = case.requirements.iter().map(|&requirement| RequirementVerdict {
+            requirement,
+            verdict,
+            judgements: Vec::new(),
+        });
+        let verdicts = verdicts.collect();
+        Self { case, verdicts, checks: 0, note: Some(note.into()), refused: false }
+    }
+
+    /// A case that was tried.
+    pub(super) fn tried(
+        case: Case,
+        judgements: Vec<Judgement>,
+        checks: usize,
+        stop: Option<Stop>,
+    ) -> Self {
+        let (unjudged, note) = match &stop {
+            None | Some(Stop::Judged) => (Verdict::NotObserved, None),
+            Some(Stop::NotApplicable(why)) => (Verdict::NotApplicable, Some(why.clone())),
+            Some(Stop::Inconclusive(why)) => (Verdict::Inconclusive, Some(why.clone())),
+            Some(Stop::Refused(why)) => (Verdict::NotRun, Some(why.clone())),
+            Some(Stop::Harness(why)) => (Verdict::HarnessError, Some(why.clone())),
+        };
+        let undeclared = judgements
+            .iter()
+            .find(|judgement| !case.requirements.contains(&judgement.requirement))
+            .map(|judgement| judgement.requirement);
+        let mut verdicts: Vec<_> = case
+            .requirements
+            .iter()
+            .map(|&requirement| of_requirement(requirement, &judgements, unjudged))
+            .collect();
+        if let Some(requirement) = undeclared {
+            let verdict = Verdict::HarnessError;
+            verdicts.push(RequirementVerdict { requirement, verdict, judgements: Vec::new() });
+        }
+        let refused = matches!(stop, Some(Stop::Refused(_)));
+        Self { case, verdicts, checks, note, refused }
+    }
+
+    /// The gravest verdict of its requirements.
+    pub fn verdict(&self) -> Verdict {
+        gravest(self.verdicts.iter().map(|judged| judged.verdict)).unwrap_or(Verdict::NotObserved)
+    }
+}
+
+fn of_requirement(
+    requirement: &'static str,
+    judgements: &[Judgement],
+    unjudged: Verdict,
+) -> RequirementVerdict {
+    let mine = || judgements.iter().filter(|judgement| judgement.requirement == requirement);
+    let judged = gravest(mine().map(|judgement| judgement.verdict));
+    // A case that could not be finished does not pass by its beginning.
+    let verdict = match judged {
+        Some(Verdict::Pass) if unjudged.gravity() > Verdict::Pass.gravity() => unjudged,
+        Some(judged) => judged,
+        None => unjudged,
+    };
+    let failed = mine().filter(|judgement| judgement.verdict != Verdict::Pass);
+    RequirementVerdict { requirement, verdict, judgements: failed.cloned().collect() }
+}
+
+/// The verdict that stands for several.
+pub fn gravest(verdicts: impl IntoIterator<Item = Verdict>) -> Option<Verdict> {
+    verdicts.into_iter().max_by_key(|verdict| verdict.gravity())
+}

@@ -1,0 +1,54 @@
+//! All descriptions of a channel, read once.
+
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{CountVariables, DescribeByIndex, Request};
+use ads_cnc::{Decode, Description, Kind, VariableCount};
+
+use super::case::{Step, Stop};
+use super::probe::Probe;
+
+/// The most variables of a kind that are looked at.
+pub(super) const VARIABLES_MAX: u32 = 10_000;
+
+/// The kinds that can be enumerated.
+pub(super) const KINDS: [(&str, Kind<'static>); 3] =
+    [("V.G", Kind::V_G), ("V.E", Kind::V_E), ("V.A", Kind::V_A)];
+
+impl Probe<'_> {
+    /// Every description of a channel. A case that judges descriptions reads them itself; here
+    /// one that cannot be read only means that nothing can be built on it.
+    pub(super) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
+        let mut all = Vec::new();
+        for (name, kind) in KINDS {
+            let key = (u32::from(channel.number()), name);
+            if !self.session.variables.contains_key(&key) {
+                let described = self.describe(channel, kind)?;
+                self.session.variables.insert(key, described);
+            }
+            all.extend(self.session.variables.get(&key).into_iter().flatten().cloned());
+        }
+        match all.is_empty() {
+            true => Err(Stop::NotApplicable("the target has no variable".to_owned())),
+            false => Ok(all),
+        }
+    }
+
+    fn describe(&mut self, channel: Channel, kind: Kind<'_>) -> Step<Vec<Description>> {
+        let count: VariableCount = self.learn(CountVariables::new(channel, kind))?;
+        let indices = 0..count.0.min(VARIABLES_MAX);
+        indices.map(|index| self.learn(DescribeByIndex::new(channel, index, kind))).collect()
+    }
+
+    /// Reads something that is judged elsewhere.
+    fn learn<'a, T>(&mut self, request: impl Into<Request<'a>>) -> Step<T>
+    where
+        T: for<'b> Decode<'b>,
+    {
+        let exchange = self.send(request)?;
+        let data = exchange.answer().and_then(|answer| answer.success());
+        let what = T::STREAM.layout().name;
+        let lacks = |why: String| Stop::Inconclusive(format!("no {what} to go by: {why}"));
+        T::decode(data.ok_or_else(|| lacks(exchange.result()))?)
+            .map_err(|error| lacks(error.to_string()))
+    }
+}

@@ -1,0 +1,180 @@
+//! What a judgement can be, and what a run of them means for the caller.
+
+use std::fmt;
+use std::process::ExitCode;
+
+use ads_cnc_vectors::Level;
+use serde::Serialize;
+
+/// The judgement of one requirement in one case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// Done as required.
+    Pass,
+    /// A must was not met.
+    Fail,
+    /// A should was not met.
+    Warning,
+    /// Something assumed was done otherwise.
+    Differs,
+    /// Refused as required, but its accepted sibling was refused too.
+    Vacuous,
+    /// What came back does not tell.
+    Inconclusive,
+    /// The target does not claim it.
+    NotApplicable,
+    /// Nothing that happened touches it.
+    NotObserved,
+    /// Not asked for.
+    NotRun,
+    /// The suite itself failed.
+    HarnessError,
+}
+
+impl Verdict {
+    /// All of them, in the order of reports.
+    pub const ALL: [Self; 10] = [
+        Self::Pass,
+        Self::Fail,
+        Self::Warning,
+        Self::Differs,
+        Self::Vacuous,
+        Self::Inconclusive,
+        Self::NotApplicable,
+        Self::NotObserved,
+        Self::NotRun,
+        Self::HarnessError,
+    ];
+
+    /// The verdict on something of this level that was not done.
+    pub const fn missed(level: Level) -> Self {
+        match level {
+            Level::Must => Self::Fail,
+            Level::Should => Self::Warning,
+            Level::Info => Self::Differs,
+        }
+    }
+
+    /// The verdict's name in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Warning => "warning",
+            Self::Differs => "differs",
+            Self::Vacuous => "vacuous",
+            Self::Inconclusive => "inconclusive",
+            Self::NotApplicable => "not-applicable",
+            Self::NotObserved => "not-observed",
+            Self::NotRun => "not-run",
+            Self::HarnessError => "harness-error",
+        }
+    }
+
+    /// Whether something was judged at all.
+    pub const fn is_judged(self) -> bool {
+        matches!(self, Self::Pass | Self::Fail | Self::Warning | Self::Differs | Self::Vacuous)
+    }
+
+    /// How much of a reader's attention it needs; the verdict of a group is its gravest.
+    pub const fn gravity(self) -> u8 {
+        match self {
+            Self::HarnessError => 9,
+            Self::Fail => 8,
+            Self::Vacuous => 7,
+            Self::Warning => 6,
+            Self::Inconclusive => 5,
+            Self::Differs => 4,
+            Self::Pass => 3,
+            Self::NotObserved => 2,
+            Self::NotApplicable => 1,
+            Self::NotRun => 0,
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// How the process ends. Never a count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// Everything judged is in order; warnings and differences leave it so.
+    Success,
+    /// A fail, or a vacuous verdict.
+    Failure,
+    /// The command line is wrong.
+    Usage,
+    /// Nothing was judged, or something stayed inconclusive.
+    Nothing,
+    /// Refused for safety.
+    Refused,
+    /// An internal error.
+    Internal,
+}
+
+impl Exit {
+    /// The number.
+    pub const fn code(self) -> u8 {
+        match self {
+            Self::Success => 0,
+            Self::Failure => 1,
+            Self::Usage => 2,
+            Self::Nothing => 3,
+            Self::Refused => 4,
+            Self::Internal => 70,
+        }
+    }
+
+    /// The first that holds for these verdicts.
+    pub fn of(verdicts: impl IntoIterator<Item = Verdict>) -> Self {
+        let (mut judged, mut failed, mut open, mut broken) = (false, false, false, false);
+        for verdict in verdicts {
+            judged |= verdict.is_judged();
+            failed |= matches!(verdict, Verdict::Fail | Verdict::Vacuous);
+            open |= verdict == Verdict::Inconclusive;
+            broken |= verdict == Verdict::HarnessError;
+        }
+        match (broken, failed, open || !judged) {
+            (true, ..) => Self::Internal,
+            (_, true, _) => Self::Failure,
+            (.., true) => Self::Nothing,
+            _ => Self::Success,
+        }
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit.code())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The order of exit codes: the gravest cause decides, and nothing judged is no success.
+    #[test]
+    fn the_first_cause_decides() {
+        use Verdict::*;
+        let cases: [(&[Verdict], u8); 9] = [
+            (&[], 3),
+            (&[NotRun, NotApplicable, NotObserved], 3),
+            (&[Pass, NotRun], 0),
+            (&[Pass, Warning, Differs], 0),
+            (&[Pass, Inconclusive], 3),
+            (&[Pass, Fail, Inconclusive], 1),
+            (&[Pass, Vacuous], 1),
+            (&[Fail, HarnessError], 70),
+            (&[HarnessError], 70),
+        ];
+        for (verdicts, code) in cases {
+            assert_eq!(Exit::of(verdicts.iter().copied()).code(), code, "{verdicts:?}");
+        }
+    }
+}

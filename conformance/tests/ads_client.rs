@@ -1,0 +1,300 @@
+//! The crate `ads` as published, a client that knows nothing of this project, reads the simulated
+//! CNC. What it has to get is written here byte for byte: no codec stands in between.
+
+use std::io::{BufRead as _, BufReader, Read as _};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use ads::{AmsAddr, AmsNetId, Client, Device, Error, Source, Timeouts};
+
+const GEO: u16 = 551;
+const SDA: u16 = 552;
+const COM: u16 = 553;
+
+/// Variables of channels 1, 2 and 6 by number, and of the first to third by rank.
+const CHANNEL_1: u32 = 0x12_2301;
+const BY_RANK: [(u32, u8); 3] = [(0x02_2301, 1), (0x02_2302, 2), (0x02_2303, 6)];
+const BY_NUMBER: [(u32, u8); 3] = [(0x12_2301, 1), (0x12_2302, 2), (0x12_2306, 6)];
+
+/// `ads-cnc serve` as a process, ended when dropped.
+struct Serve {
+    process: Child,
+    addr: String,
+    net_id: String,
+}
+
+impl Serve {
+    fn start(options: &[&str]) -> Self {
+        let mut process = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+            .args(["serve", "--listen", "127.0.0.1:0"])
+            .args(options)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(process.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
+        let rest = line.strip_prefix("listening on ").unwrap();
+        let (addr, net_id) = rest.trim_end().split_once(", AMS NetId ").unwrap();
+        Self { addr: addr.to_owned(), net_id: net_id.to_owned(), process }
+    }
+
+    /// The client takes the address of its socket as its own: 127.0.0.1.1.1.
+    fn client(&self) -> Client {
+        Client::new(&*self.addr, Timeouts::new(Duration::from_secs(5)), Source::Auto).unwrap()
+    }
+
+    fn net_id(&self) -> AmsNetId {
+        self.net_id.parse().unwrap()
+    }
+}
+
+impl Drop for Serve {
+    fn drop(&mut self) {
+        self.process.kill().unwrap();
+        self.process.wait().unwrap();
+    }
+}
+
+/// Runs `body` with a client and the NetId of a CNC of its own.
+fn with_cnc(options: &[&str], body: impl FnOnce(&Client, AmsNetId)) {
+    let serve = Serve::start(options);
+    let client = serve.client();
+    body(&client, serve.net_id());
+}
+
+fn port(client: &Client, net_id: AmsNetId, port: u16) -> Device<'_> {
+    client.device(AmsAddr::new(net_id, port))
+}
+
+/// ReadWrite with room for the longest reply.
+fn ask(device: Device<'_>, group: u32, offset: u32, data: &[u8]) -> Result<Vec<u8>, u32> {
+    ask_for(device, group, offset, data, 2048)
+}
+
+fn ask_for(
+    device: Device<'_>,
+    group: u32,
+    offset: u32,
+    data: &[u8],
+    length: usize,
+) -> Result<Vec<u8>, u32> {
+    let mut reply = vec![0xEE; length];
+    let length = number(device.write_read(group, offset, data, &mut reply))?;
+    reply.truncate(length);
+    Ok(reply)
+}
+
+fn read(device: Device<'_>, group: u32, offset: u32, length: usize) -> Result<Vec<u8>, u32> {
+    let mut reply = vec![0xEE; length];
+    let length = number(device.read(group, offset, &mut reply))?;
+    reply.truncate(length);
+    Ok(reply)
+}
+
+/// The ADS error number; anything else that goes wrong fails the test.
+fn number<T>(result: ads::Result<T>) -> Result<T, u32> {
+    result.map_err(|error| match error {
+        Error::Ads(_, _, number) => number,
+        other => panic!("{other}"),
+    })
+}
+
+#[test]
+fn objects() {
+    with_cnc(&[], |client, net_id| {
+        let com = port(client, net_id, COM);
+        assert_eq!(read(com, 0x13_0101, 0, 4), Ok(vec![25, 0, 0, 0]));
+        // By rank, and the lists of another channel, the platform and a platform axis.
+        assert_eq!(read(com, 0x03_0101, 0, 4), Ok(vec![25, 0, 0, 0]));
+        assert_eq!(read(com, 0x03_0103, 0, 4), read(com, 0x13_0106, 0, 4));
+        assert_eq!(read(com, 0x13_0100, 0, 4), Ok(vec![2, 0, 0, 0]));
+        assert_eq!(read(com, 0x13_0203, 0, 4), Ok(vec![2, 0, 0, 0]));
+
+        let printed = b"\x52\0\0\0\x01\0\0\0\0\0\0\0\x01\x01\x12\0\x03\0\0\0\
+            mc_active_single_block_r\0\0\0\0\0\0\0\0\
+            BOOL\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
+        let command = b"\x53\0\0\0\x01\0\0\0\x01\0\0\0\x01\x01\x12\0\x01\0\0\0\
+            mc_command_single_block_w\0\0\0\0\0\0\0\
+            BOOL\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0";
+        assert_eq!(read(com, 0x13_0101, 0x10, 84), Ok(printed.to_vec()));
+        assert_eq!(read(com, 0x13_0101, 0x10, 168), Ok([&printed[..], command].concat()));
+        // A length between asks for one, a longer one than there are for what there are.
+        assert_eq!(read(com, 0x13_0101, 0x10, 100), Ok(printed.to_vec()));
+        assert_eq!(read(com, 0x13_0101, 24, 10 * 84).map(|bytes| bytes.len()), Ok(168));
+        assert_eq!(read(com, 0x13_0101, 1, 25 * 84).map(|bytes| bytes.len()), Ok(25 * 84));
+    });
+}
+
+#[test]
+fn printed_variables() {
+    with_cnc(&[], |client, net_id| {
+        let sda = port(client, net_id, SDA);
+        let ask = |offset, data: &[u8]| ask(sda, CHANNEL_1, offset, data).unwrap();
+        assert_eq!(ask(0x44, b"V.E\0"), [123, 0, 0, 0]);
+        assert_eq!(
+            ask(0x45, b"\x02\0\0\0V.E\0"),
+            b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0"
+        );
+        assert_eq!(ask(0x46, b"V.E.vartest\0"), [0x04, 0, 0, 0x02]);
+        // 333, and 123 234 345 456 567
+        let array = [123, 0, 0, 0, 234, 0, 0, 0, 89, 1, 0, 0, 200, 1, 0, 0, 55, 2, 0, 0];
+        assert_eq!(ask(0x47, b"\x41\x23\x01\x20\x01\0\0\0\x04\0\0\0"), [77, 1, 0, 0]);
+        assert_eq!(ask(0x47, b"\x34\x12\x00\x02\0\0\0\0"), array);
+        assert_eq!(ask(0x48, b"V.E.Testvar\0"), array);
+        // Its element as the whole array has it: the other example reads 333 here.
+        assert_eq!(ask(0x48, b"V.E.Testvar[3]\0"), [200, 1, 0, 0]);
+        assert_eq!(ask(0x48, b"V.E.test[4]\0"), [55, 2, 0, 0]);
+    });
+}
+
+#[test]
+fn other_variables() {
+    with_cnc(&[], |client, net_id| {
+        let sda = port(client, net_id, SDA);
+        let ask = |offset, data: &[u8]| ask(sda, CHANNEL_1, offset, data).unwrap();
+        assert_eq!(ask(0x44, b"V.G\0"), [5, 0, 0, 0]);
+        assert_eq!(ask(0x44, b"V.A\0"), [6, 0, 0, 0]);
+        // The sum of all kinds.
+        assert_eq!(ask(0x44, b"\0"), [134, 0, 0, 0]);
+        // 0.0 is eight NULs; 1234.2 is not.
+        assert_eq!(ask(0x48, b"V.A.ACT_POS.Z\0"), [0; 8]);
+        let real = [0xCD, 0xCC, 0xCC, 0xCC, 0xCC, 0x48, 0x93, 0x40];
+        assert_eq!(ask(0x47, b"\x1B\0\x02\x01\0\0\0\0"), real);
+        // CP1252 in a name and in a text, with bytes behind the NUL.
+        let value = [0x00, 0x00, 0x00, 0x00, 0x00, 0x4A, 0x93, 0x40];
+        assert_eq!(ask(0x48, b"V.E.L\xE4nge\0"), value);
+        assert_eq!(ask(0x48, b"V.E.text\0"), b"L\xE4nge 5\x80\0rest\0\0\0\0\0\0\0\0");
+        // Last index fastest.
+        assert_eq!(ask(0x48, b"V.E.matrix[1][0]\0"), [21, 0]);
+        assert_eq!(ask(0x48, b"V.E.cube[1][2][3]\0"), [23]);
+        // An index before a dot is part of the name.
+        assert_eq!(ask(0x48, b"V.G.NP[0].V[1]\0"), [0, 0, 0, 0, 0, 0, 0, 0x40]);
+        assert_eq!(ask(0x48, b"V.E.largest\0").len(), 2048);
+    });
+}
+
+#[test]
+fn a_rank_is_no_number() {
+    with_cnc(&[], |client, net_id| {
+        for (group, number) in BY_RANK.into_iter().chain(BY_NUMBER) {
+            for task in [GEO, SDA] {
+                let reply = ask(port(client, net_id, task), group, 0x48, b"V.E.channel\0");
+                assert_eq!(reply, Ok(vec![number, 0, 0, 0]), "{group:#x} at {task}");
+            }
+        }
+    });
+}
+
+#[test]
+fn refusals_are_error_numbers() {
+    with_cnc(&[], |client, net_id| {
+        let (sda, com) = (port(client, net_id, SDA), port(client, net_id, COM));
+        let refused = |group, offset, data: &[u8]| ask(sda, group, offset, data).unwrap_err();
+        // A group without functions, channels that are not there, by number and by rank.
+        for group in [0xF005, 0x12_2401, 0x12_2303, 0x12_2305, 0x02_2304] {
+            assert_eq!(refused(group, 0x44, b"V.E\0"), 0x702, "{group:#x}");
+        }
+        assert_eq!(refused(CHANNEL_1, 0x7FFF, b"V.E\0"), 0x703);
+        assert_eq!(refused(CHANNEL_1, 0x46, b"V.E.nobody\0"), 0x710);
+        assert_eq!(refused(CHANNEL_1, 0x48, b"V.E.nobody\0"), 0x710);
+        assert_eq!(refused(CHANNEL_1, 0x44, b"V.X\0"), 0x710);
+        assert_eq!(refused(CHANNEL_1, 0x45, b"\x7B\0\0\0V.E\0"), 0x706);
+        assert_eq!(refused(CHANNEL_1, 0x47, b"\xFF\xFF\xFF\x7F\0\0\0\0"), 0x706);
+        assert_eq!(refused(CHANNEL_1, 0x47, b"\x34\x12\0\x02\x01\0\0\0\x05\0\0\0"), 0x706);
+        assert_eq!(refused(CHANNEL_1, 0x47, b"\x34\x12\0\x02\x02\0\0\0\0\0\0\0\0\0\0\0"), 0x706);
+        assert_eq!(refused(CHANNEL_1, 0x48, b"V.E.test[5]\0"), 0x706);
+        // Requests and read lengths of the wrong size.
+        assert_eq!(refused(CHANNEL_1, 0x44, b"V.E"), 0x705);
+        assert_eq!(refused(CHANNEL_1, 0x45, b"\x02\0\0"), 0x705);
+        assert_eq!(refused(CHANNEL_1, 0x47, b"\x34\x12\0\x02"), 0x705);
+        assert_eq!(refused(CHANNEL_1, 0x47, b"\x34\x12\0\x02\xFF\xFF\xFF\xFF"), 0x705);
+        assert_eq!(ask_for(sda, CHANNEL_1, 0x44, b"V.E\0", 3), Err(0x705));
+        assert_eq!(ask_for(sda, CHANNEL_1, 0x48, b"V.E.test\0", 19), Err(0x705));
+        // The same on COM.
+        assert_eq!(read(com, 0x13_0101, 26, 84), Err(0x703));
+        assert_eq!(read(com, 0x13_0101, 1, 83), Err(0x705));
+        assert_eq!(read(com, 0x13_0105, 0, 4), Err(0x702));
+        assert_eq!(read(com, 0x13_0204, 0, 4), Err(0x702));
+        assert_eq!(read(com, 0x12_0101, 3, 1), Err(0x702));
+        // Another service, another port, another device.
+        assert_eq!(read(sda, CHANNEL_1, 0x44, 4), Err(0x701));
+        assert_eq!(number(sda.write(CHANNEL_1, 0x44, b"V.E\0")), Err(0x701));
+        assert_eq!(number(sda.get_state().map(|_| ())), Err(0x701));
+        assert_eq!(number(sda.get_info().map(|_| ())), Err(0x701));
+        let plc = port(client, net_id, 851);
+        assert_eq!(ask(plc, CHANNEL_1, 0x44, b"V.E\0"), Err(0x6));
+        let other = port(client, AmsNetId::new(192, 0, 2, 1, 1, 1), SDA);
+        assert_eq!(ask(other, CHANNEL_1, 0x44, b"V.E\0"), Err(0x7));
+        // And it still answers.
+        assert_eq!(ask(sda, CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
+    });
+}
+
+#[test]
+fn two_clients_at_once() {
+    let serve = Serve::start(&[]);
+    let clients = [serve.client(), serve.client()];
+    for _ in 0..3 {
+        for client in &clients {
+            let sda = port(client, serve.net_id(), SDA);
+            assert_eq!(ask(sda, CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
+        }
+    }
+}
+
+#[test]
+fn a_defect_shows_over_the_wire() {
+    with_cnc(&["--defect", "variable-count.count.flip"], |client, net_id| {
+        let sda = port(client, net_id, SDA);
+        assert_eq!(ask(sda, CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![122, 0, 0, 0]));
+    });
+}
+
+/// Ends with a code and says why.
+fn fails(options: &[&str]) -> (Option<i32>, String) {
+    let serve = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .arg("serve")
+        .args(options)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    assert_eq!(String::from_utf8_lossy(&serve.stdout), "");
+    (serve.status.code(), String::from_utf8(serve.stderr).unwrap())
+}
+
+#[test]
+fn what_serve_refuses() {
+    let (code, why) = fails(&["--listen", "0.0.0.0:0"]);
+    assert_eq!(code, Some(2));
+    assert!(why.contains("not a loopback address"), "{why}");
+    let (code, why) = fails(&["--defect", "no.such.defect"]);
+    assert_eq!(code, Some(2));
+    assert!(why.contains("variable-description.handle.flip"), "{why}");
+    assert_eq!(fails(&["--listen", "nowhere"]).0, Some(2));
+
+    let serve = Serve::start(&[]);
+    let (code, why) = fails(&["--listen", &serve.addr]);
+    assert_eq!(code, Some(70));
+    assert!(why.contains("cannot listen on"), "{why}");
+}
+
+#[test]
+fn serve_prints_one_line() {
+    let mut serve = Serve::start(&[]);
+    let mut out = serve.process.stdout.take().unwrap();
+    assert_eq!(ask_twice(&serve), [123, 123]);
+    serve.process.kill().unwrap();
+    let mut rest = String::new();
+    out.read_to_string(&mut rest).unwrap();
+    assert_eq!(rest, "");
+}
+
+fn ask_twice(serve: &Serve) -> [u8; 2] {
+    [0, 1].map(|_| {
+        let client = serve.client();
+        let sda = port(&client, serve.net_id(), SDA);
+        ask(sda, CHANNEL_1, 0x44, b"V.E\0").unwrap()[0]
+    })
+}

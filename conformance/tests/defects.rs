@@ -1,0 +1,87 @@
+//! The suite can fail: a wrong field anywhere is seen by its vectors and by its cases.
+
+use std::net::SocketAddr;
+use std::sync::Arc;
+
+use ads_cnc::layout::{Field, Stream};
+use ads_cnc_conformance::client::{Client, Target};
+use ads_cnc_conformance::cnc::{Cnc, Server};
+use ads_cnc_conformance::defect::{Change, Defect};
+use ads_cnc_conformance::gate::Gate;
+use ads_cnc_conformance::net;
+use ads_cnc_conformance::profile::Profile;
+use ads_cnc_conformance::suite::{self, Case, Needs, Outcome, Session};
+use ads_cnc_conformance::verdict::Verdict;
+
+/// Runs the suite against an embedded CNC with this defect, or its vectors against the codec.
+fn run(defect: Option<&Defect>, wanted: impl Fn(&Case) -> bool) -> Vec<Outcome> {
+    let cases = suite::cases().into_iter().filter(wanted).collect();
+    let cnc = Cnc::with_default_model().unwrap().with_defect(defect.cloned());
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let server = Server::start(listener, Arc::new(cnc)).unwrap();
+    let target = Target::local(server.addr(), server.net_id());
+    let client = Client::connect(target, Gate::with_malformed()).unwrap();
+    let mut session = Session::new(client, Profile::EMBEDDED);
+    suite::run(cases, Some(&mut session), defect, |_| ())
+}
+
+fn failed(outcomes: &[Outcome]) -> Vec<&str> {
+    let failed = outcomes.iter().filter(|outcome| outcome.verdict() == Verdict::Fail);
+    failed.map(|outcome| outcome.case.id.as_str()).collect()
+}
+
+/// What is tried of a field: both changes alter any bytes there can be.
+fn defects(field: Field) -> impl Iterator<Item = Defect> {
+    let all = Defect::of_stream(field.stream()).into_iter().filter(move |one| one.field == field);
+    all.filter(|defect| matches!(defect.change, Change::FlipLow | Change::Invert))
+}
+
+/// Every defect of every field of `stream` fails a vector and a case of the target that is not
+/// made of a vector, or, where only a printed example can tell, one that is.
+fn every_field_is_seen(stream: Stream, only_printed_can_tell: &[&str]) {
+    for defect in stream.fields().flat_map(defects) {
+        let vectors = run(Some(&defect), |case| case.needs == Needs::Codec);
+        let by_vectors = failed(&vectors);
+        assert!(!by_vectors.is_empty(), "{}: no vector fails", defect.id);
+        let cases = run(Some(&defect), |case| case.needs != Needs::Codec);
+        let by_cases = failed(&cases);
+        let telling = by_cases.iter().any(|id| !id.starts_with("printed-"));
+        let printed = only_printed_can_tell.contains(&defect.field.name());
+        assert!(telling || printed && !by_cases.is_empty(), "{}: {by_cases:?}", defect.id);
+        let broken = cases.iter().find(|case| case.verdict() == Verdict::HarnessError);
+        assert!(broken.is_none(), "{}: {:?}", defect.id, broken.map(|case| &case.note));
+    }
+}
+
+#[test]
+fn every_field_of_the_description_is_seen() {
+    every_field_is_seen(Stream::VariableDescription, &["access"]);
+}
+
+#[test]
+fn every_field_of_the_descriptor_is_seen() {
+    // A number that identifies and nothing else, bytes without a meaning, and names that nothing
+    // else refers to: all that can be said of them is that an example has them.
+    let printed =
+        ["id", "not_assigned", "write_access", "index_offset", "index_group", "name", "type"];
+    every_field_is_seen(Stream::ObjectDescriptor, &printed);
+}
+
+#[test]
+fn every_field_of_the_handle_header_is_seen() {
+    every_field_is_seen(Stream::VariableHandleRead, &[]);
+}
+
+/// Without a defect nothing is raised, and everything that can be judged is.
+#[test]
+fn the_embedded_cnc_raises_nothing() {
+    for outcome in run(None, |_| true) {
+        let verdict = outcome.verdict();
+        let contradicted = outcome.case.id == "printed-value-printed-name-element";
+        let expected = if contradicted { Verdict::NotApplicable } else { Verdict::Pass };
+        assert_eq!(verdict, expected, "{}: {:?}", outcome.case.id, outcome.verdicts);
+        for judged in &outcome.verdicts {
+            assert_eq!(judged.verdict, expected, "{} {}", outcome.case.id, judged.requirement);
+        }
+    }
+}

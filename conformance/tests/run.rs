@@ -1,0 +1,232 @@
+//! `ads-cnc run` as a person calls it.
+
+use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
+use std::net::SocketAddr;
+use std::process::{Child, Command, Output, Stdio};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Duration;
+
+use ads_cnc::Decode;
+use ads_cnc::ads::{Command as AmsCommand, FrameRef, ReadRequest, ReadWriteRequestRef};
+use ads_cnc::operation::{Call, Effect, Service};
+use ads_cnc_conformance::net;
+
+fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+/// A port of this machine that the system picks.
+fn loopback() -> SocketAddr {
+    SocketAddr::from(([127, 0, 0, 1], 0))
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// A simulated CNC in a process of its own, killed when it is dropped.
+struct Serve {
+    child: Child,
+    addr: SocketAddr,
+}
+
+impl Serve {
+    fn start() -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+            .args(["serve", "--listen", "127.0.0.1:0"])
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let addr = line.strip_prefix("listening on ").unwrap().split(',').next().unwrap();
+        Self { child, addr: addr.parse().unwrap() }
+    }
+}
+
+impl Drop for Serve {
+    fn drop(&mut self) {
+        let _ended = self.child.kill().and_then(|()| self.child.wait());
+    }
+}
+
+/// Passes a connection on and keeps what the client sends.
+fn tap(target: SocketAddr) -> (SocketAddr, Arc<Mutex<Vec<u8>>>) {
+    let listener = net::listen(loopback()).unwrap();
+    let addr = listener.local_addr().unwrap();
+    let kept = Arc::new(Mutex::new(Vec::new()));
+    let keep = Arc::clone(&kept);
+    thread::spawn(move || -> io::Result<()> {
+        let (client, _) = listener.accept()?;
+        let server = net::connect(target, Duration::from_secs(5))?;
+        let (mut replies, mut back) = (server.try_clone()?, client.try_clone()?);
+        thread::spawn(move || io::copy(&mut replies, &mut back));
+        let (mut client, mut server, mut chunk) = (client, server, [0; 4096]);
+        loop {
+            let len = client.read(&mut chunk)?;
+            if len == 0 {
+                return Ok(());
+            }
+            keep.lock().unwrap().extend_from_slice(&chunk[..len]);
+            server.write_all(&chunk[..len])?;
+        }
+    });
+    (addr, kept)
+}
+
+/// Without a command the suite runs against the embedded CNC and passes.
+#[test]
+fn no_command_runs_the_suite() {
+    let output = ads_cnc(&[]);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{shown}");
+    assert!(shown.contains("\nPASSED  codec: "), "{shown}");
+    assert!(!shown.contains("FAIL") && !shown.contains("differs"), "{shown}");
+    assert_eq!(text(&output.stderr), "");
+}
+
+/// A failure names its clause, and shows what was sent, received and expected.
+#[test]
+fn a_failure_is_shown_with_its_clause_and_bytes() {
+    let output = ads_cnc(&["run", "--defect", "variable-description.size.flip"]);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{shown}");
+    let block = shown.split("\n\n").find(|block| block.starts_with("FAIL  var-descriptions"));
+    let block = block.unwrap_or_else(|| panic!("{shown}"));
+    for part in [
+        "\n  VAR-8     must: ",
+        "ads-en 1.05 §4.3.2; ads-de 1.051 §4.3.2",
+        "\n  expected  ",
+        "\n  found     ",
+        "\n  sent      ReadWrite 0x122301, 0x45 at port 552",
+        "V.G·              kind",
+        "\n  received  ",
+        "  size\n",
+    ] {
+        assert!(block.contains(part), "{part:?} is not in\n{block}");
+    }
+}
+
+/// The report as data says the same as the one on the console.
+#[test]
+fn the_report_is_written_as_json() {
+    let file = std::env::temp_dir().join(format!("ads-cnc-run-{}.json", std::process::id()));
+    let output = ads_cnc(&["run", "--json", file.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0));
+    let report: serde_json::Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+    std::fs::remove_file(&file).unwrap();
+    assert_eq!(report["format"], 1);
+    assert_eq!(report["exit_code"], 0);
+    let cases = report["cases"].as_array().unwrap();
+    let of_target = cases.iter().filter(|case| case["codec"] == false);
+    assert!(of_target.count() > 40);
+    // Every clause these functions can show is judged.
+    let target = &report["subjects"][1];
+    assert_eq!(target["subject"], "target");
+    let judged: Vec<_> = target["areas"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .flat_map(|area| area["requirements"].as_array().unwrap())
+        .filter(|one| one["verdict"] == "pass")
+        .map(|one| one["requirement"].as_str().unwrap())
+        .collect();
+    for id in [
+        "ADR-1", "ADR-3", "ADR-4", "ADR-5", "ADR-10", "ADR-11", "ADR-12", "COM-1", "COM-2",
+        "COM-3", "COM-4", "COM-5", "COM-6", "COM-7", "VAR-1", "VAR-2", "VAR-3", "VAR-4", "VAR-5",
+        "VAR-6", "VAR-7", "VAR-8", "VAR-9", "VAR-10", "VAR-11", "VAR-14", "VAR-20", "VAR-21",
+        "VAR-24",
+    ] {
+        assert!(judged.contains(&id), "{id} is not judged");
+    }
+}
+
+/// A device is judged over its own connection, and nothing leaves for it but documented queries.
+#[test]
+fn a_device_is_only_read() {
+    let serve = Serve::start();
+    let (addr, kept) = tap(serve.addr);
+    let output = ads_cnc(&["run", "--target", &addr.to_string(), "--net-id", "127.0.0.1.1.1"]);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{shown}");
+    assert!(shown.contains("not sent to a device"), "{shown}");
+    let bytes = kept.lock().unwrap().clone();
+    let (mut rest, mut frames) = (&bytes[..], 0);
+    while let Some((frame, len)) = FrameRef::split(rest, 4096).unwrap() {
+        let data = frame.data();
+        let (service, index_group, index_offset, read_length, data) = match frame.header().command {
+            AmsCommand::READ => {
+                let read = ReadRequest::decode(data).unwrap();
+                (Service::Read, read.index_group, read.index_offset, read.length, &[][..])
+            }
+            AmsCommand::READ_WRITE => {
+                let both = ReadWriteRequestRef::decode(data).unwrap();
+                let (group, offset) = (both.index_group, both.index_offset);
+                (Service::ReadWrite, group, offset, both.read_length, both.data)
+            }
+            other => panic!("{other:?} was sent"),
+        };
+        let port = frame.header().target.port;
+        let call = Call { port, service, index_group, index_offset, read_length, data };
+        let request = call.dispatch().unwrap_or_else(|refusal| panic!("{call:?}: {refusal}"));
+        assert_eq!(request.function().spec().effect, Effect::Query, "{request:?}");
+        rest = &rest[len..];
+        frames += 1;
+    }
+    assert!(rest.is_empty() && frames > 500, "{frames} frames and {} bytes", rest.len());
+}
+
+/// A CNC that gets a field wrong fails over the wire too.
+#[test]
+fn a_wrong_device_fails() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["serve", "--listen", "127.0.0.1:0", "--defect", "variable-count.count.flip"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    let addr = line.strip_prefix("listening on ").unwrap().split(',').next().unwrap().to_owned();
+    let output = ads_cnc(&["run", "--target", &addr, "--net-id", "127.0.0.1.1.1"]);
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
+}
+
+/// A target that accepts and says nothing is neither a success nor a hang.
+#[test]
+fn a_silent_target_is_no_success() {
+    let listener = net::listen(loopback()).unwrap();
+    let addr = listener.local_addr().unwrap().to_string();
+    let silent = thread::spawn(move || {
+        // As often as the suite may try; each time nothing comes back.
+        let open: Vec<_> = listener.incoming().take(2).collect();
+        thread::sleep(Duration::from_millis(200));
+        drop(open);
+    });
+    let output =
+        ads_cnc(&["run", "--target", &addr, "--net-id", "10.0.0.1.1.1", "--timeout", "20"]);
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
+    assert!(text(&output.stderr).contains("route"), "{}", text(&output.stderr));
+    drop(silent);
+}
+
+/// What cannot be done ends with the exit code that says so.
+#[test]
+fn exit_codes() {
+    let nobody = net::listen(loopback()).unwrap().local_addr().unwrap().to_string();
+    let cases: [(&[&str], i32); 6] = [
+        (&["run", "--target", &nobody, "--net-id", "10.0.0.1.1.1", "--timeout", "500"], 3),
+        (&["run", "--target", "127.0.0.1"], 2),
+        (&["run", "--net-id", "10.0.0.1.1"], 2),
+        (&["run", "--no-such-option"], 2),
+        (&["run", "--defect", "no-such-defect"], 2),
+        (&["run", "--json", "/no/such/folder/report.json"], 70),
+    ];
+    for (args, code) in cases {
+        let output = ads_cnc(args);
+        assert_eq!(output.status.code(), Some(code), "{args:?}: {}", text(&output.stderr));
+        assert!(!output.stderr.is_empty(), "{args:?} says nothing");
+    }
+}
