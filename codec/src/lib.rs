@@ -6,7 +6,7 @@
 //!
 //! | manual (`ads-en` 1.05, `ads-de` 1.051) | here |
 //! |---|---|
-//! | 1, code page | [`CncStr`], [`CncString`], [`text`] |
+//! | 1, code page | [`CncStr`], [`text`] |
 //! | 2, index groups and offsets | [`address`] |
 //! | 2.1.1, object descriptors | [`ObjectCount`], [`DescriptorRef`], [`DescriptorsRef`] |
 //! | 4.3.1, number of variables | [`VariableKindRef`], [`VariableCount`] |
