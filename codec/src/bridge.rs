@@ -82,8 +82,11 @@ pub(crate) fn records<T: FromBytes + IntoBytes>() -> BinResult<Vec<Fixed<T>>> {
 /// A length and so many bytes, or nothing at the end of the stream.
 #[binrw::parser(reader, endian)]
 pub(crate) fn counted_unless_end() -> BinResult<Option<Vec<u8>>> {
-    let rest = rest(reader, endian, ())?;
-    Ok(rest.get(4..).map(Vec::from))
+    if left(reader)? < 4 {
+        return Ok(None);
+    }
+    reader.seek(SeekFrom::Current(4))?;
+    rest(reader, endian, ()).map(Some)
 }
 
 /// Text to the end of the stream; the view has found its end to be allowed.

@@ -44,6 +44,10 @@ pub enum ErrorKind {
     InnerNul,
     /// A character without a CP1252 byte: its code point (found); expected is 0.
     NotCp1252,
+    /// A character that is no decimal digit: its code point (found); expected is 0.
+    NotDecimal,
+    /// A number without digits or with too many: the most, how many.
+    Digits,
     /// A value outside its range: the nearest value allowed, the value.
     OutOfRange,
     /// A value that has to equal another: that one, the value.
@@ -111,6 +115,8 @@ impl fmt::Display for Error {
             }
             ErrorKind::InnerNul => write!(f, "NUL inside the text, at its byte {found}"),
             ErrorKind::NotCp1252 => write!(f, "U+{found:04X} is not in CP1252"),
+            ErrorKind::NotDecimal => write!(f, "U+{found:04X} is no decimal digit"),
+            ErrorKind::Digits => write!(f, "1 to {expected} digits expected, {found} found"),
             ErrorKind::OutOfRange if found < expected => {
                 write!(f, "out of range, at least {expected} expected, {found} found")
             }

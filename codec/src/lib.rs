@@ -1,8 +1,8 @@
 //! The byte streams with which an ISG/TwinCAT CNC is read and written over ADS.
 //!
-//! Every stream has two readings: `XRef` borrows from the bytes and never allocates; `X`, with the
+//! A stream has two readings: `XRef` borrows from the bytes and never allocates; `X`, with the
 //! feature `alloc`, owns what it read. Both accept the same bytes, refuse the others with the same
-//! [`Error`], and encode to the bytes they were read from.
+//! [`Error`], and encode to the bytes they were read from. Where all is numbers, one type is both.
 //!
 //! | manual (`ads-en` 1.05, `ads-de` 1.051) | here |
 //! |---|---|

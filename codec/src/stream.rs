@@ -18,6 +18,10 @@ pub trait Decode<'a>: Sized {
     fn decode(bytes: &'a [u8]) -> Result<Self, Error>;
 }
 
+/// Bytes of the longest stream there is: a frame with the most data of a service.
+#[cfg(feature = "alloc")]
+const FRAME_MAX: usize = crate::ads::FrameRef::HEADERS_LEN + 16 + crate::limits::ADS_DATA_MAX;
+
 /// Writes a stream. What was decoded encodes to the same bytes.
 pub trait Encode {
     /// How many bytes [`encode`](Self::encode) writes.
@@ -35,8 +39,8 @@ pub trait Encode {
     /// A value that no decoder would accept.
     #[cfg(feature = "alloc")]
     fn to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
-        // The limit first: a length that is refused anyway is not allocated.
-        let mut bytes = alloc::vec![0; self.encoded_len().min(crate::limits::ADS_DATA_MAX + 64)];
+        // Nothing longer than a frame is accepted: a length that is refused is not allocated.
+        let mut bytes = alloc::vec![0; self.encoded_len().min(FRAME_MAX)];
         self.encode(&mut bytes)?;
         Ok(bytes)
     }

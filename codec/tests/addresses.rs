@@ -177,14 +177,18 @@ fn axes_with_both_strides() {
     ] {
         assert_eq!(offset(AxisStride::X10000, axis, element), printed);
         let taken = IndexOffset::new(printed).axis_and_element(AxisStride::X10000);
-        assert_eq!(taken, (axis, element));
+        assert_eq!(taken, Ok((axis, element)));
     }
     // The first platform axis of the HLD (E-01).
     assert_eq!(offset(AxisStride::X1000, 1, 0), 0x1000);
     assert_eq!(offset(AxisStride::X1000, 1, 1), 0x1001);
     // An offset does not tell its stride.
     assert_eq!(offset(AxisStride::X10000, 1, 1), offset(AxisStride::X1000, 16, 1));
-    assert_eq!(IndexOffset::new(0x1_0001).axis_and_element(AxisStride::X1000), (16, 1));
+    assert_eq!(IndexOffset::new(0x1_0001).axis_and_element(AxisStride::X1000), Ok((16, 1)));
+    // An axis of 17 bits, which no stride can have put there.
+    let error = IndexOffset::new(0x1000_0000).axis_and_element(AxisStride::X1000).unwrap_err();
+    assert_eq!((error.kind(), error.expected()), (ErrorKind::OutOfRange, 0xFFFF));
+    assert_eq!((error.field().name(), error.found()), ("axis", 0x1_0000));
     // The largest of each.
     assert_eq!(offset(AxisStride::X10000, 0xFFFF, 0xFFFF), u32::MAX);
     assert_eq!(offset(AxisStride::X1000, 0xFFFF, 0xFFF), 0x0FFF_FFFF);
@@ -253,7 +257,7 @@ proptest! {
             match IndexOffset::of_axis(stride, axis, element) {
                 Ok(offset) => {
                     prop_assert!(fits);
-                    prop_assert_eq!(offset.axis_and_element(stride), (axis, element));
+                    prop_assert_eq!(offset.axis_and_element(stride), Ok((axis, element)));
                 }
                 Err(error) => {
                     prop_assert!(!fits);

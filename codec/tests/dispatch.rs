@@ -71,7 +71,7 @@ fn one_fault_is_refused_for_what_it_is() {
         ),
         (
             refusal(|call| call.service = Service::Write),
-            Refusal::Service(Service::ReadWrite, Service::Write),
+            Refusal::Service { takes: Service::ReadWrite, asked: Service::Write },
             0x701,
         ),
     ];

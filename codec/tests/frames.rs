@@ -70,7 +70,11 @@ fn lengths_do_not_wrap() {
     let mut bytes = frame(b"");
     bytes[2..6].copy_from_slice(&[0xFF; 4]);
     let error = FrameRef::split(&bytes, u32::MAX).unwrap_err();
-    // The length would be right if the two headers' lengths were added in 32 bits.
+    // Refused by the named maximum before the data length is compared.
+    assert_eq!((error.kind(), error.offset()), (TooLong, 2));
+    let most = u32::try_from(ads_cnc::limits::ADS_DATA_MAX + 16 + 32).unwrap();
+    bytes[2..6].copy_from_slice(&most.to_le_bytes());
+    let error = FrameRef::split(&bytes, u32::MAX).unwrap_err();
     assert_eq!((error.kind(), error.offset()), (Mismatch, 26));
 }
 
@@ -131,4 +135,25 @@ proptest! {
 /// What is left is the beginning of one of the frames.
 fn whole_is_missing(rest: &[u8], frames: &[Vec<u8>]) -> bool {
     frames.iter().any(|whole| rest.len() < whole.len() && whole.starts_with(rest))
+}
+
+/// The longest frame can be split, put together again and encoded; one byte more cannot.
+#[cfg(feature = "alloc")]
+#[test]
+fn the_longest_frame() {
+    let most = ads_cnc::limits::ADS_DATA_MAX + 16;
+    let data = vec![7; most];
+    let header = FrameRef::split(&frame(&[]), u32::MAX).unwrap().unwrap().0.header();
+    let bytes = FrameRef::new(header, &data).unwrap().to_vec().unwrap();
+    let (frame, len) = FrameRef::split(&bytes, u32::MAX).unwrap().unwrap();
+    assert_eq!((frame.data().len(), len), (most, bytes.len()));
+    let again = FrameRef::new(frame.header(), frame.data()).unwrap().to_vec();
+    assert_eq!(again.as_deref(), Ok(&bytes[..]));
+
+    let more = vec![7; most + 1];
+    assert_eq!(FrameRef::new(header, &more).unwrap_err().kind(), TooLong);
+    let mut lying = bytes;
+    let len = u32::try_from(most + 33).unwrap().to_le_bytes();
+    lying[2..6].copy_from_slice(&len);
+    assert_eq!(FrameRef::split(&lying, u32::MAX).unwrap_err().kind(), TooLong);
 }

@@ -8,11 +8,7 @@ use std::path::Path;
 
 use ads_cnc::layout::{FieldSpec, Layout, Size, Stream};
 use ads_cnc::limits::*;
-use common::{NO_STREAM, each_sample};
-
-fn streams() -> impl Iterator<Item = Stream> {
-    Stream::ALL.iter().copied().filter(|stream| !NO_STREAM.contains(stream))
-}
+use common::each_sample;
 
 /// `codec/doc` shows the tables as they are.
 #[test]
@@ -20,7 +16,7 @@ fn documentation_shows_the_tables() {
     let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("doc");
     let write = std::env::var_os("ADS_CNC_WRITE_TABLES").is_some();
     let mut stale = Vec::new();
-    for stream in streams() {
+    for stream in Stream::all() {
         let path = dir.join(format!("{stream}.md"));
         let table = render(stream);
         if write {
@@ -32,7 +28,7 @@ fn documentation_shows_the_tables() {
     assert!(stale.is_empty(), "run with ADS_CNC_WRITE_TABLES=1 to rewrite {stale:#?}");
 
     let files = std::fs::read_dir(dir).unwrap().count();
-    assert_eq!(files, streams().count(), "a table of no stream");
+    assert_eq!(files, Stream::all().count(), "a table of no stream");
 }
 
 fn render(stream: Stream) -> String {
@@ -76,7 +72,8 @@ fn length(layout: &Layout) -> String {
 fn record(stream: Stream) -> Option<Stream> {
     let fields = stream.layout().fields;
     stream.layout().repeats.then(|| {
-        let found = streams().find(|one| !one.layout().repeats && one.layout().fields == fields);
+        let found =
+            Stream::all().find(|one| !one.layout().repeats && one.layout().fields == fields);
         found.expect("the record is a stream too")
     })
 }
@@ -132,7 +129,7 @@ fn offsets_are_where_walks_find_the_fields() {
 /// Fields of a fixed place follow each other without a gap (GEN-2).
 #[test]
 fn streams_are_packed() {
-    for stream in streams() {
+    for stream in Stream::all() {
         let mut end = 0;
         for row in stream.layout().fields {
             assert_eq!(row.offset, end, "{stream}: {}", row.name);
@@ -155,7 +152,7 @@ fn requirements_are_ids() {
                 && number.bytes().all(|byte| byte.is_ascii_digit())
         })
     };
-    for layout in Stream::ALL.iter().map(|stream| stream.layout()) {
+    for layout in Stream::all().map(Stream::layout) {
         let ids = layout.fields.iter().map(|row| row.clause).chain([layout.clause]);
         ids.for_each(|id| assert!(is_id(id), "{}: {id}", layout.name));
     }
@@ -164,9 +161,9 @@ fn requirements_are_ids() {
 /// A name finds one stream and, in it, one field.
 #[test]
 fn names_are_unique() {
-    let names: HashSet<_> = Stream::ALL.iter().map(|stream| stream.layout().name).collect();
-    assert_eq!(names.len(), Stream::ALL.len());
-    for &stream in Stream::ALL {
+    let names: HashSet<_> = Stream::all().map(|stream| stream.layout().name).collect();
+    assert_eq!(names.len(), Stream::all().count());
+    for stream in Stream::all() {
         assert_eq!(Stream::by_name(stream.layout().name), Some(stream));
         let rows = stream.layout().fields;
         let names: HashSet<_> = rows.iter().map(|row| row.name).collect();

@@ -387,7 +387,7 @@ fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
         Some(0x1000) => AxisStride::X1000,
         other => return Err(Refused::Unsupported(format!("an axis stride of {other:?}"))),
     };
-    let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride);
+    let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride)?;
     let again = IndexOffset::of_axis(stride, axis, element)?;
     // Neither has more than 16 bits, or the offset would not have been put together again.
     let fields = vec![("axis", one(Type::Uns16, axis)), ("element", one(Type::Uns16, element))];

@@ -69,10 +69,7 @@ impl Defect {
     ///
     /// Descriptors in sequence have none of their own: a defect of the descriptor is in each.
     pub fn all() -> Vec<Self> {
-        let streams = Stream::ALL.iter().copied().filter(|stream| {
-            let never_sent = [Stream::IndexGroup, Stream::IndexOffset, Stream::Text];
-            !never_sent.contains(stream) && *stream != Stream::ObjectDescriptors
-        });
+        let streams = Stream::all().filter(|stream| *stream != Stream::ObjectDescriptors);
         streams.flat_map(Self::of_stream).collect()
     }
 
@@ -89,7 +86,7 @@ impl Defect {
 
     /// The defect with this ID.
     pub fn by_id(id: &str) -> Option<Self> {
-        Stream::ALL.iter().copied().flat_map(Self::of_stream).find(|defect| defect.id == id)
+        Stream::all().flat_map(Self::of_stream).find(|defect| defect.id == id)
     }
 
     /// Whether the field is one of this stream's: of its own, or of the records it is made of.

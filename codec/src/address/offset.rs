@@ -19,12 +19,15 @@ use crate::layout::field::index_offset::{AXIS, ELEMENT};
 /// // "handle by name" of the second axis
 /// let offset = IndexOffset::of_axis(AxisStride::default(), 2, 4)?;
 /// assert_eq!(offset.get(), 0x2_0004);
-/// assert_eq!(offset.axis_and_element(AxisStride::X10000), (2, 4));
+/// assert_eq!(offset.axis_and_element(AxisStride::X10000)?, (2, 4));
 /// assert!(IndexOffset::of_axis(AxisStride::X1000, 1, 0x1000).is_err());
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct IndexOffset(u32);
+
+/// The most that 16 bits hold (ADR-9).
+const AXIS_MAX: u32 = 0xFFFF;
 
 /// How far an axis is from the next in an index offset.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -69,8 +72,8 @@ impl IndexOffset {
     /// [`ErrorKind::OutOfRange`] if the axis has more than 16 bits or the element more than the
     /// stride leaves it; neither ever carries into the other (ADR-9).
     pub const fn of_axis(stride: AxisStride, axis: u32, element: u32) -> Result<Self, Error> {
-        if axis > 0xFFFF {
-            return Err(Error::new(ErrorKind::OutOfRange, AXIS, 0, 0xFFFF, axis));
+        if axis > AXIS_MAX {
+            return Err(Error::new(ErrorKind::OutOfRange, AXIS, 0, AXIS_MAX, axis));
         }
         let max = stride.element_max();
         if element > max {
@@ -80,8 +83,16 @@ impl IndexOffset {
     }
 
     /// Axis and element, read with this stride.
-    pub const fn axis_and_element(self, stride: AxisStride) -> (u32, u32) {
-        (self.0 >> stride.element_bits(), self.0 & stride.element_max())
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for an axis of more than 16 bits, which only the stride 0x1000
+    /// leaves room for.
+    pub const fn axis_and_element(self, stride: AxisStride) -> Result<(u32, u32), Error> {
+        let axis = self.0 >> stride.element_bits();
+        if axis > AXIS_MAX {
+            return Err(Error::new(ErrorKind::OutOfRange, AXIS, 0, AXIS_MAX, axis));
+        }
+        Ok((axis, self.0 & stride.element_max()))
     }
 }
 

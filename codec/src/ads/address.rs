@@ -14,7 +14,7 @@ use crate::layout::field::ams_header::TARGET_NET_ID as NET_ID;
 /// let id: AmsNetId = "192.0.2.7.1.1".parse()?;
 /// assert_eq!(id, AmsNetId([192, 0, 2, 7, 1, 1]));
 /// assert_eq!(id.to_string(), "192.0.2.7.1.1");
-/// for wrong in ["192.0.2.7.1", "192.0.2.7.1.1.1", "192.0.2.7.1.256", "+192.0.2.7.1.1", ""] {
+/// for wrong in ["192.0.2.7.1", "192.0.2.7.1.1.1", "192.0.2.7.1.256", "+192.0.2.7.1.1", "1..3.4.5.6", "0001.2.3.4.5.6", ""] {
 ///     assert!(wrong.parse::<AmsNetId>().is_err());
 /// }
 /// # Ok::<(), ads_cnc::Error>(())
@@ -38,15 +38,21 @@ impl fmt::Debug for AmsNetId {
 impl FromStr for AmsNetId {
     type Err = Error;
 
-    /// Reads six numbers of one byte with dots between.
+    /// Reads six numbers of one byte with dots between; the offset in an error counts the numbers.
     fn from_str(text: &str) -> Result<Self, Error> {
         let mut id = [0; 6];
         let mut parts = text.split('.');
         for (at, byte) in (0_u32..).zip(&mut id) {
             let part = parts.next().ok_or(Error::new(ErrorKind::Mismatch, NET_ID, 0, 6, at))?;
-            // Digits only: the number parser would take a sign too.
-            let digits = part.bytes().all(|byte| byte.is_ascii_digit());
-            let number = part.parse::<u32>().ok().filter(|_| digits).unwrap_or(u32::MAX);
+            // The number parser would take a sign and any number of zeros.
+            if let Some(odd) = part.chars().find(|character| !character.is_ascii_digit()) {
+                return Err(Error::new(ErrorKind::NotDecimal, NET_ID, at, 0, odd.into()));
+            }
+            if !(1..=3).contains(&part.len()) {
+                let len = crate::bytes::to_u32(part.len());
+                return Err(Error::new(ErrorKind::Digits, NET_ID, at, 3, len));
+            }
+            let number = part.parse::<u32>().unwrap_or(u32::MAX);
             let fits = u8::try_from(number);
             *byte = fits.map_err(|_| Error::new(ErrorKind::OutOfRange, NET_ID, at, 255, number))?;
         }

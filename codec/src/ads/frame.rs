@@ -46,7 +46,7 @@ impl<'a> FrameRef<'a> {
     /// [`ErrorKind::TooLong`] for data over [`ADS_DATA_MAX`] bytes and the services' headers.
     pub fn new(header: AmsHeader, data: &'a [u8]) -> Result<Self, Error> {
         let data_length = to_u32(data.len());
-        check(data_length, to_u32(ADS_DATA_MAX.saturating_add(16)))?;
+        check(data_length, u32::MAX)?;
         Ok(Self { header: AmsHeader { data_length, ..header }, data })
     }
 
@@ -63,8 +63,9 @@ impl<'a> FrameRef<'a> {
     /// The first frame of `received` and how many bytes it takes; none if more have to come.
     ///
     /// # Errors
-    /// As soon as its bytes are there: a `reserved` that is not 0, lengths that disagree or that
-    /// promise more than `max_data` bytes of data. What follows on the stream is lost then.
+    /// As soon as the header that says so is whole: a `reserved` that is not 0, lengths that disagree
+    /// or that promise more than `max_data` bytes of data, or more than any service has. What
+    /// follows on the stream is lost then.
     pub fn split(received: &'a [u8], max_data: u32) -> Result<Option<(Self, usize)>, Error> {
         let Some((tcp, rest)) = received.split_at_checked(AMS_TCP_HEADER_LEN) else {
             return Ok(None);
@@ -114,7 +115,11 @@ impl Encode for FrameRef<'_> {
     }
 }
 
+/// The most data of a frame: that of a service, and the numbers before it.
+const DATA_MAX: usize = ADS_DATA_MAX + 16;
+
 fn check(data_length: u32, max: u32) -> Result<(), Error> {
+    let max = max.min(to_u32(DATA_MAX));
     if data_length <= max {
         return Ok(());
     }

@@ -3,9 +3,11 @@
 use core::fmt;
 
 use super::Stream;
+use super::tables::TABLES;
 
 /// The table of one stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Layout {
     /// The stream's name in vectors and reports.
     pub name: &'static str,
@@ -13,7 +15,8 @@ pub struct Layout {
     pub title: &'static str,
     /// The requirement that defines it.
     pub clause: &'static str,
-    /// The most bytes it may have.
+    /// The most bytes it may have; 0 for a table that is no stream, but names what errors of
+    /// addresses and texts are about.
     pub max: u32,
     /// The fields are one record; the stream is one or more of them.
     pub repeats: bool,
@@ -22,6 +25,11 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// Whether this is a stream, and not a table for errors alone.
+    pub const fn is_stream(&self) -> bool {
+        self.max > 0
+    }
+
     /// Whether every stream of this kind has the same length.
     pub fn is_fixed(&self) -> bool {
         !self.repeats
@@ -31,6 +39,7 @@ impl Layout {
 
 /// One row of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FieldSpec {
     /// The field's name in errors, vectors and reports.
     pub name: &'static str,
@@ -168,9 +177,14 @@ impl Stream {
         (0u8..).zip(self.layout().fields).map(move |(index, _)| Field::new(self, index))
     }
 
+    /// Every stream; not the tables that are none.
+    pub fn all() -> impl Iterator<Item = Self> {
+        TABLES.iter().copied().filter(|stream| stream.layout().is_stream())
+    }
+
     /// The stream with this name.
     pub fn by_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|stream| stream.layout().name == name)
+        Self::all().find(|stream| stream.layout().name == name)
     }
 }
 

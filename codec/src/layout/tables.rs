@@ -16,15 +16,14 @@ macro_rules! layouts {
                $size:expr, $ty:ident, $field_clause:literal, $meaning:literal; )+
         } )?
     )+) => {
-        /// Every stream this crate reads and writes.
+        /// A stream, or one of the tables that only name what an error is about.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[non_exhaustive]
         pub enum Stream { $( $(#[$doc])* $stream, )+ }
 
-        impl Stream {
-            /// All of them.
-            pub const ALL: &'static [Self] = &[$( Self::$stream, )+];
+        pub(super) const TABLES: &[Stream] = &[$( Stream::$stream, )+];
 
+        impl Stream {
             /// The stream's table.
             pub const fn layout(self) -> &'static Layout {
                 match self { $( Self::$stream => &field::$module::LAYOUT, )+ }
@@ -184,16 +183,16 @@ layouts! {
         VALUE "value" @ 0, Size::Rest { max: 2048 }, Bytes, "VAR-14", "one element, or all of the array";
     }
     /// An index group put together from its parts; no stream of its own.
-    IndexGroup, index_group: "index-group", "Index group", "ADR-9", max 4 {
+    IndexGroup, index_group: "index-group", "Index group", "ADR-9", max 0 {
         INSTANCE "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel, platform axis or spindle, 8 bits";
     }
     /// An index offset put together from its parts; no stream of its own.
-    IndexOffset, index_offset: "index-offset", "Index offset", "ADR-9", max 4 {
+    IndexOffset, index_offset: "index-offset", "Index offset", "ADR-9", max 0 {
         AXIS "axis" @ 0, Size::Fixed(4), Uns32, "ADR-9", "axis, 16 bits";
         ELEMENT "element" @ 0, Size::Fixed(4), Uns32, "ADR-9", "element, 16 or 12 bits";
     }
     /// A text before it stands in a stream.
-    Text, text: "text", "Text in CP1252", "GEN-3", max 0xffff_ffff {
+    Text, text: "text", "Text in CP1252", "GEN-3", max 0 {
         TEXT "text" @ 0, Size::Rest { max: 0xffff_ffff }, String, "GEN-3", "CP1252 without NUL";
     }
 }

@@ -6,6 +6,7 @@ use crate::error::Error;
 
 /// The bytes of one field, or of one item of a field that has several.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Segment<'a> {
     /// The field.
     pub field: Field,
@@ -23,7 +24,7 @@ impl Stream {
     /// Calls `visit` for each field in turn, up to the end or to the first fault.
     ///
     /// # Errors
-    /// Those of the stream's decoders, but for equalities between fields of one frame.
+    /// Those of the stream's decoders. A table that is no stream has room for no byte.
     pub fn walk<'a>(self, bytes: &'a [u8], visit: impl FnMut(Segment<'a>)) -> Result<(), Error> {
         let mut walk = Walk { input: Reader::new(self, bytes)?, record: 0, visit };
         loop {

@@ -36,8 +36,13 @@ pub enum Refusal {
     Group(IndexGroup),
     /// No function of the index group has this offset.
     Offset(IndexOffset),
-    /// The function takes another service: the one it takes, the one asked for.
-    Service(Service, Service),
+    /// The function takes another service.
+    Service {
+        /// The one it takes.
+        takes: Service,
+        /// The one asked for.
+        asked: Service,
+    },
     /// The bytes are not what the function takes.
     Stream(Error),
 }
@@ -49,11 +54,8 @@ impl Refusal {
             Self::Port(_) => AdsError::TARGET_PORT_NOT_FOUND,
             Self::Group(_) => AdsError::INVALID_GROUP,
             Self::Offset(_) => AdsError::INVALID_OFFSET,
-            Self::Service(..) => AdsError::SERVICE_NOT_SUPPORTED,
-            Self::Stream(error) => match error.kind() {
-                ErrorKind::NotCp1252 | ErrorKind::OutOfRange => AdsError::INVALID_DATA,
-                _ => AdsError::INVALID_SIZE,
-            },
+            Self::Service { .. } => AdsError::SERVICE_NOT_SUPPORTED,
+            Self::Stream(_) => AdsError::INVALID_SIZE,
         }
     }
 }
@@ -64,7 +66,7 @@ impl fmt::Display for Refusal {
             Self::Port(port) => write!(f, "no task has port {port}"),
             Self::Group(group) => write!(f, "no function has index group {group}"),
             Self::Offset(offset) => write!(f, "no function has index offset {offset}"),
-            Self::Service(takes, asked) => write!(f, "the function takes {takes}, not {asked}"),
+            Self::Service { takes, asked } => write!(f, "the function takes {takes}, not {asked}"),
             Self::Stream(error) => fmt::Display::fmt(error, f),
         }
     }
@@ -82,7 +84,8 @@ impl core::error::Error for Refusal {
 impl<'a> Call<'a> {
     /// The function that is called and what it is asked.
     ///
-    /// SDA and GEO both answer for the classes of the CNC (ADR-10, assumed).
+    /// SDA and GEO both answer for the classes of the CNC (ADR-10, assumed). That the reply fits the
+    /// read length is for the server to see to, which has the reply.
     ///
     /// ```
     /// use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -101,7 +104,8 @@ impl<'a> Call<'a> {
     /// assert_eq!(request.name.text(), "V.E.vartest");
     ///
     /// let read = Call { service: Service::Read, ..call };
-    /// assert_eq!(read.dispatch(), Err(Refusal::Service(Service::ReadWrite, Service::Read)));
+    /// let refusal = Refusal::Service { takes: Service::ReadWrite, asked: Service::Read };
+    /// assert_eq!(read.dispatch(), Err(refusal));
     /// ```
     ///
     /// # Errors
@@ -121,7 +125,7 @@ impl<'a> Call<'a> {
                     refusal = Refusal::Offset(self.index_offset);
                 }
             } else if spec.service != self.service {
-                refusal = Refusal::Service(spec.service, self.service);
+                refusal = Refusal::Service { takes: spec.service, asked: self.service };
             } else {
                 let request =
                     self.check_data().and_then(|()| Request::decode(function, group, self));

@@ -186,11 +186,11 @@ impl ReadDescriptors {
         self.first
     }
 
-    /// How many descriptors are asked for.
+    /// How many descriptors are asked for; never more than [`COUNT_MAX`](Self::COUNT_MAX).
     pub fn count(&self) -> u32 {
         let len = to_u32(DESCRIPTOR_LEN);
         match self.read_length.checked_rem(len) {
-            Some(0) => self.read_length.checked_div(len).unwrap_or(1),
+            Some(0) => self.read_length.checked_div(len).unwrap_or(1).min(Self::COUNT_MAX),
             _ => 1,
         }
     }

@@ -30,6 +30,7 @@ pub enum Function {
 
 /// What the table says of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct FunctionSpec {
     /// The function's name in reports.
     pub name: &'static str,
@@ -45,8 +46,8 @@ pub struct FunctionSpec {
     pub effect: Effect,
     /// What goes in, if anything.
     pub request: Option<Stream>,
-    /// What comes out.
-    pub reply: Stream,
+    /// What comes out, if anything.
+    pub reply: Option<Stream>,
     /// The requirement that defines it.
     pub clause: &'static str,
     /// Section of `ads-en` 1.05 and of `ads-de` 1.051.
@@ -203,7 +204,7 @@ const fn channel_interface(
         offset: OffsetRule::At(offset),
         effect: Effect::Query,
         request: Some(request),
-        reply,
+        reply: Some(reply),
         clause,
         section,
     }
@@ -224,7 +225,7 @@ const fn object_access(
         offset,
         effect: Effect::Query,
         request: None,
-        reply,
+        reply: Some(reply),
         clause,
         section: "2.1.1",
     }

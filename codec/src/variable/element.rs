@@ -71,8 +71,9 @@ impl<'a> ValueRef<'a> {
             return Ok(elements);
         }
         let Some(size) = var_type.element_size() else {
-            let (field, last) = (variable_description::TYPE, VariableType::STRING.0);
-            return Err(Error::new(ErrorKind::OutOfRange, field, 4, last, var_type.0));
+            let bound = VariableType::STRING.0.min(var_type.0.max(VariableType::BOOLEAN.0));
+            let field = variable_description::TYPE;
+            return Err(Error::new(ErrorKind::OutOfRange, field, 4, bound, var_type.0));
         };
         let size = dimensions.iter().fold(size, u32::saturating_mul);
         match to_u32(self.bytes.len()) {

@@ -14,4 +14,4 @@ pub(crate) use calls::{CALLS, CallSample};
 pub(crate) use laws::check_value;
 pub(crate) use laws::{Fault, check, check_call};
 pub(crate) use samples::{SAMPLES, Sample, each_sample};
-pub(crate) use subjects::{NO_STREAM, Reading, SUBJECTS, Subject};
+pub(crate) use subjects::{Reading, SUBJECTS, Subject};

@@ -43,9 +43,6 @@ impl Subject {
     }
 }
 
-/// Tables that errors of addresses and texts refer to; nothing decodes them.
-pub(crate) const NO_STREAM: [Stream; 3] = [Stream::IndexGroup, Stream::IndexOffset, Stream::Text];
-
 macro_rules! reading {
     ($name:literal, $reading:ty) => {
         Reading {

@@ -71,7 +71,7 @@ impl Cnc {
         if to_u32(reply.len()) > call.read_length {
             return Err(AdsError::INVALID_SIZE);
         }
-        Ok(self.change(spec.reply, &reply).unwrap_or(reply))
+        Ok(spec.reply.and_then(|stream| self.change(stream, &reply)).unwrap_or(reply))
     }
 
     /// The bytes of a stream with the defect, if it is about that stream.

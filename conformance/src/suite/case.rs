@@ -127,7 +127,7 @@ impl From<&Exchange> for Evidence {
             request_stream: function
                 .and_then(|spec| spec.request)
                 .map(|stream| stream.layout().name),
-            reply_stream: function.map(|spec| spec.reply.layout().name),
+            reply_stream: function.and_then(|spec| spec.reply).map(|stream| stream.layout().name),
             sent: exchange.data.clone(),
             received: exchange.answer().and_then(|answer| answer.data.clone()),
             result: exchange.result(),
