@@ -214,6 +214,23 @@ fn write_access() {
     assert_eq!(access, [false, true, true, true, true]);
 }
 
+/// GEN-5: sizes of the types of the COM task.
+#[test]
+fn types_of_com() {
+    let sizes = [
+        ("BOOL BYTE SINT", Some(1)),
+        ("WORD INT", Some(2)),
+        ("DWORD DINT REAL", Some(4)),
+        ("LWORD LINT LREAL", Some(8)),
+        ("STRING UDINT bool", None),
+    ];
+    for (names, size) in sizes {
+        for name in names.split(' ') {
+            assert_eq!(Descriptor::new("a", name).unwrap().type_size(), size, "{name}");
+        }
+    }
+}
+
 /// GEN-6, ADR-13: platform axes are counted from 1; a list of axis 0 is none.
 #[test]
 fn there_is_no_axis_0() {

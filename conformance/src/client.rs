@@ -8,6 +8,7 @@ use ads_cnc::ads::{
     AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReply, ReadRequest,
     ReadWriteReply, ReadWriteRequestRef, StateFlags, WriteReply, WriteRequestRef,
 };
+use ads_cnc::layout::Stream;
 use ads_cnc::limits::ADS_DATA_MAX;
 use ads_cnc::operation::{Call, Service};
 use ads_cnc::{Decode, Encode};
@@ -47,11 +48,15 @@ pub struct Client {
 }
 
 impl Client {
-    /// Connects.
+    /// Connects. What no client should send goes to this machine only.
     ///
     /// # Errors
-    /// If nobody listens there.
+    /// If nobody listens there, or the gate is open wider than is safe for another machine.
     pub fn connect(target: Target, gate: Gate) -> io::Result<Self> {
+        if gate.lets_malformed_pass() && !target.addr.ip().is_loopback() {
+            let why = "malformed requests are sent to a CNC on this machine only";
+            return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
+        }
         let stream = net::connect(target.addr, target.timeout)?;
         Ok(Self { target, gate, stream: Some(stream), invoke_id: 0 })
     }
@@ -78,55 +83,89 @@ impl Client {
             error: AdsError::NONE,
             invoke_id: self.invoke_id,
         };
-        exchange.outcome = frame(header, call).and_then(|bytes| {
-            exchange.sent = bytes;
-            self.exchange(header, &exchange.sent, &mut exchange.received)
-        });
-        match &exchange.outcome {
-            Ok((_, header_received)) => {
-                exchange.violations = violations(&header, header_received);
+        exchange.sent = match frame(header, call) {
+            Ok(bytes) => bytes,
+            Err(fault) => {
+                exchange.outcome = Err(fault);
+                return exchange;
             }
-            // What comes next on this connection cannot be told apart any more.
-            Err(_) => self.stream = None,
+        };
+        exchange.outcome = self.exchange(header, &mut exchange);
+        if matches!(exchange.outcome, Err(Fault::Closed | Fault::Io(_))) {
+            // A connection may have been closed for being idle. A query can be asked twice.
+            exchange.received.clear();
+            self.stream = None;
+            exchange.outcome = self.exchange(header, &mut exchange);
         }
-        if let Ok((answer, _)) = &exchange.outcome {
-            if let Some(data) = answer.data.as_ref().filter(|_| call.service != Service::Write) {
-                let (read, given) = (call.read_length, data.len());
+        self.judge(&header, &mut exchange);
+        exchange
+    }
+
+    /// What is wrong with the frames themselves.
+    fn judge(&mut self, asked: &AmsHeader, exchange: &mut Exchange) {
+        match &exchange.outcome {
+            Ok((answer, header)) => {
+                exchange.violations.extend(violations(asked, header));
+                let given = answer.data.as_ref().map_or(0, Vec::len);
+                let read = exchange.read_length;
                 if usize::try_from(read).is_ok_and(|read| given > read) {
                     exchange.violations.push(Violation {
-                        requirement: if call.service == Service::Read { "ADS-1" } else { "ADS-3" },
+                        requirement: if exchange.service == Service::Read {
+                            "ADS-1"
+                        } else {
+                            "ADS-3"
+                        },
                         what: format!("{given} bytes of data for a read length of {read}"),
                     });
                 }
             }
+            Err(fault) => {
+                if let Fault::Malformed(error) = fault {
+                    let requirement = match error.field().stream() {
+                        Stream::ReadReply => "ADS-1",
+                        Stream::WriteReply => "ADS-2",
+                        Stream::ReadWriteReply => "ADS-3",
+                        _ => "ADS-5",
+                    };
+                    exchange.violations.push(Violation { requirement, what: error.to_string() });
+                }
+                // What comes next on this connection cannot be told apart any more.
+                self.stream = None;
+            }
         }
-        exchange
     }
 
     fn exchange(
         &mut self,
         sent: AmsHeader,
-        bytes: &[u8],
-        received: &mut Vec<u8>,
+        exchange: &mut Exchange,
     ) -> Result<(Answer, AmsHeader), Fault> {
         let stream = match self.stream.take() {
             Some(stream) => stream,
-            None => net::connect(self.target.addr, self.target.timeout).map_err(Fault::io)?,
+            None => net::connect(self.target.addr, self.target.timeout).map_err(Fault::gone)?,
         };
         let stream = self.stream.insert(stream);
-        stream.write_all(bytes).map_err(Fault::io)?;
+        stream.write_all(&exchange.sent).map_err(Fault::io)?;
+        let received = &mut exchange.received;
         let asked = Instant::now();
         let mut chunk = [0; 4096];
         loop {
             let max = u32::try_from(ADS_DATA_MAX).unwrap_or(u32::MAX).saturating_add(16);
             if let Some((frame, len)) = FrameRef::split(received, max).map_err(Fault::Malformed)? {
-                if frame.header().invoke_id == sent.invoke_id {
+                let header = frame.header();
+                if header.invoke_id == sent.invoke_id {
                     let answer = answer(sent, &frame);
-                    let header = frame.header();
+                    if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
+                        let what = format!("{more} bytes behind the answer that nobody asked for");
+                        exchange.violations.push(Violation { requirement: "ADS-5", what });
+                        self.stream = None;
+                    }
                     received.truncate(len);
                     return answer.map(|answer| (answer, header));
                 }
-                // An answer to something else: late, or with an ID nobody used.
+                let (id, asked) = (header.invoke_id, sent.invoke_id);
+                let what = format!("an answer to invoke ID {id:#x}, asked was {asked:#x}");
+                exchange.violations.push(Violation { requirement: "ADS-5", what });
                 received.drain(..len);
                 continue;
             }
@@ -146,6 +185,7 @@ impl Client {
                 {
                     return Err(Fault::Silence(self.target.timeout));
                 }
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
                 Err(error) => return Err(Fault::io(error)),
             }
         }

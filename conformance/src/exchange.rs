@@ -80,11 +80,17 @@ pub enum Fault {
     Malformed(ads_cnc::Error),
     /// The network failed.
     Io(String),
+    /// Nobody listens any more.
+    Gone(String),
 }
 
 impl Fault {
     pub(crate) fn io(error: io::Error) -> Self {
         Self::Io(error.to_string())
+    }
+
+    pub(crate) fn gone(error: io::Error) -> Self {
+        Self::Gone(error.to_string())
     }
 }
 
@@ -97,6 +103,7 @@ impl fmt::Display for Fault {
             Self::Closed => f.write_str("connection closed without an answer"),
             Self::Malformed(error) => write!(f, "malformed answer: {error}"),
             Self::Io(error) => write!(f, "network: {error}"),
+            Self::Gone(error) => write!(f, "no connection: {error}"),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use ads_cnc::ads::AdsError;
+use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{Call, Effect, Function, Refusal};
 
 /// Decides over every call before a byte of it is sent.
@@ -35,8 +35,8 @@ pub enum Closed {
     Effect(Function),
     /// No function of the table takes this: it might be anything.
     Unknown(Refusal),
-    /// A service that can write, at an address that is none of the table's.
-    Service,
+    /// The function is documented for another port.
+    Port(AmsPort),
 }
 
 impl Gate {
@@ -45,7 +45,10 @@ impl Gate {
         Self { malformed: false }
     }
 
-    /// Malformed and unknown reads too: for the embedded CNC, which cannot move.
+    /// Anything but documented writes: for a CNC on this machine that cannot move. [`Client`]
+    /// takes no other target with it.
+    ///
+    /// [`Client`]: crate::client::Client
     pub const fn with_malformed() -> Self {
         Self { malformed: true }
     }
@@ -61,15 +64,17 @@ impl Gate {
     /// Why not.
     pub fn check(&self, call: &Call<'_>) -> Result<(), Closed> {
         match call.dispatch() {
-            Ok(request) => match request.function().spec().effect {
-                Effect::Query => Ok(()),
-                _ => Err(Closed::Effect(request.function())),
-            },
+            Ok(request) => {
+                let spec = request.function().spec();
+                match spec.effect {
+                    // That the other of SDA and GEO answers too is assumed.
+                    Effect::Query if call.port == spec.task.port() || self.malformed => Ok(()),
+                    Effect::Query => Err(Closed::Port(call.port)),
+                    _ => Err(Closed::Effect(request.function())),
+                }
+            }
             Err(_) if self.malformed => Ok(()),
-            Err(refusal) => match refusal.ads_error() {
-                AdsError::SERVICE_NOT_SUPPORTED => Err(Closed::Service),
-                _ => Err(Closed::Unknown(refusal)),
-            },
+            Err(refusal) => Err(Closed::Unknown(refusal)),
         }
     }
 }
@@ -81,7 +86,7 @@ impl fmt::Display for Closed {
                 write!(f, "\"{}\" is no query", function.spec().name)
             }
             Self::Unknown(refusal) => write!(f, "no documented query: {refusal}"),
-            Self::Service => f.write_str("another service than the function takes"),
+            Self::Port(port) => write!(f, "not documented for port {port}"),
         }
     }
 }

@@ -9,7 +9,7 @@
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
 //! | [`gate`] | what may be sent to a target |
 //! | [`profile`] | what a target claims |
-//! | [`codec`] | the codec as the vectors see it |
+//! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
 //! | [`verdict`], [`report`] | what a judgement can be, and how it is shown |
 //! | [`net`] | the one place where sockets are opened |
 //! | [`cli`] | the command line of `ads-cnc` |
@@ -44,5 +44,6 @@ pub mod gate;
 pub mod net;
 pub mod profile;
 pub mod report;
+pub mod show;
 pub mod suite;
 pub mod verdict;

@@ -1,11 +1,14 @@
 //! The crate `ads` as published, a client that knows nothing of this project, reads the simulated
 //! CNC. What it has to get is written here byte for byte: no codec stands in between.
 
-use std::io::{BufRead as _, BufReader, Read as _};
-use std::process::{Child, Command, Stdio};
+mod common;
+
+use std::io::Read as _;
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use ads::{AmsAddr, AmsNetId, Client, Device, Error, Source, Timeouts};
+use common::Serve;
 
 const GEO: u16 = 551;
 const SDA: u16 = 552;
@@ -16,30 +19,7 @@ const CHANNEL_1: u32 = 0x12_2301;
 const BY_RANK: [(u32, u8); 3] = [(0x02_2301, 1), (0x02_2302, 2), (0x02_2303, 6)];
 const BY_NUMBER: [(u32, u8); 3] = [(0x12_2301, 1), (0x12_2302, 2), (0x12_2306, 6)];
 
-/// `ads-cnc serve` as a process, ended when dropped.
-struct Serve {
-    process: Child,
-    addr: String,
-    net_id: String,
-}
-
 impl Serve {
-    fn start(options: &[&str]) -> Self {
-        let mut process = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-            .args(["serve", "--listen", "127.0.0.1:0"])
-            .args(options)
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let mut line = String::new();
-        BufReader::new(process.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
-        let rest = line.strip_prefix("listening on ").unwrap();
-        let (addr, net_id) = rest.trim_end().split_once(", AMS NetId ").unwrap();
-        Self { addr: addr.to_owned(), net_id: net_id.to_owned(), process }
-    }
-
     /// The client takes the address of its socket as its own: 127.0.0.1.1.1.
     fn client(&self) -> Client {
         Client::new(&*self.addr, Timeouts::new(Duration::from_secs(5)), Source::Auto).unwrap()
@@ -47,13 +27,6 @@ impl Serve {
 
     fn net_id(&self) -> AmsNetId {
         self.net_id.parse().unwrap()
-    }
-}
-
-impl Drop for Serve {
-    fn drop(&mut self) {
-        self.process.kill().unwrap();
-        self.process.wait().unwrap();
     }
 }
 

@@ -10,7 +10,7 @@ use ads_cnc_conformance::defect::{Change, Defect};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
-use ads_cnc_conformance::suite::{self, Case, Needs, Outcome, Session};
+use ads_cnc_conformance::suite::{self, Case, Judgement, Needs, Outcome, Session};
 use ads_cnc_conformance::verdict::Verdict;
 
 /// Runs the suite against an embedded CNC with this defect, or its vectors against the codec.
@@ -22,7 +22,7 @@ fn run(defect: Option<&Defect>, wanted: impl Fn(&Case) -> bool) -> Vec<Outcome> 
     let target = Target::local(server.addr(), server.net_id());
     let client = Client::connect(target, Gate::with_malformed()).unwrap();
     let mut session = Session::new(client, Profile::EMBEDDED);
-    suite::run(cases, Some(&mut session), defect, |_| ())
+    suite::run(cases, Some(&mut session), defect)
 }
 
 fn failed(outcomes: &[Outcome]) -> Vec<&str> {
@@ -41,8 +41,13 @@ fn defects(field: Field) -> impl Iterator<Item = Defect> {
 fn every_field_is_seen(stream: Stream, only_printed_can_tell: &[&str]) {
     for defect in stream.fields().flat_map(defects) {
         let vectors = run(Some(&defect), |case| case.needs == Needs::Codec);
-        let by_vectors = failed(&vectors);
-        assert!(!by_vectors.is_empty(), "{}: no vector fails", defect.id);
+        // By what the codec reads: that it writes the same bytes again says nothing here.
+        let by_vectors = vectors.iter().filter(|outcome| outcome.verdict() == Verdict::Fail);
+        let misread = by_vectors.flat_map(|outcome| &outcome.verdicts).any(|judged| {
+            let failed = |one: &Judgement| !one.found.starts_with("encoded again");
+            judged.judgements.iter().any(failed)
+        });
+        assert!(misread, "{}: no vector fails", defect.id);
         let cases = run(Some(&defect), |case| case.needs != Needs::Codec);
         let by_cases = failed(&cases);
         let telling = by_cases.iter().any(|id| !id.starts_with("printed-"));
@@ -60,10 +65,18 @@ fn every_field_of_the_description_is_seen() {
 
 #[test]
 fn every_field_of_the_descriptor_is_seen() {
-    // A number that identifies and nothing else, bytes without a meaning, and names that nothing
-    // else refers to: all that can be said of them is that an example has them.
-    let printed =
-        ["id", "not_assigned", "write_access", "index_offset", "index_group", "name", "type"];
+    // Content is not read yet, to which size, type, access and address could be held; number, name
+    // and the bytes without meaning are told by the printed example alone.
+    let printed = [
+        "id",
+        "size",
+        "not_assigned",
+        "write_access",
+        "index_offset",
+        "index_group",
+        "name",
+        "type",
+    ];
     every_field_is_seen(Stream::ObjectDescriptor, &printed);
 }
 

@@ -1,8 +1,10 @@
 //! `ads-cnc run` as a person calls it.
 
-use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
+mod common;
+
+use std::io::{self, Read as _, Write as _};
 use std::net::SocketAddr;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
@@ -11,6 +13,7 @@ use ads_cnc::Decode;
 use ads_cnc::ads::{Command as AmsCommand, FrameRef, ReadRequest, ReadWriteRequestRef};
 use ads_cnc::operation::{Call, Effect, Service};
 use ads_cnc_conformance::net;
+use common::Serve;
 
 fn ads_cnc(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
@@ -23,32 +26,6 @@ fn loopback() -> SocketAddr {
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-/// A simulated CNC in a process of its own, killed when it is dropped.
-struct Serve {
-    child: Child,
-    addr: SocketAddr,
-}
-
-impl Serve {
-    fn start() -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-            .args(["serve", "--listen", "127.0.0.1:0"])
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut line = String::new();
-        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
-        let addr = line.strip_prefix("listening on ").unwrap().split(',').next().unwrap();
-        Self { child, addr: addr.parse().unwrap() }
-    }
-}
-
-impl Drop for Serve {
-    fn drop(&mut self) {
-        let _ended = self.child.kill().and_then(|()| self.child.wait());
-    }
 }
 
 /// Passes a connection on and keeps what the client sends.
@@ -145,8 +122,8 @@ fn the_report_is_written_as_json() {
 /// A device is judged over its own connection, and nothing leaves for it but documented queries.
 #[test]
 fn a_device_is_only_read() {
-    let serve = Serve::start();
-    let (addr, kept) = tap(serve.addr);
+    let serve = Serve::start(&[]);
+    let (addr, kept) = tap(serve.addr.parse().unwrap());
     let output = ads_cnc(&["run", "--target", &addr.to_string(), "--net-id", "127.0.0.1.1.1"]);
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{shown}");
@@ -180,17 +157,8 @@ fn a_device_is_only_read() {
 /// A CNC that gets a field wrong fails over the wire too.
 #[test]
 fn a_wrong_device_fails() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-        .args(["serve", "--listen", "127.0.0.1:0", "--defect", "variable-count.count.flip"])
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut line = String::new();
-    BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
-    let addr = line.strip_prefix("listening on ").unwrap().split(',').next().unwrap().to_owned();
-    let output = ads_cnc(&["run", "--target", &addr, "--net-id", "127.0.0.1.1.1"]);
-    child.kill().unwrap();
-    child.wait().unwrap();
+    let serve = Serve::start(&["--defect", "variable-count.count.flip"]);
+    let output = ads_cnc(&["run", "--target", &serve.addr, "--net-id", &serve.net_id]);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stdout));
 }
 
@@ -199,17 +167,46 @@ fn a_wrong_device_fails() {
 fn a_silent_target_is_no_success() {
     let listener = net::listen(loopback()).unwrap();
     let addr = listener.local_addr().unwrap().to_string();
-    let silent = thread::spawn(move || {
-        // As often as the suite may try; each time nothing comes back.
-        let open: Vec<_> = listener.incoming().take(2).collect();
-        thread::sleep(Duration::from_millis(200));
-        drop(open);
-    });
-    let output =
-        ads_cnc(&["run", "--target", &addr, "--net-id", "10.0.0.1.1.1", "--timeout", "20"]);
+    // It is asked once, and once more in case the connection was only idle.
+    let silent = thread::spawn(move || listener.incoming().take(1).map(Result::unwrap).collect());
+    let args = ["run", "--target", &addr, "--net-id", "10.0.0.1.1.1", "--timeout", "20"];
+    let output = ads_cnc(&args);
+    let open: Vec<std::net::TcpStream> = silent.join().unwrap();
+    assert_eq!(open.len(), 1);
     assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
     assert!(text(&output.stderr).contains("route"), "{}", text(&output.stderr));
-    drop(silent);
+}
+
+/// Who answers, but not as a CNC, or not to this NetId, is told so and not judged.
+#[test]
+fn who_is_no_cnc_is_not_judged() {
+    let serve = Serve::start(&[]);
+    let output = ads_cnc(&["run", "--target", &serve.addr, "--net-id", "1.2.3.4.1.1"]);
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
+    assert!(text(&output.stderr).contains("AMS error 0x7"), "{}", text(&output.stderr));
+
+    let listener = net::listen(loopback()).unwrap();
+    let addr = listener.local_addr().unwrap().to_string();
+    let web = thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        stream.write_all(b"HTTP/1.1 400 Bad Request\r\n\r\n").unwrap();
+        // Until the other side has read and closed.
+        let _closed = stream.read_to_end(&mut Vec::new());
+    });
+    let output = ads_cnc(&["run", "--target", &addr, "--net-id", "1.2.3.4.1.1"]);
+    web.join().unwrap();
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
+    assert!(text(&output.stderr).contains("does not speak AMS/TCP"), "{}", text(&output.stderr));
+}
+
+/// A report that cannot be written is no success.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_lost_report_is_no_success() {
+    let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    let status = command.stdout(full).stderr(Stdio::null()).status().unwrap();
+    assert_eq!(status.code(), Some(70));
 }
 
 /// What cannot be done ends with the exit code that says so.

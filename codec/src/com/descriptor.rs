@@ -33,6 +33,21 @@ pub(super) struct DescriptorLayout {
 const _: () = assert!(size_of::<DescriptorLayout>() == DESCRIPTOR_LEN);
 const _: () = assert!(core::mem::offset_of!(DescriptorLayout, type_name) == 52);
 
+/// The types of the COM task whose items have a size (GEN-5).
+const TYPE_SIZES: [(&str, u32); 11] = [
+    ("BOOL", 1),
+    ("BYTE", 1),
+    ("SINT", 1),
+    ("WORD", 2),
+    ("INT", 2),
+    ("DWORD", 4),
+    ("DINT", 4),
+    ("REAL", 4),
+    ("LWORD", 8),
+    ("LINT", 8),
+    ("LREAL", 8),
+];
+
 /// Whether an object may be written; any value but 0 is TRUE, and is kept (E-08).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
@@ -131,6 +146,12 @@ macro_rules! accessors {
         /// STRING, or any other.
         pub fn type_name(&self) -> CncStr<$lifetime> {
             CncStr::until_nul(&self.0.type_name)
+        }
+
+        /// Bytes of one item of the type (GEN-5); none for STRING and for any other name.
+        pub fn type_size(&self) -> Option<u32> {
+            let name = self.type_name();
+            TYPE_SIZES.iter().find_map(|&(known, size)| (name == known).then_some(size))
         }
     };
 }

@@ -8,11 +8,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// Wrong use of the command line.
-pub const EXIT_USAGE: u8 = 2;
-
-/// Something inside failed, or the system refused it.
-pub const EXIT_INTERNAL: u8 = 70;
+use crate::defect::Defect;
+use crate::verdict::Exit;
 
 /// Reads, judges and simulates the ADS interface of ISG and TwinCAT CNCs.
 #[derive(Debug, Parser)]
@@ -36,7 +33,7 @@ pub fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => {
             // Help and version are no errors: they have the code 0.
-            let code = u8::try_from(error.exit_code()).unwrap_or(EXIT_USAGE);
+            let code = u8::try_from(error.exit_code()).unwrap_or(Exit::Usage.code());
             let _unprinted = error.print();
             return ExitCode::from(code);
         }
@@ -55,8 +52,27 @@ impl Cli {
     }
 }
 
-/// Says why on stderr and ends with a code.
-fn refuse(code: u8, why: impl std::fmt::Display) -> ExitCode {
+/// Says what is wrong on stderr; if nobody listens there, that is no more to be helped.
+fn complain(why: impl std::fmt::Display) {
     let _unprinted = writeln!(std::io::stderr(), "ads-cnc: {why}");
-    ExitCode::from(code)
+}
+
+/// Says what is wrong and how the process ends.
+fn refuse(exit: Exit, why: impl std::fmt::Display) -> ExitCode {
+    complain(why);
+    exit.into()
+}
+
+/// The defect with this ID, if one is asked for.
+fn find_defect(id: Option<&str>) -> Result<Option<Defect>, String> {
+    let Some(id) = id else { return Ok(None) };
+    Defect::by_id(id).map(Some).ok_or_else(|| {
+        let all = Defect::all();
+        // One of each stream is enough to show what IDs look like.
+        let mut some: Vec<&Defect> = all.iter().collect();
+        some.dedup_by_key(|defect| defect.stream);
+        let some: Vec<&str> = some.iter().map(|defect| defect.id.as_str()).collect();
+        let (some, all) = (some.join("\n  "), all.len());
+        format!("no defect has the ID {id}; some that there are:\n  {some}\nserve --list-defects shows all {all}")
+    })
 }

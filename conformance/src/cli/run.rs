@@ -2,17 +2,19 @@
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write as _};
-use std::net::{SocketAddr, ToSocketAddrs as _};
-use std::path::PathBuf;
+use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use ads_cnc::ads::{AmsAddr, AmsNetId, AmsPort};
 use clap::Args;
 
+use super::{complain, find_defect};
 use crate::client::{Client, Target};
 use crate::cnc::{Cnc, Server};
 use crate::defect::Defect;
+use crate::exchange::Fault;
 use crate::gate::Gate;
 use crate::net;
 use crate::profile::Profile;
@@ -26,7 +28,8 @@ const AMS_TCP_PORT: u16 = 48898;
 /// Runs the conformance suite against the embedded CNC, or against a device.
 ///
 /// Without --target a simulated CNC is started on this machine and judged together with the codec.
-/// A device is only read: nothing is sent to it but documented queries.
+/// A device is only read: nothing is sent to it but documented queries, to the ports they are
+/// documented for. Some ask for what is not there, by one beyond the last, to see it refused.
 #[derive(Args, Debug)]
 pub(super) struct Run {
     /// The device: host name or address, and the port if it is not 48898
@@ -61,11 +64,10 @@ pub(super) struct Run {
 impl Run {
     /// Runs the suite and writes its reports.
     pub(super) fn execute(&self) -> Exit {
-        let defect = match self.defect.as_deref().map(|id| Defect::by_id(id).ok_or(id)) {
-            None => None,
-            Some(Ok(defect)) => Some(defect),
-            Some(Err(id)) => {
-                eprintln!("ads-cnc: no defect is called {id}; serve --list-defects lists them");
+        let defect = match find_defect(self.defect.as_deref()) {
+            Ok(defect) => defect,
+            Err(why) => {
+                complain(why);
                 return Exit::Usage;
             }
         };
@@ -76,7 +78,7 @@ impl Run {
         match report {
             Ok(report) => self.write(&report),
             Err((exit, message)) => {
-                eprintln!("ads-cnc: {message}");
+                complain(message);
                 exit
             }
         }
@@ -101,41 +103,57 @@ impl Run {
         })?;
         let mut session = Session::new(client, Profile::DEVICE);
         // Silence is judged case by case only of one that speaks at all.
-        if let Err(fault) = session.greet() {
-            let message = format!(
-                "{addr} does not answer: {fault}. Is its AMS NetId {net_id}, and does it have a \
-                 route to {} at the address of this machine?",
-                self.source_net_id
-            );
-            return Err((Exit::Nothing, message));
-        }
+        greet(&mut session, &target).map_err(|message| (Exit::Nothing, message))?;
         let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
-        let outcomes = suite::run(cases, Some(&mut session), None, |_| ());
+        let outcomes = suite::run(cases, Some(&mut session), None);
         let name = "device".to_owned();
         let target = TargetReport { name, address: addr.to_string(), net_id: net_id.to_string() };
         Ok(Report::new(target, session.profile, session.frames, outcomes))
     }
 
     fn write(&self, report: &Report) -> Exit {
-        let written = report::print(report, self.verbose, &mut BufWriter::new(io::stdout().lock()));
-        let written = written.and_then(|()| match &self.json {
-            Some(file) => {
-                let mut out = BufWriter::new(File::create(file)?);
-                serde_json::to_writer_pretty(&mut out, report)?;
-                writeln!(out)?;
-                out.flush()
-            }
-            None => Ok(()),
+        // The file first: whoever reads the console may stop reading.
+        let written = self.json.as_ref().map_or(Ok(()), |file| write_json(report, file));
+        let mut out = BufWriter::new(io::stdout().lock());
+        let shown = report::print(report, self.verbose, &mut out).and_then(|()| out.flush());
+        // A reader that has seen enough is no failure of ours, nor a success of the target's.
+        let shown = shown.or_else(|error| match error.kind() {
+            io::ErrorKind::BrokenPipe => Ok(()),
+            _ => Err(error),
         });
-        match written {
+        match written.and(shown) {
             Ok(()) => report.exit(),
-            // A reader that has seen enough is no failure of ours, nor a success of the target's.
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => report.exit(),
             Err(error) => {
-                eprintln!("ads-cnc: the report could not be written: {error}");
+                complain(format_args!("the report could not be written: {error}"));
                 Exit::Internal
             }
         }
+    }
+}
+
+fn write_json(report: &Report, file: &Path) -> io::Result<()> {
+    let mut out = BufWriter::new(File::create(file)?);
+    serde_json::to_writer_pretty(&mut out, report)?;
+    writeln!(out)?;
+    out.flush()
+}
+
+/// Whether anybody answers, and as a CNC.
+fn greet(session: &mut Session, target: &Target) -> Result<(), String> {
+    let Target { addr, net_id, source, .. } = target;
+    let route = format!(
+        "Is its AMS NetId {net_id}, and does it have a route to {} at the address of this machine?",
+        source.net_id
+    );
+    match session.greet() {
+        Ok(answer) if answer.ams_error.is_none() => Ok(()),
+        Ok(answer) => {
+            Err(format!("{addr} answers with the AMS error {}. {route}", answer.ams_error))
+        }
+        Err(Fault::Malformed(error)) => {
+            Err(format!("{addr} does not speak AMS/TCP: {error}. Is this the port of ADS?"))
+        }
+        Err(fault) => Err(format!("{addr} does not answer: {fault}. {route}")),
     }
 }
 
@@ -153,7 +171,7 @@ fn embedded(defect: Option<Defect>) -> Result<Report, (Exit, String)> {
     let client =
         Client::connect(target, Gate::with_malformed()).map_err(|error| internal(&error))?;
     let mut session = Session::new(client, Profile::EMBEDDED);
-    let outcomes = suite::run(suite::cases(), Some(&mut session), defect.as_ref(), |_| ());
+    let outcomes = suite::run(suite::cases(), Some(&mut session), defect.as_ref());
     let name = match &defect {
         None => "embedded CNC".to_owned(),
         Some(defect) => format!("embedded CNC with the defect {}", defect.id),
@@ -168,6 +186,9 @@ fn embedded(defect: Option<Defect>) -> Result<Report, (Exit, String)> {
 
 /// The address of a host, with the port of AMS/TCP if none is given.
 fn resolve(host: &str) -> io::Result<SocketAddr> {
+    if let Ok(ip) = host.parse::<IpAddr>() {
+        return Ok(SocketAddr::new(ip, AMS_TCP_PORT));
+    }
     let found = match host.parse::<SocketAddr>() {
         Ok(addr) => return Ok(addr),
         Err(_) if host.contains(':') => host.to_socket_addrs()?.next(),

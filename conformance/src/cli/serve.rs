@@ -5,10 +5,11 @@ use std::net::SocketAddr;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use super::{EXIT_INTERNAL, EXIT_USAGE, refuse};
+use super::{find_defect, refuse};
 use crate::cnc::{Cnc, Server};
 use crate::defect::Defect;
 use crate::net;
+use crate::verdict::Exit;
 
 /// Options of `serve`.
 #[derive(Debug, clap::Args)]
@@ -33,27 +34,29 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     if !args.listen.ip().is_loopback() {
         let addr = args.listen;
         return refuse(
-            EXIT_USAGE,
+            Exit::Usage,
             format_args!(
                 "{addr} is not a loopback address; the simulated CNC asks nobody who he is, so it is \
              served on this machine only, for example on 127.0.0.1:48898"
             ),
         );
     }
-    let defect = match args.defect.as_deref().map(|id| Defect::by_id(id).ok_or(id)) {
-        None => None,
-        Some(Ok(defect)) => Some(defect),
-        Some(Err(id)) => return unknown_defect(id),
+    let defect = match find_defect(args.defect.as_deref()) {
+        Ok(defect) => defect,
+        Err(why) => return refuse(Exit::Usage, why),
     };
     log_to_stderr();
     let server = match start(args.listen, defect) {
         Ok(server) => server,
-        Err(why) => return refuse(EXIT_INTERNAL, why),
+        Err(why) => return refuse(Exit::Internal, why),
     };
     let line = format!("listening on {}, AMS NetId {}\n", server.addr(), server.net_id());
     let mut out = io::stdout().lock();
     if let Err(error) = out.write_all(line.as_bytes()).and_then(|()| out.flush()) {
-        return refuse(EXIT_INTERNAL, format_args!("nobody can be told where it listens: {error}"));
+        return refuse(
+            Exit::Internal,
+            format_args!("nobody can be told where it listens: {error}"),
+        );
     }
     // Until interrupted: the threads of the server do the rest.
     loop {
@@ -70,26 +73,6 @@ fn start(addr: SocketAddr, defect: Option<Defect>) -> Result<Server, String> {
         net::listen(addr).map_err(|error| format!("cannot listen on {addr}: {error}"))?;
     let cnc = Arc::new(cnc.with_defect(defect));
     Server::start(listener, cnc).map_err(|error| format!("cannot serve on {addr}: {error}"))
-}
-
-fn unknown_defect(id: &str) -> ExitCode {
-    let all = Defect::all();
-    let mut some = String::new();
-    // One of each stream is enough to show what IDs look like.
-    for (at, defect) in all.iter().enumerate() {
-        let known = all.iter().take(at).any(|before| before.stream == defect.stream);
-        if !known {
-            some.push_str("\n  ");
-            some.push_str(&defect.id);
-        }
-    }
-    refuse(
-        EXIT_USAGE,
-        format_args!(
-            "no defect has the ID {id}; some that there are:{some}\n--list-defects shows all {}",
-            all.len()
-        ),
-    )
 }
 
 fn list_defects() -> ExitCode {

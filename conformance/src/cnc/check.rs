@@ -170,7 +170,7 @@ pub(super) fn objects(
             if !ids.insert(id) {
                 return Err(ModelError::ObjectId(id));
             }
-            let size = type_size(&object.type_name().to_string());
+            let size = object.type_size();
             if let Some(expected) = size.filter(|&expected| expected != found) {
                 return Err(ModelError::ObjectSize { id, expected, found });
             }
@@ -184,17 +184,6 @@ pub(super) fn list(objects: &Descriptors) -> Result<(), ModelError> {
         count if count > OBJECTS_MAX => Err(ModelError::Objects(count)),
         _ => Ok(()),
     }
-}
-
-/// Bytes of the types of COM (GEN-5); none for STRING and for names the manuals do not have.
-fn type_size(name: &str) -> Option<u32> {
-    Some(match name {
-        "BOOL" | "BYTE" | "SINT" => 1,
-        "WORD" | "INT" => 2,
-        "DWORD" | "DINT" | "REAL" => 4,
-        "LWORD" | "LINT" | "LREAL" => 8,
-        _ => return None,
-    })
 }
 
 #[cfg(test)]

@@ -98,6 +98,9 @@ fn failures(case: &CaseReport, out: &mut impl Write) -> io::Result<()> {
         if let Some(evidence) = &judgement.evidence {
             bytes(evidence, out)?;
         }
+        if failure.more > 0 {
+            writeln!(out, "  and {} more like this in the same case", failure.more)?;
+        }
         writeln!(out)?;
     }
     Ok(())
@@ -117,7 +120,9 @@ fn bytes(evidence: &Evidence, out: &mut impl Write) -> io::Result<()> {
     for line in annotated(evidence.request_stream, &evidence.sent) {
         writeln!(out, "    {line}")?;
     }
-    writeln!(out, "  received  {}", evidence.result)?;
+    if evidence.received.is_some() || !evidence.frame_sent.is_empty() {
+        writeln!(out, "  received  {}", evidence.result)?;
+    }
     if let Some(received) = &evidence.received {
         for line in annotated(evidence.reply_stream, received) {
             writeln!(out, "    {line}")?;
@@ -151,8 +156,28 @@ fn tail(report: &Report, out: &mut impl Write) -> io::Result<()> {
     let verdict = if report.exit() == Exit::Success { "PASSED" } else { "NOT PASSED" };
     let subjects = report.subjects.iter();
     let totals = subjects.map(|one| format!("{}: {}", one.subject, counts(&one.totals)));
+    explain(report, out)?;
     writeln!(out, "{verdict}  {}", totals.collect::<Vec<_>>().join("; "))?;
     writeln!(out, "{cases} cases, {checks} checks, {frames} frames; exit code {}", report.exit_code)
+}
+
+/// What the verdicts mean that this report has and that do not say so themselves.
+fn explain(report: &Report, out: &mut impl Write) -> io::Result<()> {
+    let known = |verdict: Verdict| {
+        report.subjects.iter().any(|subject| subject.totals.contains_key(verdict.name()))
+    };
+    for (verdict, meaning) in [
+        (Verdict::Warning, "known from help pages only, and done otherwise: fails nobody"),
+        (Verdict::Differs, "in no document, assumed, and done otherwise: fails nobody"),
+        (Verdict::Vacuous, "refused as it should be, but so is what should be accepted: fails"),
+        (Verdict::Inconclusive, "what came back does not tell"),
+        (Verdict::NotObserved, "nothing in this run touches it"),
+    ] {
+        if known(verdict) {
+            writeln!(out, "{verdict}: {meaning}")?;
+        }
+    }
+    Ok(())
 }
 
 /// Verdicts with their numbers, in the order of [`Verdict::ALL`].

@@ -108,10 +108,10 @@ pub struct CaseReport {
 pub struct FailureReport {
     /// The requirement.
     pub requirement: &'static str,
-    /// Its level in the catalogue.
+    /// The level it was judged at; that of an assumed part may be lower than the whole's.
     pub level: Option<Level>,
-    /// What it says.
-    pub clause: &'static str,
+    /// What it says, or the parts of that level.
+    pub clause: String,
     /// Where it stands: document, edition, section.
     pub sources: Vec<String>,
     /// The verdict.
@@ -120,6 +120,8 @@ pub struct FailureReport {
     pub expected: String,
     /// What was there.
     pub found: String,
+    /// Checks with the same verdict that are not shown.
+    pub more: usize,
     /// Where the request went.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub call: Option<String>,
@@ -279,12 +281,13 @@ impl FailureReport {
         };
         Self {
             requirement: judgement.requirement,
-            level: clause.map(|clause| clause.level),
-            clause: clause.map_or("", |clause| clause.text.as_str()),
-            sources: clause.map(sources).unwrap_or_default(),
+            level: judgement.level,
+            clause: clause.map(|clause| text(clause, judgement.level)).unwrap_or_default(),
+            sources: clause.map(|clause| sources(clause, judgement.level)).unwrap_or_default(),
             verdict: judgement.verdict,
             expected: judgement.expected.clone(),
             found: judgement.found.clone(),
+            more: judgement.more,
             call: evidence.map(|evidence| evidence.call.clone()),
             sent: hex(|evidence| &evidence.sent),
             received: hex(|evidence| evidence.received.as_deref().unwrap_or_default()),
@@ -294,11 +297,24 @@ impl FailureReport {
     }
 }
 
-/// Where a requirement stands.
-fn sources(requirement: &Requirement) -> Vec<String> {
-    let sources = requirement.sources.iter().map(|source| {
-        let edition = if source.edition.is_empty() { "" } else { " " };
-        format!("{}{edition}{} §{}", source.document, source.edition, source.section)
+/// What a requirement says at a level: the whole of it, or its parts of that level.
+fn text(requirement: &Requirement, level: Option<Level>) -> String {
+    let parts = requirement.parts.iter().filter(|part| Some(part.level) == level);
+    let parts: Vec<&str> = parts.map(|part| part.text.as_str()).collect();
+    match level == Some(requirement.level) || parts.is_empty() {
+        true => requirement.text.clone(),
+        false => parts.join(" "),
+    }
+}
+
+/// Where a requirement stands; an assumed part of it stands nowhere.
+fn sources(requirement: &Requirement, level: Option<Level>) -> Vec<String> {
+    if level == Some(Level::Info) {
+        return Vec::new();
+    }
+    let sources = requirement.sources.iter().map(|source| match source.edition.as_str() {
+        "" => format!("{}, {}", source.document, source.section),
+        edition => format!("{} {edition} §{}", source.document, source.section),
     });
     sources.collect()
 }

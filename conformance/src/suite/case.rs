@@ -30,6 +30,8 @@ pub enum Needs {
     Malformed,
     /// A target that claims to answer the manuals' examples.
     PrintedExamples,
+    /// The frames that all other cases exchanged.
+    Frames,
     /// No target: the codec itself is judged.
     Codec,
 }
@@ -83,11 +85,18 @@ pub const fn assumed(id: &'static str) -> Rule {
     Rule { id, level: Some(Level::Info) }
 }
 
+/// A part of a requirement that is known from help pages only, whatever its rest is.
+pub const fn online(id: &'static str) -> Rule {
+    Rule { id, level: Some(Level::Should) }
+}
+
 /// One check of one requirement.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The requirement.
     pub requirement: &'static str,
+    /// The level it was judged at; that of an assumed part may be lower.
+    pub level: Option<Level>,
     /// What came of it.
     pub verdict: Verdict,
     /// What was expected; empty for a pass.
@@ -96,6 +105,8 @@ pub struct Judgement {
     pub found: String,
     /// The request and the answer in question.
     pub evidence: Option<Evidence>,
+    /// Checks with the same verdict that are not kept.
+    pub more: usize,
 }
 
 /// The bytes of an exchange, as a report shows them.

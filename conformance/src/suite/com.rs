@@ -6,7 +6,7 @@ use ads_cnc::address::{Access, Channel, ComGroup, ComTable, Group, PlatformAxis}
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
 use ads_cnc::{Decode, Descriptors, DescriptorsRef, ObjectCount};
 
-use super::case::{Case, Step, Stop, assumed};
+use super::case::{Case, Step, Stop, assumed, online};
 use super::declare;
 use super::probe::{Probe, harness};
 
@@ -86,12 +86,27 @@ fn read(
     probe.read(rule, request)
 }
 
+/// Every descriptor by a read of its own: that several come together is judged elsewhere.
+fn one_by_one(
+    probe: &mut Probe<'_>,
+    rule: &'static str,
+    list: ObjectList,
+    number: u32,
+) -> Step<Descriptors> {
+    let mut all = Descriptors::default();
+    for first in 1..=number {
+        let one = read(probe, rule, list, first, 1)?;
+        one.as_ref().iter().for_each(|object| all.push(object.to_owned()));
+    }
+    Ok(all)
+}
+
 fn number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
     let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
     if number == 0 {
         return Err(Stop::NotApplicable("the list has no object".to_owned()));
     }
-    Ok(number)
+    Ok(number.min(OBJECTS_MAX))
 }
 
 /// As [`number`], where it is not this case that judges it.
@@ -112,24 +127,13 @@ fn count(probe: &mut Probe<'_>) -> Step {
         read(probe, "COM-2", list, number, 1)?;
         let (beyond, last) = (number.saturating_add(1), number);
         probe.refuses(
-            "COM-1",
+            "COM-2",
             "the object behind the last",
             ReadDescriptors::new(list, beyond, 1).map_err(harness)?,
             ReadDescriptors::new(list, last, 1).map_err(harness)?,
         )?;
     }
     Ok(())
-}
-
-/// Bytes of one item of a type of the COM task; a STRING may have any.
-fn size_of_type(name: &str) -> Option<u32> {
-    Some(match name {
-        "BOOL" | "BYTE" | "SINT" => 1,
-        "WORD" | "INT" => 2,
-        "DWORD" | "DINT" | "REAL" => 4,
-        "LWORD" | "LINT" | "LREAL" => 8,
-        _ => return None,
-    })
 }
 
 fn descriptors(probe: &mut Probe<'_>) -> Step {
@@ -140,21 +144,23 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
             let one = read(probe, "COM-2", list, first, 1)?;
             let Some(object) = one.as_ref().get(0) else { continue };
             let name = object.name().to_string();
-            probe.check("COM-2", !name.is_empty(), "an object with a name", "an empty name");
+            let rule = assumed("COM-2");
+            probe.check(rule, !name.is_empty(), "an object with a name", "an empty name");
             let id = object.id();
             probe.check("COM-2", ids.insert(id), "an ID no other object has", format!("ID {id}"));
             let type_name = object.type_name().to_string();
-            probe.check("COM-2", !type_name.is_empty(), "the name of a type", "an empty type");
-            if let Some(size) = size_of_type(&type_name) {
+            probe.check(rule, !type_name.is_empty(), "the name of a type", "an empty type");
+            if let Some(size) = object.type_size() {
                 let whole = object.size() > 0 && object.size().checked_rem(size) == Some(0);
                 let expected = format!("a multiple of the {size} bytes of {type_name}");
-                probe.check("GEN-5", whole, expected, format!("size {} of {name}", object.size()));
+                let found = format!("size {} of {name}", object.size());
+                probe.check(online("GEN-5"), whole, expected, found);
             }
             let group = object.index_group();
             let content =
                 matches!(group.parts(), Some(Group::Com(ComGroup { access: Access::Element, .. })));
             let expected = "the group of an element of COM, 0x120100 or 0x120200 and the like";
-            probe.check("COM-5", content, expected, format!("group {group} of {name}"));
+            probe.check(assumed("COM-5"), content, expected, format!("group {group} of {name}"));
             let access = object.write_access().0;
             let expected = "write access 0 or 1";
             probe.check(assumed("COM-2"), access <= 1, expected, format!("{access} of {name}"));
@@ -243,10 +249,10 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
         }
         other => other?,
     };
-    let own = read(probe, "COM-4", ObjectList::PLATFORM, 1, platform)?;
+    let own = one_by_one(probe, "COM-4", ObjectList::PLATFORM, platform)?;
     let first = Channel::new(1).map_err(harness)?;
     let all = known_number(probe, first.into())?;
-    let listed = read(probe, "COM-4", first.into(), 1, all)?;
+    let listed = one_by_one(probe, "COM-4", first.into(), all)?;
     let names: HashSet<String> =
         listed.as_ref().iter().map(|object| object.name().to_string()).collect();
     for object in own.as_ref().iter() {
@@ -255,7 +261,7 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
         let found = format!("{name} is not in it");
         probe.check("COM-4", names.contains(&name), expected, found);
         let com = matches!(object.index_group().parts(), Some(Group::Com(_)));
-        probe.check("ADR-3", com, "a group of COM", object.index_group());
+        probe.check(assumed("ADR-3"), com, "a group of COM", object.index_group());
     }
     Ok(())
 }
@@ -265,10 +271,11 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
     if axes == 0 {
         return Err(Stop::NotApplicable("no platform axis is claimed".to_owned()));
     }
+    let mut seen: HashSet<u32> = HashSet::new();
     for place in 1..=axes {
         let axis = PlatformAxis::new(place).map_err(harness)?;
         let data = probe.ask(assumed("COM-7"), CountObjects::new(axis))?;
-        let number = ObjectCount::decode(&data).map_or(0, |count| count.0);
+        let number = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
         let expected = "the axis's objects";
         probe.check(assumed("COM-7"), number > 0, expected, format!("{number} objects"));
         if number == 0 {
@@ -276,6 +283,10 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
         }
         let objects: Descriptors = probe
             .read(assumed("COM-7"), ReadDescriptors::new(axis, 1, number).map_err(harness)?)?;
+        let ids: Vec<u32> = objects.as_ref().iter().map(|object| object.id()).collect();
+        let own = ids.iter().all(|&id| seen.insert(id));
+        let found = format!("IDs {ids:?}, some of them of another axis");
+        probe.check(assumed("COM-7"), own, format!("objects of axis {place} alone"), found);
         for object in objects.as_ref().iter() {
             let group = object.index_group();
             let of_axes =
@@ -290,7 +301,7 @@ fn platform_axes(probe: &mut Probe<'_>) -> Step {
 fn printed_content_address(probe: &mut Probe<'_>) -> Step {
     let list = ObjectList::from(Channel::new(1).map_err(harness)?);
     let number = known_number(probe, list)?;
-    let listed = read(probe, "COM-6", list, 1, number)?;
+    let listed = one_by_one(probe, "COM-6", list, number)?;
     let printed = "mc_command_single_block_w";
     let object = listed.as_ref().iter().find(|object| object.name() == printed);
     let address = object.map(|object| (object.index_group().get(), object.index_offset().get()));

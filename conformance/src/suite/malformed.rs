@@ -1,7 +1,7 @@
 //! Requests that no client should send: each must be answered, and by an error.
 //!
-//! That a CNC refuses what the manuals do not allow is assumed but where they say so; that it
-//! answers at all is not.
+//! That a CNC refuses what the manuals do not allow is assumed. That it answers at all is not, nor
+//! that an answer of success means that what was asked is there (ADS-4).
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;

@@ -11,8 +11,9 @@ mod run;
 mod survey;
 mod values;
 mod variable;
+mod vectors;
 
-pub use case::{Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, assumed};
+pub use case::{Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, assumed, online};
 pub use outcome::{Outcome, RequirementVerdict, gravest};
 pub use probe::{Probe, Session};
 pub use run::run;
@@ -34,13 +35,13 @@ pub(crate) use declare;
 
 /// Every case, in the order it is run.
 pub fn cases() -> Vec<Case> {
-    let mut cases = printed::vector_cases();
+    let mut cases = vectors::cases();
     cases.extend(address::cases());
     cases.extend(com::cases());
     cases.extend(variable::cases());
     cases.extend(values::cases());
     cases.extend(malformed::cases());
-    cases.extend(printed::printed_cases());
+    cases.extend(printed::cases());
     // Judges what all the others exchanged, so it comes last.
     cases.extend(address::frame_cases());
     cases

@@ -4,18 +4,21 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use ads_cnc::address::Channel;
-use ads_cnc::operation::{Call, CountObjects, ObjectList, Request};
+use ads_cnc::operation::{Call, CountObjects, ObjectList, Request, Service};
 use ads_cnc::{Decode, Description};
 use ads_cnc_vectors::Level;
 
 use super::case::{Evidence, Judgement, Rule, Step, Stop};
 use crate::client::Client;
-use crate::exchange::{Exchange, Fault, Violation};
+use crate::exchange::{Answer, Exchange, Fault, Violation};
 use crate::profile::Profile;
 use crate::verdict::Verdict;
 
 /// The most failed checks a case keeps of one requirement.
 const KEPT: usize = 3;
+
+/// Requests in a row without an answer after which no more are sent.
+const SILENCES_MAX: usize = 8;
 
 /// The connection, and what has been learnt of the target so far.
 #[derive(Debug)]
@@ -28,26 +31,39 @@ pub struct Session {
     pub(super) variables: BTreeMap<(u32, &'static str), Vec<Description>>,
     /// Requests sent.
     pub frames: usize,
+    /// Services that were answered.
+    pub(super) answered: Vec<Service>,
+    /// Requests in a row that were not.
+    pub(super) silences: usize,
+    /// Why nothing more is to be had of the target.
+    pub(super) gone: Option<String>,
     /// What frames themselves broke, each with its evidence.
     pub violations: Vec<(Violation, Evidence)>,
 }
 
 impl Session {
-    /// Asks the least there is to ask, to learn whether anybody answers: an error does.
+    /// Asks the least there is to ask, to learn whether anybody answers: an error of ADS does.
     ///
     /// # Errors
     /// Why there is no answer.
-    pub fn greet(&mut self) -> Result<(), Fault> {
-        let list = ObjectList::PLATFORM;
-        let mut buf = [];
-        let call = Request::from(CountObjects::new(list)).encode(&mut buf);
-        let call = call.map_err(Fault::Unsendable)?;
-        self.client.call(&call).outcome.map(|_| ())
+    pub fn greet(&mut self) -> Result<Answer, Fault> {
+        let request = Request::from(CountObjects::new(ObjectList::PLATFORM));
+        let call = request.encode(&mut []).map_err(Fault::Unsendable)?;
+        self.client.call(&call).outcome.map(|(answer, _)| answer)
     }
 
     /// A session over a connection.
     pub fn new(client: Client, profile: Profile) -> Self {
-        Self { client, profile, variables: BTreeMap::new(), frames: 0, violations: Vec::new() }
+        Self {
+            client,
+            profile,
+            variables: BTreeMap::new(),
+            frames: 0,
+            answered: Vec::new(),
+            silences: 0,
+            gone: None,
+            violations: Vec::new(),
+        }
     }
 }
 
@@ -96,57 +112,75 @@ impl<'s> Probe<'s> {
             (false, Some(level)) => Verdict::missed(level),
             (false, None) => Verdict::HarnessError,
         };
-        self.record(rule.id, verdict, expected.to_string(), found.to_string());
+        self.record(rule, verdict, expected.to_string(), found.to_string());
         kept
     }
 
     /// As [`check`](Self::check), and there is nothing to go on with if it fails.
     pub fn require(
         &mut self,
-        rule: impl Into<Rule>,
+        rules: &[Rule],
         kept: bool,
         expected: impl Display,
         found: impl Display,
     ) -> Step {
-        if self.check(rule, kept, expected, found) { Ok(()) } else { Err(Stop::Judged) }
+        for &rule in rules {
+            self.check(rule, kept, &expected, &found);
+        }
+        if kept { Ok(()) } else { Err(Stop::Judged) }
     }
 
-    fn record(&mut self, id: &'static str, verdict: Verdict, expected: String, found: String) {
+    fn record(&mut self, rule: Rule, verdict: Verdict, expected: String, found: String) {
         self.checks = self.checks.saturating_add(1);
+        let passed = verdict == Verdict::Pass;
         let same = self
             .judgements
-            .iter()
-            .filter(|judgement| judgement.requirement == id && judgement.verdict == verdict);
-        let keep = if verdict == Verdict::Pass { 1 } else { KEPT };
-        if same.count() >= keep {
+            .iter_mut()
+            .filter(|judgement| judgement.requirement == rule.id && judgement.verdict == verdict);
+        let mut same: Vec<_> = same.collect();
+        if same.len() >= if passed { 1 } else { KEPT } {
+            if let Some(last) = same.last_mut() {
+                last.more = last.more.saturating_add(1);
+            }
             return;
         }
-        let judgement = match verdict {
-            Verdict::Pass => Judgement {
-                requirement: id,
-                verdict,
-                expected: String::new(),
-                found: String::new(),
-                evidence: None,
-            },
-            _ => {
-                let evidence = self.last.clone();
-                Judgement { requirement: id, verdict, expected, found, evidence }
-            }
-        };
+        let evidence = if passed { None } else { self.last.clone() };
+        let (requirement, level) = (rule.id, rule.level);
+        let judgement =
+            Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
         self.judgements.push(judgement);
     }
 
     /// Sends a call and keeps it as the evidence of the checks that follow.
     pub fn call(&mut self, call: &Call<'_>) -> Step<Exchange> {
+        if let Some(why) = &self.session.gone {
+            return Err(Stop::Inconclusive(format!("no target left: {why}")));
+        }
         let exchange = self.session.client.call(call);
         if let Err(Fault::Refused(why)) = &exchange.outcome {
             return Err(Stop::Refused(format!("{exchange}: {why}")));
         }
-        self.session.frames = self.session.frames.saturating_add(1);
+        if let Err(Fault::Gone(why)) = &exchange.outcome {
+            self.session.gone = Some(why.clone());
+            return Err(Stop::Inconclusive(format!("the target is gone: {why}")));
+        }
+        let session = &mut *self.session;
+        session.frames = session.frames.saturating_add(1);
+        match &exchange.outcome {
+            Ok(_) => {
+                if !session.answered.contains(&call.service) {
+                    session.answered.push(call.service);
+                }
+                session.silences = 0;
+            }
+            Err(_) => session.silences = session.silences.saturating_add(1),
+        }
+        if session.silences >= SILENCES_MAX {
+            session.gone = Some(format!("{SILENCES_MAX} requests in a row without an answer"));
+        }
         let evidence = Evidence::from(&exchange);
         for violation in &exchange.violations {
-            self.session.violations.push((violation.clone(), evidence.clone()));
+            session.violations.push((violation.clone(), evidence.clone()));
         }
         self.last = Some(evidence);
         Ok(exchange)
@@ -166,10 +200,25 @@ impl<'s> Probe<'s> {
         rule: impl Into<Rule>,
         request: impl Into<Request<'a>>,
     ) -> Step<Vec<u8>> {
+        self.ask_for(&[rule.into()], request)
+    }
+
+    /// As [`ask`](Self::ask), where an answer speaks for several requirements.
+    pub fn ask_for<'a>(
+        &mut self,
+        rules: &[Rule],
+        request: impl Into<Request<'a>>,
+    ) -> Step<Vec<u8>> {
         let exchange = self.send(request)?;
         let data = exchange.answer().and_then(|answer| answer.success());
-        self.require(rule, data.is_some(), "an answer", exchange.result())?;
+        self.require(rules, data.is_some(), "an answer", exchange.result())?;
         Ok(data.unwrap_or_default().to_vec())
+    }
+
+    /// Sends an operation and returns the data if it is answered; that it need not be.
+    pub fn try_ask<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<Option<Vec<u8>>> {
+        let exchange = self.send(request)?;
+        Ok(exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec))
     }
 
     /// As [`ask`](Self::ask), and the data must be the stream `T`.
@@ -183,13 +232,16 @@ impl<'s> Probe<'s> {
             Ok(value) => Ok(value),
             Err(error) => {
                 let expected = format!("a {}", T::STREAM.layout().name);
-                self.require(rule, false, expected, error)?;
+                self.require(&[rule], false, expected, error)?;
                 Err(Stop::Judged)
             }
         }
     }
 
     /// Sends a call that must be refused; `sibling` differs by the fault only and must not be.
+    ///
+    /// A success that gives no byte of data is taken for a refusal: it gives nothing of what is
+    /// not there.
     pub fn refused(
         &mut self,
         rule: impl Into<Rule>,
@@ -199,26 +251,33 @@ impl<'s> Probe<'s> {
     ) -> Step {
         let rule = rule.into();
         let accepted = self.call(sibling)?;
-        let vacuous = accepted.answer().is_none_or(|answer| answer.success().is_none());
-        let sibling = accepted.result();
+        let is_vacuous = accepted.answer().is_none_or(|answer| answer.success().is_none());
+        let (sibling, shown) = (accepted.result(), self.last.clone());
         let exchange = self.call(call)?;
-        match exchange.answer() {
-            Some(answer) if answer.success().is_some() => {
-                let expected = format!("an error number for {what}");
-                self.check(rule, false, expected, answer);
+        let expected = format!("an error number for {what}");
+        let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
+        match given {
+            Some([]) if is_vacuous => {
+                // What is assumed of the sibling may well be done otherwise.
+                let verdict = match rule.level {
+                    Some(Level::Must) => Verdict::Vacuous,
+                    Some(level) => Verdict::missed(level),
+                    None => Verdict::HarnessError,
+                };
+                self.last = shown;
+                let found = format!("what differs by that alone is refused too: {sibling}");
+                self.record(rule, verdict, format!("{expected} only"), found);
             }
-            Some(_) if vacuous => {
-                let expected = format!("an error number for {what} only");
-                let found = format!("its accepted sibling is refused too: {sibling}");
-                self.record(rule.id, Verdict::Vacuous, expected, found);
-            }
-            Some(_) => {
-                self.check(rule, true, "", "");
+            Some(data) => {
+                self.check(rule, data.is_empty(), expected, exchange.result());
             }
             None => {
                 // Silence is no way to refuse, however little is documented of the request.
                 let rule = Rule { id: rule.id, level: Some(Level::Must) };
-                self.check(rule, false, format!("an error number for {what}"), exchange.result());
+                self.check(rule, false, expected, exchange.result());
+                if self.session.silences > 1 {
+                    return Err(Stop::Judged);
+                }
             }
         }
         Ok(())
@@ -238,6 +297,15 @@ impl<'s> Probe<'s> {
         let call = request.encode(&mut buf).map_err(harness)?;
         let sibling = sibling.encode(&mut sibling_buf).map_err(harness)?;
         self.refused(rule, what, &call, &sibling)
+    }
+
+    /// Numbers from the first that is too many on; of those far beyond only what cannot move is
+    /// asked.
+    pub fn beyond(&self, first: u32) -> Vec<u32> {
+        match self.session.client.gate().lets_malformed_pass() {
+            true => vec![first, first.saturating_add(1), u32::MAX],
+            false => vec![first],
+        }
     }
 
     /// Puts this evidence under the checks that follow.

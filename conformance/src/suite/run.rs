@@ -1,9 +1,9 @@
 //! Running cases.
 
-use super::case::{Body, Case, Needs, Stop};
+use super::case::{Body, Case, Judgement, Needs, Rule, Stop};
 use super::outcome::Outcome;
-use super::printed;
 use super::probe::{Probe, Session};
+use super::{printed, vectors};
 use crate::defect::Defect;
 use crate::verdict::Verdict;
 
@@ -14,24 +14,16 @@ pub fn run(
     cases: Vec<Case>,
     mut session: Option<&mut Session>,
     defect: Option<&Defect>,
-    mut done: impl FnMut(&Outcome),
 ) -> Vec<Outcome> {
-    let mut outcomes = Vec::with_capacity(cases.len());
-    for case in cases {
-        let outcome = one(case, session.as_deref_mut(), defect);
-        done(&outcome);
-        outcomes.push(outcome);
-    }
-    outcomes
+    cases.into_iter().map(|case| one(case, session.as_deref_mut(), defect)).collect()
 }
 
 fn one(case: Case, session: Option<&mut Session>, defect: Option<&Defect>) -> Outcome {
     if let Body::Vector(vector) = case.body {
-        let judgement = printed::judge_vector(vector, defect);
-        let judgements = case.requirements.iter().map(|&requirement| {
-            let mut judgement = judgement.clone();
-            judgement.requirement = requirement;
-            judgement
+        let judgement = vectors::judge(vector, defect);
+        let judgements = case.requirements.iter().map(|&id| {
+            let Rule { id, level } = Rule::from(id);
+            Judgement { requirement: id, level, ..judgement.clone() }
         });
         let judgements = judgements.collect();
         return Outcome::tried(case, judgements, 1, None);
@@ -39,6 +31,10 @@ fn one(case: Case, session: Option<&mut Session>, defect: Option<&Defect>) -> Ou
     let Some(session) = session else {
         return Outcome::untried(case, Verdict::NotRun, "no target");
     };
+    // Frames are judged by what there was of them, whatever became of the target.
+    if let Some(why) = session.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
+        return Outcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
+    }
     match case.needs {
         Needs::Malformed if !session.client.gate().lets_malformed_pass() => {
             let note = "sends what no client should: not sent to a device";
@@ -53,7 +49,7 @@ fn one(case: Case, session: Option<&mut Session>, defect: Option<&Defect>) -> Ou
     let mut probe = Probe::new(session);
     let step = match case.body {
         Body::Probe(body) => body(&mut probe),
-        Body::Printed(vector) => printed::ask_printed(&mut probe, vector),
+        Body::Printed(vector) => printed::ask(&mut probe, vector),
         Body::Vector(_) => Err(Stop::Harness("a vector needs no target".to_owned())),
     };
     let (judgements, checks) = probe.into_findings();

@@ -1,6 +1,7 @@
 //! All descriptions of a channel, read once.
 
 use ads_cnc::address::Channel;
+use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{CountVariables, DescribeByIndex, Request};
 use ads_cnc::{Decode, Description, Kind, VariableCount};
 
@@ -36,7 +37,15 @@ impl Probe<'_> {
     fn describe(&mut self, channel: Channel, kind: Kind<'_>) -> Step<Vec<Description>> {
         let count: VariableCount = self.learn(CountVariables::new(channel, kind))?;
         let indices = 0..count.0.min(VARIABLES_MAX);
-        indices.map(|index| self.learn(DescribeByIndex::new(channel, index, kind))).collect()
+        let mut all = Vec::new();
+        for index in indices {
+            let variable: Description = self.learn(DescribeByIndex::new(channel, index, kind))?;
+            // One whose name leaves no room for its NUL cannot be asked for by name.
+            if variable.name.text.as_bytes().len() < TEXT_MAX {
+                all.push(variable);
+            }
+        }
+        Ok(all)
     }
 
     /// Reads something that is judged elsewhere.

@@ -1,0 +1,34 @@
+//! Values of vectors as a person reads them.
+
+use ads_cnc_vectors::{Fields, Hex, Tagged, Type, Value};
+
+/// Fields as a person reads them.
+pub fn show(fields: &Fields) -> String {
+    let field = |(name, value): (&String, &Value)| format!("{name} {}", show_value(value));
+    fields.iter().map(field).collect::<Vec<_>>().join(", ")
+}
+
+fn show_value(value: &Value) -> String {
+    match value {
+        Value::One(one) => show_tagged(one),
+        Value::List(items) => {
+            format!("[{}]", items.iter().map(show_value).collect::<Vec<_>>().join(", "))
+        }
+        Value::Record(fields) => format!("({})", show(fields)),
+    }
+}
+
+fn show_tagged(one: &Tagged) -> String {
+    let mut text = match (one.kind, &one.value, &one.hex) {
+        (Type::String, Some(text), _) => format!("{text:?}"),
+        (_, Some(number), _) => number.clone(),
+        (_, None, hex) => hex.as_ref().map_or_else(String::new, Hex::to_string),
+    };
+    if let Some(tail) = &one.tail {
+        text.push_str(&format!(" and behind its NUL {tail}"));
+    }
+    if one.open {
+        text.push_str(" without NUL");
+    }
+    text
+}

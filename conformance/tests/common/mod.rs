@@ -1,0 +1,36 @@
+//! `ads-cnc serve` in a process of its own.
+
+use std::io::{BufRead as _, BufReader};
+use std::process::{Child, Command, Stdio};
+
+/// A simulated CNC, ended when it is dropped.
+pub(crate) struct Serve {
+    pub(crate) process: Child,
+    pub(crate) addr: String,
+    pub(crate) net_id: String,
+}
+
+impl Serve {
+    pub(crate) fn start(options: &[&str]) -> Self {
+        let mut process = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+            .args(["serve", "--listen", "127.0.0.1:0"])
+            .args(options)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(process.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
+        let rest = line.strip_prefix("listening on ").unwrap();
+        let (addr, net_id) = rest.trim_end().split_once(", AMS NetId ").unwrap();
+        Self { addr: addr.to_owned(), net_id: net_id.to_owned(), process }
+    }
+}
+
+impl Drop for Serve {
+    fn drop(&mut self) {
+        // Ended already is ended too.
+        let _ended = self.process.kill().and_then(|()| self.process.wait());
+    }
+}
