@@ -12,8 +12,8 @@ use crate::ads::{
 use crate::limits::{ADS_DATA_MAX, DESCRIPTOR_LEN, INDICES_MAX, TEXT_MAX, VARIABLE_MAX};
 use crate::text::{CncStr, CncString, Text};
 use crate::{
-    Description, Descriptor, Descriptors, HandleRead, Value, VariableIndexKind, VariableKind,
-    VariableName,
+    Description, Descriptor, Descriptors, HandleRead, HandleWrite, NameWrite, Value,
+    VariableIndexKind, VariableKind, VariableName,
 };
 
 /// At most `max` of anything.
@@ -131,6 +131,17 @@ arbitrary! {
     VariableIndexKind, u => Self { index: u.arbitrary()?, kind: request_text(u)? };
     VariableName, u => Self { name: request_text(u)? };
     HandleRead, u => Self { handle: u.arbitrary()?, indices: up_to(u, INDICES_MAX)? };
+    HandleWrite, u => {
+        let indices: Vec<u32> = up_to(u, INDICES_MAX)?;
+        let taken = indices.len().saturating_mul(4).saturating_add(8);
+        let value = up_to(u, VARIABLE_MAX.saturating_sub(taken))?;
+        Self { handle: u.arbitrary()?, indices, value }
+    };
+    NameWrite, u => {
+        let name = text(u, TEXT_MAX.saturating_sub(1))?;
+        let taken = name.as_bytes().len().saturating_add(1);
+        Self { name, value: up_to(u, VARIABLE_MAX.saturating_sub(taken))? }
+    };
     Value, u => Self { bytes: up_to(u, VARIABLE_MAX)? };
     Description, u => {
         let name = u.arbitrary()?;

@@ -14,7 +14,7 @@ use zerocopy::{FromBytes, IntoBytes};
 use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
-use crate::text::{Text, TextRef};
+use crate::text::{CncStr, CncString, Text, TextRef};
 
 /// Reads what a view of `stream` has accepted.
 pub(crate) fn read<T>(stream: Stream, accepted: &[u8]) -> Result<T, Error>
@@ -93,6 +93,20 @@ pub(crate) fn counted_unless_end() -> BinResult<Option<Vec<u8>>> {
 #[binrw::parser(reader, endian)]
 pub(crate) fn text() -> BinResult<Text> {
     Ok(TextRef::split(&rest(reader, endian, ())?).into())
+}
+
+/// Text to the NUL that the view has found, and the NUL.
+#[binrw::parser(reader)]
+pub(crate) fn leading_text() -> BinResult<CncString> {
+    let mut text = Vec::new();
+    let mut byte = [0_u8];
+    loop {
+        reader.read_exact(&mut byte)?;
+        match byte {
+            [0] => return Ok(CncStr::without_nul(&text).into()),
+            [byte] => text.push(byte),
+        }
+    }
 }
 
 /// All bytes that are left.

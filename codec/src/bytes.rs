@@ -132,6 +132,15 @@ impl<'a> Reader<'a> {
         self.take(field, left)
     }
 
+    /// Text up to and including the NUL that must end it.
+    pub(crate) fn leading(&mut self, field: Field, max: u32) -> Result<&'a [u8], Error> {
+        let window = self.bytes.get(..to_len(max)).unwrap_or(self.bytes);
+        match split_nul(window) {
+            Some((text, _)) => self.take(field, to_u32(text.len()).saturating_add(1)),
+            None => Err(self.error(ErrorKind::MissingNul, field, max)),
+        }
+    }
+
     /// All that is left, between `min` and `max` bytes.
     pub(crate) fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<&'a [u8], Error> {
         let left = self.left();
@@ -160,7 +169,12 @@ impl<'a> Reader<'a> {
         let mut before = 0_u32;
         for field in self.stream.fields() {
             let size = match field.spec().map(|spec| spec.size) {
-                Some(Size::Fixed(size) | Size::FixedUnlessError(size) | Size::Padded(size)) => size,
+                Some(
+                    Size::Fixed(size)
+                    | Size::FixedUnlessError(size)
+                    | Size::FixedOrNothing(size)
+                    | Size::Padded(size),
+                ) => size,
                 _ => break,
             };
             let left = self.left().saturating_sub(before);

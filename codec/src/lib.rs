@@ -14,6 +14,10 @@
 //! | 4.3.3, handle by name | [`VariableNameRef`], [`Handle`] |
 //! | 4.3.4, read by handle | [`HandleReadRef`], [`ValueRef`] |
 //! | 4.3.5, read by name | [`VariableNameRef`], [`ValueRef`] |
+//! | 4.3.6, write by handle | [`HandleWriteRef`] |
+//! | 4.3.7, write by name | [`NameWriteRef`] |
+//! | 4.3.8, extended description | [`VariableIndexKindRef`], [`ExtendedReply`] |
+//! | 4.3.9 … 4.3.11, axis interface | [`operation::AxisHandleByName`] … |
 //! | 5, ADS services | [`ads`] |
 //!
 //! [`operation`] puts them together: where a function is, what goes in, what comes out, for
@@ -69,14 +73,18 @@ mod number;
 pub use com::Descriptors;
 pub use com::{Descriptor, DescriptorRef, DescriptorsRef, ObjectCount, WriteAccess};
 pub use error::{Error, ErrorKind};
-pub use stream::{Decode, Encode};
+pub use stream::{Decode, Encode, NoData};
 pub use text::{CncStr, TextRef};
 #[cfg(feature = "alloc")]
 pub use text::{CncString, Text};
 #[cfg(feature = "alloc")]
-pub use variable::{Description, HandleRead, Value, VariableIndexKind, VariableKind, VariableName};
 pub use variable::{
-    DescriptionRef, Element, Elements, Handle, HandleReadRef, Kind, Numbers, ValueRef,
+    Description, HandleRead, HandleWrite, NameWrite, Value, VariableIndexKind, VariableKind,
+    VariableName,
+};
+pub use variable::{
+    DescriptionRef, Element, Elements, ExtendedDescription, ExtendedReply, Handle, HandleReadRef,
+    HandleWriteRef, Kind, NameWriteRef, Numbers, Synchronisation, Validity, ValueRef,
     VariableAccess, VariableCount, VariableIndexKindRef, VariableKindRef, VariableNameRef,
     VariableType,
 };

@@ -6,6 +6,10 @@ pub const TEXT_MAX: usize = 256;
 pub const INDEX_KIND_MAX: usize = 260;
 /// Bytes of a variable stream: description, handle header, value (VAR-4, VAR-11, VAR-14).
 pub const VARIABLE_MAX: usize = 2048;
+/// Bytes of a value that is written by handle (VAR-12).
+pub const HANDLE_VALUE_MAX: usize = 2040;
+/// Bytes of a value that is written by name (VAR-13).
+pub const NAME_VALUE_MAX: usize = 2047;
 /// Dimensions of a description beside a name of one NUL (VAR-24).
 pub const DIMENSIONS_MAX: usize = 506;
 /// Indices of a handle header (VAR-24).

@@ -1,5 +1,6 @@
 //! The two traits every stream has.
 
+use crate::bytes::Reader;
 use crate::error::Error;
 use crate::layout::Stream;
 
@@ -43,6 +44,29 @@ pub trait Encode {
         let mut bytes = alloc::vec![0; self.encoded_len().min(FRAME_MAX)];
         self.encode(&mut bytes)?;
         Ok(bytes)
+    }
+}
+
+/// What comes back from a function that returns nothing (VAR-17).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct NoData;
+
+impl<'a> Decode<'a> for NoData {
+    const STREAM: Stream = Stream::NoData;
+
+    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
+        Reader::new(Self::STREAM, bytes)?.finish()?;
+        Ok(Self)
+    }
+}
+
+impl Encode for NoData {
+    fn encoded_len(&self) -> usize {
+        0
+    }
+
+    fn encode<'b>(&self, _: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        Ok(&[])
     }
 }
 

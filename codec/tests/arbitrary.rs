@@ -34,7 +34,7 @@ proptest! {
             AmsTcpHeader AmsHeader ReadRequest ReadReply WriteRequest WriteReply
             ReadWriteRequest ReadWriteReply ObjectCount Descriptor Descriptors
             VariableKind VariableCount VariableIndexKind Description VariableName
-            Handle HandleRead Value
+            Handle HandleRead Value HandleWrite NameWrite ExtendedReply
         }
     }
 }

@@ -36,10 +36,26 @@ const VAR_4_LONGER: &str = "VAR-4: the name may be longer";
 const VAR_4_BEHIND: &str = "VAR-4: bytes behind the name's NUL are kept";
 const VAR_14: &str = "VAR-14: a value has any length";
 const VAR_14_EMPTY: &str = "VAR-14: a value may be empty";
+const VAR_16: &str = "VAR-16: V.G and V.A have no extended description";
 
 /// All clauses that allow a sample to lose or gain bytes. Each has to be met below.
-const ALLOWED: [&str; 9] =
-    [ADS_6, COM_3, E_34, VAR_1, VAR_4_OPEN, VAR_4_LONGER, VAR_4_BEHIND, VAR_14, VAR_14_EMPTY];
+const ALLOWED: [&str; 10] = [
+    ADS_6,
+    COM_3,
+    E_34,
+    VAR_1,
+    VAR_4_OPEN,
+    VAR_4_LONGER,
+    VAR_4_BEHIND,
+    VAR_14,
+    VAR_14_EMPTY,
+    VAR_16,
+];
+
+/// Whether a value of any length ends the stream.
+fn ends_in_a_value(stream: Stream) -> bool {
+    stream.layout().fields.last().is_some_and(|row| row.name == "value")
+}
 
 /// What a text does with a cut and with a byte more.
 #[derive(PartialEq)]
@@ -78,8 +94,10 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
             true => Expected::Accepted(VAR_4_BEHIND),
             false => Expected::Accepted(VAR_4_OPEN),
         },
-        (None, Stream::VariableValue, _) if cut == 0 => Expected::Accepted(VAR_14_EMPTY),
-        (None, Stream::VariableValue, _) => Expected::Accepted(VAR_14),
+        (None, _, "value") if there == 0 => Expected::Accepted(VAR_14_EMPTY),
+        (None, _, "value") => Expected::Accepted(VAR_14),
+        (None, Stream::VariableNameWrite, "name") => refused(MissingNul, name, start, (256, there)),
+        (None, Stream::VariableExtendedDescription, _) if cut == 0 => Expected::Accepted(VAR_16),
         (None, Stream::ObjectDescriptors, "id") if there == 0 && cut > 0 => {
             Expected::Accepted(COM_3)
         }
@@ -108,7 +126,11 @@ fn expect_extra(stream: Stream, sample: &Sample, extra: u8) -> Expected {
     match (stream, last) {
         (Stream::VariableKind, None) if extra == 0 => Expected::Accepted(E_34),
         (Stream::VariableKind, None) => refused(MissingNul, "kind", 0, (256, 1)),
-        (Stream::VariableValue, _) => Expected::Accepted(VAR_14),
+        (stream, _) if ends_in_a_value(stream) => Expected::Accepted(VAR_14),
+        (Stream::VariableExtendedDescription, None) => {
+            refused(Truncated, "synchronisation", 0, (4, 1))
+        }
+        (Stream::VariableExtendedDescription, _) => refused(TooLong, "stream", 8, (8, 9)),
         (Stream::ObjectDescriptors, _) => refused(Truncated, "id", len, (4, 1)),
         (Stream::ReadReply | Stream::ReadWriteReply, Some(("result", ..))) => {
             refused(Truncated, "length", 4, (4, 1))

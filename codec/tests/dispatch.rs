@@ -222,11 +222,20 @@ fn replies_are_those_of_the_function() {
         ("handle-printed", 4),
         ("read-by-handle-printed-array", 20),
         ("read-by-name-printed-element", 0),
+        ("extended-printed", 8),
+        ("extended-printed", 0),
+        ("axis-handle-printed", 4),
+        ("axis-read-printed", 8),
+        ("write-by-handle-printed-element", 0),
+        ("write-by-name-printed-element", 0),
+        ("axis-write-printed", 0),
     ] {
         assert_eq!(reply(slug, &vec![0; len]), Ok(()), "{slug} {len}");
     }
     let error = reply("descriptor-printed", &[0; 168]).unwrap_err();
     assert_eq!((error.kind(), error.expected(), error.found()), (ErrorKind::TooMany, 1, 2));
     assert!(reply("count-printed", &[0; 5]).is_err());
+    assert!(reply("extended-printed", &[0; 4]).is_err());
+    assert!(reply("write-by-name-printed-element", &[0]).is_err());
     assert!(reply("description-printed", &[0; 20]).is_err());
 }

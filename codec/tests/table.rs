@@ -22,8 +22,8 @@ type Row = (
 /// Every function, where the manuals put it.
 #[test]
 fn functions() {
-    use Service::{Read, ReadWrite};
-    let rows: [Row; 7] = [
+    use Service::{Read, ReadWrite, Write};
+    let rows: [Row; 13] = [
         (
             "number of objects",
             Read,
@@ -101,6 +101,72 @@ fn functions() {
             "VAR-14",
             "4.3.5",
         ),
+        (
+            "write variable value by handle",
+            Write,
+            552,
+            0x12_2301,
+            0x49,
+            Some("variable-handle-write"),
+            None,
+            "VAR-12",
+            "4.3.6",
+        ),
+        (
+            "write variable value by name",
+            Write,
+            552,
+            0x12_2301,
+            0x4A,
+            Some("variable-name-write"),
+            None,
+            "VAR-13",
+            "4.3.7",
+        ),
+        (
+            "extended variable description by index",
+            ReadWrite,
+            552,
+            0x12_2301,
+            0x4B,
+            Some("variable-index-kind"),
+            Some("variable-extended-description"),
+            "VAR-15",
+            "4.3.8",
+        ),
+        (
+            "axis variable handle by name",
+            ReadWrite,
+            552,
+            0x12_2301,
+            0x2_0004,
+            Some("variable-name"),
+            Some("variable-handle"),
+            "VAR-26",
+            "4.3.9",
+        ),
+        (
+            "read axis variable value by name",
+            ReadWrite,
+            552,
+            0x12_2301,
+            0x2_0005,
+            Some("variable-name"),
+            Some("variable-value"),
+            "VAR-26",
+            "4.3.10",
+        ),
+        (
+            "write axis variable value by name",
+            Write,
+            552,
+            0x12_2301,
+            0x2_0006,
+            Some("variable-name-write"),
+            None,
+            "VAR-26",
+            "4.3.11",
+        ),
     ];
     assert_eq!(rows.len(), Function::ALL.len());
     for (function, row) in Function::ALL.iter().zip(rows) {
@@ -121,7 +187,30 @@ fn functions() {
         assert_eq!(found, row);
         assert!(spec.offset.holds(IndexOffset::new(row.4)), "{}", spec.name);
         // What a gate lets through by itself rests on this.
-        assert_eq!(spec.effect, Effect::Query, "{}", spec.name);
+        let effect = if service == Write { Effect::Write } else { Effect::Query };
+        assert_eq!(spec.effect, effect, "{}", spec.name);
+    }
+}
+
+/// VAR-26: the elements of the axis interface are other functions at axis 0, and none elsewhere.
+#[test]
+fn the_axis_interface_begins_at_axis_1() {
+    let call = |offset| Call {
+        port: AmsPort::SDA,
+        service: Service::ReadWrite,
+        index_group: IndexGroup::new(0x12_2301),
+        index_offset: IndexOffset::new(offset),
+        read_length: 4,
+        data: b"V.A.WCS\0",
+    };
+    for place in [1, 2, 0xFFFF_u32] {
+        let reached = call((place << 16) | 4).dispatch().unwrap();
+        let operation::Request::AxisHandleByName(op) = reached else { panic!("{reached:?}") };
+        assert_eq!(u32::from(op.axis.place()), place);
+    }
+    for absent in [4, 5, 6, 0x1_0003, 0x1_0007, 0x1_0044] {
+        let refusal = Refusal::Offset(IndexOffset::new(absent));
+        assert_eq!(call(absent).dispatch(), Err(refusal));
     }
 }
 
@@ -138,6 +227,8 @@ fn read_lengths() {
     assert_eq!(HandleByName { channel, name }.read_length(), 4);
     assert_eq!(ReadByHandle::new(channel, Handle(1), Numbers::EMPTY).read_length(), 2048);
     assert_eq!(ReadByName { channel, name }.read_length(), 2048);
+    assert_eq!(DescribeExtended::new(channel, 0, Kind::V_E).read_length(), 2048);
+    assert_eq!(WriteByName::new(channel, "V.E.a", &[]).unwrap().read_length(), 0);
 }
 
 /// ADS-5, ADS-7, GEN-4: numbers of AMS and ADS.

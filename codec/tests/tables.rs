@@ -47,6 +47,10 @@ fn render(stream: Stream) -> String {
             0 => row.offset.to_string(),
             per_item => format!("{} + {per_item}{}", row.offset, letter(layout.fields)),
         };
+        let offset = match counter.map(|before| before.size) {
+            Some(Size::Leading { max }) => format!("{offset} … {max}"),
+            _ => offset,
+        };
         writeln!(
             text,
             "| {offset} | {} | `{}` | `{}` | {} | {} |",
@@ -90,7 +94,8 @@ fn size(size: Size, counter: Option<&FieldSpec>) -> String {
             format!("{each} × {letter}, {letter} ≤ {max}")
         }
         (Size::Terminated { max, may_be_absent: true }, _) => format!("≤ {max} with NUL, or 0"),
-        (Size::Terminated { max, .. }, _) => format!("≤ {max} with NUL"),
+        (Size::Terminated { max, .. } | Size::Leading { max }, _) => format!("≤ {max} with NUL"),
+        (Size::FixedOrNothing(size), _) => format!("{size}; the stream may have no byte at all"),
         (Size::Open { max } | Size::Rest { max }, _) => format!("≤ {max}"),
         (other, _) => panic!("how is {other:?} shown?"),
     }
@@ -107,7 +112,7 @@ fn letter(fields: &[FieldSpec]) -> &'static str {
 fn offsets_are_where_walks_find_the_fields() {
     for (stream, sample) in each_sample() {
         let bytes = sample.bytes();
-        let mut items = 0;
+        let (mut items, mut text) = (0, 0);
         stream
             .walk(&bytes, |segment| {
                 let row = segment.field.spec().unwrap();
@@ -118,8 +123,14 @@ fn offsets_are_where_walks_find_the_fields() {
                     }
                     _ => 0,
                 };
+                let before = text;
+                // The table counts a text with more behind it by its NUL alone.
+                if let Size::Leading { .. } = row.size {
+                    text = segment.bytes.len() as u32 - 1;
+                }
                 let record = segment.record * DESCRIPTOR_LEN as u32;
-                let table = row.offset + row.per_item * items + each * segment.item + record;
+                let counted = row.per_item * items + each * segment.item;
+                let table = row.offset + counted + record + before;
                 assert_eq!(segment.offset, table, "{stream} {}: {segment:?}", sample.slug);
             })
             .unwrap();
@@ -133,10 +144,12 @@ fn streams_are_packed() {
         let mut end = 0;
         for row in stream.layout().fields {
             assert_eq!(row.offset, end, "{stream}: {}", row.name);
-            if let Size::Fixed(size) | Size::FixedUnlessError(size) | Size::Padded(size) = row.size
-            {
-                end += size;
-            }
+            end += match row.size {
+                Size::Fixed(size) | Size::FixedUnlessError(size) | Size::Padded(size) => size,
+                Size::FixedOrNothing(size) => size,
+                Size::Leading { .. } => 1,
+                _ => 0,
+            };
         }
     }
 }
@@ -171,6 +184,15 @@ fn names_are_unique() {
     }
 }
 
+/// Bytes of the value that ends a stream (VAR-12 … VAR-14).
+fn value(stream: Stream) -> usize {
+    match stream {
+        Stream::VariableHandleWrite => HANDLE_VALUE_MAX,
+        Stream::VariableNameWrite => NAME_VALUE_MAX,
+        _ => VARIABLE_MAX,
+    }
+}
+
 /// The named limits are the tables' numbers, and hang together as the clauses say.
 #[test]
 fn limits_are_those_of_the_tables() {
@@ -190,6 +212,8 @@ fn limits_are_those_of_the_tables() {
         (S::VariableDescription, VARIABLE_MAX),
         (S::VariableName, TEXT_MAX),
         (S::VariableHandleRead, VARIABLE_MAX),
+        (S::VariableHandleWrite, VARIABLE_MAX),
+        (S::VariableNameWrite, VARIABLE_MAX),
         (S::VariableValue, VARIABLE_MAX),
     ] {
         assert_eq!(stream.layout().max as usize, max, "{stream}");
@@ -198,7 +222,7 @@ fn limits_are_those_of_the_tables() {
             Size::Items { max, .. } => (max as usize, INDICES_MAX),
             Size::Padded(size) => (size as usize, DESCRIPTOR_TEXT_LEN),
             Size::Terminated { max, .. } | Size::Open { max } => (max as usize, TEXT_MAX),
-            Size::Rest { max } => (max as usize, VARIABLE_MAX),
+            Size::Rest { max } => (max as usize, value(stream)),
             _ => continue,
         };
         assert_eq!(limit.0, limit.1, "{stream}");

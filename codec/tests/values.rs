@@ -132,6 +132,24 @@ proptest! {
         check_value(&HandleRead { handle: Handle(index), indices });
     }
 
+    /// Every write comes back, with and without a value.
+    #[test]
+    fn variable_writes(
+        name in text(255), handle in any::<u32>(), indices in vec(any::<u32>(), 0..=250),
+        value in vec(any::<u8>(), 0..=1040),
+    ) {
+        check_value(&HandleWrite { handle: Handle(handle), indices, value: value.clone() });
+        check_value(&NameWrite { name, value });
+    }
+
+    /// Every extended description comes back, and none does.
+    #[test]
+    fn extended_descriptions((synchronisation, validity) in any::<(u32, u32)>()) {
+        let (synchronisation, validity) = (Synchronisation(synchronisation), Validity(validity));
+        check_value(&ExtendedReply(Some(ExtendedDescription { synchronisation, validity })));
+        check_value(&ExtendedReply(None));
+    }
+
     /// Every description comes back: unknown codes, many dimensions, each end of the name.
     #[test]
     fn descriptions(

@@ -69,6 +69,9 @@ fn decode_stream(stream: Stream, vector: &Vector, bytes: &[u8]) -> Result<String
             show!(bytes, ValueRef<'_>, Value)?;
             elements(vector, bytes)
         }
+        Stream::VariableHandleWrite => show!(bytes, HandleWriteRef<'_>, HandleWrite),
+        Stream::VariableNameWrite => show!(bytes, NameWriteRef<'_>, NameWrite),
+        Stream::VariableExtendedDescription => show!(bytes, ExtendedReply, ExtendedReply),
         other => panic!("{other} has no decoder"),
     }
 }

@@ -12,4 +12,4 @@ pub use group::{
     Access, Addressing, Attribute, Class, ClassGroup, ComGroup, ComTable, Group, IndexGroup,
 };
 pub use offset::{AxisStride, IndexOffset};
-pub use place::{Channel, PlatformAxis, Spindle};
+pub use place::{Channel, ChannelAxis, PlatformAxis, Spindle};

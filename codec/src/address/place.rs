@@ -1,10 +1,11 @@
 //! The channel, platform axis or spindle in the low bits of an index group.
 
-use core::num::NonZeroU8;
+use core::num::{NonZeroU8, NonZeroU16};
 
-use super::Addressing;
+use super::{Addressing, AxisStride, IndexOffset};
 use crate::error::{Error, ErrorKind};
 use crate::layout::field::index_group::INSTANCE;
+use crate::layout::field::index_offset::AXIS;
 
 /// Takes a number into the eight bits it has, never into the field above (ADR-9).
 fn instance(number: u32, least: u8) -> Result<u8, Error> {
@@ -96,6 +97,52 @@ impl PlatformAxis {
     /// The place, from 1.
     pub const fn place(self) -> u8 {
         self.0.get()
+    }
+}
+
+/// A place of an axis in a channel, counted from 1; which axis is there, axis exchange changes
+/// (ADR-13).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 and 4.2.2.
+///
+/// ```
+/// use ads_cnc::address::ChannelAxis;
+///
+/// assert_eq!(ChannelAxis::new(2)?.offset(4)?.get(), 0x2_0004);
+/// // At axis 0 the same elements are other functions (VAR-26).
+/// assert!(ChannelAxis::new(0).is_err());
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ChannelAxis(NonZeroU16);
+
+impl ChannelAxis {
+    /// The place with this number.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for 0 and for what 16 bits do not hold.
+    pub fn new(place: u32) -> Result<Self, Error> {
+        let bound = if place == 0 { 1 } else { u16::MAX.into() };
+        let fits = u16::try_from(place).ok().and_then(NonZeroU16::new);
+        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, AXIS, 0, bound, place))
+    }
+
+    /// The place that an offset of the axis interface is about.
+    pub(crate) fn of_offset(offset: IndexOffset) -> Result<Self, Error> {
+        Self::new(offset.axis_and_element(AxisStride::X10000)?.0)
+    }
+
+    /// The number, from 1.
+    pub const fn place(self) -> u16 {
+        self.0.get()
+    }
+
+    /// The offset of an element of the axis, 0x10000 from that of the next axis.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits.
+    pub fn offset(self, element: u32) -> Result<IndexOffset, Error> {
+        IndexOffset::of_axis(AxisStride::X10000, self.0.get().into(), element)
     }
 }
 

@@ -79,6 +79,13 @@ pub enum Size {
         /// Zero bytes are accepted for the empty text.
         may_be_absent: bool,
     },
+    /// Text that a NUL must end, and more of the stream behind it.
+    Leading {
+        /// The most bytes, the NUL included.
+        max: u32,
+    },
+    /// So many bytes; the stream may have none at all instead.
+    FixedOrNothing(u32),
     /// Text that a NUL or the end of the stream ends; what follows the NUL is kept.
     Open {
         /// The most bytes in all.

@@ -182,6 +182,27 @@ layouts! {
     VariableValue, variable_value: "variable-value", "Variable value, reply", "VAR-14", max 2048 {
         VALUE "value" @ 0, Size::Rest { max: 2048 }, Bytes, "VAR-14", "one element, or all of the array";
     }
+    /// Request to write a value by handle.
+    VariableHandleWrite, variable_handle_write: "variable-handle-write", "Write variable value by handle, request", "VAR-12", max 2048 {
+        HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-12", "handle of the variable";
+        INDEX_COUNT "index_count" @ 4, FIXED_4, Uns32, "VAR-12", "indices n that follow; 0 for the whole variable";
+        INDICES "indices" @ 8, Size::Items { each: 4, max: 510 }, Uns32, "VAR-12", "index in each dimension, from 0";
+        VALUE "value" @ 8 + 4 m, Size::Rest { max: 2040 }, Bytes, "VAR-12", "one element, or all of the array";
+    }
+    /// Request to write a value by name.
+    VariableNameWrite, variable_name_write: "variable-name-write", "Write variable value by name, request", "VAR-13", max 2048 {
+        NAME "name" @ 0, Size::Leading { max: 256 }, String, "VAR-13", "name of the variable";
+        VALUE "value" @ 1, Size::Rest { max: 2047 }, Bytes, "VAR-13", "one element, or all of the array";
+    }
+    /// Extended description of a variable.
+    VariableExtendedDescription, variable_extended_description: "variable-extended-description", "Extended variable description by index, reply", "VAR-15", max 8 {
+        SYNCHRONISATION "synchronisation" @ 0, Size::FixedOrNothing(4), Uns32, "VAR-15", "1 NO_SYNC, 2 SYNCHRONIZED";
+        VALIDITY "validity" @ 4, FIXED_4, Uns32, "VAR-15", "1 CHANNEL, 2 GLOBAL";
+    }
+    /// What comes back where nothing does; no stream of its own.
+    NoData, no_data: "no-data", "No data", "VAR-17", max 0 {
+        NOTHING "nothing" @ 0, Size::Rest { max: 0 }, Bytes, "VAR-17", "nothing";
+    }
     /// An index group put together from its parts; no stream of its own.
     IndexGroup, index_group: "index-group", "Index group", "ADR-9", max 0 {
         INSTANCE "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel, platform axis or spindle, 8 bits";

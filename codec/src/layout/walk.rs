@@ -62,7 +62,11 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
         for (field, spec) in stream.fields().zip(stream.layout().fields) {
             match spec.size {
                 Size::FixedUnlessError(_) if count != 0 && self.input.is_empty() => break,
-                Size::Fixed(size) | Size::FixedUnlessError(size) | Size::Padded(size) => {
+                Size::FixedOrNothing(_) if self.input.at() == 0 && self.input.is_empty() => break,
+                Size::Fixed(size)
+                | Size::FixedUnlessError(size)
+                | Size::FixedOrNothing(size)
+                | Size::Padded(size) => {
                     let number = self.take(field, 0, size)?;
                     count = number.first_chunk().map_or(0, |le| u32::from_le_bytes(*le));
                 }
@@ -84,6 +88,11 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
                 Size::Terminated { max, .. } => {
                     let at = self.input.at();
                     let bytes = self.input.terminated(field, max)?;
+                    self.visit(field, 0, at, bytes);
+                }
+                Size::Leading { max } => {
+                    let at = self.input.at();
+                    let bytes = self.input.leading(field, max)?;
                     self.visit(field, 0, at, bytes);
                 }
                 Size::Open { max } => self.rest(field, 1, max)?,

@@ -18,16 +18,22 @@
 //! A server hands what it received to [`Call::dispatch`] and answers the [`Request`] with a
 //! [`Reply`]. What dispatch makes of an encoded operation encodes to the same bytes.
 
+mod axis;
 mod call;
 mod com;
 mod reply;
 mod request;
 mod table;
 mod variable;
+mod write;
 
+pub use axis::{AxisHandleByName, AxisReadByName, AxisWriteByName};
 pub use call::{Call, Refusal};
 pub use com::{CountObjects, ObjectList, ReadDescriptors};
 pub use reply::Reply;
 pub use request::{Operation, Request};
 pub use table::{Effect, Function, FunctionSpec, GroupRule, OffsetRule, Service, Task};
-pub use variable::{CountVariables, DescribeByIndex, HandleByName, ReadByHandle, ReadByName};
+pub use variable::{
+    CountVariables, DescribeByIndex, DescribeExtended, HandleByName, ReadByHandle, ReadByName,
+};
+pub use write::{WriteByHandle, WriteByName};

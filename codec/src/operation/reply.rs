@@ -2,8 +2,8 @@
 
 use crate::com::{DescriptorsRef, ObjectCount};
 use crate::error::Error;
-use crate::stream::Encode;
-use crate::variable::{DescriptionRef, Handle, ValueRef, VariableCount};
+use crate::stream::{Encode, NoData};
+use crate::variable::{DescriptionRef, ExtendedReply, Handle, ValueRef, VariableCount};
 
 /// Any reply: what a server answers, what a tool shows.
 ///
@@ -30,6 +30,10 @@ pub enum Reply<'a> {
     Handle(Handle),
     /// Value of a variable.
     Value(ValueRef<'a>),
+    /// Extended description of a variable, or none.
+    Extended(ExtendedReply),
+    /// Nothing, of a write.
+    NoData(NoData),
 }
 
 macro_rules! each_reply {
@@ -41,6 +45,8 @@ macro_rules! each_reply {
             Reply::Description($reply) => $then,
             Reply::Handle($reply) => $then,
             Reply::Value($reply) => $then,
+            Reply::Extended($reply) => $then,
+            Reply::NoData($reply) => $then,
         }
     };
 }
@@ -72,4 +78,6 @@ from_reply! {
     DescriptionRef<'a> => Description,
     Handle => Handle,
     ValueRef<'a> => Value,
+    ExtendedReply => Extended,
+    NoData => NoData,
 }

@@ -1,8 +1,9 @@
 //! Typed operations, and all of them as one type.
 
 use super::{
-    Call, CountObjects, CountVariables, DescribeByIndex, Function, HandleByName, ReadByHandle,
-    ReadByName, ReadDescriptors, Reply,
+    AxisHandleByName, AxisReadByName, AxisWriteByName, Call, CountObjects, CountVariables,
+    DescribeByIndex, DescribeExtended, Function, HandleByName, ReadByHandle, ReadByName,
+    ReadDescriptors, Reply, WriteByHandle, WriteByName,
 };
 use crate::address::{Group, IndexGroup, IndexOffset};
 use crate::error::Error;
@@ -132,4 +133,10 @@ requests! {
     HandleByName(HandleByName<'a>) => Handle,
     ReadByHandle(ReadByHandle<'a>) => Value,
     ReadByName(ReadByName<'a>) => Value,
+    WriteByHandle(WriteByHandle<'a>) => NoData,
+    WriteByName(WriteByName<'a>) => NoData,
+    DescribeExtended(DescribeExtended<'a>) => Extended,
+    AxisHandleByName(AxisHandleByName<'a>) => Handle,
+    AxisReadByName(AxisReadByName<'a>) => Value,
+    AxisWriteByName(AxisWriteByName<'a>) => NoData,
 }

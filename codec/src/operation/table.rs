@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::address::AxisStride;
 use crate::address::{
     Access, Addressing, Attribute, Class, ComTable, Group, IndexGroup, IndexOffset,
 };
@@ -26,6 +27,18 @@ pub enum Function {
     ReadByHandle,
     /// Read variable value by name, 0x48.
     ReadByName,
+    /// Write variable value by handle, 0x49.
+    WriteByHandle,
+    /// Write variable value by name, 0x4A.
+    WriteByName,
+    /// Extended variable description by index, 0x4B.
+    DescribeExtended,
+    /// Variable handle by name, on the axis interface, 0x4.
+    AxisHandleByName,
+    /// Read variable value by name, on the axis interface, 0x5.
+    AxisReadByName,
+    /// Write variable value by name, on the axis interface, 0x6.
+    AxisWriteByName,
 }
 
 /// What the table says of a function.
@@ -175,6 +188,8 @@ pub enum OffsetRule {
     At(u32),
     /// Every one from here on.
     From(u32),
+    /// This element of every axis from 1 on, 0x10000 apart (VAR-26).
+    OfAxis(u32),
 }
 
 impl OffsetRule {
@@ -183,6 +198,10 @@ impl OffsetRule {
         match self {
             Self::At(at) => offset.get() == at,
             Self::From(first) => offset.get() >= first,
+            Self::OfAxis(element) => match offset.axis_and_element(AxisStride::X10000) {
+                Ok((axis, found)) => axis > 0 && found == element,
+                Err(_) => false,
+            },
         }
     }
 }
@@ -207,6 +226,37 @@ const fn channel_interface(
         reply: Some(reply),
         clause,
         section,
+    }
+}
+
+/// A write of the channel or axis interface.
+const fn writes(
+    name: &'static str,
+    offset: OffsetRule,
+    request: Stream,
+    clause: &'static str,
+    section: &'static str,
+) -> FunctionSpec {
+    FunctionSpec {
+        service: Service::Write,
+        offset,
+        effect: Effect::Write,
+        reply: None,
+        ..channel_interface(name, 0, request, Stream::NoData, clause, section)
+    }
+}
+
+/// A function of the axis interface: as that of the channel interface, for one axis.
+const fn axis_interface(
+    name: &'static str,
+    element: u32,
+    reply: Stream,
+    clause: &'static str,
+    section: &'static str,
+) -> FunctionSpec {
+    FunctionSpec {
+        offset: OffsetRule::OfAxis(element),
+        ..channel_interface(name, 0, Stream::VariableName, reply, clause, section)
     }
 }
 
@@ -241,6 +291,12 @@ impl Function {
         Self::HandleByName,
         Self::ReadByHandle,
         Self::ReadByName,
+        Self::WriteByHandle,
+        Self::WriteByName,
+        Self::DescribeExtended,
+        Self::AxisHandleByName,
+        Self::AxisReadByName,
+        Self::AxisWriteByName,
     ];
 
     /// The function's row.
@@ -317,6 +373,73 @@ impl Function {
                         S::VariableValue,
                         "VAR-14",
                         "4.3.5",
+                    )
+                }
+            }
+            Self::WriteByHandle => {
+                const {
+                    &writes(
+                        "write variable value by handle",
+                        OffsetRule::At(0x49),
+                        S::VariableHandleWrite,
+                        "VAR-12",
+                        "4.3.6",
+                    )
+                }
+            }
+            Self::WriteByName => {
+                const {
+                    &writes(
+                        "write variable value by name",
+                        OffsetRule::At(0x4A),
+                        S::VariableNameWrite,
+                        "VAR-13",
+                        "4.3.7",
+                    )
+                }
+            }
+            Self::DescribeExtended => {
+                const {
+                    &channel_interface(
+                        "extended variable description by index",
+                        0x4B,
+                        S::VariableIndexKind,
+                        S::VariableExtendedDescription,
+                        "VAR-15",
+                        "4.3.8",
+                    )
+                }
+            }
+            Self::AxisHandleByName => {
+                const {
+                    &axis_interface(
+                        "axis variable handle by name",
+                        4,
+                        S::VariableHandle,
+                        "VAR-26",
+                        "4.3.9",
+                    )
+                }
+            }
+            Self::AxisReadByName => {
+                const {
+                    &axis_interface(
+                        "read axis variable value by name",
+                        5,
+                        S::VariableValue,
+                        "VAR-26",
+                        "4.3.10",
+                    )
+                }
+            }
+            Self::AxisWriteByName => {
+                const {
+                    &writes(
+                        "write axis variable value by name",
+                        OffsetRule::OfAxis(6),
+                        S::VariableNameWrite,
+                        "VAR-26",
+                        "4.3.11",
                     )
                 }
             }

@@ -7,12 +7,12 @@ use crate::error::Error;
 use crate::stream::{Decode, Encode};
 use crate::text::TextRef;
 use crate::variable::{
-    DescriptionRef, Handle, HandleReadRef, Kind, Numbers, ValueRef, VariableCount,
+    DescriptionRef, ExtendedReply, Handle, HandleReadRef, Kind, Numbers, ValueRef, VariableCount,
     VariableIndexKindRef, VariableKindRef, VariableNameRef,
 };
 
 /// The channel of a group that the dispatcher has found to be one of a channel.
-fn channel(group: Group) -> Result<Channel, Error> {
+pub(super) fn channel(group: Group) -> Result<Channel, Error> {
     match group {
         Group::Class(ClassGroup { addressing, instance, .. }) => {
             Channel::with_addressing(instance.into(), addressing)
@@ -21,18 +21,23 @@ fn channel(group: Group) -> Result<Channel, Error> {
     }
 }
 
-/// Declares an operation: its fields, its stream, its function.
+/// Declares an operation: its fields, its stream, its function. One of an axis has the axis
+/// before its fields.
 macro_rules! operation {
     (
         $(#[$doc:meta])*
         $name:ident { $( #[$field_doc:meta] $field:ident: $ty:ty, )+ }
-        as $stream:ident, $offset:literal, reply $reply:ty, at most $most:literal
+        as $stream:ident, $offset:literal $(of $axis:ident)?, reply $reply:ty, at most $most:literal
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct $name<'a> {
             /// Which channel.
             pub channel: Channel,
+            $(
+                /// Which place of an axis in the channel.
+                pub $axis: ChannelAxis,
+            )?
             $( #[$field_doc] pub $field: $ty, )+
         }
 
@@ -43,7 +48,8 @@ macro_rules! operation {
 
             pub(super) fn dispatched(group: Group, call: &Call<'a>) -> Result<Self, Error> {
                 let $stream { $( $field, )+ } = $stream::decode(call.data)?;
-                Ok(Self { channel: channel(group)?, $( $field, )+ })
+                $( let $axis = ChannelAxis::of_offset(call.index_offset)?; )?
+                Ok(Self { channel: channel(group)?, $( $axis, )? $( $field, )+ })
             }
         }
 
@@ -59,7 +65,9 @@ macro_rules! operation {
             }
 
             fn index_offset(&self) -> IndexOffset {
-                IndexOffset::new($offset)
+                let offset = IndexOffset::new($offset);
+                $( let offset = self.$axis.offset($offset).unwrap_or(offset); )?
+                offset
             }
 
             fn read_length(&self) -> u32 {
@@ -76,6 +84,8 @@ macro_rules! operation {
         }
     };
 }
+
+pub(super) use operation;
 
 operation! {
     /// How many variables of a kind a channel has: ReadWrite at offset 0x44, port 552.
@@ -183,6 +193,40 @@ operation! {
         name: TextRef<'a>,
     }
     as VariableNameRef, 0x48, reply ValueRef<'r>, at most 2048
+}
+
+operation! {
+    /// The extended description of a variable: ReadWrite at offset 0x4B, port 552.
+    ///
+    /// Only V.E variables have one; the reply for the others is empty.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
+    ///
+    /// ```
+    /// use ads_cnc::address::Channel;
+    /// use ads_cnc::operation::{DescribeExtended, Operation};
+    /// use ads_cnc::{Kind, Validity};
+    ///
+    /// let op = DescribeExtended::new(Channel::new(1)?, 3, Kind::V_E);
+    /// assert_eq!(op.encode(&mut [0; 260])?, b"\x03\0\0\0V.E\0");
+    /// let extended = op.decode_reply(&[2, 0, 0, 0, 2, 0, 0, 0])?.0;
+    /// assert_eq!(extended.map(|extended| extended.validity), Some(Validity::GLOBAL));
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    DescribeExtended {
+        /// Index of the variable, from 0 to one less than their number.
+        index: u32,
+        /// The kind.
+        kind: Kind<'a>,
+    }
+    as VariableIndexKindRef, 0x4B, reply ExtendedReply, at most 2048
+}
+
+impl<'a> DescribeExtended<'a> {
+    /// For a channel, an index and a kind.
+    pub const fn new(channel: Channel, index: u32, kind: Kind<'a>) -> Self {
+        Self { channel, index, kind }
+    }
 }
 
 impl<'a> CountVariables<'a> {

@@ -101,6 +101,61 @@ impl VariableAccess {
     }
 }
 
+/// Whether access to a variable is synchronised (VAR-15).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8; the editions spell the second code's
+/// name SYNCHRONISED and SYNCHRONIZED (E-23).
+///
+/// ```
+/// assert_eq!(ads_cnc::Synchronisation(2), ads_cnc::Synchronisation::SYNCHRONIZED);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+pub struct Synchronisation(pub u32);
+
+impl Synchronisation {
+    /// Not synchronised.
+    pub const NO_SYNC: Self = Self(1);
+    /// Synchronised.
+    pub const SYNCHRONIZED: Self = Self(2);
+
+    /// The code's name, if the manuals have it.
+    pub const fn name(self) -> Option<&'static str> {
+        match self {
+            Self::NO_SYNC => Some("NO_SYNC"),
+            Self::SYNCHRONIZED => Some("SYNCHRONIZED"),
+            _ => None,
+        }
+    }
+}
+
+/// Where a variable is valid (VAR-15).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
+///
+/// ```
+/// assert_eq!(ads_cnc::Validity(1), ads_cnc::Validity::CHANNEL);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+pub struct Validity(pub u32);
+
+impl Validity {
+    /// In its channel.
+    pub const CHANNEL: Self = Self(1);
+    /// In all channels.
+    pub const GLOBAL: Self = Self(2);
+
+    /// The code's name, if the manuals have it.
+    pub const fn name(self) -> Option<&'static str> {
+        match self {
+            Self::CHANNEL => Some("CHANNEL"),
+            Self::GLOBAL => Some("GLOBAL"),
+            _ => None,
+        }
+    }
+}
+
 /// Shows a code as number and name.
 macro_rules! debug_code {
     ($code:ident) => {
@@ -114,3 +169,5 @@ macro_rules! debug_code {
 
 debug_code!(VariableType);
 debug_code!(VariableAccess);
+debug_code!(Synchronisation);
+debug_code!(Validity);

@@ -3,18 +3,24 @@
 mod codes;
 mod description;
 mod element;
+mod extended;
 mod handle;
+mod handle_write;
 mod kind;
 mod name;
+mod name_write;
 mod numbers;
 mod value;
 
-pub use codes::{VariableAccess, VariableType};
+pub use codes::{Synchronisation, Validity, VariableAccess, VariableType};
 pub use description::DescriptionRef;
 pub use element::{Element, Elements};
+pub use extended::{ExtendedDescription, ExtendedReply};
 pub use handle::{Handle, HandleReadRef};
+pub use handle_write::HandleWriteRef;
 pub use kind::{Kind, VariableCount, VariableIndexKindRef, VariableKindRef};
 pub use name::VariableNameRef;
+pub use name_write::NameWriteRef;
 pub use numbers::Numbers;
 pub use value::ValueRef;
 
@@ -22,7 +28,9 @@ pub use value::ValueRef;
 pub use {
     description::Description,
     handle::HandleRead,
+    handle_write::HandleWrite,
     kind::{VariableIndexKind, VariableKind},
     name::VariableName,
+    name_write::NameWrite,
     value::Value,
 };

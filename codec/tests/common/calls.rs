@@ -24,6 +24,15 @@ const fn variable(
     sample(slug, function, 552, Service::ReadWrite, place, data)
 }
 
+const fn write(
+    slug: &'static str,
+    function: Function,
+    offset: u32,
+    data: &'static [u8],
+) -> CallSample {
+    sample(slug, function, 552, Service::Write, (0x12_2301, offset, 0), data)
+}
+
 const fn sample(
     slug: &'static str,
     function: Function,
@@ -94,5 +103,42 @@ pub(crate) const CALLS: &[CallSample] = &[
         Service::ReadWrite,
         (0x12_2306, 0x46, 4),
         b"V.A.ACT_POS.X\0",
+    ),
+    variable(
+        "extended-printed",
+        Function::DescribeExtended,
+        (0x12_2301, 0x4B, 2048),
+        b"\x03\0\0\0V.E\0",
+    ),
+    variable(
+        "axis-handle-printed",
+        Function::AxisHandleByName,
+        (0x12_2301, 0x2_0004, 4),
+        b"V.A.WCS\0",
+    ),
+    variable(
+        "axis-read-printed",
+        Function::AxisReadByName,
+        (0x12_2301, 0x2_0005, 2048),
+        b"V.A.WCS\0",
+    ),
+    write(
+        "write-by-handle-printed-element",
+        Function::WriteByHandle,
+        0x49,
+        b"\x34\x12\x00\x02\x01\0\0\0\x04\0\0\0\x7b\0\0\0",
+    ),
+    write(
+        "write-by-handle-printed-array",
+        Function::WriteByHandle,
+        0x49,
+        b"\x34\x12\x00\x02\0\0\0\0\x7b\0\0\0\xea\0\0\0\x59\x01\0\0\xc8\x01\0\0\x37\x02\0\0",
+    ),
+    write("write-by-name-printed-element", Function::WriteByName, 0x4A, b"V.E.test[4]\0\x7b\0\0\0"),
+    write(
+        "axis-write-printed",
+        Function::AxisWriteByName,
+        0x2_0006,
+        b"V.A.WCS\0\x77\xbe\x9f\x1a\x2f\xdd\x5e\x40",
     ),
 ];

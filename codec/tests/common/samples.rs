@@ -69,6 +69,9 @@ pub(crate) const SAMPLES: &[(Stream, &[Sample])] = &[
     (Stream::VariableDescription, VARIABLE_DESCRIPTION),
     (Stream::VariableName, VARIABLE_NAME),
     (Stream::VariableHandle, &[sample("printed", &[("handle", b"\x04\0\0\x02")])]),
+    (Stream::VariableHandleWrite, VARIABLE_HANDLE_WRITE),
+    (Stream::VariableNameWrite, VARIABLE_NAME_WRITE),
+    (Stream::VariableExtendedDescription, VARIABLE_EXTENDED_DESCRIPTION),
     (Stream::VariableHandleRead, VARIABLE_HANDLE_READ),
     (Stream::VariableValue, VARIABLE_VALUE),
 ];
@@ -247,4 +250,47 @@ const VARIABLE_VALUE: &[Sample] = &[
     sample("printed-real", &[("value", b"\xcd\xcc\xcc\xcc\xcc\x48\x93\x40")]),
     sample("text", &[("value", b"G01 X10\0\0behind")]),
     sample("nothing", &[]),
+];
+
+const VARIABLE_HANDLE_WRITE: &[Sample] = &[
+    sample(
+        "printed-element",
+        &[
+            ("handle", b"\x34\x12\x00\x02"),
+            ("index_count", b"\x01\0\0\0"),
+            ("indices", b"\x04\0\0\0"),
+            ("value", b"\x7b\0\0\0"),
+        ],
+    ),
+    sample(
+        "printed-array",
+        &[
+            ("handle", b"\x34\x12\x00\x02"),
+            ("index_count", b"\0\0\0\0"),
+            ("value", b"\x7b\0\0\0\xea\0\0\0\x59\x01\0\0\xc8\x01\0\0\x37\x02\0\0"),
+        ],
+    ),
+    sample("nothing-to-write", &[("handle", b"\x01\0\0\0"), ("index_count", b"\0\0\0\0")]),
+];
+
+const VARIABLE_NAME_WRITE: &[Sample] = &[
+    sample("printed-element", &[("name", b"V.E.test[4]\0"), ("value", b"\x7b\0\0\0")]),
+    sample(
+        "printed-array",
+        &[
+            ("name", b"V.E.test\0"),
+            ("value", b"\x7b\0\0\0\xea\0\0\0\x59\x01\0\0\xc8\x01\0\0\x37\x02\0\0"),
+        ],
+    ),
+    sample(
+        "printed-axis",
+        &[("name", b"V.A.WCS\0"), ("value", b"\x77\xbe\x9f\x1a\x2f\xdd\x5e\x40")],
+    ),
+    sample("nothing-to-write", &[("name", b"V.E.L\xe4nge\0")]),
+];
+
+const VARIABLE_EXTENDED_DESCRIPTION: &[Sample] = &[
+    sample("printed", &[("synchronisation", b"\x02\0\0\0"), ("validity", b"\x02\0\0\0")]),
+    sample("unknown", &[("synchronisation", b"\0\0\0\x80"), ("validity", b"\x4d\0\0\0")]),
+    sample("none", &[]),
 ];

@@ -96,4 +96,7 @@ pub(crate) static SUBJECTS: &[Subject] = subjects! {
     VariableHandle: Handle;
     VariableHandleRead: HandleReadRef<'_>, HandleRead;
     VariableValue: ValueRef<'_>, Value;
+    VariableHandleWrite: HandleWriteRef<'_>, HandleWrite;
+    VariableNameWrite: NameWriteRef<'_>, NameWrite;
+    VariableExtendedDescription: ExtendedReply;
 };

@@ -126,7 +126,8 @@ impl Cnc {
                 let (variable, indices) = named.ok_or(AdsError::SYMBOL_NOT_FOUND)?;
                 value(variable, &indices)
             }
-            _ => Err(AdsError::SERVICE_NOT_SUPPORTED),
+            // A function of the table that this CNC does not serve is at no offset of it.
+            _ => Err(AdsError::INVALID_OFFSET),
         }
     }
 

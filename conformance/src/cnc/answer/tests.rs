@@ -149,7 +149,10 @@ fn what_is_unknown_has_a_number() {
     use AdsError as E;
     let none = b"V.E\0";
     assert_eq!(ask(0x43, none), Err(E::INVALID_OFFSET));
-    assert_eq!(ask(0x49, none), Err(E::INVALID_OFFSET));
+    assert_eq!(ask(0x4D, none), Err(E::INVALID_OFFSET));
+    // A write is asked for with Write; what the CNC does not serve has no offset there.
+    assert_eq!(ask(0x49, none), Err(E::SERVICE_NOT_SUPPORTED));
+    assert_eq!(ask(0x4B, b"\0\0\0\0V.E\0"), Err(E::INVALID_OFFSET));
     assert_eq!(cnc().answer(&call(0xF005, 0x44, 4, none)), Err(E::INVALID_GROUP));
     assert_eq!(com(0x12_0101, 0x3, 1), Err(E::INVALID_GROUP));
     let port = Call { port: AmsPort(851), ..call(0x12_2301, 0x44, 4, none) };
