@@ -19,6 +19,7 @@
 //! | 4.3.8, extended description | [`VariableIndexKindRef`], [`ExtendedReply`] |
 //! | 4.3.9 … 4.3.11, axis interface | [`operation::AxisHandleByName`] … |
 //! | 5, ADS services | [`ads`] |
+//! | `stream-en`, data streaming | [`streaming`] |
 //!
 //! [`operation`] puts them together: where a function is, what goes in, what comes out, for
 //! clients and for servers. [`layout`] has the field table of every stream.
@@ -59,6 +60,7 @@ pub mod layout;
 pub mod limits;
 pub mod operation;
 mod stream;
+pub mod streaming;
 pub mod text;
 mod variable;
 

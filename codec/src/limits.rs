@@ -24,3 +24,9 @@ pub const ADS_DATA_MAX: usize = 0x40_0000;
 pub const AMS_TCP_HEADER_LEN: usize = 6;
 /// Bytes of the AMS header (ADS-5).
 pub const AMS_HEADER_LEN: usize = 32;
+/// Bytes of one write to the stream, MAX_PROGRAM_STREAM_INPUT_SIZE (STM-2).
+pub const STREAM_PACKET_MAX: usize = 992;
+/// Bytes the stream's interface holds, MAX_PROGRAM_STREAM_SIZE (STM-3).
+pub const STREAM_MAX: usize = 4094;
+/// Characters of a line that is streamed: a packet without CR LF (STM-20).
+pub const NC_LINE_MAX: usize = 990;

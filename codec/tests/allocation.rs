@@ -7,6 +7,7 @@ use std::cell::Cell;
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::layout::Stream;
+use ads_cnc::streaming::{Ack, Interface, NcText, Sender};
 use common::{CALLS, Subject, each_sample};
 
 /// Counts by thread, as tests run beside each other.
@@ -142,4 +143,26 @@ fn dispatch_and_frames_allocate_nothing() {
         let _ = std::hint::black_box(FrameRef::split(&hostile, u32::MAX));
     });
     assert_eq!(count, 0);
+}
+
+/// Streaming allocates nothing: neither packets nor findings nor either end.
+#[test]
+fn streaming_allocates_nothing() {
+    let jumps: String = (0..200).map(|n| format!("N{n}: X1\n$GOTO N{}\n", n / 2)).collect();
+    for text in [jumps.clone(), jumps.replace('\n', "\r\n"), "$FOR\nM30\nX1".into()] {
+        let (peak, count) = measure(|| {
+            let text = NcText::new(text.as_bytes()).unwrap();
+            assert!(text.findings().count() > 1);
+            let (mut sender, mut interface) = (Sender::new(text), Interface::new());
+            while let Some(packet) = sender.packet() {
+                let ack = interface.write(packet);
+                sender.acknowledge(ack).unwrap();
+                if ack == Ack::Later {
+                    interface.read().unwrap();
+                }
+            }
+            assert_eq!(sender.left_bytes(), 0);
+        });
+        assert_eq!((peak, count), (0, 0));
+    }
 }

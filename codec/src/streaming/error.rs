@@ -1,0 +1,85 @@
+//! What is wrong with a line.
+
+/// A line that cannot be streamed: where, what was expected, what was there.
+///
+/// `Copy` and 16 bytes. Of a text it is the first such fault, found before anything is sent.
+///
+/// Manual: `stream-en`, sections 2.2, 3.1, 3.2 and 4.1.
+///
+/// ```
+/// use ads_cnc::streaming::{LineErrorKind, NcText};
+///
+/// let error = NcText::new(b"N10 G0 X0\n(L\xE4nge)\n").unwrap_err();
+/// assert_eq!((error.line(), error.column()), (2, 3));
+/// assert_eq!(error.kind(), LineErrorKind::NotAscii { byte: 0xE4 });
+/// assert_eq!(error.to_string(), "line 2, column 3: ASCII character expected, byte 0xE4 found");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[error("line {line}, column {column}: {kind}")]
+pub struct LineError {
+    line: u32,
+    column: u32,
+    kind: LineErrorKind,
+}
+
+/// The class of a [`LineError`].
+///
+/// ```
+/// use ads_cnc::streaming::{LineErrorKind, NcText};
+///
+/// let line = [b'X'; 991];
+/// assert_eq!(NcText::new(&line).unwrap_err().kind(), LineErrorKind::TooLong { length: 991 });
+/// assert!(NcText::new(&line[..990]).is_ok());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[non_exhaustive]
+pub enum LineErrorKind {
+    /// With CR LF the line does not fit a packet (STM-20). The column is that of the first
+    /// character that is too much.
+    #[error("line of at most 990 characters expected, {length} found")]
+    TooLong {
+        /// Characters of the line.
+        length: u32,
+    },
+    /// The stream is ASCII (STM-7).
+    #[error("ASCII character expected, byte {byte:#04X} found")]
+    NotAscii {
+        /// The byte.
+        byte: u8,
+    },
+    /// There is no NUL in the stream (STM-7).
+    #[error("ASCII character expected, NUL found")]
+    Nul,
+    /// LF without CR before it, in data that was received (STM-5).
+    #[error("CR LF expected, LF alone found")]
+    LfAlone,
+    /// CR without LF behind it, in data that was received (STM-5).
+    #[error("CR LF expected, CR alone found")]
+    CrAlone,
+    /// Data that was received ends within a line (STM-5).
+    #[error("CR LF expected, end of data found")]
+    NoLineEnd,
+}
+
+impl LineError {
+    pub(super) const fn new(line: u32, column: u32, kind: LineErrorKind) -> Self {
+        Self { line, column, kind }
+    }
+
+    /// The line, from 1.
+    pub const fn line(&self) -> u32 {
+        self.line
+    }
+
+    /// The column, from 1, in bytes.
+    pub const fn column(&self) -> u32 {
+        self.column
+    }
+
+    /// The class of the error.
+    pub const fn kind(&self) -> LineErrorKind {
+        self.kind
+    }
+}
+
+const _: () = assert!(size_of::<LineError>() == 16);

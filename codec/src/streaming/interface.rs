@@ -1,0 +1,124 @@
+//! The CNC's end.
+
+use core::fmt;
+
+use super::text::{CR, LF, behind_end, split_at_end};
+use super::{Ack, LineError, LineErrorKind};
+use crate::bytes::to_u32;
+use crate::limits::{STREAM_MAX, STREAM_PACKET_MAX};
+
+/// The interface through which a CNC gets its stream: what was written and not read yet, at most
+/// 4094 bytes.
+///
+/// Manual: `stream-en`, sections 2.2, 3.1, 4.1 and 4.2 (STM-3, STM-5, STM-6, STM-11, STM-12,
+/// STM-15).
+///
+/// ```
+/// use ads_cnc::streaming::{Ack, Interface};
+///
+/// let mut interface = Interface::new();
+/// assert_eq!(interface.write(b"N10 G0 X0\r\n"), Ack::Accepted);
+/// assert_eq!(interface.write(b"N20 M30\r\n"), Ack::Accepted);
+/// assert_eq!(interface.read()?, b"N10 G0 X0\r\nN20 M30\r\n");
+/// assert!(interface.is_empty());
+///
+/// // A line end that is missing shows when the CNC reads: error 21476.
+/// assert_eq!(interface.write(b"N30 G0 X0\n"), Ack::Accepted);
+/// assert_eq!(
+///     interface.read().unwrap_err().to_string(),
+///     "line 1, column 10: CR LF expected, LF alone found"
+/// );
+/// # Ok::<(), ads_cnc::streaming::LineError>(())
+/// ```
+#[derive(Clone)]
+pub struct Interface {
+    bytes: [u8; STREAM_MAX],
+    len: usize,
+}
+
+impl Interface {
+    /// An empty interface.
+    pub const fn new() -> Self {
+        Self { bytes: [0; STREAM_MAX], len: 0 }
+    }
+
+    /// Takes all of a write or nothing of it (STM-15: behind what is there).
+    ///
+    /// [`Ack::Refused`] above 992 bytes; [`Ack::Later`], which goes with warning 11012, if it
+    /// does not fit now (STM-6; that these are the causes is assumed). What the bytes are does
+    /// not matter here, nor whether there are any (assumed).
+    pub fn write(&mut self, data: &[u8]) -> Ack {
+        if data.len() > STREAM_PACKET_MAX {
+            return Ack::Refused;
+        }
+        let free = self.bytes.get_mut(self.len..).unwrap_or_default();
+        let Some((place, _)) = free.split_at_mut_checked(data.len()) else {
+            return Ack::Later;
+        };
+        place.copy_from_slice(data);
+        self.len = self.len.saturating_add(data.len());
+        Ack::Accepted
+    }
+
+    /// Takes out everything at once, in the order of the writes; where one ended does not show
+    /// (STM-12). Nothing if nothing is there: motion stops until more is written (STM-16).
+    ///
+    /// # Errors
+    /// The first line, counted in what was there, that does not end in CR LF: CNC error 21476
+    /// (STM-5). The interface is empty all the same (assumed).
+    pub fn read(&mut self) -> Result<&[u8], LineError> {
+        let bytes = self.bytes.get(..self.len).unwrap_or_default();
+        self.len = 0;
+        match missing_end(bytes) {
+            None => Ok(bytes),
+            Some(error) => Err(error),
+        }
+    }
+
+    /// What an NC reset does: nothing is left (STM-11).
+    pub const fn reset(&mut self) {
+        self.len = 0;
+    }
+
+    /// Bytes held.
+    pub const fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether nothing is held. After a program end, the next program has to wait for this
+    /// (STM-17).
+    pub const fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+}
+
+impl Default for Interface {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl fmt::Debug for Interface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Interface({} of {STREAM_MAX} bytes)", self.len)
+    }
+}
+
+fn missing_end(mut rest: &[u8]) -> Option<LineError> {
+    let mut number = 0_u32;
+    while !rest.is_empty() {
+        number = number.saturating_add(1);
+        let (line, end) = split_at_end(rest);
+        let kind = match end {
+            [CR, LF, ..] => {
+                rest = behind_end(end);
+                continue;
+            }
+            [LF, ..] => LineErrorKind::LfAlone,
+            [CR, ..] => LineErrorKind::CrAlone,
+            _ => LineErrorKind::NoLineEnd,
+        };
+        return Some(LineError::new(number, to_u32(line.len()).saturating_add(1), kind));
+    }
+    None
+}

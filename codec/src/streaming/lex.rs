@@ -1,0 +1,95 @@
+//! Pieces of a line.
+
+/// The number of a block without leading zeros, and what stands behind it. A `/` may stand
+/// before it, blanks anywhere.
+pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
+    let mut at = split_while(line, is_blank).1;
+    if let [b'/', behind @ ..] = at {
+        at = split_while(split_while(behind, u8::is_ascii_digit).1, is_blank).1;
+    }
+    if let [b'N' | b'n', number @ ..] = at {
+        if let Some((digits, rest)) = number_of(number) {
+            return (Some(digits), split_while(rest, is_blank).1);
+        }
+    }
+    (None, at)
+}
+
+/// Digits without leading zeros, and what stands behind them; none if there is no digit.
+pub(super) fn number_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
+    let (digits, rest) = split_while(split_while(text, is_blank).1, u8::is_ascii_digit);
+    (!digits.is_empty()).then(|| (split_while(digits, is_zero).1, rest))
+}
+
+/// A name up to the closing bracket, and what stands behind it.
+pub(super) fn name_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
+    let (name, rest) = split_while(text, |&byte| byte != b']');
+    Some((name.trim_ascii(), rest.get(1..)?))
+}
+
+/// What stands behind `#COMMENT` and this word.
+pub(super) fn comment_command<'a>(text: &'a [u8], word: &[u8]) -> Option<&'a [u8]> {
+    let (command, rest) = text.split_at_checked(b"#COMMENT".len())?;
+    if command.first() != Some(&b'#') {
+        return None;
+    }
+    let (blanks, rest) = split_while(rest, is_blank);
+    let (found, rest) = split_while(rest, is_in_path);
+    let is = command.eq_ignore_ascii_case(b"#COMMENT") && !blanks.is_empty();
+    (is && found.eq_ignore_ascii_case(word)).then_some(rest)
+}
+
+/// Passes over blanks and the comments of a line.
+pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
+    loop {
+        match rest {
+            [b' ' | b'\t', behind @ ..] => rest = behind,
+            [b';', ..] => return &[],
+            [b'(', behind @ ..] => rest = behind_parentheses(behind),
+            _ => return rest,
+        }
+    }
+}
+
+/// What stands behind the parenthesis that closes; nothing if none does.
+pub(super) fn behind_parentheses(mut rest: &[u8]) -> &[u8] {
+    let mut open = 1_u32;
+    while let Some((&byte, behind)) = rest.split_first() {
+        rest = behind;
+        match byte {
+            b'(' => open = open.saturating_add(1),
+            b')' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        if open == 0 {
+            break;
+        }
+    }
+    rest
+}
+
+pub(super) fn split_while(bytes: &[u8], is: impl Fn(&u8) -> bool) -> (&[u8], &[u8]) {
+    let end = bytes.iter().position(|byte| !is(byte)).unwrap_or(bytes.len());
+    bytes.split_at_checked(end).unwrap_or((bytes, &[]))
+}
+
+pub(super) const fn is_blank(byte: &u8) -> bool {
+    matches!(byte, b' ' | b'\t')
+}
+
+pub(super) const fn is_zero(byte: &u8) -> bool {
+    *byte == b'0'
+}
+
+pub(super) const fn is_in_number(byte: &u8) -> bool {
+    matches!(byte, b'0'..=b'9' | b'.')
+}
+
+/// In the name of a variable with its dots.
+pub(super) const fn is_in_path(byte: &u8) -> bool {
+    matches!(byte, b'0'..=b'9' | b'A'..=b'Z' | b'a'..=b'z' | b'_' | b'.')
+}
+
+pub(super) const fn is_in_file_name(byte: &u8) -> bool {
+    !matches!(byte, b' ' | b'\t' | b'(' | b';' | b'[' | b'"')
+}

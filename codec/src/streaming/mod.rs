@@ -1,0 +1,82 @@
+//! Data streaming: an NC program written to the CNC packet by packet while it runs.
+//!
+//! | manual (`stream-en`) | here |
+//! |---|---|
+//! | 2.2, lines and packets | [`NcText`], [`Packets`] |
+//! | 2.2, start, order, reset, the interface's end | [`Interface`] |
+//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain | [`Findings`] |
+//! | 3.1, sizes | [`limits`](crate::limits) |
+//! | 3.2, the object | [`INDEX_OFFSET`], [`OBJECT_NAME`] |
+//! | 4.1, line ends | [`LineError`], [`LINE_END_ERROR`] |
+//! | 4.2 and 5, acknowledgement and repetition | [`Sender`], [`Ack`], [`RETRY_AFTER`] |
+//!
+//! A packet is whole lines of ASCII, each ended by CR LF, without a NUL or a length before it
+//! (STM-4, STM-7). Nothing here allocates or sends anything.
+//!
+//! ```
+//! use ads_cnc::streaming::{Ack, Interface, NcText, Sender};
+//!
+//! // Everything that can be wrong with the text is found before the first packet is out.
+//! let text = NcText::new(b"N10 G01 X200 F1000\nN20 X240 Y100\nN30 M30")?;
+//! assert_eq!(text.findings().next(), None);
+//!
+//! let mut cnc = Interface::new();
+//! let mut sender = Sender::new(text);
+//! while let Some(packet) = sender.packet() {
+//!     let ack = cnc.write(packet);
+//!     sender.acknowledge(ack)?;
+//!     if ack == Ack::Later {
+//!         // wait `RETRY_AFTER`; the same packet comes again
+//!     }
+//! }
+//! assert_eq!(cnc.read()?, b"N10 G01 X200 F1000\r\nN20 X240 Y100\r\nN30 M30\r\n");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use core::time::Duration;
+
+use crate::address::IndexOffset;
+
+mod check;
+mod error;
+mod interface;
+mod jumps;
+mod lex;
+mod packets;
+mod scan;
+mod sender;
+mod text;
+mod words;
+
+pub use check::{Finding, FindingKind, Findings};
+pub use error::{LineError, LineErrorKind};
+pub use interface::Interface;
+pub use packets::Packets;
+pub use sender::{Ack, NoPacketOut, Progress, Sender, SenderState};
+pub use text::{Lines, NcText};
+pub use words::{LoopWord, ProgramEnd};
+
+/// Index offset of the stream in the COM group of a channel, `0x20100` + channel (STM-1).
+///
+/// Manual: `stream-en`, sections 3.2 and 5.
+pub const INDEX_OFFSET: IndexOffset = IndexOffset::new(0x90);
+
+/// Name of the COM object that is written (STM-1).
+///
+/// Manual: `stream-en`, section 3.2.
+pub const OBJECT_NAME: &str = "mc_program_stream_w";
+
+/// Number of the CNC error for a line that does not end in CR LF; it aborts processing (STM-5).
+///
+/// Manual: `stream-en`, section 4.1.
+pub const LINE_END_ERROR: u32 = 21476;
+
+/// Number of the CNC warning for data that cannot be taken now (STM-6).
+///
+/// Manual: `stream-en`, section 4.2.
+pub const BUSY_WARNING: u32 = 11012;
+
+/// How long the manual's driver waits before it writes the same data again (STM-6).
+///
+/// Manual: `stream-en`, section 5.
+pub const RETRY_AFTER: Duration = Duration::from_millis(500);

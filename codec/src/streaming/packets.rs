@@ -1,0 +1,224 @@
+//! From text to packets.
+
+use super::text::{CR, LF, behind_end, split_at_end};
+use crate::bytes::to_len;
+use crate::limits::STREAM_PACKET_MAX;
+
+/// The packets of a text: whole lines, each ended by CR LF, as many as fit 992 bytes.
+///
+/// All packets together are the text with CR LF behind each line. Text whose lines already end
+/// in CR LF is not copied: its packets are parts of it. A line joined to the next by `\` is a line
+/// as any other, so the two may be in two packets (assumed).
+///
+/// Manual: `stream-en`, sections 2.2 and 3.1 (STM-2, STM-4, STM-7).
+///
+/// ```
+/// use ads_cnc::limits::STREAM_PACKET_MAX;
+/// use ads_cnc::streaming::NcText;
+///
+/// let line = [b'X'; 500];
+/// let bytes = [&line[..], b"\n", &line, b"\n", &line[..488]].concat();
+/// let mut packets = NcText::new(&bytes)?.packets();
+/// let mut buf = [0; STREAM_PACKET_MAX];
+/// assert_eq!(packets.next_into(&mut buf).map(<[u8]>::len), Some(502));
+/// assert_eq!(packets.next_into(&mut buf).map(<[u8]>::len), Some(502 + 490));
+/// assert_eq!(packets.next_into(&mut buf), None);
+/// # Ok::<(), ads_cnc::streaming::LineError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Packets<'a> {
+    /// From the start of a line on; all lines were found to fit a packet.
+    rest: &'a [u8],
+    crlf: bool,
+}
+
+/// Where a packet is.
+#[derive(Clone, Copy)]
+pub(super) enum Cut<'a> {
+    Text(&'a [u8]),
+    /// At the front of the buffer.
+    Buffer(usize),
+}
+
+impl<'a> Packets<'a> {
+    /// `crlf`: all lines of `rest` that end do so in CR LF.
+    pub(super) const fn new(rest: &'a [u8], crlf: bool) -> Self {
+        Self { rest, crlf }
+    }
+
+    /// The part of the text that is in no packet yet.
+    pub const fn rest(&self) -> &'a [u8] {
+        self.rest
+    }
+
+    /// The next packet, in `buf` or in the text itself; none behind the last line.
+    pub fn next_into<'b>(&mut self, buf: &'b mut [u8; STREAM_PACKET_MAX]) -> Option<&'b [u8]>
+    where
+        'a: 'b,
+    {
+        match self.cut(buf)? {
+            Cut::Text(packet) => Some(packet),
+            Cut::Buffer(len) => buf.get(..len),
+        }
+    }
+
+    /// The next packet, if the text has it as it has to be sent: all packets of a text that
+    /// [is as on the wire](super::NcText::is_wire), and, if only its last line is open, all that
+    /// are without that line.
+    ///
+    /// ```
+    /// use ads_cnc::streaming::NcText;
+    ///
+    /// let bytes = b"N10 G0 X0\r\nN20 M30\r\n";
+    /// let mut packets = NcText::new(bytes)?.packets();
+    /// assert_eq!(packets.next_borrowed(), Some(&bytes[..]));
+    /// assert_eq!(NcText::new(b"N10 G0 X0\n")?.packets().next_borrowed(), None);
+    /// # Ok::<(), ads_cnc::streaming::LineError>(())
+    /// ```
+    pub fn next_borrowed(&mut self) -> Option<&'a [u8]> {
+        if !self.crlf {
+            return None;
+        }
+        let reach = match self.rest.get(..STREAM_PACKET_MAX) {
+            Some(reach) => reach,
+            // The last packet. If its last line is open and can be closed, it is not as sent.
+            None if self.rest.len() < STREAM_PACKET_MAX.saturating_sub(1) => {
+                self.rest.ends_with(&[LF]).then_some(self.rest)?
+            }
+            None => self.rest,
+        };
+        let len = reach.iter().rposition(|&byte| byte == LF)?.saturating_add(1);
+        let (packet, rest) = self.rest.split_at_checked(len)?;
+        self.rest = rest;
+        Some(packet)
+    }
+
+    pub(super) fn cut(&mut self, buf: &mut [u8; STREAM_PACKET_MAX]) -> Option<Cut<'a>> {
+        if let Some(packet) = self.next_borrowed() {
+            return Some(Cut::Text(packet));
+        }
+        let (rest, len) = copy(self.rest, buf);
+        self.rest = rest;
+        (len > 0).then_some(Cut::Buffer(len))
+    }
+}
+
+/// Copies as many lines as fit; what is left of the text, and the length of the packet.
+fn copy<'a>(text: &'a [u8], packet: &mut [u8; STREAM_PACKET_MAX]) -> (&'a [u8], usize) {
+    let (mut rest, mut room) = (text, packet.as_mut_slice());
+    let mut left = room.len();
+    while !rest.is_empty() {
+        let Some((behind, free)) = copy_line(rest, room) else { break };
+        (rest, room) = (behind, free);
+        left = room.len();
+    }
+    (rest, STREAM_PACKET_MAX.saturating_sub(left))
+}
+
+/// Copies a line and closes it, if it fits: the text behind the line and the room left.
+#[inline(always)]
+fn copy_line<'a, 'b>(text: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'b mut [u8])> {
+    // By words first; what is copied from behind the line's end is written over.
+    let mut len = 0_usize;
+    for (word, out) in text.chunks_exact(WORD).zip(room.chunks_exact_mut(WORD)) {
+        out.copy_from_slice(word);
+        let ends = ends(word);
+        if ends != 0 {
+            len = len.wrapping_add(to_len(ends.trailing_zeros() / 8));
+            match text.get(len..)? {
+                // VT or FF.
+                [0x0B | 0x0C, ..] => break,
+                end => return close(end, room.get_mut(len..)?),
+            }
+        }
+        len = len.wrapping_add(WORD);
+    }
+    let (line, end) = split_at_end(text);
+    let (out, room) = room.split_at_mut_checked(line.len())?;
+    out.copy_from_slice(line);
+    close(end, room)
+}
+
+/// Writes the line end in place of the one that is here, or of the text's end.
+#[inline(always)]
+fn close<'a, 'b>(end: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'b mut [u8])> {
+    let (out, room) = room.split_first_chunk_mut()?;
+    *out = [CR, LF];
+    Some((behind_end(end), room))
+}
+
+/// Bytes looked at together.
+const WORD: usize = 8;
+
+const fn repeat(byte: u8) -> u64 {
+    u64::from_le_bytes([byte; WORD])
+}
+
+/// The highest bit of each byte from LF to CR, in ASCII text.
+///
+/// No byte carries into the next: all are below 0x80. The highest bit of a byte is set in the
+/// sum if it is LF or above, in the difference if it is CR or below.
+#[inline(always)]
+fn ends(word: &[u8]) -> u64 {
+    let bytes = word.first_chunk().map_or(0, |word| u64::from_le_bytes(*word));
+    let above = bytes.wrapping_add(repeat(0x80 - LF));
+    let below = repeat(0x80 + CR).wrapping_sub(bytes);
+    above & below & repeat(0x80)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::streaming::NcText;
+
+    /// The first byte from LF to CR is found at each place, whatever ASCII is around it.
+    #[test]
+    fn ends_are_found_in_a_word() {
+        for around in 1..0x80 {
+            for byte in 1..0x80 {
+                for at in 0..WORD {
+                    let mut word = [around; WORD];
+                    word[at] = byte;
+                    let first = word.iter().position(|byte| (LF..=CR).contains(byte));
+                    let found = ends(&word).trailing_zeros() as usize / 8;
+                    assert_eq!(found, first.unwrap_or(WORD), "{word:?}");
+                }
+            }
+        }
+    }
+
+    /// The room behind the last line and the buffer's end are never taken for text.
+    #[test]
+    fn a_line_is_copied_or_nothing_counts() {
+        for len in 0..40 {
+            let text = [&b"X".repeat(len)[..], b"\nY"].concat();
+            for free in 0..44 {
+                let mut room = [0; 44];
+                let copied =
+                    copy_line(&text, &mut room[..free]).map(|(rest, room)| (rest, room.len()));
+                let wanted = (free >= len + 2).then(|| (&b"Y"[..], free - len - 2));
+                assert_eq!(copied, wanted, "{len} characters, room for {free}");
+            }
+        }
+    }
+
+    /// A text without an open line and one with it: all that can be is borrowed.
+    #[test]
+    fn what_needs_no_copy_is_not_copied() {
+        let line = [&b"X".repeat(498)[..], b"\r\n"].concat();
+        let bytes = [&line[..], &line, &line, b"N1"].concat();
+        let mut packets = NcText::new(&bytes).unwrap().packets();
+        let mut buf = [0; STREAM_PACKET_MAX];
+        assert!(matches!(packets.cut(&mut buf), Some(Cut::Text(packet)) if packet.len() == 500));
+        assert!(matches!(packets.cut(&mut buf), Some(Cut::Text(packet)) if packet.len() == 500));
+        assert!(matches!(packets.cut(&mut buf), Some(Cut::Buffer(504))));
+        assert!(packets.cut(&mut buf).is_none());
+
+        // Where the open line would fit but for its end, the packet before it is borrowed.
+        for (open, borrowed) in [(490, false), (491, true), (492, true)] {
+            let bytes = [&line[..], &b"X".repeat(open)].concat();
+            let mut packets = NcText::new(&bytes).unwrap().packets();
+            assert_eq!(packets.next_borrowed().map(<[u8]>::len), borrowed.then_some(500), "{open}");
+        }
+    }
+}

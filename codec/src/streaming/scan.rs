@@ -1,0 +1,300 @@
+//! What of an NC text the checks need, word by word, without its comments.
+
+use super::lex::*;
+use super::text::{behind_end, split_at_end};
+use super::words::{LoopWord, ProgramEnd};
+use crate::bytes::to_u32;
+
+/// A place of a text, both from 1.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    pub(super) line: u32,
+    pub(super) column: u32,
+}
+
+/// A word, and where it begins.
+pub(super) struct Token<'a> {
+    pub(super) place: Place,
+    pub(super) word: Word<'a>,
+}
+
+pub(super) enum Word<'a> {
+    /// The first of a line that is neither blank nor comment; other words may follow from it on.
+    Code,
+    Label(Label<'a>),
+    Goto(Label<'a>),
+    Loop(LoopWord),
+    End(ProgramEnd),
+}
+
+/// A label and the program it belongs to, as a count of the lines that begin with `%`.
+#[derive(Clone, Copy)]
+pub(super) struct Label<'a> {
+    program: u32,
+    /// A name in brackets; else digits without leading zeros.
+    named: bool,
+    text: &'a [u8],
+}
+
+impl Label<'_> {
+    /// FNV-1a, without regard to case.
+    pub(super) fn hash(&self) -> u32 {
+        let start = 0x811C_9DC5 ^ self.program.wrapping_mul(2) ^ u32::from(self.named);
+        self.text.iter().fold(start, |hash, byte| {
+            (hash ^ u32::from(byte.to_ascii_lowercase())).wrapping_mul(0x0100_0193)
+        })
+    }
+}
+
+impl PartialEq for Label<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        (self.program, self.named) == (other.program, other.named)
+            && self.text.eq_ignore_ascii_case(other.text)
+    }
+}
+
+/// Goes through a text. What is within a comment block is passed over.
+#[derive(Clone)]
+pub(super) struct Scan<'a> {
+    /// Behind the present line, its end included.
+    below: &'a [u8],
+    line: &'a [u8],
+    number: u32,
+    /// What is left of the present line.
+    rest: &'a [u8],
+    stage: Stage,
+    /// The label of the line, and what stands behind it.
+    label: Option<(Label<'a>, &'a [u8])>,
+    program: u32,
+    /// Where the comment block began that is open.
+    block: Option<Place>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    /// No code has been seen in the line.
+    Blank,
+    /// As before; the line begins a program, and its name may look like anything.
+    Title,
+    /// The code begins here.
+    Head,
+    Body,
+}
+
+impl<'a> Scan<'a> {
+    pub(super) const fn new(text: &'a [u8]) -> Self {
+        Self {
+            below: text,
+            line: &[],
+            number: 0,
+            rest: &[],
+            stage: Stage::Blank,
+            label: None,
+            program: 0,
+            block: None,
+        }
+    }
+
+    /// Where the comment block began that is open.
+    pub(super) const fn open_block(&self) -> Option<Place> {
+        self.block
+    }
+
+    /// The labels below the present line, within so many bytes, and their lines; words are not
+    /// looked at.
+    pub(super) fn labels(mut self, within: usize) -> impl Iterator<Item = (Label<'a>, u32)> {
+        self.below = self.below.get(..within).unwrap_or(self.below);
+        core::iter::from_fn(move || {
+            while self.enter_line() {
+                if let Some((label, _)) = self.label {
+                    return Some((label, self.number));
+                }
+            }
+            None
+        })
+    }
+
+    fn place(&self) -> Place {
+        let before = self.line.len().saturating_sub(self.rest.len());
+        Place { line: self.number, column: to_u32(before).saturating_add(1) }
+    }
+
+    /// Goes to the next line; false behind the last.
+    fn enter_line(&mut self) -> bool {
+        if self.below.is_empty() {
+            return false;
+        }
+        let (line, below) = split_at_end(self.below);
+        (self.line, self.rest, self.below) = (line, line, behind_end(below));
+        self.number = self.number.saturating_add(1);
+        (self.stage, self.label) = (Stage::Blank, None);
+        let (number, at) = block_number(line);
+        if self.block.is_some() {
+            self.rest = match comment_command(at, b"END") {
+                Some(rest) => {
+                    self.block = None;
+                    rest
+                }
+                None => &[],
+            };
+        } else if at.first() == Some(&b'%') {
+            self.program = self.program.saturating_add(1);
+            self.stage = Stage::Title;
+        } else if comment_command(at, b"BEGIN").is_some() {
+            self.rest = at;
+            self.block = Some(self.place());
+            self.rest = &[];
+        } else {
+            self.label = self.definition(number, at);
+        }
+        true
+    }
+
+    /// The word that begins here, if it is one that counts.
+    fn word(&mut self) -> Option<Word<'a>> {
+        let (&first, behind) = self.rest.split_first()?;
+        match first {
+            b'$' => {
+                let (name, behind) = split_while(behind, u8::is_ascii_alphabetic);
+                self.rest = behind;
+                if name.eq_ignore_ascii_case(b"GOTO") {
+                    return self.target().map(Word::Goto);
+                }
+                let is = |word: &LoopWord| name.eq_ignore_ascii_case(word.name().as_bytes());
+                LoopWord::ALL.into_iter().find(is).map(Word::Loop)
+            }
+            b'"' => {
+                // Quoted text, if the quote is closed.
+                let close = behind.iter().position(|&byte| byte == b'"');
+                self.rest = match close.and_then(|at| behind.get(at.saturating_add(1)..)) {
+                    Some(rest) => rest,
+                    None => behind,
+                };
+                None
+            }
+            b'.' if behind.first().is_some_and(u8::is_ascii_alphabetic) => self.pass_path(),
+            b'_' => self.pass_path(),
+            b'0'..=b'9' => {
+                self.rest = split_while(behind, is_in_number).1;
+                None
+            }
+            _ if first.is_ascii_alphabetic() => self.letters(),
+            _ => {
+                self.rest = behind;
+                None
+            }
+        }
+    }
+
+    /// An address with its number, a variable's name, a word of letters.
+    fn letters(&mut self) -> Option<Word<'a>> {
+        let (letters, behind) = split_while(self.rest, u8::is_ascii_alphabetic);
+        match behind {
+            [b'_', ..] => return self.pass_path(),
+            [b'.', next, ..] if next.is_ascii_alphabetic() || *next == b'_' => {
+                return self.pass_path();
+            }
+            // A subroutine's name may look like anything.
+            [b' ' | b'\t', ..] if matches!(letters, b"L" | b"l" | b"LL" | b"ll") => {
+                let name = split_while(behind, is_blank).1;
+                self.rest = split_while(name, is_in_file_name).1;
+                return None;
+            }
+            _ => self.rest = behind,
+        }
+        let (digits, behind) = split_while(behind, u8::is_ascii_digit);
+        if !matches!(letters, b"M" | b"m") || matches!(behind, [b'.' | b'_', ..]) {
+            return None;
+        }
+        self.rest = behind;
+        match split_while(digits, is_zero).1 {
+            b"2" => Some(Word::End(ProgramEnd::M2)),
+            b"30" => Some(Word::End(ProgramEnd::M30)),
+            b"17" => Some(Word::End(ProgramEnd::M17)),
+            b"29" => Some(Word::End(ProgramEnd::M29)),
+            _ => None,
+        }
+    }
+
+    /// Passes over the name of a variable, which may have a program end's letters in it.
+    fn pass_path(&mut self) -> Option<Word<'a>> {
+        self.rest = split_while(self.rest, is_in_path).1;
+        None
+    }
+
+    /// Where a `$GOTO` goes, if that is plainly written.
+    fn target(&mut self) -> Option<Label<'a>> {
+        let at = split_while(self.rest, is_blank).1;
+        let (label, rest) = match at {
+            [b'N' | b'n', number @ ..] => {
+                let (digits, rest) = number_of(number)?;
+                let next = split_while(rest, is_blank).1.first();
+                if next.is_some_and(|next| b"+-*/.[_=".contains(next)) {
+                    return None;
+                }
+                (self.label(false, digits), rest)
+            }
+            [b'[', name @ ..] => {
+                let (name, rest) = name_of(name)?;
+                (self.label(true, name), rest)
+            }
+            _ => return None,
+        };
+        self.rest = rest;
+        Some(label)
+    }
+
+    /// The label at the start of a line, and what stands behind it.
+    fn definition(&self, number: Option<&'a [u8]>, at: &'a [u8]) -> Option<(Label<'a>, &'a [u8])> {
+        match (number, at) {
+            (Some(digits), [b':', rest @ ..]) => Some((self.label(false, digits), rest)),
+            (_, [b'[', name @ ..]) => {
+                let (name, rest) = name_of(name)?;
+                Some((self.label(true, name), rest))
+            }
+            _ => None,
+        }
+    }
+
+    const fn label(&self, named: bool, text: &'a [u8]) -> Label<'a> {
+        Label { program: self.program, named, text }
+    }
+}
+
+impl<'a> Iterator for Scan<'a> {
+    type Item = Token<'a>;
+
+    fn next(&mut self) -> Option<Token<'a>> {
+        loop {
+            self.rest = skip_comments(self.rest);
+            let place = self.place();
+            if self.rest.is_empty() {
+                if self.enter_line() {
+                    continue;
+                }
+                return None;
+            }
+            let word = match self.stage {
+                Stage::Blank => {
+                    self.stage = Stage::Head;
+                    Some(Word::Code)
+                }
+                Stage::Title => {
+                    self.rest = &[];
+                    Some(Word::Code)
+                }
+                Stage::Head => {
+                    self.stage = Stage::Body;
+                    self.label.map(|(label, rest)| {
+                        self.rest = rest;
+                        Word::Label(label)
+                    })
+                }
+                Stage::Body => self.word(),
+            };
+            if let Some(word) = word {
+                return Some(Token { place, word });
+            }
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! The writing end.
+
+use core::fmt;
+
+use super::NcText;
+use super::packets::{Cut, Packets};
+use super::text::LF;
+use crate::limits::STREAM_PACKET_MAX;
+
+/// How a write to the stream was answered.
+///
+/// Which ADS result means which refusal is not documented; the manual's driver takes each for a
+/// temporary one. A write whose answer never came may have been taken or not: nobody can tell,
+/// so to repeat it may run lines twice. Acknowledge it as [`Refused`](Self::Refused).
+///
+/// Manual: `stream-en`, sections 4.2 and 5 (STM-6).
+///
+/// ```
+/// use ads_cnc::streaming::{Ack, Interface};
+///
+/// assert_eq!(Interface::new().write(b"M30\r\n"), Ack::Accepted);
+/// assert_eq!(Interface::new().write(&[b' '; 993]), Ack::Refused);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Ack {
+    /// The data was taken.
+    Accepted,
+    /// The data cannot be taken now; it is to be written again.
+    Later,
+    /// The data will not be taken.
+    Refused,
+}
+
+/// Where a [`Sender`] stands.
+///
+/// ```
+/// use ads_cnc::streaming::{Ack, NcText, Sender, SenderState};
+///
+/// let mut sender = Sender::new(NcText::new(b"M30\n")?);
+/// assert_eq!(sender.state(), SenderState::Ready);
+/// sender.packet();
+/// assert_eq!(sender.state(), SenderState::Out);
+/// sender.acknowledge(Ack::Later)?;
+/// assert_eq!(sender.state(), SenderState::Waiting);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SenderState {
+    /// The next packet can be handed out.
+    Ready,
+    /// A packet is out; its acknowledgement has to come.
+    Out,
+    /// A packet was refused for now; the same one can be handed out again.
+    Waiting,
+    /// A packet was refused for good; no more are handed out.
+    Stopped,
+    /// All packets were accepted.
+    Done,
+}
+
+/// How much was accepted.
+///
+/// ```
+/// use ads_cnc::streaming::{Ack, NcText, Progress, Sender};
+///
+/// let mut sender = Sender::new(NcText::new(b"N10 G0 X0\nN20 M30\n")?);
+/// sender.packet();
+/// sender.acknowledge(Ack::Accepted)?;
+/// assert_eq!(sender.sent(), Progress { packets: 1, lines: 2, bytes: 20 });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Progress {
+    /// Packets.
+    pub packets: usize,
+    /// Lines.
+    pub lines: usize,
+    /// Bytes, with CR LF behind each line.
+    pub bytes: usize,
+}
+
+/// An acknowledgement came while no packet was out.
+///
+/// ```
+/// use ads_cnc::streaming::{Ack, NcText, NoPacketOut, Sender};
+///
+/// let mut sender = Sender::new(NcText::new(b"M30\n")?);
+/// assert_eq!(sender.acknowledge(Ack::Accepted), Err(NoPacketOut));
+/// # Ok::<(), ads_cnc::streaming::LineError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[error("acknowledgement of no packet: one that is out expected, none found")]
+pub struct NoPacketOut;
+
+/// Streams a text: hands out a packet, takes its acknowledgement, goes on.
+///
+/// After [`Ack::Later`] the same packet comes again; the caller waits before, as long as it
+/// likes ([`RETRY_AFTER`](super::RETRY_AFTER)), and may give up by dropping the sender. After
+/// [`Ack::Refused`] none comes. A packet that is out is handed out again if asked for: it counts
+/// once.
+///
+/// Holds one packet, for text that is not [as on the wire](NcText::is_wire).
+///
+/// Manual: `stream-en`, sections 2.2, 4.2 and 5 (STM-2, STM-4, STM-6).
+///
+/// ```
+/// use ads_cnc::streaming::{Ack, NcText, Sender, SenderState};
+///
+/// let mut sender = Sender::new(NcText::new(b"N10 G0 X0\nN20 M30")?);
+/// assert_eq!(sender.packet(), Some(&b"N10 G0 X0\r\nN20 M30\r\n"[..]));
+/// sender.acknowledge(Ack::Later)?;
+/// assert_eq!((sender.refusals(), sender.left_lines()), (1, 2));
+/// assert_eq!(sender.packet(), Some(&b"N10 G0 X0\r\nN20 M30\r\n"[..]));
+/// sender.acknowledge(Ack::Accepted)?;
+/// assert_eq!(sender.packet(), None);
+/// assert_eq!(sender.state(), SenderState::Done);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+pub struct Sender<'a> {
+    text: NcText<'a>,
+    /// Behind what was accepted.
+    packets: Packets<'a>,
+    /// The packet that is out or waits, and the packets behind it.
+    held: Option<(Cut<'a>, Packets<'a>)>,
+    state: SenderState,
+    sent: Progress,
+    refusals: u32,
+    buffer: [u8; STREAM_PACKET_MAX],
+}
+
+impl<'a> Sender<'a> {
+    /// Begins with the first line. A text without lines is done at once.
+    pub const fn new(text: NcText<'a>) -> Self {
+        let empty = text.bytes().is_empty();
+        Self {
+            text,
+            packets: text.packets(),
+            held: None,
+            state: if empty { SenderState::Done } else { SenderState::Ready },
+            sent: Progress { packets: 0, lines: 0, bytes: 0 },
+            refusals: 0,
+            buffer: [0; STREAM_PACKET_MAX],
+        }
+    }
+
+    /// The packet to write now; none if all were accepted or one was refused for good.
+    pub fn packet(&mut self) -> Option<&[u8]> {
+        if matches!(self.state, SenderState::Stopped | SenderState::Done) {
+            return None;
+        }
+        if self.held.is_none() {
+            let mut behind = self.packets.clone();
+            let cut = behind.cut(&mut self.buffer)?;
+            self.held = Some((cut, behind));
+        }
+        self.state = SenderState::Out;
+        self.held()
+    }
+
+    /// Takes the answer to the packet that is out.
+    ///
+    /// # Errors
+    /// [`NoPacketOut`] if none is; nothing changes.
+    pub fn acknowledge(&mut self, ack: Ack) -> Result<(), NoPacketOut> {
+        if self.state != SenderState::Out {
+            return Err(NoPacketOut);
+        }
+        match ack {
+            Ack::Accepted => self.accept(),
+            Ack::Later => {
+                self.state = SenderState::Waiting;
+                self.refusals = self.refusals.saturating_add(1);
+            }
+            Ack::Refused => self.state = SenderState::Stopped,
+        }
+        Ok(())
+    }
+
+    /// Where the sender stands.
+    pub const fn state(&self) -> SenderState {
+        self.state
+    }
+
+    /// How much was accepted.
+    pub const fn sent(&self) -> Progress {
+        self.sent
+    }
+
+    /// Lines that were not accepted yet, those of the packet that is out among them.
+    pub const fn left_lines(&self) -> usize {
+        self.text.line_count().saturating_sub(self.sent.lines)
+    }
+
+    /// Bytes that were not accepted yet, with CR LF behind each line.
+    pub const fn left_bytes(&self) -> usize {
+        self.text.wire_len().saturating_sub(self.sent.bytes)
+    }
+
+    /// The part of the text that was not accepted yet, as it was given.
+    pub const fn left(&self) -> &'a [u8] {
+        self.packets.rest()
+    }
+
+    /// How often the packet that waits or is out was refused for now.
+    pub const fn refusals(&self) -> u32 {
+        self.refusals
+    }
+
+    fn held(&self) -> Option<&[u8]> {
+        match self.held.as_ref()?.0 {
+            Cut::Text(packet) => Some(packet),
+            Cut::Buffer(len) => self.buffer.get(..len),
+        }
+    }
+
+    fn accept(&mut self) {
+        let packet = self.held().unwrap_or_default();
+        let lines = packet.iter().filter(|&&byte| byte == LF).count();
+        self.sent = Progress {
+            packets: self.sent.packets.saturating_add(1),
+            lines: self.sent.lines.saturating_add(lines),
+            bytes: self.sent.bytes.saturating_add(packet.len()),
+        };
+        if let Some((_, behind)) = self.held.take() {
+            self.packets = behind;
+        }
+        self.refusals = 0;
+        let done = self.packets.rest().is_empty();
+        self.state = if done { SenderState::Done } else { SenderState::Ready };
+    }
+}
+
+impl fmt::Debug for Sender<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { text, state, sent, refusals, .. } = self;
+        f.debug_struct("Sender")
+            .field("text", text)
+            .field("state", state)
+            .field("sent", sent)
+            .field("refusals", refusals)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,358 @@
+//! Data streaming: text to packets, and both ends.
+
+use ads_cnc::limits::{NC_LINE_MAX, STREAM_MAX, STREAM_PACKET_MAX};
+use ads_cnc::streaming::*;
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+/// Another way to the lines: by replacing, on a copy.
+fn reference_lines(bytes: &[u8]) -> Vec<Vec<u8>> {
+    let text: String = bytes.iter().map(|&byte| char::from(byte)).collect();
+    let text = text.replace("\r\n", "\n").replace('\r', "\n");
+    let mut lines: Vec<&str> = text.split('\n').collect();
+    if lines.last() == Some(&"") {
+        lines.pop();
+    }
+    lines.into_iter().map(|line| line.chars().map(|at| at as u8).collect()).collect()
+}
+
+fn reference_wire(bytes: &[u8]) -> Vec<u8> {
+    reference_lines(bytes).iter().flat_map(|line| [line, &b"\r\n"[..]].concat()).collect()
+}
+
+fn packets(bytes: &[u8]) -> Vec<Vec<u8>> {
+    let mut packets = NcText::new(bytes).expect("text that can be streamed").packets();
+    let mut buf = [0xEE; STREAM_PACKET_MAX];
+    std::iter::from_fn(|| packets.next_into(&mut buf).map(<[u8]>::to_vec)).collect()
+}
+
+/// The laws of packets.
+fn check_packets(bytes: &[u8]) {
+    let text = NcText::new(bytes).unwrap();
+    let packets = packets(bytes);
+    let wire = packets.concat();
+    assert_eq!(wire, reference_wire(bytes), "all packets together");
+    assert_eq!((text.wire_len(), text.line_count()), (wire.len(), reference_lines(bytes).len()));
+    assert_eq!(text.is_wire(), wire == bytes);
+    assert!(text.lines().eq(reference_lines(bytes)));
+    for packet in &packets {
+        assert!((2..=STREAM_PACKET_MAX).contains(&packet.len()) && packet.ends_with(b"\r\n"));
+    }
+    for pair in packets.windows(2) {
+        let next = reference_lines(&pair[1])[0].len() + 2;
+        assert!(pair[0].len() + next > STREAM_PACKET_MAX, "a line more would have fitted");
+    }
+    if text.is_wire() {
+        let mut borrowed = text.packets();
+        assert!(std::iter::from_fn(|| borrowed.next_borrowed()).eq(&packets), "zero-copy");
+        assert!(borrowed.rest().is_empty());
+    }
+}
+
+const ENDS: [&str; 3] = ["\n", "\r\n", "\r"];
+
+#[test]
+fn texts_of_no_and_one_byte() {
+    assert_eq!(packets(b""), [[0; 0]; 0]);
+    assert_eq!(packets(b"X"), [b"X\r\n"]);
+    assert_eq!(packets(b"\n"), [b"\r\n"]);
+    assert_eq!(packets(b"\r"), [b"\r\n"]);
+    assert_eq!(packets(b"\r\n"), [b"\r\n"]);
+    assert_eq!(packets(b"\r\r\n\n"), [b"\r\n\r\n\r\n"]);
+}
+
+/// 989 and 990 characters pass, 991 do not, wherever the line is and however it ends.
+#[test]
+fn lines_at_the_limit() {
+    for end in ["", "\n", "\r\n", "\r"] {
+        for before in ["", "N1\n", "N1\r\n"] {
+            for len in [989, 990] {
+                check_packets(format!("{before}{}{end}", "X".repeat(len)).as_bytes());
+            }
+            let text = format!("{before}{}{end}", "X".repeat(991));
+            let error = NcText::new(text.as_bytes()).unwrap_err();
+            let line = if before.is_empty() { 1 } else { 2 };
+            assert_eq!((error.line(), error.column()), (line, 991));
+            assert_eq!(error.kind(), LineErrorKind::TooLong { length: 991 });
+            assert_eq!(
+                error.to_string(),
+                format!(
+                    "line {line}, column 991: line of at most 990 characters expected, 991 found"
+                )
+            );
+        }
+    }
+}
+
+/// Two lines that fill a packet to the last byte but one, to the last, and are one too much.
+#[test]
+fn packets_exactly_full() {
+    for end in ENDS {
+        for last in [end, ""] {
+            let lens = |len| -> Vec<usize> {
+                let text = format!("A{end}{}{last}", "X".repeat(len));
+                check_packets(text.as_bytes());
+                packets(text.as_bytes()).iter().map(Vec::len).collect()
+            };
+            assert_eq!((lens(986), lens(987), lens(988)), (vec![991], vec![992], vec![3, 990]));
+        }
+    }
+}
+
+/// Controls that look like line ends to a quick look are text.
+#[test]
+fn other_controls_are_text() {
+    let line = "\t\x0B\x0C\x08\x0E\x7F".repeat(5);
+    assert_eq!(packets(line.as_bytes()), [format!("{line}\r\n").into_bytes()]);
+    for control in 1..0x20_u8 {
+        if !b"\r\n".contains(&control) {
+            let line = format!("N1 {}", char::from(control)).repeat(5);
+            check_packets(format!("{line}\n{line}\r\n{line}").as_bytes());
+        }
+    }
+}
+
+#[test]
+fn errors_name_the_first_fault() {
+    let show = |bytes: &[u8]| NcText::new(bytes).unwrap_err().to_string();
+    assert_eq!(show(b"\0"), "line 1, column 1: ASCII character expected, NUL found");
+    assert_eq!(
+        show(b"N1\r\nN2\rN\x80"),
+        "line 3, column 2: ASCII character expected, byte 0x80 found"
+    );
+    assert_eq!(
+        show("N1\n\n(ä)".as_bytes()),
+        "line 3, column 2: ASCII character expected, byte 0xC3 found"
+    );
+    let long = [&b"X".repeat(2000)[..], b"\xFF\n\0"].concat();
+    assert_eq!(
+        show(&long),
+        "line 1, column 991: line of at most 990 characters expected, 2001 found"
+    );
+    let early = [&b"X".repeat(900)[..], b"\xFF", &b"X".repeat(900)].concat();
+    assert_eq!(show(&early), "line 1, column 901: ASCII character expected, byte 0xFF found");
+}
+
+/// The manual's driver (`stream-en` 5) sends what does not fit its buffer without a line end,
+/// and a last line that is open.
+#[test]
+fn what_the_printed_driver_sends_wrongly_shows_on_read() {
+    let mut interface = Interface::new();
+    assert_eq!(interface.write(b"N10 G0 X0\r\n"), Ack::Accepted);
+    assert_eq!(interface.write(b"N20 M30"), Ack::Accepted);
+    let error = interface.read().unwrap_err();
+    assert_eq!(error.kind(), LineErrorKind::NoLineEnd);
+    assert_eq!(error.to_string(), "line 2, column 8: CR LF expected, end of data found");
+    assert_eq!((interface.len(), interface.read()), (0, Ok(&b""[..])));
+    // Borders of writes vanish: a line may come in two if both are there when it is read.
+    interface.write(b"N10 \r");
+    interface.write(b"\nN20");
+    interface.write(b" M30\r\n");
+    assert_eq!(interface.read(), Ok(&b"N10 \r\nN20 M30\r\n"[..]));
+    interface.write(b"N10\r\nN20\rN30\r\n");
+    assert_eq!(
+        interface.read().unwrap_err().to_string(),
+        "line 2, column 4: CR LF expected, CR alone found"
+    );
+}
+
+#[test]
+fn the_interface_holds_4094_bytes() {
+    let line = [b' '; STREAM_PACKET_MAX];
+    let mut interface = Interface::new();
+    for _ in 0..4 {
+        assert_eq!(interface.write(&line), Ack::Accepted);
+    }
+    let room = STREAM_MAX - 4 * STREAM_PACKET_MAX;
+    assert_eq!(interface.write(&line), Ack::Later);
+    assert_eq!(interface.write(&line[..room + 1]), Ack::Later);
+    assert_eq!(interface.write(&[b' '; STREAM_PACKET_MAX + 1]), Ack::Refused);
+    assert_eq!(interface.len(), STREAM_MAX - room, "a refused write leaves nothing");
+    assert_eq!(interface.write(&line[..room]), Ack::Accepted);
+    assert_eq!((interface.write(b"X"), interface.write(b"")), (Ack::Later, Ack::Accepted));
+    interface.reset();
+    assert!(interface.is_empty());
+    assert_eq!((interface.write(&line), interface.len()), (Ack::Accepted, STREAM_PACKET_MAX));
+}
+
+#[test]
+fn constants_are_those_of_the_manual() {
+    assert_eq!((STREAM_PACKET_MAX, STREAM_MAX, NC_LINE_MAX), (992, 4094, 990));
+    assert_eq!((INDEX_OFFSET.get(), OBJECT_NAME), (0x90, "mc_program_stream_w"));
+    assert_eq!((LINE_END_ERROR, BUSY_WARNING, RETRY_AFTER.as_millis()), (21476, 11012, 500));
+}
+
+#[test]
+fn a_sender_of_nothing_is_done() {
+    let mut sender = Sender::new(NcText::new(b"").unwrap());
+    assert_eq!(sender.packet(), None);
+    assert_eq!(sender.state(), SenderState::Done);
+    assert_eq!(sender.acknowledge(Ack::Accepted), Err(NoPacketOut));
+    assert_eq!(sender.state(), SenderState::Done);
+}
+
+#[test]
+fn a_sender_takes_one_acknowledgement_for_one_packet() {
+    for (ack, state) in [
+        (Ack::Accepted, SenderState::Done),
+        (Ack::Later, SenderState::Waiting),
+        (Ack::Refused, SenderState::Stopped),
+    ] {
+        let mut sender = Sender::new(NcText::new(b"M30").unwrap());
+        assert_eq!(sender.acknowledge(ack), Err(NoPacketOut));
+        assert_eq!(sender.packet(), Some(&b"M30\r\n"[..]));
+        assert_eq!(sender.acknowledge(ack), Ok(()));
+        assert_eq!((sender.acknowledge(ack), sender.state()), (Err(NoPacketOut), state));
+    }
+}
+
+/// Lines of many lengths, ended in all ways, the last perhaps open.
+fn text() -> impl Strategy<Value = Vec<u8>> {
+    let len = prop_oneof![8 => 0..60_usize, 1 => 60..=990_usize, 1 => 980..=990_usize];
+    let line =
+        (len, select(b"XN1 \t$(;\x0B\x7F".to_vec()), 0..8_u8).prop_map(|(len, fill, end)| {
+            let end = match end {
+                0 => "\r",
+                1..4 => "\r\n",
+                _ => "\n",
+            };
+            [vec![fill; len], end.into()].concat()
+        });
+    (vec(line, 0..60), prop::option::of(0..3_usize), any::<bool>()).prop_map(
+        |(mut lines, same, open)| {
+            if let Some(same) = same {
+                for line in &mut lines {
+                    line.retain(|&byte| byte != b'\r' && byte != b'\n');
+                    line.extend(ENDS[same].bytes());
+                }
+            }
+            let mut text = lines.concat();
+            while open && text.last().is_some_and(|&byte| byte == b'\r' || byte == b'\n') {
+                text.pop();
+            }
+            text
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn packets_are_the_text_and_maximal(text in text()) {
+        check_packets(&text);
+    }
+
+    /// One fault put into a good text is found at its place; nothing is sent then.
+    #[test]
+    fn a_fault_is_found(text in text(), at in any::<prop::sample::Index>(), byte in select(vec![0, 0x80, 0xFF, 0xE4])) {
+        let at = at.index(text.len() + 1);
+        let line = reference_lines(&text[..at]).len() + usize::from(at == 0 || b"\r\n".contains(&text[at - 1]));
+        let column = at - text[..at].iter().rposition(|byte| b"\r\n".contains(byte)).map_or(0, |end| end + 1) + 1;
+        // Within CR LF it makes a line of its own; a line of 990 becomes too long behind it.
+        let bad = [&text[..at], &[byte], &text[at..]].concat();
+        let error = NcText::new(&bad).unwrap_err();
+        let kind = if byte == 0 { LineErrorKind::Nul } else { LineErrorKind::NotAscii { byte } };
+        if column <= NC_LINE_MAX {
+            prop_assert_eq!((error.line() as usize, error.column() as usize, error.kind()), (line, column, kind));
+        } else {
+            prop_assert_eq!((error.line() as usize, error.column()), (line, 991));
+        }
+    }
+
+    /// Whatever the answers are: what was accepted is the text from its start on, without gap
+    /// and without repetition, and the counts agree.
+    #[test]
+    fn a_sender_loses_and_repeats_nothing(text in text(), acks in vec(0..20_u8, 0..200), twice in any::<bool>()) {
+        let wire = reference_wire(&text);
+        let wanted = packets(&text);
+        let mut sender = Sender::new(NcText::new(&text).unwrap());
+        let (mut taken, mut refusals, mut stopped) = (Vec::<Vec<u8>>::new(), 0, false);
+        for ack in acks {
+            prop_assert_eq!(sender.acknowledge(Ack::Accepted), Err(NoPacketOut));
+            let next = if stopped { None } else { wanted.get(taken.len()) };
+            prop_assert_eq!(sender.packet(), next.map(Vec::as_slice));
+            if twice {
+                prop_assert_eq!(sender.packet(), next.map(Vec::as_slice));
+            }
+            let Some(next) = next else { continue };
+            prop_assert_eq!(sender.refusals(), refusals);
+            prop_assert_eq!(sender.state(), SenderState::Out);
+            match ack {
+                0 => {
+                    sender.acknowledge(Ack::Refused).unwrap();
+                    stopped = true;
+                }
+                1..8 => {
+                    sender.acknowledge(Ack::Later).unwrap();
+                    refusals += 1;
+                    prop_assert_eq!(sender.state(), SenderState::Waiting);
+                }
+                _ => {
+                    sender.acknowledge(Ack::Accepted).unwrap();
+                    taken.push(next.clone());
+                    refusals = 0;
+                }
+            }
+        }
+        let taken_wire = taken.concat();
+        let lines = reference_lines(&taken_wire).len();
+        let sent = Progress { packets: taken.len(), lines, bytes: taken_wire.len() };
+        prop_assert_eq!(sender.sent(), sent);
+        prop_assert!(wire.starts_with(&taken_wire));
+        prop_assert_eq!(sender.left_bytes(), wire.len() - taken_wire.len());
+        prop_assert_eq!(sender.left_lines(), reference_lines(&wire).len() - lines);
+        prop_assert_eq!(reference_wire(sender.left()), &wire[taken_wire.len()..]);
+        prop_assert_eq!(sender.state() == SenderState::Stopped, stopped);
+        prop_assert_eq!(sender.state() == SenderState::Done, taken_wire.len() == wire.len());
+    }
+
+    /// The two ends together: a CNC that reads now and then gets the text.
+    #[test]
+    fn a_cnc_gets_the_text(text in text(), reads in vec(any::<bool>(), 1..20)) {
+        let (mut sender, mut interface) = (Sender::new(NcText::new(&text).unwrap()), Interface::new());
+        let (mut got, mut reads) = (Vec::<u8>::new(), reads.into_iter().chain([true]).cycle());
+        while let Some(packet) = sender.packet() {
+            let ack = interface.write(packet);
+            sender.acknowledge(ack).unwrap();
+            if reads.next() == Some(true) {
+                got.extend(interface.read().unwrap());
+            }
+        }
+        got.extend(interface.read().unwrap());
+        prop_assert_eq!(got, reference_wire(&text));
+    }
+
+    /// The interface against a vector of bytes.
+    #[test]
+    fn an_interface_is_a_bounded_queue(steps in vec((0..12_u8, 0..1100_usize, any::<u8>()), 0..60)) {
+        let (mut interface, mut held) = (Interface::new(), Vec::new());
+        for (step, len, byte) in steps {
+            match step {
+                0 => {
+                    interface.reset();
+                    held.clear();
+                }
+                1 => {
+                    let wanted: Vec<u8> = std::mem::take(&mut held);
+                    let ended = reference_wire(&wanted) == wanted;
+                    prop_assert_eq!(interface.read().ok(), ended.then_some(&wanted[..]));
+                }
+                _ => {
+                    let data = if step % 2 == 0 { [vec![byte; len], b"\r\n".to_vec()].concat() } else { vec![byte; len] };
+                    let wanted = match data.len() {
+                        993.. => Ack::Refused,
+                        len if held.len() + len > 4094 => Ack::Later,
+                        _ => Ack::Accepted,
+                    };
+                    prop_assert_eq!(interface.write(&data), wanted);
+                    if wanted == Ack::Accepted {
+                        held.extend(data);
+                    }
+                }
+            }
+            prop_assert_eq!((interface.len(), interface.is_empty()), (held.len(), held.is_empty()));
+        }
+    }
+}

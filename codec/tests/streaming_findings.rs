@@ -1,0 +1,431 @@
+//! What a streamed text may contain.
+
+use ads_cnc::streaming::{Finding, FindingKind, LoopWord, NcText};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+fn findings(text: &str) -> Vec<String> {
+    let text = NcText::new(text.as_bytes()).expect("text that can be streamed");
+    text.findings().map(|finding| finding.to_string()).collect()
+}
+
+#[track_caller]
+fn clean(text: &str) {
+    assert_eq!(findings(text), [""; 0], "{text}");
+}
+
+/// `stream-en` 2.3.3: a jump list over two packets.
+const SWITCH: &str = "%switchstream\nN010 G00 X0 Y0 Z0\nN020 P1=10\nN030\nN040 $SWITCH P1\n\
+    N050 $CASE 1\nN060 X10\nN070 $BREAK\nN080 $CASE 5\nN090 X50\nN100 $BREAK\nN110 $CASE 9\n\
+    N120 X90\nN130 $BREAK\nN140 $CASE 10\nN150 X100\nN160 $ENDSWITCH\nM30\n";
+
+/// `stream-en` 2.3.4: comments over two packets.
+const COMMENT: &str = "%commentstream\nN010 G00 X0 Y0 Z0 (Move to start position)\n\
+    N17 G53 G90 (Absolute dimension)\nN18 G00 X0\nN21 G54 G90 ;Zero offsets\n#COMMENT BEGIN\n\
+    #HSC ON [OPMODE 2]\nN22 (==========)\nN22 (PROG NAME : Test.nc)\nN25 (HISTORY :)\n\
+    N29 S30000 M03\nN32 G01 X14.4 Y9.216\n#COMMENT END\nN33 G01 X14.4 Y9.216 F30000\nM30\n";
+
+/// `stream-en` 2.3.6: jumps within a packet and into the next but one.
+const FORWARD: &str = "N01 G01 X0 Y0 Z0 F1000\nN10 G01 X20\nN20 $GOTO N40\nN30 G01 Z40\n\
+    N40: G01 X40\nN50 $GOTO N80\nN60 G01 Y20\nN70 G01 Y40\nN80: G01 X-20\nN90 G01 X-40\nM30\n";
+
+#[test]
+fn printed_examples_are_clean() {
+    clean(SWITCH);
+    clean(COMMENT);
+    clean(FORWARD);
+    // 2.3.1, 2.3.2 and, with parentheses that are not closed, 2.3.7.
+    clean("N10 G01 X200 F1000\nN20 X240 Y100\nN30 X200 Y0\nN40 #FLUSH CONTINUE");
+    clean("N10 G01 X200 F1000\nN20 X240 Y100\nN30 X200 Y0\nN40 L subprogram.nc\n");
+    clean(
+        "%streaming-spline\n#SPLINE TYPE BSPLINE\nG151\nN36335 X-1.5586 Y-16.3853 (M122\n\
+        N36336 X-1.5666 Y-16.4702 Z2.9971\nN36348 X-1.657 Y-17.4202 (Z2.4442\n",
+    );
+    // `$IF` and what belongs to it.
+    clean(
+        "$IF P1 == 1\nX1\n$ELSEIF P1 == 2\nX2\n$ELSE\nX3\n$ENDIF\n$SWITCH P1\n$DEFAULT\n$ENDSWITCH\n",
+    );
+}
+
+/// The same examples with one thing changed.
+#[test]
+fn printed_examples_changed_are_not_clean() {
+    let with = |text: &str, from: &str, to: &str| {
+        assert_eq!(text.matches(from).count(), 1, "{from}");
+        findings(&text.replace(from, to))
+    };
+    assert_eq!(
+        with(SWITCH, "$SWITCH P1", "$WHILE P1"),
+        ["line 5, column 6: $WHILE in a stream (STM-8)"]
+    );
+    assert_eq!(
+        with(FORWARD, "$GOTO N80", "$GOTO N40"),
+        ["line 6, column 5: $GOTO back to line 5 (STM-8)"]
+    );
+    assert_eq!(
+        with(COMMENT, "#COMMENT END\n", ""),
+        ["line 6, column 1: #COMMENT BEGIN without #COMMENT END (STM-9)"]
+    );
+    assert_eq!(
+        with(COMMENT, "S30000 M03", "\n#COMMENT END\nM30"),
+        ["line 14, column 1: text behind the M30 of line 13 (STM-10)"]
+    );
+    assert_eq!(
+        with(FORWARD, "M30\n", "M30\nX1"),
+        ["line 12, column 1: text behind the M30 of line 11 (STM-10)"]
+    );
+}
+
+#[test]
+fn each_loop_word_is_found() {
+    for word in LoopWord::ALL {
+        for text in [format!("{word}"), format!("N1 X1 {}[1]", word.to_string().to_lowercase())] {
+            let text = NcText::new(text.as_bytes()).unwrap();
+            let kinds: Vec<_> = text.findings().map(|finding| finding.kind).collect();
+            assert_eq!(kinds, [FindingKind::Loop(word)]);
+        }
+        // Another word, a quoted one, and none.
+        clean(&format!("{word}X 1\n#MSG [\"{word}\"]"));
+        clean(&word.to_string()[1..]);
+    }
+}
+
+#[test]
+fn comments_hide_words_and_only_words() {
+    for comment in [
+        "($FOR)",
+        "($FOR",
+        "($FOR M30 (nested) $FOR)",
+        "(a (b $FOR",
+        ";$FOR",
+        "; ( $FOR",
+        "X1 ; $FOR",
+        "#COMMENT BEGIN\n$FOR\n(\n$GOTO N1\n#COMMENT END",
+        "N1 #COMMENT BEGIN (why)\n$DO\n/ N2 #COMMENT END",
+        "#comment\tbegin\n #COMMENT ENDE $FOR\nX1 #COMMENT END $FOR\n(#COMMENT END) $FOR\n#COMMENT END",
+        "#COMMENT BEGIN\n#COMMENT BEGIN\n$FOR\n#COMMENT END",
+    ] {
+        clean(comment);
+        let behind = format!("{comment}\n$FOR");
+        let line = behind.lines().count();
+        assert_eq!(findings(&behind), [format!("line {line}, column 1: $FOR in a stream (STM-8)")]);
+    }
+    for (code, column) in [
+        ("(a) $FOR", 5),
+        ("(a (b)) $FOR", 9),
+        ("()$FOR", 3),
+        ("#MSG [\"(\"] $FOR", 12),
+        ("\" $FOR", 3),
+    ] {
+        assert_eq!(findings(code), [format!("line 1, column {column}: $FOR in a stream (STM-8)")]);
+    }
+    // Neither begins nor ends a block.
+    for no_block in [
+        "X1 #COMMENT BEGIN",
+        "(#COMMENT BEGIN)",
+        "#COMMENTBEGIN",
+        "#COMMENT BEGINS",
+        "#COMMENT END",
+    ] {
+        assert_eq!(
+            findings(&format!("{no_block}\n$DO")),
+            ["line 2, column 1: $DO in a stream (STM-8)"]
+        );
+    }
+}
+
+#[test]
+fn jumps() {
+    for back in [
+        "N1: X1\n$GOTO N1",
+        "N1: $GOTO N1",
+        "N001:\nX1 $GOTO N01 M8",
+        " / N1 : X1\n$goto n1",
+        "/1 N1:\n$GOTO N 1",
+        "[AGAIN] X1\n$GOTO [again]",
+        "N5 [ A ]\n$GOTO [A]",
+        "%a\nN1:\n$IF P1 == 1 $GOTO N1",
+        "N0:\n$GOTO N00",
+        "N1:\n$GOTO N1 (+ 1)",
+    ] {
+        let line = NcText::new(back.as_bytes()).unwrap().line_count();
+        let to = usize::from(back.starts_with('%')) + 1;
+        let found = findings(back);
+        assert_eq!(found.len(), 1, "{back}");
+        assert!(found[0].starts_with(&format!("line {line}, ")), "{found:?}");
+        assert!(found[0].ends_with(&format!(": $GOTO back to line {to} (STM-8)")), "{found:?}");
+    }
+    for no_back in [
+        // forward, forward as well as back, nowhere
+        "$GOTO N1\nN1:",
+        "N1:\n$GOTO N1\nN1:",
+        "$GOTO N1",
+        "N1:\n$GOTO N11\nN11:",
+        "N1:\n$GOTO N11",
+        // no jump, or one to an expression
+        "N1:\n($GOTO N1)",
+        "N1:\n;$GOTO N1",
+        "N1:\n\"$GOTO N1\"",
+        "N1:\n$GOTO N1+P1",
+        "N1:\n$GOTO NV.E.N1",
+        "N1:\n$GOTO P1",
+        "N1:\n$GOTOX N1",
+        "[A]\n$GOTO V.E.A",
+        "[A]\n$GOTO [A",
+        // no label
+        "N1\n$GOTO N1",
+        "(N1:)\n$GOTO N1",
+        ";N1:\n$GOTO N1",
+        "X1 N1:\n$GOTO N1",
+        "X[A]\n$GOTO [A]",
+        "#COMMENT BEGIN\nN1:\n#COMMENT END\n$GOTO N1",
+        "N[1]:\n$GOTO N1",
+        "N1:\n$GOTO [1]",
+        "[1]\n$GOTO N1",
+        // that of another program
+        "%L sub\nN1:\nM29\n%main\n$GOTO N1",
+    ] {
+        let jumps: Vec<_> =
+            findings(no_back).into_iter().filter(|found| found.contains("GOTO")).collect();
+        assert_eq!(jumps, [""; 0], "{no_back}");
+    }
+    // Of two programs each has its label.
+    let two = "%L sub\nN1:\n$GOTO N1\nM29\n%main\nN1:";
+    assert_eq!(findings(two)[0], "line 3, column 1: $GOTO back to line 2 (STM-8)");
+}
+
+#[test]
+fn program_ends() {
+    for (end, name) in [
+        ("M30", "M30"),
+        ("N9 M2 (end)", "M2"),
+        ("M02", "M2"),
+        ("m030", "M30"),
+        ("G0X1.M17", "M17"),
+        ("XP1M29", "M29"),
+        ("X1 M30 Y2", "M30"),
+        ("N9M30", "M30"),
+        ("$IF P1 == 1 M30", "M30"),
+        ("M30 M2", "M30"),
+        ("P_1=2 M30", "M30"),
+    ] {
+        clean(end);
+        clean(&format!("{end}\n\n  \t\n(comment)\n;comment\n#COMMENT BEGIN\nX1\n#COMMENT END\n"));
+        assert_eq!(
+            findings(&format!("{end}\n\n (c) X1\nX2\n")),
+            [format!("line 3, column 6: text behind the {name} of line 1 (STM-10)")],
+            "{end}"
+        );
+    }
+    for no_end in [
+        "M3",
+        "M300",
+        "M0300",
+        "M",
+        "M20",
+        "M1 M7",
+        "M30.5",
+        "M30_X",
+        "V.E.M30",
+        "V.E.A[1].M30=1",
+        "P_M30=1",
+        "_M30",
+        "TOOL1_M30=1",
+        "(M30)",
+        ";M30",
+        "ROOM30",
+        "AM2=1",
+        "L M30.nc",
+        "LL M30",
+        "L M30",
+        "%M30",
+        "#MSG [\"M30\"]",
+        "X.30",
+        "$GOTO [M30]",
+        "[M30]",
+        "V.E.X1M30",
+    ] {
+        clean(&format!("{no_end}\nX1"));
+    }
+    // Each end has its finding, and the words behind it theirs.
+    assert_eq!(
+        findings("M30\n$DO\nX1\nM17\nX1\n%next\nM2"),
+        [
+            "line 2, column 1: text behind the M30 of line 1 (STM-10)",
+            "line 2, column 1: $DO in a stream (STM-8)",
+            "line 5, column 1: text behind the M17 of line 4 (STM-10)"
+        ]
+    );
+}
+
+#[test]
+fn findings_say_clause_and_consequence() {
+    let text = NcText::new(b"N1:\n$GOTO N1\n$DO\nM30\nX1\n#COMMENT BEGIN").unwrap();
+    let found: Vec<_> =
+        text.findings().map(|at| (at.kind.clause(), at.kind.ends_streaming())).collect();
+    assert_eq!(found, [("STM-8", true), ("STM-8", true), ("STM-10", false), ("STM-9", false)]);
+}
+
+/// As many jumps as no table holds: far, near, back and forward.
+#[test]
+fn many_labels() {
+    let count = 5000;
+    let labels = || (0..count).map(|n| format!("N{n}: X1\n"));
+    let jumps = || (0..count).map(|n| format!("$GOTO N{n}\n"));
+    assert_eq!(findings(&labels().chain(jumps()).collect::<String>()).len(), count);
+    clean(&jumps().chain(labels()).collect::<String>());
+    clean(&labels().chain(jumps()).chain(labels()).collect::<String>());
+    clean(&jumps().zip(labels()).map(|(jump, label)| jump + &label).collect::<String>());
+}
+
+/// A line of a program with jumps; labels 0 to 5.
+#[derive(Clone, Copy, Debug)]
+enum Line {
+    Label(u8),
+    Goto(u8),
+    Both(u8, u8),
+    Program,
+    Other,
+}
+
+fn program() -> impl Strategy<Value = Vec<Line>> {
+    let line = prop_oneof![
+        3 => (0..6_u8).prop_map(Line::Label),
+        4 => (0..6_u8).prop_map(Line::Goto),
+        1 => (0..6_u8, 0..6_u8).prop_map(|(label, goto)| Line::Both(label, goto)),
+        1 => Just(Line::Program),
+        4 => Just(Line::Other),
+    ];
+    vec(line, 0..60)
+}
+
+impl Line {
+    fn text(self) -> String {
+        match self {
+            Self::Label(label) => format!("N{label}: X1\n"),
+            Self::Goto(goto) => format!("X1 $GOTO N{goto}\n"),
+            Self::Both(label, goto) => format!("N{label}: $GOTO N{goto}\n"),
+            Self::Program => "%next\n".into(),
+            Self::Other => "N1 ($GOTO N1)\n".into(),
+        }
+    }
+
+    fn label(self) -> Option<u8> {
+        match self {
+            Self::Label(label) | Self::Both(label, _) => Some(label),
+            _ => None,
+        }
+    }
+
+    fn goto(self) -> Option<u8> {
+        match self {
+            Self::Goto(goto) | Self::Both(_, goto) => Some(goto),
+            _ => None,
+        }
+    }
+}
+
+/// The jumps back, by their definition: (line, line of the label), from 0.
+fn jumps_back(program: &[Line]) -> Vec<(usize, usize)> {
+    let is_title = |line: &Line| matches!(line, Line::Program);
+    let mut back = Vec::new();
+    for (at, line) in program.iter().enumerate() {
+        let Some(goto) = line.goto() else { continue };
+        let start = program[..at].iter().rposition(is_title).map_or(0, |title| title + 1);
+        let end = program[at..].iter().position(is_title).map_or(program.len(), |title| at + title);
+        let places: Vec<_> =
+            (start..end).filter(|&place| program[place].label() == Some(goto)).collect();
+        if let Some(&last) = places.last().filter(|&&last| last <= at) {
+            back.push((at, last));
+        }
+    }
+    back
+}
+
+/// Pieces out of which trouble is made.
+fn pieces() -> impl Strategy<Value = String> {
+    let piece = select(vec![
+        "$FOR",
+        "$GOTO",
+        "$GOTO N1",
+        "N1:",
+        "N1",
+        ":",
+        "[A]",
+        "(",
+        ")",
+        ";",
+        "\"",
+        "#COMMENT BEGIN",
+        "#COMMENT END",
+        "#COMMENT",
+        "M30",
+        "M2",
+        "M",
+        "30",
+        ".",
+        "_",
+        "%",
+        "/",
+        " ",
+        "\t",
+        "\n",
+        "\r\n",
+        "\r",
+        "V.E.x",
+        "L ",
+        "$",
+        "X1",
+    ]);
+    vec(piece, 0..40).prop_map(|pieces| pieces.concat())
+}
+
+proptest! {
+#![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..Default::default() })]
+
+#[test]
+fn jumps_back_are_found_as_defined(program in program()) {
+    let text: String = program.iter().map(|line| line.text()).collect();
+    let found: Vec<_> = NcText::new(text.as_bytes()).unwrap().findings().map(|at| (at.line, at.kind)).collect();
+    let wanted: Vec<_> = jumps_back(&program)
+        .into_iter()
+        .map(|(at, to)| (at as u32 + 1, FindingKind::BackwardJump { to: to as u32 + 1 }))
+        .collect();
+    prop_assert_eq!(found, wanted);
+}
+
+/// Any text: the findings end, are in the text and in its order, and do not depend on how
+/// lines end; the text as a comment has none.
+#[test]
+fn findings_of_any_text(text in pieces()) {
+    let all: Vec<Finding> = NcText::new(text.as_bytes()).unwrap().findings().collect();
+    let lines: Vec<&[u8]> = NcText::new(text.as_bytes()).unwrap().lines().collect();
+    for finding in &all {
+        let line = &lines[finding.line as usize - 1];
+        let at = &line[finding.column as usize - 1..];
+        let is = match finding.kind {
+            FindingKind::Loop(_) | FindingKind::BackwardJump { .. } => at[0] == b'$',
+            FindingKind::OpenComment => at[0] == b'#',
+            _ => !b" \t(;".contains(&at[0]),
+        };
+        prop_assert!(is, "{finding}");
+    }
+    let places: Vec<_> = all
+        .iter()
+        .filter(|at| at.kind != FindingKind::OpenComment)
+        .map(|at| (at.line, at.column))
+        .collect();
+    prop_assert!(places.is_sorted());
+    for end in ["\n", "\r\n", "\r"] {
+        let ended: String =
+            lines.iter().map(|line| format!("{}{end}", String::from_utf8_lossy(line))).collect();
+        let again: Vec<Finding> = NcText::new(ended.as_bytes()).unwrap().findings().collect();
+        prop_assert_eq!(&again, &all);
+    }
+    let comment = text.replace("#COMMENT END", "");
+    let hidden = format!("#COMMENT BEGIN\n{comment}\n#COMMENT END");
+    prop_assert_eq!(NcText::new(hidden.as_bytes()).unwrap().findings().count(), 0);
+    let hidden = text.replace(['\r', '\n'], " ");
+    prop_assert_eq!(NcText::new(format!(";{hidden}").as_bytes()).unwrap().findings().count(), 0);
+}}
