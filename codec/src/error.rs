@@ -48,6 +48,10 @@ pub enum ErrorKind {
     NotDecimal,
     /// A number without digits or with too many: the most, how many.
     Digits,
+    /// A character where another has to stand: its code point (found); expected is 0.
+    Unexpected,
+    /// What has to be there is not; both numbers are 0.
+    Missing,
     /// A value outside its range: the nearest value allowed, the value.
     OutOfRange,
     /// A value that has to equal another: that one, the value.
@@ -117,6 +121,13 @@ impl fmt::Display for Error {
             ErrorKind::NotCp1252 => write!(f, "U+{found:04X} is not in CP1252"),
             ErrorKind::NotDecimal => write!(f, "U+{found:04X} is no decimal digit"),
             ErrorKind::Digits => write!(f, "1 to {expected} digits expected, {found} found"),
+            ErrorKind::Unexpected => match char::from_u32(found) {
+                Some(character) if character.is_ascii_graphic() => {
+                    write!(f, "'{character}' may not stand here")
+                }
+                _ => write!(f, "U+{found:04X} may not stand here"),
+            },
+            ErrorKind::Missing => f.write_str("missing"),
             ErrorKind::OutOfRange if found < expected => {
                 write!(f, "out of range, at least {expected} expected, {found} found")
             }

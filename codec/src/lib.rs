@@ -9,6 +9,7 @@
 //! | 1, code page | [`CncStr`], [`text`] |
 //! | 2, index groups and offsets | [`address`] |
 //! | 2.1.1, object descriptors | [`ObjectCount`], [`DescriptorRef`], [`DescriptorsRef`] |
+//! | 4.1, names of variables | [`VariablePath`] |
 //! | 4.3.1, number of variables | [`VariableKindRef`], [`VariableCount`] |
 //! | 4.3.2, description | [`VariableIndexKindRef`], [`DescriptionRef`] |
 //! | 4.3.3, handle by name | [`VariableNameRef`], [`Handle`] |
@@ -86,9 +87,9 @@ pub use variable::{
 };
 pub use variable::{
     DescriptionRef, Element, Elements, ExtendedDescription, ExtendedReply, Handle, HandleReadRef,
-    HandleWriteRef, Kind, NameWriteRef, Numbers, Synchronisation, Validity, ValueRef,
-    VariableAccess, VariableCount, VariableIndexKindRef, VariableKindRef, VariableNameRef,
-    VariableType,
+    HandleWriteRef, Kind, NameWriteRef, Numbers, PathPart, PathParts, Synchronisation, Validity,
+    ValueRef, VariableAccess, VariableCount, VariableIndexKindRef, VariableKindRef,
+    VariableNameRef, VariablePath, VariableType,
 };
 
 #[cfg(doctest)]

@@ -2,6 +2,8 @@
 
 /// Bytes of a text request with its NUL: 255 characters and the NUL (VAR-1, VAR-9).
 pub const TEXT_MAX: usize = 256;
+/// Characters of a variable's name, which a request ends with a NUL (VAR-9).
+pub const NAME_MAX: usize = 255;
 /// Bytes of an index-and-kind request (VAR-3).
 pub const INDEX_KIND_MAX: usize = 260;
 /// Bytes of a variable stream: description, handle header, value (VAR-4, VAR-11, VAR-14).

@@ -166,3 +166,17 @@ fn streaming_allocates_nothing() {
         assert_eq!((peak, count), (0, 0));
     }
 }
+
+/// Names are taken apart and put together without allocating.
+#[test]
+fn names_allocate_nothing() {
+    use ads_cnc::{Numbers, VariablePath};
+
+    let (_, count) = measure(|| {
+        let array = VariablePath::new("V.G.NP[0].Größe").unwrap();
+        let mut buf = [0; 32];
+        let element = array.write_element(Numbers::from(&[1, 20]), &mut buf).unwrap();
+        assert_eq!(element.parts().map(|part| part.indices.len()).sum::<usize>(), 3);
+    });
+    assert_eq!(count, 0);
+}

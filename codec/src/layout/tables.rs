@@ -212,6 +212,12 @@ layouts! {
         AXIS "axis" @ 0, Size::Fixed(4), Uns32, "ADR-9", "axis, 16 bits";
         ELEMENT "element" @ 0, Size::Fixed(4), Uns32, "ADR-9", "element, 16 or 12 bits";
     }
+    /// A variable's name by its parts; no stream of its own.
+    VariablePath, variable_path: "variable-path", "Name of a variable", "VAR-20", max 0 {
+        KIND "kind" @ 0, Size::Rest { max: 255 }, String, "VAR-20", "V.E, V.G, V.A, …";
+        PART "part" @ 0, Size::Rest { max: 255 }, String, "VAR-20", "name of a structure or variable";
+        INDEX "index" @ 0, Size::Rest { max: 255 }, String, "VAR-20", "number in brackets";
+    }
     /// A text before it stands in a stream.
     Text, text: "text", "Text in CP1252", "GEN-3", max 0 {
         TEXT "text" @ 0, Size::Rest { max: 0xffff_ffff }, String, "GEN-3", "CP1252 without NUL";

@@ -107,6 +107,29 @@ impl<'a> CncStr<'a> {
         self.chars().filter_map(char_to_cp1252)
     }
 
+    /// The bytes the text is held in, of CP1252 or of UTF-8: both have the same ASCII.
+    pub(crate) const fn held(self) -> &'a [u8] {
+        match self.0 {
+            Source::Bytes(bytes) => bytes,
+            Source::Str(text) => text.as_bytes(),
+        }
+    }
+
+    /// The text before and from a place in [`held`](Self::held); all and none if no character
+    /// begins there.
+    pub(crate) fn split_at(self, at: usize) -> (Self, Self) {
+        match self.0 {
+            Source::Bytes(bytes) => {
+                let (one, two) = bytes.split_at_checked(at).unwrap_or((bytes, &[]));
+                (Self(Source::Bytes(one)), Self(Source::Bytes(two)))
+            }
+            Source::Str(text) => {
+                let (one, two) = text.split_at_checked(at).unwrap_or((text, ""));
+                (Self(Source::Str(one)), Self(Source::Str(two)))
+            }
+        }
+    }
+
     pub(crate) fn write(&self, out: &mut Writer<'_>) {
         match self.0 {
             Source::Bytes(bytes) => out.put(bytes),

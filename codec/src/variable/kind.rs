@@ -31,6 +31,14 @@ impl<'a> Kind<'a> {
     pub const V_E: Kind<'static> = Kind::ascii(b"V.E");
     /// Axis variables.
     pub const V_A: Kind<'static> = Kind::ascii(b"V.A");
+    /// Cycle variables, by name only (VAR-18).
+    pub const V_CYC: Kind<'static> = Kind::ascii(b"V.CYC");
+    /// Variables of the kind V.P, on the channel interface by name only (VAR-18, VAR-19).
+    pub const V_P: Kind<'static> = Kind::ascii(b"V.P");
+    /// Variables of the kind V.L, on the channel interface by name only (VAR-18, VAR-19).
+    pub const V_L: Kind<'static> = Kind::ascii(b"V.L");
+    /// Variables of the kind V.S, on the channel interface by name only (VAR-18, VAR-19).
+    pub const V_S: Kind<'static> = Kind::ascii(b"V.S");
     /// V.E, V.G and V.A together; only their number can be asked for.
     pub const ALL: Kind<'static> = Kind::ascii(b"");
 

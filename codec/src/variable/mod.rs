@@ -10,6 +10,7 @@ mod kind;
 mod name;
 mod name_write;
 mod numbers;
+mod path;
 mod value;
 
 pub use codes::{Synchronisation, Validity, VariableAccess, VariableType};
@@ -22,6 +23,7 @@ pub use kind::{Kind, VariableCount, VariableIndexKindRef, VariableKindRef};
 pub use name::VariableNameRef;
 pub use name_write::NameWriteRef;
 pub use numbers::Numbers;
+pub use path::{PathPart, PathParts, VariablePath};
 pub use value::ValueRef;
 
 #[cfg(feature = "alloc")]

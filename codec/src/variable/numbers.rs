@@ -1,4 +1,4 @@
-//! A list of UNS32, from a stream or from memory.
+//! A list of UNS32, from a stream, from memory or from a name.
 
 use core::fmt;
 
@@ -6,7 +6,8 @@ use zerocopy::little_endian::U32;
 
 use crate::bytes::Writer;
 
-/// Dimensions or indices: borrowed from a stream's bytes or from a slice of numbers.
+/// Dimensions or indices: borrowed from a stream's bytes, from a slice of numbers or from the
+/// brackets of a name.
 ///
 /// ```
 /// use ads_cnc::{Decode, HandleReadRef, Numbers};
@@ -23,6 +24,8 @@ pub struct Numbers<'a>(Source<'a>);
 enum Source<'a> {
     Wire(&'a [U32]),
     Memory(&'a [u32]),
+    /// `[3][4]`, found to be well-formed.
+    Name(&'a [u8]),
 }
 
 impl<'a> Numbers<'a> {
@@ -33,11 +36,17 @@ impl<'a> Numbers<'a> {
         Self(Source::Wire(numbers))
     }
 
+    /// Indices as they stand in a name that was found to be well-formed.
+    pub(crate) const fn from_name(brackets: &'a [u8]) -> Self {
+        Self(Source::Name(brackets))
+    }
+
     /// How many.
     pub const fn len(&self) -> usize {
         match self.0 {
             Source::Wire(numbers) => numbers.len(),
             Source::Memory(numbers) => numbers.len(),
+            Source::Name(brackets) => count_opened(brackets),
         }
     }
 
@@ -51,16 +60,19 @@ impl<'a> Numbers<'a> {
         match self.0 {
             Source::Wire(numbers) => numbers.get(place).map(|number| number.get()),
             Source::Memory(numbers) => numbers.get(place).copied(),
+            Source::Name(brackets) => in_brackets(brackets).nth(place),
         }
     }
 
     /// All in their order.
     pub fn iter(&self) -> impl Iterator<Item = u32> + use<'a> {
-        let (wire, memory): (&[U32], &[u32]) = match self.0 {
-            Source::Wire(numbers) => (numbers, &[]),
-            Source::Memory(numbers) => (&[], numbers),
+        let (wire, memory, name): (&[U32], &[u32], &[u8]) = match self.0 {
+            Source::Wire(numbers) => (numbers, &[], &[]),
+            Source::Memory(numbers) => (&[], numbers, &[]),
+            Source::Name(brackets) => (&[], &[], brackets),
         };
-        wire.iter().map(|number| number.get()).chain(memory.iter().copied())
+        let wire = wire.iter().map(|number| number.get());
+        wire.chain(memory.iter().copied()).chain(in_brackets(name))
     }
 
     pub(crate) fn encoded_len(&self) -> usize {
@@ -70,6 +82,31 @@ impl<'a> Numbers<'a> {
     pub(crate) fn write(&self, out: &mut Writer<'_>) {
         self.iter().for_each(|number| out.u32(number));
     }
+}
+
+/// How many brackets open.
+const fn count_opened(mut brackets: &[u8]) -> usize {
+    let mut count = 0_usize;
+    while let Some((byte, rest)) = brackets.split_first() {
+        if *byte == b'[' {
+            count = count.saturating_add(1);
+        }
+        brackets = rest;
+    }
+    count
+}
+
+/// The numbers of `[3][4]`.
+fn in_brackets(brackets: &[u8]) -> impl Iterator<Item = u32> + use<'_> {
+    let opened = brackets.split(|&byte| byte == b']').filter_map(<[u8]>::split_first);
+    opened.map(|(_, digits)| decimal(digits))
+}
+
+/// The number of these digits, or the largest there is.
+pub(super) fn decimal(digits: &[u8]) -> u32 {
+    digits.iter().fold(0_u32, |number, &digit| {
+        number.saturating_mul(10).saturating_add(u32::from(digit & 0x0F))
+    })
 }
 
 impl<'a> From<&'a [u32]> for Numbers<'a> {

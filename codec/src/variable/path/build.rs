@@ -1,0 +1,253 @@
+//! Building names.
+
+use super::super::{Kind, Numbers};
+use super::{PathPart, VariablePath, scan};
+use crate::bytes::{Writer, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::Stream;
+use crate::layout::field::variable_path::{INDEX, KIND, PART};
+use crate::text::CncStr;
+
+/// Each of them writes a name that [`VariablePath::from_text`] takes apart into what it was made
+/// of. [`NAME_MAX`](crate::limits::NAME_MAX) bytes of buffer are always enough.
+impl<'a> VariablePath<'a> {
+    /// Puts a name together from its parts.
+    ///
+    /// ```
+    /// use ads_cnc::{CncStr, Kind, Numbers, PathPart, VariablePath};
+    ///
+    /// let np = PathPart { name: CncStr::new("NP")?, indices: Numbers::from(&[0]) };
+    /// let v = PathPart { name: CncStr::new("V")?, indices: Numbers::EMPTY };
+    /// let mut buf = [0; 32];
+    /// let path = VariablePath::write(Kind::V_G, [np, v], &mut buf)?;
+    /// assert_eq!(path.text(), "V.G.NP[0].V");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A kind, a part's name, an index or a length that [`new`](Self::new) would refuse, no part,
+    /// or a buffer that is too small; nothing is written.
+    pub fn write<'p, P>(kind: Kind<'_>, parts: P, buf: &'a mut [u8]) -> Result<Self, Error>
+    where
+        P: IntoIterator<Item = PathPart<'p>, IntoIter: Clone>,
+    {
+        let parts = parts.into_iter();
+        scan::kind(kind.text())?;
+        let kind_end = kind.text().len();
+        let mut ends = (kind_end, kind_end);
+        for part in parts.clone() {
+            ends = check_part(part, ends.1)?;
+        }
+        let (variable_end, len) = ends;
+        if len == kind_end {
+            return Err(Error::new(ErrorKind::Truncated, PART, to_u32(len), 1, 0));
+        }
+        let bytes = Writer::fill(Stream::VariablePath, len, buf, |out| {
+            kind.text().write(out);
+            parts.for_each(|part| write_part(part, out));
+        })?;
+        Ok(Self { text: CncStr::without_nul(bytes), kind_end, variable_end })
+    }
+
+    /// The name of an element of this array: the name with indices at its end.
+    ///
+    /// ```
+    /// use ads_cnc::{Numbers, VariablePath};
+    ///
+    /// let array = VariablePath::new("V.E.test")?;
+    /// let mut buf = [0; 16];
+    /// assert_eq!(array.write_element(Numbers::from(&[4]), &mut buf)?.text(), "V.E.test[4]");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`write`](Self::write); [`ErrorKind::Unexpected`] for a name that has indices at its end
+    /// already: see [`variable`](Self::variable).
+    pub fn write_element<'b>(
+        &self,
+        indices: Numbers<'_>,
+        buf: &'b mut [u8],
+    ) -> Result<VariablePath<'b>, Error> {
+        if !self.elements().is_empty() {
+            let at = to_u32(self.variable().text.len());
+            return Err(Error::new(ErrorKind::Unexpected, INDEX, at, 0, u32::from(b'[')));
+        }
+        let last = self.parts().count().saturating_sub(1);
+        let parts = self
+            .parts()
+            .enumerate()
+            .map(|(place, part)| if place == last { PathPart { indices, ..part } } else { part });
+        VariablePath::write(self.kind(), parts, buf)
+    }
+
+    /// The name on the channel interface of a variable of the axis interface: the axis's instance
+    /// identifier becomes the last part.
+    ///
+    /// Indices at the end stay there, behind the axis: which place they have is not documented.
+    ///
+    /// ```
+    /// use ads_cnc::{CncStr, VariablePath};
+    ///
+    /// let on_axis = VariablePath::new("V.A.ACT_POS")?;
+    /// let mut buf = [0; 16];
+    /// let on_channel = on_axis.write_axis(CncStr::new("X")?, &mut buf)?;
+    /// assert_eq!(on_channel.text(), "V.A.ACT_POS.X");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`write`](Self::write); [`ErrorKind::Unexpected`] for another kind than V.A.
+    pub fn write_axis<'b>(
+        &self,
+        axis: CncStr<'_>,
+        buf: &'b mut [u8],
+    ) -> Result<VariablePath<'b>, Error> {
+        self.check_axis()?;
+        let axis = PathPart { name: axis, indices: self.elements() };
+        let parts = self.variable();
+        VariablePath::write(self.kind(), parts.parts().chain([axis]), buf)
+    }
+
+    /// The name on the axis interface of a variable of the channel interface: without the part
+    /// that [`axis`](Self::axis) gives. Undoes [`write_axis`](Self::write_axis).
+    ///
+    /// ```
+    /// use ads_cnc::VariablePath;
+    ///
+    /// let on_channel = VariablePath::new("V.A.WCS.Y")?;
+    /// let mut buf = [0; 16];
+    /// assert_eq!(on_channel.write_without_axis(&mut buf)?.text(), "V.A.WCS");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unexpected`] for another kind than V.A, [`ErrorKind::Missing`] for a name
+    /// without an axis, or a buffer that is too small.
+    pub fn write_without_axis<'b>(&self, buf: &'b mut [u8]) -> Result<VariablePath<'b>, Error> {
+        self.check_axis()?;
+        let axis = self.variable().text.held();
+        let dot = axis.iter().rposition(|&byte| byte == b'.').unwrap_or(0);
+        if dot <= self.kind_end {
+            let at = to_u32(self.variable().text.len());
+            return Err(Error::new(ErrorKind::Missing, PART, at, 0, 0));
+        }
+        let before = self.text.split_at(dot).0;
+        let elements = self.text.split_at(self.variable_end).1;
+        let len = before.len().saturating_add(elements.len());
+        let bytes = Writer::fill(Stream::VariablePath, len, buf, |out| {
+            before.write(out);
+            elements.write(out);
+        })?;
+        // Shorter than it was, and put together where it was.
+        VariablePath::from_text(CncStr::without_nul(bytes))
+    }
+
+    fn check_axis(&self) -> Result<(), Error> {
+        let kind = self.kind().text();
+        if kind == Kind::V_A.text() {
+            return Ok(());
+        }
+        // The character that makes it another; there are three at least.
+        let mut wanted = Kind::V_A.text().chars();
+        let other = (0_u32..).zip(kind.chars()).find(|&(_, there)| wanted.next() != Some(there));
+        let (at, there) = other.map_or((0, 0), |(at, there)| (at, u32::from(there)));
+        Err(Error::new(ErrorKind::Unexpected, KIND, at, 0, there))
+    }
+}
+
+/// Checks a part that begins behind `before` characters; says where its indices begin and end.
+fn check_part(part: PathPart<'_>, before: usize) -> Result<(usize, usize), Error> {
+    let start = before.saturating_add(1);
+    scan::part(part.name, start)?;
+    let indices = start.saturating_add(part.name.len());
+    let mut end = indices;
+    for index in part.indices.iter() {
+        let digits = end.saturating_add(1);
+        scan::index(index, digits)?;
+        end = digits.saturating_add(digit_count(index)).saturating_add(1);
+    }
+    scan::check_len(end)?;
+    Ok((indices, end))
+}
+
+fn write_part(part: PathPart<'_>, out: &mut Writer<'_>) {
+    out.put(b".");
+    part.name.write(out);
+    for index in part.indices.iter() {
+        out.put(b"[");
+        write_decimal(index, out);
+        out.put(b"]");
+    }
+}
+
+fn digit_count(number: u32) -> usize {
+    let more = number.checked_ilog10().unwrap_or(0);
+    crate::bytes::to_len(more.saturating_add(1))
+}
+
+fn write_decimal(number: u32, out: &mut Writer<'_>) {
+    let mut divisor = 10_u32.saturating_pow(number.checked_ilog10().unwrap_or(0));
+    while let Some(digit) = number.checked_div(divisor) {
+        let [digit, ..] = (digit % 10).to_le_bytes();
+        out.put(&[b'0' | digit]);
+        divisor /= 10;
+    }
+}
+
+#[cfg(feature = "alloc")]
+mod owned {
+    use super::*;
+    use crate::limits::NAME_MAX;
+    use crate::text::CncString;
+
+    /// The same, owned.
+    impl VariablePath<'_> {
+        /// As [`write_element`](Self::write_element).
+        ///
+        /// ```
+        /// use ads_cnc::{Numbers, VariablePath};
+        ///
+        /// let array = VariablePath::new("V.E.Testvar")?;
+        /// assert_eq!(array.element(Numbers::from(&[3]))?.to_string(), "V.E.Testvar[3]");
+        /// # Ok::<(), ads_cnc::Error>(())
+        /// ```
+        ///
+        /// # Errors
+        /// Those of [`write_element`](Self::write_element).
+        pub fn element(&self, indices: Numbers<'_>) -> Result<CncString, Error> {
+            Ok(self.write_element(indices, &mut [0; NAME_MAX])?.text().into())
+        }
+
+        /// As [`write_axis`](Self::write_axis).
+        ///
+        /// ```
+        /// use ads_cnc::{CncStr, VariablePath};
+        ///
+        /// let on_axis = VariablePath::new("V.A.ACT_POS")?;
+        /// assert_eq!(on_axis.with_axis(CncStr::new("X")?)?.to_string(), "V.A.ACT_POS.X");
+        /// # Ok::<(), ads_cnc::Error>(())
+        /// ```
+        ///
+        /// # Errors
+        /// Those of [`write_axis`](Self::write_axis).
+        pub fn with_axis(&self, axis: CncStr<'_>) -> Result<CncString, Error> {
+            Ok(self.write_axis(axis, &mut [0; NAME_MAX])?.text().into())
+        }
+
+        /// As [`write_without_axis`](Self::write_without_axis).
+        ///
+        /// ```
+        /// use ads_cnc::VariablePath;
+        ///
+        /// let on_channel = VariablePath::new("V.A.WCS.Y")?;
+        /// assert_eq!(on_channel.without_axis()?.to_string(), "V.A.WCS");
+        /// # Ok::<(), ads_cnc::Error>(())
+        /// ```
+        ///
+        /// # Errors
+        /// Those of [`write_without_axis`](Self::write_without_axis).
+        pub fn without_axis(&self) -> Result<CncString, Error> {
+            Ok(self.write_without_axis(&mut [0; NAME_MAX])?.text().into())
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Names of variables, by their parts (VAR-20).
+
+mod build;
+mod part;
+mod scan;
+
+use core::fmt;
+use core::hash::{Hash, Hasher};
+
+pub use part::{PathPart, PathParts};
+
+use super::{Kind, Numbers};
+use crate::error::Error;
+use crate::text::CncStr;
+
+/// The largest index: one less than the most elements that an UNS32 can count (VAR-2).
+const INDEX_MAX: u32 = u32::MAX - 1;
+
+// A name cannot hold more indices than a handle's header can.
+const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICES_MAX);
+
+/// A variable's name: its kind, the parts with their indices, the element it selects.
+///
+/// | in `V.G.NP[0].V[1]` | | |
+/// |---|---|---|
+/// | `V.G` | kind | [`kind`](Self::kind) |
+/// | `NP[0]` | structure with its index, part of the path | [`parts`](Self::parts) |
+/// | `V` | the variable in it, an array | [`parts`](Self::parts) |
+/// | `[1]` | element of the array | [`elements`](Self::elements) |
+/// | `V.G.NP[0].V` | name of the whole array, which its description has too | [`variable`](Self::variable) |
+///
+/// Indices before a dot belong to the path, those at the end select an element: derived from the
+/// examples. Assumed is
+/// - that more dimensions are written `[i][j]`,
+/// - that a kind is `V.` and one part, which may be one that no manual has,
+/// - that a part is any CP1252 text without `.`, `[`, `]` and NUL, and has a character at least,
+/// - that an index is one or more decimal digits and nothing else.
+///
+/// Two names are equal if their characters are. A name alone does not tell whether there is such a
+/// variable, nor whether it is an array: that is in its description.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1 (VAR-20); the axis: 4.1 and 4.2.2.
+///
+/// ```
+/// use ads_cnc::{Handle, HandleReadRef, Kind, Numbers, VariablePath};
+///
+/// let path = VariablePath::new("V.G.NP[0].V[1]")?;
+/// assert_eq!(path.kind(), Kind::V_G);
+/// assert_eq!(path.variable().text(), "V.G.NP[0].V");
+/// assert_eq!(path.elements(), Numbers::from(&[1]));
+///
+/// // The same element by the array's handle.
+/// let by_handle = HandleReadRef { handle: Handle(0x2001234), indices: path.elements() };
+///
+/// // And a name made of another.
+/// let mut buf = [0; 32];
+/// let other = path.variable().write_element(Numbers::from(&[4]), &mut buf)?;
+/// assert_eq!(other.text(), "V.G.NP[0].V[4]");
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+///
+/// A range is prose, no name:
+///
+/// ```
+/// # use ads_cnc::VariablePath;
+/// assert_eq!(
+///     VariablePath::new("V.G.array[0 .. 9]").unwrap_err().to_string(),
+///     "variable-path: index at offset 11: U+0020 may not stand here"
+/// );
+/// ```
+#[derive(Clone, Copy)]
+pub struct VariablePath<'a> {
+    text: CncStr<'a>,
+    /// Where the dot behind the kind is, in what the text is held in.
+    kind_end: usize,
+    /// Where the indices at the end begin, likewise.
+    variable_end: usize,
+}
+
+impl<'a> VariablePath<'a> {
+    /// Takes a name apart.
+    ///
+    /// # Errors
+    /// Offsets count characters.
+    /// - Those of [`CncStr::new`].
+    /// - [`Unexpected`](crate::ErrorKind::Unexpected): an empty part, a double dot, a bracket or
+    ///   a character in one where none may be, text behind a bracket, no kind.
+    /// - [`Truncated`](crate::ErrorKind::Truncated): the name ends in its kind, behind a dot or in
+    ///   a bracket.
+    /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): an index over 4 294 967 294; one over 32
+    ///   bits is shown as the largest of these.
+    /// - [`TooLong`](crate::ErrorKind::TooLong): more than 255 characters (VAR-9).
+    pub fn new(text: &'a str) -> Result<Self, Error> {
+        Self::from_text(CncStr::new(text)?)
+    }
+
+    /// As [`new`](Self::new), from CP1252.
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, VariableNameRef, VariablePath};
+    ///
+    /// let request = VariableNameRef::decode(b"V.E.Testvar[3]\0")?;
+    /// let path = VariablePath::from_text(request.name.text())?;
+    /// assert_eq!(path.variable().text(), "V.E.Testvar");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new) but for CP1252.
+    pub fn from_text(text: CncStr<'a>) -> Result<Self, Error> {
+        let scan::Ends { kind, variable } = scan::name(text)?;
+        Ok(Self { text, kind_end: kind, variable_end: variable })
+    }
+
+    /// The name.
+    pub const fn text(&self) -> CncStr<'a> {
+        self.text
+    }
+
+    /// The kind: `V.E`, `V.G`, `V.A`, `V.CYC`, `V.P`, `V.L`, `V.S` or another.
+    pub fn kind(&self) -> Kind<'a> {
+        Kind::from_field(self.text.split_at(self.kind_end).0.into())
+    }
+
+    /// What follows the kind: structures, and last the variable in them. There is one at least.
+    ///
+    /// ```
+    /// use ads_cnc::{Numbers, VariablePath};
+    ///
+    /// let path = VariablePath::new("V.E.struct1[5].struct2[8].array_sgn32")?;
+    /// let parts: Vec<String> = path.parts().map(|part| part.to_string()).collect();
+    /// assert_eq!(parts, ["struct1[5]", "struct2[8]", "array_sgn32"]);
+    /// assert_eq!(path.parts().nth(1).unwrap().indices, Numbers::from(&[8]));
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    pub fn parts(&self) -> PathParts<'a> {
+        PathParts::new(self.text.split_at(self.kind_end).1)
+    }
+
+    /// The indices at the end, which select an element of an array; none for all of it.
+    pub fn elements(&self) -> Numbers<'a> {
+        Numbers::from_name(self.text.split_at(self.variable_end).1.held())
+    }
+
+    /// The name without the indices at its end: that of the whole array, if it is one.
+    pub fn variable(&self) -> Self {
+        Self { text: self.text.split_at(self.variable_end).0, ..*self }
+    }
+
+    /// The axis a name of the kind V.A is for on the channel interface, its instance identifier:
+    /// the last part if there are two or more.
+    ///
+    /// On the axis interface names have none; there the last part is what it is of any kind. A
+    /// name does not tell for which of the two it is.
+    ///
+    /// ```
+    /// use ads_cnc::VariablePath;
+    ///
+    /// let on_channel = VariablePath::new("V.A.ACT_POS.X")?;
+    /// assert_eq!(on_channel.axis().unwrap(), "X");
+    /// let on_axis = VariablePath::new("V.A.ACT_POS")?;
+    /// assert_eq!(on_axis.axis(), None);
+    /// assert_eq!(VariablePath::new("V.E.trajectory.vector.x")?.axis(), None);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    pub fn axis(&self) -> Option<CncStr<'a>> {
+        let axis = self.parts().skip(1).last()?;
+        (self.kind() == Kind::V_A).then_some(axis.name)
+    }
+}
+
+impl PartialEq for VariablePath<'_> {
+    fn eq(&self, other: &VariablePath<'_>) -> bool {
+        self.text == other.text
+    }
+}
+
+impl Eq for VariablePath<'_> {}
+
+impl Hash for VariablePath<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.text.hash(state);
+    }
+}
+
+impl fmt::Display for VariablePath<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.text, f)
+    }
+}
+
+impl fmt::Debug for VariablePath<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.text, f)
+    }
+}

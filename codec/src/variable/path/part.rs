@@ -1,0 +1,63 @@
+//! The parts of a name.
+
+use core::fmt;
+
+use super::super::Numbers;
+use crate::text::CncStr;
+
+/// One part of a name: a structure or the variable, with its indices.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1 (VAR-20).
+///
+/// ```
+/// use ads_cnc::{CncStr, Numbers, PathPart};
+///
+/// let part = PathPart { name: CncStr::new("NP")?, indices: Numbers::from(&[0]) };
+/// assert_eq!(part.to_string(), "NP[0]");
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathPart<'a> {
+    /// The part's name.
+    pub name: CncStr<'a>,
+    /// Index in each dimension, from 0; of the last part they select the element.
+    pub indices: Numbers<'a>,
+}
+
+impl fmt::Display for PathPart<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.name, f)?;
+        self.indices.iter().try_for_each(|index| write!(f, "[{index}]"))
+    }
+}
+
+/// The parts of a name behind its kind: see [`VariablePath::parts`](super::VariablePath::parts).
+#[derive(Clone, Debug)]
+pub struct PathParts<'a>(CncStr<'a>);
+
+impl<'a> PathParts<'a> {
+    /// Of what follows the kind in a name that was found to be well-formed.
+    pub(super) const fn new(rest: CncStr<'a>) -> Self {
+        Self(rest)
+    }
+}
+
+impl<'a> Iterator for PathParts<'a> {
+    type Item = PathPart<'a>;
+
+    fn next(&mut self) -> Option<PathPart<'a>> {
+        let place = |text: CncStr<'a>, wanted: u8| {
+            let held = text.held();
+            held.iter().position(|&byte| byte == wanted).unwrap_or(held.len())
+        };
+        // Behind the dot, which is there unless this is the end.
+        let (dot, rest) = self.0.split_at(1);
+        if dot.is_empty() {
+            return None;
+        }
+        let (part, rest) = rest.split_at(place(rest, b'.'));
+        let (name, indices) = part.split_at(place(part, b'['));
+        self.0 = rest;
+        Some(PathPart { name, indices: Numbers::from_name(indices.held()) })
+    }
+}

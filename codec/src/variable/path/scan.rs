@@ -1,0 +1,146 @@
+//! The one pass over a name that finds its faults.
+
+use super::super::numbers::decimal;
+use super::INDEX_MAX;
+use crate::bytes::to_u32;
+use crate::error::{Error, ErrorKind};
+use crate::layout::field::variable_path::{INDEX, KIND, PART};
+use crate::layout::{Field, Stream};
+use crate::limits::NAME_MAX;
+use crate::text::CncStr;
+
+/// Where a name's kind ends and where its last indices begin, in what the text is held in.
+pub(super) struct Ends {
+    pub(super) kind: usize,
+    pub(super) variable: usize,
+}
+
+/// Checks a whole name.
+pub(super) fn name(text: CncStr<'_>) -> Result<Ends, Error> {
+    check_len(text.len())?;
+    let mut scan = Scan { text, before: 0, at: 0 };
+    scan.kind()?;
+    let kind = scan.at;
+    loop {
+        scan.expect(b'.', PART)?;
+        scan.part(PART)?;
+        let variable = scan.at;
+        scan.indices()?;
+        if scan.next().is_none() {
+            return Ok(Ends { kind, variable });
+        }
+    }
+}
+
+/// Checks a kind.
+pub(super) fn kind(text: CncStr<'_>) -> Result<(), Error> {
+    let mut scan = Scan { text, before: 0, at: 0 };
+    scan.kind()?;
+    scan.end(KIND)
+}
+
+/// Checks the name of a part, which is to stand behind `before` characters.
+pub(super) fn part(text: CncStr<'_>, before: usize) -> Result<(), Error> {
+    let mut scan = Scan { text, before, at: 0 };
+    scan.part(PART)?;
+    scan.end(PART)
+}
+
+/// Checks an index whose digits are to stand behind `before` characters.
+pub(super) fn index(index: u32, before: usize) -> Result<(), Error> {
+    if index <= INDEX_MAX {
+        return Ok(());
+    }
+    Err(Error::new(ErrorKind::OutOfRange, INDEX, to_u32(before), INDEX_MAX, index))
+}
+
+/// A name may have so many characters.
+pub(super) fn check_len(len: usize) -> Result<(), Error> {
+    if len <= NAME_MAX {
+        return Ok(());
+    }
+    let (whole, max) = (Field::whole(Stream::VariablePath), to_u32(NAME_MAX));
+    Err(Error::new(ErrorKind::TooLong, whole, max, max, to_u32(len)))
+}
+
+/// What ends a part's name. ASCII, so that it is one byte in CP1252 and in UTF-8 alike.
+const fn is_syntax(byte: u8) -> bool {
+    matches!(byte, b'.' | b'[' | b']')
+}
+
+struct Scan<'a> {
+    text: CncStr<'a>,
+    /// Characters before the text.
+    before: usize,
+    /// In what the text is held in.
+    at: usize,
+}
+
+impl Scan<'_> {
+    fn next(&self) -> Option<u8> {
+        self.text.held().get(self.at).copied()
+    }
+
+    fn skip_while(&mut self, wanted: impl Fn(u8) -> bool) {
+        while self.next().is_some_and(&wanted) {
+            self.at = self.at.saturating_add(1);
+        }
+    }
+
+    /// The character that comes next is wrong, or there is none.
+    #[cold]
+    fn fault(&self, field: Field) -> Error {
+        let (before, after) = self.text.split_at(self.at);
+        let at = to_u32(self.before.saturating_add(before.len()));
+        match after.chars().next() {
+            Some(character) => {
+                Error::new(ErrorKind::Unexpected, field, at, 0, u32::from(character))
+            }
+            None => Error::new(ErrorKind::Truncated, field, at, 1, 0),
+        }
+    }
+
+    fn expect(&mut self, byte: u8, field: Field) -> Result<(), Error> {
+        if self.next() != Some(byte) {
+            return Err(self.fault(field));
+        }
+        self.at = self.at.saturating_add(1);
+        Ok(())
+    }
+
+    fn end(&self, field: Field) -> Result<(), Error> {
+        if self.next().is_some() { Err(self.fault(field)) } else { Ok(()) }
+    }
+
+    /// `V.` and a part without index.
+    fn kind(&mut self) -> Result<(), Error> {
+        self.expect(b'V', KIND)?;
+        self.expect(b'.', KIND)?;
+        self.part(KIND)
+    }
+
+    /// One character or more.
+    fn part(&mut self, field: Field) -> Result<(), Error> {
+        if self.next().is_none_or(is_syntax) {
+            return Err(self.fault(field));
+        }
+        self.skip_while(|byte| !is_syntax(byte));
+        Ok(())
+    }
+
+    /// `[3][4]`, or nothing.
+    fn indices(&mut self) -> Result<(), Error> {
+        while self.next() == Some(b'[') {
+            self.at = self.at.saturating_add(1);
+            let start = self.at;
+            self.skip_while(|byte| byte.is_ascii_digit());
+            let (before, digits) = self.text.split_at(self.at).0.split_at(start);
+            if digits.is_empty() {
+                return Err(self.fault(INDEX));
+            }
+            index(decimal(digits.held()), self.before.saturating_add(before.len()))?;
+            self.expect(b']', INDEX)?;
+        }
+        Ok(())
+    }
+}
