@@ -22,6 +22,10 @@
 //! | 5, ADS services | [`ads`] |
 //! | `stream-en`, data streaming | [`streaming`] |
 //!
+//! | manual (`service-en`, `service-de` 1.03) | here |
+//! |---|---|
+//! | 1 and 2, Service Interface; 3 of `service-en`, SysServiceWait | [`service`] |
+//!
 //! [`operation`] puts them together: where a function is, what goes in, what comes out, for
 //! clients and for servers. [`layout`] has the field table of every stream.
 //!
@@ -60,6 +64,7 @@ mod error;
 pub mod layout;
 pub mod limits;
 pub mod operation;
+pub mod service;
 mod stream;
 pub mod streaming;
 pub mod text;

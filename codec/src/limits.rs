@@ -16,6 +16,8 @@ pub const NAME_VALUE_MAX: usize = 2047;
 pub const DIMENSIONS_MAX: usize = 506;
 /// Indices of a handle header (VAR-24).
 pub const INDICES_MAX: usize = 510;
+/// Bytes of a text of the Service Interface, the NUL counted, which is assumed (SVC-1).
+pub const SERVICE_TEXT_MAX: usize = 128;
 /// Bytes of an object descriptor (COM-2).
 pub const DESCRIPTOR_LEN: usize = 84;
 /// Bytes of the name and of the type in an object descriptor (COM-2).

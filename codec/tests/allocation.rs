@@ -180,3 +180,40 @@ fn names_allocate_nothing() {
     });
     assert_eq!(count, 0);
 }
+
+/// Nor do the three that take part in the Service Interface.
+#[test]
+fn services_allocate_nothing() {
+    use ads_cnc::CncStr;
+    use ads_cnc::service::{Call, CallStep, Host, HostStep, Interface, ServiceId, SysServiceWait};
+
+    let mut answered = false;
+    let (_, count) = measure(|| {
+        let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47").unwrap()];
+        let (mut host, mut interface) = (Host::new(&ids), Interface::new());
+        let (text, now) = (CncStr::new("3").unwrap(), std::time::Duration::ZERO);
+        let mut call = Call::new(ids[0], text, SysServiceWait::default()).unwrap();
+        for _ in 0..100 {
+            match call.step() {
+                CallStep::Read(variable) => call.read(interface.read(variable), now).unwrap(),
+                CallStep::Write(variable, value) => {
+                    interface.write(variable, value).unwrap();
+                    call.written(now);
+                }
+                CallStep::Wait { .. } => call.poll(),
+                CallStep::Done { response, .. } => answered = response == text,
+                CallStep::TimedOut => {}
+            }
+            match host.step() {
+                HostStep::Read(variable) => host.read(interface.read(variable)).unwrap(),
+                HostStep::Write(variable, value) => {
+                    interface.write(variable, value).unwrap();
+                    host.written();
+                }
+                HostStep::Serve { .. } => host.answer(text, 1).unwrap(),
+                HostStep::Wait => host.poll(),
+            }
+        }
+    });
+    assert_eq!((answered, count), (true, 0));
+}

@@ -231,6 +231,7 @@ fn limits_are_those_of_the_tables() {
     assert_eq!(dimensions, Size::Items { each: 4, max: DIMENSIONS_MAX as u32 });
     let text_of = |stream: Stream| stream.layout().fields[0].size;
     assert_eq!(text_of(S::VariablePath), Size::Rest { max: NAME_MAX as u32 });
+    assert_eq!(text_of(S::Service), Size::Rest { max: SERVICE_TEXT_MAX as u32 });
     assert_eq!(NAME_MAX, TEXT_MAX - 1);
     // VAR-24: what is left of 2048 bytes beside the headers and the shortest name.
     assert_eq!(DIMENSIONS_MAX, (VARIABLE_MAX - 20 - 1) / 4);

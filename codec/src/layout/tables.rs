@@ -218,6 +218,20 @@ layouts! {
         PART "part" @ 0, Size::Rest { max: 255 }, String, "VAR-20", "name of a structure or variable";
         INDEX "index" @ 0, Size::Rest { max: 255 }, String, "VAR-20", "number in brackets";
     }
+    /// The variables of the Service Interface; each is the value of a variable, none a stream here.
+    Service, service: "service", "Service Interface", "SVC-1", max 0 {
+        UUID "uuid" @ 0, Size::Rest { max: 128 }, String, "SVC-1", "which service is asked";
+        REQUEST "request" @ 0, Size::Rest { max: 128 }, String, "SVC-1", "what it is asked";
+        REQUEST_STATE "request_state" @ 0, FIXED_4, Uns32, "SVC-2", "not 0: there is a request";
+        RESPONSE_STATE "response_state" @ 0, FIXED_4, Uns32, "SVC-5", "not 0: there is a response";
+        RESPONSE "response" @ 0, Size::Rest { max: 128 }, String, "SVC-1", "what it answered";
+    }
+    /// The parameters of the cycle SysServiceWait; no stream of its own.
+    SysServiceWait, sys_service_wait: "sys-service-wait", "Cycle SysServiceWait", "SVC-8", max 0 {
+        KEEP_WAITING "@P1" @ 0, FIXED_4, Uns32, "SVC-8", "response state that means: keep waiting";
+        LONGEST "@P2" @ 4, FIXED_4, Uns32, "SVC-8", "longest wait in milliseconds";
+        TIMER "@P3" @ 8, FIXED_4, Uns32, "SVC-8", "ID of the timer";
+    }
     /// A text before it stands in a stream.
     Text, text: "text", "Text in CP1252", "GEN-3", max 0 {
         TEXT "text" @ 0, Size::Rest { max: 0xffff_ffff }, String, "GEN-3", "CP1252 without NUL";

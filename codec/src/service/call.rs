@@ -1,0 +1,164 @@
+//! The side of the CNC program.
+
+use core::time::Duration;
+
+use super::value::{ServiceText, not_zero};
+use super::{ServiceId, ServiceVariable, SysServiceWait, WaitStep, Waiting};
+use crate::error::Error;
+use crate::text::CncStr;
+
+/// A CNC program's request to a service: it writes UUID, REQUEST and, last, REQUEST_STATE, waits
+/// for RESPONSE_STATE (SVC-6, E-20), and reads RESPONSE.
+///
+/// A step stays the same until the caller says that it is done: what failed can be tried again.
+/// But a REQUEST_STATE written twice asks twice, and takes an answer away that is there (SVC-3).
+///
+/// Manual: `service-en` and `service-de` 1.03, section 2.
+///
+/// ```
+/// use core::time::Duration;
+///
+/// use ads_cnc::CncStr;
+/// use ads_cnc::service::{Call, CallStep, ServiceId, ServiceVariable, SysServiceWait};
+///
+/// let id = ServiceId::new("19719079-BA06-4740-BC02-DE5215211751")?;
+/// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
+/// let mut call = Call::new(id, CncStr::new("some-command")?, wait)?;
+///
+/// let uuid = &b"19719079-BA06-4740-BC02-DE5215211751\0"[..];
+/// assert_eq!(call.step(), CallStep::Write(ServiceVariable::Uuid, uuid));
+/// call.written(Duration::ZERO);
+/// assert_eq!(call.step(), CallStep::Write(ServiceVariable::Request, b"some-command\0"));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Call {
+    uuid: ServiceText,
+    request: ServiceText,
+    state: [u8; 4],
+    wait: SysServiceWait,
+    response: ServiceText,
+    phase: Phase,
+}
+
+#[derive(Clone, Debug)]
+enum Phase {
+    Uuid,
+    Request,
+    State,
+    Waiting(Waiting),
+    Response(u32),
+    Done(u32),
+}
+
+/// What a call needs next; shown at [`Call`].
+///
+/// Manual: `service-en` and `service-de` 1.03, section 2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CallStep<'a> {
+    /// Read this variable and pass its value to [`Call::read`].
+    Read(ServiceVariable),
+    /// Write this value to this variable, then call [`Call::written`].
+    Write(ServiceVariable, &'a [u8]),
+    /// Let some time pass, then call [`Call::poll`].
+    Wait {
+        /// When the longest wait ends, if there is one: no need to poll later than that.
+        until: Option<Duration>,
+    },
+    /// The service has answered.
+    Done {
+        /// The response state.
+        state: u32,
+        /// The response.
+        response: CncStr<'a>,
+    },
+    /// There was no response within the longest wait. The request stands until the next one.
+    TimedOut,
+}
+
+impl Call {
+    /// A request to a service, with the request state 1 of the examples.
+    ///
+    /// # Errors
+    /// [`TooLong`](crate::ErrorKind::TooLong) for a request of more than 128 bytes with its NUL.
+    pub fn new(id: ServiceId, request: CncStr<'_>, wait: SysServiceWait) -> Result<Self, Error> {
+        Self::with_state(id, request, 1, wait)
+    }
+
+    /// A request with a state of its own, which the service is told.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), [`OutOfRange`](crate::ErrorKind::OutOfRange) for a state of 0.
+    pub fn with_state(
+        id: ServiceId,
+        request: CncStr<'_>,
+        state: u32,
+        wait: SysServiceWait,
+    ) -> Result<Self, Error> {
+        Ok(Self {
+            uuid: ServiceText::new(id.text(), ServiceVariable::Uuid)?,
+            request: ServiceText::new(request, ServiceVariable::Request)?,
+            state: not_zero(state, ServiceVariable::RequestState)?,
+            wait,
+            response: ServiceText::EMPTY,
+            phase: Phase::Uuid,
+        })
+    }
+
+    /// What to do next; the same until it is done.
+    pub fn step(&self) -> CallStep<'_> {
+        match &self.phase {
+            Phase::Uuid => CallStep::Write(ServiceVariable::Uuid, self.uuid.value()),
+            Phase::Request => CallStep::Write(ServiceVariable::Request, self.request.value()),
+            Phase::State => CallStep::Write(ServiceVariable::RequestState, &self.state),
+            Phase::Waiting(waiting) => match waiting.step() {
+                WaitStep::Read(variable) => CallStep::Read(variable),
+                WaitStep::Wait { until } => CallStep::Wait { until },
+                // With a response it goes on to read that.
+                WaitStep::TimedOut | WaitStep::Done { .. } => CallStep::TimedOut,
+            },
+            Phase::Response(_) => CallStep::Read(ServiceVariable::Response),
+            Phase::Done(state) => CallStep::Done { state: *state, response: self.response.text() },
+        }
+    }
+
+    /// The variable was written, and when: the wait begins when the last was. Does nothing if none
+    /// was to be.
+    pub fn written(&mut self, now: Duration) {
+        match self.phase {
+            Phase::Uuid => self.phase = Phase::Request,
+            Phase::Request => self.phase = Phase::State,
+            Phase::State => self.phase = Phase::Waiting(self.wait.start(now)),
+            Phase::Waiting(_) | Phase::Response(_) | Phase::Done(_) => {}
+        }
+    }
+
+    /// The value that was read, and when; does nothing if none was to be.
+    ///
+    /// # Errors
+    /// A state of not just four bytes, a response of more than 128 bytes with its NUL; it is to be
+    /// read again.
+    pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
+        match &mut self.phase {
+            Phase::Waiting(waiting) => {
+                waiting.read(value, now)?;
+                if let WaitStep::Done { state } = waiting.step() {
+                    self.phase = Phase::Response(state);
+                }
+            }
+            Phase::Response(state) => {
+                self.response = ServiceText::decode(value, ServiceVariable::Response)?;
+                self.phase = Phase::Done(*state);
+            }
+            Phase::Uuid | Phase::Request | Phase::State | Phase::Done(_) => {}
+        }
+        Ok(())
+    }
+
+    /// Ends a [`CallStep::Wait`]: reads again.
+    pub fn poll(&mut self) {
+        if let Phase::Waiting(waiting) = &mut self.phase {
+            waiting.poll();
+        }
+    }
+}

@@ -1,0 +1,337 @@
+//! The side of the external services.
+
+use super::value::{self, ServiceText};
+use super::{ServiceId, ServiceVariable};
+use crate::error::Error;
+use crate::text::CncStr;
+
+/// One or more services that listen on the Service Interface of one channel.
+///
+/// It reads REQUEST_STATE; if that is not 0, UUID; if that is one of its own, REQUEST; and then all
+/// three again. What was twice the same is a request, and is handed out (SVC-2): between two reads
+/// the program may have gone on to ask another service. When it is given the answer, the host
+/// 1. reads the three once more, and drops the answer if they are not what they were: the program
+///    has given up, another service is asked now, or the CNC was reset,
+/// 2. writes RESPONSE,
+/// 3. writes 0 to REQUEST_STATE, as nobody documents whether and when a CNC does (SVC-4),
+/// 4. writes RESPONSE_STATE, which is what the program waits for (SVC-5). It comes last, as a write
+///    of REQUEST_STATE resets it (SVC-3).
+///
+/// The order of the last two and the repeated reads are assumed. Between the last read and the
+/// writes a program may still give up and ask anew: the interface has nothing that tells a late
+/// answer from one to the request that has come since. Nor does it tell a request from an earlier
+/// one of the same UUID, text and state.
+///
+/// # When something fails
+/// Every step stays the same until its end is reported, by [`read`](Self::read),
+/// [`written`](Self::written), [`answer`](Self::answer) or [`poll`](Self::poll). A read can just be
+/// repeated. Of a write that failed, report [`failed`](Self::failed): it may have arrived all the
+/// same, and the program gone on with it. So the host looks before it writes again.
+///
+/// When the CNC was reset or the connection is a new one, [`restart`](Self::restart).
+///
+/// Manual: `service-en` and `service-de` 1.03, section 2.
+///
+/// ```
+/// use ads_cnc::CncStr;
+/// use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable::*};
+///
+/// let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
+/// let mut host = Host::new(&ids);
+/// for _ in 0..2 {
+///     assert_eq!(host.step(), HostStep::Read(RequestState));
+///     host.read(&[1, 0, 0, 0])?;
+///     assert_eq!(host.step(), HostStep::Read(Uuid));
+///     host.read(b"560aacbf-6335-44a9-895a-8b27f3ed5e47\0")?;
+///     assert_eq!(host.step(), HostStep::Read(Request));
+///     host.read(b"3\0")?;
+/// }
+/// let HostStep::Serve { request, .. } = host.step() else { panic!() };
+/// assert_eq!(request, "3");
+///
+/// // Refused before anything is written: the program would wait for ever.
+/// assert!(host.answer(CncStr::new("1.732051")?, 0).is_err());
+/// host.answer(CncStr::new("1.732051")?, 1)?;
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Host<'s> {
+    services: &'s [ServiceId],
+    phase: Phase,
+    /// The request: its service by place, its text, its state.
+    service: usize,
+    request: ServiceText,
+    request_state: u32,
+    /// The answer to it, of state 0 as long as there is none.
+    response: ServiceText,
+    response_state: [u8; 4],
+    outcome: Option<Outcome>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    Idle,
+    // Is there a request, and whose?
+    PollState,
+    PollUuid,
+    PollRequest,
+    // Is it still there? Before it is handed out, and before it is answered.
+    CheckState,
+    CheckUuid,
+    CheckRequest,
+    Serving,
+    /// Writes RESPONSE.
+    Respond,
+    /// Writes REQUEST_STATE.
+    Clear,
+    /// Writes RESPONSE_STATE.
+    Finish,
+    /// The write of REQUEST_STATE failed: did it arrive?
+    LookCleared,
+    // The write of RESPONSE_STATE failed: did it arrive, or is there still nothing else?
+    LookResponseState,
+    LookRequestState,
+    LookUuid,
+}
+
+impl Phase {
+    /// What is to be read.
+    const fn asks(self) -> Option<ServiceVariable> {
+        Some(match self {
+            Self::PollState | Self::CheckState | Self::LookCleared | Self::LookRequestState => {
+                ServiceVariable::RequestState
+            }
+            Self::PollUuid | Self::CheckUuid | Self::LookUuid => ServiceVariable::Uuid,
+            Self::PollRequest | Self::CheckRequest => ServiceVariable::Request,
+            Self::LookResponseState => ServiceVariable::ResponseState,
+            Self::Idle | Self::Serving | Self::Respond | Self::Clear | Self::Finish => return None,
+        })
+    }
+}
+
+/// What a host needs next; shown at [`Host`].
+///
+/// Manual: `service-en` and `service-de` 1.03, section 2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HostStep<'a> {
+    /// Read this variable and pass its value to [`Host::read`].
+    Read(ServiceVariable),
+    /// Write this value to this variable, then call [`Host::written`] or [`Host::failed`].
+    Write(ServiceVariable, &'a [u8]),
+    /// Do what is asked, as long as it takes, then call [`Host::answer`].
+    Serve {
+        /// The service that is asked, as it was given to [`Host::new`].
+        uuid: &'a ServiceId,
+        /// What it is asked.
+        request: CncStr<'a>,
+        /// The request state; not 0.
+        request_state: u32,
+    },
+    /// There is nothing to do; let some time pass, then call [`Host::poll`].
+    Wait,
+}
+
+/// How an answer ended: [`Host::outcome`]. The manuals know only the first; the other is assumed.
+///
+/// ```
+/// use ads_cnc::CncStr;
+/// use ads_cnc::service::{Host, Interface, HostStep, Outcome, ServiceId, ServiceVariable::*};
+///
+/// let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
+/// let (mut host, mut interface) = (Host::new(&ids), Interface::new());
+/// interface.write(Uuid, b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0")?;
+/// interface.write(RequestState, &[1, 0, 0, 0])?;
+/// while let HostStep::Read(variable) = host.step() {
+///     host.read(interface.read(variable))?;
+/// }
+/// interface.reset(); // while the service is at work
+/// host.answer(CncStr::new("too late")?, 1)?;
+/// host.read(interface.read(RequestState))?;
+/// assert_eq!(host.outcome(), Some(Outcome::Dropped));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Outcome {
+    /// It was written.
+    Answered,
+    /// It was dropped, or not all of it written: the request was no longer there.
+    Dropped,
+}
+
+impl<'s> Host<'s> {
+    /// Services on one channel. Of two with the same UUID the first is asked.
+    pub const fn new(services: &'s [ServiceId]) -> Self {
+        Self {
+            services,
+            phase: Phase::PollState,
+            service: 0,
+            request: ServiceText::EMPTY,
+            request_state: 0,
+            response: ServiceText::EMPTY,
+            response_state: [0; 4],
+            outcome: None,
+        }
+    }
+
+    /// What to do next; the same until it is done.
+    pub fn step(&self) -> HostStep<'_> {
+        if let Some(variable) = self.phase.asks() {
+            return HostStep::Read(variable);
+        }
+        match self.phase {
+            Phase::Respond => HostStep::Write(ServiceVariable::Response, self.response.value()),
+            Phase::Clear => HostStep::Write(ServiceVariable::RequestState, &[0; 4]),
+            Phase::Finish => HostStep::Write(ServiceVariable::ResponseState, &self.response_state),
+            Phase::Serving => {
+                // It was found there.
+                self.services.get(self.service).map_or(HostStep::Wait, |uuid| HostStep::Serve {
+                    uuid,
+                    request: self.request.text(),
+                    request_state: self.request_state,
+                })
+            }
+            _ => HostStep::Wait,
+        }
+    }
+
+    /// How the last answer ended; none before the first, and while one is on its way.
+    pub const fn outcome(&self) -> Option<Outcome> {
+        self.outcome
+    }
+
+    /// The value that was read; does nothing if none was to be.
+    ///
+    /// # Errors
+    /// - [`Truncated`](crate::ErrorKind::Truncated), [`Trailing`](crate::ErrorKind::Trailing): a
+    ///   state of not just four bytes,
+    /// - [`TooLong`](crate::ErrorKind::TooLong): a request of more than 128 bytes with its NUL.
+    ///
+    /// What is wrong when it looks for a request is none; it waits for the next
+    /// [`poll`](Self::poll). Later it reads again.
+    pub fn read(&mut self, value: &[u8]) -> Result<(), Error> {
+        let Some(variable) = self.phase.asks() else { return Ok(()) };
+        let state = || value::state(value, variable);
+        let request = || ServiceText::decode(value, variable);
+        let phase = self.phase;
+        if matches!(phase, Phase::PollState | Phase::PollRequest) {
+            // What is wrong there is no request.
+            self.phase = Phase::Idle;
+        }
+        self.phase = match phase {
+            Phase::PollState => {
+                self.response_state = [0; 4];
+                self.request_state = state()?;
+                if self.request_state == 0 { Phase::Idle } else { Phase::PollUuid }
+            }
+            Phase::PollUuid => match self.service_of(value) {
+                Some(service) => {
+                    self.service = service;
+                    Phase::PollRequest
+                }
+                None => Phase::Idle,
+            },
+            Phase::PollRequest => {
+                self.request = request()?;
+                Phase::CheckState
+            }
+            Phase::LookCleared if state()? == 0 => Phase::Finish,
+            Phase::CheckState | Phase::LookCleared => {
+                self.go_on(state()? == self.request_state, Phase::CheckUuid)
+            }
+            Phase::CheckUuid => self.go_on(self.is_own(value), Phase::CheckRequest),
+            Phase::CheckRequest => {
+                let next = if self.has_answer() { Phase::Respond } else { Phase::Serving };
+                // One too long is another.
+                self.go_on(request() == Ok(self.request), next)
+            }
+            Phase::LookResponseState if state()?.to_le_bytes() == self.response_state => {
+                self.end(Outcome::Answered)
+            }
+            Phase::LookResponseState => self.go_on(state()? == 0, Phase::LookRequestState),
+            Phase::LookRequestState => self.go_on(state()? == 0, Phase::LookUuid),
+            Phase::LookUuid => self.go_on(self.is_own(value), Phase::Finish),
+            other => other,
+        };
+        Ok(())
+    }
+
+    /// The next phase if all is as it was; otherwise the request is not there any more.
+    fn go_on(&mut self, as_it_was: bool, next: Phase) -> Phase {
+        match as_it_was {
+            true => next,
+            false if self.has_answer() => self.end(Outcome::Dropped),
+            false => Phase::Idle,
+        }
+    }
+
+    fn has_answer(&self) -> bool {
+        self.response_state != [0; 4]
+    }
+
+    fn service_of(&self, value: &[u8]) -> Option<usize> {
+        let id = ServiceId::from_text(CncStr::until_nul(value)).ok()?;
+        self.services.iter().position(|service| *service == id)
+    }
+
+    /// Whether the UUID is that of the request that was served.
+    fn is_own(&self, value: &[u8]) -> bool {
+        self.service_of(value) == Some(self.service)
+    }
+
+    fn end(&mut self, outcome: Outcome) -> Phase {
+        self.outcome = Some(outcome);
+        Phase::Idle
+    }
+
+    /// The answer to the request that [`step`](Self::step) has handed out; does nothing if there
+    /// is none.
+    ///
+    /// # Errors
+    /// Nothing is written then, and another answer can be given:
+    /// - [`TooLong`](crate::ErrorKind::TooLong): a response of more than 128 bytes with its NUL,
+    /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): a response state of 0 (SVC-5, E-35).
+    pub fn answer(&mut self, response: CncStr<'_>, response_state: u32) -> Result<(), Error> {
+        let response = ServiceText::new(response, ServiceVariable::Response)?;
+        let response_state = value::not_zero(response_state, ServiceVariable::ResponseState)?;
+        if self.phase == Phase::Serving {
+            (self.response, self.response_state) = (response, response_state);
+            self.outcome = None;
+            self.phase = Phase::CheckState;
+        }
+        Ok(())
+    }
+
+    /// The variable was written; does nothing if none was to be.
+    pub fn written(&mut self) {
+        self.phase = match self.phase {
+            Phase::Respond => Phase::Clear,
+            Phase::Clear => Phase::Finish,
+            Phase::Finish => self.end(Outcome::Answered),
+            other => other,
+        };
+    }
+
+    /// A step failed. After a write that may have arrived the host looks at the interface before
+    /// it writes again; any other step stays as it is.
+    pub fn failed(&mut self) {
+        self.phase = match self.phase {
+            Phase::Respond => Phase::CheckState,
+            Phase::Clear => Phase::LookCleared,
+            Phase::Finish => Phase::LookResponseState,
+            other => other,
+        };
+    }
+
+    /// Ends a [`HostStep::Wait`]: looks for a request.
+    pub fn poll(&mut self) {
+        if self.phase == Phase::Idle {
+            self.phase = Phase::PollState;
+        }
+    }
+
+    /// Forgets the request and its answer, and looks for a request. One that still stands is
+    /// served again.
+    pub fn restart(&mut self) {
+        self.phase = Phase::PollState;
+    }
+}

@@ -1,0 +1,129 @@
+//! The interface itself, as a CNC has it.
+
+use super::ServiceVariable;
+use super::value::{self, ServiceText};
+use crate::error::Error;
+
+/// The Service Interface of one channel: what a CNC does with its five variables.
+///
+/// - Whoever writes REQUEST_STATE, to whatever value, sets RESPONSE_STATE to 0 (SVC-3). The
+///   manuals say so of the CNC program; that it holds of other writers and of 0 is assumed.
+/// - When the service has finished, REQUEST_STATE becomes 0 (SVC-4). What tells the interface is
+///   assumed: see [`Clears`].
+/// - All five are empty or 0 at the start, which is assumed. UUID has 128 bytes like the other
+///   texts, which is assumed too.
+///
+/// Manual: `service-en` and `service-de` 1.03, section 2.
+///
+/// ```
+/// use ads_cnc::service::{Interface, ServiceVariable::*};
+///
+/// let mut interface = Interface::new();
+/// interface.write(Request, b"3\0")?;
+/// interface.write(RequestState, &[1, 0, 0, 0])?;
+/// assert_eq!(interface.read(Request), b"3\0");
+///
+/// interface.write(ResponseState, &[99, 0, 0, 0])?;
+/// assert_eq!(interface.read(RequestState), [0; 4]);
+/// interface.write(RequestState, &[1, 0, 0, 0])?;
+/// assert_eq!(interface.read(ResponseState), [0; 4]);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Interface {
+    uuid: ServiceText,
+    request: ServiceText,
+    request_state: [u8; 4],
+    response_state: [u8; 4],
+    response: ServiceText,
+    clears: Clears,
+}
+
+/// When an interface sets REQUEST_STATE to 0 of itself (SVC-4). Nobody documents it; a [`Host`]
+/// works with either.
+///
+/// [`Host`]: super::Host
+///
+/// ```
+/// use ads_cnc::service::{Clears, Interface, ServiceVariable::*};
+///
+/// let mut interface = Interface::with(Clears::Never);
+/// interface.write(RequestState, &[1, 0, 0, 0])?;
+/// interface.write(ResponseState, &[1, 0, 0, 0])?;
+/// assert_eq!(interface.read(RequestState), [1, 0, 0, 0]);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Clears {
+    /// When RESPONSE_STATE is written: with that the service has finished.
+    #[default]
+    OnResponseState,
+    /// Not at all: it leaves that to the service.
+    Never,
+}
+
+impl Interface {
+    /// An interface that nobody has used yet.
+    pub const fn new() -> Self {
+        Self::with(Clears::OnResponseState)
+    }
+
+    /// An interface that sets REQUEST_STATE to 0 when `clears` says.
+    pub const fn with(clears: Clears) -> Self {
+        Self {
+            uuid: ServiceText::EMPTY,
+            request: ServiceText::EMPTY,
+            request_state: [0; 4],
+            response_state: [0; 4],
+            response: ServiceText::EMPTY,
+            clears,
+        }
+    }
+
+    /// The value of a variable: a text with its NUL, or the four bytes of a state.
+    pub fn read(&self, variable: ServiceVariable) -> &[u8] {
+        match variable {
+            ServiceVariable::Uuid => self.uuid.value(),
+            ServiceVariable::Request => self.request.value(),
+            ServiceVariable::RequestState => &self.request_state,
+            ServiceVariable::ResponseState => &self.response_state,
+            ServiceVariable::Response => self.response.value(),
+        }
+    }
+
+    /// Writes a variable, with what that does to the others.
+    ///
+    /// # Errors
+    /// [`TooLong`](crate::ErrorKind::TooLong) for a text of more than 128 bytes with its NUL,
+    /// [`Truncated`](crate::ErrorKind::Truncated) and [`Trailing`](crate::ErrorKind::Trailing)
+    /// for a state of not just four bytes; nothing is written.
+    pub fn write(&mut self, variable: ServiceVariable, value: &[u8]) -> Result<(), Error> {
+        match variable {
+            ServiceVariable::Uuid => self.uuid = ServiceText::decode(value, variable)?,
+            ServiceVariable::Request => self.request = ServiceText::decode(value, variable)?,
+            ServiceVariable::Response => self.response = ServiceText::decode(value, variable)?,
+            ServiceVariable::RequestState => {
+                self.request_state = value::state(value, variable)?.to_le_bytes();
+                self.response_state = [0; 4];
+            }
+            ServiceVariable::ResponseState => {
+                self.response_state = value::state(value, variable)?.to_le_bytes();
+                if self.clears == Clears::OnResponseState {
+                    self.request_state = [0; 4];
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Everything as at the start: the CNC was reset.
+    pub fn reset(&mut self) {
+        *self = Self::with(self.clears);
+    }
+}
+
+impl Default for Interface {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,81 @@
+//! The values of the five variables, as they are read and written.
+
+use core::fmt;
+
+use super::ServiceVariable;
+use crate::bytes::{to_len, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::limits::SERVICE_TEXT_MAX;
+use crate::text::CncStr;
+
+/// A text with its NUL, in a field of 128 bytes.
+#[derive(Clone, Copy)]
+pub(super) struct ServiceText {
+    bytes: [u8; SERVICE_TEXT_MAX],
+    /// With the NUL.
+    len: u8,
+}
+
+impl ServiceText {
+    pub(super) const EMPTY: Self = Self { bytes: [0; SERVICE_TEXT_MAX], len: 1 };
+
+    /// Takes a text that fits the field.
+    pub(super) fn new(text: CncStr<'_>, variable: ServiceVariable) -> Result<Self, Error> {
+        let len = text.len().saturating_add(1);
+        let Some(len) =
+            u8::try_from(len).ok().filter(|&len| to_len(len.into()) <= SERVICE_TEXT_MAX)
+        else {
+            let (max, field) = (to_u32(SERVICE_TEXT_MAX), variable.field());
+            return Err(Error::new(ErrorKind::TooLong, field, 0, max, to_u32(len)));
+        };
+        let mut bytes = [0; SERVICE_TEXT_MAX];
+        bytes.iter_mut().zip(text.bytes()).for_each(|(byte, new)| *byte = new);
+        Ok(Self { bytes, len })
+    }
+
+    /// Reads a value: the text ends at the first NUL or at the end (VAR-22).
+    pub(super) fn decode(value: &[u8], variable: ServiceVariable) -> Result<Self, Error> {
+        Self::new(CncStr::until_nul(value), variable)
+    }
+
+    pub(super) fn text(&self) -> CncStr<'_> {
+        CncStr::until_nul(&self.bytes)
+    }
+
+    /// The value: the text and one NUL.
+    pub(super) fn value(&self) -> &[u8] {
+        self.bytes.get(..to_len(self.len.into())).unwrap_or(&self.bytes)
+    }
+}
+
+impl PartialEq for ServiceText {
+    fn eq(&self, other: &Self) -> bool {
+        self.bytes == other.bytes
+    }
+}
+
+impl Eq for ServiceText {}
+
+impl fmt::Debug for ServiceText {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.text(), f)
+    }
+}
+
+/// Reads the value of a state.
+pub(super) fn state(value: &[u8], variable: ServiceVariable) -> Result<u32, Error> {
+    let given = to_u32(value.len());
+    match value.split_first_chunk() {
+        None => Err(Error::new(ErrorKind::Truncated, variable.field(), 0, 4, given)),
+        Some((le, [])) => Ok(u32::from_le_bytes(*le)),
+        Some(_) => Err(Error::new(ErrorKind::Trailing, variable.field(), 4, 4, given)),
+    }
+}
+
+/// A state that has to tell something: not 0.
+pub(super) fn not_zero(state: u32, variable: ServiceVariable) -> Result<[u8; 4], Error> {
+    match state {
+        0 => Err(Error::new(ErrorKind::OutOfRange, variable.field(), 0, 1, 0)),
+        _ => Ok(state.to_le_bytes()),
+    }
+}
