@@ -21,10 +21,7 @@
 //! | 4.3.9 … 4.3.11, axis interface | [`operation::AxisHandleByName`] … |
 //! | 5, ADS services | [`ads`] |
 //! | `stream-en`, data streaming | [`streaming`] |
-//!
-//! | manual (`service-en`, `service-de` 1.03) | here |
-//! |---|---|
-//! | 1 and 2, Service Interface; 3 of `service-en`, SysServiceWait | [`service`] |
+//! | `service-en`, `service-de` 1.03, Service Interface | [`service`] |
 //!
 //! [`operation`] puts them together: where a function is, what goes in, what comes out, for
 //! clients and for servers. [`layout`] has the field table of every stream.
