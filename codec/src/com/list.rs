@@ -9,6 +9,7 @@ use super::descriptor::DescriptorLayout;
 use crate::bytes::{Reader, Writer};
 use crate::error::Error;
 use crate::layout::Stream;
+use crate::limits::DESCRIPTOR_LEN;
 use crate::stream::{Decode, Encode};
 
 #[doc = include_str!("../../doc/object-descriptors.md")]
@@ -67,7 +68,8 @@ impl<'a> Decode<'a> for DescriptorsRef<'a> {
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         Reader::new(Self::STREAM, bytes)?;
-        match <[DescriptorLayout]>::ref_from_bytes(bytes) {
+        let count = bytes.len() / DESCRIPTOR_LEN;
+        match <[DescriptorLayout]>::ref_from_bytes_with_elems(bytes, count) {
             Ok(layouts) if !layouts.is_empty() => Ok(Self(layouts)),
             // The table finds the place, off the fast path.
             _ => match Self::STREAM.walk(bytes, |_| ()) {

@@ -74,12 +74,12 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
                     self.take(field, 0, count)?;
                 }
                 Size::Items { each, max } => {
-                    let at = self.input.at();
+                    let mut at = self.input.at();
                     let items = self.input.items(counter, count, each, max)?;
-                    let starts = (at..).step_by(crate::bytes::to_len(each));
-                    let chunks = items.chunks_exact(crate::bytes::to_len(each).max(1));
-                    for ((item, offset), bytes) in (0..).zip(starts).zip(chunks) {
-                        self.visit(field, item, offset, bytes);
+                    let size = crate::bytes::to_len(each).max(1);
+                    for (item, bytes) in (0..).zip(items.chunks_exact(size)) {
+                        self.visit(field, item, at, bytes);
+                        at = at.saturating_add(each);
                     }
                 }
                 Size::Terminated { may_be_absent: true, .. } if self.input.is_empty() => {

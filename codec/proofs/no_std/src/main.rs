@@ -13,6 +13,7 @@ use ads_cnc::{Decode, DescriptionRef, DescriptorsRef, Encode, Error, HandleReadR
 
 #[cfg(feature = "alloc")]
 mod bump;
+mod everything;
 
 // The kernel enters with a stack that calls have to find aligned.
 global_asm!(".globl _start", "_start:", "and rsp, -16", "call {main}", "ud2", main = sym main);
@@ -45,6 +46,11 @@ fn prove() -> Result<bool, Error> {
         data: op.encode(&mut buf)?,
     };
     good &= matches!(call.dispatch(), Ok(Request::ReadByName(again)) if again == op);
+    good &= everything::runs(opaque(&[0; 64]));
+    #[cfg(feature = "no_panic_negative")]
+    {
+        good &= opaque(DESCRIPTION)[opaque(&[1])[0] as usize] == 0;
+    }
     let (index_group, index_offset) = (IndexGroup::new(0xF005), IndexOffset::new(0));
     good &= Call { index_group, index_offset, ..call }.dispatch().is_err();
     #[cfg(any(feature = "alloc", feature = "negative"))]
@@ -65,8 +71,19 @@ fn exit(code: i32) -> ! {
     unsafe { asm!("syscall", in("rax") 231, in("rdi") code, options(noreturn, nostack)) }
 }
 
+#[cfg(feature = "no_panic")]
+unsafe extern "C" {
+    fn a_panic_is_left_in_the_codec() -> !;
+}
+
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
+    #[cfg(feature = "no_panic")]
+    // SAFETY: never runs, as a program that could run it does not link.
+    unsafe {
+        a_panic_is_left_in_the_codec()
+    }
+    #[cfg(not(feature = "no_panic"))]
     exit(3)
 }
 

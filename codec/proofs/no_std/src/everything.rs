@@ -1,0 +1,154 @@
+//! Uses every borrowed reading, every operation, framing and the state machines, on bytes that the
+//! compiler does not know, so that each panic they might hold is linked.
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::*;
+use ads_cnc::operation::{Call, Service};
+use ads_cnc::service::{
+    CallStep, Host, HostStep, Interface as Services, ServiceId, SysServiceWait,
+};
+use ads_cnc::streaming::{Ack, Interface, NcText, Sender};
+use ads_cnc::*;
+use core::hint::black_box;
+use core::time::Duration;
+
+/// Reads, and writes what was read.
+fn both<'a, T: Decode<'a> + Encode>(bytes: &'a [u8]) -> bool {
+    let mut buf = [0; 2200];
+    let written = T::decode(bytes).and_then(|value| value.encode(&mut buf).map(<[u8]>::len));
+    black_box(written.map_or_else(|error| error.offset() as usize, |len| len)) < usize::MAX
+}
+
+fn readings(bytes: &[u8]) -> bool {
+    both::<AmsTcpHeader>(bytes)
+        & both::<AmsHeader>(bytes)
+        & both::<ReadRequest>(bytes)
+        & both::<ReadReplyRef<'_>>(bytes)
+        & both::<WriteRequestRef<'_>>(bytes)
+        & both::<WriteReply>(bytes)
+        & both::<ReadWriteRequestRef<'_>>(bytes)
+        & both::<ReadWriteReplyRef<'_>>(bytes)
+        & both::<ObjectCount>(bytes)
+        & both::<DescriptorRef<'_>>(bytes)
+        & both::<DescriptorsRef<'_>>(bytes)
+        & both::<VariableKindRef<'_>>(bytes)
+        & both::<VariableCount>(bytes)
+        & both::<VariableIndexKindRef<'_>>(bytes)
+        & both::<DescriptionRef<'_>>(bytes)
+        & both::<VariableNameRef<'_>>(bytes)
+        & both::<Handle>(bytes)
+        & both::<HandleReadRef<'_>>(bytes)
+        & both::<HandleWriteRef<'_>>(bytes)
+        & both::<NameWriteRef<'_>>(bytes)
+        & both::<ExtendedReply>(bytes)
+        & both::<ValueRef<'_>>(bytes)
+}
+
+fn walks(bytes: &[u8]) -> usize {
+    let mut seen = 0_usize;
+    for stream in layout::Stream::all() {
+        let _fault = stream.walk(bytes, |segment| seen = seen.wrapping_add(segment.bytes.len()));
+    }
+    seen
+}
+
+/// Dispatch of any call, its encoding again, and the reading of any reply to it.
+fn operations(bytes: &[u8]) -> Result<usize, Error> {
+    let number = |at: usize| {
+        let four = bytes.get(at..).and_then(|rest| rest.first_chunk());
+        four.map_or(0, |four| u32::from_le_bytes(*four))
+    };
+    let service = match number(0) & 3 {
+        0 => Service::Read,
+        1 => Service::Write,
+        _ => Service::ReadWrite,
+    };
+    let call = Call {
+        port: AmsPort(number(1) as u16),
+        service,
+        index_group: IndexGroup::new(number(4)),
+        index_offset: IndexOffset::new(number(8)),
+        read_length: number(12),
+        data: bytes,
+    };
+    let Ok(request) = call.dispatch() else { return Ok(0) };
+    let (mut buf, mut out) = ([0; 2200], [0; 2200]);
+    let again = request.encode(&mut buf)?.data.len();
+    let reply = request.decode_reply(bytes)?;
+    Ok(reply.encode(&mut out)?.len().wrapping_add(again))
+}
+
+fn frames(bytes: &[u8]) -> Result<usize, Error> {
+    let mut buf = [0; 256];
+    match FrameRef::split(bytes, 64)? {
+        Some((frame, _)) => Ok(frame.encode(&mut buf)?.len()),
+        None => Ok(0),
+    }
+}
+
+fn texts(bytes: &[u8]) -> Result<usize, Error> {
+    let text = CncStr::from_bytes(bytes)?;
+    let path = VariablePath::from_text(text)?;
+    let mut buf = [0; 300];
+    let element = path.write_element(Numbers::from(&[1, 2]), &mut buf)?;
+    let value = ValueRef { bytes }.elements(VariableType(9), element.elements())?;
+    Ok(element.parts().count().wrapping_add(value.count()))
+}
+
+fn streams(bytes: &[u8]) -> usize {
+    let Ok(text) = NcText::new(bytes) else { return 0 };
+    let mut sender = Sender::new(text);
+    let mut interface = Interface::new();
+    for _ in 0..black_box(3) {
+        let Some(packet) = sender.packet() else { break };
+        let ack = interface.write(packet);
+        let _none_out = sender.acknowledge(ack);
+        if ack == Ack::Later {
+            let _read = interface.read();
+        }
+    }
+    text.findings().count().wrapping_add(sender.left_bytes())
+}
+
+fn services(bytes: &[u8]) -> Result<usize, Error> {
+    let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
+    let mut host = Host::new(&ids);
+    let mut interface = Services::new();
+    let wait = SysServiceWait::from_parameters(Some(0), Some(5000), Some(1))?;
+    let mut call = service::Call::new(ids[0], CncStr::from_bytes(bytes)?, wait)?;
+    for now in 0..black_box(20) {
+        let now = Duration::from_millis(now);
+        match call.step() {
+            CallStep::Read(variable) => call.read(interface.read(variable), now)?,
+            CallStep::Write(variable, value) => {
+                interface.write(variable, value)?;
+                call.written(now);
+            }
+            _ => call.poll(),
+        }
+        match host.step() {
+            HostStep::Read(variable) => host.read(interface.read(variable))?,
+            HostStep::Write(variable, value) => {
+                interface.write(variable, value)?;
+                host.written();
+            }
+            HostStep::Serve { .. } => host.answer(CncStr::EMPTY, 1)?,
+            HostStep::Wait => host.poll(),
+        }
+    }
+    Ok(0)
+}
+
+/// Runs all of it; what comes of it does not matter.
+pub(crate) fn runs(bytes: &[u8]) -> bool {
+    let numbers = [
+        operations(bytes).unwrap_or(1),
+        frames(bytes).unwrap_or(2),
+        texts(bytes).unwrap_or(3),
+        services(bytes).unwrap_or(4),
+        streams(bytes),
+        walks(bytes),
+    ];
+    black_box(numbers);
+    readings(bytes)
+}
