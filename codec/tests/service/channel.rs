@@ -1,0 +1,173 @@
+//! A channel with services, a program and the five variables between them.
+
+use std::time::Duration;
+
+use ads_cnc::CncStr;
+use ads_cnc::ErrorKind::{self};
+use ads_cnc::service::ServiceVariable::{Request, RequestState, Uuid};
+use ads_cnc::service::*;
+
+use crate::common::Fault;
+
+pub(crate) const ROOT: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
+pub(crate) const COMMAND: &str = "19719079-BA06-4740-BC02-DE5215211751";
+
+pub(crate) fn id(text: &str) -> ServiceId {
+    ServiceId::new(text).unwrap()
+}
+
+pub(crate) fn text(text: &str) -> CncStr<'_> {
+    CncStr::new(text).unwrap()
+}
+
+pub(crate) fn millis(millis: u64) -> Duration {
+    Duration::from_millis(millis)
+}
+
+pub(crate) fn fault(
+    kind: ErrorKind,
+    field: &'static str,
+    offset: usize,
+    numbers: (usize, usize),
+) -> Fault {
+    Fault { kind, field, offset, expected: numbers.0, found: numbers.1 }
+}
+
+/// The example's service, which the manuals have in C.
+pub(crate) fn square_root(request: &str) -> (String, u32) {
+    let x: f64 = request.parse().unwrap_or(0.0);
+    if x >= 0.0 {
+        return (format!("{:.6}", x.sqrt()), 1);
+    }
+    (format!("ERROR: cannot calc square root of negative number {x:.6}"), 99)
+}
+
+/// The interface of a channel, with a record of what was written to it.
+#[derive(Default)]
+pub(crate) struct Channel {
+    pub(crate) interface: Interface,
+    pub(crate) written: Vec<(ServiceVariable, Vec<u8>)>,
+}
+
+impl Channel {
+    pub(crate) fn with(clears: Clears) -> Self {
+        Self { interface: Interface::with(clears), written: Vec::new() }
+    }
+
+    pub(crate) fn write(&mut self, variable: ServiceVariable, value: &[u8]) {
+        self.interface.write(variable, value).unwrap();
+        self.written.push((variable, value.to_vec()));
+    }
+
+    /// One request, as a program writes it.
+    pub(crate) fn ask(&mut self, uuid: &str, request: &str) {
+        self.write(Uuid, format!("{uuid}\0").as_bytes());
+        self.write(Request, format!("{request}\0").as_bytes());
+        self.write(RequestState, &[1, 0, 0, 0]);
+        self.written.clear();
+    }
+
+    /// Does a step that is no service, and says what it was.
+    pub(crate) fn step(&mut self, host: &mut Host<'_>) -> Did {
+        match host.step() {
+            HostStep::Read(variable) => {
+                host.read(self.interface.read(variable)).unwrap();
+                Did::Read(variable)
+            }
+            HostStep::Write(variable, value) => {
+                self.write(variable, value);
+                host.written();
+                Did::Write(variable)
+            }
+            HostStep::Serve { .. } => Did::Serve,
+            HostStep::Wait => {
+                host.poll();
+                Did::Wait
+            }
+        }
+    }
+
+    /// Steps until one is not a read.
+    pub(crate) fn skip_reads(&mut self, host: &mut Host<'_>) -> Did {
+        for _ in 0..50 {
+            match host.step() {
+                HostStep::Read(_) => self.step(host),
+                HostStep::Write(variable, _) => return Did::Write(variable),
+                HostStep::Serve { .. } => return Did::Serve,
+                HostStep::Wait => return Did::Wait,
+            };
+        }
+        panic!("reads and reads: {:?}", host.step());
+    }
+
+    /// Steps until this is to be written.
+    pub(crate) fn reach(&mut self, host: &mut Host<'_>, variable: ServiceVariable) {
+        let there = (0..50).any(|_| {
+            let there = self.skip_reads(host) == Did::Write(variable);
+            if !there {
+                self.step(host);
+            }
+            there
+        });
+        assert!(there, "{variable} is not written: {:?}", host.step());
+    }
+
+    /// Steps until there is nothing to do.
+    pub(crate) fn rest(&mut self, host: &mut Host<'_>) {
+        assert!((0..50).any(|_| self.step(host) == Did::Wait), "{:?}", host.step());
+    }
+
+    /// Looks for a request, serves it, and goes on to the next wait; says whether there was one.
+    pub(crate) fn serve(
+        &mut self,
+        host: &mut Host<'_>,
+        service: impl Fn(&str) -> (String, u32),
+    ) -> bool {
+        host.poll();
+        if self.skip_reads(host) != Did::Serve {
+            return false;
+        }
+        let HostStep::Serve { request, .. } = host.step() else { unreachable!() };
+        let (response, state) = service(&request.to_string());
+        host.answer(text(&response), state).unwrap();
+        self.rest(host);
+        true
+    }
+
+    /// Steps of the program that are no waits; says how it ended, if it did.
+    pub(crate) fn run(
+        &mut self,
+        call: &mut Call,
+        now: Duration,
+    ) -> Option<Result<(u32, String), ()>> {
+        call.poll();
+        loop {
+            match call.step() {
+                CallStep::Read(variable) => call.read(self.interface.read(variable), now).unwrap(),
+                CallStep::Write(variable, value) => {
+                    self.write(variable, value);
+                    call.written(now);
+                }
+                CallStep::Wait { .. } => return None,
+                CallStep::Done { state, response } => {
+                    return Some(Ok((state, response.to_string())));
+                }
+                CallStep::TimedOut => return Some(Err(())),
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Did {
+    Read(ServiceVariable),
+    Write(ServiceVariable),
+    Serve,
+    Wait,
+}
+
+pub(crate) fn call(uuid: &str, request: &str, parameters: [Option<u32>; 3]) -> Call {
+    let [p1, p2, p3] = parameters;
+    let wait = SysServiceWait::from_parameters(p1, p2, p3).unwrap();
+    Call::new(id(uuid), text(request), wait).unwrap()
+}

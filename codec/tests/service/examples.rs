@@ -1,0 +1,276 @@
+//! The examples of the manuals, and who is asked.
+
+use std::time::Duration;
+
+use ads_cnc::ErrorKind::*;
+use ads_cnc::layout::Stream;
+use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
+use ads_cnc::service::*;
+use ads_cnc::{CncStr, VariablePath};
+
+use crate::channel::*;
+use crate::common::Fault;
+
+/// SVC-1: the names, which are well-formed, and the types.
+#[test]
+fn the_five_variables() {
+    let names = ServiceVariable::ALL.map(ServiceVariable::name);
+    assert_eq!(
+        names,
+        [
+            "V.G.SERVICE.UUID",
+            "V.G.SERVICE.REQUEST",
+            "V.G.SERVICE.REQUEST_STATE",
+            "V.G.SERVICE.RESPONSE_STATE",
+            "V.G.SERVICE.RESPONSE"
+        ]
+    );
+    let interface = Interface::new();
+    for variable in ServiceVariable::ALL {
+        assert_eq!(ServiceVariable::by_name(variable.name()), Some(variable));
+        assert_eq!(VariablePath::new(variable.name()).unwrap().parts().count(), 2);
+        let size = variable.var_type().element_size();
+        assert_eq!(interface.read(variable).len(), size.unwrap_or(1) as usize, "{variable}");
+    }
+    assert_eq!(ServiceVariable::by_name("V.G.SERVICE"), None);
+}
+
+/// SVC-9: the square root of 3, and of a negative number, whenever the interface clears
+/// REQUEST_STATE; and the order of what is written (SVC-4, SVC-5).
+#[test]
+fn square_root_example() {
+    for (request, response, state) in [
+        ("3", "1.732051", 1),
+        ("-3", "ERROR: cannot calc square root of negative number -3.000000", 99),
+    ] {
+        for clears in [Clears::OnResponseState, Clears::Never] {
+            let mut channel = Channel::with(clears);
+            let ids = [id(ROOT)];
+            let mut host = Host::new(&ids);
+            assert!(!channel.serve(&mut host, square_root));
+
+            let mut program = call(ROOT, request, [None; 3]);
+            assert_eq!(channel.run(&mut program, millis(0)), None);
+            assert!(channel.serve(&mut host, square_root));
+            assert_eq!(host.outcome(), Some(Outcome::Answered));
+            let answer = Some(Ok((state, response.to_string())));
+            assert_eq!(channel.run(&mut program, millis(10)), answer);
+
+            let zero_ended = |text: &str| format!("{text}\0").into_bytes();
+            assert_eq!(
+                channel.written,
+                [
+                    (Uuid, zero_ended(ROOT)),
+                    (Request, zero_ended(request)),
+                    (RequestState, vec![1, 0, 0, 0]),
+                    (Response, zero_ended(response)),
+                    (RequestState, vec![0, 0, 0, 0]),
+                    (ResponseState, state.to_le_bytes().to_vec()),
+                ]
+            );
+            // It is answered once.
+            assert!(!channel.serve(&mut host, square_root));
+        }
+    }
+}
+
+/// E-21: with a digit too few, as the NC program of the example has it, nobody is asked.
+#[test]
+fn the_uuid_of_the_example_with_a_digit_too_few() {
+    const SHORT: &str = "560AACBF-6335-44a9-895A-B27F3ED5E47";
+    assert_eq!(
+        Fault::of(ServiceId::new(SHORT).unwrap_err()),
+        fault(Truncated, "uuid", 0, (36, 35))
+    );
+    let mut channel = Channel::default();
+    let ids = [id(ROOT)];
+    let mut host = Host::new(&ids);
+    channel.ask(SHORT, "3");
+    assert!(!channel.serve(&mut host, square_root));
+    channel.ask(ROOT, "3");
+    assert!(channel.serve(&mut host, square_root));
+}
+
+#[test]
+fn uuids() {
+    let refused = |text| {
+        let error = ServiceId::new(text).unwrap_err();
+        assert_eq!(error.field().stream(), Stream::Service);
+        assert_eq!(ServiceId::from_text(CncStr::new(text).unwrap()), Err(error));
+        Fault::of(error)
+    };
+    let unexpected =
+        |at, character: char| fault(Unexpected, "uuid", at, (0, u32::from(character) as usize));
+    assert_eq!(refused(""), fault(Truncated, "uuid", 0, (36, 0)));
+    assert_eq!(refused("560AACBF-6335-44a9-895A-8B27F3ED5E470"), {
+        fault(Trailing, "uuid", 36, (36, 37))
+    });
+    assert_eq!(refused("560AACBF-6335-44a9-895A-B27F3ED5SE47"), unexpected(32, 'S'));
+    assert_eq!(refused("560AACBF06335-44a9-895A-8B27F3ED5E47"), unexpected(8, '0'));
+    assert_eq!(refused("560AACBF-6335-44a9-895A--B27F3ED5E47"), unexpected(24, '-'));
+    assert_eq!(refused("560AACBF-6335-44ä9-895A-8B27F3ED5E47"), unexpected(16, 'ä'));
+
+    // SVC-7: no regard to case, and yet as it was written.
+    let (upper, lower) = (ROOT.to_uppercase(), ROOT.to_lowercase());
+    assert_eq!(id(&upper), id(&lower));
+    assert_eq!(std::collections::HashSet::from([id(&upper), id(&lower)]).len(), 1);
+    assert_eq!((id(ROOT).to_string(), id(ROOT).text()), (ROOT.to_string(), text(ROOT)));
+    assert_ne!(id(ROOT), id(COMMAND));
+    assert_eq!(ROOT.parse(), Ok(id(ROOT)));
+    let mut channel = Channel::default();
+    let ids = [id(&upper)];
+    let mut host = Host::new(&ids);
+    channel.ask(&lower, "3");
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    let HostStep::Serve { uuid, request, request_state } = host.step() else { unreachable!() };
+    assert_eq!((uuid.to_string(), request, request_state), (upper, text("3"), 1));
+}
+
+/// SVC-8: the example of the cycle, which waits for 5 seconds at most.
+#[test]
+fn sys_service_wait_example() {
+    let program = || call(COMMAND, "some-command", [None, Some(5000), Some(1)]);
+    let ids = [id(COMMAND)];
+    let service = |request: &str| (format!("did {request}"), 7);
+    let answer = Some(Ok((7, "did some-command".to_string())));
+    let start = millis(1_000_000);
+
+    // In time, and with the last look.
+    for (answered, looked) in [(1, 2), (4999, 5000), (5000, 5000), (5000, 9000)] {
+        let (mut channel, mut program) = (Channel::default(), program());
+        assert_eq!(channel.run(&mut program, start), None);
+        assert_eq!(program.step(), CallStep::Wait { until: Some(start + millis(5000)) });
+        assert_eq!(channel.run(&mut program, start + millis(answered - 1)), None);
+        assert!(channel.serve(&mut Host::new(&ids), service));
+        assert_eq!(channel.run(&mut program, start + millis(looked)), answer, "{looked}");
+    }
+
+    // Not in time.
+    let (mut channel, mut program) = (Channel::default(), program());
+    assert_eq!(channel.run(&mut program, start), None);
+    assert_eq!(channel.run(&mut program, start + millis(4999)), None);
+    assert_eq!(channel.run(&mut program, start + millis(5000)), Some(Err(())));
+    assert!(channel.serve(&mut Host::new(&ids), service));
+    assert_eq!(channel.run(&mut program, start + millis(5001)), Some(Err(())));
+}
+
+/// SVC-8: which parameters there are, and what they are without a value.
+#[test]
+fn parameters_of_the_cycle() {
+    let wait = SysServiceWait::from_parameters;
+    assert_eq!(wait(None, None, None), Ok(SysServiceWait::default()));
+    assert_eq!(wait(Some(0), None, Some(3)), Ok(SysServiceWait::default()));
+    assert_eq!(
+        wait(Some(4), Some(5000), Some(1)),
+        Ok(SysServiceWait {
+            keep_waiting: 4,
+            longest: Some(LongestWait { time: Duration::from_secs(5), timer: 1 })
+        })
+    );
+    for p1 in [None, Some(1)] {
+        let error = wait(p1, Some(0), None).unwrap_err();
+        assert_eq!(error.field().stream(), Stream::SysServiceWait);
+        assert_eq!(Fault::of(error), fault(Missing, "@P3", 8, (0, 0)));
+    }
+
+    // A longest wait of 0 looks once; one to the end of time ends.
+    let mut channel = Channel::default();
+    let mut program = call(COMMAND, "", [None, Some(0), Some(1)]);
+    assert_eq!(channel.run(&mut program, millis(9)), Some(Err(())));
+    let longest = wait(None, Some(u32::MAX), Some(1)).unwrap();
+    let waiting = longest.start(Duration::MAX - millis(1));
+    assert_eq!(waiting.step(), WaitStep::Read(ResponseState));
+    let mut waiting = longest.start(Duration::MAX - millis(1));
+    waiting.read(&[0; 4], millis(2)).unwrap();
+    assert_eq!(waiting.step(), WaitStep::Wait { until: Some(Duration::MAX) });
+}
+
+/// SVC-8 and SVC-3: as a request sets RESPONSE_STATE to 0, another @P1 than 0 does not wait for the
+/// service; it does if the service has set that state in the meantime.
+#[test]
+fn a_keep_waiting_code_other_than_0() {
+    let mut channel = Channel::default();
+    channel.interface.write(ResponseState, &[5, 0, 0, 0]).unwrap();
+    let mut program = call(ROOT, "3", [Some(5), None, None]);
+    assert_eq!(channel.run(&mut program, millis(0)), Some(Ok((0, String::new()))));
+
+    let wait = SysServiceWait::from_parameters(Some(5), None, None).unwrap();
+    let mut waiting = wait.start(millis(0));
+    waiting.read(&[5, 0, 0, 0], millis(0)).unwrap();
+    assert_eq!(waiting.step(), WaitStep::Wait { until: None });
+    waiting.poll();
+    waiting.read(&[6, 0, 0, 0], millis(0)).unwrap();
+    assert_eq!(waiting.step(), WaitStep::Done { state: 6 });
+}
+
+/// SVC-6, E-20: the program waits for RESPONSE_STATE; a response without it ends no wait.
+#[test]
+fn a_response_alone_ends_no_wait() {
+    let mut channel = Channel::default();
+    let mut program = call(ROOT, "3", [None; 3]);
+    assert_eq!(channel.run(&mut program, millis(0)), None);
+    channel.write(Response, b"1.732051\0");
+    assert_eq!(channel.run(&mut program, millis(1)), None);
+    channel.write(ResponseState, &[1, 0, 0, 0]);
+    assert_eq!(channel.run(&mut program, millis(2)), Some(Ok((1, "1.732051".to_string()))));
+}
+
+/// SVC-2: without REQUEST_STATE nothing is served; any value but 0 is a request, and the service
+/// is told which.
+#[test]
+fn only_a_request_state_starts_a_service() {
+    let mut channel = Channel::default();
+    let ids = [id(ROOT)];
+    let mut host = Host::new(&ids);
+    channel.write(Uuid, format!("{ROOT}\0").as_bytes());
+    channel.write(Request, b"3\0");
+    assert!(!channel.serve(&mut host, square_root));
+    for state in [1_u32, 0x100, u32::MAX] {
+        channel.write(RequestState, &state.to_le_bytes());
+        assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+        host.poll();
+        assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+        let HostStep::Serve { request_state, .. } = host.step() else { unreachable!() };
+        assert_eq!(request_state, state);
+        host.answer(text("x"), 1).unwrap();
+        channel.rest(&mut host);
+        assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+    }
+    let zero = Call::with_state(id(ROOT), text("3"), 0, SysServiceWait::default()).unwrap_err();
+    assert_eq!(Fault::of(zero), fault(OutOfRange, "request_state", 0, (1, 0)));
+}
+
+/// SVC-2: several services on one channel, of one host or of two; each answers its own requests.
+#[test]
+fn two_services_on_one_channel() {
+    let both = [id(ROOT), id(COMMAND)];
+    let (root, command) = ([id(ROOT)], [id(COMMAND)]);
+    let mut channel = Channel::default();
+    let mut one = Host::new(&both);
+    for (uuid, place) in [(COMMAND, 1), (ROOT, 0), (COMMAND, 1)] {
+        channel.ask(uuid, "3");
+        one.poll();
+        assert_eq!(channel.skip_reads(&mut one), Did::Serve);
+        let HostStep::Serve { uuid, .. } = one.step() else { unreachable!() };
+        assert!(std::ptr::eq(uuid, &both[place]));
+        one.answer(text("x"), 1).unwrap();
+        channel.rest(&mut one);
+    }
+
+    let (mut first, mut second) = (Host::new(&root), Host::new(&command));
+    for uuid in [COMMAND, ROOT, COMMAND] {
+        channel.ask(uuid, "3");
+        let served = (
+            channel.serve(&mut first, square_root),
+            channel.serve(&mut second, |_| ("done".to_string(), 2)),
+        );
+        assert_eq!(served, (uuid == ROOT, uuid == COMMAND));
+    }
+
+    // Nobody's service; none at all.
+    channel.ask("00000000-0000-0000-0000-000000000000", "3");
+    assert!(!channel.serve(&mut first, square_root));
+    channel.ask(ROOT, "3");
+    assert!(!channel.serve(&mut Host::new(&[]), square_root));
+    assert!(channel.serve(&mut first, square_root));
+}

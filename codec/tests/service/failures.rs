@@ -1,0 +1,229 @@
+//! What happens when something goes wrong, or comes late.
+
+use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
+use ads_cnc::service::*;
+
+use crate::channel::*;
+
+/// A write that failed may have arrived: the host looks, and writes what is missing, no more.
+#[test]
+fn writes_that_fail() {
+    let ids = [id(ROOT)];
+    for variable in [Response, RequestState, ResponseState] {
+        for arrives in [false, true] {
+            let mut channel = Channel::default();
+            let mut program = call(ROOT, "3", [None; 3]);
+            assert_eq!(channel.run(&mut program, millis(0)), None);
+            channel.written.clear();
+            let mut host = Host::new(&ids);
+            assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+            host.answer(text("x"), 1).unwrap();
+            channel.reach(&mut host, variable);
+            let HostStep::Write(_, value) = host.step() else { unreachable!() };
+            if arrives {
+                channel.write(variable, value);
+            }
+            host.failed();
+            assert!(matches!(host.step(), HostStep::Read(_)), "{variable}: looks first");
+            channel.rest(&mut host);
+            assert_eq!(host.outcome(), Some(Outcome::Answered), "{variable}");
+            let answer = Some(Ok((1, "x".to_string())));
+            assert_eq!(channel.run(&mut program, millis(1)), answer);
+            // Only a response that arrived is written again: that does no harm.
+            let times = channel.written.iter().filter(|(one, _)| *one == variable).count();
+            assert_eq!(times, if arrives && variable == Response { 2 } else { 1 }, "{variable}");
+        }
+    }
+}
+
+/// RESPONSE_STATE arrived though its write failed, and the program has asked again: that request is
+/// served like any, and not answered with what was the answer before.
+#[test]
+fn a_write_that_failed_does_not_answer_the_next_request() {
+    let ids = [id(ROOT)];
+    let mut channel = Channel::default();
+    let mut program = call(ROOT, "3", [None; 3]);
+    channel.run(&mut program, millis(0));
+    let mut host = Host::new(&ids);
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    host.answer(text("first"), 1).unwrap();
+    channel.reach(&mut host, ResponseState);
+    channel.write(ResponseState, &[1, 0, 0, 0]);
+    assert_eq!(channel.run(&mut program, millis(1)), Some(Ok((1, "first".to_string()))));
+    let mut program = call(ROOT, "3", [None; 3]);
+    channel.run(&mut program, millis(2));
+    host.failed();
+    assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+    assert_eq!(channel.run(&mut program, millis(3)), None);
+    assert!(channel.serve(&mut host, |_| ("second".to_string(), 1)));
+    assert_eq!(channel.run(&mut program, millis(4)), Some(Ok((1, "second".to_string()))));
+}
+
+/// The write of RESPONSE_STATE failed, and what stands there now is another's: nothing is written.
+#[test]
+fn a_write_that_failed_is_not_repeated_over_what_is_anothers() {
+    let ids = [id(ROOT)];
+    // Another service has answered; another is asked and has not answered yet.
+    for (response_state, uuid) in [(2, ROOT), (0, COMMAND)] {
+        let mut channel = Channel::default();
+        channel.ask(ROOT, "3");
+        let mut host = Host::new(&ids);
+        assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+        host.answer(text("x"), 1).unwrap();
+        channel.reach(&mut host, ResponseState);
+        host.failed();
+        channel.interface.write(Uuid, uuid.as_bytes()).unwrap();
+        channel.interface.write(ResponseState, &[response_state, 0, 0, 0]).unwrap();
+        assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+        assert_eq!(host.outcome(), Some(Outcome::Dropped));
+        assert_eq!(channel.interface.read(ResponseState), [response_state, 0, 0, 0]);
+    }
+}
+
+/// A failed step that is no write, and calls out of turn, change nothing.
+#[test]
+fn calls_out_of_turn_do_nothing() {
+    let ids = [id(ROOT)];
+    let mut host = Host::new(&ids);
+    host.failed();
+    host.written();
+    host.poll();
+    host.answer(text("x"), 1).unwrap();
+    assert_eq!((host.step(), host.outcome()), (HostStep::Read(RequestState), None));
+    host.read(&[0; 4]).unwrap();
+    host.failed();
+    host.read(b"no state").unwrap();
+    host.answer(text("x"), 1).unwrap();
+    assert_eq!(host.step(), HostStep::Wait);
+
+    let mut channel = Channel::default();
+    channel.ask(ROOT, "3");
+    host.poll();
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    host.failed();
+    host.written();
+    host.poll();
+    host.read(&[0; 4]).unwrap();
+    assert!(matches!(host.step(), HostStep::Serve { .. }));
+
+    let mut program = call(ROOT, "3", [None; 3]);
+    program.poll();
+    program.read(b"", millis(0)).unwrap();
+    assert!(matches!(program.step(), CallStep::Write(Uuid, _)));
+    assert_eq!(channel.run(&mut program, millis(0)), None);
+    program.written(millis(0));
+    program.read(&[9, 0, 0, 0], millis(0)).unwrap();
+    assert_eq!(program.step(), CallStep::Wait { until: None });
+    program.poll();
+    program.poll();
+    assert_eq!(program.step(), CallStep::Read(ResponseState));
+}
+
+/// The program has given up and asks something else, of the same service or of another: the answer
+/// that comes late is dropped, and nothing of it written.
+#[test]
+fn a_late_answer_is_dropped() {
+    let ids = [id(ROOT)];
+    for (uuid, request, ours) in [(ROOT, "4", true), (COMMAND, "3", false)] {
+        let mut channel = Channel::default();
+        channel.ask(ROOT, "3");
+        let mut host = Host::new(&ids);
+        assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+        channel.ask(uuid, request);
+        host.answer(text("late"), 1).unwrap();
+        assert_eq!(host.outcome(), None);
+        assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+        assert_eq!(host.outcome(), Some(Outcome::Dropped));
+        assert_eq!((channel.written.len(), channel.interface.read(Response)), (0, &b"\0"[..]));
+        assert_eq!(channel.serve(&mut host, |_| ("x".to_string(), 1)), ours);
+        let last = if ours { Outcome::Answered } else { Outcome::Dropped };
+        assert_eq!(host.outcome(), Some(last));
+        // While the next answer is on its way, the last one's end is no more.
+        channel.ask(ROOT, "5");
+        host.poll();
+        assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+        host.answer(text("x"), 1).unwrap();
+        assert_eq!(host.outcome(), None);
+    }
+    // The same text with another state is another request too.
+    let mut channel = Channel::default();
+    channel.ask(ROOT, "3");
+    let mut host = Host::new(&ids);
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    channel.interface.write(RequestState, &[2, 0, 0, 0]).unwrap();
+    host.answer(text("late"), 1).unwrap();
+    assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+    assert_eq!((host.outcome(), channel.written.len()), (Some(Outcome::Dropped), 0));
+}
+
+/// SVC-2: the program goes on to another service between two reads of a host; that host does not
+/// take the request of before for its own.
+#[test]
+fn a_request_is_read_twice() {
+    let ids = [id(COMMAND)];
+    let mut host = Host::new(&ids);
+    let mut channel = Channel::default();
+    channel.ask(ROOT, "3");
+    assert_eq!(channel.step(&mut host), Did::Read(RequestState));
+    channel.write(RequestState, &[0; 4]);
+    channel.write(ResponseState, &[1, 0, 0, 0]);
+    channel.write(Uuid, format!("{COMMAND}\0").as_bytes());
+    assert_eq!(channel.step(&mut host), Did::Read(Uuid));
+    assert_eq!(channel.step(&mut host), Did::Read(Request));
+    channel.write(Request, b"some-command\0");
+    channel.write(RequestState, &[1, 0, 0, 0]);
+    assert_eq!(channel.skip_reads(&mut host), Did::Wait);
+    assert_eq!(host.outcome(), None);
+    host.poll();
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    let HostStep::Serve { request, .. } = host.step() else { unreachable!() };
+    assert_eq!(request, "some-command");
+}
+
+/// The CNC is reset at any step of an answer: the host goes on, and the next program gets its own.
+#[test]
+fn a_reset_in_the_middle() {
+    let ids = [id(ROOT)];
+    for steps in 0..24 {
+        for told in [false, true] {
+            let mut channel = Channel::default();
+            channel.ask(ROOT, "3");
+            let mut host = Host::new(&ids);
+            for _ in 0..steps {
+                if channel.step(&mut host) == Did::Serve {
+                    host.answer(text("old"), 99).unwrap();
+                }
+            }
+            channel.interface.reset();
+            if told {
+                host.restart();
+                assert_eq!(host.step(), HostStep::Read(RequestState));
+            }
+            // To its next wait, with what it had in hand when it was not told.
+            while channel.skip_reads(&mut host) != Did::Wait {
+                if channel.step(&mut host) == Did::Serve {
+                    host.answer(text("old"), 99).unwrap();
+                }
+            }
+            let mut program = call(ROOT, "3", [None; 3]);
+            assert_eq!(channel.run(&mut program, millis(0)), None);
+            assert!(channel.serve(&mut host, square_root), "{steps}");
+            let answer = Some(Ok((1, "1.732051".to_string())));
+            assert_eq!(channel.run(&mut program, millis(1)), answer, "{steps}");
+        }
+    }
+}
+
+/// What was served and not answered is served again after a restart.
+#[test]
+fn a_restart_serves_again() {
+    let ids = [id(ROOT)];
+    let mut channel = Channel::default();
+    channel.ask(ROOT, "3");
+    let mut host = Host::new(&ids);
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    host.answer(text("x"), 1).unwrap();
+    host.restart();
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    assert_eq!((host.outcome(), channel.written.len()), (None, 0));
+}

@@ -1,0 +1,190 @@
+//! What the five variables can hold, and what resets what.
+
+use ads_cnc::ErrorKind::*;
+use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
+use ads_cnc::service::*;
+
+use crate::channel::*;
+use crate::common::Fault;
+
+/// SVC-1: 128 bytes with the NUL, of each text and on each side; what is longer is refused before
+/// anything is written.
+#[test]
+fn texts_have_128_bytes() {
+    let wait = SysServiceWait::default();
+    for letter in ["a", "ä"] {
+        let (fits, over) = (letter.repeat(127), letter.repeat(128));
+        let too_long = |field| fault(TooLong, field, 0, (128, 129));
+
+        // The program's request, and a text that is 127 bytes with its NUL.
+        let shorter = &letter.repeat(126);
+        assert!(Call::new(id(ROOT), text(shorter), wait).is_ok());
+        let mut program = Call::new(id(ROOT), text(&fits), wait).unwrap();
+        let error = Call::new(id(ROOT), text(&over), wait).unwrap_err();
+        assert_eq!(Fault::of(error), too_long("request"));
+
+        // It reaches the service, and the longest response the program.
+        let mut channel = Channel::default();
+        assert_eq!(channel.run(&mut program, millis(0)), None);
+        let ids = [id(ROOT)];
+        let mut host = Host::new(&ids);
+        assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+        let before = channel.interface.clone();
+        let error = host.answer(text(&over), 1).unwrap_err();
+        assert_eq!(Fault::of(error), too_long("response"));
+        let HostStep::Serve { request, .. } = host.step() else { panic!("{:?}", host.step()) };
+        assert_eq!((request, &channel.interface), (text(&fits), &before));
+        host.answer(text(&fits), 1).unwrap();
+        channel.rest(&mut host);
+        assert_eq!(channel.run(&mut program, millis(0)), Some(Ok((1, fits.clone()))));
+        assert_eq!(channel.interface.read(Response).len(), 128);
+
+        // The interface.
+        let (fits, over) = (vec![b'x'; 127], vec![b'x'; 128]);
+        for (variable, field) in [(Uuid, "uuid"), (Request, "request"), (Response, "response")] {
+            let mut interface = Interface::new();
+            interface.write(variable, &[&fits[..], b"\0behind"].concat()).unwrap();
+            assert_eq!(interface.read(variable), [&fits[..], b"\0"].concat());
+            let before = interface.clone();
+            for long in [over.clone(), [&over[..], b"\0"].concat()] {
+                let error = interface.write(variable, &long).unwrap_err();
+                assert_eq!(Fault::of(error), too_long(field));
+            }
+            assert_eq!(interface, before);
+        }
+    }
+}
+
+/// A request that is longer than its field is none; the next one is.
+#[test]
+fn a_request_longer_than_its_field_is_refused() {
+    let mut channel = Channel::default();
+    let ids = [id(ROOT)];
+    let mut host = Host::new(&ids);
+    channel.ask(ROOT, "3");
+    let reach = |channel: &mut Channel, host: &mut Host<'_>| {
+        while host.step() != HostStep::Read(Request) {
+            channel.step(host);
+        }
+    };
+    reach(&mut channel, &mut host);
+    let error = host.read(&[b'3'; 128]).unwrap_err();
+    assert_eq!(Fault::of(error), fault(TooLong, "request", 0, (128, 129)));
+    assert_eq!(host.step(), HostStep::Wait);
+    host.poll();
+    reach(&mut channel, &mut host);
+    // Padding is no text.
+    host.read(&[&b"3\0"[..], &[0; 300]].concat()).unwrap();
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    let HostStep::Serve { request, .. } = host.step() else { unreachable!() };
+    assert_eq!(request, "3");
+    // And when the answer is there, it is another request.
+    host.answer(text("x"), 1).unwrap();
+    reach(&mut channel, &mut host);
+    host.read(&[b'3'; 128]).unwrap();
+    assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Dropped)));
+}
+
+/// SVC-5, E-35: a response state of 0 is refused; another answer to the same request is not.
+#[test]
+fn a_response_state_of_0_is_refused() {
+    let mut channel = Channel::default();
+    let ids = [id(ROOT)];
+    let mut host = Host::new(&ids);
+    channel.ask(ROOT, "3");
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    let error = host.answer(text("x"), 0).unwrap_err();
+    assert_eq!(Fault::of(error), fault(OutOfRange, "response_state", 0, (1, 0)));
+    assert!(matches!(host.step(), HostStep::Serve { .. }));
+    assert_eq!((host.outcome(), channel.written.len()), (None, 0));
+    host.answer(text("x"), u32::MAX).unwrap();
+    channel.rest(&mut host);
+    assert_eq!(channel.interface.read(ResponseState), [0xFF; 4]);
+}
+
+/// A state of not just four bytes is an error, and no state.
+#[test]
+fn states_have_four_bytes() {
+    let cut = |field| fault(Truncated, field, 0, (4, 3));
+    let long = |field| fault(Trailing, field, 4, (4, 5));
+    let ids = [id(ROOT)];
+    let mut host = Host::new(&ids);
+    assert_eq!(Fault::of(host.read(&[1; 3]).unwrap_err()), cut("request_state"));
+    assert_eq!(host.step(), HostStep::Wait);
+    host.poll();
+    assert_eq!(Fault::of(host.read(&[0; 5]).unwrap_err()), long("request_state"));
+
+    // With an answer at hand it is read again.
+    let mut channel = Channel::default();
+    channel.ask(ROOT, "3");
+    host.poll();
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    host.answer(text("x"), 1).unwrap();
+    assert_eq!(Fault::of(host.read(&[]).unwrap_err()).kind, Truncated);
+    assert_eq!(host.step(), HostStep::Read(RequestState));
+    channel.rest(&mut host);
+    assert_eq!(host.outcome(), Some(Outcome::Answered));
+
+    let mut waiting = SysServiceWait::default().start(millis(0));
+    assert_eq!(Fault::of(waiting.read(&[1; 3], millis(0)).unwrap_err()), cut("response_state"));
+    assert_eq!(waiting.step(), WaitStep::Read(ResponseState));
+
+    let mut interface = Interface::new();
+    interface.write(RequestState, &[2, 0, 0, 0]).unwrap();
+    let before = interface.clone();
+    for (variable, field) in [(RequestState, "request_state"), (ResponseState, "response_state")] {
+        let refused = interface.write(variable, &[0; 3]).unwrap_err();
+        assert_eq!(Fault::of(refused), cut(field));
+        let refused = interface.write(variable, &[0; 5]).unwrap_err();
+        assert_eq!(Fault::of(refused), long(field));
+    }
+    assert_eq!(interface, before);
+}
+
+/// SVC-3: any write of REQUEST_STATE resets RESPONSE_STATE, and nothing else does.
+#[test]
+fn a_request_state_resets_the_response_state() {
+    for clears in [Clears::OnResponseState, Clears::Never] {
+        for state in [0, 1, 7_u32] {
+            let mut interface = Interface::with(clears);
+            interface.write(Response, b"r\0").unwrap();
+            interface.write(ResponseState, &[9, 0, 0, 0]).unwrap();
+            interface.write(Uuid, b"u\0").unwrap();
+            interface.write(Request, b"q\0").unwrap();
+            assert_eq!(interface.read(ResponseState), [9, 0, 0, 0]);
+            interface.write(RequestState, &state.to_le_bytes()).unwrap();
+            assert_eq!(interface.read(ResponseState), [0; 4]);
+            assert_eq!(interface.read(RequestState), state.to_le_bytes());
+            assert_eq!(interface.read(Response), b"r\0");
+            interface.reset();
+            assert_eq!(interface, Interface::with(clears));
+        }
+    }
+}
+
+/// SVC-4: whether writing RESPONSE_STATE sets REQUEST_STATE to 0 is the interface's choice.
+#[test]
+fn a_response_state_clears_the_request_state_or_does_not() {
+    for (clears, left) in [(Clears::OnResponseState, 0), (Clears::Never, 3)] {
+        let mut interface = Interface::with(clears);
+        interface.write(RequestState, &[3, 0, 0, 0]).unwrap();
+        interface.write(Response, b"r\0").unwrap();
+        assert_eq!(interface.read(RequestState), [3, 0, 0, 0]);
+        interface.write(ResponseState, &[1, 0, 0, 0]).unwrap();
+        assert_eq!(interface.read(RequestState), [left, 0, 0, 0]);
+        assert_eq!(interface.read(ResponseState), [1, 0, 0, 0]);
+    }
+}
+
+/// A response that is longer than its field is an error, and read again.
+#[test]
+fn a_response_longer_than_its_field_is_refused() {
+    let mut program = call(ROOT, "3", [None; 3]);
+    (0..3).for_each(|_| program.written(millis(0)));
+    program.read(&[1, 0, 0, 0], millis(0)).unwrap();
+    let error = program.read(&[b'x'; 128], millis(0)).unwrap_err();
+    assert_eq!(Fault::of(error), fault(TooLong, "response", 0, (128, 129)));
+    assert_eq!(program.step(), CallStep::Read(Response));
+    program.read(b"x", millis(0)).unwrap();
+    assert_eq!(program.step(), CallStep::Done { state: 1, response: text("x") });
+}
