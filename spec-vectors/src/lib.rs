@@ -27,19 +27,22 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod catalogue;
 mod hex;
 mod load;
-mod model;
+mod vector;
 
+pub use catalogue::{
+    Basis, Document, Erratum, Level, Observable, Part, Reading, Requirement, Source, Status,
+};
 pub use hex::Hex;
 pub use load::{
     Catalogue, LoadError, VERSION, catalogue, documents, errata, erratum, requirement,
     requirements, vector, vectors,
 };
-pub use model::{
-    Accept, Basis, Context, Direction, Document, Erratum, Expect, Fields, Level, Observable, Part,
-    Provenance, ProvenanceKind, Reading, Reject, Requirement, Segment, Service, Source, Status,
-    Tagged, Type, Value, Vector,
+pub use vector::{
+    Accept, Context, Direction, Expect, Fields, Provenance, ProvenanceKind, Reject, Segment,
+    Service, Tagged, Type, Value, Vector,
 };
 
 #[cfg(doctest)]

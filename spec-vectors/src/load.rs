@@ -1,6 +1,7 @@
 //! The embedded files, read once.
 
-use crate::model::{Document, Erratum, Requirement, Vector};
+use crate::catalogue::{Document, Erratum, Requirement};
+use crate::vector::Vector;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::fmt;
@@ -198,6 +199,14 @@ mod tests {
     #[test]
     fn every_file_loads() {
         assert_eq!(catalogue().err(), None);
+    }
+
+    #[test]
+    fn every_file_states_the_version() {
+        for (file, text) in VECTORS.into_iter().chain([REQUIREMENTS, ERRATA]) {
+            let data: serde_json::Value = serde_json::from_str(text).expect(file);
+            assert_eq!(data["version"], VERSION, "{file}");
+        }
     }
 
     #[test]

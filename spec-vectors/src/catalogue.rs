@@ -1,0 +1,174 @@
+//! Documents, requirements and errata, one type for each shape of their JSON. Unknown fields are errors.
+
+use serde::{Deserialize, Serialize};
+
+/// A manual, or the vendors' public help pages, under the short name that sources use.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Document {
+    /// Short name, such as `ads-en`.
+    pub document: String,
+    /// Edition; empty if none is printed.
+    pub edition: String,
+    /// Title as printed.
+    pub title: String,
+    /// `en` or `de`.
+    pub language: String,
+}
+
+/// A place in a document.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    /// Short name of the document.
+    pub document: String,
+    /// Its edition; empty if none is printed.
+    pub edition: String,
+    /// Section number, or a description where there are no numbers.
+    pub section: String,
+    /// Which example of the section; only in the provenance of a vector.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub example: Option<String>,
+}
+
+/// Where a statement comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Basis {
+    /// Every edition that covers the subject says so.
+    Stated,
+    /// The editions differ, and the text says how.
+    Edition,
+    /// It follows from something stated or from a printed example.
+    Derived,
+    /// From the vendors' public help pages.
+    Online,
+    /// Nobody says; decided by this project.
+    Assumed,
+}
+
+/// What not doing it means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Level {
+    /// A failure.
+    Must,
+    /// A warning.
+    Should,
+    /// A difference worth naming, no more.
+    Info,
+}
+
+/// How a requirement can be judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Observable {
+    /// From bytes alone.
+    Codec,
+    /// In traffic.
+    Wire,
+    /// By asking a running CNC.
+    Live,
+}
+
+/// A part of a requirement that stands on a basis of its own.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// What it says.
+    pub text: String,
+    /// Its own basis.
+    pub basis: Basis,
+    /// Its own level.
+    pub level: Level,
+}
+
+/// One thing an implementation has to do.
+///
+/// ```
+/// use ads_cnc_vectors::{Level, requirement};
+///
+/// let handle_read = requirement("VAR-11").unwrap();
+/// assert_eq!((handle_read.area.as_str(), handle_read.level), ("VAR", Level::Must));
+/// assert_eq!(handle_read.parts[0].level, Level::Info);
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Requirement {
+    /// Area and number, such as `VAR-4`. Never reused.
+    pub id: String,
+    /// The part of the ID in front of the number.
+    pub area: String,
+    /// A few words.
+    pub title: String,
+    /// What is required, complete with offsets and limits.
+    pub text: String,
+    /// Where it stands; empty if it stands nowhere.
+    pub sources: Vec<Source>,
+    /// Basis of the text.
+    pub basis: Basis,
+    /// Level of the text.
+    pub level: Level,
+    /// What belongs to the requirement on another basis.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<Part>,
+    /// How it can be judged; at least one way.
+    pub observable: Vec<Observable>,
+    /// IDs of the errata that touch it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub errata: Vec<String>,
+    /// The vectors for it are still to come.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub pending: bool,
+    /// Why it has no vectors although it can be judged from bytes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub excluded: Option<String>,
+}
+
+/// One reading of a place that contradicts another, or itself.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Reading {
+    /// Short name of the document.
+    pub document: String,
+    /// Its edition; empty if none is printed.
+    pub edition: String,
+    /// Section, or several.
+    pub section: String,
+    /// The fact in question, as that place has it.
+    pub reading: String,
+}
+
+/// How firm a ruling is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// Decided for the time being: only a running CNC can tell.
+    Open,
+    /// Decided.
+    Ruled,
+}
+
+/// A contradiction in the documents, and what was decided.
+///
+/// ```
+/// use ads_cnc_vectors::{Status, erratum};
+///
+/// let name_end = erratum("E-17").unwrap();
+/// assert_eq!(name_end.status, Status::Open);
+/// assert!(name_end.readings.iter().any(|reading| reading.document == "ads-de"));
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Erratum {
+    /// `E-` and a number. Never reused.
+    pub id: String,
+    /// A few words.
+    pub title: String,
+    /// Each reading with its place.
+    pub readings: Vec<Reading>,
+    /// What was decided.
+    pub ruling: String,
+    /// How firmly.
+    pub status: Status,
+}
