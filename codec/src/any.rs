@@ -9,11 +9,17 @@ use crate::ads::{
     AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, ReadReply, ReadRequest, ReadWriteReply,
     ReadWriteRequest, WriteRequest,
 };
-use crate::limits::{ADS_DATA_MAX, DESCRIPTOR_LEN, INDICES_MAX, TEXT_MAX, VARIABLE_MAX};
+use crate::dynamic::{DynamicIndex, DynamicName, DynamicNameRequest};
+use crate::limits::{
+    ADS_DATA_MAX, DESCRIPTOR_LEN, DYNAMIC_NAME_MAX, INDICES_MAX, NAMELESS_DIMENSIONS_MAX,
+    STREAM_PACKET_MAX, TEXT_MAX, VARIABLE_MAX,
+};
+use crate::sda::ElementText;
+use crate::streaming::ProgramStream;
 use crate::text::{CncStr, CncString, Text};
 use crate::{
-    Description, Descriptor, Descriptors, HandleRead, HandleWrite, NameWrite, Value,
-    VariableIndexKind, VariableKind, VariableName,
+    Content, Description, DescriptionByName, Descriptor, Descriptors, HandleRead, HandleWrite,
+    NameWrite, Value, VariableIndexKind, VariableKind, VariableName,
 };
 
 /// At most `max` of anything.
@@ -29,19 +35,36 @@ fn text(u: &mut Unstructured<'_>, max: usize) -> Result<CncString> {
     Ok(CncStr::from_bytes(&bytes).unwrap_or(CncStr::EMPTY).into())
 }
 
-/// Text that a NUL ends, `tail` at the most behind it: 256 bytes in all.
+/// Text that a NUL ends, `tail` at the most behind it: `max` bytes in all.
 fn ended<'a>(
     u: &mut Unstructured<'a>,
+    max: usize,
     tail: impl FnOnce(&mut Unstructured<'a>, usize) -> Result<Vec<u8>>,
 ) -> Result<Text> {
-    let text = text(u, TEXT_MAX.saturating_sub(1))?;
-    let left = TEXT_MAX.saturating_sub(1).saturating_sub(text.as_bytes().len());
+    let text = text(u, max.saturating_sub(1))?;
+    let left = max.saturating_sub(1).saturating_sub(text.as_bytes().len());
     Ok(Text { text, tail: Some(tail(u, left)?) })
+}
+
+/// At most so many NULs.
+fn nuls(u: &mut Unstructured<'_>, max: usize) -> Result<Vec<u8>> {
+    Ok(alloc::vec![0; u.int_in_range(0..=max)?])
 }
 
 /// Text of a request: only NULs behind the first.
 fn request_text(u: &mut Unstructured<'_>) -> Result<Text> {
-    ended(u, |u, left| Ok(alloc::vec![0; u.int_in_range(0..=left)?]))
+    ended(u, TEXT_MAX, nuls)
+}
+
+/// Text with or without its end, one byte at least: a text without a NUL has a character.
+fn open<'a>(
+    u: &mut Unstructured<'a>,
+    max: usize,
+    tail: impl FnOnce(&mut Unstructured<'a>, usize) -> Result<Vec<u8>>,
+) -> Result<Text> {
+    let ended = ended(u, max, tail)?;
+    let open = !ended.text.as_bytes().is_empty() && u.arbitrary()?;
+    Ok(Text { tail: ended.tail.filter(|_| !open), ..ended })
 }
 
 /// ADS data; a reply goes without only if its result is an error.
@@ -116,12 +139,7 @@ arbitrary! {
         list.into_iter().collect()
     };
     CncString, u => text(u, TEXT_MAX)?;
-    // A field of one byte at least, as a description's name: a text without a NUL has a character.
-    Text, u => {
-        let ended = ended(u, up_to)?;
-        let open = !ended.text.as_bytes().is_empty() && u.arbitrary()?;
-        Self { tail: ended.tail.filter(|_| !open), ..ended }
-    };
+    Text, u => open(u, TEXT_MAX, up_to)?;
     VariableKind, u => Self {
         kind: match u.arbitrary()? {
             true => Text { text: CncString::default(), tail: None },
@@ -141,6 +159,31 @@ arbitrary! {
         let name = text(u, TEXT_MAX.saturating_sub(1))?;
         let taken = name.as_bytes().len().saturating_add(1);
         Self { name, value: up_to(u, VARIABLE_MAX.saturating_sub(taken))? }
+    };
+    Content, u => Self { bytes: up_to(u, ADS_DATA_MAX)? };
+    ProgramStream, u => {
+        let mut bytes: Vec<u8> = up_to(u, STREAM_PACKET_MAX)?;
+        if bytes.is_empty() {
+            bytes.push(u.arbitrary()?);
+        }
+        Self { bytes }
+    };
+    ElementText, u => {
+        let text: Text = u.arbitrary()?;
+        match u.arbitrary()? {
+            true => Self { text: Text { text: CncString::default(), tail: None } },
+            false => Self { text },
+        }
+    };
+    DynamicName, u => Self { name: open(u, DYNAMIC_NAME_MAX, up_to)? };
+    DynamicNameRequest, u => Self { name: open(u, DYNAMIC_NAME_MAX, nuls)? };
+    DynamicIndex, u => Self(u.arbitrary::<u32>()?.max(1));
+    DescriptionByName, u => Self {
+        handle: u.arbitrary()?,
+        var_type: u.arbitrary()?,
+        access: u.arbitrary()?,
+        size: u.arbitrary()?,
+        dimensions: up_to(u, NAMELESS_DIMENSIONS_MAX)?,
     };
     Value, u => Self { bytes: up_to(u, VARIABLE_MAX)? };
     Description, u => {

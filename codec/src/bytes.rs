@@ -28,7 +28,7 @@ impl<'a> Reader<'a> {
         let max = stream.layout().max;
         let given = to_u32(bytes.len());
         // The end of a stream of fixed length says more than its limit.
-        if given > max && !stream.layout().is_fixed() {
+        if given > max && !stream.layout().ends_itself() {
             return Err(too_long(Field::whole(stream), max, given));
         }
         Ok(Self { stream, bytes, at: 0 })
@@ -141,6 +141,16 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Eight bytes.
+    pub(crate) fn u64(&mut self, field: Field) -> Result<u64, Error> {
+        let Some((le, rest)) = self.bytes.split_first_chunk() else {
+            return Err(self.error(ErrorKind::Truncated, field, 8));
+        };
+        self.bytes = rest;
+        self.at = self.at.saturating_add(8);
+        Ok(u64::from_le_bytes(*le))
+    }
+
     /// All that is left, between `min` and `max` bytes.
     pub(crate) fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<&'a [u8], Error> {
         let left = self.left();
@@ -151,6 +161,32 @@ impl<'a> Reader<'a> {
             return Err(self.error(ErrorKind::TooLong, field, max));
         }
         self.take(field, left)
+    }
+
+    /// All that is left, one byte at least: text, and NULs at its end if any.
+    pub(crate) fn may_terminate(&mut self, field: Field, max: u32) -> Result<&'a [u8], Error> {
+        if split_nul(self.bytes).is_some() {
+            return self.terminated(field, max);
+        }
+        self.rest(field, 1, max)
+    }
+
+    /// Four bytes that are not all 0.
+    pub(crate) fn number_from_one(&mut self, field: Field) -> Result<&'a [u8], Error> {
+        let at = self.at;
+        let bytes = self.take(field, 4)?;
+        match bytes {
+            [0, 0, 0, 0] => Err(Error::new(ErrorKind::OutOfRange, field, at, 1, 0)),
+            _ => Ok(bytes),
+        }
+    }
+
+    /// All that is left: one, two or four bytes.
+    pub(crate) fn one_two_or_four(&mut self, field: Field) -> Result<&'a [u8], Error> {
+        match self.left() {
+            width @ (1 | 2) => self.take(field, width),
+            _ => self.take(field, 4),
+        }
     }
 
     /// Nothing may be left.

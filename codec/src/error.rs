@@ -56,6 +56,9 @@ pub enum ErrorKind {
     OutOfRange,
     /// A value that has to equal another: that one, the value.
     Mismatch,
+    /// An index offset at which there is a function, where content was meant: the offset (found);
+    /// expected is 0.
+    Function,
     /// The buffer does not hold the encoded stream: bytes needed, bytes there.
     BufferTooSmall,
 }
@@ -135,6 +138,7 @@ impl fmt::Display for Error {
                 write!(f, "out of range, at most {expected} expected, {found} found")
             }
             ErrorKind::Mismatch => write!(f, "mismatch, {expected} expected, {found} found"),
+            ErrorKind::Function => write!(f, "{found:#x} is a function, not content"),
             ErrorKind::BufferTooSmall => {
                 write!(f, "buffer too small, {expected} bytes expected, {found} there")
             }

@@ -9,6 +9,10 @@
 //! | 1, code page | [`CncStr`], [`text`] |
 //! | 2, index groups and offsets | [`address`] |
 //! | 2.1.1, object descriptors | [`ObjectCount`], [`DescriptorRef`], [`DescriptorsRef`] |
+//! | 2.1.2, content | [`ContentRef`] |
+//! | 2.2.1, classes and attributes | [`address`], [`sda`] |
+//! | 2.2.2, instances and elements | [`sda`] |
+//! | 3, 3.1 … 3.4, dynamic parameters | [`dynamic`] |
 //! | 4.1, names of variables | [`VariablePath`] |
 //! | 4.3.1, number of variables | [`VariableKindRef`], [`VariableCount`] |
 //! | 4.3.2, description | [`VariableIndexKindRef`], [`DescriptionRef`] |
@@ -18,6 +22,7 @@
 //! | 4.3.6, write by handle | [`HandleWriteRef`] |
 //! | 4.3.7, write by name | [`NameWriteRef`] |
 //! | 4.3.8, extended description | [`VariableIndexKindRef`], [`ExtendedReply`] |
+//! | 4.2.1, 0x4C, documented online | [`VariableNameRef`], [`DescriptionByNameRef`] |
 //! | 4.3.9 … 4.3.11, axis interface | [`operation::AxisHandleByName`] … |
 //! | 5, ADS services | [`ads`] |
 //! | `stream-en`, data streaming | [`streaming`] |
@@ -57,10 +62,13 @@ extern crate std;
 pub mod address;
 pub mod ads;
 mod com;
+mod content;
+pub mod dynamic;
 mod error;
 pub mod layout;
 pub mod limits;
 pub mod operation;
+pub mod sda;
 pub mod service;
 mod stream;
 pub mod streaming;
@@ -72,11 +80,15 @@ mod any;
 #[cfg(feature = "alloc")]
 mod bridge;
 mod bytes;
+mod bytes_stream;
 mod number;
 
 #[cfg(feature = "alloc")]
 pub use com::Descriptors;
 pub use com::{Descriptor, DescriptorRef, DescriptorsRef, ObjectCount, WriteAccess};
+#[cfg(feature = "alloc")]
+pub use content::Content;
+pub use content::ContentRef;
 pub use error::{Error, ErrorKind};
 pub use stream::{Decode, Encode, NoData};
 pub use text::{CncStr, TextRef};
@@ -84,14 +96,14 @@ pub use text::{CncStr, TextRef};
 pub use text::{CncString, Text};
 #[cfg(feature = "alloc")]
 pub use variable::{
-    Description, HandleRead, HandleWrite, NameWrite, Value, VariableIndexKind, VariableKind,
-    VariableName,
+    Description, DescriptionByName, HandleRead, HandleWrite, NameWrite, Value, VariableIndexKind,
+    VariableKind, VariableName,
 };
 pub use variable::{
-    DescriptionRef, Element, Elements, ExtendedDescription, ExtendedReply, Handle, HandleReadRef,
-    HandleWriteRef, Kind, NameWriteRef, Numbers, PathPart, PathParts, Synchronisation, Validity,
-    ValueRef, VariableAccess, VariableCount, VariableIndexKindRef, VariableKindRef,
-    VariableNameRef, VariablePath, VariableType,
+    DescriptionByNameRef, DescriptionRef, Element, Elements, ExtendedDescription, ExtendedReply,
+    Handle, HandleReadRef, HandleWriteRef, Kind, NameWriteRef, Numbers, PathPart, PathParts,
+    Synchronisation, Validity, ValueRef, VariableAccess, VariableCount, VariableIndexKindRef,
+    VariableKindRef, VariableNameRef, VariablePath, VariableType,
 };
 
 #[cfg(doctest)]

@@ -14,8 +14,12 @@ pub const HANDLE_VALUE_MAX: usize = 2040;
 pub const NAME_VALUE_MAX: usize = 2047;
 /// Dimensions of a description beside a name of one NUL (VAR-24).
 pub const DIMENSIONS_MAX: usize = 506;
+/// Dimensions of a description without a name.
+pub const NAMELESS_DIMENSIONS_MAX: usize = 507;
 /// Indices of a handle header (VAR-24).
 pub const INDICES_MAX: usize = 510;
+/// Bytes of a dynamic parameter's name; that the NUL counts among them is assumed (DYN-6).
+pub const DYNAMIC_NAME_MAX: usize = 96;
 /// Bytes of a text of the Service Interface, the NUL counted, which is assumed (SVC-1).
 pub const SERVICE_TEXT_MAX: usize = 128;
 /// Bytes of an object descriptor (COM-2).

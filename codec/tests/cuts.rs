@@ -36,10 +36,16 @@ const VAR_4_LONGER: &str = "VAR-4: the name may be longer";
 const VAR_4_BEHIND: &str = "VAR-4: bytes behind the name's NUL are kept";
 const VAR_14: &str = "VAR-14: a value has any length";
 const VAR_14_EMPTY: &str = "VAR-14: a value may be empty";
+const COM_5: &str = "COM-5: content has any length";
+const SDA_6: &str = "SDA-6: a text ends with its NUL or with the reply";
+const SDA_8: &str = "SDA-8: a length has one, two or four bytes";
+const DYN_2: &str = "DYN-2: a name ends with its NUL or with the reply";
+const DYN_3: &str = "DYN-3: a name may come without its NUL";
+const STM_5: &str = "STM-5: whether lines are whole, the CNC says when it reads them";
 const VAR_16: &str = "VAR-16: V.G and V.A have no extended description";
 
 /// All clauses that allow a sample to lose or gain bytes. Each has to be met below.
-const ALLOWED: [&str; 10] = [
+const ALLOWED: [&str; 16] = [
     ADS_6,
     COM_3,
     E_34,
@@ -50,20 +56,36 @@ const ALLOWED: [&str; 10] = [
     VAR_14,
     VAR_14_EMPTY,
     VAR_16,
+    COM_5,
+    SDA_6,
+    SDA_8,
+    DYN_2,
+    DYN_3,
+    STM_5,
 ];
 
-/// Whether a value of any length ends the stream.
-fn ends_in_a_value(stream: Stream) -> bool {
-    stream.layout().fields.last().is_some_and(|row| row.name == "value")
+/// The clause by which bytes of any number end the stream.
+fn ends_in_bytes(stream: Stream) -> Option<&'static str> {
+    match stream {
+        Stream::VariableValue | Stream::VariableHandleWrite | Stream::VariableNameWrite => {
+            Some(VAR_14)
+        }
+        Stream::Content => Some(COM_5),
+        Stream::ProgramStream => Some(STM_5),
+        _ => None,
+    }
 }
 
 /// What a text does with a cut and with a byte more.
-#[derive(PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 enum Text {
     /// Ends with a NUL, NULs may follow.
     Terminated,
-    /// Ends with a NUL or with the stream, anything may follow.
-    Open,
+    /// Ends with a NUL, which NULs may follow, or with the stream.
+    MayTerminate,
+    /// Ends with a NUL or with the stream, anything may follow: the clauses for what is behind the
+    /// NUL, for the end of the stream, for a longer text.
+    Open([&'static str; 3]),
 }
 
 /// Fields in which a cut or a byte more is not simply too little or too much.
@@ -71,7 +93,12 @@ fn text_of(stream: Stream, field: &str) -> Option<Text> {
     match (stream, field) {
         (Stream::VariableKind | Stream::VariableIndexKind, "kind") => Some(Text::Terminated),
         (Stream::VariableName, "name") => Some(Text::Terminated),
-        (Stream::VariableDescription, "name") => Some(Text::Open),
+        (Stream::DynamicNameRequest, "name") => Some(Text::MayTerminate),
+        (Stream::VariableDescription, "name") => {
+            Some(Text::Open([VAR_4_BEHIND, VAR_4_OPEN, VAR_4_LONGER]))
+        }
+        (Stream::DynamicName, "name") => Some(Text::Open([DYN_2; 3])),
+        (Stream::ElementText, "text") => Some(Text::Open([SDA_6; 3])),
         _ => None,
     }
 }
@@ -89,13 +116,30 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
             _ if bytes[..there].contains(&0) => Expected::Accepted(E_34),
             _ => refused(MissingNul, name, start, (256, there)),
         },
-        (Some(Text::Open), ..) => match bytes[..there].contains(&0) {
-            _ if there == 0 => refused(Truncated, name, start, (1, 0)),
-            true => Expected::Accepted(VAR_4_BEHIND),
-            false => Expected::Accepted(VAR_4_OPEN),
+        (Some(Text::MayTerminate | Text::Open(_)), stream, _)
+            if there == 0 && stream != Stream::ElementText =>
+        {
+            refused(Truncated, name, start, (1, 0))
+        }
+        (Some(Text::MayTerminate), ..) => match bytes[..there].contains(&0) {
+            true => Expected::Accepted(E_34),
+            false => Expected::Accepted(DYN_3),
         },
-        (None, _, "value") if there == 0 => Expected::Accepted(VAR_14_EMPTY),
-        (None, _, "value") => Expected::Accepted(VAR_14),
+        (Some(Text::Open([behind, open, _])), ..) => match bytes[..there].contains(&0) {
+            true => Expected::Accepted(behind),
+            false => Expected::Accepted(open),
+        },
+        (None, Stream::ProgramStream, _) if there == 0 => refused(Truncated, name, 0, (1, 0)),
+        (None, _, "value") if there == 0 && ends_in_bytes(stream).is_some() => {
+            Expected::Accepted(VAR_14_EMPTY)
+        }
+        (None, _, "value" | "content" | "data") if ends_in_bytes(stream).is_some() => {
+            Expected::Accepted(ends_in_bytes(stream).unwrap())
+        }
+        (None, Stream::ElementLength, _) => match there {
+            1 | 2 => Expected::Accepted(SDA_8),
+            _ => refused(Truncated, name, 0, (4, there)),
+        },
         (None, Stream::VariableNameWrite, "name") => refused(MissingNul, name, start, (256, there)),
         (None, Stream::VariableExtendedDescription, _) if cut == 0 => Expected::Accepted(VAR_16),
         (None, Stream::ObjectDescriptors, "id") if there == 0 && cut > 0 => {
@@ -118,6 +162,14 @@ fn expect_cut(stream: Stream, sample: &Sample, cut: usize) -> Expected {
     }
 }
 
+/// Bytes a text may have.
+fn limit(stream: Stream) -> usize {
+    match stream {
+        Stream::DynamicName | Stream::DynamicNameRequest => 96,
+        _ => 256,
+    }
+}
+
 /// A sample and one byte more.
 fn expect_extra(stream: Stream, sample: &Sample, extra: u8) -> Expected {
     let len = sample.bytes().len();
@@ -126,7 +178,15 @@ fn expect_extra(stream: Stream, sample: &Sample, extra: u8) -> Expected {
     match (stream, last) {
         (Stream::VariableKind, None) if extra == 0 => Expected::Accepted(E_34),
         (Stream::VariableKind, None) => refused(MissingNul, "kind", 0, (256, 1)),
-        (stream, _) if ends_in_a_value(stream) => Expected::Accepted(VAR_14),
+        (Stream::ElementText, None) => Expected::Accepted(SDA_6),
+        (stream, _) if ends_in_bytes(stream).is_some() => {
+            Expected::Accepted(ends_in_bytes(stream).unwrap())
+        }
+        (Stream::ElementLength, _) => match len {
+            1 => Expected::Accepted(SDA_8),
+            2 => refused(Truncated, "length", 0, (4, 3)),
+            _ => trailing,
+        },
         (Stream::VariableExtendedDescription, None) => {
             refused(Truncated, "synchronisation", 0, (4, 1))
         }
@@ -137,13 +197,19 @@ fn expect_extra(stream: Stream, sample: &Sample, extra: u8) -> Expected {
         }
         (_, Some((name, start, bytes))) => match text_of(stream, name) {
             // The text fills the stream, or as much of it as a text may have.
-            Some(Text::Terminated) if bytes.len() == 256 => {
+            Some(Text::Open(_)) if stream == Stream::VariableDescription && bytes.len() == 256 => {
+                refused(TooLong, name, start, (256, 257))
+            }
+            Some(_) if bytes.len() == limit(stream) => {
                 refused(TooLong, "stream", len, (len, len + 1))
             }
-            Some(Text::Open) if bytes.len() == 256 => refused(TooLong, name, start, (256, 257)),
             Some(Text::Terminated) if extra == 0 => Expected::Accepted(E_34),
-            Some(Text::Open) if bytes.contains(&0) => Expected::Accepted(VAR_4_BEHIND),
-            Some(Text::Open) => Expected::Accepted(VAR_4_LONGER),
+            Some(Text::MayTerminate) if !bytes.contains(&0) => Expected::Accepted(DYN_3),
+            Some(Text::MayTerminate) if extra == 0 => Expected::Accepted(E_34),
+            Some(Text::Open([behind, _, longer])) => match bytes.contains(&0) {
+                true => Expected::Accepted(behind),
+                false => Expected::Accepted(longer),
+            },
             _ => trailing,
         },
         (_, None) => trailing,
@@ -191,6 +257,7 @@ fn text_behind_the_nul_of_a_request_is_trailing() {
         (Stream::VariableName, b"V.E.a\0\0\0b", 8),
         (Stream::VariableKind, b"\0V.E\0", 1),
         (Stream::VariableIndexKind, b"\x02\0\0\0V.E\0V", 8),
+        (Stream::DynamicNameRequest, b"P1\0\0P", 4),
     ] {
         let expected = refused(Trailing, "stream", end, (end, bytes.len()));
         assert_eq!(observed(check(stream, bytes), expected), expected);

@@ -4,8 +4,12 @@ mod common;
 
 use std::collections::BTreeSet;
 
-use ads_cnc::address::{Channel, IndexGroup, IndexOffset, PlatformAxis};
+use ads_cnc::address::{
+    Access, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
+    Spindle,
+};
 use ads_cnc::ads::{AdsError, AmsPort};
+use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::*;
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc::{Encode as _, ErrorKind, Handle, Kind, Numbers};
@@ -52,15 +56,12 @@ fn one_fault_is_refused_for_what_it_is() {
             Refusal::Group(group(0x13_0101)),
             0x702,
         ),
-        (
-            refusal(|call| call.index_group = group(0x12_2300)),
-            Refusal::Group(group(0x12_2300)),
-            0x702,
-        ),
+        // There is no channel 0 with variables, though elements may be there.
+        (refusal(|call| call.index_group = group(0x12_2300)), Refusal::Offset(offset(0x46)), 0x703),
         (
             refusal(|call| call.index_group = group(0x12_2401)),
-            Refusal::Group(group(0x12_2401)),
-            0x702,
+            Refusal::Service { takes: Service::Read, asked: Service::ReadWrite },
+            0x701,
         ),
         (refusal(|call| call.index_group = group(0xF005)), Refusal::Group(group(0xF005)), 0x702),
         (refusal(|call| call.index_offset = offset(0x4D)), Refusal::Offset(offset(0x4D)), 0x703),
@@ -175,6 +176,83 @@ proptest! {
         check_operation(ReadByName::new(channel, &text).unwrap());
     }
 
+    /// dispatch(encode(op)) = op: dynamic parameters of each kind.
+    #[test]
+    fn operations_on_dynamic_parameters(
+        channel in channel(), index in 1..=u32::MAX, text in text(),
+    ) {
+        let name: String = text.chars().take(95).collect();
+        for kind in DynamicKind::ALL {
+            check_operation(CountDynamic::new(channel, kind));
+            check_operation(DynamicNameByIndex::new(channel, kind, index).unwrap());
+            check_operation(DynamicValueByIndex::new(channel, kind, index).unwrap());
+            check_operation(DynamicValueByName::new(channel, kind, &name).unwrap());
+        }
+    }
+
+    /// dispatch(encode(op)) = op: instances and elements of each class, in every channel, by
+    /// number and by rank.
+    #[test]
+    fn operations_on_elements(
+        channel in channel(), (number, axis) in any::<(u32, u32)>(), element in 0..=0xFFFF_u32,
+        place in 1..=0xFFFF_u32, spindle in 0..=255_u32, length in 0..=4096_u32,
+        content in prop::collection::vec(any::<u8>(), 0..40),
+    ) {
+        let place = ChannelAxis::new(place).unwrap();
+        let spindle = ElementAddress::of_spindle(Spindle::new(spindle).unwrap(), element).unwrap();
+        for class in Class::ALL {
+            check_operation(FindInstance::new(class, number, axis));
+            if class != Class::Spindle {
+                check_operation(FindInstance::new(class, number, axis).by_index());
+            }
+            for address in [
+                ElementAddress::of_channel(channel, class, element).unwrap(),
+                ElementAddress::of_axis(channel, class, place, element).unwrap(),
+                spindle,
+            ] {
+                check_operation(ReadElementName::new(address));
+                check_operation(ReadElementType::new(address));
+                check_operation(ReadElementLength::new(address));
+                check_operation(ReadElementUnit::new(address));
+                check_operation(ReadElementWriteFlag::new(address));
+                // A function, or an element; the first one counts the others.
+                match ReadElement::new(address, length) {
+                    Ok(read) => {
+                        check_operation(read);
+                        check_operation(WriteElement::new(address, &content).unwrap());
+                    }
+                    Err(error) => {
+                        assert_eq!(error.kind(), ErrorKind::Function);
+                        assert_eq!(error.found(), address.index_offset().get());
+                        assert!(WriteElement::new(address, &content).is_err());
+                    }
+                }
+            }
+        }
+        let first = ElementAddress::of_channel(channel, Class::Hld, 0).unwrap();
+        check_operation(CountElements::new(first));
+    }
+
+    /// dispatch(encode(op)) = op: content of COM objects, and the program stream among them.
+    #[test]
+    fn operations_on_content(
+        channel in channel(), axis in 1..=255_u32, offset in 0..0x2_0000_u32,
+        length in 0..=4096_u32, content in prop::collection::vec(any::<u8>(), 1..=992),
+    ) {
+        let axis = PlatformAxis::new(axis).unwrap().com(Access::Element);
+        let platform = IndexGroup::new(0x12_0100);
+        let offset = IndexOffset::new(offset);
+        for group in [platform, axis, channel.com(Access::Element)] {
+            if let Ok(read) = ReadObject::new(group, offset, length) {
+                check_operation(read);
+                check_operation(WriteObject::new(group, offset, &content).unwrap());
+            } else {
+                assert_eq!(offset.get(), 0x90);
+            }
+        }
+        check_operation(WriteProgramStream::new(channel, &content));
+    }
+
     /// Whatever is called: a refusal, or a request that encodes to the same call. Near the calls
     /// there are, so that some are accepted.
     #[test]
@@ -198,6 +276,86 @@ proptest! {
         }
         let _ = check_call(&call);
     }
+}
+
+fn content(group: u32, offset: u32) -> Call<'static> {
+    let call = CALLS.iter().find(|sample| sample.slug == "content-printed").unwrap().call;
+    let port = if group & 0xF00 <= 0x200 { AmsPort::COM } else { AmsPort::SDA };
+    let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
+    Call { port, index_group, index_offset, ..call }
+}
+
+/// SDA-12, STM-1: where a function is, nothing is read or written as content, by anybody.
+#[test]
+fn functions_are_no_content() {
+    let functions = (0x44..=0x4C).chain(0x1B..=0x26).chain([0x1_0004, 0x2_0006]);
+    let of_decoder = functions.map(|offset| (0x12_2301, offset));
+    for (group, offset) in of_decoder.chain([(0x12_0101, 0x90), (0x2_0106, 0x90)]) {
+        let call = content(group, offset);
+        let refusal = call.dispatch().unwrap_err();
+        assert!(matches!(refusal, Refusal::Service { .. }), "{call:?}: {refusal}");
+        let (group, offset) = (call.index_group, call.index_offset);
+        let error = match call.port {
+            AmsPort::COM => {
+                assert!(WriteObject::new(group, offset, &[]).is_err());
+                ReadObject::new(group, offset, 4).unwrap_err()
+            }
+            _ => {
+                let Some(ads_cnc::address::Group::Class(class)) = group.parts() else { panic!() };
+                let element = ElementAddress::new(class, offset);
+                assert!(WriteElement::new(element, &[]).is_err());
+                ReadElement::new(element, 4).unwrap_err()
+            }
+        };
+        assert_eq!((error.kind(), error.found()), (ErrorKind::Function, offset.get()));
+    }
+    // A read of 0x02 … 0x05 is that function, and one of element 0 counts the elements.
+    for offset in 2..=5 {
+        let reached = content(0x12_2301, offset).dispatch().unwrap();
+        assert_eq!(reached.function(), Function::CountDynamic);
+    }
+    assert_eq!(content(0x12_3301, 0).dispatch().unwrap().function(), Function::CountElements);
+    // None of this holds for other classes, other channels' platforms, or the first axis.
+    for (group, offset) in [(0x12_1301, 0x44), (0x12_2300, 0x44), (0x12_2301, 7)] {
+        assert_eq!(content(group, offset).dispatch().unwrap().function(), Function::ReadElement);
+    }
+}
+
+/// E-01: what counts elements at an offset of the stride 0x1000 is a read of content to a server;
+/// that is its canonical form, and encodes to the same call.
+#[test]
+fn the_count_of_a_platform_axis_is_a_read_of_content() {
+    let axis = content(0x12_3300, 0x1000);
+    let Some(ads_cnc::address::Group::Class(class)) = axis.index_group.parts() else { panic!() };
+    let element = ElementAddress::new(class, axis.index_offset);
+    let sent = Request::from(CountElements::new(element)).encode(&mut []).unwrap();
+    let canonical = ReadElement::new(element, 4).unwrap().into();
+    assert_eq!(sent.dispatch(), Ok(canonical));
+    assert_eq!(canonical.encode(&mut []), Ok(sent));
+}
+
+/// Content is not longer than was asked for, and its addresses are those of content.
+#[test]
+fn content_is_where_and_as_long_as_was_asked_for() {
+    let group = IndexGroup::new;
+    let offset = IndexOffset::new(3);
+    let read = ReadObject::new(group(0x12_0101), offset, 2).unwrap();
+    assert_eq!(read.decode_reply(&[1]).unwrap().bytes, [1]);
+    let error = read.decode_reply(&[1, 2, 3]).unwrap_err();
+    assert_eq!((error.kind(), error.expected(), error.found()), (ErrorKind::TooLong, 2, 3));
+    let element = ElementAddress::of_channel(Channel::new(1).unwrap(), Class::Hld, 1).unwrap();
+    assert!(ReadElement::new(element, 1).unwrap().decode_reply(&[0, 0]).is_err());
+
+    for (wrong, near) in [(0x13_0101, 0x12_0101), (0x12_2301, 0x12_0100), (0xF005, 0x12_0100)] {
+        let error = ReadObject::new(group(wrong), offset, 2).unwrap_err();
+        assert_eq!((error.kind(), error.expected()), (ErrorKind::Mismatch, near));
+        assert_eq!(WriteObject::new(group(wrong), offset, &[]), Err(error));
+    }
+    assert_eq!(
+        ReadObject::new(group(0x12_0101), offset, 0x40_0001).unwrap_err().kind(),
+        ErrorKind::TooLong
+    );
+    assert!(ReadElement::new(element, 0x40_0001).is_err());
 }
 
 /// A reply is read as what the function answers, and no longer than was asked for.
@@ -229,6 +387,23 @@ fn replies_are_those_of_the_function() {
         ("write-by-handle-printed-element", 0),
         ("write-by-name-printed-element", 0),
         ("axis-write-printed", 0),
+        ("description-by-name", 20),
+        ("parameters-printed", 4),
+        ("parameter-name-printed", 96),
+        ("parameter-printed", 8),
+        ("v.p-by-index", 8),
+        ("instance-printed-channel", 8),
+        ("elements-of-channel", 4),
+        ("content-printed", 1),
+        ("name-printed", 256),
+        ("type-printed", 0),
+        ("length-printed", 2),
+        ("unit-printed", 1),
+        ("write-flag-printed", 1),
+        ("write-content", 0),
+        ("stream", 0),
+        ("object-printed-platform", 4),
+        ("write-object-printed", 0),
     ] {
         assert_eq!(reply(slug, &vec![0; len]), Ok(()), "{slug} {len}");
     }

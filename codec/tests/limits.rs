@@ -4,8 +4,11 @@ mod common;
 
 use ads_cnc::ErrorKind::{self, *};
 use ads_cnc::ads::{AdsError, ReadReplyRef};
+use ads_cnc::dynamic::*;
 use ads_cnc::layout::Stream;
 use ads_cnc::limits::*;
+use ads_cnc::sda::*;
+use ads_cnc::streaming::*;
 use ads_cnc::*;
 use common::{Fault, check};
 
@@ -32,6 +35,12 @@ fn streams_are_as_long_as_they_may_be_and_no_longer() {
         (Stream::VariableHandleRead, filled(&[&[1; 4], &[0xFE, 1, 0, 0]], 2048)),
         (Stream::VariableDescription, filled(&[&[1; 16], &[0xFA, 1, 0, 0]], 2048)),
         (Stream::VariableDescription, filled(&[&[1; 16], &[0xBB, 1, 0, 0]], 2048)),
+        (Stream::VariableDescriptionByName, filled(&[&[1; 16], &[0xFB, 1, 0, 0]], 2048)),
+        (Stream::DynamicName, filled(&[], 96)),
+        (Stream::DynamicNameRequest, filled(&[], 96)),
+        (Stream::ElementText, filled(&[], 256)),
+        (Stream::ProgramStream, filled(&[], 992)),
+        (Stream::Content, filled(&[], ADS_DATA_MAX)),
         (Stream::WriteRequest, filled(&[&[1; 8], &data_length], ADS_DATA_MAX + 12)),
         (Stream::ReadWriteRequest, filled(&[&[1; 12], &data_length], ADS_DATA_MAX + 16)),
         (Stream::ReadReply, filled(&[&[0; 4], &data_length], ADS_DATA_MAX + 8)),
@@ -55,13 +64,17 @@ fn counts_that_do_not_fit_are_refused_at_the_count() {
         (Stream::VariableDescription, 507, 2028, 506),
         (Stream::VariableDescription, 3, 11, 2),
         (Stream::VariableDescription, u32::MAX, 300, 75),
+        (Stream::VariableDescriptionByName, 508, 2028, 507),
+        (Stream::VariableDescriptionByName, 2, 4, 1),
         (Stream::VariableHandleRead, 511, 2040, 510),
         (Stream::VariableHandleRead, 1, 0, 0),
         // Four times this is 4, in 32 bits.
         (Stream::VariableHandleRead, 0x4000_0001, 4, 1),
     ] {
         let (before, counter) = match stream {
-            Stream::VariableDescription => (16, "dimension_count"),
+            Stream::VariableDescription | Stream::VariableDescriptionByName => {
+                (16, "dimension_count")
+            }
             _ => (4, "index_count"),
         };
         let error = check(stream, &counted(before, count, rest)).unwrap_err();
@@ -119,6 +132,34 @@ fn encoders_refuse_what_decoders_would() {
     ] {
         assert_eq!(refusal(&value), wanted);
     }
+    let nameless = DescriptionByNameRef {
+        handle: Handle(1),
+        var_type: VariableType::SGN32,
+        access: VariableAccess::READ_ONLY,
+        size: 4,
+        dimensions: Numbers::from(&numbers[..508]),
+    };
+    assert_eq!(refusal(&nameless), fault(TooMany, "dimension_count", 16, (507, 508)));
+    let long = DynamicNameRequestRef { name: text(&full[..96]).unwrap().into() };
+    assert_eq!(refusal(&long), fault(TooLong, "name", 0, (96, 97)));
+    let behind = TextRef::with_tail(text(b"P1").unwrap(), Some(b"\0P"));
+    assert_eq!(
+        refusal(&DynamicNameRequestRef { name: behind }),
+        fault(Trailing, "stream", 4, (4, 5))
+    );
+    assert_eq!(
+        refusal(&DynamicNameRequestRef { name: no_name }),
+        fault(Truncated, "name", 0, (1, 0))
+    );
+    assert_eq!(refusal(&DynamicNameRef { name: no_name }), fault(Truncated, "name", 0, (1, 0)));
+    assert_eq!(
+        refusal(&ElementTextRef { text: too_long_name }),
+        fault(TooLong, "text", 0, (256, 257))
+    );
+    assert_eq!(refusal(&DynamicIndex(0)), fault(OutOfRange, "index", 0, (1, 0)));
+    assert_eq!(refusal(&ProgramStreamRef { bytes: &[] }), fault(Truncated, "data", 0, (1, 0)));
+    let bytes = &[b' '; 993];
+    assert_eq!(refusal(&ProgramStreamRef { bytes }), fault(TooLong, "stream", 992, (992, 993)));
     let success_without_data = ReadReplyRef { result: AdsError::NONE, data: None };
     assert_eq!(refusal(&success_without_data), fault(Truncated, "length", 4, (4, 0)));
     let value = ValueRef { bytes: &[0; 2049] };

@@ -1,194 +1,98 @@
 //! The numbers that clients and servers share, each written down a second time.
 
-use ads_cnc::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
+use ads_cnc::address::{Attribute, Channel, Class, ElementAddress, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsPort, Command, StateFlags};
+use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Effect, Function, Refusal, Service, Task};
+use ads_cnc::operation::Effect::{self, Motion, Query};
+use ads_cnc::operation::Service::{self, Read, ReadWrite, Write};
+use ads_cnc::operation::{Call, CountDynamic, Function, Operation, Refusal, Task};
 use ads_cnc::*;
 
-/// Name, service, port, first group, offset, request, reply, requirement and section of a function.
+/// Name, service, port, group and offset, streams in and out, effect, requirement and section.
 type Row = (
     &'static str,
     Service,
     u16,
-    u32,
-    u32,
-    Option<&'static str>,
-    Option<&'static str>,
-    &'static str,
-    &'static str,
+    (u32, u32),
+    (&'static str, &'static str),
+    Effect,
+    (&'static str, &'static str),
 );
 
-/// Every function, where the manuals put it.
+/// Every function, where the manuals put it. What a gate lets through by itself rests on its effect.
+#[rustfmt::skip]
+const ROWS: [Row; 30] = [
+    ("number of objects", Read, 553, (0x13_0101, 0), ("", "object-count"), Query, ("COM-1", "2.1.1")),
+    ("object descriptors", Read, 553, (0x13_0101, 1), ("", "object-descriptors"), Query, ("COM-2", "2.1.1")),
+    ("number of variable elements", ReadWrite, 552, (0x12_2301, 0x44), ("variable-kind", "variable-count"), Query, ("VAR-2", "4.3.1")),
+    ("variable description by index", ReadWrite, 552, (0x12_2301, 0x45), ("variable-index-kind", "variable-description"), Query, ("VAR-4", "4.3.2")),
+    ("variable handle by name", ReadWrite, 552, (0x12_2301, 0x46), ("variable-name", "variable-handle"), Query, ("VAR-10", "4.3.3")),
+    ("read variable value by handle", ReadWrite, 552, (0x12_2301, 0x47), ("variable-handle-read", "variable-value"), Query, ("VAR-11", "4.3.4")),
+    ("read variable value by name", ReadWrite, 552, (0x12_2301, 0x48), ("variable-name", "variable-value"), Query, ("VAR-14", "4.3.5")),
+    ("write variable value by handle", Write, 552, (0x12_2301, 0x49), ("variable-handle-write", ""), Effect::Write, ("VAR-12", "4.3.6")),
+    ("write variable value by name", Write, 552, (0x12_2301, 0x4A), ("variable-name-write", ""), Effect::Write, ("VAR-13", "4.3.7")),
+    ("extended variable description by index", ReadWrite, 552, (0x12_2301, 0x4B), ("variable-index-kind", "variable-extended-description"), Query, ("VAR-15", "4.3.8")),
+    ("variable description by name", ReadWrite, 552, (0x12_2301, 0x4C), ("variable-name", "variable-description-by-name"), Query, ("VAR-28", "online")),
+    ("axis variable handle by name", ReadWrite, 552, (0x12_2301, 0x2_0004), ("variable-name", "variable-handle"), Query, ("VAR-26", "4.3.9")),
+    ("read axis variable value by name", ReadWrite, 552, (0x12_2301, 0x2_0005), ("variable-name", "variable-value"), Query, ("VAR-26", "4.3.10")),
+    ("write axis variable value by name", Write, 552, (0x12_2301, 0x2_0006), ("variable-name-write", ""), Effect::Write, ("VAR-26", "4.3.11")),
+    ("number of dynamic parameters", Read, 552, (0x12_2301, 0x02), ("", "dynamic-count"), Query, ("DYN-1", "3.1")),
+    ("dynamic parameter name by index", ReadWrite, 552, (0x12_2301, 0x1B), ("dynamic-index", "dynamic-name"), Query, ("DYN-2", "3.1")),
+    ("dynamic parameter value by name", ReadWrite, 552, (0x12_2301, 0x1C), ("dynamic-name-request", "dynamic-value"), Query, ("DYN-3", "3.1")),
+    ("dynamic parameter value by index", ReadWrite, 552, (0x12_2301, 0x1D), ("dynamic-index", "dynamic-value"), Query, ("DYN-4", "3.1")),
+    ("object address", ReadWrite, 552, (0x12_3900, 0), ("object-address-query", "object-address"), Query, ("SDA-1", "2.2.2")),
+    ("number of element types", Read, 552, (0x12_3301, 0), ("", "element-count"), Query, ("SDA-4", "2.2.2")),
+    ("element content", Read, 552, (0x12_3301, 1), ("", "content"), Query, ("SDA-4", "2.2.2")),
+    ("write element content", Write, 552, (0x12_3301, 1), ("content", ""), Motion, ("SDA-9", "2.2.2")),
+    ("element name", Read, 552, (0x12_3401, 1), ("", "element-text"), Query, ("SDA-6", "2.2.2")),
+    ("element type", Read, 552, (0x12_3501, 1), ("", "element-text"), Query, ("SDA-7", "2.2.2")),
+    ("element length", Read, 552, (0x12_3601, 1), ("", "element-length"), Query, ("SDA-8", "2.2.2")),
+    ("element unit", Read, 552, (0x12_3701, 1), ("", "element-text"), Query, ("SDA-6", "2.2.2")),
+    ("element write flag", Read, 552, (0x12_3801, 1), ("", "element-write-flag"), Query, ("SDA-9", "2.2.2")),
+    ("data streaming", Write, 553, (0x12_0101, 0x90), ("program-stream", ""), Motion, ("STM-1", "stream-en 3.2")),
+    ("object content", Read, 553, (0x12_0101, 1), ("", "content"), Query, ("COM-5", "2.1.2")),
+    ("write object content", Write, 553, (0x12_0101, 1), ("content", ""), Motion, ("COM-5", "2.1.2")),
+];
+
 #[test]
 fn functions() {
-    use Service::{Read, ReadWrite, Write};
-    let rows: [Row; 13] = [
-        (
-            "number of objects",
-            Read,
-            553,
-            0x13_0101,
-            0,
-            None,
-            Some("object-count"),
-            "COM-1",
-            "2.1.1",
-        ),
-        (
-            "object descriptors",
-            Read,
-            553,
-            0x13_0101,
-            1,
-            None,
-            Some("object-descriptors"),
-            "COM-2",
-            "2.1.1",
-        ),
-        (
-            "number of variable elements",
-            ReadWrite,
-            552,
-            0x12_2301,
-            0x44,
-            Some("variable-kind"),
-            Some("variable-count"),
-            "VAR-2",
-            "4.3.1",
-        ),
-        (
-            "variable description by index",
-            ReadWrite,
-            552,
-            0x12_2301,
-            0x45,
-            Some("variable-index-kind"),
-            Some("variable-description"),
-            "VAR-4",
-            "4.3.2",
-        ),
-        (
-            "variable handle by name",
-            ReadWrite,
-            552,
-            0x12_2301,
-            0x46,
-            Some("variable-name"),
-            Some("variable-handle"),
-            "VAR-10",
-            "4.3.3",
-        ),
-        (
-            "read variable value by handle",
-            ReadWrite,
-            552,
-            0x12_2301,
-            0x47,
-            Some("variable-handle-read"),
-            Some("variable-value"),
-            "VAR-11",
-            "4.3.4",
-        ),
-        (
-            "read variable value by name",
-            ReadWrite,
-            552,
-            0x12_2301,
-            0x48,
-            Some("variable-name"),
-            Some("variable-value"),
-            "VAR-14",
-            "4.3.5",
-        ),
-        (
-            "write variable value by handle",
-            Write,
-            552,
-            0x12_2301,
-            0x49,
-            Some("variable-handle-write"),
-            None,
-            "VAR-12",
-            "4.3.6",
-        ),
-        (
-            "write variable value by name",
-            Write,
-            552,
-            0x12_2301,
-            0x4A,
-            Some("variable-name-write"),
-            None,
-            "VAR-13",
-            "4.3.7",
-        ),
-        (
-            "extended variable description by index",
-            ReadWrite,
-            552,
-            0x12_2301,
-            0x4B,
-            Some("variable-index-kind"),
-            Some("variable-extended-description"),
-            "VAR-15",
-            "4.3.8",
-        ),
-        (
-            "axis variable handle by name",
-            ReadWrite,
-            552,
-            0x12_2301,
-            0x2_0004,
-            Some("variable-name"),
-            Some("variable-handle"),
-            "VAR-26",
-            "4.3.9",
-        ),
-        (
-            "read axis variable value by name",
-            ReadWrite,
-            552,
-            0x12_2301,
-            0x2_0005,
-            Some("variable-name"),
-            Some("variable-value"),
-            "VAR-26",
-            "4.3.10",
-        ),
-        (
-            "write axis variable value by name",
-            Write,
-            552,
-            0x12_2301,
-            0x2_0006,
-            Some("variable-name-write"),
-            None,
-            "VAR-26",
-            "4.3.11",
-        ),
-    ];
-    assert_eq!(rows.len(), Function::ALL.len());
-    for (function, row) in Function::ALL.iter().zip(rows) {
+    assert_eq!(ROWS.len(), Function::ALL.len());
+    for (function, row) in Function::ALL.iter().zip(ROWS) {
         let spec = function.spec();
-        let name = |stream: Option<Stream>| stream.map(|stream| stream.layout().name);
-        let (service, port, group) = (spec.service, spec.task.port().0, spec.group.example().get());
-        let found: Row = (
-            spec.name,
-            service,
-            port,
-            group,
-            row.4,
-            name(spec.request),
-            name(spec.reply),
-            spec.clause,
-            spec.section,
-        );
+        let name = |stream: Option<Stream>| stream.map_or("", |stream| stream.layout().name);
+        let address = (spec.group.example().get(), row.3.1);
+        let streams = (name(spec.request), name(spec.reply));
+        let (port, basis) = (spec.task.port().0, (spec.clause, spec.section));
+        let found: Row = (spec.name, spec.service, port, address, streams, spec.effect, basis);
         assert_eq!(found, row);
-        assert!(spec.offset.holds(IndexOffset::new(row.4)), "{}", spec.name);
-        // What a gate lets through by itself rests on this.
-        let effect = if service == Write { Effect::Write } else { Effect::Query };
-        assert_eq!(spec.effect, effect, "{}", spec.name);
+        assert!(spec.offset.holds(IndexOffset::new(row.3.1)), "{}", spec.name);
+        assert_eq!(spec.effect == Query, spec.service != Write, "{}", spec.name);
+    }
+}
+
+/// Each kind of dynamic parameters has its own four offsets, and no other offset is one.
+#[test]
+fn offsets_of_dynamic_parameters() {
+    let offsets = |function: Function| -> Vec<u32> {
+        let rule = function.spec().offset;
+        (0..0x100).filter(|&offset| rule.holds(IndexOffset::new(offset))).collect()
+    };
+    assert_eq!(offsets(Function::CountDynamic), [0x02, 0x03, 0x04, 0x05]);
+    assert_eq!(offsets(Function::DynamicNameByIndex), [0x1B, 0x1E, 0x21, 0x24]);
+    assert_eq!(offsets(Function::DynamicValueByName), [0x1C, 0x1F, 0x22, 0x25]);
+    assert_eq!(offsets(Function::DynamicValueByIndex), [0x1D, 0x20, 0x23, 0x26]);
+
+    let channel = Channel::new(1).unwrap();
+    for (kind, count, name) in [
+        (DynamicKind::P, 0x02, "P"),
+        (DynamicKind::VL, 0x03, "V.L"),
+        (DynamicKind::VP, 0x04, "V.P"),
+        (DynamicKind::VS, 0x05, "V.S"),
+    ] {
+        let count = IndexOffset::new(count);
+        assert_eq!(CountDynamic::new(channel, kind).index_offset(), count);
+        assert_eq!(kind.to_string(), name);
     }
 }
 
@@ -197,7 +101,7 @@ fn functions() {
 fn the_axis_interface_begins_at_axis_1() {
     let call = |offset| Call {
         port: AmsPort::SDA,
-        service: Service::ReadWrite,
+        service: ReadWrite,
         index_group: IndexGroup::new(0x12_2301),
         index_offset: IndexOffset::new(offset),
         read_length: 4,
@@ -208,9 +112,14 @@ fn the_axis_interface_begins_at_axis_1() {
         let operation::Request::AxisHandleByName(op) = reached else { panic!("{reached:?}") };
         assert_eq!(u32::from(op.axis.place()), place);
     }
-    for absent in [4, 5, 6, 0x1_0003, 0x1_0007, 0x1_0044] {
+    for absent in [6, 0x1_0003, 0x1_0007, 0x1_0044] {
         let refusal = Refusal::Offset(IndexOffset::new(absent));
         assert_eq!(call(absent).dispatch(), Err(refusal));
+    }
+    // At axis 0 they count variables.
+    for count in [4, 5] {
+        let refusal = Refusal::Service { takes: Read, asked: ReadWrite };
+        assert_eq!(call(count).dispatch(), Err(refusal));
     }
 }
 
@@ -229,6 +138,17 @@ fn read_lengths() {
     assert_eq!(ReadByName { channel, name }.read_length(), 2048);
     assert_eq!(DescribeExtended::new(channel, 0, Kind::V_E).read_length(), 2048);
     assert_eq!(WriteByName::new(channel, "V.E.a", &[]).unwrap().read_length(), 0);
+    assert_eq!(DescribeByName { channel, name }.read_length(), 2048);
+    assert_eq!(CountDynamic::new(channel, DynamicKind::P).read_length(), 4);
+    assert_eq!(DynamicNameByIndex::new(channel, DynamicKind::P, 1).unwrap().read_length(), 96);
+    assert_eq!(DynamicValueByName { channel, kind: DynamicKind::P, name }.read_length(), 8);
+    assert_eq!(FindInstance::new(Class::Hld, 1, 0).read_length(), 8);
+    let element = ElementAddress::of_channel(channel, Class::Hld, 1).unwrap();
+    assert_eq!(CountElements::new(element).read_length(), 4);
+    assert_eq!(ReadElement::new(element, 7).unwrap().read_length(), 7);
+    assert_eq!(ReadElementName::new(element).read_length(), 256);
+    assert_eq!(ReadElementLength::new(element).read_length(), 4);
+    assert_eq!(ReadElementWriteFlag::new(element).read_length(), 1);
 }
 
 /// ADS-5, ADS-7, GEN-4: numbers of AMS and ADS.
@@ -264,10 +184,7 @@ fn numbers_of_ads() {
     for task in [Task::Geo, Task::Sda, Task::Com] {
         assert_eq!(Task::from_port(task.port()), Some(task));
     }
-    assert_eq!(
-        [Service::Read, Service::Write, Service::ReadWrite].map(|service| service.command().0),
-        [2, 3, 9]
-    );
+    assert_eq!([Read, Write, ReadWrite].map(|service| service.command().0), [2, 3, 9]);
 }
 
 /// VAR-1, VAR-5, VAR-6: names and codes of variables.
@@ -327,7 +244,7 @@ fn types_of_com() {
 fn there_is_no_axis_0() {
     let call = |group| Call {
         port: AmsPort::COM,
-        service: Service::Read,
+        service: Read,
         index_group: IndexGroup::new(group),
         index_offset: IndexOffset::new(0),
         read_length: 4,
@@ -341,9 +258,14 @@ fn there_is_no_axis_0() {
     let variables = Channel::new(1).unwrap().class(Class::Decoder, Attribute::Content);
     assert_eq!(variables.get() & 0xFF, 1);
     let data = b"V.E\0";
-    let of_channel_0 =
-        Call { port: AmsPort::SDA, service: Service::ReadWrite, data, ..call(0x12_2300) };
-    assert!(matches!(of_channel_0.dispatch(), Err(Refusal::Group(_))));
+    let of_channel_0 = Call {
+        port: AmsPort::SDA,
+        service: ReadWrite,
+        index_offset: IndexOffset::new(0x44),
+        data,
+        ..call(0x12_2300)
+    };
+    assert!(matches!(of_channel_0.dispatch(), Err(Refusal::Offset(_))));
 }
 
 /// A product of dimensions beyond 32 bits is no size that fits.
@@ -364,7 +286,7 @@ fn sizes_do_not_wrap() {
 fn counts_of_descriptors_are_bounded() {
     let call = Call {
         port: AmsPort::COM,
-        service: Service::Read,
+        service: Read,
         index_group: IndexGroup::new(0x13_0101),
         index_offset: IndexOffset::new(1),
         read_length: u32::MAX - 3,
@@ -372,5 +294,5 @@ fn counts_of_descriptors_are_bounded() {
     };
     let Ok(operation::Request::ReadDescriptors(read)) = call.dispatch() else { panic!("{call:?}") };
     assert_eq!(read.count(), operation::ReadDescriptors::COUNT_MAX);
-    assert_eq!(operation::Operation::read_length(&read), u32::MAX - 3);
+    assert_eq!(read.read_length(), u32::MAX - 3);
 }

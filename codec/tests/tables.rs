@@ -67,6 +67,7 @@ fn render(stream: Stream) -> String {
 
 fn length(layout: &Layout) -> String {
     match (layout.is_fixed(), layout.max) {
+        (true, 1) => "1 byte".to_owned(),
         (true, max) => format!("{max} bytes"),
         (false, max) => format!("at most {max} bytes"),
     }
@@ -96,7 +97,11 @@ fn size(size: Size, counter: Option<&FieldSpec>) -> String {
         (Size::Terminated { max, may_be_absent: true }, _) => format!("≤ {max} with NUL, or 0"),
         (Size::Terminated { max, .. } | Size::Leading { max }, _) => format!("≤ {max} with NUL"),
         (Size::FixedOrNothing(size), _) => format!("{size}; the stream may have no byte at all"),
-        (Size::Open { max } | Size::Rest { max }, _) => format!("≤ {max}"),
+        (Size::Open { min: 0, max } | Size::Rest { min: 0, max }, _) => format!("≤ {max}"),
+        (Size::Open { min, max } | Size::Rest { min, max }, _) => format!("{min} … {max}"),
+        (Size::MayTerminate { max }, _) => format!("≤ {max}, with NUL or without"),
+        (Size::FromOne, _) => "4".to_owned(),
+        (Size::OneTwoOrFour, _) => "1, 2 or 4".to_owned(),
         (other, _) => panic!("how is {other:?} shown?"),
     }
 }
@@ -189,6 +194,8 @@ fn value(stream: Stream) -> usize {
     match stream {
         Stream::VariableHandleWrite => HANDLE_VALUE_MAX,
         Stream::VariableNameWrite => NAME_VALUE_MAX,
+        Stream::Content => ADS_DATA_MAX,
+        Stream::ProgramStream => STREAM_PACKET_MAX,
         _ => VARIABLE_MAX,
     }
 }
@@ -215,25 +222,38 @@ fn limits_are_those_of_the_tables() {
         (S::VariableHandleWrite, VARIABLE_MAX),
         (S::VariableNameWrite, VARIABLE_MAX),
         (S::VariableValue, VARIABLE_MAX),
+        (S::Content, ADS_DATA_MAX),
+        (S::ElementText, TEXT_MAX),
+        (S::DynamicName, DYNAMIC_NAME_MAX),
+        (S::DynamicNameRequest, DYNAMIC_NAME_MAX),
+        (S::ProgramStream, STREAM_PACKET_MAX),
     ] {
         assert_eq!(stream.layout().max as usize, max, "{stream}");
         let limit = match data(stream).size {
             Size::Items { each: 1, max } => (max as usize, ADS_DATA_MAX),
             Size::Items { max, .. } => (max as usize, INDICES_MAX),
             Size::Padded(size) => (size as usize, DESCRIPTOR_TEXT_LEN),
-            Size::Terminated { max, .. } | Size::Open { max } => (max as usize, TEXT_MAX),
-            Size::Rest { max } => (max as usize, value(stream)),
+            Size::Open { max, .. } | Size::MayTerminate { max } if stream != S::ElementText => {
+                let name =
+                    if stream == S::VariableDescription { TEXT_MAX } else { DYNAMIC_NAME_MAX };
+                (max as usize, name)
+            }
+            Size::Terminated { max, .. } | Size::Open { max, .. } => (max as usize, TEXT_MAX),
+            Size::Rest { max, .. } => (max as usize, value(stream)),
             _ => continue,
         };
         assert_eq!(limit.0, limit.1, "{stream}");
     }
     let dimensions = S::VariableDescription.layout().fields[5].size;
     assert_eq!(dimensions, Size::Items { each: 4, max: DIMENSIONS_MAX as u32 });
+    let dimensions = S::VariableDescriptionByName.layout().fields[5].size;
+    assert_eq!(dimensions, Size::Items { each: 4, max: NAMELESS_DIMENSIONS_MAX as u32 });
     let text_of = |stream: Stream| stream.layout().fields[0].size;
-    assert_eq!(text_of(S::VariablePath), Size::Rest { max: NAME_MAX as u32 });
-    assert_eq!(text_of(S::Service), Size::Rest { max: SERVICE_TEXT_MAX as u32 });
+    assert_eq!(text_of(S::VariablePath), Size::Rest { min: 0, max: NAME_MAX as u32 });
+    assert_eq!(text_of(S::Service), Size::Rest { min: 0, max: SERVICE_TEXT_MAX as u32 });
     assert_eq!(NAME_MAX, TEXT_MAX - 1);
     // VAR-24: what is left of 2048 bytes beside the headers and the shortest name.
     assert_eq!(DIMENSIONS_MAX, (VARIABLE_MAX - 20 - 1) / 4);
+    assert_eq!(NAMELESS_DIMENSIONS_MAX, (VARIABLE_MAX - 20) / 4);
     assert_eq!(INDICES_MAX, (VARIABLE_MAX - 8) / 4);
 }

@@ -6,6 +6,9 @@ mod common;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::*;
+use ads_cnc::dynamic::*;
+use ads_cnc::sda::*;
+use ads_cnc::streaming::ProgramStream;
 use ads_cnc::*;
 use common::check_value;
 use proptest::collection::vec;
@@ -114,6 +117,38 @@ proptest! {
         check_value(&ReadWriteReply { result, data });
     }
 
+    /// Every content, packet and attribute comes back.
+    #[test]
+    fn contents(bytes in vec(any::<u8>(), 1..=992), text in open_text(), flag in any::<u8>()) {
+        check_value(&Content { bytes: bytes.clone() });
+        check_value(&ProgramStream { bytes });
+        check_value(&ElementText { text });
+        check_value(&ElementWriteFlag(flag));
+    }
+
+    /// Every address of an instance comes back.
+    #[test]
+    fn instances((index_group, index_offset) in place()) {
+        check_value(&ObjectAddress { index_group, index_offset });
+        let (channel, axis) = (index_group.get(), index_offset.get());
+        check_value(&ObjectAddressQuery { channel, axis });
+        check_value(&ElementCount(axis));
+        check_value(&ElementLength::new(axis));
+        check_value(&DynamicCount(axis));
+        check_value(&DynamicIndex(axis.max(1)));
+    }
+
+    /// Every dynamic parameter comes back, bit by bit.
+    #[test]
+    fn dynamic_parameters(text in text(95), tail in vec(any::<u8>(), 0..96), bits in any::<u64>()) {
+        let room = 95 - text.as_bytes().len();
+        let tail: Vec<u8> = tail.into_iter().take(room).collect();
+        let nuls = vec![0; tail.len()];
+        check_value(&DynamicName { name: Text { text: text.clone(), tail: Some(tail) } });
+        check_value(&DynamicNameRequest { name: Text { text, tail: Some(nuls) } });
+        check_value(&DynamicValue::from_bits(bits));
+    }
+
     /// Every descriptor comes back, alone and among others.
     #[test]
     fn descriptors(objects in vec(descriptor(), 1..5)) {
@@ -157,6 +192,13 @@ proptest! {
         (handle, var_type, access, size) in any::<(u32, u32, u32, u32)>(),
         dimensions in vec(any::<u32>(), 0..=443),
     ) {
+        check_value(&DescriptionByName {
+            handle: Handle(handle),
+            var_type: VariableType(var_type),
+            access: VariableAccess(access),
+            size,
+            dimensions: dimensions.clone(),
+        });
         check_value(&Description {
             handle: Handle(handle),
             var_type: VariableType(var_type),

@@ -7,7 +7,10 @@ use std::fmt::Write as _;
 
 use ads_cnc::address::{AxisStride, IndexGroup, IndexOffset};
 use ads_cnc::ads::*;
+use ads_cnc::dynamic::*;
 use ads_cnc::layout::Stream;
+use ads_cnc::sda::*;
+use ads_cnc::streaming::{ProgramStream, ProgramStreamRef};
 use ads_cnc::*;
 use ads_cnc_vectors::{Expect, Vector, vectors};
 
@@ -72,6 +75,22 @@ fn decode_stream(stream: Stream, vector: &Vector, bytes: &[u8]) -> Result<String
         Stream::VariableHandleWrite => show!(bytes, HandleWriteRef<'_>, HandleWrite),
         Stream::VariableNameWrite => show!(bytes, NameWriteRef<'_>, NameWrite),
         Stream::VariableExtendedDescription => show!(bytes, ExtendedReply, ExtendedReply),
+        Stream::VariableDescriptionByName => {
+            show!(bytes, DescriptionByNameRef<'_>, DescriptionByName)
+        }
+        Stream::Content => show!(bytes, ContentRef<'_>, Content),
+        Stream::ObjectAddressQuery => show!(bytes, ObjectAddressQuery, ObjectAddressQuery),
+        Stream::ObjectAddress => show!(bytes, ObjectAddress, ObjectAddress),
+        Stream::ElementCount => show!(bytes, ElementCount, ElementCount),
+        Stream::ElementText => show!(bytes, ElementTextRef<'_>, ElementText),
+        Stream::ElementLength => show!(bytes, ElementLength, ElementLength),
+        Stream::ElementWriteFlag => show!(bytes, ElementWriteFlag, ElementWriteFlag),
+        Stream::DynamicCount => show!(bytes, DynamicCount, DynamicCount),
+        Stream::DynamicIndex => show!(bytes, DynamicIndex, DynamicIndex),
+        Stream::DynamicName => show!(bytes, DynamicNameRef<'_>, DynamicName),
+        Stream::DynamicNameRequest => show!(bytes, DynamicNameRequestRef<'_>, DynamicNameRequest),
+        Stream::DynamicValue => show!(bytes, DynamicValue, DynamicValue),
+        Stream::ProgramStream => show!(bytes, ProgramStreamRef<'_>, ProgramStream),
         other => panic!("{other} has no decoder"),
     }
 }

@@ -166,9 +166,11 @@ fn refusals_are_error_numbers() {
         let (sda, com) = (port(client, net_id, SDA), port(client, net_id, COM));
         let refused = |group, offset, data: &[u8]| ask(sda, group, offset, data).unwrap_err();
         // A group without functions, channels that are not there, by number and by rank.
-        for group in [0xF005, 0x12_2401, 0x12_2303, 0x12_2305, 0x02_2304] {
+        for group in [0xF005, 0x12_2303, 0x12_2305, 0x02_2304] {
             assert_eq!(refused(group, 0x44, b"V.E\0"), 0x702, "{group:#x}");
         }
+        // A name is read, not asked for.
+        assert_eq!(refused(0x12_2401, 0x44, b"V.E\0"), 0x701);
         assert_eq!(refused(CHANNEL_1, 0x7FFF, b"V.E\0"), 0x703);
         assert_eq!(refused(CHANNEL_1, 0x46, b"V.E.nobody\0"), 0x710);
         assert_eq!(refused(CHANNEL_1, 0x48, b"V.E.nobody\0"), 0x710);
@@ -190,7 +192,7 @@ fn refusals_are_error_numbers() {
         assert_eq!(read(com, 0x13_0101, 1, 83), Err(0x705));
         assert_eq!(read(com, 0x13_0105, 0, 4), Err(0x702));
         assert_eq!(read(com, 0x13_0204, 0, 4), Err(0x702));
-        assert_eq!(read(com, 0x12_0101, 3, 1), Err(0x702));
+        assert_eq!(read(com, 0x12_0101, 3, 1), Err(0x703));
         // Another service, another port, another device.
         assert_eq!(read(sda, CHANNEL_1, 0x44, 4), Err(0x701));
         assert_eq!(number(sda.write(CHANNEL_1, 0x44, b"V.E\0")), Err(0x701));

@@ -4,10 +4,12 @@
 //! elements or `0x030000` for the description of objects, a class in bits 12 … 15, a table in
 //! bits 8 … 11, and a channel, platform axis or spindle in bits 0 … 7.
 
+mod element;
 mod group;
 mod offset;
 mod place;
 
+pub use element::ElementAddress;
 pub use group::{
     Access, Addressing, Attribute, Class, ClassGroup, ComGroup, ComTable, Group, IndexGroup,
 };

@@ -32,8 +32,14 @@ impl Layout {
 
     /// Whether every stream of this kind has the same length.
     pub fn is_fixed(&self) -> bool {
-        !self.repeats
-            && self.fields.iter().all(|row| matches!(row.size, Size::Fixed(_) | Size::Padded(_)))
+        let fixed =
+            |row: &FieldSpec| matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::FromOne);
+        !self.repeats && self.fields.iter().all(fixed)
+    }
+
+    /// Whether the fields tell where the stream ends: what follows is trailing, not too long.
+    pub(crate) fn ends_itself(&self) -> bool {
+        self.is_fixed() || self.fields.iter().any(|row| row.size == Size::OneTwoOrFour)
     }
 }
 
@@ -88,13 +94,26 @@ pub enum Size {
     FixedOrNothing(u32),
     /// Text that a NUL or the end of the stream ends; what follows the NUL is kept.
     Open {
+        /// The fewest bytes.
+        min: u32,
         /// The most bytes in all.
         max: u32,
     },
+    /// Text that a NUL may end; more NULs may pad it.
+    MayTerminate {
+        /// The most bytes in all, one at least.
+        max: u32,
+    },
+    /// Four bytes, a number that is not 0.
+    FromOne,
+    /// An unsigned number of one, two or four bytes, as the stream ends.
+    OneTwoOrFour,
     /// Text in so many bytes, padded with NULs if shorter.
     Padded(u32),
     /// All that is left.
     Rest {
+        /// The fewest bytes.
+        min: u32,
         /// The most bytes.
         max: u32,
     },
@@ -108,6 +127,12 @@ pub enum Type {
     Uns16,
     /// 32-bit unsigned, little-endian.
     Uns32,
+    /// Unsigned, little-endian, of a width that is not documented.
+    Unsigned,
+    /// One byte; 0 is FALSE, any other TRUE.
+    Boolean,
+    /// IEEE 754 binary64, little-endian.
+    Real64,
     /// CP1252 text.
     String,
     /// Six bytes of an AMS NetId.
@@ -121,6 +146,9 @@ impl fmt::Display for Type {
         f.write_str(match self {
             Self::Uns16 => "UNS16",
             Self::Uns32 => "UNS32",
+            Self::Unsigned => "unsigned",
+            Self::Boolean => "BOOLEAN",
+            Self::Real64 => "REAL64",
             Self::String => "STRING",
             Self::NetId => "BYTE[6]",
             Self::Bytes => "BYTE[]",

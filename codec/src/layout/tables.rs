@@ -162,7 +162,7 @@ layouts! {
         SIZE "size" @ 12, FIXED_4, Uns32, "VAR-8", "bytes of the whole variable";
         DIMENSION_COUNT "dimension_count" @ 16, FIXED_4, Uns32, "VAR-7", "array dimensions m; 0 for an elementary variable";
         DIMENSIONS "dimensions" @ 20, Size::Items { each: 4, max: 506 }, Uns32, "VAR-4", "elements in each dimension";
-        NAME "name" @ 20 + 4 m, Size::Open { max: 256 }, String, "VAR-4", "name of the variable";
+        NAME "name" @ 20 + 4 m, Size::Open { min: 1, max: 256 }, String, "VAR-4", "name of the variable";
     }
     /// Request by a variable's name.
     VariableName, variable_name: "variable-name", "Variable by name, request", "VAR-9", max 256 {
@@ -180,28 +180,91 @@ layouts! {
     }
     /// Value of a variable.
     VariableValue, variable_value: "variable-value", "Variable value, reply", "VAR-14", max 2048 {
-        VALUE "value" @ 0, Size::Rest { max: 2048 }, Bytes, "VAR-14", "one element, or all of the array";
+        VALUE "value" @ 0, Size::Rest { min: 0, max: 2048 }, Bytes, "VAR-14", "one element, or all of the array";
     }
     /// Request to write a value by handle.
     VariableHandleWrite, variable_handle_write: "variable-handle-write", "Write variable value by handle, request", "VAR-12", max 2048 {
         HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-12", "handle of the variable";
         INDEX_COUNT "index_count" @ 4, FIXED_4, Uns32, "VAR-12", "indices n that follow; 0 for the whole variable";
         INDICES "indices" @ 8, Size::Items { each: 4, max: 510 }, Uns32, "VAR-12", "index in each dimension, from 0";
-        VALUE "value" @ 8 + 4 m, Size::Rest { max: 2040 }, Bytes, "VAR-12", "one element, or all of the array";
+        VALUE "value" @ 8 + 4 m, Size::Rest { min: 0, max: 2040 }, Bytes, "VAR-12", "one element, or all of the array";
     }
     /// Request to write a value by name.
     VariableNameWrite, variable_name_write: "variable-name-write", "Write variable value by name, request", "VAR-13", max 2048 {
         NAME "name" @ 0, Size::Leading { max: 256 }, String, "VAR-13", "name of the variable";
-        VALUE "value" @ 1, Size::Rest { max: 2047 }, Bytes, "VAR-13", "one element, or all of the array";
+        VALUE "value" @ 1, Size::Rest { min: 0, max: 2047 }, Bytes, "VAR-13", "one element, or all of the array";
     }
     /// Extended description of a variable.
     VariableExtendedDescription, variable_extended_description: "variable-extended-description", "Extended variable description by index, reply", "VAR-15", max 8 {
         SYNCHRONISATION "synchronisation" @ 0, Size::FixedOrNothing(4), Uns32, "VAR-15", "1 NO_SYNC, 2 SYNCHRONIZED";
         VALIDITY "validity" @ 4, FIXED_4, Uns32, "VAR-15", "1 CHANNEL, 2 GLOBAL";
     }
+    /// Content of a COM object, or of an element of a class.
+    Content, content: "content", "Content of an object or element", "COM-5", max 0x40_0000 {
+        CONTENT "content" @ 0, Size::Rest { min: 0, max: 0x40_0000 }, Bytes, "COM-5", "as descriptor or attributes say";
+    }
+    /// Query of the address of an instance of a class.
+    ObjectAddressQuery, object_address_query: "object-address-query", "Object address, request", "SDA-1", max 8 {
+        CHANNEL "channel" @ 0, FIXED_4, Uns32, "SDA-5", "channel, or index of a spindle; 0 for the platform";
+        AXIS "axis" @ 4, FIXED_4, Uns32, "SDA-5", "axis; 0 for the channel itself";
+    }
+    /// Address of an instance of a class.
+    ObjectAddress, object_address: "object-address", "Object address, reply", "SDA-1", max 8 {
+        INDEX_GROUP "index_group" @ 0, FIXED_4, Uns32, "SDA-2", "index group of the content; 0 if there is none";
+        INDEX_OFFSET "index_offset" @ 4, FIXED_4, Uns32, "SDA-2", "index offset of the first element";
+    }
+    /// Number of element types of an instance.
+    ElementCount, element_count: "element-count", "Number of element types, reply", "SDA-4", max 4 {
+        COUNT "count" @ 0, FIXED_4, Uns32, "SDA-4", "element types behind the first element";
+    }
+    /// Name, type or unit of an element.
+    ElementText, element_text: "element-text", "Name, type or unit of an element, reply", "SDA-6", max 256 {
+        TEXT "text" @ 0, Size::Open { min: 0, max: 256 }, String, "SDA-6", "name, type or unit";
+    }
+    /// Length of an element's content.
+    ElementLength, element_length: "element-length", "Length of an element, reply", "SDA-8", max 4 {
+        LENGTH "length" @ 0, Size::OneTwoOrFour, Unsigned, "SDA-8", "bytes of the content";
+    }
+    /// Whether an element may be written.
+    ElementWriteFlag, element_write_flag: "element-write-flag", "Write flag of an element, reply", "SDA-9", max 1 {
+        FLAG "flag" @ 0, Size::Fixed(1), Boolean, "SDA-9", "TRUE: write access is permitted";
+    }
+    /// Number of dynamic parameters of a kind.
+    DynamicCount, dynamic_count: "dynamic-count", "Number of dynamic parameters, reply", "DYN-1", max 4 {
+        COUNT "count" @ 0, FIXED_4, Uns32, "DYN-1", "parameters of the kind; also the largest index";
+    }
+    /// Request of a dynamic parameter by its index.
+    DynamicIndex, dynamic_index: "dynamic-index", "Dynamic parameter by index, request", "DYN-5", max 4 {
+        INDEX "index" @ 0, Size::FromOne, Uns32, "DYN-5", "index of the parameter, from 1";
+    }
+    /// Name of a dynamic parameter.
+    DynamicName, dynamic_name: "dynamic-name", "Name of a dynamic parameter, reply", "DYN-2", max 96 {
+        NAME "name" @ 0, Size::Open { min: 1, max: 96 }, String, "DYN-2", "name of the parameter";
+    }
+    /// Request of a dynamic parameter by its name.
+    DynamicNameRequest, dynamic_name_request: "dynamic-name-request", "Dynamic parameter by name, request", "DYN-3", max 96 {
+        NAME "name" @ 0, Size::MayTerminate { max: 96 }, String, "DYN-3", "name of the parameter";
+    }
+    /// Value of a dynamic parameter.
+    DynamicValue, dynamic_value: "dynamic-value", "Value of a dynamic parameter, reply", "DYN-3", max 8 {
+        VALUE "value" @ 0, Size::Fixed(8), Real64, "DYN-3", "value of the parameter";
+    }
+    /// Description of a variable that was asked for by its name.
+    VariableDescriptionByName, variable_description_by_name: "variable-description-by-name", "Variable description by name, reply", "VAR-28", max 2048 {
+        HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-10", "handle of the variable";
+        TYPE "type" @ 4, FIXED_4, Uns32, "VAR-5", "1 BOOLEAN … 9 STRING";
+        ACCESS "access" @ 8, FIXED_4, Uns32, "VAR-6", "1 READ_ONLY, 2 READ_WRITE";
+        SIZE "size" @ 12, FIXED_4, Uns32, "VAR-8", "bytes of the whole variable";
+        DIMENSION_COUNT "dimension_count" @ 16, FIXED_4, Uns32, "VAR-7", "array dimensions m; 0 for an elementary variable";
+        DIMENSIONS "dimensions" @ 20, Size::Items { each: 4, max: 507 }, Uns32, "VAR-7", "elements in each dimension";
+    }
+    /// NC text in one write to the stream.
+    ProgramStream, program_stream: "program-stream", "Data streaming, request", "STM-2", max 992 {
+        DATA "data" @ 0, Size::Rest { min: 1, max: 992 }, Bytes, "STM-4", "whole lines of NC text";
+    }
     /// What comes back where nothing does; no stream of its own.
     NoData, no_data: "no-data", "No data", "VAR-17", max 0 {
-        NOTHING "nothing" @ 0, Size::Rest { max: 0 }, Bytes, "VAR-17", "nothing";
+        NOTHING "nothing" @ 0, Size::Rest { min: 0, max: 0 }, Bytes, "VAR-17", "nothing";
     }
     /// An index group put together from its parts; no stream of its own.
     IndexGroup, index_group: "index-group", "Index group", "ADR-9", max 0 {
@@ -214,17 +277,17 @@ layouts! {
     }
     /// A variable's name by its parts; no stream of its own.
     VariablePath, variable_path: "variable-path", "Name of a variable", "VAR-20", max 0 {
-        KIND "kind" @ 0, Size::Rest { max: 255 }, String, "VAR-20", "V.E, V.G, V.A, …";
-        PART "part" @ 0, Size::Rest { max: 255 }, String, "VAR-20", "name of a structure or variable";
-        INDEX "index" @ 0, Size::Rest { max: 255 }, String, "VAR-20", "number in brackets";
+        KIND "kind" @ 0, Size::Rest { min: 0, max: 255 }, String, "VAR-20", "V.E, V.G, V.A, …";
+        PART "part" @ 0, Size::Rest { min: 0, max: 255 }, String, "VAR-20", "name of a structure or variable";
+        INDEX "index" @ 0, Size::Rest { min: 0, max: 255 }, String, "VAR-20", "number in brackets";
     }
     /// The variables of the Service Interface; each is the value of a variable, none a stream here.
     Service, service: "service", "Service Interface", "SVC-1", max 0 {
-        UUID "uuid" @ 0, Size::Rest { max: 128 }, String, "SVC-1", "which service is asked";
-        REQUEST "request" @ 0, Size::Rest { max: 128 }, String, "SVC-1", "what it is asked";
+        UUID "uuid" @ 0, Size::Rest { min: 0, max: 128 }, String, "SVC-1", "which service is asked";
+        REQUEST "request" @ 0, Size::Rest { min: 0, max: 128 }, String, "SVC-1", "what it is asked";
         REQUEST_STATE "request_state" @ 0, FIXED_4, Uns32, "SVC-2", "not 0: there is a request";
         RESPONSE_STATE "response_state" @ 0, FIXED_4, Uns32, "SVC-5", "not 0: there is a response";
-        RESPONSE "response" @ 0, Size::Rest { max: 128 }, String, "SVC-1", "what it answered";
+        RESPONSE "response" @ 0, Size::Rest { min: 0, max: 128 }, String, "SVC-1", "what it answered";
     }
     /// The parameters of the cycle SysServiceWait; no stream of its own.
     SysServiceWait, sys_service_wait: "sys-service-wait", "Cycle SysServiceWait", "SVC-8", max 0 {
@@ -234,6 +297,6 @@ layouts! {
     }
     /// A text before it stands in a stream.
     Text, text: "text", "Text in CP1252", "GEN-3", max 0 {
-        TEXT "text" @ 0, Size::Rest { max: 0xffff_ffff }, String, "GEN-3", "CP1252 without NUL";
+        TEXT "text" @ 0, Size::Rest { min: 0, max: 0xffff_ffff }, String, "GEN-3", "CP1252 without NUL";
     }
 }

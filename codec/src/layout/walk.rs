@@ -95,8 +95,22 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
                     let bytes = self.input.leading(field, max)?;
                     self.visit(field, 0, at, bytes);
                 }
-                Size::Open { max } => self.rest(field, 1, max)?,
-                Size::Rest { max } => self.rest(field, 0, max)?,
+                Size::MayTerminate { max } => {
+                    let at = self.input.at();
+                    let bytes = self.input.may_terminate(field, max)?;
+                    self.visit(field, 0, at, bytes);
+                }
+                Size::FromOne => {
+                    let at = self.input.at();
+                    let bytes = self.input.number_from_one(field)?;
+                    self.visit(field, 0, at, bytes);
+                }
+                Size::OneTwoOrFour => {
+                    let at = self.input.at();
+                    let bytes = self.input.one_two_or_four(field)?;
+                    self.visit(field, 0, at, bytes);
+                }
+                Size::Open { min, max } | Size::Rest { min, max } => self.rest(field, min, max)?,
             }
             counter = field;
         }

@@ -120,16 +120,16 @@ impl<'a> Call<'a> {
             if (spec.task == Task::Com) != (task == Task::Com) || !spec.group.holds(group) {
                 continue;
             }
-            if !spec.offset.holds(self.index_offset) {
-                if matches!(refusal, Refusal::Group(_)) {
-                    refusal = Refusal::Offset(self.index_offset);
-                }
-            } else if spec.service != self.service {
-                refusal = Refusal::Service { takes: spec.service, asked: self.service };
-            } else {
+            let here = spec.offset.holds(self.index_offset);
+            if here && spec.service == self.service {
                 let request =
                     self.check_data().and_then(|()| Request::decode(function, group, self));
                 return request.map_err(Refusal::Stream);
+            } else if here && !spec.is_content() {
+                // No content is where a function is, whatever it takes (SDA-12).
+                return Err(Refusal::Service { takes: spec.service, asked: self.service });
+            } else if matches!(refusal, Refusal::Group(_)) {
+                refusal = Refusal::Offset(self.index_offset);
             }
         }
         Err(refusal)

@@ -21,8 +21,13 @@
 mod axis;
 mod call;
 mod com;
+mod content;
+mod dynamic;
+mod element;
 mod reply;
 mod request;
+mod rules;
+mod service;
 mod table;
 mod variable;
 mod write;
@@ -30,10 +35,19 @@ mod write;
 pub use axis::{AxisHandleByName, AxisReadByName, AxisWriteByName};
 pub use call::{Call, Refusal};
 pub use com::{CountObjects, ObjectList, ReadDescriptors};
+pub use content::{ReadElement, ReadObject, WriteElement, WriteObject, WriteProgramStream};
+pub use dynamic::{CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName};
+pub use element::{
+    CountElements, FindInstance, ReadElementLength, ReadElementName, ReadElementType,
+    ReadElementUnit, ReadElementWriteFlag,
+};
 pub use reply::Reply;
 pub use request::{Operation, Request};
-pub use table::{Effect, Function, FunctionSpec, GroupRule, OffsetRule, Service, Task};
+pub use rules::{GroupRule, OffsetRule};
+pub use service::{Service, Task};
+pub use table::{Effect, Function, FunctionSpec};
 pub use variable::{
-    CountVariables, DescribeByIndex, DescribeExtended, HandleByName, ReadByHandle, ReadByName,
+    CountVariables, DescribeByIndex, DescribeByName, DescribeExtended, HandleByName, ReadByHandle,
+    ReadByName,
 };
 pub use write::{WriteByHandle, WriteByName};

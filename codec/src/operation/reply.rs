@@ -1,83 +1,93 @@
 //! What functions answer.
 
 use crate::com::{DescriptorsRef, ObjectCount};
+use crate::content::ContentRef;
+use crate::dynamic::{DynamicCount, DynamicNameRef, DynamicValue};
 use crate::error::Error;
+use crate::sda::{ElementCount, ElementLength, ElementTextRef, ElementWriteFlag, ObjectAddress};
 use crate::stream::{Encode, NoData};
-use crate::variable::{DescriptionRef, ExtendedReply, Handle, ValueRef, VariableCount};
+use crate::variable::{
+    DescriptionByNameRef, DescriptionRef, ExtendedReply, Handle, ValueRef, VariableCount,
+};
 
-/// Any reply: what a server answers, what a tool shows.
-///
-/// ```
-/// use ads_cnc::operation::Reply;
-/// use ads_cnc::{Encode, Handle};
-///
-/// let mut buf = [0; 4];
-/// assert_eq!(Reply::from(Handle(0x2000004)).encode(&mut buf)?, [4, 0, 0, 2]);
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Reply<'a> {
-    /// Number of objects.
-    ObjectCount(ObjectCount),
-    /// Object descriptors.
-    Descriptors(DescriptorsRef<'a>),
-    /// Number of variables.
-    VariableCount(VariableCount),
-    /// Description of a variable.
-    Description(DescriptionRef<'a>),
-    /// Handle of a variable.
-    Handle(Handle),
-    /// Value of a variable.
-    Value(ValueRef<'a>),
-    /// Extended description of a variable, or none.
-    Extended(ExtendedReply),
-    /// Nothing, of a write.
-    NoData(NoData),
-}
+/// Declares [`Reply`] and what all its variants have in common.
+macro_rules! replies {
+    (
+        $(#[$doc:meta])*
+        enum Reply { $( $(#[$variant_doc:meta])* $variant:ident($reply:ty), )+ }
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum Reply<'a> { $( $(#[$variant_doc])* $variant($reply), )+ }
 
-macro_rules! each_reply {
-    ($self:expr, $reply:ident => $then:expr) => {
-        match $self {
-            Reply::ObjectCount($reply) => $then,
-            Reply::Descriptors($reply) => $then,
-            Reply::VariableCount($reply) => $then,
-            Reply::Description($reply) => $then,
-            Reply::Handle($reply) => $then,
-            Reply::Value($reply) => $then,
-            Reply::Extended($reply) => $then,
-            Reply::NoData($reply) => $then,
+        impl Encode for Reply<'_> {
+            fn encoded_len(&self) -> usize {
+                match self { $( Self::$variant(reply) => reply.encoded_len(), )+ }
+            }
+
+            fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+                match self { $( Self::$variant(reply) => reply.encode(buf), )+ }
+            }
         }
+
+        $(
+            impl<'a> From<$reply> for Reply<'a> {
+                fn from(reply: $reply) -> Self {
+                    Self::$variant(reply)
+                }
+            }
+        )+
     };
 }
 
-impl Encode for Reply<'_> {
-    fn encoded_len(&self) -> usize {
-        each_reply!(self, reply => reply.encoded_len())
+replies! {
+    /// Any reply: what a server answers, what a tool shows.
+    ///
+    /// ```
+    /// use ads_cnc::operation::Reply;
+    /// use ads_cnc::{Encode, Handle};
+    ///
+    /// let mut buf = [0; 4];
+    /// assert_eq!(Reply::from(Handle(0x2000004)).encode(&mut buf)?, [4, 0, 0, 2]);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    enum Reply {
+        /// Number of objects.
+        ObjectCount(ObjectCount),
+        /// Object descriptors.
+        Descriptors(DescriptorsRef<'a>),
+        /// Number of variables.
+        VariableCount(VariableCount),
+        /// Description of a variable.
+        Description(DescriptionRef<'a>),
+        /// Description of a variable, without its name.
+        DescriptionByName(DescriptionByNameRef<'a>),
+        /// Handle of a variable.
+        Handle(Handle),
+        /// Value of a variable.
+        Value(ValueRef<'a>),
+        /// Extended description of a variable, or none.
+        Extended(ExtendedReply),
+        /// Number of dynamic parameters.
+        DynamicCount(DynamicCount),
+        /// Name of a dynamic parameter.
+        DynamicName(DynamicNameRef<'a>),
+        /// Value of a dynamic parameter.
+        DynamicValue(DynamicValue),
+        /// Address of an instance, or none.
+        ObjectAddress(ObjectAddress),
+        /// Number of element types.
+        ElementCount(ElementCount),
+        /// Name, type or unit of an element.
+        ElementText(ElementTextRef<'a>),
+        /// Length of an element's content.
+        ElementLength(ElementLength),
+        /// Whether an element may be written.
+        ElementWriteFlag(ElementWriteFlag),
+        /// Content of an object or element.
+        Content(ContentRef<'a>),
+        /// Nothing, of a write.
+        NoData(NoData),
     }
-
-    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        each_reply!(self, reply => reply.encode(buf))
-    }
-}
-
-macro_rules! from_reply {
-    ($( $reply:ty => $variant:ident, )+) => { $(
-        impl<'a> From<$reply> for Reply<'a> {
-            fn from(reply: $reply) -> Self {
-                Self::$variant(reply)
-            }
-        }
-    )+ };
-}
-
-from_reply! {
-    ObjectCount => ObjectCount,
-    DescriptorsRef<'a> => Descriptors,
-    VariableCount => VariableCount,
-    DescriptionRef<'a> => Description,
-    Handle => Handle,
-    ValueRef<'a> => Value,
-    ExtendedReply => Extended,
-    NoData => NoData,
 }

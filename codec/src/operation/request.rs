@@ -1,9 +1,12 @@
 //! Typed operations, and all of them as one type.
 
 use super::{
-    AxisHandleByName, AxisReadByName, AxisWriteByName, Call, CountObjects, CountVariables,
-    DescribeByIndex, DescribeExtended, Function, HandleByName, ReadByHandle, ReadByName,
-    ReadDescriptors, Reply, WriteByHandle, WriteByName,
+    AxisHandleByName, AxisReadByName, AxisWriteByName, Call, CountDynamic, CountElements,
+    CountObjects, CountVariables, DescribeByIndex, DescribeByName, DescribeExtended,
+    DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, FindInstance, Function,
+    HandleByName, ReadByHandle, ReadByName, ReadDescriptors, ReadElement, ReadElementLength,
+    ReadElementName, ReadElementType, ReadElementUnit, ReadElementWriteFlag, ReadObject, Reply,
+    WriteByHandle, WriteByName, WriteElement, WriteObject, WriteProgramStream,
 };
 use crate::address::{Group, IndexGroup, IndexOffset};
 use crate::error::Error;
@@ -136,7 +139,24 @@ requests! {
     WriteByHandle(WriteByHandle<'a>) => NoData,
     WriteByName(WriteByName<'a>) => NoData,
     DescribeExtended(DescribeExtended<'a>) => Extended,
+    DescribeByName(DescribeByName<'a>) => DescriptionByName,
     AxisHandleByName(AxisHandleByName<'a>) => Handle,
     AxisReadByName(AxisReadByName<'a>) => Value,
     AxisWriteByName(AxisWriteByName<'a>) => NoData,
+    CountDynamic(CountDynamic) => DynamicCount,
+    DynamicNameByIndex(DynamicNameByIndex) => DynamicName,
+    DynamicValueByName(DynamicValueByName<'a>) => DynamicValue,
+    DynamicValueByIndex(DynamicValueByIndex) => DynamicValue,
+    FindInstance(FindInstance) => ObjectAddress,
+    CountElements(CountElements) => ElementCount,
+    ReadElement(ReadElement) => Content,
+    WriteElement(WriteElement<'a>) => NoData,
+    ReadElementName(ReadElementName) => ElementText,
+    ReadElementType(ReadElementType) => ElementText,
+    ReadElementLength(ReadElementLength) => ElementLength,
+    ReadElementUnit(ReadElementUnit) => ElementText,
+    ReadElementWriteFlag(ReadElementWriteFlag) => ElementWriteFlag,
+    WriteProgramStream(WriteProgramStream<'a>) => NoData,
+    ReadObject(ReadObject) => Content,
+    WriteObject(WriteObject<'a>) => NoData,
 }

@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::stream::{Decode, Encode};
 use crate::text::TextRef;
 use crate::variable::{
-    DescriptionRef, ExtendedReply, Handle, HandleReadRef, Kind, Numbers, ValueRef, VariableCount,
-    VariableIndexKindRef, VariableKindRef, VariableNameRef,
+    DescriptionByNameRef, DescriptionRef, ExtendedReply, Handle, HandleReadRef, Kind, Numbers,
+    ValueRef, VariableCount, VariableIndexKindRef, VariableKindRef, VariableNameRef,
 };
 
 /// The channel of a group that the dispatcher has found to be one of a channel.
@@ -220,6 +220,39 @@ operation! {
         kind: Kind<'a>,
     }
     as VariableIndexKindRef, 0x4B, reply ExtendedReply, at most 2048
+}
+
+operation! {
+    /// The description of a variable by its name: ReadWrite at offset 0x4C, port 552.
+    ///
+    /// Documented online only, for CNC versions from V3.1.3132.0 and V4.29.0 on; `ads-en` 1.05 and
+    /// `ads-de` 1.051 reserve the offset in section 4.2.1.
+    ///
+    /// ```
+    /// use ads_cnc::VariableType;
+    /// use ads_cnc::address::Channel;
+    /// use ads_cnc::operation::{DescribeByName, Operation};
+    ///
+    /// let op = DescribeByName::new(Channel::new(1)?, "V.E.Variable_3")?;
+    /// let reply = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0";
+    /// assert_eq!(op.decode_reply(reply)?.var_type, VariableType::BOOLEAN);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    DescribeByName {
+        /// The variable's name.
+        name: TextRef<'a>,
+    }
+    as VariableNameRef, 0x4C, reply DescriptionByNameRef<'r>, at most 2048
+}
+
+impl<'a> DescribeByName<'a> {
+    /// For a channel and a name.
+    ///
+    /// # Errors
+    /// Those of [`TextRef::new`].
+    pub fn new(channel: Channel, name: &'a str) -> Result<Self, Error> {
+        Ok(Self { channel, name: TextRef::new(name)? })
+    }
 }
 
 impl<'a> DescribeExtended<'a> {

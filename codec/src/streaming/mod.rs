@@ -6,7 +6,7 @@
 //! | 2.2, start, order, reset, the interface's end | [`Interface`] |
 //! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain | [`Findings`] |
 //! | 3.1, sizes | [`limits`](crate::limits) |
-//! | 3.2, the object | [`INDEX_OFFSET`], [`OBJECT_NAME`] |
+//! | 3.2, the object | [`WriteProgramStream`](crate::operation::WriteProgramStream), [`ProgramStreamRef`], [`OBJECT_NAME`] |
 //! | 4.1, line ends | [`LineError`], [`LINE_END_ERROR`] |
 //! | 4.2 and 5, acknowledgement and repetition | [`Sender`], [`Ack`], [`RETRY_AFTER`] |
 //!
@@ -43,6 +43,7 @@ mod interface;
 mod jumps;
 mod lex;
 mod packets;
+mod program_stream;
 mod scan;
 mod sender;
 mod text;
@@ -52,6 +53,9 @@ pub use check::{Finding, FindingKind, Findings};
 pub use error::{LineError, LineErrorKind};
 pub use interface::Interface;
 pub use packets::Packets;
+#[cfg(feature = "alloc")]
+pub use program_stream::ProgramStream;
+pub use program_stream::ProgramStreamRef;
 pub use sender::{Ack, NoPacketOut, Progress, Sender, SenderState};
 pub use text::{Lines, NcText};
 pub use words::{LoopWord, ProgramEnd};

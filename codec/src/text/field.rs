@@ -78,16 +78,43 @@ impl<'a> TextRef<'a> {
         if len > max {
             return Err(Error::new(ErrorKind::TooLong, field, at, max, len));
         }
-        let Some(tail) = self.tail else {
-            return Err(Error::new(ErrorKind::MissingNul, field, at, max, len));
-        };
+        match self.tail {
+            Some(_) => self.check_padding(field, at),
+            None => Err(Error::new(ErrorKind::MissingNul, field, at, max, len)),
+        }
+    }
+
+    /// As [`check_terminated`](Self::check_terminated), but the NUL may be missing.
+    pub(crate) fn check_may_terminate(&self, field: Field, at: u32, max: u32) -> Result<(), Error> {
+        self.check_open(field, at, 1, max)?;
+        self.check_padding(field, at)
+    }
+
+    /// Whether the field has between `min` and `max` bytes.
+    pub(crate) fn check_open(
+        &self,
+        field: Field,
+        at: u32,
+        min: u32,
+        max: u32,
+    ) -> Result<(), Error> {
+        match crate::bytes::to_u32(self.field_len()) {
+            len if len < min => Err(Error::new(ErrorKind::Truncated, field, at, min, len)),
+            len if len > max => Err(Error::new(ErrorKind::TooLong, field, at, max, len)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Behind the NUL, if there is one, only NULs.
+    fn check_padding(&self, field: Field, at: u32) -> Result<(), Error> {
+        let tail = self.tail.unwrap_or_default();
         let padding = tail.iter().take_while(|&&byte| byte == 0).count();
         if padding == tail.len() {
             return Ok(());
         }
         let used = self.text.len().saturating_add(padding).saturating_add(1);
         let end = at.saturating_add(crate::bytes::to_u32(used));
-        let given = at.saturating_add(len);
+        let given = at.saturating_add(crate::bytes::to_u32(self.field_len()));
         Err(Error::new(ErrorKind::Trailing, Field::whole(field.stream()), end, end, given))
     }
 }

@@ -12,15 +12,15 @@ use crate::limits::{DIMENSIONS_MAX, TEXT_MAX};
 use crate::stream::{Decode, Encode};
 use crate::text::TextRef;
 
-/// The five numbers at the front, once for both readings.
+/// The five numbers at the front, once for all readings.
 #[derive(Clone, Copy, FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
 #[repr(C)]
-struct Head {
-    handle: U32,
-    var_type: U32,
-    access: U32,
-    size: U32,
-    dimension_count: U32,
+pub(super) struct Head {
+    pub(super) handle: U32,
+    pub(super) var_type: U32,
+    pub(super) access: U32,
+    pub(super) size: U32,
+    pub(super) dimension_count: U32,
 }
 
 const _: () = assert!(size_of::<Head>() == 20);
@@ -88,11 +88,7 @@ impl DescriptionRef<'_> {
             return Err(Error::new(ErrorKind::TooMany, DIMENSION_COUNT, 16, max, count));
         }
         let at = to_u32(self.dimensions.encoded_len().saturating_add(size_of::<Head>()));
-        match (to_u32(self.name.field_len()), to_u32(TEXT_MAX)) {
-            (0, _) => Err(Error::new(ErrorKind::Truncated, NAME, at, 1, 0)),
-            (len, max) if len > max => Err(Error::new(ErrorKind::TooLong, NAME, at, max, len)),
-            _ => Ok(()),
-        }
+        self.name.check_open(NAME, at, 1, to_u32(TEXT_MAX))
     }
 }
 

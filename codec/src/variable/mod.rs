@@ -2,6 +2,7 @@
 
 mod codes;
 mod description;
+mod description_by_name;
 mod element;
 mod extended;
 mod handle;
@@ -15,6 +16,7 @@ mod value;
 
 pub use codes::{Synchronisation, Validity, VariableAccess, VariableType};
 pub use description::DescriptionRef;
+pub use description_by_name::DescriptionByNameRef;
 pub use element::{Element, Elements};
 pub use extended::{ExtendedDescription, ExtendedReply};
 pub use handle::{Handle, HandleReadRef};
@@ -29,6 +31,7 @@ pub use value::ValueRef;
 #[cfg(feature = "alloc")]
 pub use {
     description::Description,
+    description_by_name::DescriptionByName,
     handle::HandleRead,
     handle_write::HandleWrite,
     kind::{VariableIndexKind, VariableKind},

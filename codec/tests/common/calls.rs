@@ -15,6 +15,10 @@ const fn read(slug: &'static str, function: Function, place: (u32, u32, u32)) ->
     sample(slug, function, 553, Service::Read, place, b"")
 }
 
+const fn sda(slug: &'static str, function: Function, place: (u32, u32, u32)) -> CallSample {
+    sample(slug, function, 552, Service::Read, place, b"")
+}
+
 const fn variable(
     slug: &'static str,
     function: Function,
@@ -140,5 +144,91 @@ pub(crate) const CALLS: &[CallSample] = &[
         Function::AxisWriteByName,
         0x2_0006,
         b"V.A.WCS\0\x77\xbe\x9f\x1a\x2f\xdd\x5e\x40",
+    ),
+    variable(
+        "description-by-name",
+        Function::DescribeByName,
+        (0x12_2301, 0x4C, 2048),
+        b"V.E.Variable_3\0",
+    ),
+    sda("parameters-printed", Function::CountDynamic, (0x12_2301, 0x02, 4)),
+    sda("variables-v.l", Function::CountDynamic, (0x12_2301, 0x03, 4)),
+    sda("variables-v.p-by-index", Function::CountDynamic, (0x2_2302, 0x04, 4)),
+    sda("variables-v.s", Function::CountDynamic, (0x12_2301, 0x05, 4)),
+    variable(
+        "parameter-name-printed",
+        Function::DynamicNameByIndex,
+        (0x12_2301, 0x1B, 96),
+        b"\x01\0\0\0",
+    ),
+    variable("v.s-name", Function::DynamicNameByIndex, (0x12_2301, 0x24, 96), b"\xff\xff\xff\xff"),
+    variable("parameter-printed", Function::DynamicValueByName, (0x12_2301, 0x1C, 8), b"P1\0"),
+    variable("parameter-without-nul", Function::DynamicValueByName, (0x12_2301, 0x1C, 8), b"P1"),
+    variable("v.l-value", Function::DynamicValueByName, (0x12_2301, 0x1F, 8), b"V.L.name\0"),
+    variable("v.p-by-index", Function::DynamicValueByIndex, (0x12_2301, 0x23, 8), b"\x01\0\0\0"),
+    variable(
+        "instance-printed-channel",
+        Function::FindInstance,
+        (0x12_3900, 0, 8),
+        b"\x01\0\0\0\0\0\0\0",
+    ),
+    variable(
+        "instance-printed-decoder-axis",
+        Function::FindInstance,
+        (0x12_2900, 0, 8),
+        b"\x01\0\0\0\x02\0\0\0",
+    ),
+    variable("instance-spindle", Function::FindInstance, (0x2_5900, 0, 8), b"\0\0\0\0\0\0\0\0"),
+    variable("instance-by-index", Function::FindInstance, (0x2_3900, 0, 8), b"\x01\0\0\0\0\0\0\0"),
+    sda("elements-of-channel", Function::CountElements, (0x12_3301, 0, 4)),
+    sda("elements-of-decoder-axis", Function::CountElements, (0x12_2301, 0x2_0000, 4)),
+    sda("elements-of-spindle", Function::CountElements, (0x2_5302, 0, 4)),
+    sda("content-printed", Function::ReadElement, (0x12_3301, 1, 1)),
+    // The first element under the stride 0x1000 is any element under the other (E-01).
+    sda("content-platform-axis", Function::ReadElement, (0x12_3300, 0x1000, 4)),
+    sda("content-position-controller", Function::ReadElement, (0x12_0300, 0x1_0001, 8)),
+    sda("content-of-reserved-offset", Function::ReadElement, (0x12_2301, 0x4D, 4)),
+    sda("name-printed", Function::ReadElementName, (0x12_3401, 1, 256)),
+    sda("name-of-function", Function::ReadElementName, (0x12_2401, 0x44, 256)),
+    sda("type-printed", Function::ReadElementType, (0x12_3501, 1, 256)),
+    sda("length-printed", Function::ReadElementLength, (0x12_3601, 1, 4)),
+    sda("unit-printed", Function::ReadElementUnit, (0x12_3701, 1, 256)),
+    sda("write-flag-printed", Function::ReadElementWriteFlag, (0x12_3801, 1, 1)),
+    sample(
+        "write-content",
+        Function::WriteElement,
+        552,
+        Service::Write,
+        (0x12_3301, 1, 0),
+        b"\x01",
+    ),
+    sample(
+        "stream",
+        Function::WriteProgramStream,
+        553,
+        Service::Write,
+        (0x12_0101, 0x90, 0),
+        b"N10 M30\r\n",
+    ),
+    sample(
+        "stream-printed-by-index",
+        Function::WriteProgramStream,
+        553,
+        Service::Write,
+        (0x2_0101, 0x90, 0),
+        b"N10 M30\r\n",
+    ),
+    read("object-printed-platform", Function::ReadObject, (0x12_0100, 0x251, 4)),
+    read("object-printed-axis", Function::ReadObject, (0x12_0201, 0x1_0001, 4)),
+    read("object-printed-channel", Function::ReadObject, (0x12_0101, 1, 4)),
+    // The stream is an object of channels, not of the platform.
+    read("object-platform-0x90", Function::ReadObject, (0x12_0100, 0x90, 4)),
+    sample(
+        "write-object-printed",
+        Function::WriteObject,
+        553,
+        Service::Write,
+        (0x12_0101, 1, 0),
+        b"\x01",
     ),
 ];

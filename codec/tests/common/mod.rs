@@ -7,6 +7,7 @@ mod calls;
 mod laws;
 mod samples;
 mod samples_ads;
+mod samples_elements;
 mod subjects;
 
 pub(crate) use calls::{CALLS, CallSample};

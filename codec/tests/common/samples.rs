@@ -3,6 +3,7 @@
 use ads_cnc::layout::Stream;
 
 use super::samples_ads::*;
+use super::samples_elements::*;
 
 /// A valid stream, cut by hand into its fields; a field of several items stands once for each.
 pub(crate) struct Sample {
@@ -40,7 +41,7 @@ pub(super) const fn sample(
 }
 
 /// `text` in `N` bytes, NULs behind it.
-const fn padded<const N: usize>(text: &[u8]) -> [u8; N] {
+pub(super) const fn padded<const N: usize>(text: &[u8]) -> [u8; N] {
     let mut bytes = [0; N];
     let mut at = 0;
     while at < text.len() {
@@ -72,6 +73,20 @@ pub(crate) const SAMPLES: &[(Stream, &[Sample])] = &[
     (Stream::VariableHandleWrite, VARIABLE_HANDLE_WRITE),
     (Stream::VariableNameWrite, VARIABLE_NAME_WRITE),
     (Stream::VariableExtendedDescription, VARIABLE_EXTENDED_DESCRIPTION),
+    (Stream::Content, CONTENT),
+    (Stream::ObjectAddressQuery, OBJECT_ADDRESS_QUERY),
+    (Stream::ObjectAddress, OBJECT_ADDRESS),
+    (Stream::ElementCount, &[sample("nine", &[("count", b"\x09\0\0\0")])]),
+    (Stream::ElementText, ELEMENT_TEXT),
+    (Stream::ElementLength, ELEMENT_LENGTH),
+    (Stream::ElementWriteFlag, ELEMENT_WRITE_FLAG),
+    (Stream::DynamicCount, &[sample("printed", &[("count", b"\x01\0\0\0")])]),
+    (Stream::DynamicIndex, &[sample("printed", &[("index", b"\x01\0\0\0")])]),
+    (Stream::DynamicName, DYNAMIC_NAME),
+    (Stream::DynamicNameRequest, DYNAMIC_NAME_REQUEST),
+    (Stream::DynamicValue, DYNAMIC_VALUE),
+    (Stream::VariableDescriptionByName, VARIABLE_DESCRIPTION_BY_NAME),
+    (Stream::ProgramStream, PROGRAM_STREAM),
     (Stream::VariableHandleRead, VARIABLE_HANDLE_READ),
     (Stream::VariableValue, VARIABLE_VALUE),
 ];

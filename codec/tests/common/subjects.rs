@@ -1,7 +1,10 @@
 //! The readings of each stream, as functions over bytes.
 
 use ads_cnc::ads::*;
+use ads_cnc::dynamic::*;
 use ads_cnc::layout::Stream;
+use ads_cnc::sda::*;
+use ads_cnc::streaming::*;
 use ads_cnc::*;
 
 /// One reading of a stream.
@@ -99,4 +102,18 @@ pub(crate) static SUBJECTS: &[Subject] = subjects! {
     VariableHandleWrite: HandleWriteRef<'_>, HandleWrite;
     VariableNameWrite: NameWriteRef<'_>, NameWrite;
     VariableExtendedDescription: ExtendedReply;
+    Content: ContentRef<'_>, Content;
+    ObjectAddressQuery: ObjectAddressQuery;
+    ObjectAddress: ObjectAddress;
+    ElementCount: ElementCount;
+    ElementText: ElementTextRef<'_>, ElementText;
+    ElementLength: ElementLength;
+    ElementWriteFlag: ElementWriteFlag;
+    DynamicCount: DynamicCount;
+    DynamicIndex: DynamicIndex;
+    DynamicName: DynamicNameRef<'_>, DynamicName;
+    DynamicNameRequest: DynamicNameRequestRef<'_>, DynamicNameRequest;
+    DynamicValue: DynamicValue;
+    VariableDescriptionByName: DescriptionByNameRef<'_>, DescriptionByName;
+    ProgramStream: ProgramStreamRef<'_>, ProgramStream;
 };

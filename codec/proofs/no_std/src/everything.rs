@@ -3,11 +3,13 @@
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::*;
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::dynamic::*;
+use ads_cnc::operation::{Call, Operation, ReadElement, ReadObject, Service, WriteElement};
+use ads_cnc::sda::*;
 use ads_cnc::service::{
     CallStep, Host, HostStep, Interface as Services, ServiceId, SysServiceWait,
 };
-use ads_cnc::streaming::{Ack, Interface, NcText, Sender};
+use ads_cnc::streaming::{Ack, Interface, NcText, ProgramStreamRef, Sender};
 use ads_cnc::*;
 use core::hint::black_box;
 use core::time::Duration;
@@ -42,6 +44,20 @@ fn readings(bytes: &[u8]) -> bool {
         & both::<NameWriteRef<'_>>(bytes)
         & both::<ExtendedReply>(bytes)
         & both::<ValueRef<'_>>(bytes)
+        & both::<DescriptionByNameRef<'_>>(bytes)
+        & both::<ContentRef<'_>>(bytes)
+        & both::<ObjectAddressQuery>(bytes)
+        & both::<ObjectAddress>(bytes)
+        & both::<ElementCount>(bytes)
+        & both::<ElementTextRef<'_>>(bytes)
+        & both::<ElementLength>(bytes)
+        & both::<ElementWriteFlag>(bytes)
+        & both::<DynamicCount>(bytes)
+        & both::<DynamicIndex>(bytes)
+        & both::<DynamicNameRef<'_>>(bytes)
+        & both::<DynamicNameRequestRef<'_>>(bytes)
+        & both::<DynamicValue>(bytes)
+        & both::<ProgramStreamRef<'_>>(bytes)
 }
 
 fn walks(bytes: &[u8]) -> usize {
@@ -76,6 +92,17 @@ fn operations(bytes: &[u8]) -> Result<usize, Error> {
     let again = request.encode(&mut buf)?.data.len();
     let reply = request.decode_reply(bytes)?;
     Ok(reply.encode(&mut out)?.len().wrapping_add(again))
+}
+
+/// The next element of whatever instance the bytes address, in each of its attributes.
+fn elements(bytes: &[u8]) -> Result<usize, Error> {
+    let Some(first) = ObjectAddress::decode(bytes)?.first_element()? else { return Ok(0) };
+    let next = first.following(black_box(1))?;
+    let read = ReadElement::new(next, black_box(4))?;
+    let write = WriteElement::new(next, bytes)?;
+    let object = ReadObject::new(read.index_group(), read.index_offset(), read.read_length())?;
+    let mut buf = [0; 16];
+    Ok(write.encode(&mut buf)?.len().wrapping_add(object.decode_reply(bytes)?.bytes.len()))
 }
 
 fn frames(bytes: &[u8]) -> Result<usize, Error> {
@@ -144,6 +171,7 @@ pub(crate) fn runs(bytes: &[u8]) -> bool {
     let numbers = [
         operations(bytes).unwrap_or(1),
         frames(bytes).unwrap_or(2),
+        elements(bytes).unwrap_or(5),
         texts(bytes).unwrap_or(3),
         services(bytes).unwrap_or(4),
         streams(bytes),

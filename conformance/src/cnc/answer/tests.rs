@@ -139,9 +139,11 @@ fn a_rank_is_no_number() {
     ] {
         assert_eq!(channel(group), Ok(le(&[number])), "{group:#x}");
     }
-    for group in [0x12_2303, 0x12_2305, 0x12_23FF, 0x02_2304, 0x02_2306, 0x12_2300] {
+    for group in [0x12_2303, 0x12_2305, 0x12_23FF, 0x02_2304, 0x02_2306] {
         assert_eq!(channel(group), Err(AdsError::INVALID_GROUP), "{group:#x}");
     }
+    // Elements may be there, but no channel 0 that has variables.
+    assert_eq!(channel(0x12_2300), Err(AdsError::INVALID_OFFSET));
 }
 
 #[test]
@@ -154,7 +156,7 @@ fn what_is_unknown_has_a_number() {
     assert_eq!(ask(0x49, none), Err(E::SERVICE_NOT_SUPPORTED));
     assert_eq!(ask(0x4B, b"\0\0\0\0V.E\0"), Err(E::INVALID_OFFSET));
     assert_eq!(cnc().answer(&call(0xF005, 0x44, 4, none)), Err(E::INVALID_GROUP));
-    assert_eq!(com(0x12_0101, 0x3, 1), Err(E::INVALID_GROUP));
+    assert_eq!(com(0x12_0101, 0x3, 1), Err(E::INVALID_OFFSET));
     let port = Call { port: AmsPort(851), ..call(0x12_2301, 0x44, 4, none) };
     assert_eq!(cnc().answer(&port), Err(E::TARGET_PORT_NOT_FOUND));
     for service in [Service::Read, Service::Write] {
@@ -225,9 +227,11 @@ fn object_lists() {
     assert_eq!(count(0x13_0100), Ok(2));
     assert_eq!((count(0x13_0106), count(0x03_0103)), (Ok(8), Ok(8)));
     assert_eq!((count(0x13_0201), count(0x13_0203)), (Ok(2), Ok(2)));
-    for absent in [0x13_0105, 0x03_0104, 0x13_0200, 0x13_0204, 0x12_0101] {
+    for absent in [0x13_0105, 0x03_0104, 0x13_0200, 0x13_0204] {
         assert_eq!(count(absent), Err(AdsError::INVALID_GROUP), "{absent:#x}");
     }
+    // That group is of contents.
+    assert_eq!(count(0x12_0101), Err(AdsError::INVALID_OFFSET));
     assert_eq!(com(0x13_0101, 0, 3), Err(AdsError::INVALID_SIZE));
 
     let read = |first, length| com(0x13_0101, first, length).map(|bytes| bytes.len() / 84);

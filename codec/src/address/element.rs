@@ -1,0 +1,113 @@
+//! Elements of an instance of a class.
+
+use super::{
+    Addressing, Attribute, Channel, ChannelAxis, Class, ClassGroup, IndexGroup, IndexOffset,
+    Spindle,
+};
+use crate::error::{Error, ErrorKind};
+use crate::layout::field::index_offset::ELEMENT;
+
+/// The most that 16 bits hold (ADR-9).
+const ELEMENT_MAX: u32 = 0xFFFF;
+
+/// An element of an instance of a class, whichever of its attributes is asked for: the attribute
+/// is in the index group, the element in the index offset.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
+///
+/// ```
+/// use ads_cnc::address::{Attribute, Channel, ChannelAxis, Class, ElementAddress};
+///
+/// let feedhold = ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?;
+/// assert_eq!(feedhold.group(Attribute::Content).get(), 0x12_3301);
+/// assert_eq!(feedhold.group(Attribute::WriteFlag).get(), 0x12_3801);
+/// assert_eq!(feedhold.index_offset().get(), 1);
+///
+/// let axis = ElementAddress::of_axis(Channel::new(1)?, Class::Decoder, ChannelAxis::new(2)?, 0)?;
+/// assert_eq!(axis.following(3)?.index_offset().get(), 0x2_0003);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ElementAddress {
+    group: ClassGroup,
+    offset: IndexOffset,
+}
+
+impl ElementAddress {
+    /// The element at this offset, as a query of an object address gives it. Which attribute the
+    /// group has does not matter.
+    pub const fn new(group: ClassGroup, offset: IndexOffset) -> Self {
+        // Spindles have no logical form.
+        let addressing = match group.class {
+            Class::Spindle => Addressing::Index,
+            _ => group.addressing,
+        };
+        Self { group: ClassGroup { addressing, attribute: Attribute::Content, ..group }, offset }
+    }
+
+    /// An element of a channel itself.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits (ADR-9).
+    pub fn of_channel(channel: Channel, class: Class, element: u32) -> Result<Self, Error> {
+        let offset = IndexOffset::of_axis(Default::default(), 0, element)?;
+        Ok(Self::of(channel.addressing(), class, channel.number(), offset))
+    }
+
+    /// An element of an axis of a channel, 0x10000 from that of the next axis (ADR-7; assumed of
+    /// all classes but the decoder).
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits (ADR-9).
+    pub fn of_axis(
+        channel: Channel,
+        class: Class,
+        axis: ChannelAxis,
+        element: u32,
+    ) -> Result<Self, Error> {
+        let offset = axis.offset(element)?;
+        Ok(Self::of(channel.addressing(), class, channel.number(), offset))
+    }
+
+    /// An element of a spindle.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits (ADR-9).
+    pub fn of_spindle(spindle: Spindle, element: u32) -> Result<Self, Error> {
+        let offset = IndexOffset::of_axis(Default::default(), 0, element)?;
+        Ok(Self::of(Addressing::Index, Class::Spindle, spindle.index(), offset))
+    }
+
+    const fn of(addressing: Addressing, class: Class, instance: u8, offset: IndexOffset) -> Self {
+        let attribute = Attribute::Content;
+        Self::new(ClassGroup { addressing, class, attribute, instance }, offset)
+    }
+
+    /// The element so many places behind this one (SDA-4).
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] if the element needs more than 16 bits and would carry into the
+    /// axis (ADR-9).
+    pub fn following(self, places: u32) -> Result<Self, Error> {
+        let left = ELEMENT_MAX.saturating_sub(self.offset.get() & ELEMENT_MAX);
+        match self.offset.get().checked_add(places) {
+            Some(offset) if places <= left => Ok(Self { offset: IndexOffset::new(offset), ..self }),
+            _ => Err(Error::new(ErrorKind::OutOfRange, ELEMENT, 0, left, places)),
+        }
+    }
+
+    /// Class and instance; the attribute is the content.
+    pub const fn class_group(self) -> ClassGroup {
+        self.group
+    }
+
+    /// The index group of an attribute.
+    pub const fn group(self, attribute: Attribute) -> IndexGroup {
+        ClassGroup { attribute, ..self.group }.index_group()
+    }
+
+    /// The index offset, of all attributes.
+    pub const fn index_offset(self) -> IndexOffset {
+        self.offset
+    }
+}

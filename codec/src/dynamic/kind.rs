@@ -1,0 +1,68 @@
+//! The four kinds and their places.
+
+use core::fmt;
+
+use crate::address::IndexOffset;
+
+/// A kind of dynamic parameters, with its four functions on the decoder of a channel.
+///
+/// | kind | count | name by index | value by name | value by index |
+/// |---|---|---|---|---|
+/// | P | 0x02 | 0x1B | 0x1C | 0x1D |
+/// | V.L | 0x03 | 0x1E | 0x1F | 0x20 |
+/// | V.P | 0x04 | 0x21 | 0x22 | 0x23 |
+/// | V.S | 0x05 | 0x24 | 0x25 | 0x26 |
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum DynamicKind {
+    /// P parameters.
+    P,
+    /// V.L variables.
+    VL,
+    /// V.P variables.
+    VP,
+    /// V.S variables.
+    VS,
+}
+
+impl DynamicKind {
+    /// All of them, in the manual's order.
+    pub const ALL: [Self; 4] = [Self::P, Self::VL, Self::VP, Self::VS];
+
+    /// Offsets of the functions that count, kind by kind.
+    pub(crate) const COUNT: [u32; 4] = [0x02, 0x03, 0x04, 0x05];
+    /// Offsets of the functions that give a name by its index.
+    pub(crate) const NAME_BY_INDEX: [u32; 4] = [0x1B, 0x1E, 0x21, 0x24];
+    /// Offsets of the functions that give a value by its name.
+    pub(crate) const VALUE_BY_NAME: [u32; 4] = [0x1C, 0x1F, 0x22, 0x25];
+    /// Offsets of the functions that give a value by its index.
+    pub(crate) const VALUE_BY_INDEX: [u32; 4] = [0x1D, 0x20, 0x23, 0x26];
+
+    /// This kind's of a function's four offsets.
+    pub(crate) const fn offset(self, [p, vl, vp, vs]: [u32; 4]) -> IndexOffset {
+        IndexOffset::new(match self {
+            Self::P => p,
+            Self::VL => vl,
+            Self::VP => vp,
+            Self::VS => vs,
+        })
+    }
+
+    /// The kind whose offset this is.
+    pub(crate) fn of_offset(offsets: [u32; 4], offset: IndexOffset) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.offset(offsets) == offset)
+    }
+}
+
+/// As the manual writes it: `P`, `V.L`, `V.P`, `V.S`.
+impl fmt::Display for DynamicKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::P => "P",
+            Self::VL => "V.L",
+            Self::VP => "V.P",
+            Self::VS => "V.S",
+        })
+    }
+}

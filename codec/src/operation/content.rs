@@ -1,0 +1,384 @@
+//! Operations on content: of COM objects, of elements, and of the program stream (COM-5, SDA-4,
+//! STM-1).
+
+use super::request::sealed::Sealed;
+use super::{Call, Function, Operation};
+use crate::address::{
+    Access, Attribute, Channel, ComGroup, ElementAddress, Group, IndexGroup, IndexOffset,
+};
+use crate::bytes::to_u32;
+use crate::content::ContentRef;
+use crate::error::{Error, ErrorKind};
+use crate::layout::field::content::CONTENT;
+use crate::layout::field::index_group::INSTANCE;
+use crate::layout::field::index_offset::ELEMENT;
+use crate::limits::ADS_DATA_MAX;
+use crate::stream::{Decode, Encode, NoData};
+use crate::streaming::{self, ProgramStreamRef};
+
+/// Where a COM object's content is; a descriptor says it (COM-5).
+fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffset), Error> {
+    let Some(Group::Com(com)) = group.parts() else {
+        let found = group.get();
+        return Err(Error::new(ErrorKind::Mismatch, INSTANCE, 0, PLATFORM.get(), found));
+    };
+    if com.access == Access::Object {
+        let wanted = ComGroup { access: Access::Element, ..com }.index_group().get();
+        return Err(Error::new(ErrorKind::Mismatch, INSTANCE, 0, wanted, group.get()));
+    }
+    content(Group::Com(com), offset)?;
+    Ok((com, offset))
+}
+
+const PLATFORM: IndexGroup = ComGroup::platform(Access::Element).index_group();
+
+/// No content is where a function is (SDA-12).
+fn content(group: Group, offset: IndexOffset) -> Result<(), Error> {
+    match Function::at(group, offset) {
+        Some(_) => Err(Error::new(ErrorKind::Function, ELEMENT, 0, 0, offset.get())),
+        None => Ok(()),
+    }
+}
+
+/// An element's content that is no function; the first element counts the others.
+fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
+    content(Group::Class(element.class_group()), element.index_offset())?;
+    Ok(element)
+}
+
+fn check_length(length: u32) -> Result<u32, Error> {
+    let max = to_u32(ADS_DATA_MAX);
+    if length > max {
+        return Err(Error::new(ErrorKind::TooLong, CONTENT, 0, max, length));
+    }
+    Ok(length)
+}
+
+/// Content no longer than was asked for.
+fn reply(data: &[u8], length: u32) -> Result<ContentRef<'_>, Error> {
+    let content = ContentRef::decode(data)?;
+    let given = to_u32(data.len());
+    if given > length {
+        return Err(Error::new(ErrorKind::TooLong, CONTENT, length, length, given));
+    }
+    Ok(content)
+}
+
+/// The dispatcher has found the group to be one of a class.
+fn dispatched_element(group: Group, call: &Call<'_>) -> Result<ElementAddress, Error> {
+    match group {
+        Group::Class(class) => Ok(ElementAddress::new(class, call.index_offset)),
+        Group::Com(com) => {
+            let found = com.index_group().get();
+            Err(Error::new(ErrorKind::Mismatch, INSTANCE, 0, 0x12_0300, found))
+        }
+    }
+}
+
+/// Declares the operations that read and write one sort of content.
+macro_rules! content_operations {
+    (
+        $(#[$read_doc:meta])* $read:ident,
+        $(#[$write_doc:meta])* $write:ident,
+        $(#[$place_doc:meta])* $place:ident: $ty:ty, $dispatched:expr, $group:expr, $offset:expr
+    ) => {
+        $(#[$read_doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub struct $read {
+            $place: $ty,
+            length: u32,
+        }
+
+        impl $read {
+            $(#[$place_doc])*
+            pub const fn $place(&self) -> $ty {
+                self.$place
+            }
+
+            pub(super) fn dispatched(group: Group, call: &Call<'_>) -> Result<Self, Error> {
+                Ok(Self { $place: $dispatched(group, call)?, length: call.read_length })
+            }
+        }
+
+        impl Sealed for $read {}
+
+        impl Operation for $read {
+            const FUNCTION: Function = Function::$read;
+
+            type Reply<'r> = ContentRef<'r>;
+
+            fn index_group(&self) -> IndexGroup {
+                $group(self.$place)
+            }
+
+            fn index_offset(&self) -> IndexOffset {
+                $offset(self.$place)
+            }
+
+            fn read_length(&self) -> u32 {
+                self.length
+            }
+
+            fn encoded_len(&self) -> usize {
+                0
+            }
+
+            fn encode<'b>(&self, _: &'b mut [u8]) -> Result<&'b [u8], Error> {
+                Ok(&[])
+            }
+
+            fn decode_reply<'r>(&self, data: &'r [u8]) -> Result<ContentRef<'r>, Error> {
+                reply(data, self.length)
+            }
+        }
+
+        $(#[$write_doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub struct $write<'a> {
+            $place: $ty,
+            content: ContentRef<'a>,
+        }
+
+        impl<'a> $write<'a> {
+            $(#[$place_doc])*
+            pub const fn $place(&self) -> $ty {
+                self.$place
+            }
+
+            /// The bytes to write.
+            pub const fn content(&self) -> ContentRef<'a> {
+                self.content
+            }
+
+            pub(super) fn dispatched(group: Group, call: &Call<'a>) -> Result<Self, Error> {
+                let content = ContentRef::decode(call.data)?;
+                Ok(Self { $place: $dispatched(group, call)?, content })
+            }
+        }
+
+        impl Sealed for $write<'_> {}
+
+        impl Operation for $write<'_> {
+            const FUNCTION: Function = Function::$write;
+
+            type Reply<'r> = NoData;
+
+            fn index_group(&self) -> IndexGroup {
+                $group(self.$place)
+            }
+
+            fn index_offset(&self) -> IndexOffset {
+                $offset(self.$place)
+            }
+
+            fn read_length(&self) -> u32 {
+                0
+            }
+
+            fn encoded_len(&self) -> usize {
+                self.content.encoded_len()
+            }
+
+            fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+                self.content.encode(buf)
+            }
+        }
+    };
+}
+
+content_operations! {
+    /// The content of a COM object: Read at the group and offset in its descriptor, port 553.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.2.
+    ///
+    /// ```
+    /// use ads_cnc::Descriptor;
+    /// use ads_cnc::address::{IndexGroup, IndexOffset};
+    /// use ads_cnc::operation::{Operation, ReadObject};
+    ///
+    /// let object = Descriptor::new("mc_active_single_block_r", "BOOL")?
+    ///     .with_size(1)
+    ///     .with_content(IndexGroup::new(0x12_0101), IndexOffset::new(3));
+    /// let op = ReadObject::new(object.index_group(), object.index_offset(), object.size())?;
+    /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_0101, 3));
+    /// assert_eq!(op.decode_reply(&[1])?.bytes, [1]);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ReadObject,
+    /// Writes the content of a COM object: Write at the group and offset in its descriptor, port
+    /// 553. It may set the machine in motion.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.2.
+    ///
+    /// ```
+    /// use ads_cnc::address::{IndexGroup, IndexOffset};
+    /// use ads_cnc::operation::{Operation, WriteObject};
+    ///
+    /// // mc_command_single_block_w
+    /// let op = WriteObject::new(IndexGroup::new(0x12_0101), IndexOffset::new(1), &[1])?;
+    /// assert_eq!(op.encode(&mut [0; 1])?, [1]);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    WriteObject,
+    /// Where the object is: group and offset.
+    place: (ComGroup, IndexOffset),
+    |group: Group, call: &Call<'_>| object(group.index_group(), call.index_offset),
+    |(group, _): (ComGroup, IndexOffset)| group.index_group(),
+    |(_, offset): (ComGroup, IndexOffset)| offset
+}
+
+content_operations! {
+    /// The content of an element: Read at its group and offset, ports 551 and 552.
+    ///
+    /// How long it is, the length attribute says.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2.
+    ///
+    /// ```
+    /// use ads_cnc::address::{Channel, Class, ElementAddress};
+    /// use ads_cnc::operation::{Operation, ReadElement};
+    /// use ads_cnc::ErrorKind;
+    ///
+    /// let feedhold = ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?;
+    /// let op = ReadElement::new(feedhold, 1)?;
+    /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_3301, 1));
+    ///
+    /// // On the decoder the functions for variables are among the elements (SDA-12).
+    /// let function = ElementAddress::of_channel(Channel::new(1)?, Class::Decoder, 0x44)?;
+    /// assert_eq!(ReadElement::new(function, 4).unwrap_err().kind(), ErrorKind::Function);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ReadElement,
+    /// Writes the content of an element: Write at its group and offset, ports 551 and 552. It may
+    /// set the machine in motion.
+    ///
+    /// Whether the element may be written, the write flag says.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
+    ///
+    /// ```
+    /// use ads_cnc::address::{Channel, Class, ElementAddress};
+    /// use ads_cnc::operation::{Operation, WriteElement};
+    ///
+    /// let feedhold = ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?;
+    /// let op = WriteElement::new(feedhold, &[1])?;
+    /// assert_eq!(op.encode(&mut [0; 1])?, [1]);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    WriteElement,
+    /// Which element.
+    element: ElementAddress,
+    dispatched_element,
+    |element: ElementAddress| element.group(Attribute::Content),
+    |element: ElementAddress| element.index_offset()
+}
+
+impl ReadObject {
+    /// For the group, the offset and the size in an object's descriptor.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] for a group that is none of COM's content, [`ErrorKind::Function`]
+    /// for the program stream, whose reading is not documented (STM-1), [`ErrorKind::TooLong`] for
+    /// more than ADS carries.
+    pub fn new(group: IndexGroup, offset: IndexOffset, size: u32) -> Result<Self, Error> {
+        Ok(Self { place: object(group, offset)?, length: check_length(size)? })
+    }
+}
+
+impl<'a> WriteObject<'a> {
+    /// For the group and the offset in an object's descriptor.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] for a group that is none of COM's content, [`ErrorKind::Function`]
+    /// for the program stream, which [`WriteProgramStream`] writes.
+    pub fn new(group: IndexGroup, offset: IndexOffset, content: &'a [u8]) -> Result<Self, Error> {
+        Ok(Self { place: object(group, offset)?, content: ContentRef { bytes: content } })
+    }
+}
+
+impl ReadElement {
+    /// For an element and the length of its content.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Function`] for an element of the decoder that is a function, and for the first
+    /// element of an instance, which [`CountElements`](super::CountElements) reads;
+    /// [`ErrorKind::TooLong`] for more than ADS carries.
+    pub fn new(address: ElementAddress, length: u32) -> Result<Self, Error> {
+        Ok(Self { element: element(address)?, length: check_length(length)? })
+    }
+}
+
+impl<'a> WriteElement<'a> {
+    /// For an element and its new content.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Function`] for an element of the decoder that is a function, and for the first
+    /// element of an instance.
+    pub fn new(address: ElementAddress, content: &'a [u8]) -> Result<Self, Error> {
+        Ok(Self { element: element(address)?, content: ContentRef { bytes: content } })
+    }
+}
+
+/// Writes NC text to the stream of a channel: Write at offset 0x90 of the channel's COM group, port
+/// 553. It moves the machine.
+///
+/// A refusal may be temporary: see [`streaming::Sender`].
+///
+/// Manual: `stream-en`, sections 3.2 and 5.
+///
+/// ```
+/// use ads_cnc::address::Channel;
+/// use ads_cnc::operation::{Operation, WriteProgramStream};
+///
+/// let op = WriteProgramStream::new(Channel::new(1)?, b"N10 G01 X200 F1000\r\n");
+/// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_0101, 0x90));
+/// assert_eq!(op.encode(&mut [0; 992])?, b"N10 G01 X200 F1000\r\n");
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct WriteProgramStream<'a> {
+    /// Which channel.
+    pub channel: Channel,
+    /// Whole lines of NC text; [`streaming::Sender`] hands them out.
+    pub packet: ProgramStreamRef<'a>,
+}
+
+impl<'a> WriteProgramStream<'a> {
+    /// For a channel and a packet.
+    pub const fn new(channel: Channel, packet: &'a [u8]) -> Self {
+        Self { channel, packet: ProgramStreamRef { bytes: packet } }
+    }
+
+    pub(super) fn dispatched(group: Group, call: &Call<'a>) -> Result<Self, Error> {
+        let packet = ProgramStreamRef::decode(call.data)?;
+        Ok(Self { channel: super::variable::channel(group)?, packet })
+    }
+}
+
+impl Sealed for WriteProgramStream<'_> {}
+
+impl Operation for WriteProgramStream<'_> {
+    const FUNCTION: Function = Function::WriteProgramStream;
+
+    type Reply<'r> = NoData;
+
+    fn index_group(&self) -> IndexGroup {
+        self.channel.com(Access::Element)
+    }
+
+    fn index_offset(&self) -> IndexOffset {
+        streaming::INDEX_OFFSET
+    }
+
+    fn read_length(&self) -> u32 {
+        0
+    }
+
+    fn encoded_len(&self) -> usize {
+        self.packet.encoded_len()
+    }
+
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        self.packet.encode(buf)
+    }
+}

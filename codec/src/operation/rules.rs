@@ -1,0 +1,99 @@
+//! Where a function is: its index groups and index offsets.
+
+use crate::address::{
+    Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable, Group,
+    IndexGroup, IndexOffset,
+};
+
+/// The index groups of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum GroupRule {
+    /// COM with object access, of the platform, a channel or a platform axis.
+    ComObjects,
+    /// COM with element access, of the platform, a channel or a platform axis.
+    ComContent,
+    /// COM with element access, of a channel.
+    ComChannel,
+    /// The content of a class, of a channel.
+    ChannelOf(Class),
+    /// An attribute of any class and instance.
+    Elements(Attribute),
+    /// The object address of any class, without an instance.
+    Instances,
+}
+
+impl GroupRule {
+    /// Whether the function has an instance in this group.
+    pub fn holds(self, group: Group) -> bool {
+        match (self, group) {
+            (Self::ComObjects, Group::Com(com)) => is_com(com, Access::Object),
+            (Self::ComContent, Group::Com(com)) => is_com(com, Access::Element),
+            (Self::ComChannel, Group::Com(com)) => {
+                com.table == ComTable::Channel && com.instance > 0 && is_com(com, Access::Element)
+            }
+            (Self::ChannelOf(class), Group::Class(parts)) => {
+                parts.class == class && parts.attribute == Attribute::Content && parts.instance > 0
+            }
+            (Self::Elements(attribute), Group::Class(parts)) => parts.attribute == attribute,
+            (Self::Instances, Group::Class(parts)) => {
+                parts.attribute == Attribute::ObjectAddress && parts.instance == 0
+            }
+            _ => false,
+        }
+    }
+
+    /// The group of the first channel, or of any, as the manuals print it.
+    pub const fn example(self) -> IndexGroup {
+        match self {
+            Self::ComObjects => IndexGroup::new(0x13_0101),
+            Self::ComContent | Self::ComChannel => IndexGroup::new(0x12_0101),
+            Self::ChannelOf(class) => class_group(class, Attribute::Content, 1),
+            Self::Elements(attribute) => class_group(Class::Hld, attribute, 1),
+            Self::Instances => class_group(Class::Hld, Attribute::ObjectAddress, 0),
+        }
+    }
+}
+
+/// Platform axes are counted from 1; channel 0 is the platform.
+fn is_com(com: ComGroup, access: Access) -> bool {
+    com.access == access && (com.table == ComTable::Channel || com.instance > 0)
+}
+
+const fn class_group(class: Class, attribute: Attribute, instance: u8) -> IndexGroup {
+    // A spindle's group is by index whatever this says.
+    let addressing = Addressing::Logical;
+    ClassGroup { addressing, class, attribute, instance }.index_group()
+}
+
+/// The index offsets of a function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum OffsetRule {
+    /// This one.
+    At(u32),
+    /// One for each kind of dynamic parameters.
+    OfKind([u32; 4]),
+    /// Every one from here on.
+    From(u32),
+    /// This element of every axis from 1 on, 0x10000 apart (VAR-26).
+    OfAxis(u32),
+    /// The first element of an instance: of the channel, and of axes 0x10000 apart.
+    FirstElement,
+}
+
+impl OffsetRule {
+    /// Whether the function has this offset.
+    pub fn holds(self, offset: IndexOffset) -> bool {
+        match self {
+            Self::At(at) => offset.get() == at,
+            Self::OfKind(all) => all.contains(&offset.get()),
+            Self::From(first) => offset.get() >= first,
+            Self::OfAxis(element) => match offset.axis_and_element(AxisStride::X10000) {
+                Ok((axis, found)) => axis > 0 && found == element,
+                Err(_) => false,
+            },
+            Self::FirstElement => matches!(offset.axis_and_element(AxisStride::X10000), Ok((_, 0))),
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! The description of a variable that was asked for by name (VAR-28).
+
+use zerocopy::IntoBytes as _;
+
+use super::description::Head;
+use super::{Handle, Numbers, VariableAccess, VariableType};
+use crate::bytes::{Reader, Writer, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::Stream;
+use crate::layout::field::variable_description_by_name::DIMENSION_COUNT;
+use crate::limits::NAMELESS_DIMENSIONS_MAX;
+use crate::stream::{Decode, Encode};
+
+#[doc = include_str!("../../doc/variable-description-by-name.md")]
+///
+/// As [`DescriptionRef`](crate::DescriptionRef), without the name that was asked for.
+///
+/// Documented online only, for CNC versions from V3.1.3132.0 and V4.29.0 on; `ads-en` 1.05 and
+/// `ads-de` 1.051 reserve the offset in section 4.2.1.
+///
+/// ```
+/// use ads_cnc::{Decode, DescriptionByNameRef, VariableType};
+///
+/// let bytes = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0";
+/// let variable = DescriptionByNameRef::decode(bytes)?;
+/// assert_eq!(variable.var_type, VariableType::BOOLEAN);
+/// assert_eq!(variable.dimensions.get(0), Some(2));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DescriptionByNameRef<'a> {
+    /// Handle of the variable.
+    pub handle: Handle,
+    /// Type of the variable or of its elements.
+    pub var_type: VariableType,
+    /// Whether the variable may be written.
+    pub access: VariableAccess,
+    /// Bytes of the whole variable.
+    pub size: u32,
+    /// Elements in each dimension; none for an elementary variable.
+    pub dimensions: Numbers<'a>,
+}
+
+impl<'a> Decode<'a> for DescriptionByNameRef<'a> {
+    const STREAM: Stream = Stream::VariableDescriptionByName;
+
+    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
+        let mut input = Reader::new(Self::STREAM, bytes)?;
+        let head: &Head = input.fixed()?;
+        let (count, max) = (head.dimension_count.get(), to_u32(NAMELESS_DIMENSIONS_MAX));
+        let dimensions = input.numbers(DIMENSION_COUNT, count, max)?;
+        input.finish()?;
+        Ok(Self {
+            handle: Handle(head.handle.get()),
+            var_type: VariableType(head.var_type.get()),
+            access: VariableAccess(head.access.get()),
+            size: head.size.get(),
+            dimensions: Numbers::from_wire(dimensions),
+        })
+    }
+}
+
+impl Encode for DescriptionByNameRef<'_> {
+    fn encoded_len(&self) -> usize {
+        self.dimensions.encoded_len().saturating_add(size_of::<Head>())
+    }
+
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        let (count, max) = (to_u32(self.dimensions.len()), to_u32(NAMELESS_DIMENSIONS_MAX));
+        if count > max {
+            return Err(Error::new(ErrorKind::TooMany, DIMENSION_COUNT, 16, max, count));
+        }
+        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
+            let head = Head {
+                handle: self.handle.0.into(),
+                var_type: self.var_type.0.into(),
+                access: self.access.0.into(),
+                size: self.size.into(),
+                dimension_count: count.into(),
+            };
+            out.put(head.as_bytes());
+            self.dimensions.write(out);
+        })
+    }
+}
+
+#[cfg(feature = "alloc")]
+pub use owned::DescriptionByName;
+
+#[cfg(feature = "alloc")]
+mod owned {
+    use alloc::vec::Vec;
+
+    use super::*;
+    use crate::bridge::{self, Fixed};
+
+    /// [`DescriptionByNameRef`], owned.
+    #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+    pub struct DescriptionByName {
+        /// Handle of the variable.
+        pub handle: Handle,
+        /// Type of the variable or of its elements.
+        pub var_type: VariableType,
+        /// Whether the variable may be written.
+        pub access: VariableAccess,
+        /// Bytes of the whole variable.
+        pub size: u32,
+        /// Elements in each dimension; none for an elementary variable.
+        pub dimensions: Vec<u32>,
+    }
+
+    #[binrw::binread]
+    #[br(little)]
+    struct Wire {
+        head: Fixed<Head>,
+        #[br(parse_with = bridge::numbers, args(head.0.dimension_count.get()))]
+        dimensions: Vec<u32>,
+    }
+
+    impl<'a> Decode<'a> for DescriptionByName {
+        const STREAM: Stream = Stream::VariableDescriptionByName;
+
+        fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
+            DescriptionByNameRef::decode(bytes)?;
+            let Wire { head: Fixed(head), dimensions } = bridge::read(Self::STREAM, bytes)?;
+            Ok(Self {
+                handle: Handle(head.handle.get()),
+                var_type: VariableType(head.var_type.get()),
+                access: VariableAccess(head.access.get()),
+                size: head.size.get(),
+                dimensions,
+            })
+        }
+    }
+
+    impl DescriptionByName {
+        /// The description, borrowed.
+        pub fn as_ref(&self) -> DescriptionByNameRef<'_> {
+            DescriptionByNameRef {
+                handle: self.handle,
+                var_type: self.var_type,
+                access: self.access,
+                size: self.size,
+                dimensions: self.dimensions.as_slice().into(),
+            }
+        }
+    }
+
+    crate::stream::encode_as_ref!(DescriptionByName);
+}
