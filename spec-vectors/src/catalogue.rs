@@ -14,6 +14,8 @@ pub struct Document {
     pub title: String,
     /// `en` or `de`.
     pub language: String,
+    /// The sections that can be cited, in their order.
+    pub sections: Vec<String>,
 }
 
 /// A place in a document.
@@ -120,7 +122,7 @@ pub struct Requirement {
     /// The vectors for it are still to come.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub pending: bool,
-    /// Why it has no vectors although it can be judged from bytes.
+    /// Why nothing judges it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excluded: Option<String>,
 }

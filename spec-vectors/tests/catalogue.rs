@@ -1,0 +1,106 @@
+//! What requirements and errata say of their places and of their vectors is so.
+
+use ads_cnc_vectors::{
+    Basis, Observable, Requirement, documents, errata, requirement, requirements, vectors,
+};
+use std::collections::BTreeSet;
+
+/// Sections of `document` that `sources` cite.
+fn sections<'a>(requirement: &'a Requirement, document: &str) -> BTreeSet<&'a str> {
+    let cited = requirement.sources.iter().filter(|s| s.document == document);
+    cited.map(|s| s.section.as_str()).collect()
+}
+
+#[test]
+fn every_area_is_there() {
+    let areas: BTreeSet<&str> = requirements().iter().map(|r| r.area.as_str()).collect();
+    let all = ["ADR", "ADS", "COM", "DYN", "GEN", "OBJ", "SDA", "STM", "SVC", "VAR"];
+    assert_eq!(areas, BTreeSet::from(all));
+}
+
+#[test]
+fn errata_are_numbered_without_gaps() {
+    for (number, erratum) in (1..).zip(errata()) {
+        assert_eq!(erratum.id, format!("E-{number:02}"));
+    }
+}
+
+/// A section that is cited is one of its document. Requirements cite one at a time.
+#[test]
+fn cited_sections_exist() {
+    let exists = |id: &str, document: &str, section: &str| {
+        let document = documents().iter().find(|d| d.document == document);
+        let document = document.unwrap_or_else(|| panic!("{id} cites no document"));
+        let known = document.sections.iter().any(|one| one == section);
+        assert!(known, "{id}: {} has no section {section}", document.document);
+    };
+    for r in requirements() {
+        for source in &r.sources {
+            exists(&r.id, &source.document, &source.section);
+        }
+    }
+    for e in errata() {
+        for reading in &e.readings {
+            for section in reading.section.split(", ") {
+                exists(&e.id, &reading.document, section);
+            }
+        }
+    }
+    for v in vectors() {
+        for source in &v.provenance.sources {
+            for section in source.section.split(", ") {
+                exists(&v.id, &source.document, section);
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_is_cited_twice() {
+    for r in requirements() {
+        let places: BTreeSet<_> = r.sources.iter().map(|s| (&s.document, &s.section)).collect();
+        assert_eq!(places.len(), r.sources.len(), "{} cites a section twice", r.id);
+    }
+    for e in errata() {
+        let readings: BTreeSet<_> =
+            e.readings.iter().map(|r| (&r.document, &r.section, &r.reading)).collect();
+        assert_eq!(readings.len(), e.readings.len(), "{} has a reading twice", e.id);
+    }
+}
+
+/// The two editions of a manual have the same sections, so what one says is looked up in the other
+/// too. Where only one says it, the basis says so, or it is listed here.
+#[test]
+fn both_editions_are_cited() {
+    // The note on the HLD and the chapter on cycles are in one edition only.
+    const ONE_ONLY: [&str; 3] = ["SDA-13", "SVC-8", "SVC-12"];
+    for r in requirements() {
+        let same = sections(r, "ads-en") == sections(r, "ads-de")
+            && sections(r, "service-en") == sections(r, "service-de");
+        if ONE_ONLY.contains(&r.id.as_str()) {
+            assert!(!same, "{} is in both", r.id);
+        } else if r.basis != Basis::Edition {
+            assert!(same, "{} cites only one edition for a section", r.id);
+        }
+    }
+}
+
+/// As soon as there is a vector for what is pending, it is pending no more.
+#[test]
+fn pending_requirements_have_no_vectors() {
+    for r in requirements().iter().filter(|r| r.pending) {
+        assert!(r.observable.contains(&Observable::Codec), "{} is not about bytes", r.id);
+        let citing = vectors().iter().find(|v| v.requirements.contains(&r.id));
+        assert_eq!(citing.map(|v| &v.id), None, "{} is pending no more", r.id);
+    }
+}
+
+#[test]
+fn nothing_judges_what_is_excluded() {
+    for r in requirements().iter().filter(|r| r.excluded.is_some()) {
+        assert!(!r.pending, "{}", r.id);
+        let citing = vectors().iter().find(|v| v.requirements.contains(&r.id));
+        assert_eq!(citing.map(|v| &v.id), None, "{} is excluded", r.id);
+    }
+    assert!(requirement("DYN-8").is_some_and(|r| r.excluded.is_some()));
+}
