@@ -64,6 +64,7 @@ pub mod ads;
 mod com;
 mod content;
 pub mod dynamic;
+pub mod edition;
 mod error;
 pub mod layout;
 pub mod limits;

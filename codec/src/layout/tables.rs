@@ -295,6 +295,13 @@ layouts! {
         LONGEST "@P2" @ 4, FIXED_4, Uns32, "SVC-8", "longest wait in milliseconds";
         TIMER "@P3" @ 8, FIXED_4, Uns32, "SVC-8", "ID of the timer";
     }
+    /// The version of a CNC, as it is printed; no stream of its own.
+    CncVersion, cnc_version: "cnc-version", "Version of a CNC", "VAR-19", max 0 {
+        MAJOR "major" @ 0, Size::Fixed(2), Uns16, "VAR-19", "first number, behind the V";
+        MINOR "minor" @ 2, Size::Fixed(2), Uns16, "VAR-19", "second number";
+        BUILD "build" @ 4, Size::Fixed(2), Uns16, "VAR-19", "third number";
+        PATCH "patch" @ 6, Size::Fixed(2), Uns16, "VAR-19", "fourth number; 0 if there is none";
+    }
     /// A text before it stands in a stream.
     Text, text: "text", "Text in CP1252", "GEN-3", max 0 {
         TEXT "text" @ 0, Size::Rest { min: 0, max: 0xffff_ffff }, String, "GEN-3", "CP1252 without NUL";

@@ -22,7 +22,8 @@
 //! ADS by [`ReadByName`](crate::operation::ReadByName) for one, and says how it went.
 //!
 //! Manual: `service-en` and `service-de` 1.03, sections 1 and 2; the cycle is in `service-en`,
-//! section 3, only.
+//! section 3, only. From which versions of the CNC on it is there:
+//! [`Feature::ServiceInterface`](crate::edition::Feature::ServiceInterface).
 //!
 //! ```
 //! use core::time::Duration;

@@ -12,7 +12,8 @@ use crate::text::{CncStr, TextRef};
 
 /// A kind of variables, `V.E` for one: the text without a final dot.
 ///
-/// Any text is one: which kinds a function takes is the CNC's to say.
+/// Any text is one: which kinds a function takes is the CNC's to say. What the editions say of it is
+/// in [`edition`](crate::edition).
 ///
 /// ```
 /// use ads_cnc::Kind;

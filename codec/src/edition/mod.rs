@@ -1,0 +1,249 @@
+//! What depends on the edition of the manual that is followed, and on the version of the CNC.
+//!
+//! - Which kinds of variables the channel interface has, and which of them by name only, the two
+//!   editions say differently (VAR-18, E-15): [`Edition::permits`].
+//! - From which version on a CNC has V.P, V.L and V.S there (VAR-19), the description by name, and
+//!   the Service Interface (SVC-11): [`CncVersion::has`].
+//!
+//! A client asks before it sends, a server before it answers; nothing else in this crate refuses
+//! a kind for itself.
+//!
+//! ```
+//! use ads_cnc::VariablePath;
+//! use ads_cnc::edition::{CncVersion, Edition};
+//! use ads_cnc::operation::Function;
+//!
+//! let name = VariablePath::new("V.P.count")?;
+//! let version = Some(CncVersion::new("V3.1.3115")?);
+//! let may = |edition: Edition, function| edition.permits(function, name.kind(), version);
+//!
+//! // May I ask for a handle? Not of this kind; by its name I may read it.
+//! assert_eq!(may(Edition::German, Function::HandleByName).to_string(), "no (VAR-18)");
+//! assert_eq!(may(Edition::German, Function::ReadByName).to_string(), "yes (VAR-19)");
+//! // The English edition does not have the kind on this interface.
+//! assert!(!may(Edition::English, Function::ReadByName).yes);
+//! # Ok::<(), ads_cnc::Error>(())
+//! ```
+
+mod version;
+
+use core::fmt;
+
+pub use version::{CncVersion, Feature};
+
+use crate::address::Class;
+use crate::operation::{Function, GroupRule, OffsetRule};
+use crate::variable::Kind;
+
+/// An edition of the manual on ADS access.
+///
+/// | | `ads-en` 1.05 | `ads-de` 1.051 |
+/// |---|---|---|
+/// | on the channel interface | V.E, V.G, V.A, V.CYC | those, and V.P, V.L, V.S from some [versions](Feature::DynamicVariables) on |
+/// | by name only: without 0x46, 0x47, 0x49 | V.CYC | V.CYC, V.P, V.L, V.S |
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4, 4.1 and 4.2.1 (VAR-18, VAR-19, E-15).
+///
+/// ```
+/// use ads_cnc::Kind;
+/// use ads_cnc::edition::Edition;
+///
+/// assert_eq!(Edition::English.by_name_only(), [Kind::V_CYC]);
+/// assert_eq!(Edition::German.to_string(), "ads-de 1.051");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Edition {
+    /// `ads-en` 1.05.
+    English,
+    /// `ads-de` 1.051.
+    German,
+}
+
+/// The kinds that a request by index can carry.
+const INDEXED: &[Kind<'static>] = &[Kind::V_E, Kind::V_G, Kind::V_A];
+const KIND_CLAUSE: &str = "VAR-1";
+
+/// Those by name only of any edition.
+const BY_NAME_ONLY: &[Kind<'static>] = &[Kind::V_CYC, Kind::V_P, Kind::V_L, Kind::V_S];
+const BY_NAME_ONLY_CLAUSE: &str = "VAR-18";
+
+impl Edition {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::English, Self::German];
+
+    /// The document: `ads-en`, `ads-de`.
+    pub const fn document(self) -> &'static str {
+        match self {
+            Self::English => "ads-en",
+            Self::German => "ads-de",
+        }
+    }
+
+    /// The edition's number: `1.05`, `1.051`.
+    pub const fn number(self) -> &'static str {
+        match self {
+            Self::English => "1.05",
+            Self::German => "1.051",
+        }
+    }
+
+    /// The kinds that are by name only: 0x46, 0x47 and 0x49 are not available for them (VAR-18).
+    pub const fn by_name_only(self) -> &'static [Kind<'static>] {
+        match self {
+            Self::English => &[Kind::V_CYC],
+            Self::German => BY_NAME_ONLY,
+        }
+    }
+
+    /// Whether a function of the variables' interfaces may be asked for variables of a kind: that
+    /// in the request, in the name, or of the variable behind the handle.
+    ///
+    /// A version that is not known is taken for one that has everything, which is assumed. Of a
+    /// function without kinds the answer is yes. The clause is that of the function, but for
+    ///
+    /// | | | clause |
+    /// |---|---|---|
+    /// | a handle of a kind that is by name only | no | VAR-18 |
+    /// | V.P, V.L, V.S in `ads-de`, by name | by [version](CncVersion::has) | VAR-19 |
+    /// | V.P, V.L, V.S in `ads-en`, which has them in section 3 alone | no, assumed | VAR-19 |
+    /// | number or description by index of another kind than V.E, V.G, V.A | no, assumed (E-39) | VAR-1 |
+    /// | the number of all kinds: [`Kind::ALL`] | yes | VAR-1 |
+    /// | description by name, 0x4C | by [version](CncVersion::has); that it has V.CYC, V.P, V.L, V.S is assumed | VAR-27 |
+    /// | another kind than V.A on the axis interface | no, assumed | |
+    /// | a kind of no manual, by name or handle | yes, assumed | |
+    ///
+    /// ```
+    /// use ads_cnc::Kind;
+    /// use ads_cnc::edition::Edition;
+    /// use ads_cnc::operation::Function;
+    ///
+    /// let may = |function, kind| Edition::English.permits(function, kind, None);
+    /// assert_eq!(may(Function::HandleByName, Kind::V_CYC).to_string(), "no (VAR-18)");
+    /// assert_eq!(may(Function::ReadByName, Kind::V_CYC).to_string(), "yes (VAR-14)");
+    /// assert_eq!(may(Function::CountVariables, Kind::V_CYC).to_string(), "no (VAR-1, assumed)");
+    /// ```
+    pub fn permits(
+        self,
+        function: Function,
+        kind: Kind<'_>,
+        version: Option<CncVersion>,
+    ) -> Answer {
+        let clause = function.spec().clause;
+        let has = |feature: Feature| match version {
+            Some(version) => version.has(feature),
+            None => Answer::assumed(true, feature.clause()),
+        };
+        let (kind, all) = (kind.text(), kind.text().is_empty());
+        let is_in = |kinds: &[Kind<'_>]| kinds.iter().any(|known| known.text() == kind);
+        let by_name = || {
+            if is_in(INDEXED) || is_in(&[Kind::V_CYC]) {
+                Answer::documented(true, clause)
+            } else if is_in(self.by_name_only()) {
+                has(Feature::DynamicVariables)
+            } else if is_in(BY_NAME_ONLY) {
+                Answer::assumed(false, Feature::DynamicVariables.clause())
+            } else {
+                Answer::assumed(true, clause)
+            }
+        };
+        match Way::of(function) {
+            Way::Other => Answer::documented(true, clause),
+            Way::Index if is_in(INDEXED) => Answer::documented(true, KIND_CLAUSE),
+            Way::Index if all && function == Function::CountVariables => {
+                Answer::documented(true, KIND_CLAUSE)
+            }
+            Way::Index => Answer::assumed(false, KIND_CLAUSE),
+            Way::Handle if is_in(self.by_name_only()) => {
+                Answer::documented(false, BY_NAME_ONLY_CLAUSE)
+            }
+            Way::Handle | Way::Name => by_name(),
+            Way::Description => match (by_name(), has(Feature::DescriptionByName)) {
+                (kind, version) if kind.yes => {
+                    let assumed = version.assumed || (version.yes && !is_in(INDEXED));
+                    Answer { assumed, ..version }
+                }
+                (kind, _) => kind,
+            },
+            Way::Axis if is_in(&[Kind::V_A]) => Answer::documented(true, clause),
+            Way::Axis => Answer::assumed(false, clause),
+        }
+    }
+}
+
+impl fmt::Display for Edition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.document(), self.number())
+    }
+}
+
+/// How a function gets at a variable.
+enum Way {
+    /// By index and kind, or the number of a kind.
+    Index,
+    Handle,
+    Name,
+    /// By name, for the description.
+    Description,
+    /// By name, on the axis interface.
+    Axis,
+    /// Kinds have no part in it.
+    Other,
+}
+
+impl Way {
+    /// The editions tell functions apart by where they are.
+    fn of(function: Function) -> Self {
+        let spec = function.spec();
+        if spec.group != GroupRule::ChannelOf(Class::Decoder) {
+            return Self::Other;
+        }
+        match spec.offset {
+            OffsetRule::At(0x44 | 0x45 | 0x4B) => Self::Index,
+            OffsetRule::At(0x46 | 0x47 | 0x49) => Self::Handle,
+            OffsetRule::At(0x48 | 0x4A) => Self::Name,
+            OffsetRule::At(0x4C) => Self::Description,
+            OffsetRule::OfAxis(4..=6) => Self::Axis,
+            _ => Self::Other,
+        }
+    }
+}
+
+/// Yes or no, and by which requirement.
+///
+/// ```
+/// use ads_cnc::Kind;
+/// use ads_cnc::edition::Edition;
+/// use ads_cnc::operation::Function;
+///
+/// let answer = Edition::German.permits(Function::WriteByHandle, Kind::V_S, None);
+/// assert_eq!((answer.yes, answer.clause, answer.assumed), (false, "VAR-18", false));
+/// assert_eq!(answer.to_string(), "no (VAR-18)");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Answer {
+    /// Whether it may be done, or is there.
+    pub yes: bool,
+    /// The requirement.
+    pub clause: &'static str,
+    /// Nobody documents it: a CNC may do otherwise.
+    pub assumed: bool,
+}
+
+impl Answer {
+    const fn documented(yes: bool, clause: &'static str) -> Self {
+        Self { yes, clause, assumed: false }
+    }
+
+    const fn assumed(yes: bool, clause: &'static str) -> Self {
+        Self { yes, clause, assumed: true }
+    }
+}
+
+impl fmt::Display for Answer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { yes, clause, assumed } = *self;
+        let yes = if yes { "yes" } else { "no" };
+        write!(f, "{yes} ({clause}{})", if assumed { ", assumed" } else { "" })
+    }
+}

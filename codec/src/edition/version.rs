@@ -1,0 +1,271 @@
+//! Versions of a CNC, and what comes with them.
+
+use core::fmt;
+use core::str::FromStr;
+
+use super::Answer;
+use crate::bytes::to_u32;
+use crate::error::{Error, ErrorKind};
+use crate::layout::Field;
+use crate::layout::field::cnc_version::{BUILD, MAJOR, MINOR, PATCH};
+
+/// The version of a CNC: `V2.11.2077`, `V3.1.3081.07`, `V4.18.0`.
+///
+/// Read with or without the V and, as `ads-de` and `service-*` print it, with a dot behind the V.
+/// A fourth number that is not there counts as 0, and one that is 0 is not written; others have two
+/// digits.
+///
+/// Manual: `ads-de` 1.051, section 4.1; `service-en` and `service-de` 1.03, section 1.
+///
+/// ```
+/// use ads_cnc::edition::CncVersion;
+///
+/// let version = CncVersion::new("V.3.1.3057.03")?;
+/// assert_eq!(version, CncVersion::from_parts(3, 1, 3057, 3));
+/// assert_eq!(version.to_string(), "V3.1.3057.03");
+/// assert!(version < CncVersion::new("3.1.3115")?);
+/// assert_eq!(
+///     CncVersion::new("V4.18").unwrap_err().to_string(),
+///     "cnc-version: build at offset 5: truncated, 1 bytes expected, 0 there"
+/// );
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct CncVersion {
+    major: u16,
+    minor: u16,
+    build: u16,
+    patch: u16,
+}
+
+impl CncVersion {
+    /// The version of this text.
+    ///
+    /// # Errors
+    /// Offsets count characters.
+    /// - [`Unexpected`](ErrorKind::Unexpected): a character that is no digit, or one behind the
+    ///   fourth number.
+    /// - [`Truncated`](ErrorKind::Truncated): there are not three numbers.
+    /// - [`OutOfRange`](ErrorKind::OutOfRange): a number over 65 535.
+    pub fn new(text: &str) -> Result<Self, Error> {
+        let mut scan = Scan { text, at: 0 };
+        if scan.skip(b'V') {
+            scan.skip(b'.');
+        }
+        let major = scan.number(MAJOR)?;
+        scan.dot(MINOR)?;
+        let minor = scan.number(MINOR)?;
+        scan.dot(BUILD)?;
+        let build = scan.number(BUILD)?;
+        let mut patch = 0;
+        if scan.next().is_some() {
+            scan.dot(PATCH)?;
+            patch = scan.number(PATCH)?;
+        }
+        if scan.next().is_some() {
+            return Err(scan.fault(PATCH));
+        }
+        Ok(Self { major, minor, build, patch })
+    }
+
+    /// The version of these numbers; a patch of 0 for none.
+    pub const fn from_parts(major: u16, minor: u16, build: u16, patch: u16) -> Self {
+        Self { major, minor, build, patch }
+    }
+
+    /// The first number.
+    pub const fn major(self) -> u16 {
+        self.major
+    }
+
+    /// The second number.
+    pub const fn minor(self) -> u16 {
+        self.minor
+    }
+
+    /// The third number.
+    pub const fn build(self) -> u16 {
+        self.build
+    }
+
+    /// The fourth number; 0 if there is none.
+    pub const fn patch(self) -> u16 {
+        self.patch
+    }
+
+    /// Versions that are counted on from one another: V2.11, V3.1, V4. That the second number of
+    /// a V4 counts on is assumed, from V4.18.0 and V4.29.0.
+    const fn branch(self) -> (u16, u16) {
+        match self.major {
+            0..=3 => (self.major, self.minor),
+            _ => (self.major, 0),
+        }
+    }
+
+    /// Whether a CNC of this version has something.
+    ///
+    /// | of the versions in [`Feature::since`] this one is | | |
+    /// |---|---|---|
+    /// | before the first of its branch | no | |
+    /// | the last of its branch, or behind it | yes | |
+    /// | one between, or a later patch of it | yes | |
+    /// | behind one between, in a later build | no | assumed: why else is a later one printed? |
+    /// | of a branch behind all that are printed | yes | assumed |
+    /// | of another branch that is not printed | no | assumed |
+    ///
+    /// ```
+    /// use ads_cnc::edition::{CncVersion, Feature};
+    ///
+    /// let has = |version| CncVersion::new(version).unwrap().has(Feature::DynamicVariables);
+    /// assert_eq!(has("V3.1.3081.06").to_string(), "no (VAR-19)");
+    /// assert_eq!(has("V3.1.3081.07").to_string(), "yes (VAR-19)");
+    /// assert_eq!(has("V3.1.3100").to_string(), "no (VAR-19, assumed)");
+    /// assert_eq!(has("V3.1.3115").to_string(), "yes (VAR-19)");
+    /// assert_eq!(has("V5.0.0").to_string(), "yes (VAR-19, assumed)");
+    /// ```
+    pub fn has(self, feature: Feature) -> Answer {
+        let (since, clause) = (feature.since(), feature.clause());
+        let of_branch = || since.iter().filter(|first| first.branch() == self.branch());
+        let (Some(first), Some(last)) = (of_branch().min(), of_branch().max()) else {
+            let newest = since.iter().max().map(|newest| newest.branch());
+            return Answer::assumed(newest < Some(self.branch()), clause);
+        };
+        let patched = |first: &CncVersion| first.build == self.build && *first <= self;
+        if self < *first {
+            Answer::documented(false, clause)
+        } else if *last <= self || of_branch().any(patched) {
+            Answer::documented(true, clause)
+        } else {
+            Answer::assumed(false, clause)
+        }
+    }
+}
+
+impl FromStr for CncVersion {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        Self::new(text)
+    }
+}
+
+impl fmt::Display for CncVersion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { major, minor, build, patch } = self;
+        write!(f, "V{major}.{minor}.{build}")?;
+        if *patch == 0 { Ok(()) } else { write!(f, ".{patch:02}") }
+    }
+}
+
+impl fmt::Debug for CncVersion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "CncVersion({self})")
+    }
+}
+
+/// What a CNC has from some version on, by [`CncVersion::has`].
+///
+/// ```
+/// use ads_cnc::edition::{CncVersion, Feature};
+///
+/// let since = [CncVersion::new("V2.11.2030.01")?, CncVersion::new("V3.1.3057.03")?];
+/// assert_eq!(Feature::ServiceInterface.since(), since);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Feature {
+    /// V.P, V.L and V.S on the channel interface, "with restrictions": by name only (VAR-19;
+    /// `ads-de` 1.051, section 4.1).
+    DynamicVariables,
+    /// The description by name, index offset 0x4C (VAR-27; the vendors' public help pages: in
+    /// section 4.2.1 of both editions it is reserved).
+    DescriptionByName,
+    /// The Service Interface (SVC-11; `service-en` and `service-de` 1.03, section 1).
+    ServiceInterface,
+}
+
+impl Feature {
+    /// All of them.
+    pub const ALL: &'static [Self] =
+        &[Self::DynamicVariables, Self::DescriptionByName, Self::ServiceInterface];
+
+    /// The versions that are printed for it, in ascending order.
+    pub const fn since(self) -> &'static [CncVersion] {
+        const fn v(major: u16, minor: u16, build: u16, patch: u16) -> CncVersion {
+            CncVersion::from_parts(major, minor, build, patch)
+        }
+        match self {
+            Self::DynamicVariables => {
+                const {
+                    &[
+                        v(2, 11, 2077, 0),
+                        v(2, 11, 2847, 0),
+                        v(3, 1, 3081, 7),
+                        v(3, 1, 3115, 0),
+                        v(4, 18, 0, 0),
+                    ]
+                }
+            }
+            Self::DescriptionByName => const { &[v(3, 1, 3132, 0), v(4, 29, 0, 0)] },
+            Self::ServiceInterface => const { &[v(2, 11, 2030, 1), v(3, 1, 3057, 3)] },
+        }
+    }
+
+    /// The requirement that has them.
+    pub const fn clause(self) -> &'static str {
+        match self {
+            Self::DynamicVariables => "VAR-19",
+            Self::DescriptionByName => "VAR-27",
+            Self::ServiceInterface => "SVC-11",
+        }
+    }
+}
+
+struct Scan<'a> {
+    text: &'a str,
+    /// All before is ASCII.
+    at: usize,
+}
+
+impl Scan<'_> {
+    fn next(&self) -> Option<u8> {
+        self.text.as_bytes().get(self.at).copied()
+    }
+
+    fn skip(&mut self, byte: u8) -> bool {
+        let there = self.next() == Some(byte);
+        self.at = self.at.saturating_add(there.into());
+        there
+    }
+
+    /// The dot in front of `field`.
+    fn dot(&mut self, field: Field) -> Result<(), Error> {
+        if self.skip(b'.') { Ok(()) } else { Err(self.fault(field)) }
+    }
+
+    fn number(&mut self, field: Field) -> Result<u16, Error> {
+        let (start, mut number) = (self.at, 0_u32);
+        while let Some(digit) = self.next().filter(u8::is_ascii_digit) {
+            number = number.saturating_mul(10).saturating_add(u32::from(digit & 0x0F));
+            self.at = self.at.saturating_add(1);
+        }
+        if self.at == start {
+            return Err(self.fault(field));
+        }
+        let (at, max) = (to_u32(start), u16::MAX.into());
+        u16::try_from(number).map_err(|_| Error::new(ErrorKind::OutOfRange, field, at, max, number))
+    }
+
+    /// The character that comes next is wrong, or there is none.
+    #[cold]
+    fn fault(&self, field: Field) -> Error {
+        let at = to_u32(self.at);
+        match self.text.get(self.at..).and_then(|rest| rest.chars().next()) {
+            Some(character) => {
+                Error::new(ErrorKind::Unexpected, field, at, 0, u32::from(character))
+            }
+            None => Error::new(ErrorKind::Truncated, field, at, 1, 0),
+        }
+    }
+}

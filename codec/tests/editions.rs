@@ -1,0 +1,366 @@
+//! Editions and versions: what each has, and how versions are printed.
+
+mod common;
+
+use ads_cnc::ErrorKind::*;
+use ads_cnc::edition::{Answer, CncVersion, Edition, Feature};
+use ads_cnc::operation::Function;
+use ads_cnc::*;
+use common::Fault;
+use proptest::prelude::*;
+
+const BY_HANDLE: [Function; 3] =
+    [Function::HandleByName, Function::ReadByHandle, Function::WriteByHandle];
+const BY_NAME: [Function; 2] = [Function::ReadByName, Function::WriteByName];
+const BY_INDEX: [Function; 3] =
+    [Function::CountVariables, Function::DescribeByIndex, Function::DescribeExtended];
+const ON_AXIS: [Function; 3] =
+    [Function::AxisHandleByName, Function::AxisReadByName, Function::AxisWriteByName];
+
+const YES: (bool, bool) = (true, false);
+const NO: (bool, bool) = (false, false);
+const YES_ASSUMED: (bool, bool) = (true, true);
+const NO_ASSUMED: (bool, bool) = (false, true);
+
+fn version(text: &str) -> CncVersion {
+    CncVersion::new(text).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+#[track_caller]
+fn assert_answer(answer: Answer, (yes, assumed): (bool, bool), clause: &str) {
+    assert_eq!((answer.yes, answer.assumed, answer.clause), (yes, assumed, clause));
+}
+
+/// Each as it is printed: `ads-de` 1.051, section 4.1; `service-en` and `service-de` 1.03,
+/// section 1; the last two in the vendors' public help pages.
+#[test]
+fn printed_versions() {
+    for (printed, (major, minor, build, patch), shown) in [
+        ("V.2.11.2077", (2, 11, 2077, 0), "V2.11.2077"),
+        ("V2.11.2847", (2, 11, 2847, 0), "V2.11.2847"),
+        ("V3.1.3081.07", (3, 1, 3081, 7), "V3.1.3081.07"),
+        ("V3.1.3115", (3, 1, 3115, 0), "V3.1.3115"),
+        ("V4.18.0", (4, 18, 0, 0), "V4.18.0"),
+        ("V.2.11.2030.01", (2, 11, 2030, 1), "V2.11.2030.01"),
+        ("V.3.1.3057.03", (3, 1, 3057, 3), "V3.1.3057.03"),
+        ("V3.1.3132.0", (3, 1, 3132, 0), "V3.1.3132"),
+        ("V4.29.0", (4, 29, 0, 0), "V4.29.0"),
+    ] {
+        let found = version(printed);
+        assert_eq!(found, CncVersion::from_parts(major, minor, build, patch), "{printed}");
+        let parts = (found.major(), found.minor(), found.build(), found.patch());
+        assert_eq!(parts, (major, minor, build, patch), "{printed}");
+        assert_eq!(found.to_string(), shown);
+        // With and without the V.
+        assert_eq!(version(shown.trim_start_matches('V')), found);
+        assert_eq!(shown.parse(), Ok(found));
+        let named = Feature::ALL.iter().flat_map(|feature| feature.since());
+        assert_eq!(named.filter(|&&named| named == found).count(), 1, "{printed}");
+    }
+    let named: usize = Feature::ALL.iter().map(|feature| feature.since().len()).sum();
+    assert_eq!(named, 9);
+    assert!(Feature::ALL.iter().all(|feature| feature.since().is_sorted()));
+}
+
+#[test]
+fn malformed_versions_are_refused_where_they_are_wrong() {
+    let unexpected = |field, offset, found: char| Fault {
+        kind: Unexpected,
+        field,
+        offset,
+        expected: 0,
+        found: u32::from(found) as usize,
+    };
+    let cut = |field, offset| Fault { kind: Truncated, field, offset, expected: 1, found: 0 };
+    let over =
+        |field, offset, found| Fault { kind: OutOfRange, field, offset, expected: 0xFFFF, found };
+    for (text, wanted) in [
+        ("", cut("major", 0)),
+        ("V", cut("major", 1)),
+        ("V.", cut("major", 2)),
+        ("V4", cut("minor", 2)),
+        ("V4.", cut("minor", 3)),
+        ("V4.18", cut("build", 5)),
+        ("V4.18.", cut("build", 6)),
+        ("V4.18.0.", cut("patch", 8)),
+        ("v4.18.0", unexpected("major", 0, 'v')),
+        (" V4.18.0", unexpected("major", 0, ' ')),
+        (".4.18.0", unexpected("major", 0, '.')),
+        ("V..4.18.0", unexpected("major", 2, '.')),
+        ("VV4.18.0", unexpected("major", 1, 'V')),
+        ("-4.18.0", unexpected("major", 0, '-')),
+        ("V4..0", unexpected("minor", 3, '.')),
+        ("V4,18.0", unexpected("minor", 2, ',')),
+        ("V4.1\u{e4}.0", unexpected("build", 4, '\u{e4}')),
+        ("V4.18.x", unexpected("build", 6, 'x')),
+        ("V4.18.0 ", unexpected("patch", 7, ' ')),
+        ("V4.18.0\0", unexpected("patch", 7, '\0')),
+        ("V3.1.3081.07.1", unexpected("patch", 12, '.')),
+        ("V3.1.3081.07\u{20ac}", unexpected("patch", 12, '\u{20ac}')),
+        ("V65536.1.3081", over("major", 1, 65536)),
+        ("V3.70000.3081", over("minor", 3, 70000)),
+        ("V3.1.99999999999", over("build", 5, u32::MAX as usize)),
+        ("3.1.3081.65536", over("patch", 9, 65536)),
+    ] {
+        assert_eq!(Fault::of(CncVersion::new(text).unwrap_err()), wanted, "{text:?}");
+    }
+    assert_eq!(version("65535.65535.65535.65535"), CncVersion::from_parts(!0, !0, !0, !0));
+    assert_eq!(version("V003.01.3081.7"), version("V3.1.3081.07"));
+}
+
+#[test]
+fn versions_count_by_their_numbers() {
+    let ascending = [
+        "V2.11.2030.01",
+        "V2.11.2077",
+        "V2.11.2847",
+        "V3.1.3057.03",
+        "V3.1.3081",
+        "V3.1.3081.07",
+        "V3.1.3081.10",
+        "V3.1.3115",
+        "V4.4.0",
+        "V4.18.0",
+        "V4.29.0",
+    ];
+    assert!(ascending.map(version).is_sorted_by(|one, next| one < next));
+}
+
+/// VAR-19 and SVC-11 from one version below each that is printed to one above, and branches that
+/// are not.
+#[test]
+fn versions_have_what_is_printed_for_them() {
+    let cases: [(Feature, &str, &[_]); 3] = [
+        (
+            Feature::DynamicVariables,
+            "VAR-19",
+            &[
+                ("V2.11.2076.99", NO),
+                ("V2.11.2077", YES),
+                ("V2.11.2077.01", YES),
+                // A later one is printed for the branch, so this one need not have it.
+                ("V2.11.2078", NO_ASSUMED),
+                ("V2.11.2846.99", NO_ASSUMED),
+                ("V2.11.2847", YES),
+                ("V2.11.2847.01", YES),
+                ("V2.11.2848", YES),
+                ("V3.1.3081.06", NO),
+                ("V3.1.3081.07", YES),
+                ("V3.1.3081.08", YES),
+                ("V3.1.3082", NO_ASSUMED),
+                ("V3.1.3114.99", NO_ASSUMED),
+                ("V3.1.3115", YES),
+                ("V3.1.3115.01", YES),
+                ("V3.1.3116", YES),
+                ("V4.17.99", NO),
+                ("V4.18.0", YES),
+                ("V4.18.0.01", YES),
+                ("V4.18.1", YES),
+                ("V4.19.0", YES),
+                ("V1.0.0", NO_ASSUMED),
+                ("V2.10.9999", NO_ASSUMED),
+                ("V2.12.0", NO_ASSUMED),
+                ("V3.2.0", NO_ASSUMED),
+                ("V5.0.0", YES_ASSUMED),
+            ],
+        ),
+        (
+            Feature::DescriptionByName,
+            "VAR-27",
+            &[
+                ("V3.1.3131.99", NO),
+                ("V3.1.3132.0", YES),
+                ("V3.1.3132.01", YES),
+                ("V4.28.99", NO),
+                ("V4.29.0", YES),
+                ("V4.30.0", YES),
+                ("V2.11.2847", NO_ASSUMED),
+                ("V3.2.0", NO_ASSUMED),
+                ("V5.0.0", YES_ASSUMED),
+            ],
+        ),
+        (
+            Feature::ServiceInterface,
+            "SVC-11",
+            &[
+                ("V2.11.2030", NO),
+                ("V2.11.2030.01", YES),
+                ("V2.11.2030.02", YES),
+                ("V2.11.2031", YES),
+                ("V3.1.3057.02", NO),
+                ("V3.1.3057.03", YES),
+                ("V3.1.3057.04", YES),
+                ("V3.1.3058", YES),
+                ("V2.10.0", NO_ASSUMED),
+                ("V2.12.0", NO_ASSUMED),
+                ("V4.0.0", YES_ASSUMED),
+                ("V5.0.0", YES_ASSUMED),
+            ],
+        ),
+    ];
+    for (feature, clause, cases) in cases {
+        assert_eq!(feature.clause(), clause);
+        for &(text, wanted) in cases {
+            let Answer { yes, assumed, clause: by } = version(text).has(feature);
+            assert_eq!(((yes, assumed), by), (wanted, clause), "{feature:?} of {text}");
+        }
+    }
+}
+
+/// Section 4.2.1 of either edition: which kinds 0x46, 0x47 and 0x49 are not available for.
+#[test]
+fn handles_by_edition() {
+    let newest = Some(version("V4.18.0"));
+    for edition in Edition::ALL {
+        for function in BY_HANDLE {
+            let may = |kind| edition.permits(function, kind, newest);
+            for kind in [Kind::V_E, Kind::V_G, Kind::V_A] {
+                assert_answer(may(kind), YES, function.spec().clause);
+            }
+            assert_answer(may(Kind::V_CYC), NO, "VAR-18");
+            for kind in [Kind::V_P, Kind::V_L, Kind::V_S] {
+                match edition {
+                    Edition::German => assert_answer(may(kind), NO, "VAR-18"),
+                    _ => assert_answer(may(kind), NO_ASSUMED, "VAR-19"),
+                }
+            }
+            let other = Kind::new("V.X").unwrap();
+            assert_answer(may(other), YES_ASSUMED, function.spec().clause);
+        }
+    }
+    assert_eq!(Edition::English.by_name_only(), [Kind::V_CYC]);
+    let german = [Kind::V_CYC, Kind::V_P, Kind::V_L, Kind::V_S];
+    assert_eq!(Edition::German.by_name_only(), german);
+}
+
+/// Section 4.1 of either edition: V.CYC by name in both, V.P, V.L and V.S in `ads-de` from some
+/// version on.
+#[test]
+fn names_by_edition_and_version() {
+    let with = [Some(version("V3.1.3115")), Some(version("V2.11.2077"))];
+    let without = Some(version("V3.1.3081.06"));
+    let between = Some(version("V3.1.3100"));
+    for function in BY_NAME {
+        for edition in Edition::ALL {
+            for kind in [Kind::V_E, Kind::V_G, Kind::V_A, Kind::V_CYC] {
+                for version in [without, between, None] {
+                    let answer = edition.permits(function, kind, version);
+                    assert_answer(answer, YES, function.spec().clause);
+                }
+            }
+        }
+        for kind in [Kind::V_P, Kind::V_L, Kind::V_S] {
+            let german = |version| Edition::German.permits(function, kind, version);
+            with.into_iter().for_each(|with| assert_answer(german(with), YES, "VAR-19"));
+            assert_answer(german(without), NO, "VAR-19");
+            assert_answer(german(between), NO_ASSUMED, "VAR-19");
+            assert_answer(german(None), YES_ASSUMED, "VAR-19");
+            let english = Edition::English.permits(function, kind, with[0]);
+            assert_answer(english, NO_ASSUMED, "VAR-19");
+        }
+    }
+}
+
+/// Sections 4.3.1, 4.3.2 and 4.3.8: V.G, V.E and V.A; E-39.
+#[test]
+fn requests_by_index_take_three_kinds() {
+    for edition in Edition::ALL {
+        for function in BY_INDEX {
+            let may = |kind| edition.permits(function, kind, None);
+            for kind in [Kind::V_E, Kind::V_G, Kind::V_A] {
+                assert_answer(may(kind), YES, "VAR-1");
+            }
+            for kind in [Kind::V_CYC, Kind::V_P, Kind::V_L, Kind::V_S, Kind::new("V.E.").unwrap()] {
+                assert_answer(may(kind), NO_ASSUMED, "VAR-1");
+            }
+            let all = if function == Function::CountVariables { YES } else { NO_ASSUMED };
+            assert_answer(may(Kind::ALL), all, "VAR-1");
+        }
+    }
+}
+
+/// Section 4.1: the axis interface is V.A's.
+#[test]
+fn the_axis_interface_has_axis_variables() {
+    for edition in Edition::ALL {
+        for function in ON_AXIS {
+            assert_answer(edition.permits(function, Kind::V_A, None), YES, "VAR-26");
+            for kind in [Kind::V_E, Kind::V_G, Kind::V_CYC, Kind::V_P] {
+                assert_answer(edition.permits(function, kind, None), NO_ASSUMED, "VAR-26");
+            }
+        }
+        let answer = edition.permits(Function::CountObjects, Kind::V_P, None);
+        assert_answer(answer, YES, "COM-1");
+    }
+}
+
+/// A server asks with the kind as it was received.
+#[test]
+fn how_a_kind_ends_does_not_matter() {
+    let request = VariableKindRef::decode(b"V.CYC\0\0\0").unwrap();
+    let answer = Edition::English.permits(Function::HandleByName, request.kind, None);
+    assert_answer(answer, NO, "VAR-18");
+    let name = VariablePath::new("V.S.a[3]").unwrap();
+    let answer = Edition::German.permits(Function::ReadByHandle, name.kind(), None);
+    assert_answer(answer, NO, "VAR-18");
+}
+
+/// The documents are called as the vectors call them.
+#[test]
+fn editions_are_documents_of_the_vectors() {
+    for edition in Edition::ALL {
+        let known = ads_cnc_vectors::documents().iter().any(|document| {
+            document.document == edition.document() && document.edition == edition.number()
+        });
+        assert!(known, "{edition}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn versions_come_back(
+        numbers in any::<(u16, u16, u16, u16)>(),
+        v in proptest::sample::select(vec!["", "V", "V."]),
+    ) {
+        let (major, minor, build, patch) = numbers;
+        let one = CncVersion::from_parts(major, minor, build, patch);
+        prop_assert_eq!(CncVersion::new(&one.to_string()), Ok(one));
+        let text = format!("{v}{major}.{minor}.{build}.{patch}");
+        prop_assert_eq!(CncVersion::new(&text), Ok(one));
+    }
+
+    #[test]
+    fn versions_order_as_their_numbers(one in any::<[u16; 4]>(), other in any::<[u16; 4]>()) {
+        let version = |[a, b, c, d]: [u16; 4]| CncVersion::from_parts(a, b, c, d);
+        prop_assert_eq!(version(one).cmp(&version(other)), one.cmp(&other));
+    }
+
+    /// What is accepted is one of the forms, and no text panics.
+    #[test]
+    fn any_text(text in "[V.0-9\u{e4} ]{0,14}") {
+        if let Ok(version) = CncVersion::new(&text) {
+            let numbers = text.trim_start_matches('V').trim_start_matches('.');
+            let numbers: Vec<u16> = numbers.split('.').map(|n| n.parse().unwrap()).collect();
+            prop_assert!(matches!(numbers.len(), 3 | 4));
+            let parts = [version.major(), version.minor(), version.build(), version.patch()];
+            prop_assert_eq!(&parts[..numbers.len()], &numbers[..]);
+        }
+    }
+
+    /// A later patch of a version that has something has it too.
+    #[test]
+    fn later_patches_have_it_too(
+        feature in proptest::sample::select(Feature::ALL.to_vec()),
+        [major, build] in any::<[u16; 2]>(),
+        minor in 0..40_u16,
+        patches in any::<[u16; 2]>(),
+    ) {
+        let [patch, later] = [patches[0].min(patches[1]), patches[0].max(patches[1])];
+        let major = major % 7;
+        let build = 2000 + build % 1200;
+        let has = |patch| CncVersion::from_parts(major, minor, build, patch).has(feature).yes;
+        prop_assert!(!has(patch) || has(later));
+    }
+}
