@@ -29,7 +29,8 @@
 //! | `service-en`, `service-de` 1.03, Service Interface | [`service`] |
 //!
 //! [`operation`] puts them together: where a function is, what goes in, what comes out, for
-//! clients and for servers. [`layout`] has the field table of every stream.
+//! clients and for servers. [`layout`] has the field table of every stream. Where the manuals are
+//! at odds, [`contradictions`] says what is done here and how to do otherwise.
 //!
 //! # Features
 //! - `alloc` (default): the owned readings.
@@ -64,6 +65,7 @@ pub mod ads;
 mod com;
 mod content;
 pub mod dynamic;
+pub mod contradictions;
 pub mod edition;
 mod error;
 pub mod layout;

@@ -1,0 +1,169 @@
+//! Where the manuals contradict one another or themselves, what this crate does there, and how
+//! the caller steers it.
+//!
+//! The errata, E-01 and on, are those of the register in the crate `ads-cnc-vectors`, which has
+//! every reading with its section. "Both" is `ads-en` 1.05 and `ads-de` 1.051. Where a row names
+//! nothing to steer by, what was received decides, or only one reading is possible.
+//!
+//! # Distance between axes
+//!
+//! E-01. Both print `0x1000 × axis + element` for a channel axis of COM in 2.1, and `0x10001` for
+//! its axis 1 in 2.1.2; `0x1000` for the first platform axis of the HLD in 2.2.2, and `0x20000` for
+//! the decoder's axis 2 beside it. [`AxisStride`](crate::address::AxisStride) has both by name;
+//! `0x10000` is the default, and what the axis interface (4.2.2) always has. An offset does not
+//! tell which was used:
+//!
+//! ```
+//! use ads_cnc::address::{AxisStride, IndexOffset};
+//!
+//! let by_example = IndexOffset::of_axis(AxisStride::X10000, 1, 1)?;
+//! let by_table = IndexOffset::of_axis(AxisStride::X1000, 1, 1)?;
+//! assert_eq!((by_example.get(), by_table.get()), (0x1_0001, 0x1001));
+//!
+//! assert_eq!(by_example.axis_and_element(AxisStride::X10000)?, (1, 1));
+//! assert_eq!(by_example.axis_and_element(AxisStride::X1000)?, (16, 1));
+//! # Ok::<(), ads_cnc::Error>(())
+//! ```
+//!
+//! So a client computes neither, but takes what the CNC says: of COM the descriptor's
+//! [`index_group`](crate::DescriptorRef::index_group) and
+//! [`index_offset`](crate::DescriptorRef::index_offset), of SDA and GEO the reply to the query of
+//! the object address, from which elements count on.
+//!
+//! ```
+//! use ads_cnc::address::{IndexGroup, IndexOffset};
+//! use ads_cnc::{Decode, Descriptor, DescriptorRef, Encode};
+//!
+//! // What a CNC may say of an object of a channel axis …
+//! let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(0x1_0001));
+//! let object = Descriptor::new("mc_example_r", "BOOL")?.with_size(1).with_content(group, offset);
+//! let mut reply = [0; 84];
+//! object.encode(&mut reply)?;
+//!
+//! // … is where to read it, whatever the stride.
+//! let object = DescriptorRef::decode(&reply)?;
+//! assert_eq!((object.index_group(), object.index_offset()), (group, offset));
+//! assert_eq!(object.size(), 1);
+//! # Ok::<(), ads_cnc::Error>(())
+//! ```
+//!
+//! # Editions
+//!
+//! E-15, E-39. By name only is V.CYC in `ads-en`, and V.CYC, V.P, V.L and V.S in `ads-de`; both then
+//! bar three functions, 0x46, 0x47 and 0x49. `ads-en` does not have the last three kinds on this
+//! interface at all, `ads-de` has them from some version of the CNC on. Requests are built and read
+//! for any kind; [`Edition`](crate::edition::Edition) and
+//! [`CncVersion`](crate::edition::CncVersion) say what to expect of it:
+//!
+//! ```
+//! use ads_cnc::address::Channel;
+//! use ads_cnc::edition::{CncVersion, Edition};
+//! use ads_cnc::operation::{Function, HandleByName, Operation, ReadByName};
+//! use ads_cnc::{Error, VariablePath};
+//!
+//! /// Reads by name if that is all there is.
+//! fn function(edition: Edition, cnc: CncVersion, name: &str) -> Result<Option<Function>, Error> {
+//!     let kind = VariablePath::new(name)?.kind();
+//!     let may = |function: &Function| edition.permits(*function, kind, Some(cnc)).yes;
+//!     Ok([Function::HandleByName, Function::ReadByName].into_iter().find(may))
+//! }
+//!
+//! let (old, new) = (CncVersion::new("V3.1.3081.06")?, CncVersion::new("V3.1.3081.07")?);
+//! let handle = Some(Function::HandleByName);
+//! let name = Some(Function::ReadByName);
+//! assert_eq!(function(Edition::German, old, "V.E.a")?, handle);
+//! assert_eq!(function(Edition::English, old, "V.CYC.a")?, name);
+//! assert_eq!(function(Edition::German, old, "V.P.a")?, None);
+//! assert_eq!(function(Edition::German, new, "V.P.a")?, name);
+//! assert_eq!(function(Edition::English, new, "V.P.a")?, None);
+//!
+//! // To try all the same is up to the caller.
+//! let op = HandleByName::new(Channel::new(1)?, "V.P.a")?;
+//! assert_eq!(op.encode(&mut [0; 16])?, b"V.P.a\0");
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! # Addresses
+//!
+//! | | the editions say | here | steered by |
+//! |---|---|---|---|
+//! | E-02, E-06 | both, 2.2.2: base 0x20300 beside the sums 0x123900 and 0x123501, which have the logical bit | the sums | [`Addressing`](crate::address::Addressing), [`ClassGroup`](crate::address::ClassGroup) |
+//! | E-04 | both: platform at 0x120101 (2.1) or 0x120100 (2.1.2); platform axis at 0x120200 + axis (2.1) or 0x120200, 0x10001 (2.1.2) | 0x120101 comes apart as channel 1, which drives the platform; the descriptor tells where a content is | [`ComGroup::platform`](crate::address::ComGroup::platform), [`Channel::com`](crate::address::Channel::com), [`PlatformAxis::com`](crate::address::PlatformAxis::com) |
+//! | E-13 | spindles up to the axes − 1 (`ads-en`), to the spindle axes − 1 (`ads-de`) | from 0, any that 8 bits hold; which there are, the CNC says | [`Spindle`](crate::address::Spindle) |
+//! | E-30 | both, 2.2.2: channels of the HLD from 1, yet a query with channel 0 | channel 0 with an axis is the platform's | [`ClassGroup::instance`](crate::address::ClassGroup::instance); [`Channel`](crate::address::Channel) is from 1 |
+//! | E-31 | both, 2.2.1: 0x120300 + 0x5000, and 0x25300 | 0x25300: spindles have no logical form | [`Class::Spindle`](crate::address::Class::Spindle) |
+//! | E-36 | both, 2.1.1: offset 0 counts all objects, or channel 1's | those of the addressed list | [`ObjectList`](crate::operation::ObjectList) |
+//! | E-40 | both: axes from 1 (2), from 0 (2.2.2); path preparation without axes (2.2.1), with (2.2.2) | with axes; 0 is the channel itself | [`IndexOffset::of_axis`](crate::address::IndexOffset::of_axis); [`ChannelAxis`](crate::address::ChannelAxis) is from 1 |
+//! | E-52 | both: the channel a digit behind 0x13010 (2.1.1), or added to 0x120100 (2.1) | added; channel 16 is 0x130110 | [`Channel::new`](crate::address::Channel::new) |
+//! | E-53 | `ads-en`, 4.2: channel number or channel ID | the ID, since the group is logical | [`Channel::new`](crate::address::Channel::new), [`Channel::by_index`](crate::address::Channel::by_index) |
+//!
+//! # Objects and elements
+//!
+//! | | the editions say | here | steered by |
+//! |---|---|---|---|
+//! | E-07 | both, 2.1.1: places of a descriptor's fields in a column "Bit" | bytes | |
+//! | E-08 | 2.1.1: TRUE is "describable" (`ads-en`), can be written (`ads-de`) | the word is kept; any but 0 is writable | [`WriteAccess`](crate::WriteAccess): `READ_ONLY`, `WRITABLE` or any other word |
+//! | E-11 | both: attribute 0x500 is whether writing is permitted (2.2.1), headed write protection (2.2.2) | TRUE is permitted | [`Attribute::WriteFlag`](crate::address::Attribute::WriteFlag) |
+//!
+//! # Variables
+//!
+//! | | the editions say | here | steered by |
+//! |---|---|---|---|
+//! | E-16 | both: only V.CYC is n-dimensional (4.2), fields of any kind are (4.1, 4.3.2) | any number of dimensions of any kind | [`DescriptionRef::dimensions`](crate::DescriptionRef::dimensions) |
+//! | E-17, E-46 | both, 4.3.2: the name up to 256 bytes, the stream 276 + 4m as if it always had them; nothing of its end | one NUL is written; NULs up to 256, no NUL, and bytes behind it are read and kept | [`TextRef::with_tail`](crate::TextRef::with_tail), [`TextRef::tail`](crate::TextRef::tail) |
+//! | E-23 | 4.3.8: SYNCHRONISED and SYNCHRONIZED | one code, 2 | [`Synchronisation::SYNCHRONIZED`](crate::Synchronisation::SYNCHRONIZED) |
+//! | E-24, E-45 | both: a handle or number is 4 bytes, at most 4 (4.3.1, 4.3.3), or has an offset 4 too (4.3.9) | just 4 bytes | |
+//! | E-25 | "Number of variable elements" and "Variable element number" | one function, 0x44 | [`Function::CountVariables`](crate::operation::Function::CountVariables) |
+//! | E-26 | both: 0x4C is reserved; the public help pages: description by name, headed as handle by name | description by name | [`Feature::DescriptionByName`](crate::edition::Feature::DescriptionByName) |
+//! | E-32, E-51 | both, of a dimension: the largest index (4.2.1, and V\[n\] in 4.1), the number n of elements (4.3.2) | the number; indices go to n − 1 | [`DescriptionRef::dimensions`](crate::DescriptionRef::dimensions) |
+//! | E-33 | both: names of all V. variables at most 96 bytes (3), 256 (4.3) | 256 in section 4, 96 in section 3 | [`limits`](crate::limits) |
+//! | E-34 | name requests of 256 bytes (`ads-de`), at most 256 (`ads-en`) | one NUL is written, NULs up to 256 are read | [`TextRef::with_tail`](crate::TextRef::with_tail) |
+//! | E-42 | both: n is the number of dimensions (4.3.4), of indices that follow (4.3.6) | of indices that follow; 0 for the whole variable | [`HandleReadRef::indices`](crate::HandleReadRef::indices), [`HandleWriteRef`](crate::HandleWriteRef) |
+//! | E-47 | both: requests with index and kind up to 2048 bytes (4.2.1), 260 (4.3.2) | 260 | [`INDEX_KIND_MAX`](crate::limits::INDEX_KIND_MAX) |
+//! | E-55 | both: the identifier is in the axis name (4.3.7), in the variable name (4.3.3) | the last part of the variable's name, on the channel interface | [`VariablePath::axis`](crate::VariablePath::axis) |
+//! | E-56 | an array can be (`ads-en`), is (`ads-de`) one unit, 4.1 | it is: one name and handle, elements by index | [`VariablePath::variable`](crate::VariablePath::variable), [`VariablePath::elements`](crate::VariablePath::elements) |
+//!
+//! # ADS services, texts
+//!
+//! | | the editions say | here | steered by |
+//! |---|---|---|---|
+//! | E-12, E-50 | both, 5: a Write has a read length and a write length, of data to be read | one length, that of the data to be written | [`WriteRequestRef`](crate::ads::WriteRequestRef) |
+//! | E-44 | ASCII (`stream-en`, 3.2), CP1252 (both, 1) | ASCII in the data stream, CP1252 in all else | [`NcText`](crate::streaming::NcText), [`CncStr`](crate::CncStr) |
+//!
+//! # Data streaming
+//!
+//! | | `stream-en` says | here | steered by |
+//! |---|---|---|---|
+//! | E-19 | the parameter is `stream_prog_file` (2.2), `streaming_prog_file` (3.1) | it is in no stream | |
+//! | E-29 | each line ends in CR LF (2.2, 4.1); the driver (5) can send a line without, or part of one | every line ends in CR LF, none is parted, a longer one is refused | [`NcText::new`](crate::streaming::NcText::new) for what is sent, [`Interface::read`](crate::streaming::Interface::read) for what came |
+//! | E-43 | packets by read accesses (2.2), three first packets (2.3.6) | writes, in their order | [`Sender`](crate::streaming::Sender) |
+//!
+//! # Service Interface
+//!
+//! | | `service-en`, `service-de` 1.03 say | here | steered by |
+//! |---|---|---|---|
+//! | E-20 | both, 2: the program waits for RESPONSE, or for RESPONSE_STATE | RESPONSE_STATE | [`SysServiceWait::keep_waiting`](crate::service::SysServiceWait::keep_waiting) |
+//! | E-21 | both, 2: the UUID of the example with a digit less in the NC program | refused | [`ServiceId`](crate::service::ServiceId) |
+//! | E-35 | a response state must not be 0 (`service-en`), "in this example" (`service-de`) | a host refuses to answer 0; the interface takes it | [`Host::answer`](crate::service::Host::answer), [`Interface::write`](crate::service::Interface::write) |
+//!
+//! # Misprints of examples and headings
+//!
+//! Nothing in a stream depends on E-03, E-05, E-09, E-10, E-14, E-18, E-22, E-27, E-28, E-37, E-38,
+//! E-41, E-48, E-49 and E-54: they are about printed examples, headings and names. The vectors have
+//! the examples.
+//!
+//! # Not said at all
+//!
+//! Assumed, or left to the caller:
+//!
+//! | | here | steered by |
+//! |---|---|---|
+//! | bytes of a STRING value in a reply (VAR-22, VAR-25) | all there are: the text to its first NUL, and what is behind it | [`Element::String`](crate::Element::String), [`ValueRef::bytes`](crate::ValueRef::bytes) |
+//! | bytes of each text in an array of STRING | one text | [`ValueRef::bytes`](crate::ValueRef::bytes) |
+//! | order of elements in more than one dimension (VAR-21) | the last index runs fastest | [`ValueRef::bytes`](crate::ValueRef::bytes) |
+//! | codes without a name (VAR-23) | kept as numbers | [`VariableType`](crate::VariableType), [`VariableAccess`](crate::VariableAccess), [`Validity`](crate::Validity) |
+//! | versions between those that are printed (VAR-19) | as [`CncVersion::has`](crate::edition::CncVersion::has) says | [`Answer`](crate::edition::Answer) |
+//! | which of SDA and GEO serves a class (ADR-10) | either | [`Call::port`](crate::operation::Call::port) |
+//! | error numbers (ADS-7) | the server's choice | [`Refusal::ads_error`](crate::operation::Refusal::ads_error), [`AdsError`](crate::ads::AdsError) |
+//! | how a full stream is told from one that refuses for good (STM-6) | the caller's choice | [`Ack`](crate::streaming::Ack) |
+//! | whether the interface sets REQUEST_STATE to 0 itself (SVC-4) | it does, when RESPONSE_STATE is written | [`Clears`](crate::service::Clears) |

@@ -1,0 +1,12 @@
+//! The page on the contradictions of the manuals.
+
+/// It has every erratum of the register.
+#[test]
+fn the_page_has_every_erratum() {
+    let page = include_str!("../src/contradictions.rs");
+    let words: Vec<&str> = page.split(|c: char| !c.is_alphanumeric() && c != '-').collect();
+    let register = ads_cnc_vectors::errata();
+    let missing: Vec<&str> =
+        register.iter().map(|erratum| &*erratum.id).filter(|id| !words.contains(id)).collect();
+    assert!(register.len() > 40 && missing.is_empty(), "{missing:?}");
+}
