@@ -7,13 +7,21 @@
 //! | manual (`ads-en` 1.05, `ads-de` 1.051) | here |
 //! |---|---|
 //! | 1, code page | [`CncStr`], [`text`] |
+//! | 1, tasks and their ports | [`operation::Task`], [`ads::AmsPort`] |
+//! | 1, axes and spindles, base addresses | [`address`] |
+//! | 1, list of static objects | as 2.1.1 and 2.2.2 |
 //! | 2, index groups and offsets | [`address`] |
+//! | 2.1, instances of the COM task | [`address::ComGroup`], [`operation::ObjectList`] |
 //! | 2.1.1, object descriptors | [`ObjectCount`], [`DescriptorRef`], [`DescriptorsRef`] |
 //! | 2.1.2, content | [`ContentRef`] |
 //! | 2.2.1, classes and attributes | [`address`], [`sda`] |
 //! | 2.2.2, instances and elements | [`sda`] |
 //! | 3, 3.1 … 3.4, dynamic parameters | [`dynamic`] |
+//! | 4, 4.1, kinds of variables, by edition and version | [`Kind`], [`edition`] |
 //! | 4.1, names of variables | [`VariablePath`] |
+//! | 4.2.1, 4.2.2, the interfaces of channel and axis | [`operation::Function`], [`address::ChannelAxis`] |
+//! | 4.2.1, 0x4C, reserved and documented online | [`VariableNameRef`], [`DescriptionByNameRef`] |
+//! | 4.3, streams | [`layout`], [`Decode`], [`Encode`] |
 //! | 4.3.1, number of variables | [`VariableKindRef`], [`VariableCount`] |
 //! | 4.3.2, description | [`VariableIndexKindRef`], [`DescriptionRef`] |
 //! | 4.3.3, handle by name | [`VariableNameRef`], [`Handle`] |
@@ -22,11 +30,24 @@
 //! | 4.3.6, write by handle | [`HandleWriteRef`] |
 //! | 4.3.7, write by name | [`NameWriteRef`] |
 //! | 4.3.8, extended description | [`VariableIndexKindRef`], [`ExtendedReply`] |
-//! | 4.2.1, 0x4C, documented online | [`VariableNameRef`], [`DescriptionByNameRef`] |
-//! | 4.3.9 … 4.3.11, axis interface | [`operation::AxisHandleByName`] … |
+//! | 4.3.9, handle by name, of an axis | [`operation::AxisHandleByName`] |
+//! | 4.3.10, read by name, of an axis | [`operation::AxisReadByName`] |
+//! | 4.3.11, write by name, of an axis | [`operation::AxisWriteByName`] |
 //! | 5, ADS services | [`ads`] |
-//! | `stream-en`, data streaming | [`streaming`] |
-//! | `service-en`, `service-de` 1.03, Service Interface | [`service`] |
+//!
+//! The sections have the same numbers in both. The other manuals:
+//!
+//! | manual | here |
+//! |---|---|
+//! | `stream-en` 2.1, 2.2, data streaming | [`streaming`] |
+//! | 2.3.3, 2.3.4, 2.3.6, loops, comments, jumps | [`streaming::Findings`] |
+//! | 2.3.1, 2.3.2, 2.3.5, 2.3.7, flushing, subroutines, block search, contours | NC text like any other |
+//! | 3, parameters | [`limits`], [`streaming::OBJECT_NAME`] |
+//! | 4.1, line ends | [`streaming::LineError`] |
+//! | 4.2, 5, transfer and example | [`streaming::Sender`] |
+//! | `service-en`, `service-de` 1.03: 1, required versions | [`edition::Feature::ServiceInterface`] |
+//! | 2, variables and process | [`service`] |
+//! | `service-en` 3, cycle SysServiceWait | [`service::SysServiceWait`] |
 //!
 //! [`operation`] puts them together: where a function is, what goes in, what comes out, for
 //! clients and for servers. [`layout`] has the field table of every stream. Where the manuals are
