@@ -166,7 +166,7 @@ fn versions_have_what_is_printed_for_them() {
         ),
         (
             Feature::DescriptionByName,
-            "VAR-27",
+            "VAR-28",
             &[
                 ("V3.1.3131.99", NO),
                 ("V3.1.3132.0", YES),
@@ -363,4 +363,23 @@ proptest! {
         let has = |patch| CncVersion::from_parts(major, minor, build, patch).has(feature).yes;
         prop_assert!(!has(patch) || has(later));
     }
+}
+/// The description by name, 0x4C: by the version, and of the kinds that are reached by name.
+#[test]
+fn descriptions_by_name() {
+    let may =
+        |edition: Edition, kind, version| edition.permits(Function::DescribeByName, kind, version);
+    let (old, new) = (Some(version("V3.1.3131")), Some(version("V3.1.3132.0")));
+    for edition in Edition::ALL {
+        for kind in [Kind::V_E, Kind::V_G, Kind::V_A] {
+            assert_answer(may(edition, kind, old), NO, "VAR-28");
+            assert_answer(may(edition, kind, new), YES, "VAR-28");
+            assert_answer(may(edition, kind, None), YES_ASSUMED, "VAR-28");
+        }
+        assert_answer(may(edition, Kind::V_CYC, new), YES_ASSUMED, "VAR-28");
+    }
+    assert_answer(may(Edition::German, Kind::V_P, new), YES_ASSUMED, "VAR-28");
+    assert_answer(may(Edition::German, Kind::V_P, Some(version("V4.17.0"))), NO, "VAR-19");
+    assert_answer(may(Edition::German, Kind::V_P, Some(version("V4.18.0"))), NO, "VAR-28");
+    assert_answer(may(Edition::English, Kind::V_P, new), NO_ASSUMED, "VAR-19");
 }

@@ -109,7 +109,7 @@ impl Edition {
     /// | V.P, V.L, V.S in `ads-en`, which has them in section 3 alone | no, assumed | VAR-19 |
     /// | number or description by index of another kind than V.E, V.G, V.A | no, assumed (E-39) | VAR-1 |
     /// | the number of all kinds: [`Kind::ALL`] | yes | VAR-1 |
-    /// | description by name, 0x4C | by [version](CncVersion::has); that it has V.CYC, V.P, V.L, V.S is assumed | VAR-27 |
+    /// | description by name, 0x4C | by [version](CncVersion::has); that it has V.CYC, V.P, V.L, V.S is assumed | VAR-28 |
     /// | another kind than V.A on the axis interface | no, assumed | |
     /// | a kind of no manual, by name or handle | yes, assumed | |
     ///

@@ -178,7 +178,7 @@ pub enum Feature {
     /// V.P, V.L and V.S on the channel interface, "with restrictions": by name only (VAR-19;
     /// `ads-de` 1.051, section 4.1).
     DynamicVariables,
-    /// The description by name, index offset 0x4C (VAR-27; the vendors' public help pages: in
+    /// The description by name, index offset 0x4C (VAR-28; the vendors' public help pages: in
     /// section 4.2.1 of both editions it is reserved).
     DescriptionByName,
     /// The Service Interface (SVC-11; `service-en` and `service-de` 1.03, section 1).
@@ -216,7 +216,7 @@ impl Feature {
     pub const fn clause(self) -> &'static str {
         match self {
             Self::DynamicVariables => "VAR-19",
-            Self::DescriptionByName => "VAR-27",
+            Self::DescriptionByName => "VAR-28",
             Self::ServiceInterface => "SVC-11",
         }
     }
