@@ -4,7 +4,10 @@ use ads_cnc::Encode;
 use ads_cnc::ads::AdsError;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Reply, Request};
-use ads_cnc::{ObjectCount, ValueRef, VariableCount};
+use ads_cnc::{
+    ExtendedDescription, ExtendedReply, Kind, ObjectCount, Synchronisation, Validity, ValueRef,
+    VariableCount,
+};
 
 use super::default::default_model;
 use super::{ChannelModel, Model, ModelError, Variable, to_len, to_u32};
@@ -123,6 +126,30 @@ impl Cnc {
             Request::ReadByName(op) => {
                 let channel = self.channel(op.channel)?;
                 let named = channel.by_element_name(op.name.text());
+                let (variable, indices) = named.ok_or(AdsError::SYMBOL_NOT_FOUND)?;
+                value(variable, &indices)
+            }
+            Request::DescribeExtended(op) => {
+                let channel = self.channel(op.channel)?;
+                let kind = op.kind.text();
+                let mut variables = channel.of_kind(kind).ok_or(AdsError::SYMBOL_NOT_FOUND)?;
+                variables.nth(to_len(op.index)).ok_or(AdsError::INVALID_DATA)?;
+                // As printed; V.G and V.A have none (VAR-16).
+                encode(ExtendedReply((op.kind == Kind::V_E).then_some(ExtendedDescription {
+                    synchronisation: Synchronisation::SYNCHRONIZED,
+                    validity: Validity::GLOBAL,
+                })))
+            }
+            Request::AxisHandleByName(op) => {
+                let channel = self.channel(op.channel)?;
+                let name = channel.axis_name(op.axis, op.name.text());
+                let variable = name.and_then(|name| channel.by_name(name.as_cnc_str()));
+                encode(variable.ok_or(AdsError::SYMBOL_NOT_FOUND)?.handle)
+            }
+            Request::AxisReadByName(op) => {
+                let channel = self.channel(op.channel)?;
+                let name = channel.axis_name(op.axis, op.name.text());
+                let named = name.and_then(|name| channel.by_element_name(name.as_cnc_str()));
                 let (variable, indices) = named.ok_or(AdsError::SYMBOL_NOT_FOUND)?;
                 value(variable, &indices)
             }

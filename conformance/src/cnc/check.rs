@@ -206,7 +206,8 @@ mod tests {
 
     fn model(variables: Vec<Variable>) -> Result<Model, ModelError> {
         let objects = Descriptors::default();
-        let channel = ChannelModel { number: 1, active: true, objects, variables };
+        let channel =
+            ChannelModel { number: 1, active: true, objects, variables, axes: Vec::new() };
         Model::new(vec![channel], Descriptors::default(), Vec::new())
     }
 
@@ -257,6 +258,7 @@ mod tests {
             active: true,
             objects: Descriptors::default(),
             variables: Vec::new(),
+            axes: Vec::new(),
         };
         let channels = |numbers: &[u8]| numbers.iter().copied().map(channel).collect();
         let error = |numbers: &[u8], platform: &Descriptors, axes: Vec<Descriptors>| {

@@ -1,8 +1,8 @@
 //! What the CNC has: channels with objects and variables, the platform, its axes.
 
-use ads_cnc::address::{Addressing, ComTable};
+use ads_cnc::address::{Addressing, ChannelAxis, ComTable};
 use ads_cnc::operation::ObjectList;
-use ads_cnc::{CncStr, Descriptors, DescriptorsRef, Handle};
+use ads_cnc::{CncStr, CncString, Descriptors, DescriptorsRef, Handle, VariablePath};
 
 use super::check::{self, ModelError};
 use super::variable::{Variable, split_indices};
@@ -18,6 +18,8 @@ pub struct ChannelModel {
     pub objects: Descriptors,
     /// Its variables; of each kind, the order is that of their indices.
     pub variables: Vec<Variable>,
+    /// Instance identifiers of the axes at its places, from place 1 on.
+    pub axes: Vec<CncString>,
 }
 
 /// A checked data model.
@@ -118,6 +120,13 @@ impl ChannelModel {
         self.variables.iter().find(|variable| variable.name.as_cnc_str() == name)
     }
 
+    /// The name on the channel interface of what has this name on the axis interface: with the
+    /// identifier of the axis that is at the place.
+    pub fn axis_name(&self, place: ChannelAxis, name: CncStr<'_>) -> Option<CncString> {
+        let axis = self.axes.get(usize::from(place.place()).checked_sub(1)?)?;
+        VariablePath::from_text(name).ok()?.with_axis(axis.as_cnc_str()).ok()
+    }
+
     /// The variable of which this name means the whole or an element, and the element's indices.
     pub fn by_element_name(&self, name: CncStr<'_>) -> Option<(&Variable, Vec<u32>)> {
         let bytes: Vec<u8> = name.bytes().collect();
@@ -145,6 +154,7 @@ mod tests {
             active,
             objects: objects(&[number.into()]),
             variables: Vec::new(),
+            axes: Vec::new(),
         };
         let channels = [6, 1, 2].into_iter().zip(actives).map(channel).collect();
         Model::new(channels, objects(&[100]), vec![objects(&[200]), objects(&[201, 202])]).unwrap()

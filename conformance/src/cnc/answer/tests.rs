@@ -49,7 +49,16 @@ fn printed_examples() {
     assert_eq!(ask(0x48, b"V.E.Testvar\0"), Ok(array));
     // Not the 333 that is printed: the array above holds (E-27).
     assert_eq!(ask(0x48, b"V.E.Testvar[3]\0"), Ok(le(&[456])));
-    // Of the axis interface; the channel interface has it under the axis's name.
+    assert_eq!(ask(0x4B, b"\x03\0\0\0V.E\0"), Ok(vec![2, 0, 0, 0, 2, 0, 0, 0]));
+    for kind in [b"\0\0\0\0V.G\0", b"\0\0\0\0V.A\0"] {
+        assert_eq!(ask(0x4B, kind), Ok(Vec::new()));
+    }
+    assert_eq!(ask(0x2_0004, b"V.A.WCS\0"), Ok(vec![0x1B, 0, 2, 1]));
+    assert_eq!(ask(0x2_0005, b"V.A.WCS\0"), Ok(1234.2_f64.to_le_bytes().to_vec()));
+    // An axis that is not there, and a name with an axis of its own.
+    assert_eq!(ask(0x4_0005, b"V.A.WCS\0"), Err(AdsError::SYMBOL_NOT_FOUND));
+    assert_eq!(ask(0x2_0005, b"V.A.WCS.Y\0"), Err(AdsError::SYMBOL_NOT_FOUND));
+    // The channel interface has it under the axis's name.
     assert_eq!(ask(0x46, b"V.A.WCS.Y\0"), Ok(vec![0x1B, 0, 2, 1]));
     assert_eq!(ask(0x48, b"V.A.WCS.Y\0"), Ok(1234.2_f64.to_le_bytes().to_vec()));
 
@@ -154,7 +163,10 @@ fn what_is_unknown_has_a_number() {
     assert_eq!(ask(0x4D, none), Err(E::INVALID_OFFSET));
     // A write is asked for with Write; what the CNC does not serve has no offset there.
     assert_eq!(ask(0x49, none), Err(E::SERVICE_NOT_SUPPORTED));
-    assert_eq!(ask(0x4B, b"\0\0\0\0V.E\0"), Err(E::INVALID_OFFSET));
+    let write = Call { service: Service::Write, ..call(0x12_2301, 0x4A, 0, b"V.E.vartest\0\0\0") };
+    assert_eq!(cnc().answer(&write), Err(E::INVALID_OFFSET));
+    assert_eq!(ask(0x4B, b"\x7b\0\0\0V.E\0"), Err(E::INVALID_DATA));
+    assert_eq!(ask(0x4B, b"\0\0\0\0V.P\0"), Err(E::SYMBOL_NOT_FOUND));
     assert_eq!(cnc().answer(&call(0xF005, 0x44, 4, none)), Err(E::INVALID_GROUP));
     assert_eq!(com(0x12_0101, 0x3, 1), Err(E::INVALID_OFFSET));
     let port = Call { port: AmsPort(851), ..call(0x12_2301, 0x44, 4, none) };

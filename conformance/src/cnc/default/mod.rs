@@ -21,6 +21,7 @@ pub fn default_model() -> Result<Model, ModelError> {
             active: true,
             objects: objects::of_channel(number)?,
             variables: variables::of_channel(number)?,
+            axes: ["X", "Y", "Z"].map(str::parse).into_iter().collect::<Result<_, _>>()?,
         })
     });
     let channels = channels.into_iter().collect::<Result<_, ModelError>>()?;
