@@ -77,7 +77,11 @@ def number_bytes(tagged):
             raise Bad("%r is not a plain decimal number" % tagged["value"])
         return struct.pack(NUMBERS[kind], int(tagged["value"]))
     data = struct.pack(REALS[kind], int(tagged["bits"], 16))
-    if struct.pack(NUMBERS[kind], float(tagged["value"])) != data:
+    value = float(tagged["value"])
+    (stored,) = struct.unpack(NUMBERS[kind], data)
+    # the bits of a NaN say more than its name
+    same = stored != stored if value != value else struct.pack(NUMBERS[kind], value) == data
+    if not same:
         raise Bad("%s and %s are two numbers" % (tagged["value"], tagged["bits"]))
     return data
 
@@ -315,14 +319,26 @@ def handle_read_write(value, _context):
             + [("indices[%d]" % i, write_field("UNS32", x)) for i, x in enumerate(indices)])
 
 
-def handle_read_read(data, _context):
+def read_indices(data):
+    """Handle, count and indices, and the offset behind them."""
     value, at = read_fields([("handle", "UNS32"), ("index_count", "UNS32")], data)
     count = plain(value.pop("index_count"))
     if count > 510 or 4 * count > len(data) - at:
         raise Refuse("too-many", 4, "index_count")
-    end(data, at + 4 * count, "index_count")
     value["indices"] = [number("UNS32", data[at + 4 * i:at + 4 * i + 4]) for i in range(count)]
+    return value, at + 4 * count
+
+
+def handle_read_read(data, _context):
+    value, at = read_indices(data)
+    end(data, at, "index_count")
     return value
+
+
+def fitting(parts):
+    if len(join(parts)) > STREAM_MAX:
+        raise Bad("more than %d bytes" % STREAM_MAX)
+    return parts
 
 
 def elements(context):
@@ -340,22 +356,136 @@ def value_write(value, context):
     if len(items) != elements(context):
         raise Bad("%d elements for %s%s" % (len(items), kind, context["dimensions"]))
     encode = text_bytes if kind == "STRING" else number_bytes
-    return [("value[%d]" % i, encode(item)) for i, item in enumerate(items)]
+    return fitting([("value[%d]" % i, encode(item)) for i, item in enumerate(items)])
+
+
+def value_items(data, at, context):
+    """The elements that take the rest of a stream from `at` on."""
+    kind = context["type"]
+    if kind == "STRING":
+        if context["dimensions"]:
+            raise Bad("where the elements of a STRING array end is not documented")
+        return [text(data[at:])]
+    step, size = size_of(kind), size_of(kind) * elements(context)
+    if len(data) - at < size:
+        raise Refuse("truncated", at, "value")
+    end(data, at + size, "value")
+    return [number(kind, data[place:place + step]) for place in range(at, at + size, step)]
 
 
 def value_read(data, context):
     if len(data) > STREAM_MAX:
         raise Refuse("too-long", 0, "value")
-    kind = context["type"]
-    if kind == "STRING":
-        if context["dimensions"]:
-            raise Bad("where the elements of a STRING array end is not documented")
-        return {"value": [text(data)]}
-    step, size = size_of(kind), size_of(kind) * elements(context)
-    if len(data) < size:
-        raise Refuse("truncated", 0, "value")
-    end(data, size, "value")
-    return {"value": [number(kind, data[at:at + step]) for at in range(0, size, step)]}
+    return {"value": value_items(data, 0, context)}
+
+
+def handle_write_write(value, context):
+    return fitting(handle_read_write(value, context) + value_write(value, context))
+
+
+def handle_write_read(data, context):
+    value, at = read_indices(data)
+    if len(data) > STREAM_MAX:
+        raise Refuse("too-long", at, "value")
+    value["value"] = value_items(data, at, context)
+    return value
+
+
+def name_write_write(value, context):
+    name = text_bytes(value["name"])
+    if name[-1:] != b"\0" or len(name) > TEXT_MAX or "tail" in value["name"]:
+        raise Bad("the name before a value ends with its one NUL, at most 256 bytes")
+    return fitting([("name", name)] + value_write(value, context))
+
+
+def name_write_read(data, context):
+    name, nul, _ = data[:TEXT_MAX].partition(b"\0")
+    if not nul:
+        raise Refuse("missing-nul", 0, "name")
+    at = len(name) + 1
+    if len(data) > STREAM_MAX:
+        raise Refuse("too-long", at, "value")
+    return {"name": text(data[:at]), "value": value_items(data, at, context)}
+
+
+EXTENDED = [("synchronisation", "UNS32"), ("validity", "UNS32")]
+
+
+def extended_write(value, _context):
+    return write_fields(EXTENDED, value) if value else [("synchronisation", b"")]
+
+
+def extended_read(data, _context):
+    if not data:
+        return {}
+    value, at = read_fields(EXTENDED, data)
+    end(data, at, "validity")
+    return value
+
+
+# ---------------------------------------------------------------- names by their parts
+
+INDEX_LAST = 0xFFFFFFFE
+
+
+def characters(data):
+    """A text that has no NUL and needs none."""
+    return dict(text(data), open=True)
+
+
+def path_write(value, _context):
+    parts = [("kind", text_bytes(value["kind"]))]
+    for place, part in enumerate(value["parts"]):
+        parts.append(("parts[%d].name" % place, b"." + text_bytes(part["name"])))
+        indices = b"".join(b"[%d]" % plain(index) for index in part["indices"])
+        parts.append(("parts[%d].indices" % place, indices))
+    return parts
+
+
+def path_read(data, _context):
+    if len(data) >= TEXT_MAX:
+        raise Refuse("too-long", TEXT_MAX - 1, "name")
+    if 0 in data:
+        raise Refuse("not-text", data.index(0), "name")
+    at = 0
+
+    def fault(field):
+        raise Refuse("unexpected" if at < len(data) else "truncated", at, field)
+
+    def expect(byte, field):
+        nonlocal at
+        if data[at:at + 1] != byte:
+            fault(field)
+        at += 1
+
+    def take(wanted, field):
+        nonlocal at
+        start = at
+        while at < len(data) and wanted(data[at:at + 1]):
+            at += 1
+        if at == start:
+            fault(field)
+        return data[start:at]
+
+    def word(byte):
+        return byte not in (b".", b"[", b"]")
+
+    expect(b"V", "kind")
+    expect(b".", "kind")
+    kind, parts = b"V." + take(word, "kind"), []
+    while not parts or at < len(data):
+        expect(b".", "parts")
+        name, indices = take(word, "parts"), []
+        while data[at:at + 1] == b"[":
+            at += 1
+            start = at
+            index = int(take(bytes.isdigit, "indices"))
+            if index > INDEX_LAST:
+                raise Refuse("out-of-range", start, "indices")
+            expect(b"]", "indices")
+            indices.append({"type": "UNS32", "value": str(index)})
+        parts.append({"name": characters(name), "indices": indices})
+    return {"kind": characters(kind), "parts": parts}
 
 
 CLASSES = ["position-controller", "interpolator", "decoder", "hld", "path-preparation", "spindle"]
@@ -402,10 +532,13 @@ def group_write(value, _context):
     return [("index_group", u32(group))]
 
 
-def group_read(data, _context):
+def group_read(data, context):
     value, at = read_fields([("index_group", "UNS32")], data)
     end(data, at, "index_group")
-    return dict(value, **group_split(plain(value["index_group"])))
+    group = plain(value["index_group"])
+    if "base" in context and not 0 <= group - int(context["base"], 16) <= 0xFF:
+        raise Refuse("out-of-range", 0, "instance")
+    return dict(value, **group_split(group))
 
 
 def offset_write(value, context):
@@ -425,6 +558,68 @@ def offset_read(data, context):
     return {key: {"type": "UNS16", "value": str(part)} for key, part in (("axis", axis), ("element", element))}
 
 
+# ---------------------------------------------------------------- whole frames
+
+SERVICES = {2: "read", 3: "write", 9: "read_write"}
+DIRECTIONS = {0x0004: "request", 0x0005: "reply"}
+AMS_HEADER = 32
+HEADERS = 6 + AMS_HEADER
+
+
+def part_name(header):
+    """The stream that follows an AMS header; just data for what this table has no stream of."""
+    service = SERVICES.get(plain(header["command"]))
+    direction = DIRECTIONS.get(plain(header["state_flags"]))
+    return "%s_%s" % (service, direction) if service and direction else "data"
+
+
+def frame_write(value, context):
+    header = value["ams_header"]
+    name, parts = part_name(header), []
+    if name in value:
+        if name == "data":
+            parts = [("data", from_hex(value["data"]["hex"]))]
+        else:
+            inner = STREAMS[name.replace("_", "-")][0](value[name], context)
+            parts = [(name + "." + field, data) for field, data in inner]
+    length = len(join(parts))
+    counts = {"length": {"type": "UNS32", "value": str(AMS_HEADER + length)},
+              "data_length": {"type": "UNS32", "value": str(length)}}
+    return (write_fields(FIXED["ams-tcp-header"], dict(value["ams_tcp_header"], **counts), "ams_tcp_header.")
+            + write_fields(FIXED["ams-header"], dict(header, **counts), "ams_header.") + parts)
+
+
+def within(prefix, at, read):
+    """Reads a part, and says of a fault where in the whole it is."""
+    try:
+        return read()
+    except Refuse as why:
+        raise Refuse(why.cls, at + why.offset, "%s.%s" % (prefix, why.field)) from None
+
+
+def frame_read(data, context):
+    tcp, at = within("ams_tcp_header", 0, lambda: read_fields(FIXED["ams-tcp-header"], data))
+    if plain(tcp["reserved"]) != 0:
+        raise Refuse("mismatch", 0, "ams_tcp_header.reserved")
+    length = plain(tcp.pop("length"))
+    if length < AMS_HEADER:
+        raise Refuse("out-of-range", 2, "ams_tcp_header.length")
+    header, _ = within("ams_header", at, lambda: read_fields(FIXED["ams-header"], data[at:]))
+    if plain(header.pop("data_length")) != length - AMS_HEADER:
+        raise Refuse("mismatch", 26, "ams_header.data_length")
+    value = {"ams_tcp_header": tcp, "ams_header": header}
+    rest, name = data[HEADERS:], part_name(header)
+    if len(rest) < length - AMS_HEADER:
+        raise Refuse("truncated", HEADERS, name)
+    end(data, 6 + length, name)
+    if not rest and plain(header["error"]) != 0:
+        return value
+    if name == "data":
+        return dict(value, data={"type": "BYTES", "hex": to_hex(rest)})
+    read = STREAMS[name.replace("_", "-")][1]
+    return dict(value, **{name: within(name, HEADERS, lambda: read(rest, context))})
+
+
 STREAMS = {stream: fixed_stream(layout) for stream, layout in FIXED.items()}
 STREAMS.update({
     "read-reply": counted_data([("result", "UNS32")], "length", True),
@@ -438,6 +633,11 @@ STREAMS.update({
     "variable-description": (description_write, description_read),
     "variable-handle-read": (handle_read_write, handle_read_read),
     "variable-value": (value_write, value_read),
+    "variable-handle-write": (handle_write_write, handle_write_read),
+    "variable-name-write": (name_write_write, name_write_read),
+    "variable-extended-description": (extended_write, extended_read),
+    "variable-path": (path_write, path_read),
+    "ams-frame": (frame_write, frame_read),
     "index-group": (group_write, group_read),
     "index-offset": (offset_write, offset_read),
 })
@@ -450,6 +650,8 @@ def canonical_value(value):
     if isinstance(value, list):
         return [canonical_value(item) for item in value]
     if isinstance(value.get("type"), str):
+        if value["type"] == "BOOLEAN" and value["value"] != "0":
+            return {"type": "BOOLEAN", "value": "1"}
         return {key: item for key, item in value.items() if key not in ("tail", "open")}
     value = {key: canonical_value(item) for key, item in value.items()}
     if value.get("write_access", {}).get("value", "0") != "0":
@@ -459,7 +661,8 @@ def canonical_value(value):
 
 def canonical_bytes(write, value, context, given):
     """None where the canonical form is the stream itself, or would not fit."""
-    plain_value = canonical_value(value)
+    # the texts of a name's parts end with the part
+    plain_value = value if write is path_write else canonical_value(value)
     try:
         data = join(write(plain_value, context))
     except Bad:
@@ -634,7 +837,7 @@ def main():
         for key in total:
             total[key] += counts[key]
     for failure in failures:
-        print("FAIL %s" % failure)
+        print("FAIL %s" % (failure if len(failure) < 600 else failure[:600] + " …"))
     print("%d vectors: %d accepted and %d rejected agree, %d failures"
           % (len(listed), total["accepted"], total["rejected"], len(failures)))
     return 1 if failures else 0

@@ -5,7 +5,10 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use ads_cnc::address::{AxisStride, IndexGroup, IndexOffset};
+use ads_cnc::address::{
+    Addressing, AxisStride, Channel, ComTable, Group, IndexGroup, IndexOffset, PlatformAxis,
+    Spindle,
+};
 use ads_cnc::ads::*;
 use ads_cnc::dynamic::*;
 use ads_cnc::layout::Stream;
@@ -32,8 +35,13 @@ fn decode(vector: &Vector, bytes: &[u8]) -> Result<String, Error> {
     match vector.stream.as_str() {
         "index-group" => {
             let group = IndexGroup::new(ObjectCount::decode(bytes)?.0);
+            if let Some(base) = vector.context.base {
+                assert_eq!(of_base(IndexGroup::new(base), group)?, group, "{}", vector.id);
+            }
             Ok(format!("{group} {:#?}", group.parts()))
         }
+        "variable-path" => path(bytes),
+        "ams-frame" => frame(bytes),
         "index-offset" => {
             let stride = match vector.context.stride {
                 Some(0x1000) => AxisStride::X1000,
@@ -72,8 +80,16 @@ fn decode_stream(stream: Stream, vector: &Vector, bytes: &[u8]) -> Result<String
             show!(bytes, ValueRef<'_>, Value)?;
             elements(vector, bytes)
         }
-        Stream::VariableHandleWrite => show!(bytes, HandleWriteRef<'_>, HandleWrite),
-        Stream::VariableNameWrite => show!(bytes, NameWriteRef<'_>, NameWrite),
+        Stream::VariableHandleWrite => {
+            let shown = show!(bytes, HandleWriteRef<'_>, HandleWrite)?;
+            let value = elements(vector, HandleWriteRef::decode(bytes)?.value)?;
+            Ok(format!("{shown}\n{value}"))
+        }
+        Stream::VariableNameWrite => {
+            let shown = show!(bytes, NameWriteRef<'_>, NameWrite)?;
+            let value = elements(vector, NameWriteRef::decode(bytes)?.value)?;
+            Ok(format!("{shown}\n{value}"))
+        }
         Stream::VariableExtendedDescription => show!(bytes, ExtendedReply, ExtendedReply),
         Stream::VariableDescriptionByName => {
             show!(bytes, DescriptionByNameRef<'_>, DescriptionByName)
@@ -92,6 +108,80 @@ fn decode_stream(stream: Stream, vector: &Vector, bytes: &[u8]) -> Result<String
         Stream::DynamicValue => show!(bytes, DynamicValue, DynamicValue),
         Stream::ProgramStream => show!(bytes, ProgramStreamRef<'_>, ProgramStream),
         other => panic!("{other} has no decoder"),
+    }
+}
+
+/// The group of a base and the number that was added to it, put together from both.
+fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, Error> {
+    let number = group.get().wrapping_sub(base.get());
+    Ok(match base.parts().expect("a documented base") {
+        Group::Com(com) if com.table == ComTable::Axis => {
+            PlatformAxis::new(number)?.com(com.access)
+        }
+        // The platform has the number 0.
+        Group::Com(_) if number == 0 => base,
+        Group::Com(com) => channel(com.addressing, number)?.com(com.access),
+        Group::Class(class) if base.get() == 0x2_5300 => {
+            Spindle::new(number)?.class(class.attribute)
+        }
+        Group::Class(class) => {
+            channel(class.addressing, number)?.class(class.class, class.attribute)
+        }
+    })
+}
+
+fn channel(addressing: Addressing, number: u32) -> Result<Channel, Error> {
+    match addressing {
+        Addressing::Logical => Channel::new(number),
+        Addressing::Index => Channel::by_index(number),
+    }
+}
+
+/// Takes a name apart and puts it together again.
+fn path(bytes: &[u8]) -> Result<String, Error> {
+    let path = VariablePath::from_text(CncStr::from_bytes(bytes)?)?;
+    let mut buf = [0; 256];
+    assert_eq!(VariablePath::write(path.kind(), path.parts(), &mut buf)?, path);
+    let parts: Vec<String> = path.parts().map(|part| part.to_string()).collect();
+    Ok(format!("{} {parts:?}, elements {:?}", path.kind().text(), path.elements()))
+}
+
+/// Splits a whole frame off, decodes what its service says, and encodes both again.
+fn frame(bytes: &[u8]) -> Result<String, Error> {
+    let Some((frame, len)) = FrameRef::split(bytes, u32::MAX)? else {
+        // More has to come: what is there is cut.
+        let (tcp, rest) = bytes.split_at(bytes.len().min(limits::AMS_TCP_HEADER_LEN));
+        AmsTcpHeader::decode(tcp)?;
+        let (header, data) = rest.split_at(rest.len().min(limits::AMS_HEADER_LEN));
+        let header = AmsHeader::decode(header)?;
+        let shown = service(&header, data)?;
+        panic!("a cut frame is whole: {shown}");
+    };
+    // What follows is another frame's; here it is too much for the service.
+    let shown = service(&frame.header(), &bytes[FrameRef::HEADERS_LEN..])?;
+    assert_eq!(len, bytes.len());
+    let mut buf = vec![0; bytes.len()];
+    let again = FrameRef::new(frame.header(), frame.data())?.encode(&mut buf)?;
+    assert_eq!(again, bytes, "encoded again");
+    Ok(format!("{:#?}\n{shown}", frame.header()))
+}
+
+fn service(header: &AmsHeader, data: &[u8]) -> Result<String, Error> {
+    if data.is_empty() && header.error != AdsError::NONE {
+        return Ok("no payload".to_owned());
+    }
+    match (header.command, header.state_flags) {
+        (Command::READ, StateFlags::REQUEST) => show!(data, ReadRequest, ReadRequest),
+        (Command::READ, StateFlags::RESPONSE) => show!(data, ReadReplyRef<'_>, ReadReply),
+        (Command::WRITE, StateFlags::REQUEST) => show!(data, WriteRequestRef<'_>, WriteRequest),
+        (Command::WRITE, StateFlags::RESPONSE) => show!(data, WriteReply, WriteReply),
+        (Command::READ_WRITE, StateFlags::REQUEST) => {
+            show!(data, ReadWriteRequestRef<'_>, ReadWriteRequest)
+        }
+        (Command::READ_WRITE, StateFlags::RESPONSE) => {
+            show!(data, ReadWriteReplyRef<'_>, ReadWriteReply)
+        }
+        _ => Ok(format!("{data:02x?}")),
     }
 }
 
@@ -121,6 +211,15 @@ const OTHERWISE: &[(&str, &str)] = &[
     ("descriptors-cut", "truncated"),
     ("descriptors-trailing", "truncated"),
     ("descriptors-none", "truncated"),
+    ("descriptors-83-bytes", "truncated"),
+    ("descriptors-85-bytes", "truncated"),
+    // The codec asks first whether the stream is longer than any.
+    ("handle-read-2052-bytes", "too-long"),
+    ("handle-write-511-indices", "too-long"),
+    // A stream that may be empty has its length for its limit.
+    ("extended-trailing", "too-long"),
+    // The codec asks first whether any service has so much data.
+    ("frame-tcp-length-huge", "too-long"),
 ];
 
 fn class(error: &Error) -> &'static str {
@@ -131,6 +230,9 @@ fn class(error: &Error) -> &'static str {
         ErrorKind::TooMany => "too-many",
         ErrorKind::MissingNul => "missing-nul",
         ErrorKind::OutOfRange => "out-of-range",
+        ErrorKind::Mismatch => "mismatch",
+        ErrorKind::Unexpected => "unexpected",
+        ErrorKind::InnerNul => "not-text",
         other => panic!("no vector is refused as {other:?}"),
     }
 }
@@ -185,8 +287,11 @@ fn canonical_forms_are_written() {
     for vector in vectors() {
         let Expect::Accept(accept) = &vector.expect else { continue };
         let Some(wanted) = &accept.canonical else { continue };
-        // A value's one text has no form of its own: its end is the variable's size.
-        if vector.stream == "variable-value" {
+        // A value has no form of its own: the end of a text is the variable's size, and a byte of
+        // a BOOLEAN is kept.
+        if ["variable-value", "variable-handle-write", "variable-name-write"]
+            .contains(&vector.stream.as_str())
+        {
             continue;
         }
         let written = canonical(&vector.stream, &vector.bytes());
@@ -196,11 +301,22 @@ fn canonical_forms_are_written() {
     assert!(seen >= 8, "{seen} vectors have a canonical form");
 }
 
-/// Cuts what no person reads to the end.
+/// Puts up to sixteen numbers of a list on a line, and cuts what no person reads to the end.
 fn short(text: &str) -> String {
-    let lines: Vec<&str> = text.lines().collect();
+    let is_number =
+        |line: &str| line.strip_suffix(',').is_some_and(|n| n.bytes().all(|c| c.is_ascii_digit()));
+    let mut lines: Vec<String> = Vec::new();
+    let mut numbers = 0;
+    for line in text.lines() {
+        let number = line.trim_start();
+        numbers = if is_number(number) { numbers + 1 } else { 0 };
+        match lines.last_mut() {
+            Some(last) if numbers % 16 != 1 && numbers > 1 => *last += &format!(" {number}"),
+            _ => lines.push(line.to_owned()),
+        }
+    }
     match lines.len() {
-        ..=60 => text.to_owned(),
+        ..=60 => lines.join("\n"),
         len => format!("{}\n… {} lines more", lines[..40].join("\n"), len - 40),
     }
 }
@@ -210,6 +326,7 @@ fn short(text: &str) -> String {
 #[test]
 fn vectors_decode_as_they_did() {
     let mut streams: BTreeMap<&str, String> = BTreeMap::new();
+    let mut misnamed = Vec::new();
     for vector in vectors() {
         let bytes = vector.bytes();
         let decoded = decode(vector, &bytes);
@@ -219,7 +336,9 @@ fn vectors_decode_as_they_did() {
             (Err(error), Expect::Reject(reject)) => {
                 let named = OTHERWISE.iter().find(|(id, _)| *id == vector.id);
                 let wanted = named.map_or(reject.class.as_str(), |(_, class)| class);
-                assert_eq!(class(error), wanted, "{}: {error}", vector.id);
+                if class(error) != wanted {
+                    misnamed.push(format!("{}: {wanted}, not {error}", vector.id));
+                }
                 format!(
                     "refused: {error}\nthe vector: {} at offset {}",
                     reject.class, reject.offset
@@ -230,6 +349,7 @@ fn vectors_decode_as_they_did() {
         let all = streams.entry(&vector.stream).or_default();
         writeln!(all, "## {}: {}\n{shown}\n", vector.id, vector.title).unwrap();
     }
+    assert!(misnamed.is_empty(), "{misnamed:#?}");
     assert!(streams.len() >= 20, "vectors of {} streams", streams.len());
     for (stream, shown) in streams {
         insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {

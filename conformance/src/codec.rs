@@ -1,17 +1,19 @@
 //! This project's codec as the vectors see it: bytes in, fields or a refusal out.
 
-use ads_cnc::address::{
-    Access, Addressing, Attribute, AxisStride, Class, ComTable, Group, IndexGroup, IndexOffset,
-};
+mod address;
+mod frame;
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{
     AmsHeader, AmsNetId, AmsTcpHeader, ReadReply, ReadRequest, ReadWriteReply, ReadWriteRequest,
     WriteReply, WriteRequest,
 };
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc::{
-    Decode, Description, Descriptor, DescriptorRef, Descriptors, Element, Encode, Error, ErrorKind,
-    Handle, HandleRead, Numbers, ObjectCount, Text, TextRef, Value as CncValue, VariableCount,
-    VariableIndexKind, VariableKind, VariableName, VariableType,
+    CncStr, Decode, Description, Descriptor, DescriptorRef, Descriptors, Element, Encode, Error,
+    ErrorKind, ExtendedReply, Handle, HandleRead, HandleWrite, NameWrite, Numbers, ObjectCount,
+    Text, TextRef, Value as CncValue, VariableCount, VariableIndexKind, VariableKind, VariableName,
+    VariablePath, VariableType,
 };
 use ads_cnc_vectors::{Context, Fields, Hex, Tagged, Type, Value, Vector};
 
@@ -60,13 +62,17 @@ pub fn class(error: &Error) -> &'static str {
 /// # Errors
 /// The codec's refusal.
 pub fn decode(vector: &Vector, bytes: &[u8]) -> Result<Decoded, Refused> {
-    let (fields, bytes) = match vector.stream.as_str() {
+    decode_stream(&vector.stream, &vector.context, bytes)
+}
+
+fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+    let (fields, bytes) = match name {
         "ams-tcp-header" => stream(bytes, |header: &AmsTcpHeader| {
             vec![("reserved", uns16(header.reserved)), ("length", uns32(header.length))]
         }),
         "ams-header" => stream(bytes, ams_header),
         "read-request" => stream(bytes, |read: &ReadRequest| {
-            let mut fields = address(read.index_group, read.index_offset);
+            let mut fields = place(read.index_group, read.index_offset);
             fields.push(("length", uns32(read.length)));
             fields
         }),
@@ -74,7 +80,7 @@ pub fn decode(vector: &Vector, bytes: &[u8]) -> Result<Decoded, Refused> {
             stream(bytes, |reply: &ReadReply| reply_data(reply.result.0, reply.data.as_deref()))
         }
         "write-request" => stream(bytes, |write: &WriteRequest| {
-            let mut fields = address(write.index_group, write.index_offset);
+            let mut fields = place(write.index_group, write.index_offset);
             fields.push(("data", data(&write.data)));
             fields
         }),
@@ -82,7 +88,7 @@ pub fn decode(vector: &Vector, bytes: &[u8]) -> Result<Decoded, Refused> {
             stream(bytes, |reply: &WriteReply| vec![("result", uns32(reply.result.0))])
         }
         "read-write-request" => stream(bytes, |both: &ReadWriteRequest| {
-            let mut fields = address(both.index_group, both.index_offset);
+            let mut fields = place(both.index_group, both.index_offset);
             fields.push(("read_length", uns32(both.read_length)));
             fields.push(("data", data(&both.data)));
             fields
@@ -121,11 +127,37 @@ pub fn decode(vector: &Vector, bytes: &[u8]) -> Result<Decoded, Refused> {
             vec![("handle", uns32(request.handle.0)), ("indices", numbers(&request.indices))]
         }),
         "variable-value" => {
-            let elements = elements(&vector.context, bytes)?;
+            let elements = elements(context, bytes)?;
             stream(bytes, |_: &CncValue| vec![("value", elements)])
         }
-        "index-group" => return index_group(bytes),
-        "index-offset" => return index_offset(&vector.context, bytes),
+        "variable-handle-write" => {
+            let elements = elements(context, &HandleWrite::decode(bytes)?.value)?;
+            stream(bytes, |request: &HandleWrite| {
+                vec![
+                    ("handle", uns32(request.handle.0)),
+                    ("indices", numbers(&request.indices)),
+                    ("value", elements),
+                ]
+            })
+        }
+        "variable-name-write" => {
+            let elements = elements(context, &NameWrite::decode(bytes)?.value)?;
+            stream(bytes, |request: &NameWrite| {
+                let name = TextRef::from(request.name.as_cnc_str());
+                vec![("name", Value::One(text_tagged(name))), ("value", elements)]
+            })
+        }
+        "variable-extended-description" => stream(bytes, |reply: &ExtendedReply| match reply.0 {
+            None => Vec::new(),
+            Some(extended) => vec![
+                ("synchronisation", uns32(extended.synchronisation.0)),
+                ("validity", uns32(extended.validity.0)),
+            ],
+        }),
+        "variable-path" => return path(bytes),
+        "ams-frame" => return frame::decode(context, bytes),
+        "index-group" => return address::index_group(context, bytes),
+        "index-offset" => return address::index_offset(context, bytes),
         other => return Err(Refused::Unsupported(format!("stream {other}"))),
     }?;
     Ok(Decoded { fields, bytes })
@@ -195,6 +227,22 @@ fn text_tagged(text: TextRef<'_>) -> Tagged {
     }
 }
 
+/// A name by its parts, and put together again.
+fn path(bytes: &[u8]) -> Result<Decoded, Refused> {
+    let path = VariablePath::from_text(CncStr::from_bytes(bytes)?)?;
+    let characters =
+        |text: CncStr<'_>| Value::One(Tagged { open: true, ..text_tagged(TextRef::from(text)) });
+    let parts = path.parts().map(|part| {
+        let indices: Vec<u32> = part.indices.iter().collect();
+        record(vec![("name", characters(part.name)), ("indices", numbers(&indices))])
+    });
+    let fields =
+        vec![("kind", characters(path.kind().text())), ("parts", Value::List(parts.collect()))];
+    let mut buf = [0; ads_cnc::limits::NAME_MAX];
+    let again = VariablePath::write(path.kind(), path.parts(), &mut buf)?;
+    Ok(Decoded { fields: collect(fields), bytes: again.text().bytes().collect() })
+}
+
 /// A text in 32 bytes: its tail counts only if it is more than padding.
 fn padded(bytes: &[u8]) -> Value {
     let nul = bytes.iter().position(|&byte| byte == 0);
@@ -210,7 +258,7 @@ fn padded(bytes: &[u8]) -> Value {
     })
 }
 
-fn address(group: IndexGroup, offset: IndexOffset) -> Named {
+fn place(group: IndexGroup, offset: IndexOffset) -> Named {
     vec![("index_group", uns32(group.get())), ("index_offset", uns32(offset.get()))]
 }
 
@@ -282,83 +330,24 @@ fn element(element: Element<'_>) -> Tagged {
         Element::Uns32(number) => tagged(Type::Uns32, number),
         Element::Real64(number) => Tagged {
             bits: Some(format!("{:#018x}", number.to_bits())),
-            ..tagged(Type::Real64, format_args!("{number:?}"))
+            ..tagged(Type::Real64, decimal(number))
         },
         Element::String(text) => text_tagged(text),
         other => tagged(Type::Name, format_args!("{other:?}")),
     }
 }
 
-/// The number of a stream that is no stream of the codec: an address by itself.
-fn number(bytes: &[u8]) -> Result<u32, Refused> {
-    Ok(ObjectCount::decode(bytes)?.0)
-}
-
-fn index_group(bytes: &[u8]) -> Result<Decoded, Refused> {
-    let group = IndexGroup::new(number(bytes)?);
-    let mut fields = vec![("index_group", uns32(group.get()))];
-    let parts = group.parts();
-    match parts {
-        None => {}
-        Some(Group::Com(com)) => fields.extend([
-            ("task", name("COM")),
-            ("addressing", name(addressing(com.addressing))),
-            ("access", name(if com.access == Access::Object { "object" } else { "element" })),
-            ("table", name(if com.table == ComTable::Axis { "axis" } else { "channel" })),
-            ("instance", one(Type::Uns08, com.instance)),
-        ]),
-        Some(Group::Class(class)) => fields.extend([
-            ("task", name("SDA/GEO")),
-            ("addressing", name(addressing(class.addressing))),
-            ("access", name("element")),
-            ("class", name(class_name(class.class))),
-            ("attribute", name(attribute_name(class.attribute))),
-            ("instance", one(Type::Uns08, class.instance)),
-        ]),
+/// The shortest decimal of a float as the vectors have it: an exponent has a sign and two digits.
+fn decimal(number: f64) -> String {
+    let shortest = format!("{number:?}").to_lowercase();
+    match shortest.split_once('e') {
+        None => shortest,
+        Some((digits, exponent)) => {
+            let (sign, exponent) = match exponent.strip_prefix('-') {
+                Some(exponent) => ('-', exponent),
+                None => ('+', exponent),
+            };
+            format!("{digits}e{sign}{exponent:0>2}")
+        }
     }
-    let again = parts.map_or(group, Group::index_group);
-    Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
-}
-
-fn addressing(addressing: Addressing) -> &'static str {
-    match addressing {
-        Addressing::Logical => "logical",
-        Addressing::Index => "index",
-    }
-}
-
-fn class_name(class: Class) -> &'static str {
-    match class {
-        Class::PositionController => "position-controller",
-        Class::Interpolator => "interpolator",
-        Class::Decoder => "decoder",
-        Class::Hld => "hld",
-        Class::PathPreparation => "path-preparation",
-        Class::Spindle => "spindle",
-    }
-}
-
-fn attribute_name(attribute: Attribute) -> &'static str {
-    match attribute {
-        Attribute::Content => "content",
-        Attribute::Name => "name",
-        Attribute::Type => "type",
-        Attribute::Length => "length",
-        Attribute::Unit => "unit",
-        Attribute::WriteFlag => "write-flag",
-        Attribute::ObjectAddress => "object-address",
-    }
-}
-
-fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
-    let stride = match context.stride {
-        Some(0x1_0000) => AxisStride::X10000,
-        Some(0x1000) => AxisStride::X1000,
-        other => return Err(Refused::Unsupported(format!("an axis stride of {other:?}"))),
-    };
-    let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride)?;
-    let again = IndexOffset::of_axis(stride, axis, element)?;
-    // Neither has more than 16 bits, or the offset would not have been put together again.
-    let fields = vec![("axis", one(Type::Uns16, axis)), ("element", one(Type::Uns16, element))];
-    Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
 }

@@ -82,6 +82,12 @@ pub struct Context {
     /// What an axis counts in an index offset.
     #[serde(default, with = "address", skip_serializing_if = "Option::is_none")]
     pub stride: Option<u32>,
+    /// Index group without its channel, axis or spindle, which are added to it.
+    #[serde(default, with = "address", skip_serializing_if = "Option::is_none")]
+    pub base: Option<u32>,
+    /// Vector of the stream that is the data of a frame's service.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub carries: Option<String>,
     /// Vector of the request that this stream answers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub request: Option<String>,

@@ -91,7 +91,7 @@ fn wrong_documents_are_refused() {
         ),
         (
             "vectors",
-            "data/vectors/variable.json",
+            "data/vectors/variable-description.json",
             &[
                 ("upper-case hex", |d| {
                     d["vectors"][0]["segments"][0]["hex"] = json!("56 2E 45 00");

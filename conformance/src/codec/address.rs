@@ -1,0 +1,117 @@
+//! Index groups and offsets, which are no streams of the codec.
+
+use ads_cnc::address::{
+    Access, Addressing, Attribute, AxisStride, Channel, Class, ComTable, Group, IndexGroup,
+    IndexOffset, PlatformAxis, Spindle,
+};
+use ads_cnc::{Decode, Error, ObjectCount};
+use ads_cnc_vectors::{Context, Type};
+
+use super::{Decoded, Refused, collect, name, one, uns32};
+
+/// The number of a stream that is no stream of the codec: an address by itself.
+fn number(bytes: &[u8]) -> Result<u32, Refused> {
+    Ok(ObjectCount::decode(bytes)?.0)
+}
+
+pub(super) fn index_group(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+    let group = IndexGroup::new(number(bytes)?);
+    if let Some(base) = context.base {
+        let again = of_base(IndexGroup::new(base), group)?;
+        if again != group {
+            return Err(Refused::Unsupported(format!("{group} of the base {base:#x}: {again}")));
+        }
+    }
+    let mut fields = vec![("index_group", uns32(group.get()))];
+    let parts = group.parts();
+    match parts {
+        None => {}
+        Some(Group::Com(com)) => fields.extend([
+            ("task", name("COM")),
+            ("addressing", name(addressing(com.addressing))),
+            ("access", name(if com.access == Access::Object { "object" } else { "element" })),
+            ("table", name(if com.table == ComTable::Axis { "axis" } else { "channel" })),
+            ("instance", one(Type::Uns08, com.instance)),
+        ]),
+        Some(Group::Class(class)) => fields.extend([
+            ("task", name("SDA/GEO")),
+            ("addressing", name(addressing(class.addressing))),
+            ("access", name("element")),
+            ("class", name(class_name(class.class))),
+            ("attribute", name(attribute_name(class.attribute))),
+            ("instance", one(Type::Uns08, class.instance)),
+        ]),
+    }
+    let again = parts.map_or(group, Group::index_group);
+    Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
+}
+
+/// The group of a base and the number that was added to it, put together from both.
+fn of_base(base: IndexGroup, group: IndexGroup) -> Result<IndexGroup, Refused> {
+    let lacks = || Refused::Unsupported(format!("{group} of the base {base}"));
+    let number = group.get().checked_sub(base.get()).ok_or_else(lacks)?;
+    Ok(match base.parts().ok_or_else(lacks)? {
+        Group::Com(com) if com.table == ComTable::Axis => {
+            PlatformAxis::new(number)?.com(com.access)
+        }
+        // The platform has the number 0.
+        Group::Com(_) if number == 0 => base,
+        Group::Com(com) => channel(com.addressing, number)?.com(com.access),
+        Group::Class(class) if class.class == Class::Spindle => {
+            Spindle::new(number)?.class(class.attribute)
+        }
+        Group::Class(class) => {
+            channel(class.addressing, number)?.class(class.class, class.attribute)
+        }
+    })
+}
+
+fn channel(addressing: Addressing, number: u32) -> Result<Channel, Error> {
+    match addressing {
+        Addressing::Logical => Channel::new(number),
+        Addressing::Index => Channel::by_index(number),
+    }
+}
+
+fn addressing(addressing: Addressing) -> &'static str {
+    match addressing {
+        Addressing::Logical => "logical",
+        Addressing::Index => "index",
+    }
+}
+
+fn class_name(class: Class) -> &'static str {
+    match class {
+        Class::PositionController => "position-controller",
+        Class::Interpolator => "interpolator",
+        Class::Decoder => "decoder",
+        Class::Hld => "hld",
+        Class::PathPreparation => "path-preparation",
+        Class::Spindle => "spindle",
+    }
+}
+
+fn attribute_name(attribute: Attribute) -> &'static str {
+    match attribute {
+        Attribute::Content => "content",
+        Attribute::Name => "name",
+        Attribute::Type => "type",
+        Attribute::Length => "length",
+        Attribute::Unit => "unit",
+        Attribute::WriteFlag => "write-flag",
+        Attribute::ObjectAddress => "object-address",
+    }
+}
+
+pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+    let stride = match context.stride {
+        Some(0x1_0000) => AxisStride::X10000,
+        Some(0x1000) => AxisStride::X1000,
+        other => return Err(Refused::Unsupported(format!("an axis stride of {other:?}"))),
+    };
+    let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride)?;
+    let again = IndexOffset::of_axis(stride, axis, element)?;
+    // Neither has more than 16 bits, or the offset would not have been put together again.
+    let fields = vec![("axis", one(Type::Uns16, axis)), ("element", one(Type::Uns16, element))];
+    Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
+}

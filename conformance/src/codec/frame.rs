@@ -1,0 +1,70 @@
+//! Whole frames: two headers, and what the service says.
+
+use ads_cnc::ads::{AdsError, AmsHeader, AmsTcpHeader, Command, FrameRef, StateFlags};
+use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use ads_cnc::{Decode, Encode};
+use ads_cnc_vectors::{Context, Fields, Value};
+
+use super::{Decoded, Refused, ams_header, collect, data, decode_stream, uns16};
+
+pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+    let Some((frame, len)) = FrameRef::split(bytes, u32::MAX)? else {
+        return Err(cut(context, bytes));
+    };
+    let header = frame.header();
+    let mut fields = collect(vec![
+        ("ams_tcp_header", Value::Record(collect(vec![("reserved", uns16(0))]))),
+        ("ams_header", Value::Record(without_length(&header))),
+    ]);
+    // What is behind the frame is too much for its service.
+    let rest = bytes.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
+    if let Some((name, value)) = service(context, &header, rest)? {
+        fields.insert(name, value);
+    }
+    if len != bytes.len() {
+        return Err(Refused::Unsupported("a frame and more".to_owned()));
+    }
+    let bytes = FrameRef::new(header, frame.data())?.to_vec()?;
+    Ok(Decoded { fields, bytes })
+}
+
+/// Why a frame is none yet: the first part that has not come whole.
+fn cut(context: &Context, bytes: &[u8]) -> Refused {
+    let parts = || -> Result<(), Refused> {
+        let (tcp, rest) = bytes.split_at(bytes.len().min(AMS_TCP_HEADER_LEN));
+        AmsTcpHeader::decode(tcp)?;
+        let (header, data) = rest.split_at(rest.len().min(AMS_HEADER_LEN));
+        service(context, &AmsHeader::decode(header)?, data)?;
+        Ok(())
+    };
+    let whole = || Refused::Unsupported("a cut frame that is whole".to_owned());
+    parts().err().unwrap_or_else(whole)
+}
+
+/// The length only counts.
+fn without_length(header: &AmsHeader) -> Fields {
+    let fields = ams_header(header).into_iter().filter(|(name, _)| *name != "data_length");
+    collect(fields.collect())
+}
+
+/// The name and fields of the stream behind the header, if there has to be one.
+fn service(
+    context: &Context,
+    header: &AmsHeader,
+    bytes: &[u8],
+) -> Result<Option<(String, Value)>, Refused> {
+    if bytes.is_empty() && header.error != AdsError::NONE {
+        return Ok(None);
+    }
+    let name = match (header.command, header.state_flags) {
+        (Command::READ, StateFlags::REQUEST) => "read-request",
+        (Command::READ, StateFlags::RESPONSE) => "read-reply",
+        (Command::WRITE, StateFlags::REQUEST) => "write-request",
+        (Command::WRITE, StateFlags::RESPONSE) => "write-reply",
+        (Command::READ_WRITE, StateFlags::REQUEST) => "read-write-request",
+        (Command::READ_WRITE, StateFlags::RESPONSE) => "read-write-reply",
+        _ => return Ok(Some(("data".to_owned(), data(bytes)))),
+    };
+    let decoded = decode_stream(name, context, bytes)?;
+    Ok(Some((name.replace('-', "_"), Value::Record(decoded.fields))))
+}
