@@ -122,6 +122,9 @@ pub struct Requirement {
     /// The vectors for it are still to come.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub pending: bool,
+    /// Why no vector is refused for it although it can be judged from bytes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub no_reject: Option<String>,
     /// Why nothing judges it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excluded: Option<String>,

@@ -1,8 +1,8 @@
 //! What refers to something else refers to something that is there.
 
 use ads_cnc_vectors::{
-    Basis, Expect, Level, Observable, ProvenanceKind, Requirement, Vector, catalogue, documents,
-    errata, erratum, requirement, requirements, vector, vectors,
+    Basis, Direction, Expect, Level, Observable, ProvenanceKind, Requirement, Value, Vector,
+    catalogue, documents, errata, erratum, requirement, requirements, vector, vectors,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -152,7 +152,13 @@ fn address(request: &Vector) -> (Option<u32>, Option<u32>) {
     let Expect::Accept(accept) = &request.expect else {
         return (None, None);
     };
-    let field = |name: &str| u32::try_from(accept.value.get(name)?.tagged()?.integer()?).ok();
+    // In a frame they are in the part that is the request.
+    let part = accept.value.iter().find_map(|(name, value)| match value {
+        Value::Record(fields) if name.ends_with("_request") => Some(fields),
+        _ => None,
+    });
+    let fields = part.unwrap_or(&accept.value);
+    let field = |name: &str| u32::try_from(fields.get(name)?.tagged()?.integer()?).ok();
     (field("index_group"), field("index_offset"))
 }
 
@@ -222,18 +228,54 @@ fn streams_have_segments() {
     }
 }
 
-/// What can be judged from bytes has bytes that show it.
+/// What can be judged from bytes has bytes that show it, and bytes that break it unless there is a
+/// reason why none can. What is said to be missing is.
 #[test]
-fn codec_requirements_have_an_accepted_vector() {
-    let shown: BTreeSet<&str> = vectors()
-        .iter()
-        .filter(|v| v.is_accepted())
-        .flat_map(|v| v.requirements.iter().map(String::as_str))
-        .collect();
+fn requirements_about_bytes_have_both_verdicts() {
+    let cited = |accepted: bool| -> BTreeSet<&str> {
+        let wanted = vectors().iter().filter(|v| v.is_accepted() == accepted);
+        wanted.flat_map(|v| v.requirements.iter().map(String::as_str)).collect()
+    };
+    let (accepted, rejected) = (cited(true), cited(false));
     for r in requirements() {
+        let id = r.id.as_str();
         let about_bytes = r.observable.contains(&Observable::Codec);
-        if about_bytes && !r.pending && r.excluded.is_none() {
-            assert!(shown.contains(r.id.as_str()), "{} has no accepted vector", r.id);
+        let (shown, broken) = (accepted.contains(id), rejected.contains(id));
+        assert!(about_bytes || r.no_reject.is_none(), "{id} is not about bytes");
+        assert!(!broken || r.no_reject.is_none(), "{id} says that nothing breaks it");
+        assert!(!(shown || broken) || r.excluded.is_none(), "{id} is excluded and has vectors");
+        let is_complete = shown && (broken || r.no_reject.is_some());
+        if r.pending {
+            assert!(!is_complete && r.excluded.is_none(), "{id} is not pending any more");
+        } else if about_bytes && r.excluded.is_none() {
+            assert!(shown, "{id} has no accepted vector");
+            assert!(broken || r.no_reject.is_some(), "{id} has no rejected vector");
+        }
+    }
+}
+
+/// A frame around another vector's stream holds that stream, and goes where that goes.
+#[test]
+fn frames_carry_what_they_name() {
+    for v in vectors() {
+        let Some(id) = &v.context.carries else { continue };
+        assert_eq!(v.stream, "ams-frame", "{}", v.id);
+        let carried = vector(id).unwrap_or_else(|| panic!("{} carries {id}", v.id));
+        assert!(carried.is_accepted(), "{} carries {id}", v.id);
+        assert_eq!(carried.direction, v.direction, "{} carries {id}", v.id);
+        assert!(v.bytes().ends_with(&carried.bytes()), "{} does not carry {id}", v.id);
+        match (v.direction, &v.context.request) {
+            (Direction::Reply, Some(request)) => {
+                let asked = vector(request).and_then(|request| request.context.carries.as_ref());
+                if carried.stream.starts_with("variable-") {
+                    assert_eq!(asked, carried.context.request.as_ref(), "{}", v.id);
+                }
+            }
+            (Direction::Reply, None) => panic!("{} answers nothing", v.id),
+            _ => {
+                let stated = (carried.context.index_group, carried.context.index_offset);
+                assert_eq!(address(v), stated, "{} carries {id}", v.id);
+            }
         }
     }
 }
