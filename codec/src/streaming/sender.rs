@@ -5,12 +5,13 @@ use core::fmt;
 use super::NcText;
 use super::packets::{Cut, Packets};
 use super::text::LF;
+use crate::ads::AdsError;
 use crate::limits::STREAM_PACKET_MAX;
 
 /// How a write to the stream was answered.
 ///
-/// Which ADS result means which refusal is not documented; the manual's driver takes each for a
-/// temporary one. A write whose answer never came may have been taken or not: nobody can tell,
+/// Which ADS result means which refusal is not documented ([`of`](Self::of)); the manual's driver
+/// takes each for a temporary one. A write whose answer never came may have been taken or not: nobody can tell,
 /// so to repeat it may run lines twice. Acknowledge it as [`Refused`](Self::Refused).
 ///
 /// Manual: `stream-en`, sections 4.2 and 5 (STM-6).
@@ -29,6 +30,34 @@ pub enum Ack {
     Later,
     /// The data will not be taken.
     Refused,
+}
+
+impl Ack {
+    /// What the result of the write says. Which numbers a CNC gives is not documented: that a
+    /// service, address, access or size it does not take is refused for good, and everything else
+    /// for now, is assumed (STM-6, ADS-7).
+    ///
+    /// ```
+    /// use ads_cnc::ads::AdsError;
+    /// use ads_cnc::streaming::Ack;
+    ///
+    /// assert_eq!(Ack::of(AdsError::NONE), Ack::Accepted);
+    /// assert_eq!(Ack::of(AdsError::INVALID_SIZE), Ack::Refused);
+    /// assert_eq!(Ack::of(AdsError::INVALID_DATA), Ack::Later);
+    /// ```
+    pub const fn of(result: AdsError) -> Self {
+        match result {
+            AdsError::NONE => Self::Accepted,
+            AdsError::TARGET_PORT_NOT_FOUND
+            | AdsError::TARGET_MACHINE_NOT_FOUND
+            | AdsError::SERVICE_NOT_SUPPORTED
+            | AdsError::INVALID_GROUP
+            | AdsError::INVALID_OFFSET
+            | AdsError::INVALID_ACCESS
+            | AdsError::INVALID_SIZE => Self::Refused,
+            _ => Self::Later,
+        }
+    }
 }
 
 /// Where a [`Sender`] stands.

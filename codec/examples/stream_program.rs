@@ -1,0 +1,54 @@
+//! Streams an NC program to a channel. It moves the machine.
+//!
+//!     cargo run --example stream_program -- 127.0.0.1:48898 127.0.0.1.1.1 1 part.nc
+
+mod transport;
+
+use std::{env, fs, thread};
+
+use ads_cnc::address::Channel;
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::WriteProgramStream;
+use ads_cnc::streaming::{Ack, NcText, RETRY_AFTER, Sender, SenderState};
+use transport::{Cnc, Result};
+
+/// How often a packet is repeated before it is given up.
+const REPEATS: u32 = 120;
+
+fn main() -> Result<()> {
+    let cnc = Cnc::from_args()?;
+    let channel = Channel::new(env::args().nth(3).ok_or("no channel")?.parse()?)?;
+    let program = fs::read(env::args().nth(4).ok_or("no program")?)?;
+
+    // What is wrong with the program is said before the first line is out.
+    let text = NcText::new(&program)?;
+    let mut findings = text.findings().inspect(|finding| eprintln!("{finding}"));
+    if findings.any(|finding| finding.kind.ends_streaming()) {
+        return Err("the CNC would end streaming there".into());
+    }
+
+    let mut sender = Sender::new(text);
+    while let Some(packet) = sender.packet() {
+        let op = WriteProgramStream::new(channel, packet);
+        let ack = match cnc.call(&op, &mut Vec::new()) {
+            Ok(_) => Ack::Accepted,
+            Err(error) => match error.downcast_ref::<ads::Error>() {
+                Some(ads::Error::Ads(_, _, number)) => Ack::of(AdsError(*number)),
+                _ => return Err(error),
+            },
+        };
+        sender.acknowledge(ack)?;
+        if ack == Ack::Later {
+            if sender.refusals() > REPEATS {
+                return Err(format!("given up, {} lines are left", sender.left_lines()).into());
+            }
+            thread::sleep(RETRY_AFTER);
+        }
+    }
+    let sent = sender.sent();
+    println!("{} lines sent in {} packets, {} bytes", sent.lines, sent.packets, sent.bytes);
+    match sender.state() {
+        SenderState::Done => Ok(()),
+        _ => Err(format!("refused, {} lines are left", sender.left_lines()).into()),
+    }
+}

@@ -1,0 +1,43 @@
+//! Carries an operation over the published crate `ads`; any other transport is as short.
+
+use std::{env, error::Error, time::Duration};
+
+use ads::{AmsAddr, AmsNetId, Client, Source, Timeouts};
+use ads_cnc::operation::{Operation, Service};
+
+pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+pub(crate) struct Cnc {
+    client: Client,
+    net_id: AmsNetId,
+}
+
+impl Cnc {
+    /// The CNC that the first two arguments name, `127.0.0.1:48898 127.0.0.1.1.1` for one.
+    pub(crate) fn from_args() -> Result<Self> {
+        let argument = |place| env::args().nth(place).ok_or("arguments: HOST:PORT NET_ID …");
+        let timeouts = Timeouts::new(Duration::from_secs(5));
+        let client = Client::new(&*argument(1)?, timeouts, Source::Auto)?;
+        Ok(Self { client, net_id: argument(2)?.parse()? })
+    }
+
+    /// Sends the operation and reads its reply, which borrows from `buf`.
+    pub(crate) fn call<'r, O: Operation>(
+        &self,
+        op: &O,
+        buf: &'r mut Vec<u8>,
+    ) -> Result<O::Reply<'r>> {
+        let spec = O::FUNCTION.spec();
+        let device = self.client.device(AmsAddr::new(self.net_id, spec.task.port().0));
+        let (group, offset) = (op.index_group().get(), op.index_offset().get());
+        let mut data = vec![0; op.encoded_len()];
+        op.encode(&mut data)?;
+        buf.resize(op.read_length() as usize, 0);
+        let len = match spec.service {
+            Service::Read => device.read(group, offset, buf)?,
+            Service::ReadWrite => device.write_read(group, offset, &data, buf)?,
+            Service::Write => device.write(group, offset, &data).map(|()| 0)?,
+        };
+        Ok(op.decode_reply(&buf[..len])?)
+    }
+}
