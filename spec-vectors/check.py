@@ -3,7 +3,7 @@
 
 The bytes of every accepted vector are derived again from its value, and its value from its bytes, with
 the tables below and `struct` alone. Every rejected vector is decoded too and must be refused with the
-class, offset and field it states.
+class, offset and field it states. Sequences are gone through step by step by the models in `checker`.
 
     python3 check.py [--data DIR]
 
@@ -14,6 +14,8 @@ import json
 import struct
 import sys
 from pathlib import Path
+
+from checker import sequences, streaming
 
 # ---------------------------------------------------------------- scalars
 
@@ -640,6 +642,7 @@ STREAMS.update({
     "ams-frame": (frame_write, frame_read),
     "index-group": (group_write, group_read),
     "index-offset": (offset_write, offset_read),
+    "program-stream": streaming.program_stream(Refuse, to_hex, from_hex),
 })
 
 
@@ -811,7 +814,8 @@ def check(vector, vectors):
 def main():
     parser = argparse.ArgumentParser(description="Judge the vectors without any codec.")
     parser.add_argument("--data", type=Path, default=Path(__file__).resolve().parent / "data")
-    folder = parser.parse_args().data / "vectors"
+    data = parser.parse_args().data
+    folder = data / "vectors"
     files = {path: json.loads(path.read_text(encoding="utf-8"))["vectors"] for path in sorted(folder.glob("*.json"))}
     listed = [vector for found in files.values() for vector in found]
     vectors = {vector["id"]: vector for vector in listed}
@@ -836,10 +840,14 @@ def main():
               % (path.name, counts["accepted"], counts["rejected"], len(found) - sum(counts.values())))
         for key in total:
             total[key] += counts[key]
+    cases, wrong = sequences.check_all(data / "sequences", edit)
+    failures += wrong
     for failure in failures:
         print("FAIL %s" % (failure if len(failure) < 600 else failure[:600] + " …"))
+    print("%d sequences: %d accepted and %d rejected agree, %d failures"
+          % (sum(cases.values()) + len(wrong), cases["accepted"], cases["rejected"], len(wrong)))
     print("%d vectors: %d accepted and %d rejected agree, %d failures"
-          % (len(listed), total["accepted"], total["rejected"], len(failures)))
+          % (len(listed), total["accepted"], total["rejected"], len(failures) - len(wrong)))
     return 1 if failures else 0
 
 

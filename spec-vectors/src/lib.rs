@@ -8,7 +8,9 @@
 //! - an [`Erratum`] holds what contradicts itself in the manuals, each reading with its place, and what
 //!   was decided;
 //! - a [`Vector`] is one stream, cut into annotated [`Segment`]s, with the value it stands for or the
-//!   fault it has to be refused for.
+//!   fault it has to be refused for;
+//! - a [`Sequence`] is what takes a whole text or several steps to show: data streaming and the Service
+//!   Interface.
 //!
 //! ```
 //! use ads_cnc_vectors::{Expect, vector};
@@ -30,6 +32,7 @@
 mod catalogue;
 mod hex;
 mod load;
+mod sequence;
 mod vector;
 
 pub use catalogue::{
@@ -38,7 +41,12 @@ pub use catalogue::{
 pub use hex::Hex;
 pub use load::{
     Catalogue, LoadError, VERSION, catalogue, documents, errata, erratum, requirement,
-    requirements, vector, vectors,
+    requirements, sequence, sequences, vector, vectors,
+};
+pub use sequence::{
+    ExternalService, FillPiece, Given, HexPiece, Piece, Pieces, Sequence, SequenceAccept,
+    SequenceExpect, SequenceReject, ServiceAction, ServiceInterface, ServiceStep, StreamAck,
+    StreamAction, StreamError, StreamStep, Streaming, WaitParameters,
 };
 pub use vector::{
     Accept, Context, Direction, Expect, Fields, Provenance, ProvenanceKind, Reject, Segment,

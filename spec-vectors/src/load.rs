@@ -1,6 +1,7 @@
 //! The embedded files, read once.
 
 use crate::catalogue::{Document, Erratum, Requirement};
+use crate::sequence::Sequence;
 use crate::vector::Vector;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -21,6 +22,8 @@ pub struct Catalogue {
     pub errata: Vec<Erratum>,
     /// Vectors of all files.
     pub vectors: Vec<Vector>,
+    /// Sequences of all files.
+    pub sequences: Vec<Sequence>,
 }
 
 /// An embedded file is not what this crate's types expect.
@@ -123,6 +126,28 @@ pub fn vector(id: &str) -> Option<&'static Vector> {
     vectors().iter().find(|item| item.id == id)
 }
 
+/// All sequences.
+///
+/// ```
+/// use ads_cnc_vectors::{Given, sequences};
+///
+/// let texts = sequences().iter().filter(|case| matches!(case.given, Given::NcText(_)));
+/// assert!(texts.count() > 20);
+/// ```
+pub fn sequences() -> &'static [Sequence] {
+    slice(|all| &all.sequences)
+}
+
+/// The sequence with this ID.
+///
+/// ```
+/// let longest = ads_cnc_vectors::sequence("line-990-lf").unwrap();
+/// assert!(longest.is_accepted());
+/// ```
+pub fn sequence(id: &str) -> Option<&'static Sequence> {
+    sequences().iter().find(|item| item.id == id)
+}
+
 fn slice<T>(part: impl Fn(&'static Catalogue) -> &'static Vec<T>) -> &'static [T] {
     catalogue().map_or(&[], |all| part(all))
 }
@@ -158,6 +183,16 @@ struct VectorFile {
     vectors: Vec<Vector>,
 }
 
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SequenceFile {
+    #[serde(rename = "$schema")]
+    _schema: String,
+    #[serde(rename = "version")]
+    _version: String,
+    cases: Vec<Sequence>,
+}
+
 macro_rules! embedded {
     ($path:literal) => {
         ($path, include_str!(concat!("../", $path)))
@@ -176,6 +211,12 @@ const VECTORS: &[(&str, &str)] = &[
     embedded!("data/vectors/variable-value.json"),
     embedded!("data/vectors/variable-write.json"),
 ];
+const SEQUENCES: [(&str, &str); 4] = [
+    embedded!("data/sequences/nc-check.json"),
+    embedded!("data/sequences/nc-text.json"),
+    embedded!("data/sequences/service.json"),
+    embedded!("data/sequences/streaming.json"),
+];
 
 fn read() -> Result<Catalogue, LoadError> {
     let requirements: RequirementFile = parse(REQUIREMENTS)?;
@@ -184,11 +225,16 @@ fn read() -> Result<Catalogue, LoadError> {
     for &file in VECTORS {
         vectors.extend(parse::<VectorFile>(file)?.vectors);
     }
+    let mut sequences = Vec::new();
+    for file in SEQUENCES {
+        sequences.extend(parse::<SequenceFile>(file)?.cases);
+    }
     Ok(Catalogue {
         documents: requirements.documents,
         requirements: requirements.requirements,
         errata: errata.errata,
         vectors,
+        sequences,
     })
 }
 
@@ -207,7 +253,7 @@ mod tests {
 
     #[test]
     fn every_file_states_the_version() {
-        for (file, text) in VECTORS.iter().copied().chain([REQUIREMENTS, ERRATA]) {
+        for (file, text) in VECTORS.iter().copied().chain(SEQUENCES).chain([REQUIREMENTS, ERRATA]) {
             let data: serde_json::Value = serde_json::from_str(text).expect(file);
             assert_eq!(data["version"], VERSION, "{file}");
         }
@@ -220,6 +266,21 @@ mod tests {
             .expect("an unknown field");
         assert_eq!(error.file, "data/broken.json");
         assert!(error.message.contains("extra"), "{error}");
+    }
+
+    /// Nor is anything of a sequence.
+    #[test]
+    fn sequences_survive_a_round_trip() {
+        for (file, text) in SEQUENCES {
+            let raw: serde_json::Value = serde_json::from_str(text).expect(file);
+            let typed = parse::<SequenceFile>((file, text)).expect("loads");
+            let items = raw["cases"].as_array().expect("a list");
+            assert_eq!(items.len(), typed.cases.len());
+            for (item, case) in items.iter().zip(&typed.cases) {
+                let again = serde_json::to_value(case).expect("serializes");
+                assert_eq!(&again, item, "{}", case.id);
+            }
+        }
     }
 
     /// Nothing of a vector is lost or changed by the types: what is read writes the same JSON.

@@ -2,7 +2,8 @@
 
 use ads_cnc_vectors::{
     Basis, Direction, Expect, Level, Observable, ProvenanceKind, Requirement, Value, Vector,
-    catalogue, documents, errata, erratum, requirement, requirements, vector, vectors,
+    catalogue, documents, errata, erratum, requirement, requirements, sequence, sequences, vector,
+    vectors,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -16,6 +17,7 @@ fn data_is_there() {
         ("requirements", requirements().len()),
         ("errata", errata().len()),
         ("vectors", vectors().len()),
+        ("sequences", sequences().len()),
     ] {
         assert_ne!(count, 0, "no {what}");
     }
@@ -172,6 +174,7 @@ fn every_erratum_is_cited() {
         }
     }
     cited.extend(vectors().iter().flat_map(|v| v.errata.iter().map(String::as_str)));
+    cited.extend(sequences().iter().flat_map(|case| case.errata.iter().map(String::as_str)));
     for e in errata() {
         assert!(cited.contains(e.id.as_str()), "nothing cites {}", e.id);
     }
@@ -233,8 +236,10 @@ fn streams_have_segments() {
 #[test]
 fn requirements_about_bytes_have_both_verdicts() {
     let cited = |accepted: bool| -> BTreeSet<&str> {
-        let wanted = vectors().iter().filter(|v| v.is_accepted() == accepted);
-        wanted.flat_map(|v| v.requirements.iter().map(String::as_str)).collect()
+        let vectors = vectors().iter().filter(|v| v.is_accepted() == accepted);
+        let sequences = sequences().iter().filter(|case| case.is_accepted() == accepted);
+        let ids = vectors.map(|v| &v.requirements).chain(sequences.map(|case| &case.requirements));
+        ids.flatten().map(String::as_str).collect()
     };
     let (accepted, rejected) = (cited(true), cited(false));
     for r in requirements() {
@@ -310,10 +315,12 @@ fn readme_shows_real_entries() {
         .map(|rest| rest.split("```").next().expect("an end"))
         .map(|text| serde_json::from_str(text).expect("JSON"))
         .collect();
-    assert_eq!(shown.len(), 3);
+    assert_eq!(shown.len(), 4);
     for example in shown {
         let id = example["id"].as_str().expect("an ID");
         let real = if let Some(found) = vector(id) {
+            serde_json::to_value(found)
+        } else if let Some(found) = sequence(id) {
             serde_json::to_value(found)
         } else if let Some(found) = requirement(id) {
             serde_json::to_value(found)

@@ -20,10 +20,10 @@ fn schema(name: &str) -> Validator {
     jsonschema::validator_for(&schema).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-fn vector_files() -> Vec<PathBuf> {
-    let folder = root().join("data/vectors");
+fn files_of(folder: &str) -> Vec<PathBuf> {
+    let folder = root().join("data").join(folder);
     let mut files: Vec<_> = fs::read_dir(folder)
-        .expect("a folder of vectors")
+        .expect("a folder of data")
         .map(|entry| entry.expect("an entry").path())
         .collect();
     files.sort();
@@ -56,7 +56,17 @@ fn errata_obey() {
 #[test]
 fn vectors_obey() {
     let validator = schema("vectors");
-    let files = vector_files();
+    let files = files_of("vectors");
+    assert!(!files.is_empty());
+    for file in files {
+        assert_valid(&validator, &file);
+    }
+}
+
+#[test]
+fn sequences_obey() {
+    let validator = schema("sequences");
+    let files = files_of("sequences");
     assert!(!files.is_empty());
     for file in files {
         assert_valid(&validator, &file);
@@ -68,7 +78,7 @@ fn vectors_obey() {
 fn wrong_documents_are_refused() {
     type Change = fn(&mut Value);
     type Changes = &'static [(&'static str, Change)];
-    let cases: [(&str, &str, Changes); 3] = [
+    let cases: [(&str, &str, Changes); 6] = [
         (
             "requirements",
             "data/requirements.json",
@@ -115,6 +125,58 @@ fn wrong_documents_are_refused() {
                 ("tail and open at once", |d| {
                     d["vectors"][0]["segments"][0]["value"]["tail"] = json!("00");
                     d["vectors"][0]["segments"][0]["value"]["open"] = json!(true);
+                }),
+            ],
+        ),
+        (
+            "sequences",
+            "data/sequences/nc-text.json",
+            &[
+                ("unknown field", |d| d["cases"][0]["kind"] = json!("nc-text")),
+                ("no packets", |d| d["cases"][0]["expect"]["accept"] = json!({})),
+                ("sibling of an accepted one", |d| {
+                    d["cases"][0]["sibling"] = json!("text-lf");
+                }),
+                ("text that is not ASCII", |d| d["cases"][0]["given"]["nc-text"] = json!(["ä"])),
+                ("empty piece", |d| d["cases"][0]["given"]["nc-text"] = json!([""])),
+                ("two kinds at once", |d| d["cases"][0]["given"]["nc-check"] = json!([["X"]])),
+            ],
+        ),
+        (
+            "sequences",
+            "data/sequences/streaming.json",
+            &[
+                ("start with bytes", |d| {
+                    d["cases"][0]["given"]["streaming"]["steps"][0]["bytes"] = json!(["X"]);
+                }),
+                ("write without an answer", |d| {
+                    let write = &mut d["cases"][0]["given"]["streaming"]["steps"][1];
+                    write.as_object_mut().expect("a step").remove("ack");
+                }),
+                ("step by its number", |d| {
+                    d["cases"][0]["given"]["streaming"]["steps"][0]["id"] = json!(1);
+                }),
+            ],
+        ),
+        (
+            "sequences",
+            "data/sequences/service.json",
+            &[
+                ("no actor", |d| {
+                    let step = &mut d["cases"][0]["given"]["service"]["steps"][0];
+                    step.as_object_mut().expect("a step").remove("actor");
+                }),
+                ("program that serves", |d| {
+                    d["cases"][0]["given"]["service"]["steps"][0]["action"] = json!("serve");
+                }),
+                ("unknown variable", |d| {
+                    d["cases"][0]["given"]["service"]["steps"][1]["variable"] = json!("V.G.X");
+                }),
+                ("unknown field of a step", |d| {
+                    d["cases"][0]["given"]["service"]["steps"][1]["note"] = json!("x");
+                }),
+                ("text with a number", |d| {
+                    d["cases"][0]["given"]["service"]["steps"][1]["value"] = json!("1");
                 }),
             ],
         ),

@@ -1,0 +1,105 @@
+"""All files of sequences: each case by itself, and each rejected one beside its sibling."""
+import json
+
+from . import nc, service, streaming
+from .pieces import Bad, to_bytes
+
+KINDS = {"nc-text": nc.check_text, "nc-check": nc.check_program, "streaming": streaming.check, "service": service.check}
+EDIT_MAX = 8
+
+
+def kind_of(case):
+    (kind,) = case["given"]
+    return kind
+
+
+def text_of(case):
+    given = case["given"][kind_of(case)]
+    return to_bytes(given) if kind_of(case) == "nc-text" else b"".join(to_bytes(packet) for packet in given)
+
+
+def asked(step, given):
+    """What a step puts in, without what only follows from that."""
+    action, actor = step["action"], step.get("actor")
+    services = given.get("services", {})
+    keys = ["id", "actor", "action", "at", "channel"]
+    if action in ("ask", "answer"):
+        # what a known service answers follows from the request
+        if action == "ask" or "does" not in services.get(actor, {}):
+            keys += ["uuid", "request", "request_state", "wait", "response", "response_state"]
+    elif action == "write" and actor in (None, "other") and "text" not in given:
+        keys += ["variable", "bytes"]
+    return {key: step[key] for key in keys if key in step}
+
+
+def bytes_of(step):
+    return b"".join(to_bytes(step[key]) for key in ("bytes", "request", "response") if key in step)
+
+
+def check_sibling(case, cases, edit):
+    sibling = cases.get(case.get("sibling"))
+    if sibling is None or "accept" not in sibling["expect"] or kind_of(sibling) != kind_of(case):
+        raise Bad("sibling %s is not an accepted case of its kind" % case.get("sibling"))
+    if kind_of(case).startswith("nc-"):
+        good, bad = text_of(sibling), text_of(case)
+        if good == bad or edit(good, bad) > EDIT_MAX:
+            raise Bad("sibling %s: %d bytes differ" % (sibling["id"], edit(good, bad)))
+        return
+    good, bad = sibling["given"][kind_of(case)], case["given"][kind_of(case)]
+    if any(good.get(key) != bad.get(key) for key in ("text", "services")):
+        raise Bad("sibling %s is about something else" % sibling["id"])
+    if len(good["steps"]) < len(bad["steps"]):
+        raise Bad("sibling %s has fewer steps" % sibling["id"])
+    pairs = list(zip(good["steps"], bad["steps"]))
+    changed = [pair for pair in pairs if asked(pair[0], good) != asked(pair[1], bad)]
+    if not changed and pairs[-1][0] == pairs[-1][1]:
+        raise Bad("sibling %s does the same" % sibling["id"])
+    if len(changed) > 1:
+        ids = ", ".join(step["id"] for _, step in changed)
+        raise Bad("sibling %s differs by more than one fault: %s" % (sibling["id"], ids))
+    # these faults are in the step itself, so nothing in front of it may differ as well
+    inner = case["expect"]["reject"]["class"] in ("order", "outcome", "overfull")
+    if inner and any(pair is not pairs[-1] for pair in changed):
+        raise Bad("sibling %s differs in front of the fault too: %s" % (sibling["id"], changed[0][1]["id"]))
+    for one, other in changed:
+        if one["action"] == other["action"] and edit(bytes_of(one), bytes_of(other)) > EDIT_MAX:
+            raise Bad("sibling %s: %d bytes differ in %s" % (sibling["id"], edit(bytes_of(one), bytes_of(other)), other["id"]))
+
+
+def check_case(case, cases, edit):
+    KINDS[kind_of(case)](case)
+    given = case["given"][kind_of(case)]
+    if isinstance(given, dict):
+        ids = [step["id"] for step in given["steps"]]
+        if len(set(ids)) != len(ids):
+            raise Bad("two steps share an id")
+    if "reject" in case["expect"]:
+        check_sibling(case, cases, edit)
+        return "rejected"
+    return "accepted"
+
+
+def check_all(folder, edit):
+    """Counts of accepted and rejected cases, and what is wrong."""
+    files = {path: json.loads(path.read_text(encoding="utf-8"))["cases"] for path in sorted(folder.glob("*.json"))}
+    listed = [case for found in files.values() for case in found]
+    cases = {case["id"]: case for case in listed}
+    total, failures = {"accepted": 0, "rejected": 0}, []
+    if not listed:
+        failures.append("no sequences in %s" % folder)
+    if len(cases) != len(listed):
+        failures.append("%d sequences share an id with another" % (len(listed) - len(cases)))
+    for path, found in files.items():
+        counts = {"accepted": 0, "rejected": 0}
+        for case in found:
+            try:
+                counts[check_case(case, cases, edit)] += 1
+            except Bad as why:
+                failures.append("%s: %s" % (case["id"], why))
+            except (KeyError, TypeError, ValueError, AttributeError, IndexError) as why:
+                failures.append("%s: malformed: %s: %s" % (case["id"], type(why).__name__, why))
+        print("%s: %d accepted, %d rejected, %d wrong"
+              % (path.name, counts["accepted"], counts["rejected"], len(found) - sum(counts.values())))
+        for key in total:
+            total[key] += counts[key]
+    return total, failures

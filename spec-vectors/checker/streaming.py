@@ -1,0 +1,126 @@
+"""The streaming interface of a CNC, a client that streams a text, and the bytes of one write."""
+import re
+
+from . import nc
+from .pieces import Bad, agree, to_bytes
+
+STREAM_MAX = 4094
+LINE_END_ERROR = 21476
+
+
+def program_stream(refuse, to_hex, from_hex):
+    """Writer and reader of the stream `program-stream`: whatever is written, up to a packet."""
+    def write(value, _context):
+        return [("data", from_hex(value["data"]["hex"]))]
+
+    def read(data, _context):
+        if len(data) > nc.PACKET_MAX:
+            raise refuse("too-long", 0, "data")
+        if not data:
+            raise refuse("truncated", 0, "data")
+        return {"data": {"type": "BYTES", "hex": to_hex(data)}}
+
+    return write, read
+
+
+class Model:
+    def __init__(self, text):
+        self.held, self.running, self.program = b"", False, b""
+        self.to_send = None if text is None else nc.packets(text)
+
+    def step(self, step):
+        """Does a step and compares what comes of it; gives the class of its fault, if it has one."""
+        outcome = {"error": None, "discarded": None, "ends": None}
+        cls = getattr(self, step["action"])(step, outcome)
+        for key in outcome:
+            agree("%s: %s" % (step["id"], key), step.get(key), outcome[key])
+        if cls in ("outcome", "overfull"):
+            return cls  # what it states to hold is a part of the fault
+        agree("%s: held" % step["id"], step["held"], len(self.held))
+        return cls
+
+    def start(self, _step, _outcome):
+        self.running, self.program = True, b""
+
+    def reset(self, _step, _outcome):
+        self.running, self.held = False, b""
+
+    def write(self, step, _outcome):
+        data, ack, cls = to_bytes(step["bytes"]), step["ack"], None
+        if self.to_send is not None:
+            if self.to_send[:1] != [data]:
+                cls = "order"
+            elif ack == "accepted":
+                self.to_send.pop(0)
+        if len(data) > nc.PACKET_MAX:
+            agree("%s: ack" % step["id"], ack, "refused")
+            return "too-long"
+        if len(self.held) + len(data) > STREAM_MAX:
+            if ack == "accepted":
+                return "overfull"
+            agree("%s: ack" % step["id"], ack, "later")
+            return cls
+        agree("%s: ack" % step["id"], ack, "accepted")
+        self.held += data
+        return cls
+
+    def take(self, step, outcome):
+        if not self.running:
+            return "not-started"
+        if to_bytes(step["bytes"]) != self.held:
+            return "outcome"
+        data, self.held = self.held, b""
+        wrong = missing_end(data)
+        if wrong:
+            outcome["error"] = dict(wrong, number=LINE_END_ERROR)
+            return "line-end"
+        before = len(nc.split(self.program))
+        self.program += data
+        program = nc.Program(self.program)
+        for cls, line, column, _ in program.findings():
+            if line > before and cls in ("loop", "backward-jump"):
+                outcome["error"] = {"line": line, "column": column}
+                return cls
+        if program.ends:
+            self.running = False
+            line, outcome["ends"] = program.ends[0]
+            lines = [one + b"\r\n" for one in nc.split(data)]
+            behind = b"".join(lines[line - before:])
+            if behind:
+                outcome["discarded"] = text_of(step["discarded"], behind)
+            if any(place > line for place, _ in program.code):
+                return "lost"
+        return None
+
+
+def text_of(pieces, data):
+    """The pieces, if they are these bytes."""
+    agree("discarded", to_bytes(pieces), data)
+    return pieces
+
+
+def missing_end(data):
+    """The first line that does not end in CR LF."""
+    line = 1
+    for end in re.finditer(rb"\r\n|\r|\n|\Z", data):
+        start = max(data.rfind(b"\n", 0, end.start()), data.rfind(b"\r", 0, end.start())) + 1
+        if end.group() != b"\r\n" and (end.group() or start < len(data)):
+            return {"line": line, "column": end.start() - start + 1}
+        line += 1
+    return None
+
+
+def check(case):
+    given, expect = case["given"]["streaming"], case["expect"]
+    model = Model(to_bytes(given["text"]) if "text" in given else None)
+    for step in given["steps"]:
+        cls = model.step(step)
+        if cls:
+            agree("fault", expect.get("reject"), {"class": cls, "step": step["id"]})
+            if step is not given["steps"][-1]:
+                raise Bad("steps behind the one at fault")
+            return
+    if "reject" in expect:
+        raise Bad("nothing is at fault, but %s" % expect["reject"])
+    if model.to_send:
+        raise Bad("%d packets are not sent" % len(model.to_send))

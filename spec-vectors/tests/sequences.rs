@@ -1,0 +1,158 @@
+//! What holds for the sequences beyond their schema.
+
+use ads_cnc_vectors::{
+    Given, ProvenanceKind, Sequence, SequenceExpect, documents, erratum, requirement, requirements,
+    sequence, sequences, vector, vectors,
+};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
+/// The list of embedded files is written by hand; a file that is missing there would go unnoticed.
+#[test]
+fn every_file_is_embedded() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/sequences");
+    let mut ids = BTreeSet::new();
+    for entry in fs::read_dir(folder).expect("a folder of sequences") {
+        let text = fs::read_to_string(entry.expect("an entry").path()).expect("readable");
+        let file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        for case in file["cases"].as_array().expect("a list") {
+            ids.insert(case["id"].as_str().expect("an ID").to_owned());
+        }
+    }
+    let embedded: BTreeSet<String> = sequences().iter().map(|case| case.id.clone()).collect();
+    assert_eq!(ids, embedded);
+}
+
+#[test]
+fn ids_are_unique() {
+    let mut seen = BTreeSet::new();
+    for case in sequences() {
+        assert!(seen.insert(&case.id), "{} is there twice", case.id);
+        assert!(vector(&case.id).is_none(), "{} is a vector too", case.id);
+        let words = case.id.split('-').any(|part| part.bytes().any(|c| c.is_ascii_lowercase()));
+        assert!(words, "{} is nothing but a number", case.id);
+        let mut steps = BTreeSet::new();
+        for id in step_ids(case) {
+            assert!(steps.insert(id), "{}: {id} is there twice", case.id);
+        }
+    }
+}
+
+fn step_ids(case: &Sequence) -> Vec<&str> {
+    match &case.given {
+        Given::Streaming(given) => given.steps.iter().map(|step| step.id.as_str()).collect(),
+        Given::Service(given) => given.steps.iter().map(|step| step.id.as_str()).collect(),
+        Given::NcText(_) | Given::NcCheck(_) => Vec::new(),
+    }
+}
+
+#[test]
+fn sequences_cite_what_exists() {
+    let known: BTreeSet<_> =
+        documents().iter().map(|d| (d.document.as_str(), d.edition.as_str())).collect();
+    for case in sequences() {
+        assert!(!case.requirements.is_empty(), "{}", case.id);
+        for id in &case.requirements {
+            assert!(requirement(id).is_some(), "{} cites {id}", case.id);
+        }
+        for id in &case.errata {
+            assert!(erratum(id).is_some(), "{} cites {id}", case.id);
+        }
+        let place = &case.provenance;
+        match place.kind {
+            ProvenanceKind::Manual => {
+                assert!(!place.sources.is_empty(), "{}", case.id);
+                assert!(case.is_accepted(), "{}: a printed example is accepted", case.id);
+            }
+            ProvenanceKind::Derived | ProvenanceKind::Fuzz => {
+                assert!(place.reason.is_some(), "{}", case.id);
+            }
+        }
+        for source in &place.sources {
+            let edition = (source.document.as_str(), source.edition.as_str());
+            assert!(known.contains(&edition), "{}: {edition:?}", case.id);
+            assert!(source.example.is_some(), "{}", case.id);
+        }
+    }
+}
+
+#[test]
+fn rejected_sequences_have_a_sibling() {
+    for case in sequences() {
+        let SequenceExpect::Reject(reject) = &case.expect else {
+            assert_eq!(case.sibling, None, "{}", case.id);
+            continue;
+        };
+        let sibling = case.sibling.as_deref().and_then(sequence);
+        let sibling = sibling.unwrap_or_else(|| panic!("{} has no sibling", case.id));
+        assert!(sibling.is_accepted(), "{}: {} is rejected too", case.id, sibling.id);
+        assert_eq!(sibling.kind(), case.kind(), "{}", case.id);
+        assert_ne!(sibling.given, case.given, "{}", case.id);
+        assert_eq!(reject.step.as_deref(), step_ids(case).last().copied(), "{}", case.id);
+    }
+}
+
+/// A sibling that differs by one fault has the same steps in front of it.
+#[test]
+fn siblings_have_the_same_steps() {
+    for case in sequences() {
+        let Some(sibling) = case.sibling.as_deref().and_then(sequence) else { continue };
+        let (ids, others) = (step_ids(case), step_ids(sibling));
+        assert!(others.len() >= ids.len(), "{}", case.id);
+        assert!(ids.iter().zip(&others).all(|(id, other)| id == other), "{}", case.id);
+    }
+}
+
+#[test]
+fn every_kind_has_both_verdicts() {
+    let mut verdicts: BTreeMap<&str, (u32, u32)> = BTreeMap::new();
+    for case in sequences() {
+        let counts = verdicts.entry(case.kind()).or_default();
+        if case.is_accepted() { counts.0 += 1 } else { counts.1 += 1 }
+    }
+    assert_eq!(verdicts.len(), 4);
+    for (kind, (accepted, rejected)) in verdicts {
+        assert!(accepted > 0 && rejected > 0, "{kind}: {accepted} accepted, {rejected} rejected");
+    }
+}
+
+/// Requirements that no case shows though the catalogue has not excluded them, and why.
+const UNSHOWN: [(&str, &str); 2] = [
+    ("STM-21", "which other errors there are is for the NC language to say"),
+    ("SVC-11", "a version, which no stream of these areas carries"),
+];
+
+/// Requirements of which there is no way to be at fault that a text or steps could show, and why.
+const ONLY_ACCEPTED: [(&str, &str); 2] = [
+    ("STM-16", "motion stops, which no stream shows"),
+    ("STM-18", "whether the subroutine is run, no stream shows"),
+];
+
+/// Both areas are about texts and order, so what can be judged has a case that holds and one that
+/// does not.
+#[test]
+fn requirements_have_both_verdicts() {
+    let (mut accepted, mut rejected) = (BTreeSet::new(), BTreeSet::new());
+    let verdicts = vectors().iter().map(|v| (v.is_accepted(), &v.requirements));
+    for (holds, ids) in
+        verdicts.chain(sequences().iter().map(|s| (s.is_accepted(), &s.requirements)))
+    {
+        let set = if holds { &mut accepted } else { &mut rejected };
+        set.extend(ids.iter().map(String::as_str));
+    }
+    let of_areas = requirements().iter().filter(|r| r.area == "STM" || r.area == "SVC");
+    for r in of_areas.filter(|r| r.excluded.is_none()) {
+        let id = r.id.as_str();
+        let listed = |list: &[(&str, &str)]| list.iter().any(|(one, _)| *one == id);
+        let shown = !listed(&UNSHOWN) && !r.pending;
+        if shown {
+            assert!(accepted.contains(id), "{id} has no accepted case");
+        }
+        let refusable = shown && !listed(&ONLY_ACCEPTED) && r.no_reject.is_none();
+        assert_eq!(rejected.contains(id), refusable, "{id}: rejected cases, or a reason why none");
+    }
+    for (id, _) in UNSHOWN.iter().chain(&ONLY_ACCEPTED) {
+        assert!(requirement(id).is_some(), "{id} is nowhere");
+    }
+}
