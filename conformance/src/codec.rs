@@ -8,6 +8,7 @@ use ads_cnc::ads::{
     AmsHeader, AmsNetId, AmsTcpHeader, ReadReply, ReadRequest, ReadWriteReply, ReadWriteRequest,
     WriteReply, WriteRequest,
 };
+use ads_cnc::streaming::ProgramStream;
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc::{
     CncStr, Decode, Description, Descriptor, DescriptorRef, Descriptors, Element, Encode, Error,
@@ -155,6 +156,9 @@ fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded,
             ],
         }),
         "variable-path" => return path(bytes),
+        "program-stream" => {
+            stream(bytes, |write: &ProgramStream| vec![("data", data(&write.bytes))])
+        }
         "ams-frame" => return frame::decode(context, bytes),
         "index-group" => return address::index_group(context, bytes),
         "index-offset" => return address::index_offset(context, bytes),

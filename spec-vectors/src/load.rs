@@ -207,6 +207,7 @@ const VECTORS: &[(&str, &str)] = &[
     embedded!("data/vectors/com.json"),
     embedded!("data/vectors/frame.json"),
     embedded!("data/vectors/service.json"),
+    embedded!("data/vectors/streaming.json"),
     embedded!("data/vectors/variable-description.json"),
     embedded!("data/vectors/variable-name.json"),
     embedded!("data/vectors/variable-value.json"),
