@@ -44,11 +44,11 @@ impl Interface {
 
     /// Takes all of a write or nothing of it (STM-15: behind what is there).
     ///
-    /// [`Ack::Refused`] above 992 bytes; [`Ack::Later`], which goes with warning 11012, if it
-    /// does not fit now (STM-6; that these are the causes is assumed). What the bytes are does
-    /// not matter here, nor whether there are any (assumed).
+    /// [`Ack::Refused`] above 992 bytes, and of none, which hold no line (STM-4); [`Ack::Later`],
+    /// which goes with warning 11012, if it does not fit now (STM-6; that these are the causes is
+    /// assumed). What the bytes are does not matter here.
     pub fn write(&mut self, data: &[u8]) -> Ack {
-        if data.len() > STREAM_PACKET_MAX {
+        if data.is_empty() || data.len() > STREAM_PACKET_MAX {
             return Ack::Refused;
         }
         let free = self.bytes.get_mut(self.len..).unwrap_or_default();
