@@ -29,6 +29,7 @@
 //! | 4.3.5, read by name | [`VariableNameRef`], [`ValueRef`] |
 //! | 4.3.6, write by handle | [`HandleWriteRef`] |
 //! | 4.3.7, write by name | [`NameWriteRef`] |
+//! | 4.3.4 … 4.3.7, values by their types | [`value`] |
 //! | 4.3.8, extended description | [`VariableIndexKindRef`], [`ExtendedReply`] |
 //! | 4.3.9, handle by name, of an axis | [`operation::AxisHandleByName`] |
 //! | 4.3.10, read by name, of an axis | [`operation::AxisReadByName`] |
@@ -97,6 +98,7 @@ pub mod service;
 mod stream;
 pub mod streaming;
 pub mod text;
+pub mod value;
 mod variable;
 
 #[cfg(feature = "arbitrary")]
@@ -118,14 +120,15 @@ pub use stream::{Decode, Encode, NoData};
 pub use text::{CncStr, TextRef};
 #[cfg(feature = "alloc")]
 pub use text::{CncString, Text};
+pub use value::{Element, Elements};
 #[cfg(feature = "alloc")]
 pub use variable::{
     Description, DescriptionByName, HandleRead, HandleWrite, NameWrite, Value, VariableIndexKind,
     VariableKind, VariableName,
 };
 pub use variable::{
-    DescriptionByNameRef, DescriptionRef, Element, Elements, ExtendedDescription, ExtendedReply,
-    Handle, HandleReadRef, HandleWriteRef, Kind, NameWriteRef, Numbers, PathPart, PathParts,
+    DescriptionByNameRef, DescriptionRef, ExtendedDescription, ExtendedReply, Handle,
+    HandleReadRef, HandleWriteRef, Kind, NameWriteRef, Numbers, PathPart, PathParts,
     Synchronisation, Validity, ValueRef, VariableAccess, VariableCount, VariableIndexKindRef,
     VariableKindRef, VariableNameRef, VariablePath, VariableType,
 };

@@ -202,7 +202,7 @@ fn elements(vector: &Vector, bytes: &[u8]) -> Result<String, Error> {
     };
     let dimensions = vector.context.dimensions.as_deref().unwrap_or_default();
     let elements = ValueRef::decode(bytes)?.elements(var_type, dimensions.into())?;
-    Ok(format!("{var_type:?} {:?}", elements.collect::<Vec<_>>()))
+    Ok(format!("{var_type:?} {:?}", elements.iter().collect::<Vec<_>>()))
 }
 
 /// Where the codec names a fault otherwise than the vector, and why; class and place are advice.

@@ -320,12 +320,12 @@ fn elements(context: &Context, bytes: &[u8]) -> Result<Value, Refused> {
     };
     let value = ads_cnc::ValueRef::decode(bytes)?;
     let elements = value.elements(var_type, Numbers::from(dimensions))?;
-    Ok(Value::List(elements.map(element).map(Value::One).collect()))
+    Ok(Value::List(elements.iter().map(element).map(Value::One).collect()))
 }
 
 fn element(element: Element<'_>) -> Tagged {
     match element {
-        Element::Boolean(byte) => tagged(Type::Boolean, byte),
+        Element::Boolean(boolean) => tagged(Type::Boolean, boolean.0),
         Element::Sgn08(number) => tagged(Type::Sgn08, number),
         Element::Uns08(number) => tagged(Type::Uns08, number),
         Element::Sgn16(number) => tagged(Type::Sgn16, number),

@@ -13,6 +13,7 @@ use crate::layout::{Field, Stream};
 use crate::limits::{DESCRIPTOR_LEN, DESCRIPTOR_TEXT_LEN};
 use crate::stream::{Decode, Encode};
 use crate::text::CncStr;
+use crate::value::DataType;
 
 /// The 84 bytes, once for both readings.
 #[derive(
@@ -32,21 +33,6 @@ pub(super) struct DescriptorLayout {
 
 const _: () = assert!(size_of::<DescriptorLayout>() == DESCRIPTOR_LEN);
 const _: () = assert!(core::mem::offset_of!(DescriptorLayout, type_name) == 52);
-
-/// The types of the COM task whose items have a size (GEN-5).
-const TYPE_SIZES: [(&str, u32); 11] = [
-    ("BOOL", 1),
-    ("BYTE", 1),
-    ("SINT", 1),
-    ("WORD", 2),
-    ("INT", 2),
-    ("DWORD", 4),
-    ("DINT", 4),
-    ("REAL", 4),
-    ("LWORD", 8),
-    ("LINT", 8),
-    ("LREAL", 8),
-];
 
 /// Whether an object may be written; any value but 0 is TRUE, and is kept (E-08).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -150,8 +136,7 @@ macro_rules! accessors {
 
         /// Bytes of one item of the type (GEN-5); none for STRING and for any other name.
         pub fn type_size(&self) -> Option<u32> {
-            let name = self.type_name();
-            TYPE_SIZES.iter().find_map(|&(known, size)| (name == known).then_some(size))
+            self.data_type().and_then(DataType::size)
         }
     };
 }

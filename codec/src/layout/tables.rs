@@ -302,6 +302,16 @@ layouts! {
         BUILD "build" @ 4, Size::Fixed(2), Uns16, "VAR-19", "third number";
         PATCH "patch" @ 6, Size::Fixed(2), Uns16, "VAR-19", "fourth number; 0 if there is none";
     }
+    /// A value by its type, which another stream says; no stream of its own.
+    TypedValue, typed_value: "typed-value", "Value by its type", "VAR-14", max 0 {
+        TYPE "type" @ 0, FIXED_4, Uns32, "VAR-5", "1 BOOLEAN … 9 STRING";
+        SIZE "size" @ 0, FIXED_4, Uns32, "VAR-8", "bytes of the whole";
+        DIMENSION "dimension" @ 0, FIXED_4, Uns32, "VAR-8", "elements in a dimension";
+        INDEX_COUNT "index_count" @ 0, FIXED_4, Uns32, "VAR-11", "indices, one for each dimension";
+        INDEX "index" @ 0, FIXED_4, Uns32, "VAR-11", "index in a dimension, from 0";
+        COUNT "count" @ 0, FIXED_4, Uns32, "VAR-8", "elements";
+        VALUE "value" @ 0, Size::Rest { min: 0, max: 0x40_0000 }, Bytes, "VAR-14", "one element, or all of the array";
+    }
     /// A text before it stands in a stream.
     Text, text: "text", "Text in CP1252", "GEN-3", max 0 {
         TEXT "text" @ 0, Size::Rest { min: 0, max: 0xffff_ffff }, String, "GEN-3", "CP1252 without NUL";

@@ -64,13 +64,10 @@ impl VariableType {
 
     /// Bytes of one element, if the type has a fixed size.
     pub const fn element_size(self) -> Option<u32> {
-        Some(match self {
-            Self::BOOLEAN | Self::SGN08 | Self::UNS08 => 1,
-            Self::SGN16 | Self::UNS16 => 2,
-            Self::SGN32 | Self::UNS32 => 4,
-            Self::REAL64 => 8,
-            _ => return None,
-        })
+        match self.data_type() {
+            Some(data_type) => data_type.size(),
+            None => None,
+        }
     }
 }
 

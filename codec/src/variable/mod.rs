@@ -3,7 +3,6 @@
 mod codes;
 mod description;
 mod description_by_name;
-mod element;
 mod extended;
 mod handle;
 mod handle_write;
@@ -17,7 +16,6 @@ mod value;
 pub use codes::{Synchronisation, Validity, VariableAccess, VariableType};
 pub use description::DescriptionRef;
 pub use description_by_name::DescriptionByNameRef;
-pub use element::{Element, Elements};
 pub use extended::{ExtendedDescription, ExtendedReply};
 pub use handle::{Handle, HandleReadRef};
 pub use handle_write::HandleWriteRef;

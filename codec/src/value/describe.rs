@@ -1,0 +1,128 @@
+//! From what is said of a value to its elements.
+
+use super::shape::known;
+use super::{DataType, Element, Elements, Shape};
+use crate::com::{Descriptor, DescriptorRef};
+use crate::error::Error;
+use crate::variable::{DescriptionByNameRef, DescriptionRef, Numbers, ValueRef, VariableType};
+
+/// What both descriptions, by index and by name, say of a value.
+macro_rules! describes {
+    ($( $description:ident )+) => { $(
+        impl<'a> $description<'a> {
+            /// Type, dimensions and size of the variable, found to agree (VAR-8).
+            ///
+            /// # Errors
+            /// Those of [`Shape::of_variable`].
+            pub fn shape(&self) -> Result<Shape<'a>, Error> {
+                Shape::of_variable(self.var_type, self.dimensions, self.size)
+            }
+
+            /// The elements of the whole variable's value.
+            ///
+            /// # Errors
+            /// Those of [`shape`](Self::shape) and of [`Shape::elements`].
+            pub fn elements(&self, value: &ValueRef<'a>) -> Result<Elements<'a>, Error> {
+                self.shape()?.elements(value.bytes)
+            }
+
+            /// The value of one element, read by its indices.
+            ///
+            /// ```
+            /// use ads_cnc::{Decode, DescriptionByNameRef, Element, ValueRef};
+            ///
+            /// // BOOLEAN[2]
+            /// let bytes = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0";
+            /// let variable = DescriptionByNameRef::decode(bytes)?;
+            /// let element = variable.element(&ValueRef { bytes: &[1] })?;
+            /// assert!(matches!(element, Element::Boolean(on) if on.is_true()));
+            /// # Ok::<(), ads_cnc::Error>(())
+            /// ```
+            ///
+            /// # Errors
+            /// Those of [`elements`](Self::elements).
+            pub fn element(&self, value: &ValueRef<'a>) -> Result<Element<'a>, Error> {
+                self.shape()?.one().elements(value.bytes)?.element(Numbers::EMPTY)
+            }
+        }
+    )+ };
+}
+
+describes! { DescriptionRef DescriptionByNameRef }
+
+impl<'a> ValueRef<'a> {
+    /// The elements of a value of this type and these dimensions; none for a single element.
+    ///
+    /// With a description at hand, [`DescriptionRef::elements`] checks its size too.
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, Element, Numbers, ValueRef, VariableType};
+    ///
+    /// let value = ValueRef::decode(&[77, 1, 0, 0, 200, 1, 0, 0])?;
+    /// let elements = value.elements(VariableType::SGN32, Numbers::from(&[2]))?;
+    /// assert!(elements.iter().eq([Element::Sgn32(333), Element::Sgn32(456)]));
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Elements::new`], and [`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for
+    /// a type the manuals do not have.
+    pub fn elements(
+        &self,
+        var_type: VariableType,
+        dimensions: Numbers<'a>,
+    ) -> Result<Elements<'a>, Error> {
+        Elements::new(known(var_type)?, dimensions, self.bytes)
+    }
+}
+
+macro_rules! data_type {
+    ($( $descriptor:ty )+) => { $(
+        impl $descriptor {
+            /// The type of the content, if [`type_name`](Self::type_name) is one the manuals have.
+            pub fn data_type(&self) -> Option<DataType> {
+                DataType::by_name(self.type_name())
+            }
+        }
+    )+ };
+}
+
+data_type! { Descriptor DescriptorRef<'_> }
+
+#[cfg(feature = "alloc")]
+mod owned {
+    use super::*;
+    use crate::variable::{Description, DescriptionByName};
+
+    macro_rules! describes {
+        ($( $description:ident )+) => { $(
+            impl $description {
+                /// As that of the description, borrowed.
+                ///
+                /// # Errors
+                /// Those of [`Shape::of_variable`].
+                pub fn shape(&self) -> Result<Shape<'_>, Error> {
+                    self.as_ref().shape()
+                }
+
+                /// As those of the description, borrowed.
+                ///
+                /// # Errors
+                /// Those of [`shape`](Self::shape) and of [`Shape::elements`].
+                pub fn elements<'a>(&'a self, value: &ValueRef<'a>) -> Result<Elements<'a>, Error> {
+                    self.as_ref().elements(value)
+                }
+
+                /// As that of the description, borrowed.
+                ///
+                /// # Errors
+                /// Those of [`elements`](Self::elements).
+                pub fn element<'a>(&'a self, value: &ValueRef<'a>) -> Result<Element<'a>, Error> {
+                    self.as_ref().element(value)
+                }
+            }
+        )+ };
+    }
+
+    describes! { Description DescriptionByName }
+}

@@ -1,0 +1,244 @@
+//! Elements of a type that is known at run time.
+
+use core::fmt;
+use core::ops::Range;
+
+use zerocopy::FromBytes as _;
+
+use super::{Boolean, DataType, Item, Items, Shape, StringsRef};
+use crate::bytes::{to_len, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::field::typed_value::VALUE;
+use crate::text::TextRef;
+use crate::variable::Numbers;
+
+/// One element of a value.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2; sizes of the types: GEN-5.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Element<'a> {
+    /// One byte; 0 is FALSE, any other TRUE.
+    Boolean(Boolean),
+    /// Signed, one byte.
+    Sgn08(i8),
+    /// Unsigned, one byte.
+    Uns08(u8),
+    /// Signed, two bytes.
+    Sgn16(i16),
+    /// Unsigned, two bytes.
+    Uns16(u16),
+    /// Signed, four bytes.
+    Sgn32(i32),
+    /// Unsigned, four bytes.
+    Uns32(u32),
+    /// Signed, eight bytes; of objects only.
+    Lint(i64),
+    /// Unsigned, eight bytes; of objects only.
+    Lword(u64),
+    /// IEEE 754 binary32; not of variables.
+    Real32(f32),
+    /// IEEE 754 binary64.
+    Real64(f64),
+    /// Text to its first NUL or to the end of its bytes (VAR-22, assumed).
+    String(TextRef<'a>),
+}
+
+impl Element<'_> {
+    /// The element's type.
+    pub const fn data_type(&self) -> DataType {
+        match self {
+            Self::Boolean(_) => DataType::Boolean,
+            Self::Sgn08(_) => DataType::Sgn08,
+            Self::Uns08(_) => DataType::Uns08,
+            Self::Sgn16(_) => DataType::Sgn16,
+            Self::Uns16(_) => DataType::Uns16,
+            Self::Sgn32(_) => DataType::Sgn32,
+            Self::Uns32(_) => DataType::Uns32,
+            Self::Lint(_) => DataType::Lint,
+            Self::Lword(_) => DataType::Lword,
+            Self::Real32(_) => DataType::Real32,
+            Self::Real64(_) => DataType::Real64,
+            Self::String(_) => DataType::String,
+        }
+    }
+}
+
+/// The elements of a value, by their indices or in their order: of more than one dimension, the
+/// last index runs fastest (VAR-21, assumed).
+///
+/// ```
+/// use ads_cnc::Numbers;
+/// use ads_cnc::value::{DataType, Element, Elements};
+///
+/// let elements = Elements::new(DataType::Uns16, Numbers::from(&[2, 2]), &[1, 0, 2, 0, 3, 0, 4, 0])?;
+/// assert_eq!(elements.element(Numbers::from(&[0, 1]))?, Element::Uns16(2));
+/// assert_eq!(elements.iter().last(), Some(Element::Uns16(4)));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy)]
+pub struct Elements<'a> {
+    pub(super) shape: Shape<'a>,
+    pub(super) bytes: &'a [u8],
+}
+
+impl<'a> Elements<'a> {
+    /// The elements of a value of this type and these dimensions; none for a single element.
+    ///
+    /// The texts of an array have the same share of the bytes (assumed).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] for bytes that are not just the size of
+    /// the elements; [`ErrorKind::Mismatch`] if texts cannot share them.
+    pub fn new(
+        data_type: DataType,
+        dimensions: Numbers<'a>,
+        bytes: &'a [u8],
+    ) -> Result<Self, Error> {
+        let given = to_u32(bytes.len());
+        match data_type.size() {
+            None => Ok(Self { shape: Shape::new(data_type, dimensions, given)?, bytes }),
+            Some(each) => match Shape::of_fixed(data_type, each, dimensions) {
+                Some(shape) => shape.elements(bytes),
+                None => Err(Error::new(ErrorKind::Truncated, VALUE, 0, u32::MAX, given)),
+            },
+        }
+    }
+
+    /// Type, dimensions and size.
+    pub const fn shape(&self) -> Shape<'a> {
+        self.shape
+    }
+
+    /// The type of the elements.
+    pub const fn data_type(&self) -> DataType {
+        self.shape.data_type()
+    }
+
+    /// How many.
+    pub fn len(&self) -> usize {
+        to_len(self.shape.count())
+    }
+
+    /// Whether there is none, as a dimension is 0.
+    pub fn is_empty(&self) -> bool {
+        self.shape.count() == 0
+    }
+
+    /// The element at this place, from 0.
+    pub fn get(&self, place: usize) -> Option<Element<'a>> {
+        let bytes = part(self.bytes, to_len(self.shape.element_size()), place)?;
+        if place >= self.len() {
+            return None;
+        }
+        Some(match self.data_type() {
+            DataType::Boolean => Element::Boolean(read(bytes)?),
+            DataType::Sgn08 => Element::Sgn08(read(bytes)?),
+            DataType::Uns08 => Element::Uns08(read(bytes)?),
+            DataType::Sgn16 => Element::Sgn16(read(bytes)?),
+            DataType::Uns16 => Element::Uns16(read(bytes)?),
+            DataType::Sgn32 => Element::Sgn32(read(bytes)?),
+            DataType::Uns32 => Element::Uns32(read(bytes)?),
+            DataType::Lint => Element::Lint(read(bytes)?),
+            DataType::Lword => Element::Lword(read(bytes)?),
+            DataType::Real32 => Element::Real32(read(bytes)?),
+            DataType::Real64 => Element::Real64(read(bytes)?),
+            DataType::String => Element::String(TextRef::split(bytes)),
+        })
+    }
+
+    /// The element with these indices.
+    ///
+    /// # Errors
+    /// Those of [`Shape::place`].
+    pub fn element(&self, indices: Numbers<'_>) -> Result<Element<'a>, Error> {
+        let place = self.shape.place(indices)?;
+        // Cannot be absent: it is in the shape, and the bytes have that.
+        self.get(to_len(place)).ok_or(Error::new(ErrorKind::Missing, VALUE, place, 0, 0))
+    }
+
+    /// All in their order.
+    pub fn iter(&self) -> ElementIter<'a> {
+        ElementIter { elements: *self, places: 0..self.len() }
+    }
+
+    /// The elements in place, if they are of this type.
+    pub fn items<T: Item>(&self) -> Option<Items<'a, T>> {
+        match T::TYPE == self.data_type() {
+            true => Items::new(self.bytes).ok(),
+            false => None,
+        }
+    }
+
+    /// The texts in place, if they are texts.
+    pub fn strings(&self) -> Option<StringsRef<'a>> {
+        match self.data_type() {
+            DataType::String => Some(StringsRef::of(*self)),
+            _ => None,
+        }
+    }
+
+    /// The bytes.
+    pub const fn as_bytes(&self) -> &'a [u8] {
+        self.bytes
+    }
+}
+
+/// The bytes of the element at this place.
+pub(super) fn part(bytes: &[u8], each: usize, place: usize) -> Option<&[u8]> {
+    bytes.get(place.checked_mul(each)?..)?.get(..each)
+}
+
+fn read<T: Item>(bytes: &[u8]) -> Option<T> {
+    T::Wire::read_from_bytes(bytes).ok().map(T::from_wire)
+}
+
+impl fmt::Debug for Elements<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+/// [`Elements`] in their order.
+#[derive(Clone, Debug)]
+pub struct ElementIter<'a> {
+    elements: Elements<'a>,
+    places: Range<usize>,
+}
+
+impl<'a> Iterator for ElementIter<'a> {
+    type Item = Element<'a>;
+
+    fn next(&mut self) -> Option<Element<'a>> {
+        self.elements.get(self.places.next()?)
+    }
+
+    fn nth(&mut self, ahead: usize) -> Option<Element<'a>> {
+        self.elements.get(self.places.nth(ahead)?)
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.places.size_hint()
+    }
+}
+
+impl DoubleEndedIterator for ElementIter<'_> {
+    fn next_back(&mut self) -> Option<Self::Item> {
+        self.elements.get(self.places.next_back()?)
+    }
+}
+
+impl ExactSizeIterator for ElementIter<'_> {
+    fn len(&self) -> usize {
+        self.places.len()
+    }
+}
+
+impl<'a> IntoIterator for Elements<'a> {
+    type Item = Element<'a>;
+    type IntoIter = ElementIter<'a>;
+
+    fn into_iter(self) -> ElementIter<'a> {
+        self.iter()
+    }
+}

@@ -1,0 +1,175 @@
+//! Values as they are written.
+
+use zerocopy::IntoBytes as _;
+
+use super::{DataType, Element, Elements, Items, StringsRef};
+use crate::bytes::{Writer, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::Stream;
+use crate::layout::field::typed_value::VALUE;
+use crate::limits::ADS_DATA_MAX;
+use crate::text::{CncStr, TextRef};
+
+/// What becomes the bytes of a value: a number or [`Boolean`](super::Boolean), a slice or an array
+/// of them, a text, and each form in which values are read.
+///
+/// The bytes are what requests take, and what the content of an object or of an element is. A
+/// [`CncStr`] is written with one NUL, a [`TextRef`] with the end it has.
+///
+/// ```
+/// use ads_cnc::address::Channel;
+/// use ads_cnc::operation::{Operation, WriteByName};
+/// use ads_cnc::value::EncodeValue;
+///
+/// // Section 4.3.7, where the type is not printed.
+/// let mut room = [0; 20];
+/// let value = [123, 234, 345, 456, 567].encode_value(&mut room)?;
+/// let op = WriteByName::new(Channel::new(1)?, "V.E.test", value)?;
+/// assert_eq!(op.encode(&mut [0; 32])?[..13], *b"V.E.test\0\x7b\0\0\0");
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+pub trait EncodeValue: sealed::Sealed {
+    /// The type of the elements.
+    fn data_type(&self) -> DataType;
+
+    /// How many elements.
+    fn element_count(&self) -> usize;
+
+    /// How many bytes [`encode_value`](Self::encode_value) writes.
+    fn value_len(&self) -> usize;
+
+    /// Writes the value to the front of `buf` and returns the bytes written.
+    ///
+    /// Type and number of elements are checked by [`Shape::encode`](super::Shape::encode), the
+    /// limits of a request by its encoder: beside a handle or a name, a value has at most 2040 or
+    /// 2047 bytes.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BufferTooSmall`], and [`ErrorKind::TooLong`] for more than any request takes;
+    /// nothing is written.
+    fn encode_value<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
+
+    /// The value in a vector of its own.
+    ///
+    /// # Errors
+    /// [`ErrorKind::TooLong`], as [`encode_value`](Self::encode_value).
+    #[cfg(feature = "alloc")]
+    fn value_to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
+        check(self.value_len())?;
+        let mut bytes = alloc::vec![0; self.value_len()];
+        self.encode_value(&mut bytes)?;
+        Ok(bytes)
+    }
+}
+
+pub(super) mod sealed {
+    pub trait Sealed {}
+}
+
+fn check(len: usize) -> Result<(), Error> {
+    match (to_u32(len), to_u32(ADS_DATA_MAX)) {
+        (len, max) if len > max => Err(Error::new(ErrorKind::TooLong, VALUE, 0, max, len)),
+        _ => Ok(()),
+    }
+}
+
+/// Writes so many bytes, or nothing at all.
+fn fill(len: usize, buf: &mut [u8], write: impl FnOnce(&mut Writer<'_>)) -> Result<&[u8], Error> {
+    check(len)?;
+    Writer::fill(Stream::TypedValue, len, buf, write)
+}
+
+/// Of each form its type, its number of elements, its bytes, and how they are written.
+macro_rules! encode_value {
+    ($(
+        $(#[$doc:meta])*
+        $(@$item:ident $(; $n:ident)?)? $form:ty, |$value:ident| $data_type:expr, $count:expr, $len:expr,
+        |$buf:ident| $encode:expr;
+    )+) => { $(
+        impl $(<$item: $crate::value::Item $(, const $n: usize)?>)? $crate::value::encode::sealed::Sealed for $form {}
+
+        $(#[$doc])*
+        #[allow(unused_variables, reason = "the type alone may say it")]
+        impl $(<$item: $crate::value::Item $(, const $n: usize)?>)? $crate::value::EncodeValue for $form {
+            fn data_type(&self) -> $crate::value::DataType {
+                let $value = self;
+                $data_type
+            }
+
+            fn element_count(&self) -> usize {
+                let $value = self;
+                $count
+            }
+
+            fn value_len(&self) -> usize {
+                let $value = self;
+                $len
+            }
+
+            fn encode_value<'b>(
+                &self,
+                $buf: &'b mut [u8],
+            ) -> Result<&'b [u8], $crate::error::Error> {
+                let $value = self;
+                $encode
+            }
+        }
+    )+ };
+}
+
+#[cfg(feature = "alloc")]
+pub(super) use encode_value;
+
+/// Does the same with whatever an element holds.
+macro_rules! each {
+    ($element:ident, $value:ident => $do:expr) => {
+        match $element {
+            Element::Boolean($value) => $do,
+            Element::Sgn08($value) => $do,
+            Element::Uns08($value) => $do,
+            Element::Sgn16($value) => $do,
+            Element::Uns16($value) => $do,
+            Element::Sgn32($value) => $do,
+            Element::Uns32($value) => $do,
+            Element::Lint($value) => $do,
+            Element::Lword($value) => $do,
+            Element::Real32($value) => $do,
+            Element::Real64($value) => $do,
+            Element::String($value) => $do,
+        }
+    };
+}
+
+encode_value! {
+    /// One number or BOOLEAN.
+    @T T, |item| T::TYPE, 1, size_of::<T::Wire>(),
+    |buf| fill(item.value_len(), buf, |out| out.put(item.to_wire().as_bytes()));
+    /// All elements of an array, the last index running fastest (VAR-21, assumed).
+    @T [T], |items| T::TYPE, items.len(), items.len().saturating_mul(size_of::<T::Wire>()),
+    |buf| fill(items.value_len(), buf, |out| {
+        items.iter().for_each(|item| out.put(item.to_wire().as_bytes()));
+    });
+    /// As the slice of its elements.
+    @T; N [T; N], |items| T::TYPE, N, items.as_slice().value_len(),
+    |buf| items.as_slice().encode_value(buf);
+    /// The bytes that were read.
+    @T Items<'_, T>, |items| T::TYPE, items.len(), items.as_bytes().len(),
+    |buf| fill(items.value_len(), buf, |out| out.put(items.as_bytes()));
+    /// The text and one NUL.
+    CncStr<'_>, |text| DataType::String, 1, text.len().saturating_add(1),
+    |buf| fill(text.value_len(), buf, |out| TextRef::from(*text).write(out));
+    /// The text and the end it has.
+    TextRef<'_>, |text| DataType::String, 1, text.field_len(),
+    |buf| fill(text.value_len(), buf, |out| text.write(out));
+    /// The bytes that were read.
+    StringsRef<'_>, |texts| DataType::String, texts.len(), texts.as_bytes().len(),
+    |buf| fill(texts.value_len(), buf, |out| out.put(texts.as_bytes()));
+    /// The bytes that were read.
+    Elements<'_>, |elements| Elements::data_type(elements), elements.len(),
+    elements.as_bytes().len(),
+    |buf| fill(elements.value_len(), buf, |out| out.put(elements.as_bytes()));
+    /// The number or the text.
+    Element<'_>, |element| Element::data_type(element), 1,
+    each!(element, value => value.value_len()),
+    |buf| each!(element, value => value.encode_value(buf));
+}

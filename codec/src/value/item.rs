@@ -1,0 +1,114 @@
+//! The types of the program that stand for types of the CNC.
+
+use core::fmt;
+
+use super::DataType;
+
+/// A number or BOOLEAN of fixed size: [`Boolean`], `i8`, `u8`, `i16`, `u16`, `i32`, `u32`, `i64`,
+/// `u64`, `f32` and `f64`.
+///
+/// ```
+/// use ads_cnc::value::{DataType, Item};
+///
+/// assert_eq!(<i32 as Item>::TYPE, DataType::Sgn32);
+/// assert_eq!(<f32 as Item>::TYPE, DataType::Real32);
+/// ```
+pub trait Item: sealed::Wire + Copy + Default + PartialEq + fmt::Debug + 'static {
+    /// The type of the CNC that it is.
+    const TYPE: DataType;
+}
+
+pub(super) mod sealed {
+    use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
+
+    pub trait Wire: Sized {
+        /// As many bytes as it has.
+        type Wire: FromBytes + IntoBytes + KnownLayout + Immutable + Unaligned + Copy + 'static;
+
+        fn from_wire(wire: Self::Wire) -> Self;
+
+        fn to_wire(self) -> Self::Wire;
+    }
+}
+
+macro_rules! items {
+    ($( $item:ty as $size:literal, $data_type:ident; )+) => { $(
+        impl Item for $item {
+            const TYPE: DataType = DataType::$data_type;
+        }
+
+        impl sealed::Wire for $item {
+            type Wire = [u8; $size];
+
+            fn from_wire(wire: [u8; $size]) -> Self {
+                Self::from_le_bytes(wire)
+            }
+
+            fn to_wire(self) -> [u8; $size] {
+                self.to_le_bytes()
+            }
+        }
+    )+ };
+}
+
+items! {
+    Boolean as 1, Boolean;
+    i8 as 1, Sgn08;
+    u8 as 1, Uns08;
+    i16 as 2, Sgn16;
+    u16 as 2, Uns16;
+    i32 as 4, Sgn32;
+    u32 as 4, Uns32;
+    i64 as 8, Lint;
+    u64 as 8, Lword;
+    f32 as 4, Real32;
+    f64 as 8, Real64;
+}
+
+/// A BOOLEAN: the byte as it is, of which any but 0 is TRUE.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2, where BOOLEAN\[2\] has two bytes. That
+/// any byte but 0 is TRUE is assumed.
+///
+/// ```
+/// use ads_cnc::value::Boolean;
+///
+/// assert!(Boolean(2).is_true() && Boolean(2) != Boolean::TRUE);
+/// assert_eq!(Boolean::from(true), Boolean(1));
+/// ```
+#[derive(Clone, Copy, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+pub struct Boolean(pub u8);
+
+impl Boolean {
+    /// FALSE, as written.
+    pub const FALSE: Self = Self(0);
+    /// TRUE, as written.
+    pub const TRUE: Self = Self(1);
+
+    /// Whether this is TRUE.
+    pub const fn is_true(self) -> bool {
+        self.0 != 0
+    }
+
+    const fn from_le_bytes([byte]: [u8; 1]) -> Self {
+        Self(byte)
+    }
+
+    const fn to_le_bytes(self) -> [u8; 1] {
+        [self.0]
+    }
+}
+
+impl From<bool> for Boolean {
+    fn from(truth: bool) -> Self {
+        Self(truth.into())
+    }
+}
+
+/// The byte.
+impl fmt::Debug for Boolean {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.0, f)
+    }
+}

@@ -1,0 +1,74 @@
+//! Values by their types: what the bytes of a variable, an object or an element say.
+//!
+//! A [`ValueRef`](crate::ValueRef) and a content are bytes; the type is in a variable's
+//! description, in an object's descriptor or in an element's attribute. [`DataType`] is the type
+//! of all three, [`Shape`] adds dimensions and bytes, [`Elements`] are the bytes read that way.
+//!
+//! | to have | use |
+//! |---|---|
+//! | any element, of a type known only at run time | [`Elements`], [`Element`] |
+//! | numbers of a type known to the program, in place | [`Items`] |
+//! | texts in place | [`StringsRef`] |
+//! | all of it, owned (feature `alloc`) | `Values`, `Strings` |
+//! | bytes to write | [`EncodeValue`], [`Shape::encode`] |
+//!
+//! Nothing but the owned forms allocates. Bytes are little-endian (GEN-1, assumed) and need not be
+//! aligned. Of more than one dimension, the elements are in row-major order, the last index running
+//! fastest: no manual says so, it is **assumed** (VAR-21). So is that an array of STRING gives each
+//! text the same share of its bytes.
+//!
+//! Errors are those of the table `typed-value`. Where an index or a dimension is wrong, the offset
+//! is its place among the others, from 0; types are numbered as in section 4.3.2, with 0 for those
+//! that no variable has.
+//!
+//! ```
+//! use ads_cnc::value::{Element, EncodeValue};
+//! use ads_cnc::{Decode, DescriptionRef, Numbers, ValueRef};
+//!
+//! // What the CNC says of a variable SGN32[2][3], and its value.
+//! let description = DescriptionRef::decode(
+//!     b"\x01\0\0\x02\x06\0\0\0\x02\0\0\0\x18\0\0\0\x02\0\0\0\x02\0\0\0\x03\0\0\0V.E.field\0",
+//! )?;
+//! let bytes = b"\x0b\0\0\0\x0c\0\0\0\x0d\0\0\0\x15\0\0\0\x16\0\0\0\x17\0\0\0";
+//! let value = ValueRef::decode(bytes)?;
+//!
+//! let elements = description.elements(&value)?;
+//! assert_eq!(elements.element(Numbers::from(&[1, 0]))?, Element::Sgn32(21));
+//! assert_eq!(
+//!     elements.element(Numbers::from(&[1, 3])).unwrap_err().to_string(),
+//!     "typed-value: index at offset 1: out of range, at most 2 expected, 3 found"
+//! );
+//! let numbers = elements.items::<i32>().expect("an SGN32");
+//! assert_eq!(numbers.iter().sum::<i32>(), 102);
+//!
+//! // One element goes back by its indices, in the bytes of an SGN32.
+//! let mut buf = [0; 4];
+//! assert_eq!(description.shape()?.one().encode(&123_i32, &mut buf)?, [123, 0, 0, 0]);
+//! assert_eq!([11, 12, 13].encode_value(&mut [0; 12])?, &bytes[..12]);
+//! # Ok::<(), ads_cnc::Error>(())
+//! ```
+//!
+//! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.2.1, 4.3.2 and 4.3.4 … 4.3.7.
+
+mod data_type;
+mod describe;
+mod element;
+mod encode;
+mod item;
+mod items;
+mod shape;
+mod strings;
+#[cfg(feature = "alloc")]
+mod values;
+
+pub use data_type::DataType;
+pub use element::{Element, ElementIter, Elements};
+pub use encode::EncodeValue;
+pub use item::{Boolean, Item};
+pub use items::Items;
+pub use shape::Shape;
+#[cfg(feature = "alloc")]
+pub use strings::Strings;
+pub use strings::StringsRef;
+#[cfg(feature = "alloc")]
+pub use values::Values;

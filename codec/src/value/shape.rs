@@ -1,0 +1,289 @@
+//! Type, dimensions and bytes of a value.
+
+use super::element::Elements;
+use super::{DataType, EncodeValue};
+use crate::bytes::{Writer, to_len, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::Stream;
+use crate::layout::field::typed_value::{COUNT, DIMENSION, INDEX, INDEX_COUNT, SIZE, TYPE, VALUE};
+use crate::text::{CncStr, TextRef};
+use crate::variable::{Numbers, VariableType};
+
+/// Type, dimensions and bytes of a value, found to agree (VAR-8).
+///
+/// It tells where an element is before anything is read, and checks what is to be written.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2. That the size is that of the type times
+/// the elements follows from the example there.
+///
+/// ```
+/// use ads_cnc::Numbers;
+/// use ads_cnc::value::{DataType, Shape};
+///
+/// let shape = Shape::new(DataType::Sgn32, Numbers::from(&[2, 3]), 24)?;
+/// assert_eq!(shape.place(Numbers::from(&[1, 2]))?, 5);
+/// assert_eq!(
+///     shape.place(Numbers::from(&[2, 0])).unwrap_err().to_string(),
+///     "typed-value: index at offset 0: out of range, at most 1 expected, 2 found"
+/// );
+/// assert_eq!(
+///     Shape::new(DataType::Sgn32, Numbers::from(&[2, 3]), 20).unwrap_err().to_string(),
+///     "typed-value: size at offset 0: mismatch, 24 expected, 20 found"
+/// );
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape<'a> {
+    data_type: DataType,
+    dimensions: Numbers<'a>,
+    count: u32,
+    each: u32,
+}
+
+impl<'a> Shape<'a> {
+    /// A value of so many bytes; no dimension for a single element.
+    ///
+    /// Each STRING of an array has the same share of the bytes, at least one (assumed).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] of the size: that of the elements, or the next smaller one that so
+    /// many texts can share, and the one given.
+    pub fn new(data_type: DataType, dimensions: Numbers<'a>, size: u32) -> Result<Self, Error> {
+        let mismatch = |expected| Err(Error::new(ErrorKind::Mismatch, SIZE, 0, expected, size));
+        if let Some(each) = data_type.size() {
+            return match Self::of_fixed(data_type, each, dimensions) {
+                Some(shape) if shape.size() == size => Ok(shape),
+                shape => mismatch(shape.map_or(u32::MAX, |shape| shape.size())),
+            };
+        }
+        let Some(count) = count(dimensions) else { return mismatch(u32::MAX) };
+        let each = match (count, size.checked_div(count), size.checked_rem(count)) {
+            (0, ..) if size == 0 => 0,
+            (1, ..) => size,
+            (_, Some(each), Some(0)) if each > 0 => each,
+            // So many texts have at least a NUL each; no text has nothing.
+            (.., left) => return mismatch(size.saturating_sub(left.unwrap_or(size)).max(count)),
+        };
+        Ok(Self { data_type, dimensions, count, each })
+    }
+
+    /// Of a type of fixed size, if 32 bits hold the size of the whole.
+    pub(super) fn of_fixed(
+        data_type: DataType,
+        each: u32,
+        dimensions: Numbers<'a>,
+    ) -> Option<Self> {
+        let count = count(dimensions)?;
+        count.checked_mul(each).map(|_| Self { data_type, dimensions, count, each })
+    }
+
+    /// As a variable's description has it.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), and [`ErrorKind::OutOfRange`] for a type the manuals do not
+    /// have.
+    pub fn of_variable(
+        var_type: VariableType,
+        dimensions: Numbers<'a>,
+        size: u32,
+    ) -> Result<Self, Error> {
+        Self::new(known(var_type)?, dimensions, size)
+    }
+
+    /// One element of it, as it is read and written by its indices.
+    pub fn one(&self) -> Shape<'static> {
+        Shape { data_type: self.data_type, dimensions: Numbers::EMPTY, count: 1, each: self.each }
+    }
+
+    /// The type of the elements.
+    pub const fn data_type(&self) -> DataType {
+        self.data_type
+    }
+
+    /// Elements in each dimension; none for a single element.
+    pub const fn dimensions(&self) -> Numbers<'a> {
+        self.dimensions
+    }
+
+    /// How many elements: the product of the dimensions.
+    pub const fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Bytes of one element; of a STRING the most it may have, its NUL included.
+    pub const fn element_size(&self) -> u32 {
+        self.each
+    }
+
+    /// Bytes of the whole.
+    pub const fn size(&self) -> u32 {
+        self.count.saturating_mul(self.each)
+    }
+
+    /// Place of the element with these indices, from 0: the last index runs fastest (VAR-21,
+    /// assumed).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] for another number of indices than dimensions;
+    /// [`ErrorKind::OutOfRange`] for an index beyond its dimension, and [`ErrorKind::Missing`] for a
+    /// dimension of 0, which has no element: the offset says which, from 0.
+    pub fn place(&self, indices: Numbers<'_>) -> Result<u32, Error> {
+        place(indices, self.dimensions)
+    }
+
+    /// The elements of a value of this shape.
+    ///
+    /// A single STRING may have any length: how many bytes a reply has is not documented (VAR-25).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] for a value of another size.
+    pub fn elements(&self, bytes: &'a [u8]) -> Result<Elements<'a>, Error> {
+        if self.data_type == DataType::String && self.count == 1 {
+            return Elements::new(self.data_type, self.dimensions, bytes);
+        }
+        let (size, given) = (self.size(), to_u32(bytes.len()));
+        if to_len(size) == bytes.len() {
+            return Ok(Elements { shape: *self, bytes });
+        }
+        match given < size {
+            true => Err(Error::new(ErrorKind::Truncated, VALUE, 0, size, given)),
+            false => Err(Error::new(ErrorKind::Trailing, VALUE, size, size, given)),
+        }
+    }
+
+    /// Writes a value of this shape to the front of `buf`, for a request or a content.
+    ///
+    /// Whether a STRING is NUL-terminated is up to the text given; [`CncStr`] is. A single one may
+    /// be shorter than its size.
+    ///
+    /// ```
+    /// use ads_cnc::value::{DataType, Shape};
+    /// use ads_cnc::{CncStr, Numbers};
+    ///
+    /// // A STRING has 21 bytes by default.
+    /// let shape = Shape::new(DataType::String, Numbers::EMPTY, 21)?;
+    /// assert_eq!(shape.encode(&CncStr::new("abc")?, &mut [0; 21])?, b"abc\0");
+    /// assert_eq!(
+    ///     shape.encode(&CncStr::new("a text of 21 letters.")?, &mut [0; 64]).unwrap_err().to_string(),
+    ///     "typed-value: value at offset 0: too long, at most 21 bytes expected, 22 there"
+    /// );
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] for another type or another number of elements,
+    /// [`ErrorKind::TooLong`] for a STRING too long, and those of
+    /// [`EncodeValue::encode_value`]. Requests check their own limits.
+    pub fn encode<'b, V: EncodeValue + ?Sized>(
+        &self,
+        value: &V,
+        buf: &'b mut [u8],
+    ) -> Result<&'b [u8], Error> {
+        let mismatch = |field, expected, found| {
+            Err(Error::new(ErrorKind::Mismatch, field, 0, expected, found))
+        };
+        let given = value.data_type();
+        if given != self.data_type {
+            return mismatch(TYPE, self.data_type.number(), given.number());
+        }
+        self.check_count(value.element_count())?;
+        let len = to_u32(value.value_len());
+        match self.data_type {
+            DataType::String if self.count == 1 => self.check_text(len, 0)?,
+            DataType::String if len != self.size() => return mismatch(SIZE, self.size(), len),
+            _ => {}
+        }
+        value.encode_value(buf)
+    }
+
+    /// Writes texts, each with its NUL and, in an array, NULs to the size of its element (assumed).
+    ///
+    /// ```
+    /// use ads_cnc::value::{DataType, Shape};
+    /// use ads_cnc::{CncStr, Numbers};
+    ///
+    /// let shape = Shape::new(DataType::String, Numbers::from(&[2]), 8)?;
+    /// let texts = [CncStr::new("abc")?, CncStr::new("d")?];
+    /// assert_eq!(shape.encode_texts(&texts, &mut [0; 8])?, b"abc\0d\0\0\0");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`encode`](Self::encode); the offset of a text too long is where it would begin.
+    pub fn encode_texts<'b>(
+        &self,
+        texts: &[CncStr<'_>],
+        buf: &'b mut [u8],
+    ) -> Result<&'b [u8], Error> {
+        if let [text] = texts {
+            return self.encode(text, buf);
+        }
+        if self.data_type != DataType::String {
+            let (expected, found) = (self.data_type.number(), DataType::String.number());
+            return Err(Error::new(ErrorKind::Mismatch, TYPE, 0, expected, found));
+        }
+        self.check_count(texts.len())?;
+        let mut at = 0_u32;
+        for text in texts {
+            self.check_text(to_u32(text.len()).saturating_add(1), at)?;
+            at = at.saturating_add(self.each);
+        }
+        Writer::fill(Stream::TypedValue, to_len(self.size()), buf, |out| {
+            for text in texts {
+                TextRef::from(*text).write(out);
+                let room = to_len(self.each).saturating_sub(text.len()).saturating_sub(1);
+                (0..room).for_each(|_| out.put(&[0]));
+            }
+        })
+    }
+
+    fn check_count(&self, given: usize) -> Result<(), Error> {
+        match to_u32(given) {
+            given if given == self.count => Ok(()),
+            given => Err(Error::new(ErrorKind::Mismatch, COUNT, 0, self.count, given)),
+        }
+    }
+
+    fn check_text(&self, len: u32, at: u32) -> Result<(), Error> {
+        match len > self.each {
+            true => Err(Error::new(ErrorKind::TooLong, VALUE, at, self.each, len)),
+            false => Ok(()),
+        }
+    }
+}
+
+/// The type of a variable, if the manuals have it.
+pub(super) fn known(var_type: VariableType) -> Result<DataType, Error> {
+    var_type.data_type().ok_or_else(|| {
+        let bound = VariableType::STRING.0.min(var_type.0.max(VariableType::BOOLEAN.0));
+        Error::new(ErrorKind::OutOfRange, TYPE, 0, bound, var_type.0)
+    })
+}
+
+/// The product of the dimensions, if 32 bits hold it.
+pub(super) fn count(dimensions: Numbers<'_>) -> Option<u32> {
+    // A 0 makes it 0, however large the others are.
+    if dimensions.iter().any(|dimension| dimension == 0) {
+        return Some(0);
+    }
+    dimensions.iter().try_fold(1, u32::checked_mul)
+}
+
+/// See [`Shape::place`].
+pub(super) fn place(indices: Numbers<'_>, dimensions: Numbers<'_>) -> Result<u32, Error> {
+    let (given, expected) = (to_u32(indices.len()), to_u32(dimensions.len()));
+    if given != expected {
+        return Err(Error::new(ErrorKind::Mismatch, INDEX_COUNT, 0, expected, given));
+    }
+    let mut place = 0_u32;
+    for (at, (index, dimension)) in (0_u32..).zip(indices.iter().zip(dimensions.iter())) {
+        let Some(last) = dimension.checked_sub(1) else {
+            return Err(Error::new(ErrorKind::Missing, DIMENSION, at, 0, 0));
+        };
+        if index > last {
+            return Err(Error::new(ErrorKind::OutOfRange, INDEX, at, last, index));
+        }
+        place = place.saturating_mul(dimension).saturating_add(index);
+    }
+    Ok(place)
+}

@@ -1,0 +1,258 @@
+//! Values by their types: what the manuals print, each type, each way of finding an element.
+
+mod common;
+
+use address::{Channel, ChannelAxis};
+use ads_cnc::operation::{AxisReadByName, Operation, ReadByHandle, ReadByName};
+use ads_cnc::value::*;
+use ads_cnc::*;
+use common::Fault;
+
+const ARRAY: &[u8] = b"\x7b\0\0\0\xea\0\0\0\x59\x01\0\0\xc8\x01\0\0\x37\x02\0\0";
+
+fn elements<'a>(data_type: DataType, dimensions: &'a [u32], bytes: &'a [u8]) -> Elements<'a> {
+    Elements::new(data_type, dimensions.into(), bytes).unwrap()
+}
+
+fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Result<Shape<'_>, Error> {
+    Shape::new(data_type, dimensions.into(), size)
+}
+
+/// Kind, field, expected and found of an error, and its offset.
+fn fault<T>(result: Result<T, Error>) -> (ErrorKind, &'static str, usize, usize, usize) {
+    let Fault { kind, field, offset, expected, found } = Fault::of(result.err().expect("an error"));
+    (kind, field, offset, expected, found)
+}
+
+/// What sections 4.3.4, 4.3.5 and 4.3.10 print; SGN32 and REAL64 are assumed.
+#[test]
+fn printed_replies() {
+    let channel = Channel::new(1).unwrap();
+    let by_handle = ReadByHandle::new(channel, Handle(0x20012341), Numbers::from(&[4]));
+    let one = by_handle.decode_reply(b"\x4d\x01\0\0").unwrap();
+    let one = one.elements(VariableType::SGN32, Numbers::EMPTY).unwrap();
+    assert_eq!(one.element(Numbers::EMPTY), Ok(Element::Sgn32(333)));
+    assert_eq!(one.items::<i32>().unwrap().get(0), Some(333));
+
+    let by_name = ReadByName::new(channel, "V.E.Testvar").unwrap();
+    let all = by_name.decode_reply(ARRAY).unwrap();
+    let all = all.elements(VariableType::SGN32, Numbers::from(&[5])).unwrap();
+    assert!(all.items::<i32>().unwrap().iter().eq([123, 234, 345, 456, 567]));
+    assert_eq!(all.element(Numbers::from(&[3])), Ok(Element::Sgn32(456)));
+
+    let axis = ChannelAxis::new(2).unwrap();
+    let position = AxisReadByName::new(channel, axis, "V.A.WCS").unwrap();
+    let value = position.decode_reply(b"\xcd\xcc\xcc\xcc\xcc\x48\x93\x40").unwrap();
+    let value = value.elements(VariableType::REAL64, Numbers::EMPTY).unwrap();
+    assert!(value.iter().eq([Element::Real64(1234.2)]));
+}
+
+/// One element of each type, from Python's `struct`.
+#[test]
+fn each_type() {
+    let rows: [(DataType, &[u8], Element<'_>); 11] = [
+        (DataType::Boolean, b"\x80", Element::Boolean(Boolean(0x80))),
+        (DataType::Sgn08, b"\x80", Element::Sgn08(-128)),
+        (DataType::Uns08, b"\x80", Element::Uns08(128)),
+        (DataType::Sgn16, b"\xfe\xff", Element::Sgn16(-2)),
+        (DataType::Uns16, b"\xdc\xfe", Element::Uns16(0xfedc)),
+        (DataType::Sgn32, b"\0\0\0\x80", Element::Sgn32(i32::MIN)),
+        (DataType::Uns32, b"\x98\xba\xdc\xfe", Element::Uns32(0xfedc_ba98)),
+        (DataType::Lint, b"\xfe\xff\xff\xff\xff\xff\xff\xff", Element::Lint(-2)),
+        (
+            DataType::Lword,
+            b"\x10\x32\x54\x76\x98\xba\xdc\xfe",
+            Element::Lword(0xfedc_ba98_7654_3210),
+        ),
+        (DataType::Real32, b"\0\0\xc0\xbf", Element::Real32(-1.5)),
+        (DataType::Real64, b"\x9a\x99\x99\x99\x99\x49\x93\x40", Element::Real64(1234.4)),
+    ];
+    for (data_type, bytes, element) in rows {
+        let read = elements(data_type, &[], bytes);
+        assert!(read.iter().eq([element]), "{data_type:?}");
+        assert_eq!(element.encode_value(&mut [0; 8]), Ok(bytes), "{data_type:?}");
+        assert_eq!(data_type.size(), Some(bytes.len() as u32));
+        let twice = [bytes, bytes].concat();
+        let dimensions = [2];
+        let read = elements(data_type, &dimensions, &twice);
+        assert!(read.iter().eq([element; 2]) && read.iter().rev().eq([element; 2]));
+    }
+    let text = elements(DataType::String, &[], b"L\xE4nge\0rest");
+    let Some(Element::String(text)) = text.get(0) else { panic!("{text:?}") };
+    assert_eq!((text.text(), text.tail()), (CncStr::new("Länge").unwrap(), Some(&b"rest"[..])));
+}
+
+/// GEN-5: the names of objects and of elements are those of one list; any other is none.
+#[test]
+fn names_of_types() {
+    let rows = [
+        ("BOOLEAN BOOL", DataType::Boolean, Some(VariableType::BOOLEAN)),
+        ("SGN08 SINT", DataType::Sgn08, Some(VariableType::SGN08)),
+        ("UNS08 BYTE", DataType::Uns08, Some(VariableType::UNS08)),
+        ("SGN16 INT", DataType::Sgn16, Some(VariableType::SGN16)),
+        ("UNS16 WORD", DataType::Uns16, Some(VariableType::UNS16)),
+        ("SGN32 DINT", DataType::Sgn32, Some(VariableType::SGN32)),
+        ("UNS32 DWORD", DataType::Uns32, Some(VariableType::UNS32)),
+        ("LINT LINT", DataType::Lint, None),
+        ("LWORD LWORD", DataType::Lword, None),
+        ("REAL32 REAL", DataType::Real32, None),
+        ("REAL64 LREAL", DataType::Real64, Some(VariableType::REAL64)),
+        ("STRING STRING", DataType::String, Some(VariableType::STRING)),
+    ];
+    assert_eq!(rows.map(|(_, data_type, _)| data_type), DataType::ALL);
+    for (names, data_type, var_type) in rows {
+        for name in names.split(' ') {
+            let name = CncStr::new(name).unwrap();
+            assert_eq!(DataType::by_name(name), Some(data_type), "{name}");
+        }
+        assert_eq!(names, format!("{} {}", data_type.name(), data_type.object_name()));
+        assert_eq!(data_type.var_type(), var_type);
+        if let Some(var_type) = var_type {
+            assert_eq!(var_type.data_type(), Some(data_type));
+        }
+    }
+    for name in ["", "bool", "BOOL ", "UDINT", "SGN64", "REAL8", "STRING(20)"] {
+        assert_eq!(DataType::by_name(CncStr::new(name).unwrap()), None, "{name}");
+    }
+    for code in [0, 10, u32::MAX] {
+        assert_eq!(VariableType(code).data_type(), None);
+    }
+}
+
+/// A client that knows a variable only by its description reads all of it, and one element.
+#[test]
+fn values_by_description() {
+    let bytes = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
+    let variable = DescriptionRef::decode(bytes).unwrap();
+    let value = ValueRef { bytes: &[7, 0] };
+    let read = variable.elements(&value).unwrap();
+    assert!(read.iter().eq([Element::Boolean(Boolean(7)), Element::Boolean(Boolean::FALSE)]));
+    let one = ValueRef { bytes: &[7] };
+    assert_eq!(variable.element(&one), Ok(Element::Boolean(Boolean(7))));
+
+    // Neither stands in for the other.
+    assert_eq!(fault(variable.element(&value)), (ErrorKind::Trailing, "value", 1, 1, 2));
+    assert_eq!(fault(variable.elements(&one)), (ErrorKind::Truncated, "value", 0, 2, 1));
+
+    let wrong = DescriptionRef { size: 3, ..variable };
+    assert_eq!(fault(wrong.elements(&value)), (ErrorKind::Mismatch, "size", 0, 2, 3));
+    let unknown = DescriptionRef { var_type: VariableType(10), ..variable };
+    assert_eq!(fault(unknown.elements(&value)), (ErrorKind::OutOfRange, "type", 0, 9, 10));
+
+    #[cfg(feature = "alloc")]
+    {
+        let owned = Description::decode(bytes).unwrap();
+        assert_eq!(owned.shape(), variable.shape());
+        assert!(owned.elements(&value).unwrap().iter().eq(read.iter()));
+        assert_eq!(owned.element(&one), variable.element(&one));
+    }
+}
+
+/// Content of an object of the COM task and of an element of a class, typed by their names.
+#[test]
+fn content_by_name_of_its_type() {
+    let object = Descriptor::new("mc_active_single_block_r", "BOOL").unwrap().with_size(1);
+    let data_type = object.data_type().unwrap();
+    let shape = Shape::new(data_type, Numbers::EMPTY, object.size()).unwrap();
+    assert!(shape.elements(&[1]).unwrap().iter().eq([Element::Boolean(Boolean::TRUE)]));
+    assert_eq!(object.as_ref().data_type(), Some(DataType::Boolean));
+    assert_eq!(Descriptor::new("a", "HLI_COORD").unwrap().data_type(), None);
+
+    let element = DataType::by_name(CncStr::new("REAL64").unwrap()).unwrap();
+    let content = b"\x77\xbe\x9f\x1a\x2f\xdd\x5e\x40";
+    assert!(elements(element, &[], content).iter().eq([Element::Real64(123.456)]));
+}
+
+/// VAR-22, VAR-25: one STRING has any length; the texts of an array share its bytes (assumed).
+#[test]
+fn texts() {
+    let one = shape(DataType::String, &[], 21).unwrap();
+    for bytes in [&b""[..], b"\0", b"abc", b"abc\0", &[b'x'; 300]] {
+        let elements = one.elements(bytes).unwrap();
+        let text = elements.strings().unwrap().get(0).unwrap();
+        assert_eq!((elements.len(), text.field_len()), (1, bytes.len()));
+        assert!(elements.get(1).is_none() && elements.iter().count() == 1);
+    }
+
+    let dimensions = [2, 2];
+    let four = shape(DataType::String, &dimensions, 12).unwrap();
+    assert_eq!((four.count(), four.element_size(), four.size()), (4, 3, 12));
+    let elements = four.elements(b"ab\0c\0ddef\0\0\0").unwrap();
+    let texts = elements.strings().unwrap();
+    let shown: Vec<_> = texts.iter().map(|text| (text.text().to_string(), text.tail())).collect();
+    let text = |text: &str, tail| (text.to_owned(), tail);
+    assert_eq!(shown[..2], [text("ab", Some(&b""[..])), text("c", Some(b"d"))]);
+    assert_eq!(shown[2..], [text("def", None), text("", Some(b"\0\0"))]);
+    let last = elements.element(Numbers::from(&[1, 0])).unwrap();
+    assert_eq!(Some(last), texts.get(2).map(Element::String));
+
+    assert_eq!(fault(four.elements(b"ab\0c\0d")), (ErrorKind::Truncated, "value", 0, 12, 6));
+    let shares = |size| fault(shape(DataType::String, &dimensions, size));
+    assert_eq!(shares(13), (ErrorKind::Mismatch, "size", 0, 12, 13));
+    assert_eq!(shares(3), (ErrorKind::Mismatch, "size", 0, 4, 3));
+    assert_eq!(shares(0), (ErrorKind::Mismatch, "size", 0, 4, 0));
+    assert_eq!(fault(StringsRef::new(b"", u32::MAX)).0, ErrorKind::Mismatch);
+}
+
+/// Each wrong index is named by its place, its bound and itself.
+#[test]
+fn indices() {
+    let bytes = [0; 24];
+    let dimensions = [2, 3];
+    let elements = elements(DataType::Sgn32, &dimensions, &bytes);
+    let at = |indices: &[u32]| elements.element(indices.into());
+    assert_eq!(fault(at(&[2, 0])), (ErrorKind::OutOfRange, "index", 0, 1, 2));
+    assert_eq!(fault(at(&[1, 3])), (ErrorKind::OutOfRange, "index", 1, 2, 3));
+    assert_eq!(fault(at(&[0, u32::MAX])), (ErrorKind::OutOfRange, "index", 1, 2, 0xffff_ffff));
+    assert_eq!(fault(at(&[])), (ErrorKind::Mismatch, "index_count", 0, 2, 0));
+    assert_eq!(fault(at(&[1])), (ErrorKind::Mismatch, "index_count", 0, 2, 1));
+    assert_eq!(fault(at(&[1, 2, 0])), (ErrorKind::Mismatch, "index_count", 0, 2, 3));
+
+    let items = elements.items::<i32>().unwrap();
+    let other = items.element(Numbers::from(&[1]), Numbers::from(&[5]));
+    assert_eq!(fault(other), (ErrorKind::Mismatch, "count", 0, 5, 6));
+    assert_eq!(fault(Items::<u16>::new(&[1, 2, 3])), (ErrorKind::Truncated, "value", 2, 2, 1));
+    assert!(elements.items::<u32>().is_none());
+
+    // As they stand in a name.
+    let path = VariablePath::new("V.E.field[1][2]").unwrap();
+    assert_eq!(elements.shape().place(path.elements()), Ok(5));
+}
+
+/// A dimension of 0 has no element, whatever the others are.
+#[test]
+fn no_elements() {
+    let huge = [u32::MAX, 0, u32::MAX];
+    for data_type in DataType::ALL {
+        let none = elements(data_type, &huge, &[]);
+        assert_eq!((none.len(), none.iter().len(), none.get(0)), (0, 0, None));
+        assert!(none.is_empty() && none.shape().size() == 0);
+        let indices = [u32::MAX - 1, 0, 0];
+        assert_eq!(
+            fault(none.element(Numbers::from(&indices))),
+            (ErrorKind::Missing, "dimension", 1, 0, 0)
+        );
+        assert!(Elements::new(data_type, Numbers::from(&[0]), &[1]).is_err());
+        assert_eq!(fault(shape(data_type, &[0, 7], 1)), (ErrorKind::Mismatch, "size", 0, 0, 1));
+    }
+    assert!(StringsRef::new(&[], 0).unwrap().is_empty());
+    assert!(Items::<f64>::new(&[]).unwrap().is_empty());
+}
+
+/// A product beyond 32 bits is not the size it wraps to, nor the largest there is.
+#[test]
+fn sizes_do_not_wrap() {
+    let wraps = [0x1_0000, 0x1_0000];
+    for data_type in DataType::ALL {
+        for size in [0, 1, u32::MAX] {
+            let error = fault(shape(data_type, &wraps, size));
+            assert_eq!(error, (ErrorKind::Mismatch, "size", 0, u32::MAX as usize, size as usize));
+        }
+        assert!(Elements::new(data_type, Numbers::from(&wraps), &[]).is_err());
+    }
+    let most = shape(DataType::Uns08, &[u32::MAX], u32::MAX).unwrap();
+    assert_eq!(
+        (most.size(), most.place(Numbers::from(&[u32::MAX - 1]))),
+        (u32::MAX, Ok(u32::MAX - 1))
+    );
+}
