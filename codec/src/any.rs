@@ -9,6 +9,7 @@ use crate::ads::{
     AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, ReadReply, ReadRequest, ReadWriteReply,
     ReadWriteRequest, WriteRequest,
 };
+use crate::bytes::{to_len, to_u32};
 use crate::dynamic::{DynamicIndex, DynamicName, DynamicNameRequest};
 use crate::limits::{
     ADS_DATA_MAX, DESCRIPTOR_LEN, DYNAMIC_NAME_MAX, INDICES_MAX, NAMELESS_DIMENSIONS_MAX,
@@ -17,9 +18,10 @@ use crate::limits::{
 use crate::sda::ElementText;
 use crate::streaming::ProgramStream;
 use crate::text::{CncStr, CncString, Text};
+use crate::value::{DataType, Elements, Values};
 use crate::{
     Content, Description, DescriptionByName, Descriptor, Descriptors, HandleRead, HandleWrite,
-    NameWrite, Value, VariableIndexKind, VariableKind, VariableName,
+    NameWrite, Numbers, Value, VariableIndexKind, VariableKind, VariableName,
 };
 
 /// At most `max` of anything.
@@ -186,6 +188,19 @@ arbitrary! {
         dimensions: up_to(u, NAMELESS_DIMENSIONS_MAX)?,
     };
     Value, u => Self { bytes: up_to(u, VARIABLE_MAX)? };
+    // One dimension of whatever divides the bytes: nothing else is left of dimensions.
+    Values, u => {
+        let (data_type, bytes): (DataType, Vec<u8>) = (u.arbitrary()?, up_to(u, VARIABLE_MAX)?);
+        let count = match data_type.size() {
+            Some(size) => bytes.len().checked_div(to_len(size)).unwrap_or(0),
+            None => u.int_in_range(0..=bytes.len())?,
+        };
+        let size = bytes.len().checked_div(count).unwrap_or(0).saturating_mul(count);
+        let dimension = [to_u32(count)];
+        let bytes = bytes.get(..size).unwrap_or_default();
+        let elements = Elements::new(data_type, Numbers::from(&dimension), bytes);
+        elements.map_or_else(|_| Self::Uns08(bytes.to_vec()), Self::from)
+    };
     Description, u => {
         let name = u.arbitrary()?;
         Self {

@@ -9,6 +9,7 @@ mod samples;
 mod samples_ads;
 mod samples_elements;
 mod subjects;
+mod typed;
 
 pub(crate) use calls::{CALLS, CallSample};
 #[cfg(feature = "alloc")]
@@ -16,3 +17,4 @@ pub(crate) use laws::check_value;
 pub(crate) use laws::{Fault, check, check_call};
 pub(crate) use samples::{SAMPLES, Sample, each_sample};
 pub(crate) use subjects::{Reading, SUBJECTS, Subject};
+pub(crate) use typed::check_typed;

@@ -1,0 +1,106 @@
+//! What holds for any bytes as a value of any type.
+
+use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Item, StringsRef};
+use ads_cnc::{ErrorKind, Numbers};
+
+/// All ways of reading the bytes by a type agree, and each writes the same bytes again.
+pub(crate) fn check_typed(bytes: &[u8]) {
+    for data_type in DataType::ALL {
+        let each = data_type.size().map_or(3, |size| size as usize);
+        let count = bytes.len() / each;
+        let dimension = [count as u32];
+        let elements = Elements::new(data_type, Numbers::from(&dimension), bytes);
+        let each = if data_type == DataType::String { count } else { each };
+        // No element has no byte.
+        let fits = bytes.len().checked_rem(each).map_or(bytes.is_empty(), |left| left == 0);
+        assert_eq!(elements.is_ok(), fits, "{data_type:?}: {bytes:x?}");
+        let Ok(elements) = elements else { continue };
+        check_elements(elements, bytes);
+        // Of more, the order is no other, and takes its time.
+        if bytes.len() <= 256 {
+            check_order(data_type, bytes, count as u32);
+        }
+    }
+}
+
+fn check_elements(elements: Elements<'_>, bytes: &[u8]) {
+    let iter = elements.iter();
+    assert_eq!((iter.len(), iter.clone().count()), (elements.len(), elements.len()));
+    let mut again: Vec<u8> = Vec::new();
+    for (place, element) in iter.enumerate() {
+        assert!(same(&element, &elements.get(place).unwrap()));
+        assert_eq!(element.data_type(), elements.data_type());
+        let at = again.len();
+        again.resize(at + element.value_len(), 0);
+        element.encode_value(&mut again[at..]).unwrap();
+    }
+    assert_eq!(again, bytes);
+    assert_eq!(elements.get(elements.len()).map(|element| element.data_type()), None);
+
+    match elements.data_type() {
+        DataType::Boolean => check_items::<ads_cnc::value::Boolean>(elements),
+        DataType::Sgn08 => check_items::<i8>(elements),
+        DataType::Uns08 => check_items::<u8>(elements),
+        DataType::Sgn16 => check_items::<i16>(elements),
+        DataType::Uns16 => check_items::<u16>(elements),
+        DataType::Sgn32 => check_items::<i32>(elements),
+        DataType::Uns32 => check_items::<u32>(elements),
+        DataType::Lint => check_items::<i64>(elements),
+        DataType::Lword => check_items::<u64>(elements),
+        DataType::Real32 => check_items::<f32>(elements),
+        DataType::Real64 => check_items::<f64>(elements),
+        _ => check_strings(elements),
+    }
+    #[cfg(feature = "alloc")]
+    {
+        let values = ads_cnc::value::Values::from(elements);
+        assert_eq!((values.len(), values.data_type()), (elements.len(), elements.data_type()));
+        assert_eq!(values.value_to_vec().as_deref(), Ok(bytes));
+    }
+}
+
+fn check_items<T: Item>(elements: Elements<'_>) {
+    let items = elements.items::<T>().expect("its own type");
+    assert_eq!((items.len(), items.as_bytes()), (elements.len(), elements.as_bytes()));
+    let mut copy = vec![T::default(); items.len()];
+    items.copy_to(&mut copy).unwrap();
+    let mut buf = vec![0; items.as_bytes().len()];
+    assert_eq!(copy.encode_value(&mut buf), Ok(items.as_bytes()));
+    assert!(elements.strings().is_none());
+    let mut more = vec![T::default(); items.len() + 1];
+    assert_eq!(items.copy_to(&mut more).unwrap_err().kind(), ErrorKind::Mismatch);
+}
+
+fn check_strings(elements: Elements<'_>) {
+    let strings = elements.strings().expect("texts");
+    let count = elements.len() as u32;
+    assert_eq!(StringsRef::new(elements.as_bytes(), count), Ok(strings));
+    assert!(strings.iter().map(Element::String).eq(elements.iter()));
+    assert!(strings.iter().all(|text| text.field_len() == strings.element_size()));
+    assert!(elements.items::<u8>().is_none());
+}
+
+/// The same elements in a rectangle: by their indices, they are where a nested loop finds them.
+fn check_order(data_type: DataType, bytes: &[u8], count: u32) {
+    for rows in [2, 3].into_iter().filter(|rows| count % rows == 0) {
+        let dimensions = [rows, count / rows];
+        let elements = Elements::new(data_type, Numbers::from(&dimensions), bytes).unwrap();
+        let mut all = elements.iter();
+        for row in 0..rows {
+            for column in 0..count / rows {
+                let element = elements.element(Numbers::from(&[row, column])).unwrap();
+                assert!(same(&element, &all.next().unwrap()));
+            }
+        }
+        assert!(all.next().is_none());
+    }
+}
+
+/// Equal by their bytes: a NaN is no number that equals itself.
+fn same(one: &Element<'_>, two: &Element<'_>) -> bool {
+    let (mut first, mut second) = ([0; 8], [0; 8]);
+    match (one, two) {
+        (Element::String(one), Element::String(two)) => one == two,
+        _ => one.encode_value(&mut first) == two.encode_value(&mut second),
+    }
+}

@@ -1,0 +1,298 @@
+//! Values to bytes and back: what is written, what a shape refuses, and random ones of every type.
+
+mod common;
+
+use address::{Channel, ChannelAxis};
+use ads_cnc::operation::{AxisWriteByName, Operation, WriteByHandle, WriteByName};
+use ads_cnc::value::*;
+use ads_cnc::*;
+use common::{Fault, check_typed};
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+const ARRAY: &[u8] = b"\x7b\0\0\0\xea\0\0\0\x59\x01\0\0\xc8\x01\0\0\x37\x02\0\0";
+
+fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Shape<'_> {
+    Shape::new(data_type, dimensions.into(), size).unwrap()
+}
+
+fn fault<T>(result: Result<T, Error>) -> (ErrorKind, &'static str, usize, usize, usize) {
+    let Fault { kind, field, offset, expected, found } = Fault::of(result.err().expect("an error"));
+    (kind, field, offset, expected, found)
+}
+
+/// What sections 4.3.6, 4.3.7 and 4.3.11 print; SGN32 and REAL64 are assumed.
+#[test]
+fn printed_writes() {
+    let channel = Channel::new(1).unwrap();
+    let (mut value, mut buf) = ([0; 20], [0; 64]);
+    let one = 123_i32.encode_value(&mut value).unwrap();
+    let op = WriteByHandle::new(channel, Handle(0x2001234), Numbers::from(&[4]), one);
+    assert_eq!(op.encode(&mut buf).unwrap(), b"\x34\x12\0\x02\x01\0\0\0\x04\0\0\0\x7b\0\0\0");
+    let op = WriteByName::new(channel, "V.E.test[4]", one).unwrap();
+    assert_eq!(op.encode(&mut buf).unwrap(), b"V.E.test[4]\0\x7b\0\0\0");
+
+    let all = [123, 234, 345, 456, 567].encode_value(&mut value).unwrap();
+    assert_eq!(all, ARRAY);
+    let op = WriteByHandle::new(channel, Handle(0x2001234), Numbers::EMPTY, all);
+    assert_eq!(op.encode(&mut buf).unwrap(), [b"\x34\x12\0\x02\0\0\0\0", ARRAY].concat());
+    let op = WriteByName::new(channel, "V.E.test", all).unwrap();
+    assert_eq!(op.encode(&mut buf).unwrap(), [b"V.E.test\0", ARRAY].concat());
+
+    let position = 123.456.encode_value(&mut value).unwrap();
+    let axis = ChannelAxis::new(2).unwrap();
+    let op = AxisWriteByName::new(channel, axis, "V.A.WCS", position).unwrap();
+    assert_eq!(op.encode(&mut buf).unwrap(), b"V.A.WCS\0\x77\xbe\x9f\x1a\x2f\xdd\x5e\x40");
+}
+
+/// VAR-12, VAR-13: requests take values up to their limits, and refuse the next one.
+#[test]
+fn limits_of_requests() {
+    let channel = Channel::new(1).unwrap();
+    let (mut value, mut buf) = ([0; 4000], [0; 4000]);
+    let mut by_handle = |numbers: &[u8], indices: Numbers<'_>| {
+        let value = numbers.encode_value(&mut value).unwrap();
+        WriteByHandle::new(channel, Handle(1), indices, value).encode(&mut buf).map(<[u8]>::len)
+    };
+    assert_eq!(by_handle(&[1; 2040], Numbers::EMPTY), Ok(2048));
+    assert_eq!(by_handle(&[1; 2041], Numbers::EMPTY).unwrap_err().kind(), ErrorKind::TooLong);
+    assert_eq!(by_handle(&[1; 2036], Numbers::from(&[4])), Ok(2048));
+    assert_eq!(by_handle(&[1; 2037], Numbers::from(&[4])).unwrap_err().kind(), ErrorKind::TooLong);
+    let mut by_name = |numbers: &[u8], name| {
+        let value = numbers.encode_value(&mut value).unwrap();
+        let op = WriteByName::new(channel, name, value).unwrap();
+        op.encode(&mut buf).map(<[u8]>::len)
+    };
+    assert_eq!(by_name(&[1; 2047], ""), Ok(2048));
+    assert_eq!(by_name(&[1; 2048], "").unwrap_err().kind(), ErrorKind::TooLong);
+    assert_eq!(by_name(&[1; 2040], "V.E.abc"), Ok(2048));
+    assert_eq!(by_name(&[1; 2041], "V.E.abc").unwrap_err().kind(), ErrorKind::TooLong);
+
+    // A content takes more, but no more than ADS data.
+    let content = vec![0_u64; limits::ADS_DATA_MAX / 8 + 1];
+    let error = content.encode_value(&mut []).unwrap_err();
+    assert_eq!((error.kind(), error.expected()), (ErrorKind::TooLong, 0x40_0000));
+    let error = content[1..].encode_value(&mut []).unwrap_err();
+    assert_eq!((error.kind(), error.expected()), (ErrorKind::BufferTooSmall, 0x40_0000));
+    #[cfg(feature = "alloc")]
+    assert!(content.value_to_vec().is_err() && content[1..].value_to_vec().is_ok());
+}
+
+/// A shape takes its own type and number of elements, and nothing is written of another.
+#[test]
+fn writes_fit_the_description() {
+    let dimensions = [2, 2];
+    let array = shape(DataType::Sgn16, &dimensions, 8);
+    let mut buf = [0x55; 16];
+    assert_eq!(fault(array.encode(&[1_u16; 4], &mut buf)), (ErrorKind::Mismatch, "type", 0, 4, 5));
+    assert_eq!(fault(array.encode(&[1_f32; 4], &mut buf)), (ErrorKind::Mismatch, "type", 0, 4, 0));
+    assert_eq!(fault(array.encode(&[1_i16; 5], &mut buf)), (ErrorKind::Mismatch, "count", 0, 4, 5));
+    assert_eq!(fault(array.encode(&1_i16, &mut buf)), (ErrorKind::Mismatch, "count", 0, 4, 1));
+    let small = array.encode(&[1_i16; 4], &mut buf[..7]);
+    assert_eq!(fault(small), (ErrorKind::BufferTooSmall, "stream", 0, 8, 7));
+    let text = CncStr::new("1").unwrap();
+    assert_eq!(fault(array.encode(&text, &mut buf)), (ErrorKind::Mismatch, "type", 0, 4, 9));
+    assert_eq!(fault(array.encode_texts(&[], &mut buf)), (ErrorKind::Mismatch, "type", 0, 4, 9));
+    assert_eq!(buf, [0x55; 16]);
+
+    assert_eq!(array.encode(&[-1_i16, 2, 3, 4], &mut buf).unwrap(), b"\xff\xff\x02\0\x03\0\x04\0");
+    assert_eq!(array.one().encode(&-2_i16, &mut buf).unwrap(), b"\xfe\xff");
+    // What was read of it goes back as it is.
+    let read = array.elements(b"\x01\0\x02\0\x03\0\x04\0").unwrap();
+    assert_eq!(array.encode(&read, &mut buf), Ok(read.as_bytes()));
+    assert_eq!(array.encode(&read.items::<i16>().unwrap(), &mut buf), Ok(read.as_bytes()));
+    assert_eq!(array.one().encode(&read.get(3).unwrap(), &mut buf).unwrap(), b"\x04\0");
+}
+
+/// A STRING is written with its NUL, and neither text nor NUL is ever cut off.
+#[test]
+fn texts_fit_their_size() {
+    let mut buf = [0x55; 16];
+    let text = |text: &'static str| CncStr::new(text).unwrap();
+    let one = shape(DataType::String, &[], 4);
+    assert_eq!(one.encode(&text("ä€"), &mut buf).unwrap(), b"\xe4\x80\0");
+    assert_eq!(one.encode(&text("abc"), &mut buf).unwrap(), b"abc\0");
+    assert_eq!(one.encode_texts(&[text("")], &mut buf).unwrap(), b"\0");
+    let too_long = one.encode(&text("abcd"), &mut buf);
+    assert_eq!(fault(too_long), (ErrorKind::TooLong, "value", 0, 4, 5));
+    // A text keeps the end it was read with.
+    let open = TextRef::with_tail(text("abcd"), None);
+    assert_eq!(one.encode(&open, &mut buf).unwrap(), b"abcd");
+
+    let dimensions = [3];
+    let three = shape(DataType::String, &dimensions, 9);
+    let texts = [text("ab"), text(""), text("c")];
+    assert_eq!(three.encode_texts(&texts, &mut buf).unwrap(), b"ab\0\0\0\0c\0\0");
+    assert!(three.elements(b"ab\0\0\0\0c\0\0").unwrap().strings().unwrap().iter().eq([
+        TextRef::with_tail(texts[0], Some(&[])),
+        TextRef::with_tail(texts[1], Some(&[0, 0])),
+        TextRef::with_tail(texts[2], Some(&[0])),
+    ]));
+    let buf = &mut [0x55; 16];
+    let too_long = three.encode_texts(&[text("ab"), text("abc"), text("")], buf);
+    assert_eq!(fault(too_long), (ErrorKind::TooLong, "value", 3, 3, 4));
+    let two = three.encode_texts(&texts[..2], buf);
+    assert_eq!(fault(two), (ErrorKind::Mismatch, "count", 0, 3, 2));
+    // Three texts of another size each.
+    let strings = StringsRef::new(b"abcabc", 3).unwrap();
+    assert_eq!(fault(three.encode(&strings, buf)), (ErrorKind::Mismatch, "size", 0, 9, 6));
+    assert_eq!(*buf, [0x55; 16]);
+
+    #[cfg(feature = "alloc")]
+    {
+        let owned = Values::String(Strings::from(text("abc")));
+        assert_eq!(one.encode(&owned, &mut [0; 4]).unwrap(), b"abc\0");
+        assert_eq!((owned.len(), owned.is_empty()), (1, false));
+    }
+}
+
+/// NaNs that signal stay those.
+#[test]
+fn nans_keep_their_bits() {
+    let (single, double) = (b"\x01\0\x80\xff", b"\x01\0\0\0\0\0\xf0\x7f");
+    for (data_type, bytes) in [(DataType::Real32, &single[..]), (DataType::Real64, double)] {
+        let read = Elements::new(data_type, Numbers::EMPTY, bytes).unwrap();
+        assert_ne!(read.get(0), read.get(0));
+        assert_eq!(read.get(0).unwrap().encode_value(&mut [0; 8]), Ok(bytes));
+    }
+}
+
+/// Bits of every number, NaN with its payload among them.
+fn check_numbers<T: Item>(numbers: &[T], bits: &[u8]) {
+    let mut buf = vec![0; bits.len()];
+    assert_eq!(numbers.encode_value(&mut buf), Ok(bits));
+    let items = Items::<T>::new(bits).unwrap();
+    for (place, number) in numbers.iter().enumerate() {
+        let (mut one, mut two) = ([0; 8], [0; 8]);
+        let read = items.get(place).unwrap();
+        assert_eq!(read.encode_value(&mut one), number.encode_value(&mut two));
+    }
+}
+
+/// Dimensions of few elements in all, and bytes for them.
+fn array() -> impl Strategy<Value = (Vec<u32>, Vec<u8>)> {
+    vec(0..5_u32, 0..5).prop_flat_map(|dimensions| {
+        let count = dimensions.iter().product::<u32>() as usize;
+        (Just(dimensions), vec(any::<u8>(), count * 2))
+    })
+}
+
+/// Every index of these dimensions, in nested loops: the last one runs fastest.
+fn all_indices(dimensions: &[u32]) -> Vec<Vec<u32>> {
+    let Some((&first, rest)) = dimensions.split_first() else { return vec![vec![]] };
+    let rest = all_indices(rest);
+    let with = |index| rest.iter().map(move |rest| [&[index], rest.as_slice()].concat());
+    (0..first).flat_map(with).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..Default::default() })]
+
+    /// Every value of every type comes back, bit for bit.
+    #[test]
+    fn values_come_back(
+        bytes in vec(any::<u8>(), 0..40), words in vec(any::<u16>(), 0..40),
+        numbers in vec(any::<u32>(), 0..40), long in vec(any::<u64>(), 0..40),
+    ) {
+        let le: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+        check_numbers(&words, &le);
+        check_numbers(&words.iter().map(|&word| word as i16).collect::<Vec<_>>(), &le);
+        let le: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        check_numbers(&numbers, &le);
+        check_numbers(&numbers.iter().map(|&number| number as i32).collect::<Vec<_>>(), &le);
+        check_numbers(&numbers.iter().map(|&bits| f32::from_bits(bits)).collect::<Vec<_>>(), &le);
+        let nans = numbers.iter().map(|bits| bits | 0x7fc0_0000);
+        let le: Vec<u8> = nans.clone().flat_map(u32::to_le_bytes).collect();
+        check_numbers(&nans.map(f32::from_bits).collect::<Vec<_>>(), &le);
+        let le: Vec<u8> = long.iter().flat_map(|number| number.to_le_bytes()).collect();
+        check_numbers(&long, &le);
+        check_numbers(&long.iter().map(|&number| number as i64).collect::<Vec<_>>(), &le);
+        check_numbers(&long.iter().map(|&bits| f64::from_bits(bits)).collect::<Vec<_>>(), &le);
+        let nans = long.iter().map(|bits| bits | 0x7ff8_0000_0000_0000);
+        let le: Vec<u8> = nans.clone().flat_map(u64::to_le_bytes).collect();
+        check_numbers(&nans.map(f64::from_bits).collect::<Vec<_>>(), &le);
+        check_numbers(&bytes, &bytes);
+        check_numbers(&bytes.iter().map(|&byte| byte as i8).collect::<Vec<_>>(), &bytes);
+        check_numbers(&bytes.iter().map(|&byte| Boolean(byte)).collect::<Vec<_>>(), &bytes);
+        check_typed(&bytes);
+    }
+
+    /// By its indices an element is where nested loops over the dimensions find it.
+    #[test]
+    fn elements_are_in_row_major_order((dimensions, bytes) in array()) {
+        let elements =
+            Elements::new(DataType::Uns16, dimensions.as_slice().into(), &bytes).unwrap();
+        let items = elements.items::<u16>().unwrap();
+        let all = all_indices(&dimensions);
+        prop_assert_eq!(all.len(), elements.len());
+        for (place, indices) in all.iter().enumerate() {
+            let expected = u16::from_le_bytes([bytes[place * 2], bytes[place * 2 + 1]]);
+            let indices = Numbers::from(indices.as_slice());
+            prop_assert_eq!(elements.element(indices), Ok(Element::Uns16(expected)));
+            prop_assert_eq!(items.element(indices, dimensions.as_slice().into()), Ok(expected));
+            prop_assert_eq!(elements.shape().place(indices), Ok(place as u32));
+        }
+    }
+
+    /// Every index beyond its dimension is refused by its place, in any dimensions.
+    #[test]
+    fn indices_beyond_are_refused(
+        dimensions in vec(1..=u32::MAX, 1..5), picks in vec(any::<u32>(), 5), at in 0..5_usize,
+        over in any::<u32>(),
+    ) {
+        let at = at % dimensions.len();
+        let mut indices: Vec<u32> = dimensions.iter().zip(&picks).map(|(n, pick)| pick % n).collect();
+        // Products beyond 32 bits are no shape, but their indices have bounds all the same.
+        let items = Items::<u8>::new(&[]).unwrap();
+        let find = |indices: &[u32]| items.element(indices.into(), dimensions.as_slice().into());
+        prop_assert_eq!(find(&indices).unwrap_err().field().name(), "count");
+        indices[at] = dimensions[at].saturating_add(over % 3);
+        let error = fault(find(&indices));
+        // The largest dimension has no number beyond it.
+        if indices[at] >= dimensions[at] {
+            let (last, index) = (dimensions[at] as usize - 1, indices[at] as usize);
+            prop_assert_eq!(error, (ErrorKind::OutOfRange, "index", at, last, index));
+        }
+    }
+
+    /// No type, dimension, size or value makes a shape panic, loop or disagree with itself.
+    #[test]
+    fn shapes_hold(
+        pick in 0..DataType::ALL.len(), bytes in vec(any::<u8>(), 0..64), size in any::<u32>(),
+        dimensions in vec(prop_oneof![Just(0), 1..5_u32, any::<u32>()], 0..5),
+    ) {
+        let (data_type, dimensions) = (DataType::ALL[pick], Numbers::from(dimensions.as_slice()));
+        for size in [size, bytes.len() as u32] {
+            let Ok(shape) = Shape::new(data_type, dimensions, size) else { continue };
+            prop_assert_eq!(shape.size(), size);
+            let product = dimensions.iter().map(u128::from).product::<u128>();
+            prop_assert_eq!(u128::from(shape.count()), product);
+            if let Ok(elements) = shape.elements(&bytes) {
+                prop_assert!(elements.iter().count() <= bytes.len().max(1));
+                let mut buf = [0; 64];
+                prop_assert_eq!(shape.encode(&elements, &mut buf).is_ok(), bytes.len() <= size as usize);
+            }
+        }
+    }
+}
+
+/// What the feature `arbitrary` makes comes back, and is of every type.
+#[cfg(feature = "arbitrary")]
+#[test]
+fn arbitrary_values_come_back() {
+    let mut seen = std::collections::BTreeSet::new();
+    for seed in 0..200_u32 {
+        let bytes: Vec<u8> =
+            (0..seed).flat_map(|n| (n ^ seed).wrapping_mul(2_654_435_761).to_be_bytes()).collect();
+        let mut source = arbitrary::Unstructured::new(&bytes);
+        let values: Values = arbitrary::Arbitrary::arbitrary(&mut source).unwrap();
+        let again = values.value_to_vec().unwrap();
+        let dimension = [values.len() as u32];
+        let elements =
+            Elements::new(values.data_type(), Numbers::from(&dimension), &again).unwrap();
+        assert_eq!(Values::from(elements).value_to_vec(), Ok(again.clone()));
+        assert!(again.len() <= limits::VARIABLE_MAX);
+        seen.insert((values.data_type(), values.is_empty()));
+    }
+    assert!(seen.len() > DataType::ALL.len(), "{seen:?}");
+}
