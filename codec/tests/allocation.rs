@@ -181,6 +181,40 @@ fn names_allocate_nothing() {
     assert_eq!(count, 0);
 }
 
+/// Values of all types are read, found and written without allocating; owned, they have their bytes.
+#[test]
+fn typed_values_hold_no_more_than_their_bytes() {
+    use ads_cnc::value::{DataType, Elements, EncodeValue, StringsRef};
+    use ads_cnc::{Element, Numbers};
+
+    let bytes = [7; 2048];
+    for data_type in DataType::ALL {
+        let count = data_type.size().map_or(2048, |each| 2048 / each);
+        let dimensions = [2, count / 2];
+        let read = || Elements::new(data_type, Numbers::from(&dimensions), &bytes).unwrap();
+        let (_, allocated) = measure(|| {
+            let mut buf = [0; 2048];
+            let elements = read();
+            assert_eq!(elements.iter().next_back(), elements.element(Numbers::from(&[1, 3])).ok());
+            assert!(elements.element(Numbers::from(&[2, 0])).is_err());
+            assert_eq!(elements.encode_value(&mut buf), Ok(&bytes[..]));
+            assert_eq!(elements.shape().encode(&elements, &mut buf), Ok(&bytes[..]));
+            if let Some(Element::Sgn32(first)) = elements.get(0) {
+                assert!(elements.items().unwrap().iter().all(|item: i32| item == first));
+                assert_eq!([first; 3].encode_value(&mut buf), Ok(&bytes[..12]));
+            }
+            let _ = std::hint::black_box(StringsRef::new(&bytes, count).map(|s| s.iter().count()));
+        });
+        assert_eq!(allocated, 0, "{data_type:?}");
+        #[cfg(feature = "alloc")]
+        {
+            let owned = || drop(std::hint::black_box(ads_cnc::value::Values::from(read())));
+            // One-byte texts too: not an allocation each.
+            assert_eq!(measure(owned), (2048, 1), "{data_type:?}");
+        }
+    }
+}
+
 /// Nor do the three that take part in the Service Interface.
 #[test]
 fn services_allocate_nothing() {

@@ -13,6 +13,7 @@ use ads_cnc::service::{
     CallStep, Host, HostStep, Interface as Services, ServiceId, SysServiceWait,
 };
 use ads_cnc::streaming::{Ack, Interface, NcText, ProgramStreamRef, Sender};
+use ads_cnc::value::{Boolean, EncodeValue as _, Item, Items, StringsRef};
 use ads_cnc::*;
 use core::hint::black_box;
 use core::time::Duration;
@@ -122,7 +123,46 @@ fn texts(bytes: &[u8]) -> Result<usize, Error> {
     let mut buf = [0; 300];
     let element = path.write_element(Numbers::from(&[1, 2]), &mut buf)?;
     let value = ValueRef { bytes }.elements(VariableType(9), element.elements())?;
-    Ok(element.parts().count().wrapping_add(value.count()))
+    Ok(element.parts().count().wrapping_add(value.len()))
+}
+
+/// Bytes as a value of whatever type, dimensions and size they themselves say.
+fn values(bytes: &[u8]) -> Result<usize, Error> {
+    let value = ValueRef { bytes };
+    if let Ok(nameless) = DescriptionByNameRef::decode(bytes) {
+        black_box(nameless.element(&value)?.data_type());
+    }
+    let description = DescriptionRef::decode(bytes)?;
+    let (elements, shape) = (description.elements(&value)?, description.shape()?);
+    let mut buf = [0; 2200];
+    let mut seen = shape.encode(&elements, &mut buf)?.len();
+    seen = seen.wrapping_add(shape.place(description.dimensions)? as usize);
+    seen = seen.wrapping_add(elements.iter().rev().skip(3).count());
+    seen = seen.wrapping_add(description.element(&value)?.encode_value(&mut buf)?.len());
+    seen = seen.wrapping_add(elements.element(description.dimensions)?.value_len());
+    let texts = [description.name.text(), description.name.text()];
+    seen = seen.wrapping_add(shape.encode_texts(&texts, &mut buf)?.len());
+    if let Some(strings) = elements.strings() {
+        seen = seen.wrapping_add(strings.iter().map(|text| text.field_len()).sum());
+        seen = seen.wrapping_add(StringsRef::new(bytes, shape.count())?.len());
+    }
+    seen = seen.wrapping_add(items::<Boolean>(elements)?).wrapping_add(items::<i8>(elements)?);
+    seen = seen.wrapping_add(items::<u8>(elements)?).wrapping_add(items::<i16>(elements)?);
+    seen = seen.wrapping_add(items::<u16>(elements)?).wrapping_add(items::<i32>(elements)?);
+    seen = seen.wrapping_add(items::<u32>(elements)?).wrapping_add(items::<i64>(elements)?);
+    seen = seen.wrapping_add(items::<u64>(elements)?).wrapping_add(items::<f32>(elements)?);
+    Ok(seen.wrapping_add(items::<f64>(elements)?))
+}
+
+fn items<T: Item>(elements: Elements<'_>) -> Result<usize, Error> {
+    let Some(items) = elements.items::<T>() else { return Ok(0) };
+    let (mut all, mut buf) = ([T::default(); 7], [0; 2200]);
+    items.copy_to(&mut all)?;
+    let dimensions = elements.shape().dimensions();
+    let one = items.element(dimensions, dimensions)?.encode_value(&mut buf)?.len();
+    let again = Items::<T>::new(elements.as_bytes())?.iter().rev().filter(|item| *item == all[0]);
+    let seen = again.count().wrapping_add(one).wrapping_add(items.get(one).is_some() as usize);
+    Ok(all.encode_value(&mut buf)?.len().wrapping_add(seen))
 }
 
 fn streams(bytes: &[u8]) -> usize {
@@ -188,6 +228,7 @@ pub(crate) fn runs(bytes: &[u8]) -> bool {
         frames(bytes).unwrap_or(2),
         elements(bytes).unwrap_or(5),
         texts(bytes).unwrap_or(3),
+        values(bytes).unwrap_or(7),
         services(bytes).unwrap_or(4),
         editions(bytes).unwrap_or(6),
         streams(bytes),
