@@ -1,0 +1,66 @@
+"""The lists as people read them."""
+
+import re
+import textwrap
+
+WIDTH = 100
+
+
+def signatures(elements, heads, given):
+    """Items by their place, what they have below them; after `in` what was there before."""
+    text = []
+    for path in sorted({path for path, _ in elements}, key=lambda path: (path.count("::"), path)):
+        new = (path, "") in elements or (path, "") not in given
+        text.append(heads[path] if new else f"in {heads[path]}")
+        lines = {line for owner, line in elements if owner == path and line}
+        traits = {line for line in lines if line.startswith("impl ")}
+        text += [f"    {line}" for line in sorted(lines - traits, key=order)]
+        text += packed("    impl ", ", ", sorted(line.removeprefix("impl ") for line in traits))
+    return "".join(f"{line}\n" for line in text)
+
+
+def order(line):
+    """Fields and variants, constants, functions."""
+    return ("fn " in line) + ("fn " in line or line.startswith("const ")), line
+
+
+def packed(start, between, words):
+    """As many words on a line as fit, each line with the same start."""
+    lines = []
+    for word in words:
+        if lines and len(lines[-1]) + len(between) + len(word) <= WIDTH:
+            lines[-1] += between + word
+        else:
+            lines.append(start + word)
+    return lines
+
+
+def names(elements):
+    """By module, the names alone; a borrowed and an owned reading of the same stand together."""
+    modules = {}
+    for path, line in elements:
+        *way, name = path.split("::")
+        items = modules.setdefault("::".join(("ads_cnc", *way)), {})
+        members = items.setdefault(name, set())
+        if line and not line.startswith(("impl ", "is ")):
+            members.add(re.match(r"(?:(?:pub|const|fn|type) )*(\w+)", line)[1])
+    return "\n".join(paragraph(way, items) for way, items in sorted(modules.items()))
+
+
+def paragraph(way, items):
+    """Items with the same members share a line."""
+    shared = {}
+    for name in sorted(items):
+        owned = name.removesuffix("Ref")
+        if f"{name}Ref" in items:
+            continue
+        members = items[name] | items.get(owned, set())
+        title = f"{name}, {owned}" if owned != name and owned in items else name
+        # A newtype's number and the way from one reading to the other say nothing more.
+        members = " ".join(sorted(members - {"0", "as_ref", "to_owned"}))
+        shared.setdefault(members, []).append(title)
+    plain = shared.pop("", [])
+    lines = [f"{', '.join(titles)}: {members}" for members, titles in shared.items()]
+    lines += ["; ".join(plain)] if plain else []
+    text = (textwrap.wrap(line, WIDTH - 2, subsequent_indent="    ") for line in lines)
+    return "".join(f"{line}\n" for line in [way, *(f"  {line}" for part in text for line in part)])
