@@ -4,7 +4,7 @@ from signature import Signature
 
 FORMATS = {57}  # tried; another may name things otherwise
 KINDS = ("struct", "enum", "union", "trait", "function", "constant", "static", "type_alias", "macro")
-MARKERS = ("StructuralPartialEq",)  # of the compiler, with a derive
+MARKERS = ("StructuralPartialEq", "TrivialClone")  # of the compiler, with a derive
 
 
 class Api(Signature):

@@ -263,12 +263,11 @@ fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
         }
         "object-descriptor" => {
             let object = Descriptor::decode(bytes)?;
-            let (name, type_name) = (object.name().to_string(), object.type_name().to_string());
             let access = match object.write_access().is_writable() {
                 true => WriteAccess::WRITABLE,
                 false => WriteAccess::READ_ONLY,
             };
-            Descriptor::new(&name, &type_name)?
+            Descriptor::from_text(object.name(), object.type_name())?
                 .with_id(object.id())
                 .with_size(object.size())
                 .with_write_access(access)

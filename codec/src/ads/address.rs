@@ -4,7 +4,7 @@ use core::fmt;
 use core::str::FromStr;
 
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::ams_header::TARGET_NET_ID as NET_ID;
+use crate::layout::field::ams_net_id::{NUMBER, NUMBERS};
 
 /// An AMS NetId, six bytes written with dots.
 ///
@@ -17,6 +17,10 @@ use crate::layout::field::ams_header::TARGET_NET_ID as NET_ID;
 /// for wrong in ["192.0.2.7.1", "192.0.2.7.1.1.1", "192.0.2.7.1.256", "+192.0.2.7.1.1", "1..3.4.5.6", "0001.2.3.4.5.6", ""] {
 ///     assert!(wrong.parse::<AmsNetId>().is_err());
 /// }
+/// assert_eq!(
+///     "192.0.2.7.1.256".parse::<AmsNetId>().unwrap_err().to_string(),
+///     "ams-net-id: number at offset 5: out of range, at most 255 expected, 256 found"
+/// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -43,22 +47,22 @@ impl FromStr for AmsNetId {
         let mut id = [0; 6];
         let mut parts = text.split('.');
         for (at, byte) in (0_u32..).zip(&mut id) {
-            let part = parts.next().ok_or(Error::new(ErrorKind::Mismatch, NET_ID, 0, 6, at))?;
+            let part = parts.next().ok_or(Error::new(ErrorKind::Mismatch, NUMBERS, 0, 6, at))?;
             // The number parser would take a sign and any number of zeros.
             if let Some(odd) = part.chars().find(|character| !character.is_ascii_digit()) {
-                return Err(Error::new(ErrorKind::NotDecimal, NET_ID, at, 0, odd.into()));
+                return Err(Error::new(ErrorKind::NotDecimal, NUMBER, at, 0, odd.into()));
             }
             if !(1..=3).contains(&part.len()) {
                 let len = crate::bytes::to_u32(part.len());
-                return Err(Error::new(ErrorKind::Digits, NET_ID, at, 3, len));
+                return Err(Error::new(ErrorKind::Digits, NUMBER, at, 3, len));
             }
             let number = part.parse::<u32>().unwrap_or(u32::MAX);
             let fits = u8::try_from(number);
-            *byte = fits.map_err(|_| Error::new(ErrorKind::OutOfRange, NET_ID, at, 255, number))?;
+            *byte = fits.map_err(|_| Error::new(ErrorKind::OutOfRange, NUMBER, at, 255, number))?;
         }
         match crate::bytes::to_u32(parts.count()) {
             0 => Ok(Self(id)),
-            more => Err(Error::new(ErrorKind::Mismatch, NET_ID, 0, 6, more.saturating_add(6))),
+            more => Err(Error::new(ErrorKind::Mismatch, NUMBERS, 0, 6, more.saturating_add(6))),
         }
     }
 }

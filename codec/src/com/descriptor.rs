@@ -158,6 +158,14 @@ impl Descriptor {
     /// # Errors
     /// Those of [`CncStr::new`], and [`ErrorKind::TooLong`] over 32 characters.
     pub fn new(name: &str, type_name: &str) -> Result<Self, Error> {
+        Self::from_text(CncStr::new(name)?, CncStr::new(type_name)?)
+    }
+
+    /// As [`new`](Self::new), of texts that are at hand: those of another descriptor.
+    ///
+    /// # Errors
+    /// [`ErrorKind::TooLong`] over 32 characters.
+    pub fn from_text(name: CncStr<'_>, type_name: CncStr<'_>) -> Result<Self, Error> {
         let mut layout = DescriptorLayout {
             id: U32::ZERO,
             size: U32::ZERO,
@@ -168,8 +176,8 @@ impl Descriptor {
             name: [0; DESCRIPTOR_TEXT_LEN],
             type_name: [0; DESCRIPTOR_TEXT_LEN],
         };
-        pad(CncStr::new(name)?, NAME, 20, &mut layout.name)?;
-        pad(CncStr::new(type_name)?, TYPE, 52, &mut layout.type_name)?;
+        pad(name, NAME, 20, &mut layout.name)?;
+        pad(type_name, TYPE, 52, &mut layout.type_name)?;
         Ok(Self(layout))
     }
 

@@ -275,6 +275,11 @@ layouts! {
         AXIS "axis" @ 0, Size::Fixed(4), Uns32, "ADR-9", "axis, 16 bits";
         ELEMENT "element" @ 0, Size::Fixed(4), Uns32, "ADR-9", "element, 16 or 12 bits";
     }
+    /// An AMS NetId as text; no stream of its own.
+    AmsNetId, ams_net_id: "ams-net-id", "AMS NetId as text", "ADS-5", max 0 {
+        NUMBERS "numbers" @ 0, Size::Rest { min: 11, max: 23 }, String, "ADS-5", "six numbers with dots between";
+        NUMBER "number" @ 0, Size::Rest { min: 1, max: 3 }, String, "ADS-5", "one of them, 0 to 255; the offset counts them";
+    }
     /// A variable's name by its parts; no stream of its own.
     VariablePath, variable_path: "variable-path", "Name of a variable", "VAR-20", max 0 {
         KIND "kind" @ 0, Size::Rest { min: 0, max: 255 }, String, "VAR-20", "V.E, V.G, V.A, …";

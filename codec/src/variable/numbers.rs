@@ -14,6 +14,7 @@ use crate::bytes::Writer;
 ///
 /// let wire = HandleReadRef::decode(&[1, 0, 0, 2, 1, 0, 0, 0, 4, 0, 0, 0])?;
 /// assert_eq!(wire.indices, Numbers::from(&[4]));
+/// assert_eq!(wire.indices.iter().len(), 1);
 /// assert_eq!(wire.indices.iter().sum::<u32>(), 4);
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -60,19 +61,13 @@ impl<'a> Numbers<'a> {
         match self.0 {
             Source::Wire(numbers) => numbers.get(place).map(|number| number.get()),
             Source::Memory(numbers) => numbers.get(place).copied(),
-            Source::Name(brackets) => in_brackets(brackets).nth(place),
+            Source::Name(_) => self.iter().nth(place),
         }
     }
 
     /// All in their order.
-    pub fn iter(&self) -> impl Iterator<Item = u32> + use<'a> {
-        let (wire, memory, name): (&[U32], &[u32], &[u8]) = match self.0 {
-            Source::Wire(numbers) => (numbers, &[], &[]),
-            Source::Memory(numbers) => (&[], numbers, &[]),
-            Source::Name(brackets) => (&[], &[], brackets),
-        };
-        let wire = wire.iter().map(|number| number.get());
-        wire.chain(memory.iter().copied()).chain(in_brackets(name))
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = u32> + Clone + use<'a> {
+        Rest(self.0)
     }
 
     pub(crate) fn encoded_len(&self) -> usize {
@@ -96,11 +91,41 @@ const fn count_opened(mut brackets: &[u8]) -> usize {
     count
 }
 
-/// The numbers of `[3][4]`.
-fn in_brackets(brackets: &[u8]) -> impl Iterator<Item = u32> + use<'_> {
-    let opened = brackets.split(|&byte| byte == b']').filter_map(<[u8]>::split_first);
-    opened.map(|(_, digits)| decimal(digits))
+/// Numbers that are still to come.
+#[derive(Clone)]
+struct Rest<'a>(Source<'a>);
+
+impl Iterator for Rest<'_> {
+    type Item = u32;
+
+    fn next(&mut self) -> Option<u32> {
+        match &mut self.0 {
+            Source::Wire(numbers) => {
+                let (first, rest) = numbers.split_first()?;
+                *numbers = rest;
+                Some(first.get())
+            }
+            Source::Memory(numbers) => {
+                let (first, rest) = numbers.split_first()?;
+                *numbers = rest;
+                Some(*first)
+            }
+            Source::Name(brackets) => {
+                let mut parts = brackets.splitn(2, |&byte| byte == b']');
+                let (_, digits) = parts.next()?.split_first()?;
+                *brackets = parts.next().unwrap_or_default();
+                Some(decimal(digits))
+            }
+        }
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let len = Numbers(self.0).len();
+        (len, Some(len))
+    }
 }
+
+impl ExactSizeIterator for Rest<'_> {}
 
 /// The number of these digits, or the largest there is.
 pub(super) fn decimal(digits: &[u8]) -> u32 {
@@ -132,5 +157,30 @@ impl Eq for Numbers<'_> {}
 impl fmt::Debug for Numbers<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.iter()).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every source says at each step how many are left.
+    #[test]
+    fn iterators_know_their_length() {
+        let wire = [U32::new(3), U32::new(0), U32::MAX_VALUE];
+        let sources = [
+            Numbers::from_wire(&wire),
+            Numbers::from(&[3, 0, u32::MAX]),
+            Numbers::from_name(b"[3][0][4294967295]"),
+        ];
+        for numbers in sources {
+            let mut left = numbers.iter();
+            for (place, number) in [3, 0, u32::MAX].into_iter().enumerate() {
+                assert_eq!((left.len(), numbers.get(place)), (3 - place, Some(number)));
+                assert_eq!(left.next(), Some(number));
+            }
+            assert_eq!((left.len(), left.next(), numbers.get(3)), (0, None, None));
+        }
+        assert_eq!(Numbers::from_name(b"").iter().len(), 0);
     }
 }
