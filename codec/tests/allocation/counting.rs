@@ -1,0 +1,60 @@
+//! An allocator that counts.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+/// Counts by thread, as tests run beside each other.
+struct Counting;
+
+thread_local! {
+    static LIVE: Cell<usize> = const { Cell::new(0) };
+    static PEAK: Cell<usize> = const { Cell::new(0) };
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+// SAFETY: passes every call on to the system's allocator; the counters neither allocate nor are
+// dropped.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        LIVE.set(LIVE.get().saturating_add(layout.size()));
+        PEAK.set(PEAK.get().max(LIVE.get()));
+        COUNT.set(COUNT.get() + 1);
+        // SAFETY: the caller keeps the contract, which is the same.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        // What another thread allocated is not taken off here.
+        LIVE.set(LIVE.get().saturating_sub(layout.size()));
+        // SAFETY: the caller keeps the contract, which is the same.
+        unsafe { System.dealloc(memory, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+/// The most bytes held at once while this runs, and how often it allocated.
+pub(crate) fn measure(run: impl FnOnce()) -> (usize, usize) {
+    let before = (LIVE.get(), COUNT.get());
+    PEAK.set(before.0);
+    run();
+    (PEAK.get() - before.0, COUNT.get() - before.1)
+}
+
+/// How often this allocated.
+pub(crate) fn allocations(run: impl FnOnce()) -> usize {
+    measure(run).1
+}
+
+/// The counters count: without this, no test here could fail.
+#[test]
+fn the_counters_count() {
+    let held = measure(|| drop(std::hint::black_box(vec![0_u8; 1000])));
+    assert_eq!(held, (1000, 1));
+    let (grown, _) = measure(|| {
+        let mut bytes = std::hint::black_box(vec![0_u8; 1000]);
+        bytes.reserve_exact(1000);
+    });
+    assert_eq!(grown, 3000);
+}

@@ -1,0 +1,256 @@
+//! What decoding and encoding allocate, counted by the allocator of this test binary.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod counting;
+mod inputs;
+#[cfg(feature = "alloc")]
+mod owned;
+
+use std::hint::black_box;
+
+use ads_cnc::ads::{AmsPort, FrameRef};
+use ads_cnc::layout::Stream;
+use ads_cnc::limits::STREAM_PACKET_MAX;
+use ads_cnc::operation::{Call, Service};
+use ads_cnc::streaming::{Ack, Interface, NcText, Sender};
+use ads_cnc::{Decode as _, Encode as _, Error, HandleReadRef};
+use common::{CALLS, Subject};
+use counting::{allocations, measure};
+use inputs::{each_input, each_vector};
+
+/// A decoder: the length of what it read when encoded.
+type Decoder = fn(&[u8]) -> Result<usize, Error>;
+
+/// Bytes that decoding holds beyond what the input warrants: twice its length and 4 KiB.
+fn excess(decode: Decoder, bytes: &[u8]) -> usize {
+    let (held, _) = measure(|| {
+        let _ = black_box(decode(bytes));
+    });
+    held.saturating_sub(2 * bytes.len() + 4096)
+}
+
+fn start(bytes: &[u8]) -> &[u8] {
+    &bytes[..bytes.len().min(64)]
+}
+
+/// A reading that believes the count, or that copies once too often, is found out by the same
+/// inputs: the test of owned readings can fail.
+#[test]
+fn greedy_readings_are_found_out() {
+    let believes: Decoder = |bytes| {
+        let count =
+            bytes.get(4..8).map_or(0, |count| u32::from_le_bytes(count.try_into().unwrap()));
+        let indices = black_box(Vec::<u32>::with_capacity(count.min(0x1_0000) as usize));
+        HandleReadRef::decode(bytes).map(|request| request.encoded_len() + indices.len())
+    };
+    let copies: Decoder = |bytes| {
+        let held = black_box([bytes.to_vec(), bytes.to_vec(), bytes.to_vec()]);
+        Ok(held[0].len())
+    };
+    let mut found = (false, false);
+    each_input(|stream, bytes| match stream {
+        Stream::VariableHandleRead => found.0 |= excess(believes, bytes) > 0,
+        Stream::ReadReply => found.1 |= excess(copies, bytes) > 0,
+        _ => {}
+    });
+    assert_eq!(found, (true, true));
+}
+
+/// Views, walks and encoders never allocate, whatever the bytes.
+#[test]
+fn views_walks_and_encoders_allocate_nothing() {
+    let mut buf = vec![0; 0x41_0000];
+    each_input(|stream, bytes| {
+        let view = Subject::of(stream).view;
+        let count = allocations(|| {
+            let _ = black_box((view.len)(bytes));
+            let _ = black_box((view.encode)(bytes, &mut buf));
+            let _ = black_box((view.encode)(bytes, &mut []));
+            let _ = black_box(stream.walk(bytes, |_| ()));
+        });
+        assert_eq!(count, 0, "{stream}: {:x?}", start(bytes));
+    });
+}
+
+/// Nor do dispatch, the encoding of requests and replies, and the reading of replies: for every
+/// call there is, with its own data and with that of every vector, as it is and cut.
+#[test]
+fn dispatch_and_replies_allocate_nothing() {
+    let vectors: Vec<_> = each_vector().filter(|(_, bytes)| bytes.len() <= 4096).collect();
+    let (mut dispatched, mut answered) = (0, 0);
+    for sample in CALLS {
+        let own = sample.call.dispatch().unwrap();
+        let mut buf = [0; 4096];
+        for (_, bytes) in &vectors {
+            let less = &bytes[..bytes.len().saturating_sub(1)];
+            for data in [sample.call.data, bytes, less] {
+                let count = allocations(|| {
+                    if let Ok(request) = black_box(Call { data, ..sample.call }.dispatch()) {
+                        black_box(request.encode(&mut buf).unwrap());
+                        dispatched += 1;
+                    }
+                    if let Ok(reply) = black_box(own.decode_reply(data)) {
+                        black_box(reply.encode(&mut buf).unwrap());
+                        answered += 1;
+                    }
+                });
+                assert_eq!(count, 0, "{}: {:x?}", sample.slug, start(data));
+            }
+        }
+    }
+    assert!(dispatched > CALLS.len() && answered > CALLS.len());
+}
+
+/// Nor does a call that nobody answers.
+#[test]
+fn refusals_allocate_nothing() {
+    for sample in CALLS {
+        let count = allocations(|| {
+            for port in [0, 551, 552, 553, 851] {
+                for service in [Service::Read, Service::Write, Service::ReadWrite] {
+                    let _ =
+                        black_box(Call { port: AmsPort(port), service, ..sample.call }.dispatch());
+                }
+            }
+        });
+        assert_eq!(count, 0, "{}", sample.slug);
+    }
+}
+
+/// Nor does the splitting of frames, whatever they promise.
+#[test]
+fn frames_allocate_nothing() {
+    let data = [0; 64];
+    let mut frame = [0; 38 + 64];
+    frame[2..6].copy_from_slice(&96_u32.to_le_bytes());
+    frame[26..30].copy_from_slice(&64_u32.to_le_bytes());
+    assert_eq!(FrameRef::split(&frame, 64).unwrap().unwrap().0.data(), data);
+    for at in 0..frame.len() - 4 {
+        for number in [0, 63, 64, 65, 96, 97, 0x40_0000, u32::MAX] {
+            let mut lie = frame;
+            lie[at..at + 4].copy_from_slice(&u32::to_le_bytes(number));
+            let count = allocations(|| {
+                if let Ok(Some((frame, _))) = black_box(FrameRef::split(&lie, u32::MAX)) {
+                    let _ = black_box(frame.encode(&mut [0; 128]));
+                }
+            });
+            assert_eq!(count, 0, "{number:#x} at {at}");
+        }
+    }
+}
+
+/// Streaming allocates nothing: neither packets nor findings nor either end.
+#[test]
+fn streaming_allocates_nothing() {
+    let jumps: String = (0..200).map(|n| format!("N{n}: X1\n$GOTO N{}\n", n / 2)).collect();
+    let refused = format!("X1\n{}", "Y".repeat(991));
+    let count = allocations(|| assert!(NcText::new(refused.as_bytes()).is_err()));
+    assert_eq!(count, 0);
+    for text in [jumps.clone(), jumps.replace('\n', "\r\n"), "$FOR\nM30\nX1".into()] {
+        let (peak, count) = measure(|| {
+            let text = NcText::new(text.as_bytes()).unwrap();
+            assert!(text.findings().count() > 1);
+            assert_eq!(text.lines().count(), text.line_count());
+            let (mut packets, mut buf) = (text.packets(), [0; STREAM_PACKET_MAX]);
+            while packets.next_into(&mut buf).is_some() {}
+            let mut packets = text.packets();
+            while packets.next_borrowed().is_some() {}
+            let (mut sender, mut interface) = (Sender::new(text), Interface::new());
+            while let Some(packet) = sender.packet() {
+                let ack = interface.write(packet);
+                sender.acknowledge(ack).unwrap();
+                if ack == Ack::Later {
+                    interface.read().unwrap();
+                }
+            }
+            assert_eq!(sender.left_bytes(), 0);
+        });
+        assert_eq!((peak, count), (0, 0));
+    }
+}
+
+/// Names are taken apart and put together without allocating.
+#[test]
+fn names_allocate_nothing() {
+    use ads_cnc::{Numbers, VariablePath};
+
+    let (_, count) = measure(|| {
+        let array = VariablePath::new("V.G.NP[0].Größe").unwrap();
+        let mut buf = [0; 32];
+        let element = array.write_element(Numbers::from(&[1, 20]), &mut buf).unwrap();
+        assert_eq!(element.parts().map(|part| part.indices.len()).sum::<usize>(), 3);
+    });
+    assert_eq!(count, 0);
+}
+
+/// Values of all types are read, found and written without allocating; owned, they have their bytes.
+#[test]
+fn typed_values_hold_no_more_than_their_bytes() {
+    use ads_cnc::value::{DataType, Elements, EncodeValue, StringsRef};
+    use ads_cnc::{Element, Numbers};
+
+    let bytes = [7; 2048];
+    for data_type in DataType::ALL {
+        let count = data_type.size().map_or(2048, |each| 2048 / each);
+        let dimensions = [2, count / 2];
+        let read = || Elements::new(data_type, Numbers::from(&dimensions), &bytes).unwrap();
+        let (_, allocated) = measure(|| {
+            let mut buf = [0; 2048];
+            let elements = read();
+            assert_eq!(elements.iter().next_back(), elements.element(Numbers::from(&[1, 3])).ok());
+            assert!(elements.element(Numbers::from(&[2, 0])).is_err());
+            assert_eq!(elements.encode_value(&mut buf), Ok(&bytes[..]));
+            assert_eq!(elements.shape().encode(&elements, &mut buf), Ok(&bytes[..]));
+            if let Some(Element::Sgn32(first)) = elements.get(0) {
+                assert!(elements.items().unwrap().iter().all(|item: i32| item == first));
+                assert_eq!([first; 3].encode_value(&mut buf), Ok(&bytes[..12]));
+            }
+            let _ = std::hint::black_box(StringsRef::new(&bytes, count).map(|s| s.iter().count()));
+        });
+        assert_eq!(allocated, 0, "{data_type:?}");
+        #[cfg(feature = "alloc")]
+        {
+            let owned = || drop(std::hint::black_box(ads_cnc::value::Values::from(read())));
+            // One-byte texts too: not an allocation each.
+            assert_eq!(measure(owned), (2048, 1), "{data_type:?}");
+        }
+    }
+}
+
+/// Nor do the three that take part in the Service Interface.
+#[test]
+fn services_allocate_nothing() {
+    use ads_cnc::CncStr;
+    use ads_cnc::service::{Call, CallStep, Host, HostStep, Interface, ServiceId, SysServiceWait};
+
+    let mut answered = false;
+    let (_, count) = measure(|| {
+        let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47").unwrap()];
+        let (mut host, mut interface) = (Host::new(&ids), Interface::new());
+        let (text, now) = (CncStr::new("3").unwrap(), std::time::Duration::ZERO);
+        let mut call = Call::new(ids[0], text, SysServiceWait::default()).unwrap();
+        for _ in 0..100 {
+            match call.step() {
+                CallStep::Read(variable) => call.read(interface.read(variable), now).unwrap(),
+                CallStep::Write(variable, value) => {
+                    interface.write(variable, value).unwrap();
+                    call.written(now);
+                }
+                CallStep::Wait { .. } => call.poll(),
+                CallStep::Done { response, .. } => answered = response == text,
+                CallStep::TimedOut => {}
+            }
+            match host.step() {
+                HostStep::Read(variable) => host.read(interface.read(variable)).unwrap(),
+                HostStep::Write(variable, value) => {
+                    interface.write(variable, value).unwrap();
+                    host.written();
+                }
+                HostStep::Serve { .. } => host.answer(text, 1).unwrap(),
+                HostStep::Wait => host.poll(),
+            }
+        }
+    });
+    assert_eq!((answered, count), (true, 0));
+}
