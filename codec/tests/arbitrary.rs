@@ -6,23 +6,8 @@ mod common;
 
 use ads_cnc::ads::*;
 use ads_cnc::*;
-use arbitrary::{Arbitrary, Unstructured};
-use common::check_value;
+use common::{SUBJECTS, made};
 use proptest::prelude::*;
-
-/// Makes a value of these bytes and holds it to the laws; empty bytes make one too.
-fn made<T>(bytes: &[u8]) -> T
-where
-    T: Encode + PartialEq + std::fmt::Debug + for<'a> Decode<'a> + for<'a> Arbitrary<'a>,
-{
-    let value = T::arbitrary(&mut Unstructured::new(bytes)).expect("bytes never run out");
-    check_value(&value);
-    value
-}
-
-macro_rules! each_stream {
-    ($bytes:expr => $( $value:ty )+) => { $( made::<$value>($bytes); )+ };
-}
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..Default::default() })]
@@ -30,12 +15,7 @@ proptest! {
     /// Values of all streams encode, whatever bytes they are made of.
     #[test]
     fn values_encode(bytes in prop::collection::vec(any::<u8>(), 0..4000)) {
-        each_stream! { &bytes =>
-            AmsTcpHeader AmsHeader ReadRequest ReadReply WriteRequest WriteReply
-            ReadWriteRequest ReadWriteReply ObjectCount Descriptor Descriptors
-            VariableKind VariableCount VariableIndexKind Description VariableName
-            Handle HandleRead Value HandleWrite NameWrite ExtendedReply
-        }
+        SUBJECTS.iter().for_each(|subject| (subject.made)(&bytes));
     }
 }
 

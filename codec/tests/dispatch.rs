@@ -159,6 +159,26 @@ proptest! {
         }
     }
 
+    /// dispatch(encode(op)) = op: what is written, and the functions of the axis interface.
+    #[test]
+    fn operations_that_write_and_of_axes(
+        (channel, place) in (channel(), 1..=0xFFFF_u32),
+        text in text(),
+        number in any::<u32>(),
+        indices in prop::collection::vec(any::<u32>(), 0..=250),
+        value in prop::collection::vec(any::<u8>(), 0..=1040),
+    ) {
+        let axis = ChannelAxis::new(place).unwrap();
+        let indices = Numbers::from(&indices[..]);
+        check_operation(WriteByHandle::new(channel, Handle(number), indices, &value));
+        check_operation(WriteByName::new(channel, &text, &value).unwrap());
+        check_operation(DescribeByName::new(channel, &text).unwrap());
+        check_operation(AxisHandleByName::new(channel, axis, &text).unwrap());
+        check_operation(AxisReadByName::new(channel, axis, &text).unwrap());
+        check_operation(AxisWriteByName::new(channel, axis, &text, &value).unwrap());
+        check_operation(DescribeExtended::new(channel, number, Kind::new(&text).unwrap()));
+    }
+
     /// dispatch(encode(op)) = op: the functions of the channel interface, by number and by rank.
     #[test]
     fn operations_on_variables(

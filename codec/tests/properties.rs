@@ -1,54 +1,58 @@
-//! The laws of all streams over bytes: random ones, and samples with damage.
+//! The laws of all streams over bytes: random ones, and samples and vectors with damage.
 
 mod common;
+mod damage;
 
+use std::collections::BTreeSet;
+
+use ads_cnc::layout::{Size, Stream};
+use ads_cnc_vectors::vectors;
 use common::{SUBJECTS, check, each_sample};
+use damage::damage;
 use proptest::collection::vec;
 use proptest::prelude::*;
-use proptest::sample::{Index, select};
+use proptest::sample::select;
+use proptest::strategy::ValueTree as _;
+use proptest::test_runner::TestRunner;
 
-/// Damage to bytes: at a place, by a byte.
-#[derive(Clone, Debug)]
-enum Damage {
-    Set(Index, u8),
-    Flip(Index, u8),
-    Insert(Index, u8),
-    Remove(Index),
-    Cut(Index),
-    Number(Index, u32),
+/// Every sample, and every golden vector of a stream.
+fn samples_and_vectors() -> Vec<(Stream, Vec<u8>)> {
+    let samples = each_sample().map(|(stream, sample)| (stream, sample.bytes()));
+    let of_stream = vectors()
+        .iter()
+        .filter_map(|vector| Some((Stream::by_name(&vector.stream)?, vector.bytes())));
+    samples.chain(of_stream).collect()
 }
 
-fn damage() -> impl Strategy<Value = Damage> {
-    let at = any::<Index>;
-    // Numbers around what streams can hold, where counts and lengths go wrong.
-    let number = select(vec![0, 1, 2, 255, 256, 257, 506, 507, 510, 511, 0x4000_0001, u32::MAX]);
-    prop_oneof![
-        (at(), any::<u8>()).prop_map(|(at, byte)| Damage::Set(at, byte)),
-        (at(), 0..8_u8).prop_map(|(at, bit)| Damage::Flip(at, bit)),
-        (at(), select(vec![0, 1, b'V', 0xAA])).prop_map(|(at, byte)| Damage::Insert(at, byte)),
-        at().prop_map(Damage::Remove),
-        at().prop_map(Damage::Cut),
-        (at(), number).prop_map(|(at, number)| Damage::Number(at, number)),
-    ]
+/// Few bytes, many bytes, or as many as a short stream has at most.
+fn random_bytes() -> impl Strategy<Value = (Stream, Vec<u8>)> {
+    let byte = || prop_oneof![Just(0), 0..4_u8, any::<u8>()];
+    (0..SUBJECTS.len(), 0..3).prop_flat_map(move |(subject, length)| {
+        let stream = SUBJECTS[subject].stream;
+        let max = stream.layout().max as usize;
+        let len = match length {
+            0 => 0..=16,
+            1 if max < 120 => max..=max,
+            _ => 0..=120,
+        };
+        (Just(stream), vec(byte(), len))
+    })
 }
 
-impl Damage {
-    fn inflict(&self, bytes: &mut Vec<u8>) {
-        let len = bytes.len();
-        match self {
-            Self::Insert(at, byte) => bytes.insert(at.index(len + 1), *byte),
-            Self::Cut(at) => bytes.truncate(at.index(len + 1)),
-            _ if len == 0 => {}
-            Self::Set(at, byte) => bytes[at.index(len)] = *byte,
-            Self::Flip(at, bit) => bytes[at.index(len)] ^= 1 << bit,
-            Self::Remove(at) => drop(bytes.remove(at.index(len))),
-            // At a multiple of four, where numbers stand.
-            Self::Number(at, number) => {
-                let at = at.index(len) / 4 * 4;
-                let le = number.to_le_bytes();
-                bytes.iter_mut().skip(at).zip(le).for_each(|(byte, new)| *byte = new);
-            }
-        }
+fn damaged_bytes() -> impl Strategy<Value = (Stream, Vec<u8>)> {
+    (select(samples_and_vectors()), vec(damage(), 1..5)).prop_map(
+        |((stream, mut bytes), damages)| {
+            damages.iter().for_each(|damage| damage.inflict(&mut bytes));
+            (stream, bytes)
+        },
+    )
+}
+
+/// Samples and golden vectors obey the laws; what vectors are to come to stands elsewhere.
+#[test]
+fn samples_and_vectors_obey() {
+    for (stream, bytes) in samples_and_vectors() {
+        let _ = check(stream, &bytes);
     }
 }
 
@@ -57,22 +61,34 @@ proptest! {
 
     /// Random bytes: view, owned and walk agree, and what they accept comes back.
     #[test]
-    fn any_bytes(
-        subject in 0..SUBJECTS.len(),
-        bytes in vec(prop_oneof![Just(0), 0..4_u8, any::<u8>()], 0..120),
-    ) {
-        let _ = check(SUBJECTS[subject].stream, &bytes);
-    }
-
-    /// Damaged samples: the same, near what is valid.
-    #[test]
-    fn damaged_samples(
-        (stream, mut bytes) in select(
-            each_sample().map(|(stream, sample)| (stream, sample.bytes())).collect::<Vec<_>>()
-        ),
-        damages in vec(damage(), 1..5),
-    ) {
-        damages.iter().for_each(|damage| damage.inflict(&mut bytes));
+    fn any_bytes((stream, bytes) in random_bytes()) {
         let _ = check(stream, &bytes);
     }
+
+    /// Damaged samples and vectors: the same, near what is valid.
+    #[test]
+    fn damaged_samples((stream, bytes) in damaged_bytes()) {
+        let _ = check(stream, &bytes);
+    }
+}
+
+/// Damage leaves some bytes of every stream to be accepted, and some to be refused unless the
+/// stream takes any: without that the property above would say little.
+#[test]
+fn damage_reaches_both_verdicts_of_every_stream() {
+    let (mut runner, maker) = (TestRunner::deterministic(), damaged_bytes());
+    let mut seen = BTreeSet::new();
+    for _ in 0..5000 {
+        let (stream, bytes) = maker.new_tree(&mut runner).unwrap().current();
+        seen.insert((stream, stream.walk(&bytes, |_| ()).is_ok()));
+    }
+    for stream in Stream::all() {
+        let takes_any = matches!(stream.layout().fields, [row] if takes_any(row.size));
+        assert!(seen.contains(&(stream, true)), "{stream}: none accepted");
+        assert!(takes_any || seen.contains(&(stream, false)), "{stream}: none refused");
+    }
+}
+
+fn takes_any(size: Size) -> bool {
+    matches!(size, Size::Rest { .. } | Size::Open { .. })
 }

@@ -1,8 +1,11 @@
 //! What holds for any bytes, accepted or not.
 
+use std::fmt::Debug;
+
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Refusal, Service, Task};
-use ads_cnc::{Decode, Encode, Error, ErrorKind};
+use ads_cnc::limits::DESCRIPTOR_LEN;
+use ads_cnc::operation::{Call, Function, Refusal, Request, Service, Task};
+use ads_cnc::{Decode, Encode, Error, ErrorKind, NoData};
 
 use super::{Reading, Subject};
 
@@ -39,10 +42,11 @@ pub(crate) fn check(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
 #[cfg(feature = "alloc")]
 pub(crate) fn check_value<T>(value: &T)
 where
-    T: Encode + PartialEq + std::fmt::Debug + for<'a> Decode<'a>,
+    T: Encode + PartialEq + Debug + for<'a> Decode<'a>,
 {
     let bytes = value.to_vec().unwrap_or_else(|error| panic!("{value:?}: {error}"));
     assert_eq!(bytes.len(), value.encoded_len(), "{value:?}");
+    check_too_small(bytes.len(), |buf| value.encode(buf).map(drop));
     assert_eq!(T::decode(&bytes).as_ref(), Ok(value));
     assert_eq!(check(T::STREAM, &bytes), Ok(()), "{value:?}");
 }
@@ -73,13 +77,21 @@ fn check_encode(reading: Reading, bytes: &[u8]) {
     assert_eq!(large[..bytes.len()], *bytes);
     assert_eq!(large[bytes.len()..], [UNTOUCHED; 3]);
 
-    let Some(less) = bytes.len().checked_sub(1) else { return };
-    let mut small = vec![UNTOUCHED; less];
-    let error = (reading.encode)(bytes, &mut small).unwrap_err();
-    assert_eq!(error.kind(), ErrorKind::BufferTooSmall);
-    let (expected, found) = (error.expected() as usize, error.found() as usize);
-    assert_eq!((expected, found), (bytes.len(), less));
-    assert!(small.iter().all(|&byte| byte == UNTOUCHED));
+    check_too_small(bytes.len(), |buf| (reading.encode)(bytes, buf));
+}
+
+/// Every buffer that is too small is refused by the bytes needed and there, and nothing is written.
+fn check_too_small<T: Debug>(len: usize, encode: impl Fn(&mut [u8]) -> Result<T, Error>) {
+    for less in [0, len / 2, len.saturating_sub(1)] {
+        if less < len {
+            let mut small = vec![UNTOUCHED; less];
+            let error = encode(&mut small).expect_err("the buffer is too small");
+            assert_eq!(error.kind(), ErrorKind::BufferTooSmall);
+            let (expected, found) = (error.expected() as usize, error.found() as usize);
+            assert_eq!((expected, found), (len, less));
+            assert!(small.iter().all(|&byte| byte == UNTOUCHED));
+        }
+    }
 }
 
 /// What a call is dispatched to encodes to the same call, and that is dispatched to the same.
@@ -91,6 +103,8 @@ pub(crate) fn check_call(call: &Call<'_>) -> Result<(), Refusal> {
     let address = |call: &Call<'_>| (call.service, call.index_group, call.index_offset);
     assert_eq!(address(&again), address(call), "{request:?}");
     assert_eq!(again.data, call.data, "{request:?}");
+    assert_eq!(request.encoded_len(), call.data.len(), "{request:?}");
+    check_too_small(call.data.len(), |buf| request.encode(buf).map(drop));
     assert_eq!(again.dispatch(), Ok(request));
 
     let spec = request.function().spec();
@@ -99,6 +113,42 @@ pub(crate) fn check_call(call: &Call<'_>) -> Result<(), Refusal> {
     // SDA and GEO stand in for each other.
     let is_com = |call: &Call<'_>| Task::from_port(call.port) == Some(Task::Com);
     assert_eq!(is_com(&again), is_com(call));
+    Ok(())
+}
+
+/// A call takes what the stream of its function's request takes, and refuses the rest as that does.
+pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), Refusal> {
+    let verdict = check_call(call);
+    if let Some(stream) = function.spec().request {
+        let wanted = check(stream, call.data).map_err(Refusal::Stream);
+        assert_eq!(verdict, wanted, "{function:?}: {:x?}", call.data);
+    }
+    verdict
+}
+
+/// A request takes for a reply what the stream of its function's reply takes, as long as it is no
+/// longer than was asked for; that encodes to the same bytes.
+pub(crate) fn check_reply(call: &Call<'_>, bytes: &[u8]) -> Result<(), Error> {
+    let request = call.dispatch().expect("a call that is answered");
+    let reply = request.decode_reply(bytes);
+    let wanted = match request.function().spec().reply {
+        Some(stream) => check(stream, bytes),
+        None => NoData::decode(bytes).map(drop),
+    };
+    let verdict = reply.map(drop);
+    // A length that is no multiple of a descriptor's asks for one of them (COM-3).
+    let asked = match (request, call.read_length as usize) {
+        (Request::ReadDescriptors(_), length) if length % DESCRIPTOR_LEN != 0 => DESCRIPTOR_LEN,
+        (_, length) => length,
+    };
+    if bytes.len() <= asked || verdict.is_ok() {
+        assert_eq!(verdict, wanted, "{request:?}: {bytes:x?}");
+    }
+    let reply = reply?;
+    let mut large = vec![UNTOUCHED; bytes.len() + 3];
+    assert_eq!((reply.encoded_len(), reply.encode(&mut large)), (bytes.len(), Ok(bytes)));
+    assert_eq!(large[bytes.len()..], [UNTOUCHED; 3]);
+    check_too_small(bytes.len(), |buf| reply.encode(buf).map(drop));
     Ok(())
 }
 

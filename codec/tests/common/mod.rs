@@ -2,6 +2,7 @@
 //! hold for them. The fuzz targets hold streams to the same laws through this same file.
 
 #![allow(dead_code, unused_imports, reason = "no test uses all of it")]
+#![allow(unexpected_cfgs, reason = "the fuzz targets have not all features of the codec")]
 
 mod calls;
 mod laws;
@@ -14,7 +15,9 @@ mod typed;
 pub(crate) use calls::{CALLS, CallSample};
 #[cfg(feature = "alloc")]
 pub(crate) use laws::check_value;
-pub(crate) use laws::{Fault, check, check_call};
+pub(crate) use laws::{Fault, check, check_call, check_reply, check_request};
 pub(crate) use samples::{SAMPLES, Sample, each_sample};
+#[cfg(feature = "arbitrary")]
+pub(crate) use subjects::made;
 pub(crate) use subjects::{Reading, SUBJECTS, Subject};
 pub(crate) use typed::check_typed;

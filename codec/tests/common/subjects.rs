@@ -30,6 +30,9 @@ pub(crate) struct Subject {
     /// Decodes the bytes, owned, and encodes them into a vector.
     #[cfg(feature = "alloc")]
     pub(crate) to_vec: fn(&[u8]) -> Result<Vec<u8>, Error>,
+    /// Makes a value of the bytes and holds it to the laws.
+    #[cfg(feature = "arbitrary")]
+    pub(crate) made: fn(&[u8]),
 }
 
 impl Subject {
@@ -44,6 +47,19 @@ impl Subject {
         #[cfg(not(feature = "alloc"))]
         return [self.view].into_iter();
     }
+}
+
+/// Makes a value of these bytes and holds it to the laws; empty bytes make one too.
+#[cfg(feature = "arbitrary")]
+pub(crate) fn made<T>(bytes: &[u8]) -> T
+where
+    T: Encode + PartialEq + std::fmt::Debug,
+    T: for<'a> Decode<'a> + for<'a> arbitrary::Arbitrary<'a>,
+{
+    let value = T::arbitrary(&mut arbitrary::Unstructured::new(bytes));
+    let value = value.expect("bytes never run out");
+    super::check_value(&value);
+    value
 }
 
 macro_rules! reading {
@@ -66,6 +82,8 @@ macro_rules! subjects {
         same: subjects!(@same $view $( , $owned )?),
         #[cfg(feature = "alloc")]
         to_vec: subjects!(@to_vec $view $( , $owned )?),
+        #[cfg(feature = "arbitrary")]
+        made: subjects!(@made $view $( , $owned )?),
     }, )+] };
     // A stream of fixed length that holds no text: one type reads and owns it.
     (@owned $both:ty) => { reading!("owned", $both) };
@@ -76,6 +94,8 @@ macro_rules! subjects {
     };
     (@to_vec $both:ty) => { |bytes| <$both>::decode(bytes)?.to_vec() };
     (@to_vec $view:ty, $owned:ty) => { |bytes| <$owned>::decode(bytes)?.to_vec() };
+    (@made $both:ty) => { |bytes| { made::<$both>(bytes); } };
+    (@made $view:ty, $owned:ty) => { |bytes| { made::<$owned>(bytes); } };
 }
 
 /// All streams. Fuzz inputs name a stream by its place here: add at the end only.

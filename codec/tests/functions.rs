@@ -1,0 +1,98 @@
+//! What holds for every function of the table, by the streams that the table gives it.
+
+mod common;
+mod damage;
+
+use std::collections::BTreeSet;
+
+use ads_cnc::layout::Stream;
+use ads_cnc::limits::DESCRIPTOR_LEN;
+use ads_cnc::operation::{Call, Function};
+use ads_cnc_vectors::vectors;
+use common::{CALLS, CallSample, check_reply, check_request, each_sample};
+use damage::{Damage, damage};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::sample::{Index, select};
+
+/// Every sample and every vector of a stream; nothing where there is no stream.
+fn bytes_of(stream: Option<Stream>) -> Vec<Vec<u8>> {
+    let Some(stream) = stream else { return vec![vec![]] };
+    let samples = each_sample().filter(|&(other, _)| other == stream);
+    let vectors = vectors().iter().filter(|vector| vector.stream == stream.layout().name);
+    let samples = samples.map(|(_, sample)| sample.bytes());
+    samples.chain(vectors.map(|vector| vector.bytes())).collect()
+}
+
+/// A call that asks for as much as its function may answer.
+fn widest<'a>(sample: &CallSample, data: &'a [u8]) -> Call<'a> {
+    let most = sample.function.spec().reply.map_or(0, |stream| stream.layout().max);
+    let read_length = match sample.function {
+        Function::ReadDescriptors => most - most % DESCRIPTOR_LEN as u32,
+        _ => most,
+    };
+    Call { data, read_length, ..sample.call }
+}
+
+/// Each function takes and refuses what its request's stream does, every sample and vector of it
+/// and every cut of them; what it takes encodes to the same call.
+#[test]
+fn requests_are_those_of_the_table() {
+    let mut accepted = BTreeSet::new();
+    for sample in CALLS {
+        for bytes in bytes_of(sample.function.spec().request) {
+            for len in 0..=bytes.len() {
+                let call = Call { data: &bytes[..len], ..sample.call };
+                if check_request(&call, sample.function).is_ok() {
+                    accepted.insert(sample.function);
+                }
+            }
+        }
+    }
+    assert_eq!(accepted, Function::ALL.iter().copied().collect());
+}
+
+/// Each function takes and refuses for a reply what its reply's stream does, and nothing longer
+/// than was asked for.
+#[test]
+fn replies_are_those_of_the_table() {
+    let mut accepted = BTreeSet::new();
+    for sample in CALLS {
+        let call = widest(sample, sample.call.data);
+        for bytes in bytes_of(sample.function.spec().reply) {
+            for len in 0..=bytes.len() {
+                if check_reply(&call, &bytes[..len]).is_ok() {
+                    accepted.insert(sample.function);
+                }
+                let _ = check_reply(&sample.call, &bytes[..len]);
+            }
+            let _ = check_reply(&call, &[&bytes[..], &[0xAA; 2049]].concat());
+        }
+    }
+    assert_eq!(accepted, Function::ALL.iter().copied().collect());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..Default::default() })]
+
+    /// The same for damaged requests and replies.
+    #[test]
+    fn damaged_requests_and_replies(
+        sample in select((0..CALLS.len()).collect::<Vec<_>>()),
+        (request, reply) in any::<(Index, Index)>(),
+        damages in vec(damage(), 1..5),
+    ) {
+        let sample = &CALLS[sample];
+        let spec = sample.function.spec();
+        let damaged = |stream, pick: Index| {
+            let mut bytes = pick.get(&bytes_of(stream)).clone();
+            damages.iter().for_each(|damage: &Damage| damage.inflict(&mut bytes));
+            bytes
+        };
+        if spec.request.is_some() {
+            let data = damaged(spec.request, request);
+            let _ = check_request(&Call { data: &data, ..sample.call }, sample.function);
+        }
+        let _ = check_reply(&widest(sample, sample.call.data), &damaged(spec.reply, reply));
+    }
+}
