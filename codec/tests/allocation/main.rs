@@ -206,12 +206,12 @@ fn typed_values_hold_no_more_than_their_bytes() {
                 assert!(elements.items().unwrap().iter().all(|item: i32| item == first));
                 assert_eq!([first; 3].encode_value(&mut buf), Ok(&bytes[..12]));
             }
-            let _ = std::hint::black_box(StringsRef::new(&bytes, count).map(|s| s.iter().count()));
+            let _ = black_box(StringsRef::new(&bytes, count).map(|s| s.iter().count()));
         });
         assert_eq!(allocated, 0, "{data_type:?}");
         #[cfg(feature = "alloc")]
         {
-            let owned = || drop(std::hint::black_box(ads_cnc::value::Values::from(read())));
+            let owned = || drop(black_box(ads_cnc::value::Values::from(read())));
             // One-byte texts too: not an allocation each.
             assert_eq!(measure(owned), (2048, 1), "{data_type:?}");
         }
