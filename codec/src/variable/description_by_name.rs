@@ -3,7 +3,7 @@
 use zerocopy::IntoBytes as _;
 
 use super::description::Head;
-use super::{Handle, Numbers, VariableAccess, VariableType};
+use super::{DescriptionRef, Handle, Numbers, VariableAccess, VariableType};
 use crate::bytes::{Reader, Writer, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Stream;
@@ -57,6 +57,19 @@ impl<'a> Decode<'a> for DescriptionByNameRef<'a> {
             size: head.size.get(),
             dimensions: Numbers::from_wire(dimensions),
         })
+    }
+}
+
+impl<'a> DescriptionRef<'a> {
+    /// The same without the name, as 0x4C gives it.
+    pub const fn without_name(&self) -> DescriptionByNameRef<'a> {
+        DescriptionByNameRef {
+            handle: self.handle,
+            var_type: self.var_type,
+            access: self.access,
+            size: self.size,
+            dimensions: self.dimensions,
+        }
     }
 }
 
@@ -130,6 +143,19 @@ mod owned {
                 size: head.size.get(),
                 dimensions,
             })
+        }
+    }
+
+    impl DescriptionByNameRef<'_> {
+        /// A copy that lives on its own.
+        pub fn to_owned(&self) -> DescriptionByName {
+            DescriptionByName {
+                handle: self.handle,
+                var_type: self.var_type,
+                access: self.access,
+                size: self.size,
+                dimensions: self.dimensions.iter().collect(),
+            }
         }
     }
 

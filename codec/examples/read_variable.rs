@@ -1,0 +1,49 @@
+//! Reads a variable by its name without knowing its type: the CNC describes it.
+//!
+//!     cargo run --example read_variable -- 127.0.0.1:48898 127.0.0.1.1.1 1 V.E.Testvar
+
+mod transport;
+
+use std::env;
+
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeByName, ReadByName};
+use ads_cnc::{DescriptionByName, VariablePath};
+use transport::{Cnc, Result};
+
+fn main() -> Result<()> {
+    let cnc = Cnc::from_args()?;
+    let channel = Channel::new(env::args().nth(3).ok_or("no channel")?.parse()?)?;
+    let name = env::args().nth(4).ok_or("no name")?;
+    let path = VariablePath::new(&name)?;
+
+    // `V.E.Testvar[3]` is an element of `V.E.Testvar`, which has the description.
+    let description = describe(&cnc, channel, path.variable())?;
+    let shape = description.shape()?;
+    let shape = if path.elements().is_empty() { shape } else { shape.one() };
+
+    let mut reply = Vec::new();
+    let value = cnc.call(&ReadByName::new(channel, &name)?, &mut reply)?;
+    println!("{name}: {:?} {:?}", shape.data_type(), shape.dimensions());
+    for element in shape.elements(value.bytes)?.iter() {
+        println!("  {element:?}");
+    }
+    Ok(())
+}
+
+/// Asks by name where the CNC is recent enough, and looks through the kind where it is not.
+fn describe(cnc: &Cnc, channel: Channel, path: VariablePath<'_>) -> Result<DescriptionByName> {
+    let (name, mut reply) = (path.text().to_string(), Vec::new());
+    if let Ok(found) = cnc.call(&DescribeByName::new(channel, &name)?, &mut reply) {
+        return Ok(found.to_owned());
+    }
+    let kind = path.kind();
+    let count = cnc.call(&CountVariables::new(channel, kind), &mut reply)?.0;
+    for index in 0..count {
+        let found = cnc.call(&DescribeByIndex::new(channel, index, kind), &mut reply)?;
+        if found.name.text() == path.text() {
+            return Ok(found.without_name().to_owned());
+        }
+    }
+    Err(format!("there is no {name}").into())
+}
