@@ -5,7 +5,9 @@
 
 mod transport;
 
-use ads_cnc::address::{Channel, Class, ElementAddress, PlatformAxis};
+use std::fmt::Display;
+
+use ads_cnc::address::{Attribute, Channel, Class, ElementAddress, PlatformAxis};
 use ads_cnc::operation::*;
 use transport::{Cnc, Result};
 
@@ -14,7 +16,7 @@ const MOST: u32 = 32;
 
 fn main() -> Result<()> {
     let cnc = Cnc::from_args()?;
-    println!("{:<10} {:<10} {:<40} {:<8} {:>6} unit", "group", "offset", "name", "type", "bytes");
+    row(["group", "offset", "name", "type", "bytes", "unit"]);
     for number in 1..=MOST {
         com(&cnc, Channel::new(number)?.into())?;
         com(&cnc, PlatformAxis::new(number)?.into())?;
@@ -44,9 +46,9 @@ fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
         return Ok(());
     }
     for object in cnc.call(&ReadDescriptors::new(list, 1, count.0)?, &mut reply)?.iter() {
+        let size = object.size();
         let (group, offset) = (object.index_group(), object.index_offset());
-        let (name, of_type, size) = (object.name(), object.type_name(), object.size());
-        println!("{group:<#10} {offset:<#10} {name:<40} {of_type:<8} {size:>6}");
+        row::<&dyn Display>([&group, &offset, &object.name(), &object.type_name(), &size, &""]);
     }
     Ok(())
 }
@@ -62,9 +64,13 @@ fn elements(cnc: &Cnc, first: ElementAddress) -> Result<()> {
         let of_type = cnc.call(&ReadElementType::new(element), &mut of_type)?.text.text();
         let unit = cnc.call(&ReadElementUnit::new(element), &mut unit)?.text.text();
         let size = cnc.call(&ReadElementLength::new(element), &mut reply)?.get();
-        let group = element.group(ads_cnc::address::Attribute::Content);
-        let offset = element.index_offset();
-        println!("{group:<#10} {offset:<#10} {name:<40} {of_type:<8} {size:>6} {unit}");
+        let group = element.group(Attribute::Content);
+        row::<&dyn Display>([&group, &element.index_offset(), &name, &of_type, &size, &unit]);
     }
     Ok(())
+}
+
+fn row<T: Display>(columns: [T; 6]) {
+    let [group, offset, name, of_type, size, unit] = columns.map(|column| column.to_string());
+    println!("{group:<10} {offset:<10} {name:<40} {of_type:<8} {size:>6} {unit}");
 }
