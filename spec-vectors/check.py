@@ -22,8 +22,12 @@ from checker import sequences, streaming
 NUMBERS = {
     "BOOLEAN": "<B", "UNS08": "<B", "SGN08": "<b", "UNS16": "<H", "SGN16": "<h",
     "UNS32": "<I", "SGN32": "<i", "REAL32": "<f", "REAL64": "<d",
+    # the names of the COM task
+    "BOOL": "<B", "BYTE": "<B", "SINT": "<b", "WORD": "<H", "INT": "<h", "DWORD": "<I", "DINT": "<i",
+    "LWORD": "<Q", "LINT": "<q", "REAL": "<f", "LREAL": "<d",
 }
-REALS = {"REAL32": "<I", "REAL64": "<Q"}  # the integer that shows a float's bits
+# the integer that shows a float's bits
+REALS = {"REAL32": "<I", "REAL64": "<Q", "REAL": "<I", "LREAL": "<Q"}
 
 # CP1252 where it differs from Latin-1. 81 8d 8f 90 9d have no character and read as U+0081 and so on.
 CP1252 = dict(zip(
@@ -622,7 +626,12 @@ def frame_read(data, context):
     return dict(value, **{name: within(name, HEADERS, lambda: read(rest, context))})
 
 
+# Started as a program this module has another name; what imports it from there is to find this one.
+sys.modules["check"] = sys.modules[__name__]
+from checker import sda  # noqa: E402  (needs what stands above)
+
 STREAMS = {stream: fixed_stream(layout) for stream, layout in FIXED.items()}
+STREAMS.update(sda.STREAMS)
 STREAMS.update({
     "read-reply": counted_data([("result", "UNS32")], "length", True),
     "write-request": counted_data(ADDRESS, "length", False),
@@ -662,10 +671,11 @@ def canonical_value(value):
     return value
 
 
-def canonical_bytes(write, value, context, given):
+def canonical_bytes(stream, write, value, context, given):
     """None where the canonical form is the stream itself, or would not fit."""
     # the texts of a name's parts end with the part
-    plain_value = value if write is path_write else canonical_value(value)
+    canonical = sda.CANONICAL.get(stream, canonical_value)
+    plain_value = value if write is path_write else canonical(value)
     try:
         data = join(write(plain_value, context))
     except Bad:
@@ -746,7 +756,7 @@ def check_accept(vector, write, read):
         raise Bad("accepted, but its bytes are refused: %s" % why) from None
     if derived != accept["value"]:
         raise Bad("value %s: stated %s, from the bytes %s" % differing("", accept["value"], derived))
-    canonical = canonical_bytes(write, accept["value"], context, data)
+    canonical = canonical_bytes(vector["stream"], write, accept["value"], context, data)
     stated = from_hex(accept["canonical"]) if "canonical" in accept else None
     if canonical != stated:
         raise Bad("canonical: stated %s, derived %s" % tuple(None if x is None else to_hex(x) for x in (stated, canonical)))

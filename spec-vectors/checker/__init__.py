@@ -1,1 +1,1 @@
-"""What `check.py` knows of the sequences: models of the manuals' own, without any codec."""
+"""Parts of `check.py`: the streams of a few areas, and models that go through the sequences."""

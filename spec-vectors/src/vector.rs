@@ -32,7 +32,7 @@ pub enum Service {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub enum Type {
-    /// One byte, 0 or 1.
+    /// One byte; 0 is FALSE, any other TRUE.
     Boolean,
     /// Unsigned, 1 byte.
     Uns08,
@@ -50,6 +50,28 @@ pub enum Type {
     Real32,
     /// Binary64, 8 bytes.
     Real64,
+    /// BOOLEAN of the COM task.
+    Bool,
+    /// Unsigned, 1 byte, of the COM task.
+    Byte,
+    /// Signed, 1 byte, of the COM task.
+    Sint,
+    /// Unsigned, 2 bytes, of the COM task.
+    Word,
+    /// Signed, 2 bytes, of the COM task.
+    Int,
+    /// Unsigned, 4 bytes, of the COM task.
+    Dword,
+    /// Signed, 4 bytes, of the COM task.
+    Dint,
+    /// Unsigned, 8 bytes, of the COM task.
+    Lword,
+    /// Signed, 8 bytes, of the COM task.
+    Lint,
+    /// Binary32, 4 bytes, of the COM task.
+    Real,
+    /// Binary64, 8 bytes, of the COM task.
+    Lreal,
     /// Text in CP1252.
     String,
     /// AMS NetId, 6 bytes.
@@ -73,10 +95,10 @@ pub struct Context {
     /// Index offset.
     #[serde(default, with = "address", skip_serializing_if = "Option::is_none")]
     pub index_offset: Option<u32>,
-    /// Type of the elements of a value.
+    /// Type of the elements of a value, or of the items of a content.
     #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<Type>,
-    /// Dimensions of a value; none of them for a single element.
+    /// Dimensions of a value or content; none of them for a single element.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dimensions: Option<Vec<u32>>,
     /// What an axis counts in an index offset.
@@ -129,17 +151,19 @@ pub struct Tagged {
 }
 
 impl Tagged {
-    /// The value of an integer type, BOOLEAN included.
-    pub fn integer(&self) -> Option<i64> {
+    /// The value of an integer type, BOOLEAN and BOOL included.
+    pub fn integer(&self) -> Option<i128> {
         match self.kind {
             Type::Boolean | Type::Uns08 | Type::Uns16 | Type::Uns32 => {}
             Type::Sgn08 | Type::Sgn16 | Type::Sgn32 => {}
+            Type::Bool | Type::Byte | Type::Word | Type::Dword | Type::Lword => {}
+            Type::Sint | Type::Int | Type::Dint | Type::Lint => {}
             _ => return None,
         }
         self.value.as_deref()?.parse().ok()
     }
 
-    /// The bits of a float, those of a REAL32 in the low half.
+    /// The bits of a float, those of a REAL32 or REAL in the low half.
     pub fn real_bits(&self) -> Option<u64> {
         let digits = self.bits.as_deref()?.strip_prefix("0x")?;
         u64::from_str_radix(digits, 16).ok()

@@ -1,0 +1,169 @@
+"""Streams of SDA and GEO, of the dynamic parameters, of content, and the description by name.
+
+The scalars and texts are in `check.py`.
+"""
+from check import (
+    Bad, NUMBERS, Refuse, STREAM_MAX, end, fixed_stream, from_hex, number, number_bytes, plain, read_fields,
+    size_of, text, text_bytes, to_hex, u32, write_field, write_fields,
+)
+
+ELEMENT_TEXT_MAX = 256
+DYNAMIC_NAME_MAX = 96
+DIMENSIONS_MAX = (STREAM_MAX - 20) // 4
+
+
+def open_text(field, shortest, longest):
+    """A text that its first NUL or the end of the stream ends; what follows the NUL is kept."""
+    def write(value, _context):
+        data = text_bytes(value[field])
+        if not shortest <= len(data) <= longest:
+            raise Bad("%s of %d bytes" % (field, len(data)))
+        return [(field, data)]
+
+    def read(data, _context):
+        if len(data) < shortest:
+            raise Refuse("truncated", 0, field)
+        if len(data) > longest:
+            raise Refuse("too-long", 0, field)
+        return {field: text(data)}
+
+    return write, read
+
+
+def name_request():
+    """A name that a NUL may end and only NULs may pad."""
+    write, read_open = open_text("name", 1, DYNAMIC_NAME_MAX)
+
+    def read(data, context):
+        value = read_open(data, context)
+        body, _, tail = data.partition(b"\0")
+        for place, byte in enumerate(tail):
+            if byte:
+                raise Refuse("trailing", len(body) + 1 + place, "name")
+        return value
+
+    return write, read
+
+
+WIDTHS = {1: "UNS08", 2: "UNS16", 4: "UNS32"}
+
+
+def length_write(value, _context):
+    if value["length"]["type"] not in WIDTHS.values():
+        raise Bad("a length of type %s" % value["length"]["type"])
+    return [("length", number_bytes(value["length"]))]
+
+
+def length_read(data, _context):
+    if len(data) > 4:
+        raise Refuse("trailing", 4, "length")
+    if len(data) not in WIDTHS:
+        raise Refuse("truncated", 0, "length")
+    return {"length": number(WIDTHS[len(data)], data)}
+
+
+def index_read(data, _context):
+    value, at = read_fields([("index", "UNS32")], data)
+    if plain(value["index"]) == 0:
+        raise Refuse("out-of-range", 0, "index")
+    end(data, at, "index")
+    return value
+
+
+def index_write(value, _context):
+    if plain(value["index"]) == 0:
+        raise Bad("index 0")
+    return write_fields([("index", "UNS32")], value)
+
+
+def content_write(value, context):
+    items, kind = value["content"], context.get("type")
+    if kind is None:
+        if items["type"] != "BYTES":
+            raise Bad("type %s where the context has none" % items["type"])
+        return [("content", from_hex(items["hex"]))]
+    count = 1
+    for dimension in context["dimensions"]:
+        count *= dimension
+    if len(items) != count or any(item["type"] != kind for item in items):
+        raise Bad("%s where %d of %s stand" % ([item["type"] for item in items], count, kind))
+    encode = text_bytes if kind == "STRING" else number_bytes
+    return [("content[%d]" % i, encode(item)) for i, item in enumerate(items)]
+
+
+def content_read(data, context):
+    kind = context.get("type")
+    if kind is None:
+        return {"content": {"type": "BYTES", "hex": to_hex(data)}}
+    if kind == "STRING":
+        if context["dimensions"]:
+            raise Bad("where the elements of a STRING array end is not documented")
+        return {"content": [text(data)]}
+    if kind not in NUMBERS:
+        raise Bad("no content is a %s" % kind)
+    step = size = size_of(kind)
+    for dimension in context["dimensions"]:
+        size *= dimension
+    if len(data) < size:
+        raise Refuse("truncated", 0, "content")
+    end(data, size, "content")
+    return {"content": [number(kind, data[at:at + step]) for at in range(0, size, step)]}
+
+
+BY_NAME = [("handle", "UNS32"), ("type", "UNS32"), ("access", "UNS32"), ("size", "UNS32")]
+
+
+def by_name_write(value, _context):
+    dimensions = value["dimensions"]
+    if len(dimensions) > DIMENSIONS_MAX:
+        raise Bad("%d dimensions" % len(dimensions))
+    return (write_fields(BY_NAME, value) + [("dimension_count", u32(len(dimensions)))]
+            + [("dimensions[%d]" % i, write_field("UNS32", d)) for i, d in enumerate(dimensions)])
+
+
+def by_name_read(data, _context):
+    value, at = read_fields(BY_NAME + [("dimension_count", "UNS32")], data)
+    count = plain(value.pop("dimension_count"))
+    if len(data) > STREAM_MAX:
+        raise Refuse("too-long", at, "dimensions")
+    if count > DIMENSIONS_MAX or 4 * count > len(data) - at:
+        raise Refuse("too-many", 16, "dimension_count")
+    end(data, at + 4 * count, "dimension_count")
+    value["dimensions"] = [number("UNS32", data[at + 4 * i:at + 4 * i + 4]) for i in range(count)]
+    return value
+
+
+STREAMS = {
+    "object-address-query": fixed_stream([("channel", "UNS32"), ("axis", "UNS32")]),
+    "object-address": fixed_stream([("index_group", "UNS32"), ("index_offset", "UNS32")]),
+    "element-count": fixed_stream([("count", "UNS32")]),
+    "element-text": open_text("text", 0, ELEMENT_TEXT_MAX),
+    "element-length": (length_write, length_read),
+    "element-write-flag": fixed_stream([("flag", "BOOLEAN")]),
+    "content": (content_write, content_read),
+    "dynamic-count": fixed_stream([("count", "UNS32")]),
+    "dynamic-index": (index_write, index_read),
+    "dynamic-name": open_text("name", 1, DYNAMIC_NAME_MAX),
+    "dynamic-name-request": name_request(),
+    "dynamic-value": fixed_stream([("value", "REAL64")]),
+    "variable-description-by-name": (by_name_write, by_name_read),
+}
+
+
+def plain_truth(tagged):
+    is_true = tagged["type"] in ("BOOLEAN", "BOOL") and plain(tagged) != 0
+    return dict(tagged, value="1") if is_true else tagged
+
+
+def plain_content(value):
+    """The length of a content is the object's, so of a text nothing can be left out."""
+    content = value["content"]
+    return {"content": [plain_truth(item) for item in content] if isinstance(content, list) else content}
+
+
+# What a careful writer makes of a value, where that is not a matter of texts.
+CANONICAL = {
+    "element-length": lambda value: {"length": dict(value["length"], type="UNS32")},
+    "element-write-flag": lambda value: {"flag": plain_truth(value["flag"])},
+    "content": plain_content,
+}
