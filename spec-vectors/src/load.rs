@@ -206,6 +206,7 @@ const VECTORS: &[(&str, &str)] = &[
     embedded!("data/vectors/ads.json"),
     embedded!("data/vectors/com.json"),
     embedded!("data/vectors/frame.json"),
+    embedded!("data/vectors/sda.json"),
     embedded!("data/vectors/service.json"),
     embedded!("data/vectors/streaming.json"),
     embedded!("data/vectors/variable-description.json"),
