@@ -205,6 +205,7 @@ const VECTORS: &[(&str, &str)] = &[
     embedded!("data/vectors/address.json"),
     embedded!("data/vectors/ads.json"),
     embedded!("data/vectors/com.json"),
+    embedded!("data/vectors/content.json"),
     embedded!("data/vectors/dynamic.json"),
     embedded!("data/vectors/frame.json"),
     embedded!("data/vectors/sda.json"),
