@@ -206,6 +206,7 @@ const VECTORS: &[(&str, &str)] = &[
     embedded!("data/vectors/ads.json"),
     embedded!("data/vectors/com.json"),
     embedded!("data/vectors/content.json"),
+    embedded!("data/vectors/described-by-name.json"),
     embedded!("data/vectors/dynamic.json"),
     embedded!("data/vectors/frame.json"),
     embedded!("data/vectors/sda.json"),
