@@ -1,6 +1,7 @@
 //! This project's codec as the vectors see it: bytes in, fields or a refusal out.
 
 mod address;
+mod elements;
 mod frame;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -162,7 +163,7 @@ fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded,
         "ams-frame" => return frame::decode(context, bytes),
         "index-group" => return address::index_group(context, bytes),
         "index-offset" => return address::index_offset(context, bytes),
-        other => return Err(Refused::Unsupported(format!("stream {other}"))),
+        other => return elements::decode(other, context, bytes),
     }?;
     Ok(Decoded { fields, bytes })
 }

@@ -1,0 +1,105 @@
+//! Elements of SDA and GEO, contents, dynamic parameters, and the description by name.
+
+use ads_cnc::dynamic::{DynamicCount, DynamicIndex, DynamicName, DynamicNameRequest, DynamicValue};
+use ads_cnc::sda::{
+    ElementCount, ElementLength, ElementText, ElementWriteFlag, ObjectAddress, ObjectAddressQuery,
+};
+use ads_cnc::{
+    Content, ContentRef, Decode, DescriptionByName, Element, Encode, Numbers, ValueRef,
+    VariableType,
+};
+use ads_cnc_vectors::{Context, Tagged, Type, Value};
+
+use super::{
+    Decoded, Refused, data, decimal, element, numbers, one, owned_text, place, stream, tagged,
+    uns32,
+};
+
+pub(super) fn decode(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+    let (fields, bytes) = match name {
+        "object-address-query" => stream(bytes, |query: &ObjectAddressQuery| {
+            vec![("channel", uns32(query.channel)), ("axis", uns32(query.axis))]
+        }),
+        "object-address" => {
+            stream(bytes, |found: &ObjectAddress| place(found.index_group, found.index_offset))
+        }
+        "element-count" => stream(bytes, |count: &ElementCount| vec![("count", uns32(count.0))]),
+        "element-text" => {
+            stream(bytes, |reply: &ElementText| vec![("text", owned_text(&reply.text))])
+        }
+        "element-length" => stream(bytes, |length: &ElementLength| {
+            let width = match length.encoded_len() {
+                1 => Type::Uns08,
+                2 => Type::Uns16,
+                _ => Type::Uns32,
+            };
+            vec![("length", one(width, length.get()))]
+        }),
+        "element-write-flag" => {
+            stream(bytes, |flag: &ElementWriteFlag| vec![("flag", one(Type::Boolean, flag.0))])
+        }
+        "content" => {
+            let content = content(context, ContentRef::decode(bytes)?.bytes)?;
+            stream(bytes, |_: &Content| vec![("content", content)])
+        }
+        "dynamic-count" => stream(bytes, |count: &DynamicCount| vec![("count", uns32(count.0))]),
+        "dynamic-index" => stream(bytes, |index: &DynamicIndex| vec![("index", uns32(index.0))]),
+        "dynamic-name" => {
+            stream(bytes, |reply: &DynamicName| vec![("name", owned_text(&reply.name))])
+        }
+        "dynamic-name-request" => {
+            stream(bytes, |request: &DynamicNameRequest| vec![("name", owned_text(&request.name))])
+        }
+        "dynamic-value" => stream(bytes, |value: &DynamicValue| {
+            vec![("value", Value::One(element(Element::Real64(value.get()))))]
+        }),
+        "variable-description-by-name" => stream(bytes, |variable: &DescriptionByName| {
+            vec![
+                ("handle", uns32(variable.handle.0)),
+                ("type", uns32(variable.var_type.0)),
+                ("access", uns32(variable.access.0)),
+                ("size", uns32(variable.size)),
+                ("dimensions", numbers(&variable.dimensions)),
+            ]
+        }),
+        other => return Err(Refused::Unsupported(format!("stream {other}"))),
+    }?;
+    Ok(Decoded { fields, bytes })
+}
+
+/// A content by its type; bytes if there is none.
+fn content(context: &Context, bytes: &[u8]) -> Result<Value, Refused> {
+    let (Some(kind), Some(dimensions)) = (context.kind, context.dimensions.as_deref()) else {
+        return Ok(data(bytes));
+    };
+    let width = match kind {
+        Type::Boolean | Type::Bool => VariableType::BOOLEAN,
+        Type::Sgn08 | Type::Sint => VariableType::SGN08,
+        Type::Uns08 | Type::Byte => VariableType::UNS08,
+        Type::Sgn16 | Type::Int => VariableType::SGN16,
+        Type::Uns16 | Type::Word => VariableType::UNS16,
+        Type::Sgn32 | Type::Dint => VariableType::SGN32,
+        // No variable is a REAL32, an LWORD or an LINT, but each is as wide as one that is.
+        Type::Uns32 | Type::Dword | Type::Real32 | Type::Real => VariableType::UNS32,
+        Type::Real64 | Type::Lreal | Type::Lword | Type::Lint => VariableType::REAL64,
+        Type::String => VariableType::STRING,
+        other => return Err(Refused::Unsupported(format!("content of type {other:?}"))),
+    };
+    let elements = ValueRef::decode(bytes)?.elements(width, Numbers::from(dimensions))?;
+    Ok(Value::List(elements.map(|item| Value::One(typed(kind, item))).collect()))
+}
+
+/// An element under the name of its type.
+fn typed(kind: Type, item: Element<'_>) -> Tagged {
+    match (kind, item) {
+        (Type::Real32 | Type::Real, Element::Uns32(bits)) => Tagged {
+            bits: Some(format!("{bits:#010x}")),
+            ..tagged(kind, decimal(f32::from_bits(bits).into()))
+        },
+        (Type::Lword, Element::Real64(number)) => tagged(kind, number.to_bits()),
+        (Type::Lint, Element::Real64(number)) => {
+            tagged(kind, i64::from_le_bytes(number.to_le_bytes()))
+        }
+        _ => Tagged { kind, ..element(item) },
+    }
+}
