@@ -11,11 +11,12 @@ use ads_cnc::ads::{
 };
 use ads_cnc::streaming::ProgramStream;
 use ads_cnc::text::cp1252_to_char;
+use ads_cnc::value::DataType;
 use ads_cnc::{
-    CncStr, Decode, Description, Descriptor, DescriptorRef, Descriptors, Element, Encode, Error,
-    ErrorKind, ExtendedReply, Handle, HandleRead, HandleWrite, NameWrite, Numbers, ObjectCount,
-    Text, TextRef, Value as CncValue, VariableCount, VariableIndexKind, VariableKind, VariableName,
-    VariablePath, VariableType,
+    CncStr, Decode, Description, Descriptor, DescriptorRef, Descriptors, Element, Elements, Encode,
+    Error, ErrorKind, ExtendedReply, Handle, HandleRead, HandleWrite, NameWrite, Numbers,
+    ObjectCount, Text, TextRef, Value as CncValue, VariableCount, VariableIndexKind, VariableKind,
+    VariableName, VariablePath,
 };
 use ads_cnc_vectors::{Context, Fields, Hex, Tagged, Type, Value, Vector};
 
@@ -303,25 +304,17 @@ fn descriptor(object: DescriptorRef<'_>) -> Named {
     ]
 }
 
+/// A value or a content by its type, whose name the elements keep.
 fn elements(context: &Context, bytes: &[u8]) -> Result<Value, Refused> {
     let lacks = |what: &str| Refused::Unsupported(format!("a value without {what}"));
     let kind = context.kind.ok_or_else(|| lacks("a type"))?;
     let dimensions = context.dimensions.as_deref().ok_or_else(|| lacks("dimensions"))?;
-    let var_type = match kind {
-        Type::Boolean => VariableType::BOOLEAN,
-        Type::Sgn08 => VariableType::SGN08,
-        Type::Uns08 => VariableType::UNS08,
-        Type::Sgn16 => VariableType::SGN16,
-        Type::Uns16 => VariableType::UNS16,
-        Type::Sgn32 => VariableType::SGN32,
-        Type::Uns32 => VariableType::UNS32,
-        Type::Real64 => VariableType::REAL64,
-        Type::String => VariableType::STRING,
-        other => return Err(Refused::Unsupported(format!("values of type {other:?}"))),
+    let Some(data_type) = DataType::by_name(CncStr::new(kind.name())?) else {
+        return Err(Refused::Unsupported(format!("values of type {kind:?}")));
     };
-    let value = ads_cnc::ValueRef::decode(bytes)?;
-    let elements = value.elements(var_type, Numbers::from(dimensions))?;
-    Ok(Value::List(elements.iter().map(element).map(Value::One).collect()))
+    let elements = Elements::new(data_type, Numbers::from(dimensions), bytes)?;
+    let named = |item| Value::One(Tagged { kind, ..element(item) });
+    Ok(Value::List(elements.iter().map(named).collect()))
 }
 
 fn element(element: Element<'_>) -> Tagged {
@@ -333,6 +326,12 @@ fn element(element: Element<'_>) -> Tagged {
         Element::Uns16(number) => tagged(Type::Uns16, number),
         Element::Sgn32(number) => tagged(Type::Sgn32, number),
         Element::Uns32(number) => tagged(Type::Uns32, number),
+        Element::Lint(number) => tagged(Type::Lint, number),
+        Element::Lword(number) => tagged(Type::Lword, number),
+        Element::Real32(number) => Tagged {
+            bits: Some(format!("{:#010x}", number.to_bits())),
+            ..tagged(Type::Real32, decimal(number.into()))
+        },
         Element::Real64(number) => Tagged {
             bits: Some(format!("{:#018x}", number.to_bits())),
             ..tagged(Type::Real64, decimal(number))

@@ -82,6 +82,38 @@ pub enum Type {
     Name,
 }
 
+impl Type {
+    /// The name in the files; of a type of the manuals, the manuals' name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Boolean => "BOOLEAN",
+            Self::Uns08 => "UNS08",
+            Self::Sgn08 => "SGN08",
+            Self::Uns16 => "UNS16",
+            Self::Sgn16 => "SGN16",
+            Self::Uns32 => "UNS32",
+            Self::Sgn32 => "SGN32",
+            Self::Real32 => "REAL32",
+            Self::Real64 => "REAL64",
+            Self::Bool => "BOOL",
+            Self::Byte => "BYTE",
+            Self::Sint => "SINT",
+            Self::Word => "WORD",
+            Self::Int => "INT",
+            Self::Dword => "DWORD",
+            Self::Dint => "DINT",
+            Self::Lword => "LWORD",
+            Self::Lint => "LINT",
+            Self::Real => "REAL",
+            Self::Lreal => "LREAL",
+            Self::String => "STRING",
+            Self::NetId => "NETID",
+            Self::Bytes => "BYTES",
+            Self::Name => "NAME",
+        }
+    }
+}
+
 /// What is known beside the bytes.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

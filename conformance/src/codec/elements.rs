@@ -4,15 +4,11 @@ use ads_cnc::dynamic::{DynamicCount, DynamicIndex, DynamicName, DynamicNameReque
 use ads_cnc::sda::{
     ElementCount, ElementLength, ElementText, ElementWriteFlag, ObjectAddress, ObjectAddressQuery,
 };
-use ads_cnc::{
-    Content, ContentRef, Decode, DescriptionByName, Element, Encode, Numbers, ValueRef,
-    VariableType,
-};
-use ads_cnc_vectors::{Context, Tagged, Type, Value};
+use ads_cnc::{Content, ContentRef, Decode, DescriptionByName, Element, Encode};
+use ads_cnc_vectors::{Context, Type, Value};
 
 use super::{
-    Decoded, Refused, data, decimal, element, numbers, one, owned_text, place, stream, tagged,
-    uns32,
+    Decoded, Refused, data, element, elements, numbers, one, owned_text, place, stream, uns32,
 };
 
 pub(super) fn decode(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
@@ -69,37 +65,8 @@ pub(super) fn decode(name: &str, context: &Context, bytes: &[u8]) -> Result<Deco
 
 /// A content by its type; bytes if there is none.
 fn content(context: &Context, bytes: &[u8]) -> Result<Value, Refused> {
-    let (Some(kind), Some(dimensions)) = (context.kind, context.dimensions.as_deref()) else {
-        return Ok(data(bytes));
-    };
-    let width = match kind {
-        Type::Boolean | Type::Bool => VariableType::BOOLEAN,
-        Type::Sgn08 | Type::Sint => VariableType::SGN08,
-        Type::Uns08 | Type::Byte => VariableType::UNS08,
-        Type::Sgn16 | Type::Int => VariableType::SGN16,
-        Type::Uns16 | Type::Word => VariableType::UNS16,
-        Type::Sgn32 | Type::Dint => VariableType::SGN32,
-        // No variable is a REAL32, an LWORD or an LINT, but each is as wide as one that is.
-        Type::Uns32 | Type::Dword | Type::Real32 | Type::Real => VariableType::UNS32,
-        Type::Real64 | Type::Lreal | Type::Lword | Type::Lint => VariableType::REAL64,
-        Type::String => VariableType::STRING,
-        other => return Err(Refused::Unsupported(format!("content of type {other:?}"))),
-    };
-    let elements = ValueRef::decode(bytes)?.elements(width, Numbers::from(dimensions))?;
-    Ok(Value::List(elements.map(|item| Value::One(typed(kind, item))).collect()))
-}
-
-/// An element under the name of its type.
-fn typed(kind: Type, item: Element<'_>) -> Tagged {
-    match (kind, item) {
-        (Type::Real32 | Type::Real, Element::Uns32(bits)) => Tagged {
-            bits: Some(format!("{bits:#010x}")),
-            ..tagged(kind, decimal(f32::from_bits(bits).into()))
-        },
-        (Type::Lword, Element::Real64(number)) => tagged(kind, number.to_bits()),
-        (Type::Lint, Element::Real64(number)) => {
-            tagged(kind, i64::from_le_bytes(number.to_le_bytes()))
-        }
-        _ => Tagged { kind, ..element(item) },
+    match (context.kind, &context.dimensions) {
+        (Some(_), Some(_)) => elements(context, bytes),
+        _ => Ok(data(bytes)),
     }
 }
