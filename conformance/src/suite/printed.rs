@@ -1,6 +1,6 @@
 //! What the manuals print, byte for byte: cases made of golden vectors, for the target.
 
-use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::address::{Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Service, Task};
 use ads_cnc_vectors::{
@@ -54,10 +54,15 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     let data = if read { Vec::new() } else { request.bytes() };
     let length = u32::try_from(expected.len()).map_err(harness)?;
     let stream = Stream::by_name(&reply.stream).ok_or_else(|| lacks("stream"))?;
+    let index_group = IndexGroup::new(group);
+    let task = match index_group.parts() {
+        Some(Group::Com(_)) => Task::Com,
+        _ => Task::Sda,
+    };
     let call = Call {
-        port: if read { Task::Com.port() } else { Task::Sda.port() },
+        port: task.port(),
         service: if read { Service::Read } else { Service::ReadWrite },
-        index_group: IndexGroup::new(group),
+        index_group,
         index_offset: IndexOffset::new(offset),
         read_length: if read { length } else { stream.layout().max },
         data: &data,
