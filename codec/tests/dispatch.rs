@@ -261,8 +261,10 @@ proptest! {
     ) {
         let axis = PlatformAxis::new(axis).unwrap().com(Access::Element);
         let platform = IndexGroup::new(0x12_0100);
+        // With the axis in the offset (E-04).
+        let axes = IndexGroup::new(0x12_0200);
         let offset = IndexOffset::new(offset);
-        for group in [platform, axis, channel.com(Access::Element)] {
+        for group in [platform, axis, axes, channel.com(Access::Element)] {
             if let Ok(read) = ReadObject::new(group, offset, length) {
                 check_operation(read);
                 check_operation(WriteObject::new(group, offset, &content).unwrap());
@@ -352,6 +354,28 @@ fn the_count_of_a_platform_axis_is_a_read_of_content() {
     let canonical = ReadElement::new(element, 4).unwrap().into();
     assert_eq!(sent.dispatch(), Ok(canonical));
     assert_eq!(canonical.encode(&mut []), Ok(sent));
+}
+
+/// The content of a platform axis as the table of 2.1 and the example of 2.1.2 address it (E-04);
+/// its descriptors have one group only.
+#[test]
+fn content_of_a_platform_axis_has_two_addresses() {
+    let call = |group, offset| Call {
+        port: AmsPort::COM,
+        service: Service::Read,
+        index_group: IndexGroup::new(group),
+        index_offset: IndexOffset::new(offset),
+        read_length: 8,
+        data: &[],
+    };
+    for call in [call(0x12_0201, 1), call(0x12_0200, 0x1_0001)] {
+        let request = call.dispatch().unwrap();
+        assert_eq!(request.function(), Function::ReadObject);
+        assert_eq!(request.encode(&mut []), Ok(call));
+    }
+    let group = IndexGroup::new(0x13_0200);
+    let refused = Call { index_group: group, ..call(0, 0) }.dispatch();
+    assert_eq!(refused, Err(Refusal::Group(group)));
 }
 
 /// Content is not longer than was asked for, and its addresses are those of content.

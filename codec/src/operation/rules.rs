@@ -28,7 +28,8 @@ impl GroupRule {
     pub fn holds(self, group: Group) -> bool {
         match (self, group) {
             (Self::ComObjects, Group::Com(com)) => is_com(com, Access::Object),
-            (Self::ComContent, Group::Com(com)) => is_com(com, Access::Element),
+            // Of platform axes the axis may be in the offset instead (E-04).
+            (Self::ComContent, Group::Com(com)) => com.access == Access::Element,
             (Self::ComChannel, Group::Com(com)) => {
                 com.table == ComTable::Channel && com.instance > 0 && is_com(com, Access::Element)
             }
