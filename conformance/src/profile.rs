@@ -23,7 +23,7 @@ impl Profile {
         name: "embedded",
         channels: &[1, 2, 6],
         absent_channel: Some(5),
-        platform_axes: 3,
+        platform_axes: 5,
         printed_examples: true,
     };
 

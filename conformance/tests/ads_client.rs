@@ -78,12 +78,12 @@ fn number<T>(result: ads::Result<T>) -> Result<T, u32> {
 fn objects() {
     with_cnc(&[], |client, net_id| {
         let com = port(client, net_id, COM);
-        assert_eq!(read(com, 0x13_0101, 0, 4), Ok(vec![25, 0, 0, 0]));
+        assert_eq!(read(com, 0x13_0101, 0, 4), Ok(vec![30, 0, 0, 0]));
         // By rank, and the lists of another channel, the platform and a platform axis.
-        assert_eq!(read(com, 0x03_0101, 0, 4), Ok(vec![25, 0, 0, 0]));
+        assert_eq!(read(com, 0x03_0101, 0, 4), Ok(vec![30, 0, 0, 0]));
         assert_eq!(read(com, 0x03_0103, 0, 4), read(com, 0x13_0106, 0, 4));
         assert_eq!(read(com, 0x13_0100, 0, 4), Ok(vec![2, 0, 0, 0]));
-        assert_eq!(read(com, 0x13_0203, 0, 4), Ok(vec![2, 0, 0, 0]));
+        assert_eq!(read(com, 0x13_0203, 0, 4), Ok(vec![3, 0, 0, 0]));
 
         let printed = b"\x52\0\0\0\x01\0\0\0\0\0\0\0\x01\x01\x12\0\x03\0\0\0\
             mc_active_single_block_r\0\0\0\0\0\0\0\0\
@@ -95,8 +95,8 @@ fn objects() {
         assert_eq!(read(com, 0x13_0101, 0x10, 168), Ok([&printed[..], command].concat()));
         // A length between asks for one, a longer one than there are for what there are.
         assert_eq!(read(com, 0x13_0101, 0x10, 100), Ok(printed.to_vec()));
-        assert_eq!(read(com, 0x13_0101, 24, 10 * 84).map(|bytes| bytes.len()), Ok(168));
-        assert_eq!(read(com, 0x13_0101, 1, 25 * 84).map(|bytes| bytes.len()), Ok(25 * 84));
+        assert_eq!(read(com, 0x13_0101, 29, 10 * 84).map(|bytes| bytes.len()), Ok(168));
+        assert_eq!(read(com, 0x13_0101, 1, 30 * 84).map(|bytes| bytes.len()), Ok(30 * 84));
     });
 }
 
@@ -127,10 +127,10 @@ fn other_variables() {
     with_cnc(&[], |client, net_id| {
         let sda = port(client, net_id, SDA);
         let ask = |offset, data: &[u8]| ask(sda, CHANNEL_1, offset, data).unwrap();
-        assert_eq!(ask(0x44, b"V.G\0"), [5, 0, 0, 0]);
+        assert_eq!(ask(0x44, b"V.G\0"), [10, 0, 0, 0]);
         assert_eq!(ask(0x44, b"V.A\0"), [6, 0, 0, 0]);
         // The sum of all kinds.
-        assert_eq!(ask(0x44, b"\0"), [134, 0, 0, 0]);
+        assert_eq!(ask(0x44, b"\0"), [139, 0, 0, 0]);
         // 0.0 is eight NULs; 1234.2 is not.
         assert_eq!(ask(0x48, b"V.A.ACT_POS.Z\0"), [0; 8]);
         let real = [0xCD, 0xCC, 0xCC, 0xCC, 0xCC, 0x48, 0x93, 0x40];
@@ -188,11 +188,11 @@ fn refusals_are_error_numbers() {
         assert_eq!(ask_for(sda, CHANNEL_1, 0x44, b"V.E\0", 3), Err(0x705));
         assert_eq!(ask_for(sda, CHANNEL_1, 0x48, b"V.E.test\0", 19), Err(0x705));
         // The same on COM.
-        assert_eq!(read(com, 0x13_0101, 26, 84), Err(0x703));
+        assert_eq!(read(com, 0x13_0101, 31, 84), Err(0x703));
         assert_eq!(read(com, 0x13_0101, 1, 83), Err(0x705));
         assert_eq!(read(com, 0x13_0105, 0, 4), Err(0x702));
-        assert_eq!(read(com, 0x13_0204, 0, 4), Err(0x702));
-        assert_eq!(read(com, 0x12_0101, 3, 1), Err(0x703));
+        assert_eq!(read(com, 0x13_0206, 0, 4), Err(0x702));
+        assert_eq!(read(com, 0x12_0101, 4, 1), Err(0x703));
         // Another service, another port, another device.
         assert_eq!(read(sda, CHANNEL_1, 0x44, 4), Err(0x701));
         assert_eq!(number(sda.write(CHANNEL_1, 0x44, b"V.E\0")), Err(0x701));

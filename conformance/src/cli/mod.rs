@@ -1,5 +1,6 @@
 //! The command line of `ads-cnc`.
 
+mod model;
 mod run;
 mod serve;
 

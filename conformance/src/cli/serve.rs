@@ -5,8 +5,9 @@ use std::net::SocketAddr;
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use super::model::ModelArgs;
 use super::{find_defect, refuse};
-use crate::cnc::{Cnc, Server};
+use crate::cnc::{Cnc, DEFAULT_MODEL, Server};
 use crate::defect::Defect;
 use crate::net;
 use crate::verdict::Exit;
@@ -17,6 +18,13 @@ pub(super) struct Args {
     /// Loopback address and port to listen on; with port 0 the system picks one.
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:48898")]
     listen: SocketAddr,
+
+    #[command(flatten)]
+    model: ModelArgs,
+
+    /// Write the default model out, with comments that say what a model can be, and end.
+    #[arg(long)]
+    print_model: bool,
 
     /// Answer with a seeded defect, such as variable-description.size.flip.
     #[arg(long, value_name = "ID")]
@@ -30,6 +38,9 @@ pub(super) struct Args {
 pub(super) fn serve(args: &Args) -> ExitCode {
     if args.list_defects {
         return list_defects();
+    }
+    if args.print_model {
+        return print_model();
     }
     if !args.listen.ip().is_loopback() {
         let addr = args.listen;
@@ -46,7 +57,11 @@ pub(super) fn serve(args: &Args) -> ExitCode {
         Err(why) => return refuse(Exit::Usage, why),
     };
     log_to_stderr();
-    let server = match start(args.listen, defect) {
+    let cnc = match args.model.cnc() {
+        Ok(cnc) => cnc,
+        Err(why) => return refuse(Exit::Usage, why),
+    };
+    let server = match start(args.listen, cnc, defect) {
         Ok(server) => server,
         Err(why) => return refuse(Exit::Internal, why),
     };
@@ -64,8 +79,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     }
 }
 
-fn start(addr: SocketAddr, defect: Option<Defect>) -> Result<Server, String> {
-    let cnc = Cnc::with_default_model().map_err(|error| format!("the default model: {error}"))?;
+fn start(addr: SocketAddr, cnc: Cnc, defect: Option<Defect>) -> Result<Server, String> {
     if let Some(defect) = &defect {
         tracing::warn!("serving with a seeded defect: {defect}");
     }
@@ -73,6 +87,14 @@ fn start(addr: SocketAddr, defect: Option<Defect>) -> Result<Server, String> {
         net::listen(addr).map_err(|error| format!("cannot listen on {addr}: {error}"))?;
     let cnc = Arc::new(cnc.with_defect(defect));
     Server::start(listener, cnc).map_err(|error| format!("cannot serve on {addr}: {error}"))
+}
+
+fn print_model() -> ExitCode {
+    let mut out = io::stdout().lock();
+    match out.write_all(DEFAULT_MODEL.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => refuse(Exit::Internal, format_args!("the model is not written: {error}")),
+    }
 }
 
 fn list_defects() -> ExitCode {

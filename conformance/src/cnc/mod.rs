@@ -24,20 +24,29 @@
 //! ```
 
 mod answer;
-mod check;
-mod default;
+mod content;
+mod control;
 mod model;
 mod respond;
 mod server;
-mod variable;
+mod state;
 
 pub use answer::Cnc;
-pub use check::ModelError;
-pub use default::default_model;
-pub use model::{ChannelModel, Model};
+pub use control::ControlError;
+pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
 pub use respond::{DATA_MAX, NET_ID};
 pub use server::{CONNECTIONS_MAX, Server};
-pub use variable::Variable;
+
+/// The edition of the manual with this name: `en-1.05` or `de-1.051`.
+///
+/// # Errors
+/// The names that there are.
+pub fn edition(name: &str) -> Result<ads_cnc::edition::Edition, String> {
+    model::edition(name)
+}
+
+/// The most bytes of a content: what a frame has room for beside a result and a length.
+const CONTENT_MAX: usize = 0xFFF8;
 
 fn to_u32(len: usize) -> u32 {
     u32::try_from(len).unwrap_or(u32::MAX)

@@ -229,8 +229,11 @@ mod tests {
         assert_eq!(ask(Command::READ_WRITE, 552, &COUNT[..19]).1, refused(5));
         assert_eq!(ask(Command::READ, 552, &COUNT[..12]).1, refused(1));
         assert_eq!(ask(Command::READ, 552, &[]).1, refused(5));
+        // An object that may be written, and one that may not.
         let write = b"\x01\x01\x12\0\x01\0\0\0\x01\0\0\0\x01";
-        assert_eq!(ask(Command::WRITE, 553, write).1, [3, 7, 0, 0]);
+        assert_eq!(ask(Command::WRITE, 553, write).1, [0, 0, 0, 0]);
+        let write = b"\x01\x01\x12\0\x03\0\0\0\x01\0\0\0\x01";
+        assert_eq!(ask(Command::WRITE, 553, write).1, [4, 7, 0, 0]);
         for command in [0, 1, 4, 5, 6, 7, 8, 10, 0xFFFF] {
             assert_eq!(ask(Command(command), 552, &[]).1, [1, 7, 0, 0], "{command}");
         }

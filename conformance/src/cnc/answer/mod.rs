@@ -1,37 +1,46 @@
 //! From an ADS request to data or an error number.
 
+mod dynamic;
+mod elements;
+mod objects;
+mod variables;
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use ads_cnc::Encode;
+use ads_cnc::address::Channel;
 use ads_cnc::ads::AdsError;
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Reply, Request};
-use ads_cnc::{
-    ExtendedDescription, ExtendedReply, Kind, ObjectCount, Synchronisation, Validity, ValueRef,
-    VariableCount,
-};
+use ads_cnc::operation::{Call, Reply, Request, WriteProgramStream};
 
-use super::default::default_model;
-use super::{ChannelModel, Model, ModelError, Variable, to_len, to_u32};
+use super::state::State;
+use super::{Model, ModelError, to_u32};
 use crate::defect::Defect;
 
-/// The simulated CNC.
-#[derive(Clone, Debug)]
+/// The simulated CNC: a model, and its state behind one lock.
+#[derive(Debug)]
 pub struct Cnc {
     model: Model,
+    state: Mutex<State>,
     defect: Option<Defect>,
 }
 
+/// Data, or the error number.
+type Answer = Result<Vec<u8>, AdsError>;
+
 impl Cnc {
-    /// A CNC with this data model.
-    pub const fn new(model: Model) -> Self {
-        Self { model, defect: None }
+    /// A CNC with this data model, in the state it starts in.
+    pub fn new(model: Model) -> Self {
+        let state = Mutex::new(State::new(&model));
+        Self { model, state, defect: None }
     }
 
-    /// The CNC that answers what the manuals print: see [`default_model`].
+    /// The CNC that answers what the manuals print: see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
     ///
     /// # Errors
     /// None: a test builds it.
     pub fn with_default_model() -> Result<Self, ModelError> {
-        default_model().map(Self::new)
+        Model::default_model().map(Self::new)
     }
 
     /// With a seeded defect: streams of the requests are changed before they are read, streams
@@ -47,6 +56,11 @@ impl Cnc {
         &self.model
     }
 
+    pub(super) fn state(&self) -> MutexGuard<'_, State> {
+        // No panic is reachable under the lock, and each value is whole whatever happened.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// The data to answer with.
     ///
     /// Which error number a CNC gives is not documented (ADS-7), so these are assumed:
@@ -55,10 +69,11 @@ impl Cnc {
     /// |---|---|
     /// | 0x6 | a port that no task has |
     /// | 0x701 | a service that the function does not take |
-    /// | 0x702 | an index group without functions, a channel or axis that is not there |
-    /// | 0x703 | an index offset without function, an object beyond the list |
-    /// | 0x705 | a request or a read length of the wrong size |
-    /// | 0x706 | an index out of bounds or too many, a handle of no variable |
+    /// | 0x702 | an index group without functions, a channel, axis or spindle that is not there |
+    /// | 0x703 | an index offset without function, an object or element that is not there; 0x4C on a CNC too old for it |
+    /// | 0x704 | a write of what is read-only |
+    /// | 0x705 | a request, a value or a read length of the wrong size |
+    /// | 0x706 | an index out of bounds or too many, a handle of no variable of the channel, a handle of a kind that is by name only, a write where no axis is, an axis exchange that cannot be |
     /// | 0x710 | a name or kind that is not there |
     ///
     /// # Errors
@@ -83,83 +98,60 @@ impl Cnc {
         Some(defect.apply(bytes))
     }
 
-    fn reply(&self, request: &Request<'_>) -> Result<Vec<u8>, AdsError> {
+    fn reply(&self, request: &Request<'_>) -> Answer {
+        let mut running = Running { model: &self.model, state: self.state() };
         match request {
-            Request::CountObjects(op) => {
-                let list = self.model.objects(op.list).ok_or(AdsError::INVALID_GROUP)?;
-                encode(ObjectCount(to_u32(list.len())))
-            }
-            Request::ReadDescriptors(op) => {
-                let list = self.model.objects(op.list()).ok_or(AdsError::INVALID_GROUP)?;
-                let first = to_len(op.first()).checked_sub(1).ok_or(AdsError::INVALID_OFFSET)?;
-                let asked = list.slice(first, to_len(op.count()));
-                if asked.is_empty() { Err(AdsError::INVALID_OFFSET) } else { encode(asked) }
-            }
-            Request::CountVariables(op) => {
-                let channel = self.channel(op.channel)?;
-                let kind = op.kind.text();
-                let count = match channel.of_kind(kind) {
-                    Some(variables) => variables.count(),
-                    None if kind.is_empty() => channel.variables.len(),
-                    None => return Err(AdsError::SYMBOL_NOT_FOUND),
-                };
-                encode(VariableCount(to_u32(count)))
-            }
-            Request::DescribeByIndex(op) => {
-                let channel = self.channel(op.channel)?;
-                let variables = channel.of_kind(op.kind.text());
-                let mut variables = variables.ok_or(AdsError::SYMBOL_NOT_FOUND)?;
-                let variable = variables.nth(to_len(op.index)).ok_or(AdsError::INVALID_DATA)?;
-                encode(variable.description())
-            }
-            Request::HandleByName(op) => {
-                let channel = self.channel(op.channel)?;
-                let variable = channel.by_name(op.name.text());
-                encode(variable.ok_or(AdsError::SYMBOL_NOT_FOUND)?.handle)
-            }
-            Request::ReadByHandle(op) => {
-                let channel = self.channel(op.channel)?;
-                let variable = channel.by_handle(op.handle).ok_or(AdsError::INVALID_DATA)?;
-                let indices: Vec<u32> = op.indices.iter().collect();
-                value(variable, &indices)
-            }
-            Request::ReadByName(op) => {
-                let channel = self.channel(op.channel)?;
-                let named = channel.by_element_name(op.name.text());
-                let (variable, indices) = named.ok_or(AdsError::SYMBOL_NOT_FOUND)?;
-                value(variable, &indices)
-            }
-            Request::DescribeExtended(op) => {
-                let channel = self.channel(op.channel)?;
-                let kind = op.kind.text();
-                let mut variables = channel.of_kind(kind).ok_or(AdsError::SYMBOL_NOT_FOUND)?;
-                variables.nth(to_len(op.index)).ok_or(AdsError::INVALID_DATA)?;
-                // As printed; V.G and V.A have none (VAR-16).
-                encode(ExtendedReply((op.kind == Kind::V_E).then_some(ExtendedDescription {
-                    synchronisation: Synchronisation::SYNCHRONIZED,
-                    validity: Validity::GLOBAL,
-                })))
-            }
-            Request::AxisHandleByName(op) => {
-                let channel = self.channel(op.channel)?;
-                let name = channel.axis_name(op.axis, op.name.text());
-                let variable = name.and_then(|name| channel.by_name(name.as_cnc_str()));
-                encode(variable.ok_or(AdsError::SYMBOL_NOT_FOUND)?.handle)
-            }
-            Request::AxisReadByName(op) => {
-                let channel = self.channel(op.channel)?;
-                let name = channel.axis_name(op.axis, op.name.text());
-                let named = name.and_then(|name| channel.by_element_name(name.as_cnc_str()));
-                let (variable, indices) = named.ok_or(AdsError::SYMBOL_NOT_FOUND)?;
-                value(variable, &indices)
-            }
+            Request::CountObjects(op) => running.count_objects(op),
+            Request::ReadDescriptors(op) => running.descriptors(op),
+            Request::ReadObject(op) => running.read_object(op),
+            Request::WriteObject(op) => running.write_object(op),
+            Request::FindInstance(op) => running.find_instance(op),
+            Request::CountElements(op) => running.read_element(op.element),
+            Request::ReadElement(op) => running.read_element(op.element()),
+            Request::WriteElement(op) => running.write_element(op),
+            Request::ReadElementName(op) => running.element_name(op.element),
+            Request::ReadElementType(op) => running.element_type(op.element),
+            Request::ReadElementLength(op) => running.element_length(op.element),
+            Request::ReadElementUnit(op) => running.element_unit(op.element),
+            Request::ReadElementWriteFlag(op) => running.element_write_flag(op.element),
+            Request::CountVariables(op) => running.count_variables(op),
+            Request::DescribeByIndex(op) => running.describe_by_index(op),
+            Request::DescribeExtended(op) => running.describe_extended(op),
+            Request::DescribeByName(op) => running.describe_by_name(op),
+            Request::HandleByName(op) => running.handle_by_name(op),
+            Request::ReadByHandle(op) => running.read_by_handle(op),
+            Request::ReadByName(op) => running.read_by_name(op),
+            Request::WriteByHandle(op) => running.write_by_handle(op),
+            Request::WriteByName(op) => running.write_by_name(op),
+            Request::AxisHandleByName(op) => running.axis_handle_by_name(op),
+            Request::AxisReadByName(op) => running.axis_read_by_name(op),
+            Request::AxisWriteByName(op) => running.axis_write_by_name(op),
+            Request::CountDynamic(op) => running.count_dynamic(op),
+            Request::DynamicNameByIndex(op) => running.dynamic_name(op),
+            Request::DynamicValueByName(op) => running.dynamic_by_name(op),
+            Request::DynamicValueByIndex(op) => running.dynamic_by_index(op),
+            Request::WriteProgramStream(op) => running.write_program_stream(op),
             // A function of the table that this CNC does not serve is at no offset of it.
             _ => Err(AdsError::INVALID_OFFSET),
         }
     }
+}
 
-    fn channel(&self, at: ads_cnc::address::Channel) -> Result<&ChannelModel, AdsError> {
-        self.model.channel(at).ok_or(AdsError::INVALID_GROUP)
+/// The CNC while it answers.
+struct Running<'a> {
+    model: &'a Model,
+    state: MutexGuard<'a, State>,
+}
+
+impl Running<'_> {
+    fn channel(&self, at: Channel) -> Result<usize, AdsError> {
+        self.state.channel(self.model, at.addressing(), at.number())
+    }
+
+    /// Here the packet goes to the channel's NC program. There is none yet.
+    fn write_program_stream(&mut self, op: &WriteProgramStream<'_>) -> Answer {
+        self.channel(op.channel)?;
+        Err(AdsError::INVALID_OFFSET)
     }
 }
 
@@ -170,12 +162,7 @@ fn dispatch<'a>(call: &Call<'a>) -> Result<Request<'a>, AdsError> {
     })
 }
 
-fn value(variable: &Variable, indices: &[u32]) -> Result<Vec<u8>, AdsError> {
-    let bytes = variable.element(indices).ok_or(AdsError::INVALID_DATA)?;
-    encode(ValueRef { bytes })
-}
-
-fn encode<'a>(reply: impl Into<Reply<'a>>) -> Result<Vec<u8>, AdsError> {
+fn encode<'a>(reply: impl Into<Reply<'a>>) -> Answer {
     // The model was checked to fit: this does not fail.
     reply.into().to_vec().map_err(|_| AdsError::INVALID_DATA)
 }

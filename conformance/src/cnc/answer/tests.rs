@@ -25,9 +25,13 @@ fn ask(offset: u32, data: &[u8]) -> Result<Vec<u8>, AdsError> {
     cnc().answer(&call(0x12_2301, offset, 2048, data))
 }
 
-fn com(group: u32, offset: u32, read_length: u32) -> Result<Vec<u8>, AdsError> {
+fn com_call(group: u32, offset: u32, read_length: u32) -> Call<'static> {
     let call = call(group, offset, read_length, &[]);
-    cnc().answer(&Call { port: AmsPort::COM, service: Service::Read, ..call })
+    Call { port: AmsPort::COM, service: Service::Read, ..call }
+}
+
+fn com(group: u32, offset: u32, read_length: u32) -> Result<Vec<u8>, AdsError> {
+    cnc().answer(&com_call(group, offset, read_length))
 }
 
 fn le(numbers: &[i32]) -> Vec<u8> {
@@ -95,7 +99,7 @@ fn every_variable_answers_as_it_describes_itself() {
     let cnc = cnc();
     let mut types = std::collections::BTreeSet::new();
     for (group, counts) in
-        [(0x12_2301, [123, 5, 6]), (0x12_2302, [2, 1, 1]), (0x12_2306, [2, 1, 1])]
+        [(0x12_2301, [123, 10, 6]), (0x12_2302, [2, 6, 2]), (0x12_2306, [2, 6, 2])]
     {
         for (kind, count) in ["V.E\0", "V.G\0", "V.A\0"].into_iter().zip(counts) {
             let number = cnc.answer(&call(group, 0x44, 4, kind.as_bytes()));
@@ -161,14 +165,13 @@ fn what_is_unknown_has_a_number() {
     let none = b"V.E\0";
     assert_eq!(ask(0x43, none), Err(E::INVALID_OFFSET));
     assert_eq!(ask(0x4D, none), Err(E::INVALID_OFFSET));
-    // A write is asked for with Write; what the CNC does not serve has no offset there.
     assert_eq!(ask(0x49, none), Err(E::SERVICE_NOT_SUPPORTED));
-    let write = Call { service: Service::Write, ..call(0x12_2301, 0x4A, 0, b"V.E.vartest\0\0\0") };
-    assert_eq!(cnc().answer(&write), Err(E::INVALID_OFFSET));
     assert_eq!(ask(0x4B, b"\x7b\0\0\0V.E\0"), Err(E::INVALID_DATA));
     assert_eq!(ask(0x4B, b"\0\0\0\0V.P\0"), Err(E::SYMBOL_NOT_FOUND));
     assert_eq!(cnc().answer(&call(0xF005, 0x44, 4, none)), Err(E::INVALID_GROUP));
-    assert_eq!(com(0x12_0101, 0x3, 1), Err(E::INVALID_OFFSET));
+    assert_eq!(com(0x12_0101, 0x4, 1), Err(E::INVALID_OFFSET));
+    // The program stream is not read (STM-1).
+    assert_eq!(com(0x12_0101, 0x90, 1), Err(E::SERVICE_NOT_SUPPORTED));
     let port = Call { port: AmsPort(851), ..call(0x12_2301, 0x44, 4, none) };
     assert_eq!(cnc().answer(&port), Err(E::TARGET_PORT_NOT_FOUND));
     for service in [Service::Read, Service::Write] {
@@ -197,8 +200,8 @@ fn what_is_unknown_has_a_number() {
 
 #[test]
 fn no_kind_is_the_sum_and_only_a_number() {
-    assert_eq!(ask(0x44, b"\0"), Ok(vec![134, 0, 0, 0]));
-    assert_eq!(ask(0x44, b""), Ok(vec![134, 0, 0, 0]));
+    assert_eq!(ask(0x44, b"\0"), Ok(vec![139, 0, 0, 0]));
+    assert_eq!(ask(0x44, b""), Ok(vec![139, 0, 0, 0]));
     assert_eq!(ask(0x45, b"\0\0\0\0\0"), Err(AdsError::SYMBOL_NOT_FOUND));
 }
 
@@ -233,13 +236,13 @@ fn lengths_have_to_fit() {
 #[test]
 fn object_lists() {
     let count = |group| com(group, 0, 4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap()));
-    // 17 of its own, 6 of its axes, 2 of the platform.
-    assert_eq!(count(0x13_0101), Ok(25));
-    assert_eq!(count(0x03_0101), Ok(25));
+    // 19 of its own, 9 of its places, 2 of the platform.
+    assert_eq!(count(0x13_0101), Ok(30));
+    assert_eq!(count(0x03_0101), Ok(30));
     assert_eq!(count(0x13_0100), Ok(2));
-    assert_eq!((count(0x13_0106), count(0x03_0103)), (Ok(8), Ok(8)));
-    assert_eq!((count(0x13_0201), count(0x13_0203)), (Ok(2), Ok(2)));
-    for absent in [0x13_0105, 0x03_0104, 0x13_0200, 0x13_0204] {
+    assert_eq!((count(0x13_0106), count(0x03_0103)), (Ok(11), Ok(11)));
+    assert_eq!((count(0x13_0201), count(0x13_0205)), (Ok(3), Ok(3)));
+    for absent in [0x13_0105, 0x03_0104, 0x13_0200, 0x13_0206] {
         assert_eq!(count(absent), Err(AdsError::INVALID_GROUP), "{absent:#x}");
     }
     // That group is of contents.
@@ -247,15 +250,15 @@ fn object_lists() {
     assert_eq!(com(0x13_0101, 0, 3), Err(AdsError::INVALID_SIZE));
 
     let read = |first, length| com(0x13_0101, first, length).map(|bytes| bytes.len() / 84);
-    assert_eq!((read(1, 84), read(1, 168), read(1, 25 * 84)), (Ok(1), Ok(2), Ok(25)));
+    assert_eq!((read(1, 84), read(1, 168), read(1, 30 * 84)), (Ok(1), Ok(2), Ok(30)));
     // No more than there are; one for a length between.
-    assert_eq!((read(24, 4 * 84), read(1, 26 * 84), read(1, 100)), (Ok(2), Ok(25), Ok(1)));
-    assert_eq!(read(1, 84 * 10_000_000), Ok(25));
+    assert_eq!((read(29, 4 * 84), read(1, 31 * 84), read(1, 100)), (Ok(2), Ok(30), Ok(1)));
+    assert_eq!(read(1, 84 * 10_000_000), Ok(30));
     assert_eq!(read(1, 83), Err(AdsError::INVALID_SIZE));
-    assert_eq!(read(26, 84), Err(AdsError::INVALID_OFFSET));
+    assert_eq!(read(31, 84), Err(AdsError::INVALID_OFFSET));
     assert_eq!(read(u32::MAX, 84), Err(AdsError::INVALID_OFFSET));
 
-    let all = com(0x13_0101, 1, 25 * 84).unwrap();
+    let all = com(0x13_0101, 1, 30 * 84).unwrap();
     let platform = com(0x13_0100, 1, 2 * 84).unwrap();
     assert!(all.ends_with(&platform));
     let all = DescriptorsRef::decode(&all).unwrap();
@@ -264,10 +267,31 @@ fn object_lists() {
         (object.index_group().get(), object.index_offset().get(), object.name().to_string())
     };
     assert_eq!(at(17), (0x12_0101, 1, "mc_command_single_block_w".into()));
-    assert_eq!(at(18), (0x12_0101, 0x1_0001, "example_position_r".into()));
-    assert_eq!(at(24), (0x12_0100, 0x251, "example_platform_cycle_time_r".into()));
+    assert_eq!(at(20), (0x12_0101, 0x1_0001, "example_position_r".into()));
+    assert_eq!(at(29), (0x12_0100, 0x251, "example_platform_cycle_time_r".into()));
     let axis = com(0x13_0201, 1, 84).unwrap();
     assert_eq!(axis[12..20], [0, 2, 0x12, 0, 1, 0, 1, 0]);
+}
+
+/// Each object is read where its descriptor says, as long as it says.
+#[test]
+fn every_object_is_where_its_descriptor_says() {
+    let cnc = cnc();
+    let mut ids = std::collections::BTreeSet::new();
+    for group in [0x13_0101, 0x13_0102, 0x13_0106, 0x13_0201, 0x13_0202, 0x13_0203, 0x13_0205] {
+        let list = cnc.answer(&com_call(group, 1, 30 * 84)).unwrap();
+        for object in DescriptorsRef::decode(&list).unwrap().iter() {
+            assert!(ids.insert(object.id()), "{}", object.id());
+            let (group, offset) = (object.index_group().get(), object.index_offset().get());
+            let read = cnc.answer(&com_call(group, offset, object.size()));
+            match object.name().to_string().as_str() {
+                "mc_program_stream_w" => assert_eq!(read, Err(AdsError::SERVICE_NOT_SUPPORTED)),
+                name => {
+                    assert_eq!(read.map(|bytes| bytes.len() as u32), Ok(object.size()), "{name}");
+                }
+            }
+        }
+    }
 }
 
 #[test]

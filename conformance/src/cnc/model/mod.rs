@@ -1,197 +1,171 @@
-//! What the CNC has: channels with objects and variables, the platform, its axes.
+//! What the CNC has: its configuration, which no request changes.
+//!
+//! It is read from TOML; what can be said there, the default model says in its comments:
+//! `ads-cnc serve --print-model` writes it out.
 
-use ads_cnc::address::{Addressing, ChannelAxis, ComTable};
-use ads_cnc::operation::ObjectList;
-use ads_cnc::{CncStr, CncString, Descriptors, DescriptorsRef, Handle, VariablePath};
+mod build;
+mod document;
+mod error;
+mod item;
+mod types;
+mod variable;
 
-use super::check::{self, ModelError};
-use super::variable::{Variable, split_indices};
+use std::collections::HashMap;
+use std::path::Path;
 
-/// A channel: what it is configured with.
-#[derive(Clone, Debug)]
-pub struct ChannelModel {
-    /// Logical number, from 1.
-    pub number: u8,
-    /// An inactive channel has no rank and answers nothing.
-    pub active: bool,
-    /// Its COM objects, without those of the platform.
-    pub objects: Descriptors,
-    /// Its variables; of each kind, the order is that of their indices.
-    pub variables: Vec<Variable>,
-    /// Instance identifiers of the axes at its places, from place 1 on.
-    pub axes: Vec<CncString>,
-}
+use ads_cnc::address::Class;
+use ads_cnc::dynamic::{DynamicKind, DynamicValue};
+use ads_cnc::edition::{CncVersion, Edition};
+use ads_cnc::{CncString, Descriptors};
+
+pub use error::ModelError;
+pub(super) use item::{ClassModel, Item, Meaning, Objects};
+pub(super) use variable::{At, Variable, Variables, handle_at};
+
+pub(super) use build::{edition, parameter_kind};
+use error::Source;
+
+/// The default model, as it is read: what the manuals print, and something of everything else.
+pub const DEFAULT_MODEL: &str = include_str!("default.toml");
 
 /// A checked data model.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Model {
-    channels: Vec<ChannelModel>,
-    platform: Descriptors,
-    axes: Vec<Descriptors>,
-    /// Objects of the first active channel and behind them those of the platform.
-    first: Descriptors,
+    pub(super) edition: Edition,
+    pub(super) version: Option<CncVersion>,
+    /// In the order of their numbers.
+    pub(super) channels: Vec<ChannelModel>,
+    /// In the configured order, which is that of their places on the platform.
+    pub(super) axes: Vec<AxisModel>,
+    pub(super) spindles: usize,
+    pub(super) platform: Objects,
+    /// Of each platform axis.
+    pub(super) platform_axis: Objects,
+    /// Of each place of each channel.
+    pub(super) channel_axis: Objects,
+    /// V.A.
+    pub(super) axis_variables: Variables,
+    pub(super) classes: [ClassModel; 6],
+    pub(super) platform_list: Descriptors,
+    pub(super) axis_lists: Vec<Descriptors>,
+}
+
+/// A channel.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ChannelModel {
+    /// Logical number, from 1.
+    pub(super) number: u8,
+    /// At the start.
+    pub(super) active: bool,
+    /// Which axis is at which place at the start.
+    pub(super) places: Vec<Option<usize>>,
+    pub(super) objects: Objects,
+    pub(super) variables: Variables,
+    /// Of V.E and V.G, in the order of their indices.
+    pub(super) external: Vec<usize>,
+    pub(super) global: Vec<usize>,
+    pub(super) by_handle: HashMap<u32, At>,
+    pub(super) parameters: Vec<Parameter>,
+    /// Its objects and those of its places.
+    pub(super) list: Descriptors,
+    /// Those, and behind them the platform's (COM-4).
+    pub(super) list_of_first: Descriptors,
+}
+
+/// A platform axis.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct AxisModel {
+    /// Instance identifier, in names of V.A on the channel interface.
+    pub(super) name: CncString,
+    /// Logical axis number, not 0.
+    pub(super) number: u32,
+}
+
+/// A dynamic parameter (DYN).
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Parameter {
+    pub(super) kind: DynamicKind,
+    pub(super) name: CncString,
+    pub(super) value: DynamicValue,
+    /// It is there while the content of this object of the channel is not 0.
+    pub(super) needs: Option<usize>,
+}
+
+/// What overrides the settings of a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Settings {
+    /// The edition of the manual that the CNC follows.
+    pub edition: Option<Edition>,
+    /// The version that it claims to be.
+    pub version: Option<CncVersion>,
 }
 
 impl Model {
-    /// A model of these channels, platform objects and objects of each platform axis.
+    /// The default model: [`DEFAULT_MODEL`].
     ///
     /// # Errors
-    /// [`ModelError`] if the parts do not fit each other or what the streams can carry.
-    pub fn new(
-        mut channels: Vec<ChannelModel>,
-        platform: Descriptors,
-        axes: Vec<Descriptors>,
-    ) -> Result<Self, ModelError> {
-        channels.sort_by_key(|channel| channel.number);
-        let active = channels.iter().find(|channel| channel.active);
-        let own = active.map(|channel| channel.objects.as_ref());
-        let listed = own.iter().flat_map(DescriptorsRef::iter).chain(platform.as_ref().iter());
-        let first = listed.map(|object| object.to_owned()).collect();
-        check::channels(&channels)?;
-        check::objects(&channels, &platform, &axes)?;
-        check::list(&first)?;
-        Ok(Self { channels, platform, axes, first })
+    /// None: a test reads it.
+    pub fn default_model() -> Result<Self, ModelError> {
+        Self::from_toml(DEFAULT_MODEL, "the default model")
     }
 
-    /// All channels in the order of their numbers.
-    pub fn channels(&self) -> &[ChannelModel] {
-        &self.channels
+    /// A model from TOML; `file` is what errors name it by.
+    ///
+    /// # Errors
+    /// [`ModelError`] for what is no TOML, unknown keys, and whatever does not fit together or
+    /// into the streams.
+    pub fn from_toml(text: &str, file: &str) -> Result<Self, ModelError> {
+        Self::with_settings(text, file, Settings::default())
     }
 
-    /// The channel with this logical number, if it is active.
-    pub fn by_number(&self, number: u8) -> Option<&ChannelModel> {
-        self.active().find(|channel| channel.number == number)
+    /// [`from_toml`](Self::from_toml), with other settings than the file has.
+    ///
+    /// # Errors
+    /// Those of [`from_toml`](Self::from_toml).
+    pub fn with_settings(text: &str, file: &str, settings: Settings) -> Result<Self, ModelError> {
+        build::build(Source { file, text }, settings)
     }
 
-    /// The channel of this rank, from 1, among the active ones (ADR-11).
-    pub fn by_rank(&self, rank: u8) -> Option<&ChannelModel> {
-        self.active().nth(usize::from(rank).checked_sub(1)?)
+    /// [`with_settings`](Self::with_settings) of a file.
+    ///
+    /// # Errors
+    /// Those of [`from_toml`](Self::from_toml), and a file that cannot be read.
+    pub fn load(path: &Path, settings: Settings) -> Result<Self, ModelError> {
+        let file = path.display().to_string();
+        let text = std::fs::read_to_string(path);
+        let text = text.map_err(|error| ModelError::of_file(&file, error))?;
+        Self::with_settings(&text, &file, settings)
     }
 
-    fn active(&self) -> impl Iterator<Item = &ChannelModel> {
-        self.channels.iter().filter(|channel| channel.active)
+    /// The edition of the manual that it follows.
+    pub const fn edition(&self) -> Edition {
+        self.edition
     }
 
-    /// The channel an address means.
-    pub fn channel(&self, at: ads_cnc::address::Channel) -> Option<&ChannelModel> {
-        self.addressed(at.addressing(), at.number())
+    /// The version that it claims to be; none has everything.
+    pub const fn version(&self) -> Option<CncVersion> {
+        self.version
     }
 
-    fn addressed(&self, addressing: Addressing, number: u8) -> Option<&ChannelModel> {
-        match addressing {
-            Addressing::Logical => self.by_number(number),
-            Addressing::Index => self.by_rank(number),
-        }
+    /// Logical numbers of all channels, the inactive too.
+    pub fn channels(&self) -> impl Iterator<Item = u8> {
+        self.channels.iter().map(|channel| channel.number)
     }
 
-    /// The COM objects of a list; the platform's are in that of the first channel too (COM-4).
-    pub fn objects(&self, list: ObjectList) -> Option<DescriptorsRef<'_>> {
-        let parts = list.parts();
-        match (parts.table, parts.instance) {
-            (ComTable::Channel, 0) => Some(self.platform.as_ref()),
-            (ComTable::Channel, number) => {
-                let channel = self.addressed(parts.addressing, number)?;
-                let first = self.by_rank(1)?;
-                let drives = first.number == channel.number;
-                Some(if drives { self.first.as_ref() } else { channel.objects.as_ref() })
-            }
-            (ComTable::Axis, place) => {
-                let place = usize::from(place).checked_sub(1)?;
-                self.axes.get(place).map(Descriptors::as_ref)
-            }
-        }
+    /// The class's elements; of which instances, the class says.
+    pub(super) fn class(&self, class: Class) -> Option<&ClassModel> {
+        self.classes.get(class_place(class))
     }
 }
 
-impl ChannelModel {
-    /// The variables of a kind in the order of their indices; none for a kind that has no index.
-    pub fn of_kind(&self, kind: CncStr<'_>) -> Option<impl Iterator<Item = &Variable>> {
-        let kind = super::variable::KINDS.into_iter().find(|known| kind == **known)?;
-        Some(self.variables.iter().filter(move |variable| variable.kind() == Some(kind)))
-    }
-
-    /// The variable with this handle.
-    pub fn by_handle(&self, handle: Handle) -> Option<&Variable> {
-        self.variables.iter().find(|variable| variable.handle == handle)
-    }
-
-    /// The variable with just this name.
-    pub fn by_name(&self, name: CncStr<'_>) -> Option<&Variable> {
-        self.variables.iter().find(|variable| variable.name.as_cnc_str() == name)
-    }
-
-    /// The name on the channel interface of what has this name on the axis interface: with the
-    /// identifier of the axis that is at the place.
-    pub fn axis_name(&self, place: ChannelAxis, name: CncStr<'_>) -> Option<CncString> {
-        let axis = self.axes.get(usize::from(place.place()).checked_sub(1)?)?;
-        VariablePath::from_text(name).ok()?.with_axis(axis.as_cnc_str()).ok()
-    }
-
-    /// The variable of which this name means the whole or an element, and the element's indices.
-    pub fn by_element_name(&self, name: CncStr<'_>) -> Option<(&Variable, Vec<u32>)> {
-        let bytes: Vec<u8> = name.bytes().collect();
-        let (whole, indices) = split_indices(&bytes)?;
-        let variable = self.variables.iter().find(|variable| variable.name.as_bytes() == whole)?;
-        Some((variable, indices))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use ads_cnc::Descriptor;
-    use ads_cnc::address::{Channel, PlatformAxis};
-
-    use super::*;
-
-    fn objects(ids: &[u32]) -> Descriptors {
-        let object = |&id: &u32| Descriptor::new("o", "BOOL").unwrap().with_id(id).with_size(1);
-        ids.iter().map(object).collect()
-    }
-
-    fn model(actives: [bool; 3]) -> Model {
-        let channel = |(number, active): (u8, bool)| ChannelModel {
-            number,
-            active,
-            objects: objects(&[number.into()]),
-            variables: Vec::new(),
-            axes: Vec::new(),
-        };
-        let channels = [6, 1, 2].into_iter().zip(actives).map(channel).collect();
-        Model::new(channels, objects(&[100]), vec![objects(&[200]), objects(&[201, 202])]).unwrap()
-    }
-
-    fn ids(model: &Model, list: impl Into<ObjectList>) -> Option<Vec<u32>> {
-        let objects = model.objects(list.into())?;
-        Some(objects.iter().map(|object| object.id()).collect())
-    }
-
-    #[test]
-    fn a_rank_counts_active_channels_and_a_number_does_not() {
-        let all = model([true, true, true]);
-        assert_eq!(all.by_rank(3).map(|channel| channel.number), Some(6));
-        let without_1 = model([true, false, true]);
-        assert_eq!(without_1.by_rank(2).map(|channel| channel.number), Some(6));
-        assert_eq!(without_1.by_number(6).map(|channel| channel.number), Some(6));
-        assert!(without_1.by_number(1).is_none() && without_1.by_rank(3).is_none());
-        assert!(without_1.by_rank(0).is_none());
-    }
-
-    #[test]
-    fn platform_objects_are_in_two_lists() {
-        let all = model([true, true, true]);
-        assert_eq!(ids(&all, ObjectList::PLATFORM), Some(vec![100]));
-        assert_eq!(ids(&all, Channel::new(1).unwrap()), Some(vec![1, 100]));
-        assert_eq!(ids(&all, Channel::by_index(1).unwrap()), Some(vec![1, 100]));
-        assert_eq!(ids(&all, Channel::new(2).unwrap()), Some(vec![2]));
-        let without_1 = model([true, false, true]);
-        assert_eq!(ids(&without_1, Channel::new(1).unwrap()), None);
-        assert_eq!(ids(&without_1, Channel::new(2).unwrap()), Some(vec![2, 100]));
-    }
-
-    #[test]
-    fn platform_axes_are_counted_from_1() {
-        let all = model([true, true, true]);
-        assert_eq!(ids(&all, PlatformAxis::new(2).unwrap()), Some(vec![201, 202]));
-        assert_eq!(ids(&all, PlatformAxis::new(3).unwrap()), None);
+/// Where in an array with something for each class.
+pub(super) const fn class_place(class: Class) -> usize {
+    match class {
+        Class::PositionController => 0,
+        Class::Interpolator => 1,
+        Class::Decoder => 2,
+        Class::Hld => 3,
+        Class::PathPreparation => 4,
+        Class::Spindle => 5,
     }
 }

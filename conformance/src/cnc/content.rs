@@ -1,0 +1,124 @@
+//! Contents of objects and elements, wherever they are.
+
+use ads_cnc::address::Class;
+use ads_cnc::ads::AdsError;
+
+use super::model::{Item, Meaning, Model};
+use super::state::State;
+
+/// What an object or an element belongs to. Places are counted from 0 here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Owner {
+    /// COM: the platform.
+    Platform,
+    /// COM: a channel.
+    Channel(usize),
+    /// COM: a platform axis.
+    Axis(usize),
+    /// COM: whatever axis is at a place of a channel.
+    Place { channel: usize, place: usize },
+    /// A class: a channel.
+    ClassChannel(Class, usize),
+    /// A class: a platform axis.
+    ClassAxis(Class, usize),
+    /// A class: whatever axis is at a place of a channel.
+    ClassPlace { class: Class, channel: usize, place: usize },
+    /// A spindle.
+    Spindle(usize),
+}
+
+/// The objects or elements of an owner.
+pub(super) fn items(model: &Model, owner: Owner) -> &[Item] {
+    let items = match owner {
+        Owner::Platform => Some(&model.platform.items),
+        Owner::Channel(channel) => {
+            model.channels.get(channel).map(|channel| &channel.objects.items)
+        }
+        Owner::Axis(_) => Some(&model.platform_axis.items),
+        Owner::Place { .. } => Some(&model.channel_axis.items),
+        Owner::ClassChannel(class, _) => model.class(class).map(|class| &class.channel.items),
+        Owner::ClassAxis(class, _) | Owner::ClassPlace { class, .. } => {
+            model.class(class).map(|class| &class.axis.items)
+        }
+        Owner::Spindle(_) => model.class(Class::Spindle).map(|class| &class.channel.items),
+    };
+    items.map(Vec::as_slice).unwrap_or_default()
+}
+
+/// The content; blank where no axis is (SDA-11).
+pub(super) fn read(
+    model: &Model,
+    state: &State,
+    owner: Owner,
+    index: usize,
+) -> Result<Vec<u8>, AdsError> {
+    let item = items(model, owner).get(index).ok_or(AdsError::INVALID_OFFSET)?;
+    let size = item.initial.size;
+    match item.meaning {
+        Meaning::AxisNumber => {
+            let number = axis(state, owner).and_then(|axis| model.axes.get(axis));
+            let number = number.map_or(0, |axis| axis.number);
+            Ok(u64::from(number).to_le_bytes().into_iter().take(size).collect())
+        }
+        Meaning::Value => {
+            let content = state.values(owner).and_then(|values| values.get(index));
+            Ok(content.cloned().unwrap_or_else(|| vec![0; size]))
+        }
+    }
+}
+
+/// Writes a content of the right size that may be written.
+pub(super) fn write(
+    model: &Model,
+    state: &mut State,
+    owner: Owner,
+    index: usize,
+    bytes: &[u8],
+) -> Result<(), AdsError> {
+    let item = items(model, owner).get(index).ok_or(AdsError::INVALID_OFFSET)?;
+    if !item.writable {
+        return Err(AdsError::INVALID_ACCESS);
+    }
+    check_size(bytes, item.initial.size, item.is_text())?;
+    match (item.meaning, owner) {
+        (
+            Meaning::AxisNumber,
+            Owner::Place { channel, place } | Owner::ClassPlace { channel, place, .. },
+        ) => {
+            let mut number = [0; 8];
+            number.iter_mut().zip(bytes).for_each(|(byte, new)| *byte = *new);
+            let number = u32::try_from(u64::from_le_bytes(number));
+            state.exchange(model, channel, place, number.map_err(|_| AdsError::INVALID_DATA)?)
+        }
+        (Meaning::AxisNumber, _) => Err(AdsError::INVALID_ACCESS),
+        (Meaning::Value, _) => {
+            let content = state.values_mut(owner).and_then(|values| values.get_mut(index));
+            // Where no axis is there is nothing to be written.
+            put(content.ok_or(AdsError::INVALID_DATA)?, bytes);
+            Ok(())
+        }
+    }
+}
+
+/// A text may be shorter than its place, if it ends; anything else has just the size.
+pub(super) fn check_size(bytes: &[u8], size: usize, is_text: bool) -> Result<(), AdsError> {
+    let ends = bytes.contains(&0) || bytes.len() < size;
+    let fits = if is_text { bytes.len() <= size && ends } else { bytes.len() == size };
+    if fits { Ok(()) } else { Err(AdsError::INVALID_SIZE) }
+}
+
+/// The bytes, and zeros behind them.
+pub(super) fn put(place: &mut [u8], bytes: &[u8]) {
+    let bytes = bytes.iter().copied().chain(std::iter::repeat(0));
+    place.iter_mut().zip(bytes).for_each(|(byte, new)| *byte = new);
+}
+
+fn axis(state: &State, owner: Owner) -> Option<usize> {
+    match owner {
+        Owner::Axis(axis) | Owner::ClassAxis(_, axis) => Some(axis),
+        Owner::Place { channel, place } | Owner::ClassPlace { channel, place, .. } => {
+            state.axis_at(channel, place)
+        }
+        _ => None,
+    }
+}

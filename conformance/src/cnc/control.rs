@@ -1,0 +1,120 @@
+//! What happens to a CNC from within: nobody asks for it over ADS.
+
+use ads_cnc::dynamic::{DynamicKind, DynamicValue};
+use ads_cnc::{CncString, service};
+
+use super::Cnc;
+use super::model::{Parameter, parameter_kind};
+use super::state::ChannelState;
+
+/// What the CNC cannot be made to do.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ControlError {
+    /// No channel has the number.
+    #[error("there is no channel {0}")]
+    Channel(u8),
+    /// The place is none of the channel's, the axis is not there, or another axis of the channel
+    /// has its name.
+    #[error("the axis {axis} cannot be put at place {place} of channel {channel}")]
+    Exchange {
+        /// Logical number of the channel.
+        channel: u8,
+        /// The place, from 1.
+        place: u8,
+        /// Logical number of the axis.
+        axis: u32,
+    },
+    /// The name is too long, no CP1252, of another kind or there twice.
+    #[error("{0:?} cannot be the name of a parameter")]
+    Name(String),
+}
+
+impl Cnc {
+    /// Puts the axis with a logical number at a place, from 1, of a channel (ADR-13): where it
+    /// was, none is now; which was there, is nowhere now. 0 leaves the place without an axis.
+    ///
+    /// Over ADS the same is done by writing an object or an element that is an axis-number.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`], [`ControlError::Exchange`]; nothing is changed.
+    pub fn exchange_axis(&self, channel: u8, place: u8, axis: u32) -> Result<(), ControlError> {
+        let at = self.place_of(channel)?;
+        let before = usize::from(place).checked_sub(1);
+        let done = before.map(|before| self.state().exchange(self.model(), at, before, axis));
+        done.and_then(Result::ok).ok_or(ControlError::Exchange { channel, place, axis })
+    }
+
+    /// Activates or deactivates a channel: the ranks of those behind it change (ADR-11).
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn set_active(&self, channel: u8, active: bool) -> Result<(), ControlError> {
+        self.of_channel(channel, |channel| channel.active = active)
+    }
+
+    /// Replaces the dynamic parameters of a kind, as an NC program does that makes and deletes
+    /// them: names and values in the order of their indices (DYN-4).
+    ///
+    /// ```
+    /// use ads_cnc::dynamic::DynamicKind;
+    /// use ads_cnc_conformance::cnc::Cnc;
+    ///
+    /// let cnc = Cnc::with_default_model()?;
+    /// cnc.set_parameters(1, DynamicKind::P, &[("P7", 1.0), ("P1", 4711.0)])?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`], [`ControlError::Name`]; nothing is changed.
+    pub fn set_parameters(
+        &self,
+        channel: u8,
+        kind: DynamicKind,
+        parameters: &[(&str, f64)],
+    ) -> Result<(), ControlError> {
+        let mut new: Vec<Parameter> = Vec::new();
+        for &(name, value) in parameters {
+            let wrong = || ControlError::Name(name.to_owned());
+            let text: CncString = name.parse().map_err(|_| wrong())?;
+            if parameter_kind(&text) != Ok(kind) || new.iter().any(|one| one.name == text) {
+                return Err(wrong());
+            }
+            let value = DynamicValue::from(value);
+            new.push(Parameter { kind, name: text, value, needs: None });
+        }
+        self.of_channel(channel, |channel| {
+            channel.parameters.retain(|one| one.kind != kind);
+            channel.parameters.append(&mut new);
+        })
+    }
+
+    /// The Service Interface of a channel, as the NC program has it. It is locked meanwhile: no
+    /// request is answered.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn with_service<T>(
+        &self,
+        channel: u8,
+        then: impl FnOnce(&mut service::Interface) -> T,
+    ) -> Result<T, ControlError> {
+        self.of_channel(channel, |channel| then(&mut channel.service))
+    }
+
+    fn of_channel<T>(
+        &self,
+        number: u8,
+        then: impl FnOnce(&mut ChannelState) -> T,
+    ) -> Result<T, ControlError> {
+        let place = self.place_of(number)?;
+        let mut state = self.state();
+        let channel = state.channels.get_mut(place).ok_or(ControlError::Channel(number))?;
+        Ok(then(channel))
+    }
+
+    fn place_of(&self, number: u8) -> Result<usize, ControlError> {
+        let place = self.model().channels().position(|channel| channel == number);
+        place.ok_or(ControlError::Channel(number))
+    }
+}

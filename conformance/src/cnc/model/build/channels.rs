@@ -1,0 +1,150 @@
+//! Channels.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use ads_cnc::edition::{CncVersion, Feature};
+use ads_cnc::{Descriptors, Handle};
+
+use super::super::document::ChannelTable;
+use super::super::error::Source;
+use super::super::item::Objects;
+use super::super::variable::{At, Variables, handle_at};
+use super::super::{AxisModel, ChannelModel, ModelError};
+use super::variables::{self, handle_span};
+use super::{INSTANCES_MAX, items, parameters};
+
+/// What channels are built with.
+pub(super) struct Channels<'a> {
+    pub(super) source: Source<'a>,
+    pub(super) axes: &'a [AxisModel],
+    pub(super) platform: &'a Objects,
+    pub(super) axis_variables: &'a Variables,
+    pub(super) version: Option<CncVersion>,
+}
+
+impl Channels<'_> {
+    pub(super) fn build(&self, tables: &[ChannelTable]) -> Result<Vec<ChannelModel>, ModelError> {
+        let mut channels = BTreeMap::new();
+        let (mut taken, mut handles) = (BTreeSet::new(), BTreeSet::new());
+        for table in tables {
+            let channel = self.channel(table, &mut taken, &mut handles)?;
+            let number = channel.number;
+            if channels.insert(number, channel).is_some() {
+                let why = format!("channel {number} is there twice");
+                return Err(self.source.error(&table.number.span(), why));
+            }
+        }
+        if channels.is_empty() {
+            return Err(self.source.error(&(0..0), "there is no channel"));
+        }
+        Ok(channels.into_values().collect())
+    }
+
+    fn channel(
+        &self,
+        table: &ChannelTable,
+        taken: &mut BTreeSet<usize>,
+        handles: &mut BTreeSet<u32>,
+    ) -> Result<ChannelModel, ModelError> {
+        let source = self.source;
+        let (number, span) = (*table.number.get_ref(), table.number.span());
+        let Some(number) = u8::try_from(number).ok().filter(|&number| number > 0) else {
+            let why = format!("channel numbers are 1 to 255, not {number}");
+            return Err(source.error(&span, why));
+        };
+        let places = self.places(table, taken)?;
+        let objects = items::objects(source, &table.objects, None)?;
+        for (row, &element) in table.objects.iter().zip(&objects.elements) {
+            // The first channel has the platform's at its own group too (COM-4).
+            if self.platform.at(element).is_some() {
+                let why = format!("an object of the platform is at offset {element:#x}");
+                return Err(source.error(&row.offset.span(), why));
+            }
+            if let Some(values) = &row.values {
+                let why = "values are for what there is more than one of";
+                return Err(source.error(&values.span(), why));
+            }
+        }
+        let service = self.version.is_none_or(|version| version.has(Feature::ServiceInterface).yes);
+        let variables = variables::of_channel(source, number, &table.variables, service)?;
+        let mut by_handle = HashMap::new();
+        let mut take = |handle: Handle, at: At| {
+            by_handle.insert(handle.0, at);
+            handles.insert(handle.0)
+        };
+        for (place, variable) in variables.list.iter().enumerate() {
+            let free = variable.handle.is_none_or(|handle| take(handle, At::Own(place)));
+            if !free {
+                let span = table.variables.get(place).map_or(span.clone(), handle_span);
+                let handle = variable.handle.map_or(0, |handle| handle.0);
+                let why = format!("{} has the handle {handle:#x} of another", variable.name);
+                return Err(source.error(&span, why));
+            }
+        }
+        for (variable, of) in self.axis_variables.list.iter().enumerate() {
+            for (place, at) in (0..places.len()).zip(1_u8..) {
+                let handle = of.handle.map(|handle| handle_at(handle, number, at));
+                let free = handle.is_none_or(|handle| take(handle, At::Place { place, variable }));
+                if !free {
+                    let handle = handle.map_or(0, |handle| handle.0);
+                    let why =
+                        format!("at place {at} {} has the handle {handle:#x} of another", of.name);
+                    return Err(source.error(&span, why));
+                }
+            }
+        }
+        let parameters = parameters::of_channel(source, &table.parameters, &objects)?;
+        let of_kind = |kind: &str| {
+            let named = variables.list.iter().enumerate();
+            let named = named.filter(|(_, one)| one.name.as_bytes().starts_with(kind.as_bytes()));
+            named.map(|(place, _)| place).collect::<Vec<_>>()
+        };
+        Ok(ChannelModel {
+            number,
+            active: table.active.unwrap_or(true),
+            places,
+            external: of_kind("V.E."),
+            global: of_kind("V.G."),
+            objects,
+            variables,
+            by_handle,
+            parameters,
+            list: Descriptors::default(),
+            list_of_first: Descriptors::default(),
+        })
+    }
+
+    /// Which axis is at which place.
+    fn places(
+        &self,
+        table: &ChannelTable,
+        taken: &mut BTreeSet<usize>,
+    ) -> Result<Vec<Option<usize>>, ModelError> {
+        let (mut places, mut names) = (Vec::new(), BTreeSet::new());
+        for at in &table.places {
+            let (number, error) =
+                (*at.get_ref(), |why: String| Err(self.source.error(&at.span(), why)));
+            if places.len() >= INSTANCES_MAX {
+                return error("a channel has at most 255 places".to_owned());
+            }
+            if number == 0 {
+                places.push(None);
+                continue;
+            }
+            let axis = self.axes.iter().enumerate().find(|(_, axis)| axis.number == number);
+            let Some((axis, model)) = axis else {
+                return error(format!("no axis has the logical number {number}"));
+            };
+            if !taken.insert(axis) {
+                return error(format!(
+                    "the axis with the logical number {number} is at another place"
+                ));
+            }
+            if !names.insert(&model.name) {
+                return error(format!("two axes of a channel are named {}", model.name));
+            }
+            places.push(Some(axis));
+        }
+        Ok(places)
+    }
+}

@@ -1,0 +1,59 @@
+//! Dynamic parameters.
+
+use std::collections::BTreeSet;
+
+use ads_cnc::dynamic::{DynamicKind, DynamicValue};
+use ads_cnc::limits::DYNAMIC_NAME_MAX;
+use ads_cnc::{CncString, VariablePath};
+
+use super::super::document::ParameterRow;
+use super::super::error::Source;
+use super::super::item::Objects;
+use super::super::{ModelError, Parameter};
+
+/// The parameters of a channel that has these objects.
+pub(super) fn of_channel(
+    source: Source<'_>,
+    rows: &[ParameterRow],
+    objects: &Objects,
+) -> Result<Vec<Parameter>, ModelError> {
+    let (mut parameters, mut names) = (Vec::new(), BTreeSet::new());
+    for row in rows {
+        let span = row.name.span();
+        let name = super::text(source, &row.name)?;
+        let kind = kind(&name).map_err(|why| source.error(&span, why))?;
+        let needs = row.r#while.as_ref().map(|object| {
+            let named = |item: &&super::super::Item| item.name.to_string() == *object.get_ref();
+            let place = objects.items.iter().position(|item| named(&item));
+            place.ok_or_else(|| {
+                let why = format!("the channel has no object {:?} of its own", object.get_ref());
+                source.error(&object.span(), why)
+            })
+        });
+        if !names.insert(name.clone()) {
+            return Err(source.error(&span, format!("{name} is there twice")));
+        }
+        let (value, needs) = (DynamicValue::from(row.value), needs.transpose()?);
+        parameters.push(Parameter { kind, name, value, needs });
+    }
+    Ok(parameters)
+}
+
+/// The kind of parameter that has this name.
+pub(in crate::cnc) fn kind(name: &CncString) -> Result<DynamicKind, String> {
+    if name.as_bytes().len() >= DYNAMIC_NAME_MAX {
+        return Err(format!(
+            "a parameter's name has at most {DYNAMIC_NAME_MAX} bytes with its NUL"
+        ));
+    }
+    if let Some(rest) = name.as_bytes().strip_prefix(b"P") {
+        if !rest.is_empty() {
+            return Ok(DynamicKind::P);
+        }
+    }
+    let kind = [DynamicKind::VL, DynamicKind::VP, DynamicKind::VS].into_iter().find(|kind| {
+        let path = VariablePath::from_text(name.as_cnc_str());
+        path.is_ok_and(|path| path.kind().text().to_string() == kind.to_string())
+    });
+    kind.ok_or_else(|| "a parameter's name begins with P, V.L., V.P. or V.S.".to_owned())
+}

@@ -1,0 +1,195 @@
+//! Types of values, and the bytes of a value that is written in TOML.
+
+use ads_cnc::{CncStr, VariableType};
+use toml::Value;
+
+/// A type by its name.
+#[derive(Debug)]
+pub(super) struct Named {
+    pub(super) name: &'static str,
+    pub(super) scalar: Scalar,
+}
+
+/// How a value is made bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scalar {
+    Boolean,
+    Unsigned(usize),
+    Signed(usize),
+    Real32,
+    Real64,
+    /// Of as many bytes as are declared, a NUL among them.
+    String,
+}
+
+impl Scalar {
+    /// Bytes of one value; none for a STRING.
+    pub(super) const fn size(self) -> Option<usize> {
+        match self {
+            Self::Boolean => Some(1),
+            Self::Unsigned(size) | Self::Signed(size) => Some(size),
+            Self::Real32 => Some(4),
+            Self::Real64 => Some(8),
+            Self::String => None,
+        }
+    }
+}
+
+const fn named(name: &'static str, scalar: Scalar) -> Named {
+    Named { name, scalar }
+}
+
+/// Of variables (VAR-5).
+pub(super) const VARIABLE: &[Named] = &[
+    named("BOOLEAN", Scalar::Boolean),
+    named("SGN08", Scalar::Signed(1)),
+    named("UNS08", Scalar::Unsigned(1)),
+    named("SGN16", Scalar::Signed(2)),
+    named("UNS16", Scalar::Unsigned(2)),
+    named("SGN32", Scalar::Signed(4)),
+    named("UNS32", Scalar::Unsigned(4)),
+    named("REAL64", Scalar::Real64),
+    named("STRING", Scalar::String),
+];
+
+/// Of elements (SDA-7).
+pub(super) const ELEMENT: &[Named] = &[
+    named("BOOLEAN", Scalar::Boolean),
+    named("SGN08", Scalar::Signed(1)),
+    named("UNS08", Scalar::Unsigned(1)),
+    named("SGN16", Scalar::Signed(2)),
+    named("UNS16", Scalar::Unsigned(2)),
+    named("SGN32", Scalar::Signed(4)),
+    named("UNS32", Scalar::Unsigned(4)),
+    named("REAL32", Scalar::Real32),
+    named("REAL64", Scalar::Real64),
+    named("STRING", Scalar::String),
+];
+
+/// Of COM objects (GEN-5).
+pub(super) const OBJECT: &[Named] = &[
+    named("BOOL", Scalar::Boolean),
+    named("BYTE", Scalar::Unsigned(1)),
+    named("SINT", Scalar::Signed(1)),
+    named("WORD", Scalar::Unsigned(2)),
+    named("INT", Scalar::Signed(2)),
+    named("DWORD", Scalar::Unsigned(4)),
+    named("DINT", Scalar::Signed(4)),
+    named("REAL", Scalar::Real32),
+    named("LWORD", Scalar::Unsigned(8)),
+    named("LINT", Scalar::Signed(8)),
+    named("LREAL", Scalar::Real64),
+    named("STRING", Scalar::String),
+];
+
+/// The type of this name.
+pub(super) fn find(types: &'static [Named], name: &str) -> Result<&'static Named, String> {
+    types.iter().find(|known| known.name == name).ok_or_else(|| {
+        let known: Vec<&str> = types.iter().map(|known| known.name).collect();
+        format!("{name:?} is no type; there are {}", known.join(" "))
+    })
+}
+
+/// The code of a variable's type.
+pub(super) fn code(name: &str) -> VariableType {
+    let codes = (1..=9).map(VariableType);
+    codes.into_iter().find(|code| code.name() == Some(name)).unwrap_or(VariableType::STRING)
+}
+
+/// The bytes of so many values of a type, of `size` bytes each.
+pub(super) fn bytes(
+    scalar: Scalar,
+    size: usize,
+    count: usize,
+    value: &Value,
+) -> Result<Vec<u8>, String> {
+    let mut values = Vec::new();
+    flatten(value, &mut values);
+    if values.len() != count || (count == 1 && value.is_array()) && size_of_array(value) != 1 {
+        return Err(format!("{count} values expected, {} given", values.len()));
+    }
+    let mut bytes = Vec::new();
+    for value in values {
+        bytes.extend(one(scalar, size, value)?);
+    }
+    Ok(bytes)
+}
+
+fn size_of_array(value: &Value) -> usize {
+    value.as_array().map_or(0, Vec::len)
+}
+
+/// Rows of an array of more dimensions may stand in arrays of their own.
+fn flatten<'a>(value: &'a Value, into: &mut Vec<&'a Value>) {
+    match value {
+        Value::Array(values) => values.iter().for_each(|value| flatten(value, into)),
+        value => into.push(value),
+    }
+}
+
+fn one(scalar: Scalar, size: usize, value: &Value) -> Result<Vec<u8>, String> {
+    match (scalar, value) {
+        (Scalar::Boolean, Value::Boolean(value)) => Ok(vec![u8::from(*value)]),
+        (Scalar::Boolean, Value::Integer(number)) => integer(*number, 0, 1, 1),
+        (Scalar::Unsigned(size), Value::Integer(number)) => {
+            integer(*number, 0, unsigned_max(size), size)
+        }
+        (Scalar::Signed(size), Value::Integer(number)) => {
+            // One bit less, for the sign.
+            let max = unsigned_max(size) >> u32::from(size < 8);
+            integer(*number, max.saturating_neg().saturating_sub(1), max, size)
+        }
+        (Scalar::Real64, Value::Float(number)) => Ok(number.to_le_bytes().to_vec()),
+        (Scalar::Real64, Value::Integer(number)) => {
+            parsed::<f64>(number).map(|n| n.to_le_bytes().to_vec())
+        }
+        (Scalar::Real32, Value::Float(number)) => {
+            parsed::<f32>(number).map(|n| n.to_le_bytes().to_vec())
+        }
+        (Scalar::Real32, Value::Integer(number)) => {
+            parsed::<f32>(number).map(|n| n.to_le_bytes().to_vec())
+        }
+        (Scalar::String, Value::String(text)) => string(text, size),
+        (_, value) => Err(format!("a {} is no value of this type", value.type_str())),
+    }
+}
+
+const fn unsigned_max(size: usize) -> i64 {
+    match size {
+        1 => 0xFF,
+        2 => 0xFFFF,
+        4 => 0xFFFF_FFFF,
+        // What TOML has.
+        _ => i64::MAX,
+    }
+}
+
+fn integer(number: i64, min: i64, max: i64, size: usize) -> Result<Vec<u8>, String> {
+    if number < min || number > max {
+        return Err(format!("{number} is not within {min} and {max}"));
+    }
+    Ok(number.to_le_bytes().into_iter().take(size).collect())
+}
+
+/// Rounded to the nearest, as every parser of numbers does.
+fn parsed<T: std::str::FromStr>(number: impl ToString) -> Result<T, String> {
+    let text = number.to_string();
+    text.parse().map_err(|_| format!("{text} is no number"))
+}
+
+/// CP1252, NULs behind it. What stands behind a NUL comes along.
+fn string(text: &str, size: usize) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    for (place, part) in text.split('\0').enumerate() {
+        if place > 0 {
+            bytes.push(0);
+        }
+        bytes.extend(CncStr::new(part).map_err(|error| error.to_string())?.bytes());
+    }
+    let length = bytes.len();
+    if !bytes.contains(&0) && length >= size || length > size {
+        return Err(format!("{length} characters and a NUL do not fit into {size} bytes"));
+    }
+    bytes.resize(size, 0);
+    Ok(bytes)
+}
