@@ -10,6 +10,7 @@
 //! | [`gate`] | what may be sent to a target |
 //! | [`profile`] | what a target claims |
 //! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
+//! | [`explain`] | bytes of any stream, field by field |
 //! | [`verdict`], [`report`] | what a judgement can be, and how it is shown |
 //! | [`net`] | the one place where sockets are opened |
 //! | [`cli`] | the command line of `ads-cnc` |
@@ -40,6 +41,7 @@ pub mod cnc;
 pub mod codec;
 pub mod defect;
 pub mod exchange;
+pub mod explain;
 pub mod gate;
 pub mod net;
 pub mod profile;

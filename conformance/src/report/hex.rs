@@ -8,7 +8,7 @@ use ads_cnc::layout::Stream;
 const LINE: usize = 16;
 
 /// Bytes in hex with a space between two.
-pub(super) fn plain(bytes: &[u8]) -> String {
+pub(crate) fn plain(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().saturating_mul(3));
     for (place, byte) in bytes.iter().enumerate() {
         let gap = if place == 0 { "" } else { " " };

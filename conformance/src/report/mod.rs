@@ -1,7 +1,7 @@
 //! What a run found: one data structure, written as JSON and shown on the console.
 
 mod console;
-mod hex;
+pub(crate) mod hex;
 mod model;
 
 pub use console::print;

@@ -1,0 +1,335 @@
+//! Index groups and offsets taken apart, and the function they lead to.
+
+use ads_cnc::address::{
+    Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable, Group,
+    IndexGroup, IndexOffset,
+};
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::edition::Feature;
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::{
+    Effect, Function, FunctionSpec, GroupRule, OffsetRule, Refusal, Service, Task,
+};
+
+use super::codes;
+use super::model::{Address, FunctionReport, Part, Place};
+use super::part;
+use super::typed::Values;
+
+/// Data of a service at a place.
+pub(super) fn of_place(place: &Place, bytes: &[u8], values: &Values) -> Part {
+    of_data(place, 0, bytes, values)
+}
+
+/// Data of a service at a place, from byte `at` of those given.
+pub(super) fn of_data(place: &Place, at: usize, bytes: &[u8], values: &Values) -> Part {
+    let found = find(place);
+    let mut part = match found {
+        Err(_) => Part::opaque("Data of no documented function".to_owned(), at, bytes),
+        Ok(function) => {
+            let spec = function.spec();
+            match if place.reply { spec.reply } else { spec.request } {
+                Some(stream) => part::of_stream(stream, at, bytes, values),
+                None => no_data(place, spec, at, bytes, values),
+            }
+        }
+    };
+    part.address = Some(report(place, found));
+    part
+}
+
+/// A place, without data.
+pub(super) fn alone(place: &Place) -> Part {
+    // Of a content that is read and written, reading is the one that does no harm.
+    let reading = Place { reply: true, ..*place };
+    let found = find(if place.service.is_none() { &reading } else { place });
+    Part { address: Some(report(place, found)), ..Part::default() }
+}
+
+fn no_data(place: &Place, spec: &FunctionSpec, at: usize, bytes: &[u8], values: &Values) -> Part {
+    let mut part = part::of_stream(Stream::NoData, at, bytes, values);
+    (part.title, part.stream) = ("No data".to_owned(), None);
+    part.rows.clear();
+    if !place.reply {
+        // VAR-17 is about what comes back.
+        (part.clause, part.sources) = (None, Vec::new());
+    }
+    let (service, what) =
+        (spec.service, if place.reply { "brings none back" } else { "carries none" });
+    part.notes.push(format!("a {service} {what}"));
+    if !place.reply && !bytes.is_empty() {
+        part.notes.push("what came back is explained as its reply".to_owned());
+    }
+    part
+}
+
+/// The function that is meant.
+fn find(place: &Place) -> Result<Function, Refusal> {
+    if let Some(port) = place.port {
+        Task::from_port(port).ok_or(Refusal::Port(port))?;
+    }
+    let parts = place.group.parts().ok_or(Refusal::Group(place.group))?;
+    let mut refusal = Refusal::Group(place.group);
+    let mut content = None;
+    for function in Function::ALL.iter().copied() {
+        let spec = function.spec();
+        if !serves(place, spec) || !spec.group.holds(parts) {
+            continue;
+        }
+        if !spec.offset.holds(place.offset) {
+            refusal = Refusal::Offset(place.offset);
+            continue;
+        }
+        let takes = spec.service;
+        match place.service {
+            Some(asked) if asked == takes => return Ok(function),
+            // No content is where a function is (SDA-12).
+            Some(asked) if !spec.is_content() => return Err(Refusal::Service { takes, asked }),
+            Some(asked) => refusal = Refusal::Service { takes, asked },
+            None if !spec.is_content() => return Ok(function),
+            // Of a content, what is read comes back, and what is written goes in.
+            None if place.reply == (takes == Service::Read) => content = content.or(Some(function)),
+            None => {}
+        }
+    }
+    content.ok_or(refusal)
+}
+
+/// Whether the port, if it is known, is that of the function's task; SDA and GEO stand in for
+/// each other (ADR-10, assumed).
+fn serves(place: &Place, spec: &FunctionSpec) -> bool {
+    let task = place.port.and_then(Task::from_port);
+    task.is_none_or(|task| (task == Task::Com) == (spec.task == Task::Com))
+}
+
+fn report(place: &Place, found: Result<Function, Refusal>) -> Address {
+    let function = found.ok();
+    let service = place.service.or(function.map(|function| function.spec().service));
+    let mut notes = Vec::new();
+    let offset = offset(place, function, &mut notes);
+    match found {
+        Ok(function) => meanings(place, function, &mut notes),
+        Err(refusal) => notes.push(refusal.to_string()),
+    }
+    Address {
+        port: place.port.map(|port| port.0),
+        service: service.map(|service| service.to_string()),
+        index_group: place.group.get(),
+        index_offset: place.offset.get(),
+        group: describe(place.group),
+        offset,
+        function: function.map(|function| function_report(function.spec())),
+        notes,
+    }
+}
+
+fn function_report(spec: &'static FunctionSpec) -> FunctionReport {
+    let effect = match spec.effect {
+        Effect::Query => "query",
+        Effect::Write => "write",
+        // What is not known to be harmless is taken to move.
+        _ => "motion",
+    };
+    let numbered = spec.section.starts_with(|first: char| first.is_ascii_digit());
+    let section = match spec.section {
+        section if numbered => format!("ads-en 1.05 and ads-de 1.051, section {section}"),
+        "online" => "the vendors' public help pages".to_owned(),
+        section => section.to_owned(),
+    };
+    FunctionReport {
+        name: spec.name,
+        service: spec.service.to_string(),
+        task: codes::task(spec.task).to_owned(),
+        port: spec.task.port().0,
+        effect: effect.to_owned(),
+        clause: spec.clause,
+        section,
+        request: spec.request.map(|stream| stream.layout().name),
+        reply: spec.reply.map(|stream| stream.layout().name),
+    }
+}
+
+/// What else is at the place of a function, and what has to be known of it.
+fn meanings(place: &Place, function: Function, notes: &mut Vec<String>) {
+    let spec = function.spec();
+    if place.port.is_some_and(|port| port != spec.task.port()) {
+        let (task, port) = (codes::task(spec.task), spec.task.port());
+        notes.push(format!("documented for {task}, port {port} (ADR-10)"));
+    }
+    match function {
+        Function::ReadDescriptors => {
+            notes.push("one descriptor, or as many as the read length holds (COM-3)".to_owned());
+        }
+        Function::WriteProgramStream => {
+            let name = ads_cnc::streaming::OBJECT_NAME;
+            notes.push(format!("also the COM object {name}, written as NC text (STM-1)"));
+        }
+        Function::DescribeByName => {
+            let since: Vec<String> =
+                Feature::DescriptionByName.since().iter().map(ToString::to_string).collect();
+            notes.push(format!(
+                "reserved in both editions; online from {} on (VAR-28)",
+                since.join(" and ")
+            ));
+        }
+        _ => {}
+    }
+    let parts = place.group.parts();
+    let here = |other: &&FunctionSpec| {
+        other.is_content()
+            && (other.service != spec.service || !spec.is_content())
+            && serves(place, other)
+            && parts.is_some_and(|parts| other.group.holds(parts))
+            && other.offset.holds(place.offset)
+    };
+    let mut others = Function::ALL.iter().map(|function| function.spec()).filter(here);
+    if spec.is_content() {
+        let others = others.map(|other| format!("with {}: {}", other.service, other.name));
+        notes.extend(others);
+    } else if spec.group == GroupRule::ChannelOf(Class::Decoder) && others.next().is_some() {
+        if let Some((axis, element)) = axis_and_element(place.offset, AxisStride::X10000) {
+            notes.push(format!(
+                "also the place of {}element {element:#x} of the decoder; the function is what is there (SDA-12)",
+                of_axis(axis),
+            ));
+        }
+    }
+}
+
+fn axis_and_element(offset: IndexOffset, stride: AxisStride) -> Option<(u32, u32)> {
+    offset.axis_and_element(stride).ok()
+}
+
+fn of_axis(axis: u32) -> String {
+    if axis == 0 { String::new() } else { format!("axis {axis}, ") }
+}
+
+/// What the offset addresses.
+fn offset(place: &Place, function: Option<Function>, notes: &mut Vec<String>) -> String {
+    let (offset, rule) = (place.offset, function.map(|function| function.spec().offset));
+    match (rule, place.group.parts()) {
+        (Some(OffsetRule::OfKind(offsets)), _) => {
+            let kinds = DynamicKind::ALL.into_iter().zip(offsets);
+            let mut kind = kinds.filter(|(_, at)| *at == offset.get());
+            kind.next().map_or_else(String::new, |(kind, _)| format!("of {kind}"))
+        }
+        (Some(OffsetRule::OfAxis(_)), _) => split(offset, AxisStride::X10000),
+        (Some(OffsetRule::At(_)), _) => String::new(),
+        (_, Some(Group::Com(ComGroup { access: Access::Object, .. }))) => match offset.get() {
+            0 => "the list itself".to_owned(),
+            object => format!("object {object} of the list"),
+        },
+        (_, Some(Group::Com(_))) => {
+            if offset.get() >= 0x1000 {
+                let (far, near) = (AxisStride::X10000, AxisStride::X1000);
+                notes.push(format!(
+                    "of a channel axis: {} if axes are 0x10000 apart, as in the examples; {} if 0x1000, as in the table; the object's descriptor decides (ADR-8, E-01)",
+                    split(offset, far),
+                    split(offset, near),
+                ));
+            }
+            "as the object's descriptor has it".to_owned()
+        }
+        (_, Some(Group::Class(class))) => {
+            if class.class == Class::Hld && (0x1000..0x1_0000).contains(&offset.get()) {
+                notes.push(format!(
+                    "the platform axes of the HLD are printed 0x1000 apart: {} (E-01)",
+                    split(offset, AxisStride::X1000),
+                ));
+            }
+            match offset.get() {
+                0 => "element 0, which names and counts the instance".to_owned(),
+                _ => split(offset, AxisStride::X10000),
+            }
+        }
+        (_, None) => String::new(),
+    }
+}
+
+fn split(offset: IndexOffset, stride: AxisStride) -> String {
+    match axis_and_element(offset, stride) {
+        Some((axis, element)) => format!("{}element {element:#x}", of_axis(axis)),
+        None => "no axis of 16 bits".to_owned(),
+    }
+}
+
+/// What an index group addresses, in words.
+///
+/// ```
+/// use ads_cnc::address::IndexGroup;
+/// use ads_cnc_conformance::explain::describe;
+///
+/// assert_eq!(describe(IndexGroup::new(0x12_3801)), "HLD of channel 1, write flag");
+/// assert_eq!(
+///     describe(IndexGroup::new(0x2_1302)),
+///     "interpolator of the active channel number 2, content; by index, which moves when a channel is deactivated (ADR-11)"
+/// );
+/// assert_eq!(describe(IndexGroup::new(0xF005)), "no index group of the manuals");
+/// ```
+pub fn describe(group: IndexGroup) -> String {
+    match group.parts() {
+        None => "no index group of the manuals".to_owned(),
+        Some(Group::Com(com)) => describe_com(com),
+        Some(Group::Class(class)) => describe_class(class),
+    }
+}
+
+/// Behind the name of a group that is by index.
+const BY_INDEX: &str = "; by index, which moves when a channel is deactivated (ADR-11)";
+
+fn channel(addressing: Addressing, instance: u8) -> String {
+    match addressing {
+        Addressing::Logical => format!("channel {instance}"),
+        Addressing::Index => format!("the active channel number {instance}"),
+    }
+}
+
+fn describe_com(com: ComGroup) -> String {
+    let access = match com.access {
+        Access::Element => "content",
+        Access::Object => "object list",
+    };
+    let (who, by_index) = match (com.table, com.instance) {
+        (ComTable::Channel, 0) => ("the platform".to_owned(), false),
+        (ComTable::Channel, 1) => {
+            let first = channel(com.addressing, 1);
+            (format!("{first}, and of the platform, which channel 1 drives (COM-4, E-04)"), true)
+        }
+        (ComTable::Channel, other) => (channel(com.addressing, other), true),
+        (ComTable::Axis, 0) => ("platform axes, the axis in the offset (E-04)".to_owned(), false),
+        (ComTable::Axis, place) => (format!("platform axis {place}"), false),
+    };
+    let moves = by_index && com.addressing == Addressing::Index;
+    format!("COM, {access} of {who}{}", if moves { BY_INDEX } else { "" })
+}
+
+fn describe_class(group: ClassGroup) -> String {
+    let class = match group.class {
+        Class::PositionController => "position controller",
+        Class::Interpolator => "interpolator",
+        Class::Decoder => "decoder",
+        Class::Hld => "HLD",
+        Class::PathPreparation => "path preparation",
+        Class::Spindle => "spindle",
+    };
+    let attribute = match group.attribute {
+        Attribute::Content => "content",
+        Attribute::Name => "name",
+        Attribute::Type => "type",
+        Attribute::Length => "length",
+        Attribute::Unit => "unit",
+        Attribute::WriteFlag => "write flag",
+        Attribute::ObjectAddress => "object address",
+    };
+    let instance = group.instance;
+    let asked = group.attribute == Attribute::ObjectAddress && instance == 0;
+    match (group.class, instance) {
+        _ if asked => format!("{class}, {attribute}: the instance is in the request"),
+        (Class::Spindle, index) => format!("spindle of index {index}, counted from 0, {attribute}"),
+        (_, 0) => format!("{class} of the platform, {attribute}"),
+        (_, number) => {
+            let moves = if group.addressing == Addressing::Index { BY_INDEX } else { "" };
+            format!("{class} of {}, {attribute}{moves}", channel(group.addressing, number))
+        }
+    }
+}

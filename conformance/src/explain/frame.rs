@@ -1,0 +1,277 @@
+//! AMS/TCP frames: headers, service, and the stream inside.
+
+use std::collections::HashMap;
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::{AmsAddr, AmsHeader, AmsPort, Command, FrameRef, StateFlags};
+use ads_cnc::layout::Stream;
+use ads_cnc::limits::{ADS_DATA_MAX, AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use ads_cnc::operation::{Call, Refusal, Service};
+use ads_cnc::{Decode as _, Error};
+
+use super::address;
+use super::codes;
+use super::model::{Fault, Part, Place};
+use super::part;
+use super::typed::Values;
+use super::value::bytes as in_words;
+
+/// The most data of a frame: that of a service and the numbers before it.
+const DATA_MAX: u32 = {
+    assert!(ADS_DATA_MAX == 0x40_0000);
+    0x40_0010
+};
+
+/// Requests by who asked whom under which ID.
+type Asked = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;
+
+/// Whether the bytes begin with a frame, or with one whose headers are whole and agree.
+pub fn looks_like_frame(bytes: &[u8]) -> bool {
+    match FrameRef::split(bytes, DATA_MAX) {
+        Ok(Some(_)) => true,
+        Ok(None) => bytes.len() >= FrameRef::HEADERS_LEN,
+        Err(_) => false,
+    }
+}
+
+/// Frames, one behind the other.
+pub(super) fn of_frames(place: Option<&Place>, bytes: &[u8], values: &Values) -> Vec<Part> {
+    let mut frames = Frames { place, values, asked: HashMap::new(), parts: Vec::new() };
+    let mut at = 0_usize;
+    loop {
+        let rest = bytes.get(at..).unwrap_or_default();
+        let Some(len) = frames.frame(at, rest) else { break };
+        at = at.saturating_add(len);
+        if at >= bytes.len() {
+            break;
+        }
+    }
+    frames.parts
+}
+
+struct Frames<'q> {
+    place: Option<&'q Place>,
+    values: &'q Values,
+    asked: Asked,
+    parts: Vec<Part>,
+}
+
+impl Frames<'_> {
+    /// One frame; how many bytes it takes, if another may follow.
+    fn frame(&mut self, at: usize, bytes: &[u8]) -> Option<usize> {
+        let split = FrameRef::split(bytes, DATA_MAX);
+        let (tcp, rest) = halves(bytes, AMS_TCP_HEADER_LEN);
+        let whole = self.header(Stream::AmsTcpHeader, at, tcp);
+        if let (true, Err(error)) = (whole, &split) {
+            if error.field().stream() == Stream::AmsTcpHeader {
+                self.fault(error, 0, rest);
+                return None;
+            }
+        }
+        if !whole {
+            return None;
+        }
+        let (ams, data) = halves(rest, AMS_HEADER_LEN);
+        let whole = self.header(Stream::AmsHeader, at.saturating_add(AMS_TCP_HEADER_LEN), ams);
+        if let (true, Err(error)) = (whole, &split) {
+            self.fault(error, AMS_TCP_HEADER_LEN, data);
+            return None;
+        }
+        let header = AmsHeader::decode(ams).ok()?;
+        let behind = at.saturating_add(FrameRef::HEADERS_LEN);
+        let (data, len) = match split {
+            Ok(Some((frame, len))) => (frame.data(), Some(len)),
+            _ => (data, None),
+        };
+        if len.is_none() {
+            self.cut(&header, data.len());
+        }
+        self.service(&header, behind, data);
+        len
+    }
+
+    /// A header by its table; whether it is whole.
+    fn header(&mut self, stream: Stream, at: usize, bytes: &[u8]) -> bool {
+        let part = part::of_stream(stream, at, bytes, self.values);
+        let whole = part.faults.is_empty();
+        self.parts.push(part);
+        whole
+    }
+
+    /// A fault of the last header, and what is lost with it.
+    fn fault(&mut self, error: &Error, base: usize, rest: &[u8]) {
+        let Some(part) = self.parts.last_mut() else { return };
+        part.push_fault(Fault::of(error, base));
+        if !rest.is_empty() {
+            let at = part.at.saturating_add(part.length);
+            self.parts.push(Part::opaque("Behind the fault, not read".to_owned(), at, rest));
+        }
+    }
+
+    /// The frame ends before its data do.
+    fn cut(&mut self, header: &AmsHeader, there: usize) {
+        let Some(part) = self.parts.last_mut() else { return };
+        let found = u32::try_from(there).unwrap_or(u32::MAX);
+        let expected = header.data_length;
+        part.push_fault(Fault {
+            class: "truncated",
+            field: "stream".to_owned(),
+            offset: AMS_HEADER_LEN,
+            expected: Some(expected),
+            found: Some(found),
+            text: format!(
+                "the frame is truncated behind the header, {expected} bytes expected, {found} there"
+            ),
+        });
+    }
+
+    fn service(&mut self, header: &AmsHeader, at: usize, data: &[u8]) {
+        let reply = header.state_flags.0 & RESPONSE_BIT != 0;
+        if header.state_flags != StateFlags::REQUEST && header.state_flags != StateFlags::RESPONSE {
+            let what = if reply { "response" } else { "request" };
+            self.note(format!("by the lowest bit of its state flags a {what}"));
+        }
+        if reply && data.is_empty() && !header.error.is_none() {
+            return self.note("an answer with an AMS error may have no data (ADS-6)".to_owned());
+        }
+        let (stream, service) = match (header.command, reply) {
+            (Command::READ, false) => (Stream::ReadRequest, Service::Read),
+            (Command::READ, true) => (Stream::ReadReply, Service::Read),
+            (Command::WRITE, false) => (Stream::WriteRequest, Service::Write),
+            (Command::WRITE, true) => (Stream::WriteReply, Service::Write),
+            (Command::READ_WRITE, false) => (Stream::ReadWriteRequest, Service::ReadWrite),
+            (Command::READ_WRITE, true) => (Stream::ReadWriteReply, Service::ReadWrite),
+            (other, _) => return self.other(other, reply, at, data),
+        };
+        let mut part = part::of_stream(stream, at, data, self.values);
+        let inside = inside(stream, data);
+        if let (Some(row), Some(_)) = (part.rows.last_mut(), inside) {
+            row.below = row.field == "data" && row.length > 0;
+            if row.below {
+                row.value = format!("{}, below", in_words(row.length));
+            }
+        }
+        let failed = reply && number(stream, data, "result").is_some_and(|result| result != 0);
+        let faulty = !part.faults.is_empty();
+        let length = match service {
+            Service::Read => number(stream, data, "length"),
+            _ => number(stream, data, "read_length"),
+        };
+        self.parts.push(part);
+        let place = if reply {
+            self.answered(header, service)
+        } else {
+            self.asks(header, (stream, service), data)
+        };
+        let Some(place) = place else {
+            if reply && stream != Stream::WriteReply && !failed {
+                self.note(
+                    "what it answers is not among these bytes: give index group and offset"
+                        .to_owned(),
+                );
+            }
+            return;
+        };
+        // An error brings nothing back, and of a service that is cut nothing may be left.
+        if (failed || faulty) && inside.is_none_or(|(_, data)| data.is_empty()) {
+            return;
+        }
+        let (behind, data) = inside.unwrap_or((data.len(), &[]));
+        let mut part = address::of_data(&place, at.saturating_add(behind), data, self.values);
+        if !reply && !faulty && part.faults.is_empty() {
+            part.notes.extend(refused(&place, header.target.port, (service, length), data));
+        }
+        self.parts.push(part);
+    }
+
+    /// Where a request goes; remembered for its answer.
+    fn asks(
+        &mut self,
+        header: &AmsHeader,
+        (stream, service): (Stream, Service),
+        data: &[u8],
+    ) -> Option<Place> {
+        let group = IndexGroup::new(number(stream, data, "index_group")?);
+        let offset = IndexOffset::new(number(stream, data, "index_offset")?);
+        let key = (header.source, header.target, header.invoke_id);
+        self.asked.insert(key, (header.command, group, offset));
+        let (port, service) = (Some(header.target.port), Some(service));
+        Some(Place { port, service, group, offset, reply: false })
+    }
+
+    /// Where an answer comes from: by its request, or as was said.
+    fn answered(&mut self, header: &AmsHeader, service: Service) -> Option<Place> {
+        let key = (header.target, header.source, header.invoke_id);
+        let asked = self.asked.get(&key).filter(|(command, ..)| *command == header.command);
+        let (group, offset) = match asked {
+            Some((_, group, offset)) => (*group, *offset),
+            None => self.place.map(|place| (place.group, place.offset))?,
+        };
+        self.asked.remove(&key);
+        let (port, service) = (Some(header.source.port), Some(service));
+        Some(Place { port, service, group, offset, reply: true })
+    }
+
+    /// A command that is none of the three services.
+    fn other(&mut self, command: Command, reply: bool, at: usize, data: &[u8]) {
+        let name = codes::command(command)
+            .map_or_else(|| format!("AMS command {}", command.0), ToOwned::to_owned);
+        let what = if reply { "response" } else { "request" };
+        let title = format!("{name}, {what}: no stream of the CNC");
+        self.parts.push(Part::opaque(title, at, data));
+    }
+
+    fn note(&mut self, note: String) {
+        if let Some(part) = self.parts.last_mut() {
+            part.notes.push(note);
+        }
+    }
+}
+
+/// Set in the state flags of an answer.
+const RESPONSE_BIT: u16 = 1;
+
+fn halves(bytes: &[u8], at: usize) -> (&[u8], &[u8]) {
+    bytes.split_at_checked(at).unwrap_or((bytes, &[]))
+}
+
+/// What a service carries, as far as it is there, and where it begins.
+fn inside(stream: Stream, bytes: &[u8]) -> Option<(usize, &[u8])> {
+    let data = ads_cnc::layout::Field::by_name(stream, "data")?.spec()?;
+    let at = super::model::size(data.offset);
+    bytes.get(at..).map(|data| (at, data))
+}
+
+/// The number in a field, as far as the stream can be read.
+fn number(stream: Stream, bytes: &[u8], field: &str) -> Option<u32> {
+    let mut number = None;
+    // A fault behind the field does not matter here.
+    let _fault = stream.walk(bytes, |segment| {
+        if segment.field.name() == field {
+            number = segment.bytes.first_chunk().map(|le| u32::from_le_bytes(*le));
+        }
+    });
+    number
+}
+
+/// What of a request is refused though each of its streams is in order.
+fn refused(
+    place: &Place,
+    port: AmsPort,
+    (service, read_length): (Service, Option<u32>),
+    data: &[u8],
+) -> Option<String> {
+    let call = Call {
+        port,
+        service,
+        index_group: place.group,
+        index_offset: place.offset,
+        read_length: read_length.unwrap_or(0),
+        data,
+    };
+    match call.dispatch() {
+        Err(Refusal::Stream(error)) => Some(format!("the codec refuses the request: {error}")),
+        // That there is no function the address says itself.
+        _ => None,
+    }
+}

@@ -1,0 +1,61 @@
+//! Bytes field by field: offset, bytes, field, value, meaning, clause.
+//!
+//! [`explain`] takes any bytes and never fails: what is wrong with them is part of the
+//! [`Explanation`], which shows all fields up to the fault, marks the fault and gives what was not
+//! read. The fields are those of [`ads_cnc::layout`]; there is no second table.
+//!
+//! ```
+//! use ads_cnc::layout::Stream;
+//! use ads_cnc_conformance::explain::{Outcome, Question, Subject, Values, explain};
+//!
+//! let question = Question { subject: Subject::Stream(Stream::VariableHandle), values: Values::default() };
+//! let explanation = explain(&question, &[4, 0, 0, 2]);
+//! assert_eq!(explanation.outcome, Outcome::Explained);
+//! let row = &explanation.parts[0].rows[0];
+//! assert_eq!((row.field.as_str(), row.value.as_str()), ("handle", "33554436 (0x2000004)"));
+//!
+//! let cut = explain(&question, &[4, 0]);
+//! assert_eq!(cut.outcome, Outcome::Faulty);
+//! assert_eq!(cut.parts[0].faults[0].text, "handle at offset 0: truncated, 4 bytes expected, 2 there");
+//! ```
+
+mod address;
+mod codes;
+mod frame;
+mod input;
+mod model;
+mod nc;
+mod part;
+mod show;
+mod typed;
+mod value;
+
+pub use address::describe;
+pub use frame::looks_like_frame;
+pub use input::{HexError, parse_hex};
+pub use model::{
+    Address, Explanation, Fault, FunctionReport, Outcome, Part, Place, Question, Row, Subject,
+    Unread,
+};
+pub use show::{Paint, print};
+pub use typed::{UnknownType, Values, type_by_name};
+
+use ads_cnc::layout::Stream;
+
+/// Explains bytes. It opens nothing and remembers nothing, and no bytes make it panic.
+pub fn explain(question: &Question, bytes: &[u8]) -> Explanation {
+    let values = &question.values;
+    let parts = match &question.subject {
+        Subject::Stream(stream) => vec![part::of_stream(*stream, 0, bytes, values)],
+        Subject::Place(place) => vec![address::of_place(place, bytes, values)],
+        Subject::Address(place) => vec![address::alone(place)],
+        Subject::Frames(place) => frame::of_frames(place.as_ref(), bytes, values),
+    };
+    Explanation::new(bytes.len(), parts)
+}
+
+/// The streams that take these bytes whole, by name: what somebody may mean who names none.
+pub fn candidates(bytes: &[u8]) -> Vec<&'static str> {
+    let takes = |stream: &Stream| stream.walk(bytes, |_| ()).is_ok();
+    Stream::all().filter(takes).map(|stream| stream.layout().name).collect()
+}

@@ -1,0 +1,97 @@
+//! NC text in a stream, line by line, with what streaming does not permit.
+
+use ads_cnc::layout::Segment;
+use ads_cnc::streaming::{self, Interface, LineError, NcText};
+
+use super::codes::quoted;
+use super::model::{Fault, Part, Row};
+use super::value::row;
+
+/// A line: where it begins, its characters and its end.
+struct Line<'a> {
+    at: usize,
+    bytes: &'a [u8],
+}
+
+/// Adds a row for each line.
+pub(super) fn add(part: &mut Part, segment: &Segment<'_>) {
+    let (data, whole) = (segment.bytes, row(segment));
+    let lines = lines(data);
+    for (number, line) in (1_u32..).zip(&lines) {
+        let mut row = Row {
+            item: number.saturating_sub(1),
+            ty: "STRING".to_owned(),
+            clause: whole.clause,
+            ..Row::new(line.at, line.bytes, &format!("line {number}"), quoted(line.bytes))
+        };
+        row.meaning = if number == 1 { whole.meaning } else { "" };
+        part.rows.push(row);
+    }
+    // A CNC takes the bytes in any case; that a line has no end it finds when it reads.
+    let mut cnc = Interface::new();
+    cnc.write(data);
+    if let Err(error) = cnc.read() {
+        let number = streaming::LINE_END_ERROR;
+        fault(part, &lines, &error, &format!(": the CNC aborts with error {number} (STM-5)"));
+    }
+    match NcText::new(data) {
+        Err(error) => fault(part, &lines, &error, ""),
+        Ok(text) => {
+            for finding in text.findings() {
+                let at = place(&lines, finding.line, finding.column);
+                let line = format!("line {}", finding.line);
+                if finding.kind.ends_streaming() {
+                    part.push_fault(Fault {
+                        class: "nc-word",
+                        field: line,
+                        offset: at,
+                        expected: None,
+                        found: None,
+                        text: format!("{finding}: the CNC ends streaming"),
+                    });
+                } else if let Some(row) = part.rows.iter_mut().find(|row| row.field == line) {
+                    row.notes.push(finding.to_string());
+                }
+            }
+            part.faults.sort_by_key(|fault| fault.offset);
+            part.notes.push(
+                "checked as one text; jumps and comments may go on in another write".to_owned(),
+            );
+        }
+    }
+}
+
+fn fault(part: &mut Part, lines: &[Line<'_>], error: &LineError, what: &str) {
+    part.push_fault(Fault {
+        class: "nc-line",
+        field: format!("line {}", error.line()),
+        offset: place(lines, error.line(), error.column()),
+        expected: None,
+        found: None,
+        text: format!("{error}{what}"),
+    });
+}
+
+/// The offset of a column.
+fn place(lines: &[Line<'_>], line: u32, column: u32) -> usize {
+    let back = |number: u32| usize::try_from(number.saturating_sub(1)).unwrap_or(usize::MAX);
+    lines.get(back(line)).map_or(0, |line| line.at.saturating_add(back(column)))
+}
+
+/// The lines with their ends, as the codec counts them: LF, CR LF, or CR alone.
+fn lines(data: &[u8]) -> Vec<Line<'_>> {
+    let (mut lines, mut at, mut rest) = (Vec::new(), 0_usize, data);
+    while !rest.is_empty() {
+        let text = rest.iter().position(|byte| matches!(byte, b'\r' | b'\n')).unwrap_or(rest.len());
+        let end = match rest.get(text..) {
+            Some([b'\r', b'\n', ..]) => 2,
+            Some([_, ..]) => 1,
+            _ => 0,
+        };
+        let (bytes, behind) =
+            rest.split_at_checked(text.saturating_add(end)).unwrap_or((rest, &[]));
+        lines.push(Line { at, bytes });
+        (at, rest) = (at.saturating_add(bytes.len()), behind);
+    }
+    lines
+}

@@ -1,0 +1,111 @@
+//! Values and contents, typed by what their description or descriptor says.
+
+use ads_cnc::value::{DataType, Element, Elements};
+use ads_cnc::{CncStr, Error, Numbers};
+
+use super::codes::text_of;
+
+/// How values and contents are to be read.
+#[derive(Clone, Debug, Default)]
+pub struct Values {
+    /// The type; without it a value is bytes.
+    pub ty: Option<DataType>,
+    /// Elements in each dimension; none for a single element.
+    pub dimensions: Vec<u32>,
+}
+
+/// A name that no type has.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "no type is called {0}; there are BOOLEAN, SGN08 … UNS32, REAL32, REAL64, STRING, and those of objects, BOOL, SINT … LREAL"
+)]
+pub struct UnknownType(String);
+
+/// The type of this name, as variables, elements or objects have it; case does not matter.
+///
+/// # Errors
+/// No type has this name.
+pub fn type_by_name(name: &str) -> Result<DataType, UnknownType> {
+    let upper = name.to_ascii_uppercase();
+    let known = CncStr::new(&upper).ok().and_then(DataType::by_name);
+    known.ok_or_else(|| UnknownType(name.to_owned()))
+}
+
+/// An element of a value.
+pub(super) struct Typed {
+    /// Its number of bytes.
+    pub(super) len: usize,
+    /// Its indices in brackets, if there are any.
+    pub(super) place: String,
+    pub(super) value: String,
+}
+
+/// The elements of a value.
+pub(super) fn elements(
+    ty: DataType,
+    dimensions: &[u32],
+    bytes: &[u8],
+) -> Result<Vec<Typed>, Error> {
+    let elements = Elements::new(ty, Numbers::from(dimensions), bytes)?;
+    let len = super::model::size(elements.shape().element_size());
+    let placed = (0_u32..).zip(elements);
+    Ok(placed
+        .map(|(item, one)| Typed { len, place: place(item, dimensions), value: element(one) })
+        .collect())
+}
+
+fn element(element: Element<'_>) -> String {
+    match element {
+        Element::Boolean(flag) => super::codes::boolean(flag.0),
+        Element::Sgn08(number) => number.to_string(),
+        Element::Uns08(number) => number.to_string(),
+        Element::Sgn16(number) => number.to_string(),
+        Element::Uns16(number) => number.to_string(),
+        Element::Sgn32(number) => number.to_string(),
+        Element::Uns32(number) => number.to_string(),
+        Element::Lint(number) => number.to_string(),
+        Element::Lword(number) => number.to_string(),
+        Element::Real32(number) => format!("{number:?}"),
+        Element::Real64(number) => format!("{number:?}"),
+        Element::String(text) => text_of(text),
+        other => format!("{other:?}"),
+    }
+}
+
+/// The indices of an element; the last runs fastest (VAR-21, assumed).
+fn place(item: u32, dimensions: &[u32]) -> String {
+    let (mut left, mut indices) = (item, Vec::new());
+    for &length in dimensions.iter().rev() {
+        indices.push(left.checked_rem(length).unwrap_or(0));
+        left = left.checked_div(length).unwrap_or(0);
+    }
+    indices.iter().rev().map(|index| format!("[{index}]")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_index_runs_fastest() {
+        let bytes: Vec<u8> = (1..=6).collect();
+        let typed = elements(type_by_name("uns08").unwrap(), &[2, 3], &bytes).unwrap();
+        let shown: Vec<_> =
+            typed.iter().map(|one| format!("{}={}", one.place, one.value)).collect();
+        assert_eq!(shown, ["[0][0]=1", "[0][1]=2", "[0][2]=3", "[1][0]=4", "[1][1]=5", "[1][2]=6"]);
+    }
+
+    #[test]
+    fn types_of_objects_are_known() {
+        for (name, bytes, value) in [
+            ("LINT", &[0xFF; 8][..], "-1"),
+            ("LWORD", &[0xFF; 8], "18446744073709551615"),
+            ("REAL", &[0, 0, 0xC0, 0x3F], "1.5"),
+            ("BOOL", &[2], "TRUE (2)"),
+        ] {
+            let typed = elements(type_by_name(name).unwrap(), &[], bytes).unwrap();
+            assert_eq!(typed.first().map(|one| one.value.as_str()), Some(value), "{name}");
+        }
+        assert!(type_by_name("TIME").is_err());
+    }
+}

@@ -1,0 +1,187 @@
+//! From the bytes of a field to its rows.
+
+use ads_cnc::address::IndexGroup;
+use ads_cnc::ads::{AdsError, Command, StateFlags};
+use ads_cnc::layout::{Segment, Stream, Type};
+use ads_cnc::value::DataType;
+use ads_cnc::{Synchronisation, Validity, VariableAccess, VariableType};
+
+use super::codes::{self, number, quoted, text};
+use super::model::{Fault, Part, Row, size};
+use super::typed::{self, Values};
+
+/// Bytes of a value that are tried as every type of their size.
+const GUESSED: usize = 8;
+
+/// Adds the rows of a segment to its part.
+pub(super) fn add(part: &mut Part, stream: Stream, segment: &Segment<'_>, values: &Values) {
+    let mut row = row(segment);
+    match segment.field.spec().map(|spec| spec.ty) {
+        Some(Type::String) => row.value = text(segment.bytes),
+        Some(Type::Bytes) if is_value(stream, &row.field) => {
+            return value(part, row, segment.bytes, values);
+        }
+        Some(Type::Bytes) => row.value = bytes(segment.bytes.len()),
+        Some(ty) => interpret(&mut row, stream, ty, segment.bytes),
+        None => {}
+    }
+    part.rows.push(row);
+}
+
+/// The row of a segment, without its value.
+pub(super) fn row(segment: &Segment<'_>) -> Row {
+    let mut row =
+        Row::new(size(segment.offset), segment.bytes, segment.field.name(), String::new());
+    (row.record, row.item) = (segment.record, segment.item);
+    if let Some(spec) = segment.field.spec() {
+        (row.ty, row.meaning, row.clause) = (spec.ty.to_string(), spec.meaning, spec.clause);
+    }
+    row
+}
+
+fn is_value(stream: Stream, field: &str) -> bool {
+    field == "value" || stream == Stream::Content
+}
+
+/// A length in words.
+pub(super) fn bytes(length: usize) -> String {
+    if length == 1 { "1 byte".to_owned() } else { format!("{length} bytes") }
+}
+
+/// A number or NetId, with what it says.
+fn interpret(row: &mut Row, stream: Stream, ty: Type, bytes: &[u8]) {
+    match (ty, bytes) {
+        (Type::NetId, _) => {
+            let numbers: Vec<String> = bytes.iter().map(u8::to_string).collect();
+            row.value = numbers.join(".");
+        }
+        (Type::Real64, _) => {
+            let bits = bytes.first_chunk().map_or(0, |le| u64::from_le_bytes(*le));
+            row.value = format!("{:?}", f64::from_bits(bits));
+        }
+        (Type::Boolean, [byte]) => row.value = codes::boolean(*byte),
+        _ => {
+            let read = bytes.iter().rev().fold(0_u32, |sum, &byte| (sum << 8) | u32::from(byte));
+            row.value = number(read);
+            codes_of(row, stream, read);
+        }
+    }
+}
+
+/// What a number says in its field.
+fn codes_of(row: &mut Row, stream: Stream, read: u32) {
+    let low = u16::try_from(read).unwrap_or_default();
+    let name = match (stream, row.field.as_str()) {
+        (_, "index_group") if read == 0 => Some("none".to_owned()),
+        (_, "index_group") => {
+            row.value = format!("{read:#x}");
+            row.notes.push(super::describe(IndexGroup::new(read)));
+            None
+        }
+        (_, "index_offset" | "handle" | "id" | "invoke_id") => None,
+        (Stream::AmsHeader, "target_port" | "source_port") => codes::port(low),
+        (Stream::AmsHeader, "command") => {
+            Some(codes::command(Command(low)).unwrap_or("no known command").to_owned())
+        }
+        (Stream::AmsHeader, "state_flags") => {
+            row.value = format!("{read:#06x}");
+            let name = codes::state_flags(StateFlags(low));
+            Some(name.unwrap_or("neither request nor response").to_owned())
+        }
+        (_, "error" | "result") => {
+            let known = codes::ads_error(AdsError(read));
+            if read != 0 {
+                row.notes.push("which number a CNC gives is not documented (ADS-7)".to_owned());
+            }
+            Some(known.unwrap_or("an error").to_owned())
+        }
+        (Stream::VariableDescription | Stream::VariableDescriptionByName, "type") => {
+            Some(VariableType(read).name().unwrap_or("no type of the manuals").to_owned())
+        }
+        (_, "access") => {
+            Some(VariableAccess(read).name().unwrap_or("no code of the manuals").to_owned())
+        }
+        (_, "synchronisation") => {
+            Some(Synchronisation(read).name().unwrap_or("no code of the manuals").to_owned())
+        }
+        (_, "validity") => {
+            Some(Validity(read).name().unwrap_or("no code of the manuals").to_owned())
+        }
+        (_, "write_access") => Some(if read == 0 { "read-only" } else { "writable" }.to_owned()),
+        _ => None,
+    };
+    if let Some(name) = name {
+        row.value = format!("{} {name}", row.value);
+    }
+}
+
+/// A value or content: typed if its type is known, else what it might be.
+fn value(part: &mut Part, mut row: Row, all: &[u8], values: &Values) {
+    let Some(ty) = values.ty else {
+        row.value = bytes(all.len());
+        let guesses = guesses(all);
+        if !guesses.is_empty() {
+            row.notes.push(format!("the type is not in the stream; it would be {guesses}"));
+        } else if !all.is_empty() {
+            row.notes.push("the type is not in the stream".to_owned());
+        }
+        part.rows.push(row);
+        return;
+    };
+    // With indices it is one element, whatever the variable is.
+    let one = part.rows.iter().any(|before| before.field == "indices");
+    let dimensions = if one { &[][..] } else { values.dimensions.as_slice() };
+    match typed::elements(ty, dimensions, all) {
+        Ok(elements) => {
+            if dimensions.len() > 1 {
+                part.notes.push("the last index runs fastest (VAR-21, assumed)".to_owned());
+            }
+            let (mut rest, mut at) = (all, row.offset);
+            for (item, element) in (0..).zip(elements) {
+                let (bytes, behind) = rest.split_at_checked(element.len).unwrap_or((rest, &[]));
+                let field = format!("{}{}", row.field, element.place);
+                part.rows.push(Row {
+                    item,
+                    ty: ty.name().to_owned(),
+                    meaning: if item == 0 { row.meaning } else { "" },
+                    clause: row.clause,
+                    ..Row::new(at, bytes, &field, element.value)
+                });
+                (rest, at) = (behind, at.saturating_add(element.len));
+            }
+        }
+        Err(error) => {
+            // The error counts from the value on, and names a table of its own.
+            row.value = bytes(all.len());
+            let shape: String = dimensions.iter().map(|length| format!("[{length}]")).collect();
+            let mut fault = Fault::of(&error, 0);
+            let reason = fault.text.split_once(": ").map_or("", |(_, reason)| reason);
+            let offset = row.offset.saturating_add(fault.offset);
+            let (field, ty) = (row.field.clone(), ty.name());
+            fault.text = format!("{field} at offset {offset}, as {ty}{shape}: {reason}");
+            (fault.field, fault.offset) = (field, offset);
+            part.rows.push(row);
+            part.push_fault(fault);
+        }
+    }
+}
+
+/// What a few bytes would be as each type of their size.
+fn guesses(all: &[u8]) -> String {
+    if all.is_empty() || all.len() > GUESSED {
+        let shown = all.iter().all(|byte| byte.is_ascii_graphic() || matches!(byte, b' ' | 0));
+        return match shown && !all.is_empty() && all.len() <= 128 {
+            true => format!("STRING {}", quoted(all)),
+            false => String::new(),
+        };
+    }
+    let mut all_of_them = Vec::new();
+    let numbers = DataType::ALL.into_iter().filter(|ty| *ty != DataType::String);
+    for ty in numbers {
+        if let Ok(elements) = typed::elements(ty, &[], all) {
+            let name = ty.name();
+            all_of_them.extend(elements.into_iter().map(|one| format!("{name} {}", one.value)));
+        }
+    }
+    all_of_them.join(", ")
+}

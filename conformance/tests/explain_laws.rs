@@ -1,0 +1,247 @@
+//! What holds of the explanation of any bytes whatever.
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::AmsPort;
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::{Function, OffsetRule, Service};
+use ads_cnc::value::DataType;
+use ads_cnc_conformance::explain::{
+    Explanation, Outcome, Paint, Part, Place, Question, Subject, Values, explain, parse_hex, print,
+    type_by_name,
+};
+use ads_cnc_vectors::{Expect, vectors};
+use jsonschema::Validator;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+fn schema() -> Validator {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/schema/explain.schema.json");
+    let schema = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+    jsonschema::draft202012::meta::validate(&schema).unwrap();
+    jsonschema::validator_for(&schema).unwrap()
+}
+
+/// Rows and what was not read are all of the bytes, in their order, without a gap.
+fn check_part(part: &Part, bytes: &[u8]) {
+    let given = &bytes[part.at..part.at + part.length];
+    let mut end = 0;
+    for row in &part.rows {
+        assert_eq!(row.offset, end, "{part:?}");
+        assert_eq!(parse_hex(&row.hex).unwrap(), given[end..end + row.length]);
+        end += row.length;
+    }
+    if let Some(unread) = &part.unread {
+        assert_eq!((unread.offset, unread.length), (end, part.length - end), "{part:?}");
+        assert_eq!(parse_hex(&unread.hex).unwrap(), given[end..]);
+        assert!(!part.faults.is_empty(), "not read without a reason: {part:?}");
+        end = part.length;
+    }
+    assert_eq!(end, part.length, "{part:?}");
+    for fault in &part.faults {
+        assert!(fault.offset <= part.length, "{part:?}");
+    }
+}
+
+/// Explains, and holds the explanation to the laws.
+fn check(question: &Question, bytes: &[u8], schema: &Validator) -> Explanation {
+    let explanation = explain(question, bytes);
+    assert_eq!(explanation.length, bytes.len());
+    for part in &explanation.parts {
+        check_part(part, bytes);
+    }
+    let faulty = explanation.parts.iter().any(|part| !part.faults.is_empty());
+    assert_eq!(explanation.outcome == Outcome::Faulty, faulty);
+    let mut plain = Vec::new();
+    print(&explanation, Paint::Plain, &mut plain).unwrap();
+    // Whatever the bytes are, a terminal gets nothing to act on.
+    let controls = |byte: &&u8| byte.is_ascii_control() && **byte != b'\n';
+    assert_eq!(plain.iter().find(controls), None);
+    assert!(!String::from_utf8(plain).unwrap().chars().any(|one| one.is_control() && one != '\n'));
+    print(&explanation, Paint::Colour, &mut Vec::new()).unwrap();
+    let document = serde_json::to_value(&explanation).unwrap();
+    let errors: Vec<String> =
+        schema.iter_errors(&document).map(|e| format!("{e} at {}", e.instance_path())).collect();
+    assert!(errors.is_empty(), "{errors:#?}");
+    explanation
+}
+
+fn stream(stream: Stream) -> Question {
+    Question { subject: Subject::Stream(stream), values: Values::default() }
+}
+
+fn values() -> impl Strategy<Value = Values> {
+    let ty = proptest::option::of(select(DataType::ALL.to_vec()));
+    let dimensions = proptest::collection::vec(prop_oneof![0..6_u32, any::<u32>()], 0..4);
+    (ty, dimensions).prop_map(|(ty, dimensions)| Values { ty, dimensions })
+}
+
+fn services() -> impl Strategy<Value = Option<Service>> {
+    proptest::option::of(select(vec![Service::Read, Service::Write, Service::ReadWrite]))
+}
+
+/// Where functions are, and anywhere.
+fn places() -> impl Strategy<Value = Place> {
+    let examples: Vec<(u32, u32)> = Function::ALL
+        .iter()
+        .map(|function| {
+            let spec = function.spec();
+            let offset = match spec.offset {
+                OffsetRule::At(at) | OffsetRule::From(at) => at,
+                OffsetRule::OfAxis(element) => 0x2_0000 + element,
+                OffsetRule::OfKind([first, ..]) => first,
+                _ => 0,
+            };
+            (spec.group.example().get(), offset)
+        })
+        .collect();
+    let known = select(examples).prop_flat_map(|(group, offset)| {
+        (Just(group), prop_oneof![3 => Just(offset), 1 => any::<u32>()])
+    });
+    let near = (0x2_0000..0x13_FFFF_u32, 0..0x3_0000_u32);
+    let address = prop_oneof![6 => known, 2 => near, 1 => any::<(u32, u32)>()];
+    let port = proptest::option::of(prop_oneof![550..555_u16, any::<u16>()]);
+    (port, services(), address, any::<bool>()).prop_map(
+        |(port, service, (group, offset), reply)| {
+            let (group, offset) = (IndexGroup::new(group), IndexOffset::new(offset));
+            Place { port: port.map(AmsPort), service, group, offset, reply }
+        },
+    )
+}
+
+fn subjects() -> impl Strategy<Value = Subject> {
+    prop_oneof![
+        select(Stream::all().collect::<Vec<_>>()).prop_map(Subject::Stream),
+        places().prop_map(Subject::Place),
+        places().prop_map(Subject::Address),
+        proptest::option::of(places()).prop_map(Subject::Frames),
+    ]
+}
+
+/// Numbers that streams are made of, and any bytes.
+fn bytes() -> impl Strategy<Value = Vec<u8>> {
+    let word = prop_oneof![
+        4 => (0..12_u32).prop_map(|number| number.to_le_bytes().to_vec()),
+        1 => any::<u32>().prop_map(|number| number.to_le_bytes().to_vec()),
+        1 => Just(b"V.E.a\0".to_vec()),
+        1 => Just(b"N10 $WHILE 1\r\n".to_vec()),
+        1 => proptest::collection::vec(any::<u8>(), 0..9),
+    ];
+    proptest::collection::vec(word, 0..24).prop_map(|words| words.concat())
+}
+
+/// One to three frames that are whole, then cut or changed in one place.
+fn frames() -> impl Strategy<Value = Vec<u8>> {
+    let command = prop_oneof![4 => select(vec![2_u16, 3, 9]), 1 => any::<u16>()];
+    let flags = prop_oneof![4 => 4..6_u16, 1 => any::<u16>()];
+    let one = (command, flags, 550..555_u16, places(), any::<bool>(), bytes());
+    let frame = one.prop_map(|(command, flags, port, place, lies, inside)| {
+        let (group, offset) = (place.group.get().to_le_bytes(), place.offset.get().to_le_bytes());
+        let length = u32::try_from(inside.len()).unwrap().saturating_add(lies.into()).to_le_bytes();
+        let read = 84_u32.to_le_bytes();
+        let data = match (flags & 1, command) {
+            (0, 2) => [&group[..], &offset, &read].concat(),
+            (0, 3) => [&group[..], &offset, &length, &inside].concat(),
+            (0, _) => [&group[..], &offset, &read, &length, &inside].concat(),
+            _ => [&[0; 4][..], &length, &inside].concat(),
+        };
+        let (target, source) = ([192, 0, 2, 10, 1, 1], [192, 0, 2, 20, 1, 1]);
+        let (near, far) = (port.to_le_bytes(), [0, 0x80]);
+        let ends = match flags & 1 {
+            0 => [&target[..], &near, &source, &far].concat(),
+            _ => [&source[..], &far, &target, &near].concat(),
+        };
+        let len = u32::try_from(data.len()).unwrap();
+        let rest = [
+            &command.to_le_bytes()[..],
+            &flags.to_le_bytes(),
+            &len.to_le_bytes(),
+            &[0; 4],
+            &[7, 0, 0, 0],
+        ];
+        [&[0, 0][..], &(len + 32).to_le_bytes(), &ends, &rest.concat(), &data].concat()
+    });
+    let cut = proptest::option::of(any::<proptest::sample::Index>());
+    let change = proptest::option::of((any::<proptest::sample::Index>(), any::<u8>()));
+    (proptest::collection::vec(frame, 1..4), cut, change).prop_map(|(frames, cut, change)| {
+        let mut bytes = frames.concat();
+        if let Some((place, byte)) = change {
+            let place = place.index(bytes.len());
+            bytes[place] = byte;
+        }
+        if let Some(cut) = cut {
+            bytes.truncate(cut.index(bytes.len()));
+        }
+        bytes
+    })
+}
+
+thread_local!(static SCHEMA: Validator = schema());
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_bytes_to_any_question(subject in subjects(), values in values(), bytes in bytes()) {
+        SCHEMA.with(|schema| check(&Question { subject, values }, &bytes, schema));
+    }
+
+    #[test]
+    fn any_frames(place in proptest::option::of(places()), values in values(), bytes in frames()) {
+        SCHEMA.with(|schema| {
+            check(&Question { subject: Subject::Frames(place), values }, &bytes, schema)
+        });
+    }
+
+    /// Every stream by its name, with the same bytes.
+    #[test]
+    fn every_stream_says_what_its_walk_says(bytes in bytes()) {
+        for named in Stream::all() {
+            let explanation = SCHEMA.with(|schema| check(&stream(named), &bytes, schema));
+            let walked = named.walk(&bytes, |_| ());
+            // NC text has findings beyond its table.
+            if named != Stream::ProgramStream {
+                prop_assert_eq!(walked.is_err(), explanation.outcome == Outcome::Faulty);
+            }
+        }
+    }
+
+    #[test]
+    fn any_text_is_hex_or_refused(text in "\\PC*") {
+        if let Err(error) = parse_hex(&text) {
+            prop_assert!(error.line >= 1 && error.column >= 1);
+        }
+    }
+}
+
+/// Each golden vector of a stream is explained, or shown as faulty, as it says.
+#[test]
+fn vectors_are_explained_as_they_say() {
+    let schema = schema();
+    let (mut seen, mut refused, mut same) = (0, 0, 0);
+    for vector in vectors() {
+        let Some(named) = Stream::by_name(&vector.stream) else { continue };
+        if named == Stream::ProgramStream {
+            continue;
+        }
+        seen += 1;
+        let context = &vector.context;
+        let ty = context.kind.map(|kind| serde_json::to_value(kind).unwrap());
+        let ty = ty.and_then(|name| type_by_name(name.as_str().unwrap()).ok());
+        let dimensions = context.dimensions.clone().unwrap_or_default();
+        let values = Values { ty, dimensions };
+        let question = Question { subject: Subject::Stream(named), values };
+        let explanation = check(&question, &vector.bytes(), &schema);
+        let fault = explanation.parts[0].faults.first();
+        match (&vector.expect, fault) {
+            (Expect::Accept(_), None) => {}
+            (Expect::Reject(reject), Some(fault)) => {
+                // Class and place are advice in vectors; they are mostly the codec's all the same.
+                refused += 1;
+                same += usize::from((fault.class, fault.offset) == (&reject.class, reject.offset));
+            }
+            (_, fault) => panic!("{}: {fault:?}", vector.id),
+        }
+    }
+    println!("{seen} vectors, {refused} refused, {same} with the same class and offset");
+    assert!(seen > 100 && same * 10 > refused * 8, "{seen} {refused} {same}");
+}
