@@ -1,6 +1,7 @@
 //! The command line of `ads-cnc`.
 
 mod model;
+mod explain;
 mod run;
 mod serve;
 
@@ -26,6 +27,7 @@ enum Command {
     /// Start the simulated CNC and serve it over AMS/TCP until interrupted.
     Serve(serve::Args),
     Run(run::Run),
+    Explain(explain::Explain),
 }
 
 /// Runs the tool with the arguments of the process.
@@ -46,6 +48,7 @@ impl Cli {
     fn run(self) -> ExitCode {
         match self.command {
             Some(Command::Run(run)) => run.execute().into(),
+            Some(Command::Explain(explain)) => explain.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
             // The suite against the embedded CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),

@@ -1,0 +1,283 @@
+//! `ads-cnc explain`: bytes field by field.
+
+use std::fs::File;
+use std::io::{self, BufWriter, IsTerminal as _, Read, Write as _};
+use std::path::{Path, PathBuf};
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::AmsPort;
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::Service;
+use ads_cnc::value::DataType;
+use clap::{Args, ValueEnum};
+
+use super::complain;
+use crate::explain::{
+    Paint, Place, Question, Subject, Values, candidates, explain, looks_like_frame, parse_hex,
+    print, type_by_name,
+};
+use crate::verdict::Exit;
+
+/// The most bytes taken: several of the longest frames.
+const INPUT_MAX: u64 = 0x100_0000;
+
+/// Explains bytes field by field: offset, bytes, field, value, clause, meaning.
+///
+/// What the bytes are is said by --stream, by --group and --offset, or by --frame; without, they
+/// have to be AMS/TCP frames. Bytes that are cut or wrong are shown up to the fault.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Explain {
+    /// Bytes in hex, in the order they are sent; - reads hex from stdin
+    #[arg(value_name = "HEX")]
+    hex_bytes: Vec<String>,
+
+    /// Read the bytes from a file, as they are; - is stdin
+    #[arg(long, value_name = "FILE", conflicts_with = "hex_bytes")]
+    file: Option<PathBuf>,
+
+    /// The file has hex
+    #[arg(long, requires = "file")]
+    hex: bool,
+
+    /// The bytes are this stream (see --list)
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["frame", "group"])]
+    stream: Option<String>,
+
+    /// The bytes are AMS/TCP frames, one behind the other
+    #[arg(long)]
+    frame: bool,
+
+    /// The bytes are data of a service in this index group; with --frame: of replies whose
+    /// request is not there
+    #[arg(long, value_name = "NUMBER", value_parser = number, requires = "offset")]
+    group: Option<u32>,
+
+    /// Index offset
+    #[arg(long, value_name = "NUMBER", value_parser = number, requires = "group")]
+    offset: Option<u32>,
+
+    /// ADS service; without it, that of the function at this address
+    #[arg(long, value_name = "SERVICE", requires = "group")]
+    service: Option<ServiceName>,
+
+    /// AMS port: 551 GEO, 552 SDA, 553 COM
+    #[arg(long, requires = "group")]
+    port: Option<u16>,
+
+    /// The bytes came back
+    #[arg(long, requires = "group")]
+    reply: bool,
+
+    /// Type of a value or content: BOOLEAN, SGN32, REAL64, STRING, DINT, …
+    #[arg(long = "type", value_name = "TYPE", value_parser = type_by_name)]
+    ty: Option<DataType>,
+
+    /// Elements in each dimension of the value
+    #[arg(long, value_name = "N,…", value_delimiter = ',', requires = "ty")]
+    dimensions: Vec<u32>,
+
+    /// Write one JSON document
+    #[arg(long)]
+    json: bool,
+
+    /// When to colour: on a terminal, unless NO_COLOR is set
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    color: Color,
+
+    /// List the streams: name, requirement, most bytes, title
+    #[arg(long, exclusive = true)]
+    list: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ads-cnc explain --stream variable-handle 04 00 00 02
+  ads-cnc explain --group 0x122301 --offset 0x46 562e452e7661727465737400
+  ads-cnc explain --group 0x122301 --offset 0x48 --reply --type SGN32 4d 01 00 00
+  ads-cnc explain --group 0x120101 --offset 0x10001
+  ads-cnc explain --file frames.bin --json
+  xxd -p frames.bin | ads-cnc explain -
+
+With --group, the bytes are the data of the service, without its own header; without any, the
+address is explained. An empty argument (\"\") stands for no bytes.
+
+Exit codes: 0 explained; 1 the bytes are faulty; 2 wrong usage; 3 nothing is known of them;
+70 internal error.";
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ServiceName {
+    Read,
+    Write,
+    ReadWrite,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Color {
+    Auto,
+    Always,
+    Never,
+}
+
+/// A number, decimal or in hex with 0x.
+fn number(text: &str) -> Result<u32, String> {
+    let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
+    let number = match hex {
+        Some(digits) if digits.starts_with('+') => None,
+        Some(digits) => u32::from_str_radix(digits, 16).ok(),
+        None => text.parse().ok(),
+    };
+    number.ok_or_else(|| "a number of 32 bits, decimal or with 0x, is expected".to_owned())
+}
+
+impl Explain {
+    /// Explains, and says how the process ends.
+    pub(super) fn execute(&self) -> Exit {
+        let done = if self.list { self.list() } else { self.run() };
+        done.unwrap_or_else(|(exit, why)| {
+            complain(why);
+            exit
+        })
+    }
+
+    fn run(&self) -> Result<Exit, (Exit, String)> {
+        let usage = |why: String| (Exit::Usage, why);
+        let given = self.bytes().map_err(usage)?;
+        let values = Values { ty: self.ty, dimensions: self.dimensions.clone() };
+        let question = Question { subject: self.subject(given.as_deref()).map_err(usage)?, values };
+        let explanation = explain(&question, &given.unwrap_or_default());
+        let mut out = BufWriter::new(io::stdout().lock());
+        let shown = match self.json {
+            true => serde_json::to_writer_pretty(&mut out, &explanation)
+                .map_err(io::Error::from)
+                .and_then(|()| writeln!(out)),
+            false => print(&explanation, self.paint(), &mut out),
+        };
+        written(shown.and_then(|()| out.flush()))?;
+        Ok(explanation.outcome.exit())
+    }
+
+    fn subject(&self, bytes: Option<&[u8]>) -> Result<Subject, String> {
+        if let Some(name) = &self.stream {
+            return Stream::by_name(name).map(Subject::Stream).ok_or_else(|| {
+                format!("no stream is called {name}; ads-cnc explain --list shows all")
+            });
+        }
+        let place = self.group.zip(self.offset).map(|(group, offset)| Place {
+            port: self.port.map(AmsPort),
+            service: self.service.map(Service::from),
+            group: IndexGroup::new(group),
+            offset: IndexOffset::new(offset),
+            reply: self.reply,
+        });
+        match place {
+            Some(place) if !self.frame && bytes.is_none() => Ok(Subject::Address(place)),
+            Some(place) if !self.frame => Ok(Subject::Place(place)),
+            place if self.frame => Ok(Subject::Frames(place)),
+            place => match bytes.unwrap_or_default() {
+                bytes if looks_like_frame(bytes) => Ok(Subject::Frames(place)),
+                bytes => Err(unknown(bytes)),
+            },
+        }
+    }
+
+    /// The bytes; none where an address alone is to be explained.
+    fn bytes(&self) -> Result<Option<Vec<u8>>, String> {
+        let text = match (&self.file, self.hex_bytes.as_slice()) {
+            (Some(file), _) => {
+                let bytes = read_file(file)?;
+                if !self.hex {
+                    return Ok(Some(bytes));
+                }
+                text(bytes)?
+            }
+            (None, [stdin]) if stdin == "-" => text(read(io::stdin().lock(), "stdin")?)?,
+            (None, []) if self.group.is_some() && !self.frame => return Ok(None),
+            (None, []) => return Err(format!("no bytes are given\n{SAY}")),
+            (None, words) => words.join(" "),
+        };
+        parse_hex(&text).map(Some).map_err(|error| error.to_string())
+    }
+
+    fn paint(&self) -> Paint {
+        let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+        let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+        // Only newer consoles of Windows take the sequences; they and emulators say so.
+        let takes = !cfg!(windows) || ["WT_SESSION", "ANSICON", "TERM"].into_iter().any(set);
+        let colour = match self.color {
+            Color::Always => true,
+            Color::Never => false,
+            Color::Auto => takes && !dumb && !set("NO_COLOR") && io::stdout().is_terminal(),
+        };
+        if colour { Paint::Colour } else { Paint::Plain }
+    }
+
+    fn list(&self) -> Result<Exit, (Exit, String)> {
+        let mut out = BufWriter::new(io::stdout().lock());
+        let shown = Stream::all().map(Stream::layout).try_for_each(|layout| {
+            let (name, title, clause) = (layout.name, layout.title, layout.clause);
+            writeln!(out, "{name:<30}  {clause:<6}  {:>8}  {title}", layout.max)
+        });
+        written(shown.and_then(|()| out.flush()))?;
+        Ok(Exit::Success)
+    }
+}
+
+impl From<ServiceName> for Service {
+    fn from(name: ServiceName) -> Self {
+        match name {
+            ServiceName::Read => Self::Read,
+            ServiceName::Write => Self::Write,
+            ServiceName::ReadWrite => Self::ReadWrite,
+        }
+    }
+}
+
+/// What can be said of bytes.
+const SAY: &str = "\
+say what they are:
+  --stream NAME                    a stream; --list shows all
+  --group NUMBER --offset NUMBER   data of a service, with --reply what came back
+  --frame                          AMS/TCP frames";
+
+fn unknown(bytes: &[u8]) -> String {
+    let fits = candidates(bytes);
+    let fits = match fits.as_slice() {
+        [] => "no stream takes them whole".to_owned(),
+        fits => format!("streams that take them whole: {}", fits.join(" ")),
+    };
+    format!("the bytes are no AMS/TCP frame; {SAY}\n{fits}")
+}
+
+fn text(bytes: Vec<u8>) -> Result<String, String> {
+    String::from_utf8(bytes).map_err(|_| "not hex but binary; --file FILE takes that".to_owned())
+}
+
+fn read_file(file: &Path) -> Result<Vec<u8>, String> {
+    if file == Path::new("-") {
+        return read(io::stdin().lock(), "stdin");
+    }
+    let name = file.display().to_string();
+    let opened = File::open(file).map_err(|error| format!("{name}: {error}"))?;
+    read(opened, &name)
+}
+
+fn read(from: impl Read, name: &str) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let most = INPUT_MAX.saturating_add(1);
+    from.take(most).read_to_end(&mut bytes).map_err(|error| format!("{name}: {error}"))?;
+    match u64::try_from(bytes.len()) {
+        Ok(length) if length <= INPUT_MAX => Ok(bytes),
+        _ => Err(format!("{name} has more than {INPUT_MAX} bytes")),
+    }
+}
+
+/// A reader that has seen enough is no failure.
+fn written(result: io::Result<()>) -> Result<(), (Exit, String)> {
+    match result {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err((Exit::Internal, format!("the explanation could not be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
