@@ -1,7 +1,7 @@
 //! The command line of `ads-cnc`.
 
-mod model;
 mod explain;
+mod model;
 mod run;
 mod serve;
 
