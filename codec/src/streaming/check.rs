@@ -40,6 +40,7 @@ pub struct Finding {
 /// let kind = text.findings().next().unwrap().kind;
 /// assert_eq!(kind, FindingKind::BackwardJump { to: 1 });
 /// assert_eq!((kind.clause(), kind.ends_streaming()), ("STM-8", true));
+/// assert_eq!(kind.to_string(), "$GOTO back to line 1");
 /// # Ok::<(), ads_cnc::streaming::LineError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -80,17 +81,22 @@ impl FindingKind {
     }
 }
 
+/// What is there, in a few words.
+impl fmt::Display for FindingKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Loop(word) => write!(f, "{word} in a stream"),
+            Self::BackwardJump { to } => write!(f, "$GOTO back to line {to}"),
+            Self::BehindEnd { end, of } => write!(f, "text behind the {end} of line {of}"),
+            Self::OpenComment => f.write_str("#COMMENT BEGIN without #COMMENT END"),
+        }
+    }
+}
+
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { line, column, kind } = self;
-        write!(f, "line {line}, column {column}: ")?;
-        match kind {
-            FindingKind::Loop(word) => write!(f, "{word} in a stream")?,
-            FindingKind::BackwardJump { to } => write!(f, "$GOTO back to line {to}")?,
-            FindingKind::BehindEnd { end, of } => write!(f, "text behind the {end} of line {of}")?,
-            FindingKind::OpenComment => f.write_str("#COMMENT BEGIN without #COMMENT END")?,
-        }
-        write!(f, " ({})", kind.clause())
+        write!(f, "line {line}, column {column}: {kind} ({})", kind.clause())
     }
 }
 
@@ -194,7 +200,7 @@ impl Iterator for Findings<'_> {
             return None;
         }
         self.done = true;
-        let Place { line, column } = self.scan.open_block()?;
+        let Place { line, column } = self.scan.carry().block?;
         Some(Finding { line, column, kind: FindingKind::OpenComment })
     }
 }

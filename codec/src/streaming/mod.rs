@@ -4,14 +4,14 @@
 //! |---|---|
 //! | 2.2, lines and packets | [`NcText`], [`Packets`] |
 //! | 2.2, start, order, reset, the interface's end | [`Interface`] |
-//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain | [`Findings`] |
+//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain | [`Findings`]; packet by packet, with `alloc`: `Checker` |
 //! | 3.1, sizes | [`limits`](crate::limits) |
 //! | 3.2, the object | [`WriteProgramStream`](crate::operation::WriteProgramStream), [`ProgramStreamRef`], [`OBJECT_NAME`] |
 //! | 4.1, line ends | [`LineError`], [`LINE_END_ERROR`] |
 //! | 4.2 and 5, acknowledgement and repetition | [`Sender`], [`Ack`], [`RETRY_AFTER`] |
 //!
 //! A packet is whole lines of ASCII, each ended by CR LF, without a NUL or a length before it
-//! (STM-4, STM-7). Nothing here allocates or sends anything.
+//! (STM-4, STM-7). Nothing here sends anything, and nothing but `Checker` allocates.
 //!
 //! ```
 //! use ads_cnc::streaming::{Ack, Interface, NcText, Sender};
@@ -38,9 +38,13 @@ use core::time::Duration;
 use crate::address::IndexOffset;
 
 mod check;
+#[cfg(feature = "alloc")]
+mod checker;
 mod error;
 mod interface;
 mod jumps;
+#[cfg(feature = "alloc")]
+mod labels;
 mod lex;
 mod packets;
 mod program_stream;
@@ -50,6 +54,8 @@ mod text;
 mod words;
 
 pub use check::{Finding, FindingKind, Findings};
+#[cfg(feature = "alloc")]
+pub use checker::{CheckedLines, Checker, Found};
 pub use error::{LineError, LineErrorKind};
 pub use interface::Interface;
 pub use packets::Packets;

@@ -46,11 +46,39 @@ impl Label<'_> {
     }
 }
 
+#[cfg(feature = "alloc")]
+impl Label<'_> {
+    pub(super) const fn program(&self) -> u32 {
+        self.program
+    }
+
+    /// What two labels of a program have in common if they are the same.
+    pub(super) fn key(&self) -> alloc::vec::Vec<u8> {
+        let text = self.text.iter().map(u8::to_ascii_lowercase);
+        core::iter::once(u8::from(self.named)).chain(text).collect()
+    }
+}
+
 impl PartialEq for Label<'_> {
     fn eq(&self, other: &Self) -> bool {
         (self.program, self.named) == (other.program, other.named)
             && self.text.eq_ignore_ascii_case(other.text)
     }
+}
+
+/// What matters of lines for those that follow.
+#[derive(Clone, Copy)]
+pub(super) struct Carry {
+    /// Lines so far.
+    pub(super) lines: u32,
+    /// Lines so far that begin with `%`.
+    pub(super) program: u32,
+    /// Where the comment block began that is open.
+    pub(super) block: Option<Place>,
+}
+
+impl Carry {
+    pub(super) const START: Self = Self { lines: 0, program: 0, block: None };
 }
 
 /// Goes through a text. What is within a comment block is passed over.
@@ -83,35 +111,50 @@ enum Stage {
 
 impl<'a> Scan<'a> {
     pub(super) const fn new(text: &'a [u8]) -> Self {
+        Self::behind(Carry::START, text)
+    }
+
+    /// Goes on with the lines behind those of which this carries over.
+    pub(super) const fn behind(carry: Carry, text: &'a [u8]) -> Self {
+        let Carry { lines, program, block } = carry;
         Self {
             below: text,
             line: &[],
-            number: 0,
+            number: lines,
             rest: &[],
             stage: Stage::Blank,
             label: None,
-            program: 0,
-            block: None,
+            program,
+            block,
         }
     }
 
-    /// Where the comment block began that is open.
-    pub(super) const fn open_block(&self) -> Option<Place> {
-        self.block
+    /// What carries over from the lines up to the present one.
+    pub(super) const fn carry(&self) -> Carry {
+        Carry { lines: self.number, program: self.program, block: self.block }
+    }
+
+    /// The lines behind the present one.
+    #[cfg(feature = "alloc")]
+    pub(super) const fn below(&self) -> &'a [u8] {
+        self.below
     }
 
     /// The labels below the present line, within so many bytes, and their lines; words are not
     /// looked at.
     pub(super) fn labels(mut self, within: usize) -> impl Iterator<Item = (Label<'a>, u32)> {
         self.below = self.below.get(..within).unwrap_or(self.below);
-        core::iter::from_fn(move || {
-            while self.enter_line() {
-                if let Some((label, _)) = self.label {
-                    return Some((label, self.number));
-                }
+        core::iter::from_fn(move || self.next_label())
+    }
+
+    /// Goes to the next line that has a label: that, and the line.
+    pub(super) fn next_label(&mut self) -> Option<(Label<'a>, u32)> {
+        while self.enter_line() {
+            if let Some((label, _)) = self.label {
+                return Some((label, self.number));
             }
-            None
-        })
+        }
+        None
     }
 
     fn place(&self) -> Place {

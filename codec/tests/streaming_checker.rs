@@ -1,0 +1,207 @@
+//! The checks of a text that comes packet by packet, held against those of the whole text.
+#![cfg(feature = "alloc")]
+
+use ads_cnc::streaming::{Checker, Finding, FindingKind, Found, NcText, ProgramEnd};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+/// Findings but for the last, which is no event but what is missing, and program ends.
+fn check(checker: &mut Checker, lines: &[u8]) -> (Vec<Finding>, Vec<(ProgramEnd, u32, u32)>) {
+    let (mut findings, mut ends) = (Vec::new(), Vec::new());
+    for found in checker.check(lines) {
+        match found {
+            Found::Finding(finding) => findings.push(finding),
+            Found::End { end, line, column } => ends.push((end, line, column)),
+        }
+    }
+    (findings, ends)
+}
+
+fn whole(text: &[u8]) -> Vec<Finding> {
+    NcText::new(text).expect("a text that can be streamed").findings().collect()
+}
+
+/// By the one-shot form: a line more is behind the end.
+fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
+    whole(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| match finding.kind {
+        FindingKind::BehindEnd { end, of } => Some((end, of)),
+        _ => None,
+    })
+}
+
+/// The example of 2.3.6, packet by packet, and with its last jump turned round.
+#[test]
+fn jumps_of_the_example() {
+    let packets = [
+        &b"N01 G01 X0 Y0 Z0 F1000\r\nN10 G01 X20\r\nN20 $GOTO N40\r\nN30 G01 Z40\r\n\
+        N40: G01 X40\r\nN50 $GOTO N80\r\n"[..],
+        b"N60 G01 Y20\r\nN70 G01 Y40\r\n",
+        b"N80: G01 X-20\r\nN90 G01 X-40\r\nM30\r\n",
+    ];
+    let mut checker = Checker::new();
+    let found = packets.map(|packet| check(&mut checker, packet));
+    assert!(found.iter().all(|(findings, _)| findings.is_empty()));
+    assert_eq!(found[2].1, [(ProgramEnd::M30, 11, 1)]);
+    assert_eq!(checker.lines(), 11);
+
+    let mut checker = Checker::new();
+    assert_eq!(check(&mut checker, packets[0]).0, []);
+    let (findings, _) = check(&mut checker, b"N60 $GOTO N40\r\n");
+    assert_eq!(findings[0].to_string(), "line 7, column 5: $GOTO back to line 5 (STM-8)");
+}
+
+#[test]
+fn blocks_ends_and_programs_go_over() {
+    let mut checker = Checker::new();
+    assert_eq!(check(&mut checker, b"N1: X1\r\n  #COMMENT BEGIN\r\n"), (vec![], vec![]));
+    let open = checker.open_comment().unwrap();
+    assert_eq!(open.to_string(), "line 2, column 3: #COMMENT BEGIN without #COMMENT END (STM-9)");
+    assert_eq!(check(&mut checker, b"$DO\r\nM30\r\n"), (vec![], vec![]));
+    assert_eq!(check(&mut checker, b"#COMMENT END M17\r\n").1, [(ProgramEnd::M17, 5, 14)]);
+    assert_eq!(checker.open_comment(), None);
+    let (findings, _) = check(&mut checker, b"\r\n(X)\r\n%next\r\nN2:\r\n");
+    assert_eq!(findings[0].to_string(), "line 8, column 1: text behind the M17 of line 5 (STM-10)");
+    // The label is that of another program.
+    assert_eq!(check(&mut checker, b"$GOTO N1\r\n"), (vec![], vec![]));
+    assert_eq!(check(&mut checker, b"$GOTO N2\r\n").0.len(), 1);
+}
+
+/// A jump to what is above and below, and the borders that decide it.
+#[test]
+fn a_label_below_counts_if_it_came_along() {
+    let lines = [&b"N1:\r\n"[..], b"$GOTO N1\r\n", b"N1:\r\n"];
+    let mut checker = Checker::new();
+    assert_eq!(check(&mut checker, &lines.concat()).0, []);
+    let mut checker = Checker::new();
+    assert_eq!(lines.map(|line| check(&mut checker, line).0.len()), [0, 1, 0]);
+}
+
+/// An end that nobody asked for is known all the same.
+#[test]
+fn what_is_not_asked_for_counts() {
+    let mut checker = Checker::new();
+    drop(checker.check(b"N1:\r\nM30\r\n"));
+    let found: Vec<_> = checker.check(b"$GOTO N1\r\n").map(|found| found.line()).collect();
+    assert_eq!(found, [3, 3]);
+}
+
+/// Any bytes are taken, as they come through the interface.
+#[test]
+fn bytes_that_no_text_has() {
+    let mut checker = Checker::new();
+    let line = [&b"\xFF".repeat(5000)[..], b"\0 $DO M2\r\n\r\r\n\nM30"].concat();
+    let (findings, ends) = check(&mut checker, &line);
+    assert_eq!(findings[0].line, 1);
+    assert_eq!(ends, [(ProgramEnd::M2, 1, 5007), (ProgramEnd::M30, 5, 1)]);
+}
+
+/// The labels that are known are enough, and not without end.
+#[test]
+fn labels_are_forgotten_late() {
+    for (length, known) in [(0, Checker::LABELS_KNOWN), (990, Checker::CHARACTERS_KNOWN / 990)] {
+        let name = |n: usize| format!("{n:0>length$}").replace('0', "A");
+        let mut checker = Checker::new();
+        let count = 3 * known;
+        for n in 0..count {
+            assert_eq!(check(&mut checker, format!("[{}]\r\n", name(n)).as_bytes()).0, []);
+        }
+        let mut jump =
+            |n| check(&mut checker, format!("$GOTO [{}]\r\n", name(n)).as_bytes()).0.len();
+        assert_eq!((jump(count - 1), jump(count - known), jump(0)), (1, 1, 0), "{length}");
+    }
+}
+
+/// Lines out of which trouble is made.
+fn line() -> impl Strategy<Value = Vec<u8>> {
+    let piece = select(vec![
+        "$FOR",
+        "$GOTO N1",
+        "$GOTO N2",
+        "$GOTO [A]",
+        "N1:",
+        "N2:",
+        "N01 :",
+        "[A]",
+        "(",
+        ")",
+        ";",
+        "\"",
+        "#COMMENT BEGIN",
+        "#COMMENT END",
+        "M30",
+        "M2",
+        "%",
+        "/",
+        " ",
+        "L ",
+        "X1",
+        "N7 ",
+    ]);
+    (vec(piece, 0..5), select(vec!["\r\n", "\r\n", "\n", "\r"]))
+        .prop_map(|(pieces, end)| (pieces.concat() + end).into_bytes())
+}
+
+/// Lines, and how many come together each time. An LF alone, cut off a CR, would join it.
+fn lots() -> impl Strategy<Value = Vec<Vec<Vec<u8>>>> {
+    vec(vec(line(), 1..6), 0..14).prop_filter("LF behind CR", |lots| {
+        let lines: Vec<&Vec<u8>> = lots.iter().flatten().collect();
+        !lines.windows(2).any(|two| two[0].ends_with(b"\r") && two[1].starts_with(b"\n"))
+    })
+}
+
+proptest! {
+#![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..Default::default() })]
+
+/// After each lot: what is found in it is what the one-shot form finds there in all that came.
+#[test]
+fn lot_by_lot_is_as_the_whole_so_far(lots in lots()) {
+    let (mut checker, mut so_far, mut ended) = (Checker::new(), Vec::new(), None);
+    for lot in lots {
+        let (before, lot) = (checker.lines(), lot.concat());
+        so_far.extend_from_slice(&lot);
+        let (findings, ends) = check(&mut checker, &lot);
+        let mut wanted = whole(&so_far);
+        let open = wanted.iter().find(|found| found.kind == FindingKind::OpenComment).copied();
+        prop_assert_eq!(checker.open_comment(), open);
+        wanted.retain(|finding| Some(*finding) != open);
+        wanted.retain(|finding| finding.line > before);
+        prop_assert_eq!(findings, wanted);
+        prop_assert!(ends.is_sorted_by_key(|(_, line, column)| (*line, *column)));
+        ended = ended.or(ends.first().map(|(end, line, _)| (*end, *line)));
+        if checker.open_comment().is_none() {
+            prop_assert_eq!(ended, first_end(&so_far));
+        }
+        prop_assert_eq!(checker.lines() as usize, NcText::new(&so_far).unwrap().line_count());
+    }
+}
+
+/// Where each label is there once, it does not matter at all where the text is cut.
+#[test]
+fn cuts_do_not_matter(
+    mut lines in vec(line(), 0..60),
+    cuts in vec(any::<prop::sample::Index>(), 0..10),
+) {
+    let mut seen = std::collections::BTreeSet::new();
+    for (at, line) in lines.iter_mut().enumerate() {
+        // A label that may be in the line, hidden or not, is made one of its own.
+        let mut text = String::from_utf8(line.clone()).unwrap().replace(['\r', '\n'], "");
+        for label in ["N1:", "N2:", "N01 :", "[A]"] {
+            if text.contains(label) && !seen.insert(label.replace(['0', ' '], "")) {
+                text = text.replace(label, &format!("N9{at}:"));
+            }
+        }
+        *line = (text + "\r\n").into_bytes();
+    }
+    let mut at: Vec<usize> = cuts.iter().map(|cut| cut.index(lines.len() + 1)).collect();
+    at.extend([0, lines.len()]);
+    at.sort_unstable();
+    let mut checker = Checker::new();
+    let mut found = Vec::new();
+    for cut in at.windows(2) {
+        found.extend(check(&mut checker, &lines[cut[0]..cut[1]].concat()).0);
+    }
+    found.extend(checker.open_comment());
+    prop_assert_eq!(found, whole(&lines.concat()));
+}
+}
