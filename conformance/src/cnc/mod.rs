@@ -27,6 +27,7 @@ mod answer;
 mod content;
 mod control;
 mod model;
+pub mod program;
 mod respond;
 mod server;
 mod state;

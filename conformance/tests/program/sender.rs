@@ -1,0 +1,105 @@
+//! A sender and the program it streams to: nothing is lost, nothing comes twice.
+
+use std::time::Duration;
+
+use ads_cnc::streaming::{Ack, NcText, RETRY_AFTER, Sender};
+use ads_cnc_conformance::cnc::program::{Pace, Program, ProgramConfig, State, digest};
+use proptest::prelude::*;
+
+/// Streams a text; `between` is what passes before each write, and whether it is refused on the
+/// way without having got there.
+fn stream(
+    text: NcText<'_>,
+    program: &mut Program,
+    mut between: impl FnMut(Option<Ack>) -> (Duration, bool),
+) -> Duration {
+    let mut sender = Sender::new(text);
+    let (mut now, mut last) = (Duration::ZERO, None);
+    while let Some(packet) = sender.packet() {
+        let (wait, refused) = between(last);
+        now += wait;
+        let ack = if refused { Ack::Later } else { program.write(packet, now) };
+        assert_ne!(ack, Ack::Refused);
+        sender.acknowledge(ack).expect("a packet is out");
+        last = Some(ack);
+    }
+    assert_eq!((sender.left_lines(), sender.left_bytes()), (0, 0));
+    now
+}
+
+/// 10 MB in simulated time through a decoder that takes 100 kB a second.
+#[test]
+fn ten_megabytes_arrive() {
+    let mut wire = Vec::new();
+    for n in 0.. {
+        if wire.len() >= 10_000_000 {
+            break;
+        }
+        let x = n * 7919 % 100_000;
+        wire.extend_from_slice(format!("N{n} G01 X{x} Y-{n} (line {n})\r\n").as_bytes());
+    }
+    let text = NcText::new(&wire).unwrap();
+    let pace = Pace::bytes_per_second(100_000).unwrap();
+    let mut program =
+        Program::new(ProgramConfig { pace, kept: 10_000, ..ProgramConfig::default() });
+    let cycle = Duration::from_millis(2);
+    let mut most = 0;
+    let now = stream(text, &mut program, |ack| {
+        most += usize::from(ack == Some(Ack::Later));
+        (if ack == Some(Ack::Later) { RETRY_AFTER / 20 } else { cycle }, false)
+    });
+    assert!(most > 1000, "the decoder is slow: {most}");
+    assert_eq!(program.refusals(), most as u64);
+    program.advance(now + Duration::from_secs(1));
+    assert_eq!(program.state(), State::Dry);
+    let executed = program.executed();
+    assert_eq!(executed.line_count(), text.line_count() as u64);
+    assert_eq!((executed.byte_count(), executed.digest()), (wire.len() as u64, digest(&wire)));
+    assert!(wire.ends_with(executed.kept()) && executed.kept().len() <= 20_100);
+    // It never ran dry for long: 10 MB take it 100 s.
+    let seconds = now.as_secs_f64();
+    assert!((99.0..102.0).contains(&seconds), "{seconds}");
+}
+
+fn any_pace() -> impl Strategy<Value = Pace> {
+    prop_oneof![
+        1 => Just(Pace::Fast),
+        4 => (10..5000_u32).prop_map(|rate| Pace::lines_per_second(rate).unwrap()),
+        4 => (100..100_000_u32).prop_map(|rate| Pace::bytes_per_second(rate).unwrap()),
+    ]
+}
+
+/// Lines that are no end and no fault, of any length.
+fn lines() -> impl Strategy<Value = Vec<String>> {
+    let line = (any::<u32>(), prop_oneof![9 => 0..80_usize, 1 => 0..960_usize])
+        .prop_map(|(n, len)| format!("N{n} {}", "X".repeat(len)));
+    prop::collection::vec(line, 0..300)
+}
+
+proptest! {
+#![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..Default::default() })]
+
+#[test]
+fn what_is_run_is_the_text(
+    lines in lines(),
+    end in prop::sample::select(vec!["\n", "\r\n", "\r"]),
+    pace in any_pace(),
+    waits in prop::collection::vec((0..700_u64, prop::bool::weighted(0.2)), 1..50),
+) {
+    let bytes = lines.join(end).into_bytes();
+    let text = NcText::new(&bytes).unwrap();
+    let mut program = Program::new(ProgramConfig { pace, ..ProgramConfig::default() });
+    // It gets through at times.
+    let mut waits = waits.iter().chain([&(100, false)]).cycle();
+    let now = stream(text, &mut program, |_| {
+        let &(wait, refused) = waits.next().unwrap();
+        (Duration::from_millis(wait + 1), refused)
+    });
+    program.advance(now + Duration::from_secs(3600));
+    prop_assert_eq!(program.state(), State::Dry);
+    let executed = program.executed();
+    prop_assert_eq!(executed.line_count(), text.line_count() as u64);
+    prop_assert!(executed.lines().eq(text.lines()));
+    prop_assert_eq!(executed.byte_count(), text.wire_len() as u64);
+}
+}
