@@ -1,7 +1,9 @@
-//! The programs of the simulated CNC: streamed ones.
+//! The programs of the simulated CNC: streamed ones and those that ask services.
 
 mod decoder;
+mod golden_service;
 mod golden_streaming;
+mod script;
 mod sender;
 
 use ads_cnc_vectors::{Sequence, SequenceExpect, sequences};

@@ -1,9 +1,10 @@
-//! NC programs: what runs in a channel, as far as streams see it.
+//! NC programs: what runs in a channel, as far as streams and services see it.
 //!
 //! - [`Program`]: the streaming program. It gets its lines through the streaming interface and
 //!   runs them at a settable pace.
+//! - [`Script`]: a program that asks services through the Service Interface, over and over.
 //!
-//! It is without thread, clock and socket. Whoever has one tells it the time, which is since
+//! Both are without thread, clock and socket. Whoever has one tells it the time, which is since
 //! any start and never goes back, before each access; it makes up for what has passed. How often
 //! that is done changes nothing but how soon it shows.
 //!
@@ -27,13 +28,17 @@
 //! assert_eq!(message.to_string(), "streaming.nc:4:5: $GOTO back to line 3");
 //! ```
 
+mod answer;
 mod executed;
 mod pace;
+mod script;
 mod segment;
 mod state;
 mod stream;
 
+pub use answer::{Answer, Outcome};
 pub use executed::{Executed, digest};
 pub use pace::Pace;
+pub use script::{Repeat, Request, Script, ScriptConfig, ScriptError, ScriptState, Wait};
 pub use state::{Message, StartError, State};
 pub use stream::{Program, ProgramConfig, Start, result};
