@@ -96,16 +96,17 @@ pub(super) fn code(name: &str) -> VariableType {
     codes.into_iter().find(|code| code.name() == Some(name)).unwrap_or(VariableType::STRING)
 }
 
-/// The bytes of so many values of a type, of `size` bytes each.
+/// The bytes of one value of a type, or of an array of so many, of `size` bytes each.
 pub(super) fn bytes(
     scalar: Scalar,
     size: usize,
-    count: usize,
+    count: Option<usize>,
     value: &Value,
 ) -> Result<Vec<u8>, String> {
+    let Some(count) = count else { return one(scalar, size, value) };
     let mut values = Vec::new();
     flatten(value, &mut values);
-    if values.len() != count || (count == 1 && value.is_array()) && size_of_array(value) != 1 {
+    if values.len() != count {
         return Err(format!("{count} values expected, {} given", values.len()));
     }
     let mut bytes = Vec::new();
@@ -113,10 +114,6 @@ pub(super) fn bytes(
         bytes.extend(one(scalar, size, value)?);
     }
     Ok(bytes)
-}
-
-fn size_of_array(value: &Value) -> usize {
-    value.as_array().map_or(0, Vec::len)
 }
 
 /// Rows of an array of more dimensions may stand in arrays of their own.

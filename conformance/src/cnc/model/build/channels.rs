@@ -27,12 +27,13 @@ impl Channels<'_> {
         let mut channels = BTreeMap::new();
         let (mut taken, mut handles) = (BTreeSet::new(), BTreeSet::new());
         for table in tables {
-            let channel = self.channel(table, &mut taken, &mut handles)?;
-            let number = channel.number;
-            if channels.insert(number, channel).is_some() {
+            let number = self.number(table)?;
+            // Before what follows from the number, handles among it.
+            if channels.contains_key(&number) {
                 let why = format!("channel {number} is there twice");
                 return Err(self.source.error(&table.number.span(), why));
             }
+            channels.insert(number, self.channel(number, table, &mut taken, &mut handles)?);
         }
         if channels.is_empty() {
             return Err(self.source.error(&(0..0), "there is no channel"));
@@ -40,18 +41,22 @@ impl Channels<'_> {
         Ok(channels.into_values().collect())
     }
 
+    fn number(&self, table: &ChannelTable) -> Result<u8, ModelError> {
+        let number = *table.number.get_ref();
+        u8::try_from(number).ok().filter(|&number| number > 0).ok_or_else(|| {
+            let why = format!("channel numbers are 1 to 255, not {number}");
+            self.source.error(&table.number.span(), why)
+        })
+    }
+
     fn channel(
         &self,
+        number: u8,
         table: &ChannelTable,
         taken: &mut BTreeSet<usize>,
         handles: &mut BTreeSet<u32>,
     ) -> Result<ChannelModel, ModelError> {
-        let source = self.source;
-        let (number, span) = (*table.number.get_ref(), table.number.span());
-        let Some(number) = u8::try_from(number).ok().filter(|&number| number > 0) else {
-            let why = format!("channel numbers are 1 to 255, not {number}");
-            return Err(source.error(&span, why));
-        };
+        let (source, span) = (self.source, table.number.span());
         let places = self.places(table, taken)?;
         let objects = items::objects(source, &table.objects, None)?;
         for (row, &element) in table.objects.iter().zip(&objects.elements) {

@@ -27,8 +27,8 @@ pub(super) struct Declared<'a> {
     pub(super) types: &'static [Named],
     pub(super) of_type: &'a Spanned<String>,
     pub(super) size: Option<&'a Spanned<u32>>,
-    /// Elements, multiplied.
-    pub(super) count: usize,
+    /// Elements of an array, multiplied.
+    pub(super) count: Option<usize>,
     pub(super) value: Option<&'a Spanned<Value>>,
     pub(super) values: Option<&'a Spanned<Vec<Value>>>,
     pub(super) max: usize,
@@ -52,7 +52,7 @@ impl Declared<'_> {
             }
             (None, Some(size)) => to_len(*size.get_ref()),
         };
-        let size = each.saturating_mul(self.count);
+        let size = each.saturating_mul(self.count.unwrap_or(1));
         if size > self.max {
             return Err(error(format!("{size} bytes of value, at most {} fit", self.max)));
         }
@@ -130,7 +130,7 @@ pub(super) fn objects(
             types: types::OBJECT,
             of_type: &row.r#type,
             size: row.size.as_ref(),
-            count: 1,
+            count: None,
             value: row.value.as_ref(),
             values: row.values.as_ref(),
             max: CONTENT_MAX,
@@ -231,7 +231,7 @@ fn element(
         types: types::ELEMENT,
         of_type: &row.r#type,
         size: row.size.as_ref(),
-        count: 1,
+        count: None,
         value: row.value.as_ref(),
         values: row.values.as_ref(),
         max: CONTENT_MAX,

@@ -44,7 +44,7 @@ fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelErro
         types: types::VARIABLE,
         of_type: &row.r#type,
         size: row.size.as_ref(),
-        count,
+        count: Some(count).filter(|_| !dimensions.is_empty()),
         value: row.value.as_ref(),
         values: row.values.as_ref(),
         max: VARIABLE_MAX,

@@ -1,0 +1,156 @@
+//! Elements of the classes.
+
+use super::Cnc;
+
+/// Channel and axis, asked for at an object address; group and offset.
+fn find(cnc: &Cnc, group: u32, channel: u8, axis: u8) -> (u32, u32) {
+    let query = [channel, 0, 0, 0, axis, 0, 0, 0];
+    let reply = cnc.sda().ask(group, 0, &query).unwrap();
+    assert_eq!(reply, cnc.geo().ask(group, 0, &query).unwrap());
+    let number = |at: usize| u32::from_le_bytes(reply[at..at + 4].try_into().unwrap());
+    assert_eq!(reply.len(), 8);
+    (number(0), number(4))
+}
+
+#[test]
+fn printed_addresses() {
+    let cnc = Cnc::start(&[]);
+    assert_eq!(find(&cnc, 0x12_3900, 1, 0), (0x12_3301, 0));
+    assert_eq!(find(&cnc, 0x12_3900, 2, 0), (0x12_3302, 0));
+    assert_eq!(find(&cnc, 0x12_3900, 0, 1), (0x12_3300, 0x1000));
+    assert_eq!(find(&cnc, 0x12_2900, 1, 2), (0x12_2301, 0x2_0000));
+}
+
+#[test]
+fn every_class_has_its_instances() {
+    let cnc = Cnc::start(&[]);
+    // Position controller: channel 0, axes from 1.
+    assert_eq!(find(&cnc, 0x12_0900, 0, 1), (0x12_0300, 0x1_0000));
+    assert_eq!(find(&cnc, 0x12_0900, 0, 5), (0x12_0300, 0x5_0000));
+    for (channel, axis) in [(0, 0), (0, 6), (1, 0), (1, 1)] {
+        assert_eq!(find(&cnc, 0x12_0900, channel, axis), (0, 0), "{channel} {axis}");
+    }
+    // Interpolator, decoder, path preparation: channels and their places, empty ones too.
+    for (group, content) in [(0x12_1900, 0x12_1300), (0x12_2900, 0x12_2300), (0x12_4900, 0x12_4300)]
+    {
+        assert_eq!(find(&cnc, group, 6, 0), (content + 6, 0));
+        assert_eq!(find(&cnc, group, 1, 3), (content + 1, 0x3_0000));
+        assert_eq!(find(&cnc, group, 2, 3), (content + 2, 0x3_0000));
+        for (channel, axis) in [(0, 0), (0, 1), (1, 4), (3, 0), (5, 1), (255, 0)] {
+            assert_eq!(find(&cnc, group, channel, axis), (0, 0), "{channel} {axis}");
+        }
+    }
+    // HLD: channels, platform axes, and the two together.
+    assert_eq!(find(&cnc, 0x12_3900, 0, 5), (0x12_3300, 0x5000));
+    assert_eq!(find(&cnc, 0x12_3900, 1, 4), (0x12_3301, 0x4_0000));
+    assert_eq!(find(&cnc, 0x12_3900, 6, 1), (0x12_3306, 0x1_0000));
+    for (channel, axis) in [(0, 0), (0, 6), (1, 6), (3, 0)] {
+        assert_eq!(find(&cnc, 0x12_3900, channel, axis), (0, 0), "{channel} {axis}");
+    }
+    // Spindles: from 0, by index only.
+    assert_eq!(find(&cnc, 0x02_5900, 0, 0), (0x02_5300, 0));
+    assert_eq!(find(&cnc, 0x02_5900, 1, 0), (0x02_5301, 0));
+    assert_eq!(find(&cnc, 0x02_5900, 2, 0), (0, 0));
+    assert_eq!(find(&cnc, 0x02_5900, 0, 1), (0, 0));
+    // By rank, the third active channel.
+    assert_eq!(find(&cnc, 0x02_1900, 3, 0), (0x02_1303, 0));
+    assert_eq!(find(&cnc, 0x02_1900, 4, 0), (0, 0));
+    // A channel of more than eight bits.
+    let query = [1, 1, 0, 0, 0, 0, 0, 0];
+    assert_eq!(cnc.sda().ask(0x12_3900, 0, &query), Ok(vec![0; 8]));
+    assert_eq!(cnc.sda().ask(0x12_3900, 0, &query[..7]), Err(0x705));
+    // Not of an instance.
+    assert_eq!(cnc.sda().ask(0x12_3901, 0, &query), Err(0x702));
+}
+
+/// feedhold.enable, as printed: all attributes.
+#[test]
+fn printed_attributes() {
+    let cnc = Cnc::start(&[]);
+    for task in [cnc.sda(), cnc.geo()] {
+        let read = |group, length| task.read(group, 1, length);
+        assert_eq!(read(0x12_3301, 1), Ok(vec![0]));
+        assert_eq!(read(0x12_3401, 256), Ok(b"feedhold.enable\0".to_vec()));
+        assert_eq!(read(0x12_3501, 256), Ok(b"BOOLEAN\0".to_vec()));
+        assert_eq!(read(0x12_3601, 4), Ok(vec![1, 0, 0, 0]));
+        assert_eq!(read(0x12_3701, 256), Ok(b"-\0".to_vec()));
+        assert_eq!(read(0x12_3801, 1), Ok(vec![0]));
+    }
+}
+
+/// Element 0 counts the others and names the instance, at every stride.
+#[test]
+fn the_first_element_is_of_the_instance() {
+    let cnc = Cnc::start(&[]);
+    let sda = cnc.sda();
+    for (group, offset, count, name) in [
+        (0x12_3301, 0, 2, "HLD of channel 1"),
+        (0x12_3300, 0x1000, 2, "HLD of platform axis 1"),
+        (0x12_3301, 0x1_0000, 2, "HLD of platform axis 1"),
+        (0x12_2306, 0, 6, "decoder of channel 6"),
+        (0x12_2301, 0x2_0000, 2, "decoder of the axis at place 2"),
+        (0x12_0300, 0x3_0000, 3, "position controller of platform axis 3"),
+        (0x02_5301, 0, 2, "spindle 1"),
+    ] {
+        assert_eq!(sda.read(group, offset, 4), Ok(vec![count, 0, 0, 0]), "{name}");
+        let named = format!("{name}\0").into_bytes();
+        assert_eq!(sda.read(group + 0x100, offset, 256), Ok(named));
+        assert_eq!(sda.read(group + 0x200, offset, 256), Ok(b"UNS32\0".to_vec()));
+        assert_eq!(sda.read(group + 0x300, offset, 4), Ok(vec![4, 0, 0, 0]));
+        assert_eq!(sda.read(group + 0x500, offset, 1), Ok(vec![0]));
+        // Counting is a function of its own, but where the printed stride has it among contents.
+        let refused = if offset == 0x1000 { 0x704 } else { 0x701 };
+        assert_eq!(sda.write(group, offset, &[9, 0, 0, 0]), Err(refused));
+        // Behind the last there is none, whatever the attribute.
+        for attribute in [0, 0x100, 0x200, 0x300, 0x400, 0x500] {
+            let behind = offset + u32::from(count) + 1;
+            assert_eq!(sda.read(group + attribute, behind, 256), Err(0x703), "{name}");
+        }
+    }
+}
+
+#[test]
+fn contents_are_read_and_written() {
+    let cnc = Cnc::start(&[]);
+    let sda = cnc.sda();
+    // example.feed of the HLD of channel 1: SGN16 -1500, mm/min.
+    assert_eq!(sda.read(0x12_3301, 2, 2), Ok(vec![0x24, 0xFA]));
+    assert_eq!(sda.read(0x12_3701, 2, 256), Ok(b"mm/min\0".to_vec()));
+    assert_eq!(sda.read(0x12_3801, 2, 1), Ok(vec![1]));
+    assert_eq!(sda.write(0x12_3301, 2, &[7, 0]), Ok(()));
+    assert_eq!(sda.read(0x12_3301, 2, 2), Ok(vec![7, 0]));
+    assert_eq!(sda.read(0x12_3302, 2, 2), Ok(vec![0x24, 0xFA]));
+    assert_eq!(sda.write(0x12_3301, 2, &[7]), Err(0x705));
+    assert_eq!(sda.read(0x12_3301, 2, 1), Err(0x705));
+    // feedhold.enable may not be written, a name by nobody.
+    assert_eq!(sda.write(0x12_3301, 1, &[1]), Err(0x704));
+    assert_eq!(sda.write(0x12_3401, 2, b"x\0"), Err(0x701));
+    // The platform axis is the same at both addresses: SGN08 -21 °C.
+    assert_eq!(sda.read(0x12_3300, 0x2002, 1), Ok(vec![0xEB]));
+    assert_eq!(sda.read(0x12_3301, 0x2_0002, 1), Ok(vec![0xEB]));
+    assert_eq!(sda.read(0x12_3700, 0x2002, 256), Ok(b"\xB0C\0".to_vec()));
+    assert_eq!(sda.write(0x12_3300, 0x2001, &[0]), Ok(()));
+    assert_eq!(sda.read(0x12_3306, 0x2_0001, 1), Ok(vec![0]));
+    // Spindle 1: 3400.0
+    assert_eq!(sda.read(0x02_5301, 1, 8), Ok(vec![0, 0, 0, 0, 0, 0x90, 0xAA, 0x40]));
+    assert_eq!(sda.read(0x02_5302, 1, 8), Err(0x702));
+    // REAL32 33.5 and a STRING.
+    assert_eq!(sda.read(0x12_0300, 0x1_0003, 4), Ok(vec![0, 0, 6, 0x42]));
+    assert_eq!(sda.write(0x12_1301, 3, b"a.nc"), Ok(()));
+    assert_eq!(sda.read(0x12_1301, 3, 32).unwrap()[..8], *b"a.nc\0\0\0\0");
+    // COM has none of this.
+    assert_eq!(cnc.com().read(0x12_3301, 1, 1), Err(0x702));
+}
+
+/// Functions are among the decoder's elements (SDA-12): their attributes are those of elements,
+/// their content is their own.
+#[test]
+fn a_walk_over_the_decoder_meets_functions() {
+    let cnc = Cnc::start(&[]);
+    let sda = cnc.sda();
+    assert_eq!(sda.read(0x12_2401, 2, 256), Ok(b"example.p_count\0".to_vec()));
+    assert_eq!(sda.read(0x12_2501, 2, 256), Ok(b"UNS32\0".to_vec()));
+    assert_eq!(sda.read(0x12_2301, 2, 4), Ok(vec![1, 0, 0, 0]));
+    assert_eq!(sda.read(0x12_2301, 6, 4), Ok(vec![10, 0, 0, 0]));
+    assert_eq!(sda.write(0x12_2301, 2, &[0; 4]), Err(0x701));
+}

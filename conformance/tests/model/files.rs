@@ -1,0 +1,215 @@
+//! Models in files: the default one comes back as it went out, bad ones are refused.
+
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+use ads_cnc_conformance::cnc::{DEFAULT_MODEL, Model};
+
+use super::{CHANNEL_1, Cnc};
+
+fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
+    let run = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .arg("serve")
+        .args(options)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (run.status.code(), text(run.stdout), text(run.stderr))
+}
+
+/// A file that is gone with the test.
+struct File(PathBuf);
+
+impl File {
+    fn with(name: &str, text: &str) -> Self {
+        let name = format!("ads-cnc-{}-{name}.toml", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        std::fs::write(&path, text).unwrap();
+        Self(path)
+    }
+
+    fn path(&self) -> &str {
+        self.0.to_str().unwrap()
+    }
+}
+
+impl Drop for File {
+    fn drop(&mut self) {
+        let _gone = std::fs::remove_file(&self.0);
+    }
+}
+
+#[test]
+fn what_is_printed_is_the_same_model() {
+    let (code, printed, errors) = ads_cnc(&["--print-model"]);
+    assert_eq!((code, errors.as_str()), (Some(0), ""));
+    let model = Model::from_toml(&printed, "printed").unwrap();
+    assert_eq!(model, Model::default_model().unwrap());
+    // With comments.
+    assert!(printed.lines().filter(|line| line.starts_with('#')).count() > 50);
+    // And without them.
+    let bare = printed.lines().filter(|line| !line.trim_start().starts_with('#'));
+    let bare: Vec<&str> = bare.collect();
+    assert_eq!(Model::from_toml(&bare.join("\n"), "bare"), Ok(model));
+    // Served, it answers.
+    let file = File::with("printed", &printed);
+    let cnc = Cnc::start(&["--model", file.path()]);
+    assert_eq!(cnc.sda().ask(CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
+}
+
+/// What is not said is 0, empty or not there.
+#[test]
+fn a_smallest_model() {
+    let file = File::with("smallest", "[[channel]]\nnumber = 3\n");
+    let cnc = Cnc::start(&["--model", file.path()]);
+    assert_eq!(cnc.sda().ask(0x12_2303, 0x44, b"V.E\0"), Ok(vec![0; 4]));
+    assert_eq!(cnc.sda().ask(0x02_2301, 0x44, b"V.G\0"), Ok(vec![5, 0, 0, 0]));
+    assert_eq!(cnc.com().read(0x13_0103, 0, 4), Ok(vec![0; 4]));
+    assert_eq!(cnc.sda().read(0x12_3303, 0, 4), Ok(vec![0; 4]));
+    assert_eq!(cnc.sda().ask(0x12_3900, 0, &[0, 0, 0, 0, 1, 0, 0, 0]), Ok(vec![0; 8]));
+}
+
+#[test]
+fn bad_models_are_usage_errors() {
+    let file =
+        File::with("bad", "[[channel]]\nnumber = 1\nvariables = [\n  { name = \"x\" },\n]\n");
+    let (code, out, errors) = ads_cnc(&["--model", file.path()]);
+    assert_eq!((code, out.as_str()), (Some(2), ""));
+    let place = format!("{}:4: ", file.path());
+    assert!(errors.contains(&place) && errors.contains("type"), "{errors}");
+    let (code, _, errors) = ads_cnc(&["--model", "no such file"]);
+    assert_eq!(code, Some(2));
+    assert!(errors.contains("no such file: "), "{errors}");
+}
+
+/// A change of the default model that makes it bad, and what is said of it, where.
+#[test]
+fn each_fault_is_refused_with_its_line() {
+    let mut wrong = Vec::new();
+    for (from, to, reason) in FAULTS {
+        assert_eq!(DEFAULT_MODEL.matches(from).count(), 1, "{from}");
+        let model = DEFAULT_MODEL.replace(from, to);
+        let at = DEFAULT_MODEL.find(from).unwrap();
+        let line = DEFAULT_MODEL[..at].matches('\n').count() + 1;
+        match Model::from_toml(&model, "m") {
+            Ok(_) => wrong.push(format!("{to}: taken")),
+            Err(error) => {
+                let said = error.to_string();
+                if !said.starts_with(&format!("m:{line}: ")) || !error.reason().contains(reason) {
+                    wrong.push(format!("{to}: at {line}: {reason}\n  said: {said}"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+const FAULTS: &[(&str, &str, &str)] = &[
+    // No TOML, unknown keys, wrong types of values.
+    ("spindles = 2", "spindles = ", "string values must be quoted"),
+    ("spindles = 2", "spindels = 2", "unknown field `spindels`"),
+    ("spindles = 2", "spindles = -2", "invalid value"),
+    ("spindles = 2", "spindles = \"2\"", "invalid type"),
+    ("spindles = 2", "spindles = 256", "at most 255 spindles"),
+    ("offset = 0x251, value", "offset = 0x251, vlaue", "unknown field `vlaue`"),
+    ("[class.hld.axis]", "[class.hdl.axis]", "unknown field `hdl`"),
+    // Settings.
+    ("edition = \"en-1.05\"", "edition = \"fr-1.05\"", "there are en-1.05 and de-1.051"),
+    ("cnc-version = \"V4.29.0\"", "cnc-version = \"V4\"", "cnc-version: minor"),
+    // Axes.
+    ("name = \"Y\"", "name = \"Y.1\"", "none of . [ ]"),
+    ("name = \"Y\"", "name = \"\"", "has a character"),
+    ("name = \"Y\"", "name = \"\u{3A9}\"", "not in CP1252"),
+    ("name = \"Y\"", "number = 0\nname = \"Y\"", "of no axis"),
+    ("name = \"Y\"", "number = 1 # again\nname = \"Y\"", "two axes have the logical number 1"),
+    // Channels and their places.
+    ("number = 1\n", "number = 0\n", "1 to 255"),
+    ("number = 1\n", "number = 256\n", "1 to 255"),
+    ("number = 6", "number = 2 # again", "channel 2 is there twice"),
+    ("places = [1, 2, 3]", "places = [1, 2, 7]", "no axis has the logical number 7"),
+    ("places = [1, 2, 3]", "places = [1, 2, 1]", "is at another place"),
+    ("places = [5, 0, 0]", "places = [4, 0, 0] # too", "is at another place"),
+    ("places = [4, 0, 0]", "places = [4, 5, 0]", "two axes of a channel are named X"),
+    // Objects.
+    ("\"example_byte_r\"", "\"example_name_of_33_characters____r\"", "name"),
+    ("type = \"BYTE\"", "type = \"UNS08\"", "there are BOOL BYTE"),
+    ("0x11, value = 0xB5", "0x11, value = 0x100", "256 is not within 0 and 255"),
+    ("0x11, value = 0xB5", "0x11, value = 1.5", "a float is no value"),
+    ("0x11, value = 0xB5", "0x11, value = [1]", "no value"),
+    ("0x11, value = 0xB5", "0x10, value = 1", "two objects are at offset 0x10"),
+    ("0x11, value = 0xB5", "0x251, value = 1", "an object of the platform is at offset 0x251"),
+    ("0x11, value = 0xB5", "0x10011, value = 1", "those of axes"),
+    ("0x11, value = 0xB5", "0x11, size = 1", "size is for a STRING"),
+    ("0x11, value = 0xB5", "0x11, values = [1]", "more than one"),
+    ("0x11, value = 0xB5", "0x11, is = \"axis-number\"", "what each axis has"),
+    ("id = 83", "id = 82, value = 0", "two objects have the ID 82"),
+    ("size = 4094", "size = 0", "a NUL at least"),
+    ("size = 4094", "size = 65536, value = \"\"", "at most 65528 fit"),
+    ("value = \"L\u{e4}nge 5\u{20ac}\"", "value = \"twenty-one characters\"", "do not fit into 21"),
+    ("value = \"L\u{e4}nge 5\u{20ac}\"", "value = \"\u{3A9}\"", "not in CP1252"),
+    ("offset = 3, is = \"axis-number\"", "offset = 3, is = \"axis\"", "axis-number"),
+    (
+        "offset = 3, is = \"axis-number\"",
+        "offset = 3, writable = true, is = \"axis-number\" ",
+        "not on the platform",
+    ),
+    (
+        "type = \"WORD\", offset = 3, writable",
+        "type = \"BYTE\", offset = 3, writable",
+        "two bytes or more",
+    ),
+    (
+        "type = \"WORD\", offset = 3, writable",
+        "type = \"WORD\", offset = 3, id = 1, writable",
+        "an ID on each",
+    ),
+    // Variables.
+    ("\"V.E.test\"", "\"V.E.vartest\"", "V.E.vartest is there twice"),
+    ("\"V.E.array_sgn32\"", "\"V.E.Testvar\"", "V.E.Testvar is there twice"),
+    ("\"V.E.vartest\"", "\"V.X.vartest\"", "V.E, V.G and V.CYC"),
+    ("\"V.E.vartest\"", "\"V.E.vartest[1]\"", "is an element's"),
+    ("\"V.E.vartest\"", "\"V.E.var..test\"", "may not stand here"),
+    ("\"V.E.vartest\"", "\"V.A.vartest\"", "what each axis has"),
+    (
+        "\"V.E.channel\", type = \"UNS32\", value = 1",
+        "\"V.E.channel\", type = \"DWORD\", value = 1",
+        "there are BOOLEAN",
+    ),
+    ("handle = 0x2000004", "handle = 0x2000002", "has the handle 0x2000002 of another"),
+    ("name = \"V.CYC.count\"", "handle = 5, name = \"V.CYC.count\"", "by name only"),
+    ("dimensions = [2, 3, 4]", "dimensions = [2, 0, 4]", "every dimension has an element"),
+    (
+        "dimensions = [2, 3, 4]",
+        "dimensions = [4294967295, 4294967295, 4294967295]",
+        "they can be counted",
+    ),
+    (
+        "value = [[11, 12, 13], [21, 22, 23]]",
+        "value = [11, 12, 13, 21, 22]",
+        "6 values expected, 5",
+    ),
+    ("dimensions = [512]", "dimensions = [513]", "at most 2048 fit"),
+    ("synchronisation = \"NO_SYNC\"", "synchronisation = \"SYNC\"", "NO_SYNC and SYNCHRONIZED"),
+    ("validity = \"CHANNEL\"", "validity = \"LOCAL\"", "CHANNEL and GLOBAL"),
+    (
+        "\"V.CYC.count\", type = \"UNS32\"",
+        "\"V.CYC.count\", type = \"UNS32\", validity = \"GLOBAL\"",
+        "only V.E",
+    ),
+    ("\"V.G.NP[1].V\"", "\"V.G.SERVICE.UUID\"", "of itself"),
+    ("handle = 0x0100001B", "handle = 0x0101001B", "bits 8 to 23"),
+    ("\"V.A.WCS\"", "\"V.E.WCS\"", "what each axis has is V.A"),
+    // Parameters.
+    ("\"P1\"", "\"X1\"", "begins with P, V.L., V.P. or V.S."),
+    ("\"P1\"", "\"P\"", "begins with P, V.L., V.P. or V.S."),
+    ("name = \"V.P.offset\"", "name = \"V.P.count\"", "there twice"),
+    ("while = \"example_subroutine_w\"", "while = \"nobody\"", "no object \"nobody\""),
+    // Elements.
+    (
+        "\"feedhold.enable\", type = \"BOOLEAN\"",
+        "\"feedhold.enable\", type = \"BOOL\"",
+        "there are BOOLEAN",
+    ),
+    ("unit = \"1/min\", writable", "unit = \"1/min\u{3A9}\", writable", "not in CP1252"),
+];

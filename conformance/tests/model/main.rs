@@ -1,0 +1,87 @@
+//! The data model over the wire, with the crate `ads` as published: a client that knows nothing of
+//! this project. What it has to get is written here byte for byte.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod axes;
+mod dynamic;
+mod editions;
+mod elements;
+mod files;
+mod objects;
+mod service;
+mod variables;
+
+use std::time::Duration;
+
+use ads::{AmsAddr, AmsNetId, Client, Error, Source, Timeouts};
+use common::Serve;
+
+/// Variables of channel 1.
+const CHANNEL_1: u32 = 0x12_2301;
+
+/// A CNC in a process of its own and a client of it.
+struct Cnc {
+    client: Client,
+    net_id: AmsNetId,
+    _serve: Serve,
+}
+
+impl Cnc {
+    fn start(options: &[&str]) -> Self {
+        let serve = Serve::start(options);
+        let timeouts = Timeouts::new(Duration::from_secs(5));
+        let client = Client::new(&*serve.addr, timeouts, Source::Auto).unwrap();
+        Self { client, net_id: serve.net_id.parse().unwrap(), _serve: serve }
+    }
+
+    fn at(&self, port: u16) -> Task<'_> {
+        Task(self.client.device(AmsAddr::new(self.net_id, port)))
+    }
+
+    fn geo(&self) -> Task<'_> {
+        self.at(551)
+    }
+
+    fn sda(&self) -> Task<'_> {
+        self.at(552)
+    }
+
+    fn com(&self) -> Task<'_> {
+        self.at(553)
+    }
+}
+
+/// A task of the CNC; what it refuses is an error number.
+#[derive(Clone, Copy)]
+struct Task<'a>(ads::Device<'a>);
+
+impl Task<'_> {
+    fn read(self, group: u32, offset: u32, length: usize) -> Result<Vec<u8>, u32> {
+        let mut reply = vec![0xEE; length];
+        let length = number(self.0.read(group, offset, &mut reply))?;
+        reply.truncate(length);
+        Ok(reply)
+    }
+
+    fn write(self, group: u32, offset: u32, data: &[u8]) -> Result<(), u32> {
+        number(self.0.write(group, offset, data))
+    }
+
+    /// ReadWrite with room for the longest reply.
+    fn ask(self, group: u32, offset: u32, data: &[u8]) -> Result<Vec<u8>, u32> {
+        let mut reply = vec![0xEE; 2048];
+        let length = number(self.0.write_read(group, offset, data, &mut reply))?;
+        reply.truncate(length);
+        Ok(reply)
+    }
+}
+
+/// The ADS error number; anything else that goes wrong fails the test.
+fn number<T>(result: ads::Result<T>) -> Result<T, u32> {
+    result.map_err(|error| match error {
+        Error::Ads(_, _, number) => number,
+        other => panic!("{other}"),
+    })
+}
