@@ -33,7 +33,10 @@ fn main() -> Result<()> {
             HostStep::Write(variable, value) => {
                 let write = WriteByName::new(channel, variable.name(), value)?;
                 match cnc.call(&write, &mut reply) {
-                    Ok(_) => host.written(),
+                    Ok(_) => {
+                        host.written();
+                        answers -= u64::from(host.outcome() == Some(Outcome::Answered));
+                    }
                     Err(error) => {
                         eprintln!("{variable}: {error}");
                         host.failed();
@@ -46,7 +49,6 @@ fn main() -> Result<()> {
                 host.answer(CncStr::new(&response)?, state)?;
             }
             HostStep::Wait => {
-                answers -= u64::from(host.outcome() == Some(Outcome::Answered));
                 thread::sleep(POLL);
                 host.poll();
             }

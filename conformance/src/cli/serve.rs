@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::model::ModelArgs;
 use super::{find_defect, refuse};
+use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
 use crate::cnc::{Cnc, DEFAULT_MODEL, Server};
 use crate::defect::Defect;
 use crate::net;
@@ -25,6 +26,14 @@ pub(super) struct Args {
     /// Write the default model out, with comments that say what a model can be, and end.
     #[arg(long)]
     print_model: bool,
+
+    /// How fast streamed NC lines are run: so many lines a second, or `fast`.
+    #[arg(long, value_name = "LINES", default_value = "1000", value_parser = pace)]
+    pace: Pace,
+
+    /// Let an NC program of channel 1 ask the manual's service for square roots, again and again.
+    #[arg(long)]
+    ask_square_roots: bool,
 
     /// Answer with a seeded defect, such as variable-description.size.flip.
     #[arg(long, value_name = "ID")]
@@ -61,6 +70,9 @@ pub(super) fn serve(args: &Args) -> ExitCode {
         Ok(cnc) => cnc,
         Err(why) => return refuse(Exit::Usage, why),
     };
+    if let Err(why) = programs(&cnc, args) {
+        return refuse(Exit::Internal, why);
+    }
     let server = match start(args.listen, cnc, defect) {
         Ok(server) => server,
         Err(why) => return refuse(Exit::Internal, why),
@@ -87,6 +99,26 @@ fn start(addr: SocketAddr, cnc: Cnc, defect: Option<Defect>) -> Result<Server, S
         net::listen(addr).map_err(|error| format!("cannot listen on {addr}: {error}"))?;
     let cnc = Arc::new(cnc.with_defect(defect));
     Server::start(listener, cnc).map_err(|error| format!("cannot serve on {addr}: {error}"))
+}
+
+fn pace(text: &str) -> Result<Pace, String> {
+    let lines = match text {
+        "fast" => return Ok(Pace::Fast),
+        lines => lines.parse().ok().and_then(Pace::lines_per_second),
+    };
+    lines.ok_or_else(|| "a number of lines from 1 on, or `fast`".to_owned())
+}
+
+/// The NC programs of the channels.
+fn programs(cnc: &Cnc, args: &Args) -> Result<(), Box<dyn std::error::Error>> {
+    for channel in cnc.model().channels() {
+        cnc.set_program(channel, ProgramConfig { pace: args.pace, ..ProgramConfig::default() })?;
+    }
+    if args.ask_square_roots {
+        let script = ScriptConfig { repeat: Repeat::Endless, ..ScriptConfig::square_root()? };
+        cnc.set_script(1, Some(Script::new(script)?))?;
+    }
+    Ok(())
 }
 
 fn print_model() -> ExitCode {

@@ -5,6 +5,7 @@ use ads_cnc::{CncString, service};
 
 use super::Cnc;
 use super::model::{Parameter, parameter_kind};
+use super::program::{Program, ProgramConfig, Script};
 use super::state::ChannelState;
 
 /// What the CNC cannot be made to do.
@@ -100,6 +101,52 @@ impl Cnc {
         then: impl FnOnce(&mut service::Interface) -> T,
     ) -> Result<T, ControlError> {
         self.of_channel(channel, |channel| then(&mut channel.service))
+    }
+
+    /// Sets up the streaming of a channel anew, as when it is switched on: what was in the
+    /// interface and what was run is gone.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn set_program(&self, channel: u8, config: ProgramConfig) -> Result<(), ControlError> {
+        let now = self.now();
+        self.of_channel(channel, |channel| {
+            channel.program = Program::new(config);
+            channel.program.advance(now);
+        })
+    }
+
+    /// The streaming program of a channel: its state, and what it has run. It is locked meanwhile:
+    /// no request is answered.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn with_program<T>(
+        &self,
+        channel: u8,
+        then: impl FnOnce(&mut Program) -> T,
+    ) -> Result<T, ControlError> {
+        self.of_channel(channel, |channel| then(&mut channel.program))
+    }
+
+    /// Has an NC program of a channel ask services, from now on; none ends it.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn set_script(&self, channel: u8, script: Option<Script>) -> Result<(), ControlError> {
+        self.of_channel(channel, |channel| channel.script = script)
+    }
+
+    /// The NC program of a channel that asks services, and the interface it asks through.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn with_script<T>(
+        &self,
+        channel: u8,
+        then: impl FnOnce(Option<&mut Script>) -> T,
+    ) -> Result<T, ControlError> {
+        self.of_channel(channel, |channel| then(channel.script.as_mut()))
     }
 
     fn of_channel<T>(

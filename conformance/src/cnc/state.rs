@@ -1,5 +1,7 @@
 //! What the CNC holds at the moment: everything that requests and the machine change.
 
+use std::time::Duration;
+
 use ads_cnc::address::{Addressing, Class};
 use ads_cnc::ads::AdsError;
 use ads_cnc::dynamic::DynamicKind;
@@ -7,6 +9,7 @@ use ads_cnc::service;
 
 use super::content::Owner;
 use super::model::{AxisModel, ChannelModel, Item, Model, Parameter, Variables, class_place};
+use super::program::{Program, ProgramConfig, Script};
 
 /// Contents, in the order of what they belong to.
 pub(super) type Values = Vec<Vec<u8>>;
@@ -32,7 +35,10 @@ pub(super) struct ChannelState {
     elements: [Values; 6],
     pub(super) parameters: Vec<Parameter>,
     pub(super) service: service::Interface,
-    // Its NC program with what is in the interface for streaming stands here.
+    /// Its streaming program, with what is in the interface.
+    pub(super) program: Program,
+    /// Its NC program that asks services, if it has one.
+    pub(super) script: Option<Script>,
 }
 
 /// Of an axis: it takes all of it along to another place.
@@ -69,6 +75,8 @@ impl State {
             }),
             parameters: channel.parameters.clone(),
             service: service::Interface::new(),
+            program: Program::new(ProgramConfig::default()),
+            script: None,
         };
         let axis = |(place, _): (usize, &AxisModel)| AxisState {
             objects: items(&model.platform_axis.items, place),
@@ -86,6 +94,16 @@ impl State {
                 .map(|index| items(spindles.unwrap_or_default(), index))
                 .collect(),
             platform: items(&model.platform.items, 0),
+        }
+    }
+
+    /// Lets the programs of all channels make up for the time that has passed.
+    pub(super) fn advance(&mut self, now: Duration) {
+        for channel in &mut self.channels {
+            channel.program.advance(now);
+            if let Some(script) = &mut channel.script {
+                script.advance(now, &mut channel.service);
+            }
         }
     }
 

@@ -6,15 +6,16 @@ mod objects;
 mod variables;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
-use ads_cnc::Encode;
 use ads_cnc::address::Channel;
 use ads_cnc::ads::AdsError;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Reply, Request, WriteProgramStream};
+use ads_cnc::{Encode, NoData};
 
 use super::state::State;
-use super::{Model, ModelError, to_u32};
+use super::{Model, ModelError, program, to_u32};
 use crate::defect::Defect;
 
 /// The simulated CNC: a model, and its state behind one lock.
@@ -22,6 +23,8 @@ use crate::defect::Defect;
 pub struct Cnc {
     model: Model,
     state: Mutex<State>,
+    /// When it was switched on.
+    since: Instant,
     defect: Option<Defect>,
 }
 
@@ -32,7 +35,7 @@ impl Cnc {
     /// A CNC with this data model, in the state it starts in.
     pub fn new(model: Model) -> Self {
         let state = Mutex::new(State::new(&model));
-        Self { model, state, defect: None }
+        Self { model, state, since: Instant::now(), defect: None }
     }
 
     /// The CNC that answers what the manuals print: see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
@@ -56,9 +59,17 @@ impl Cnc {
         &self.model
     }
 
+    /// The state as it is by now.
     pub(super) fn state(&self) -> MutexGuard<'_, State> {
         // No panic is reachable under the lock, and each value is whole whatever happened.
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.advance(self.now());
+        state
+    }
+
+    /// Time since it was switched on.
+    pub(super) fn now(&self) -> Duration {
+        self.since.elapsed()
     }
 
     /// The data to answer with.
@@ -73,7 +84,7 @@ impl Cnc {
     /// | 0x703 | an index offset without function, an object or element that is not there; 0x4C on a CNC too old for it |
     /// | 0x704 | a write of what is read-only |
     /// | 0x705 | a request, a value or a read length of the wrong size |
-    /// | 0x706 | an index out of bounds or too many, a handle of no variable of the channel, a handle of a kind that is by name only, a write where no axis is, an axis exchange that cannot be |
+    /// | 0x706 | an index out of bounds or too many, a handle of no variable of the channel, a handle of a kind that is by name only, a write where no axis is, an axis exchange that cannot be, NC text for which there is no room now |
     /// | 0x710 | a name or kind that is not there |
     ///
     /// # Errors
@@ -99,7 +110,7 @@ impl Cnc {
     }
 
     fn reply(&self, request: &Request<'_>) -> Answer {
-        let mut running = Running { model: &self.model, state: self.state() };
+        let mut running = Running { model: &self.model, state: self.state(), now: self.now() };
         match request {
             Request::CountObjects(op) => running.count_objects(op),
             Request::ReadDescriptors(op) => running.descriptors(op),
@@ -141,6 +152,7 @@ impl Cnc {
 struct Running<'a> {
     model: &'a Model,
     state: MutexGuard<'a, State>,
+    now: Duration,
 }
 
 impl Running<'_> {
@@ -148,10 +160,13 @@ impl Running<'_> {
         self.state.channel(self.model, at.addressing(), at.number())
     }
 
-    /// Here the packet goes to the channel's NC program. There is none yet.
     fn write_program_stream(&mut self, op: &WriteProgramStream<'_>) -> Answer {
-        self.channel(op.channel)?;
-        Err(AdsError::INVALID_OFFSET)
+        let channel = self.channel(op.channel)?;
+        let channel = self.state.channels.get_mut(channel).ok_or(AdsError::INVALID_GROUP)?;
+        match program::result(channel.program.write(op.packet.bytes, self.now)) {
+            AdsError::NONE => encode(NoData),
+            refused => Err(refused),
+        }
     }
 }
 
