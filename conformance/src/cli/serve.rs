@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::model::ModelArgs;
 use super::{find_defect, refuse};
-use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
+use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start};
 use crate::cnc::{Cnc, DEFAULT_MODEL, Server};
 use crate::defect::Defect;
 use crate::net;
@@ -112,7 +112,8 @@ fn pace(text: &str) -> Result<Pace, String> {
 /// The NC programs of the channels.
 fn programs(cnc: &Cnc, args: &Args) -> Result<(), Box<dyn std::error::Error>> {
     for channel in cnc.model().channels() {
-        cnc.set_program(channel, ProgramConfig { pace: args.pace, ..ProgramConfig::default() })?;
+        let (pace, start) = (args.pace, Start::Again);
+        cnc.set_program(channel, ProgramConfig { pace, start, ..ProgramConfig::default() })?;
     }
     if args.ask_square_roots {
         let script = ScriptConfig { repeat: Repeat::Endless, ..ScriptConfig::square_root()? };

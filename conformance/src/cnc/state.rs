@@ -9,7 +9,7 @@ use ads_cnc::service;
 
 use super::content::Owner;
 use super::model::{AxisModel, ChannelModel, Item, Model, Parameter, Variables, class_place};
-use super::program::{Program, ProgramConfig, Script};
+use super::program::{Program, ProgramConfig, Script, Start};
 
 /// Contents, in the order of what they belong to.
 pub(super) type Values = Vec<Vec<u8>>;
@@ -75,7 +75,8 @@ impl State {
             }),
             parameters: channel.parameters.clone(),
             service: service::Interface::new(),
-            program: Program::new(ProgramConfig::default()),
+            // Nobody can start one over ADS.
+            program: Program::new(ProgramConfig { start: Start::Again, ..Default::default() }),
             script: None,
         };
         let axis = |(place, _): (usize, &AxisModel)| AxisState {

@@ -69,7 +69,7 @@ fn printed_attributes() {
     let cnc = Cnc::start(&[]);
     for task in [cnc.sda(), cnc.geo()] {
         let read = |group, length| task.read(group, 1, length);
-        assert_eq!(read(0x12_3301, 1), Ok(vec![0]));
+        assert_eq!(read(0x12_3301, 1), Ok(vec![1]));
         assert_eq!(read(0x12_3401, 256), Ok(b"feedhold.enable\0".to_vec()));
         assert_eq!(read(0x12_3501, 256), Ok(b"BOOLEAN\0".to_vec()));
         assert_eq!(read(0x12_3601, 4), Ok(vec![1, 0, 0, 0]));
