@@ -165,3 +165,105 @@ impl Cnc {
         place.ok_or(ControlError::Channel(number))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use ads_cnc::address::{IndexGroup, IndexOffset};
+    use ads_cnc::ads::{AdsError, AmsPort};
+    use ads_cnc::operation::{Call, Service};
+    use ads_cnc::service::ServiceVariable;
+
+    use super::*;
+
+    fn cnc() -> Cnc {
+        Cnc::with_default_model().unwrap()
+    }
+
+    fn ask(cnc: &Cnc, group: u32, offset: u32, data: &[u8]) -> Result<Vec<u8>, AdsError> {
+        cnc.answer(&Call {
+            port: AmsPort::SDA,
+            service: Service::ReadWrite,
+            index_group: IndexGroup::new(group),
+            index_offset: IndexOffset::new(offset),
+            read_length: 2048,
+            data,
+        })
+    }
+
+    #[test]
+    fn ranks_follow_activation() {
+        let cnc = cnc();
+        let of_rank = |rank: u32| ask(&cnc, 0x02_2300 + rank, 0x48, b"V.E.channel\0");
+        assert_eq!((of_rank(1), of_rank(2)), (Ok(vec![1, 0, 0, 0]), Ok(vec![2, 0, 0, 0])));
+        cnc.set_active(1, false).unwrap();
+        assert_eq!((of_rank(1), of_rank(2)), (Ok(vec![2, 0, 0, 0]), Ok(vec![6, 0, 0, 0])));
+        assert_eq!(of_rank(3), Err(AdsError::INVALID_GROUP));
+        cnc.set_active(1, true).unwrap();
+        assert_eq!(of_rank(3), Ok(vec![6, 0, 0, 0]));
+        assert_eq!(cnc.set_active(5, true), Err(ControlError::Channel(5)));
+    }
+
+    #[test]
+    fn an_axis_is_at_one_place() {
+        let cnc = cnc();
+        let wcs = |place: u32| ask(&cnc, 0x12_2301, place * 0x1_0000 + 5, b"V.A.WCS\0").unwrap();
+        let (y, z) = (wcs(2), wcs(3));
+        cnc.exchange_axis(1, 2, 3).unwrap();
+        assert_eq!((wcs(2), wcs(3)), (z.clone(), vec![0; 8]));
+        cnc.exchange_axis(1, 3, 2).unwrap();
+        assert_eq!((wcs(2), wcs(3)), (z.clone(), y));
+        // To where it is already, and out.
+        cnc.exchange_axis(1, 2, 3).unwrap();
+        assert_eq!(wcs(2), z);
+        cnc.exchange_axis(1, 2, 0).unwrap();
+        assert_eq!(wcs(2), [0; 8]);
+        for (place, axis) in [(0, 1), (4, 1), (1, 6), (2, 4)] {
+            let error = ControlError::Exchange { channel: 1, place, axis };
+            assert_eq!(cnc.exchange_axis(1, place, axis), Err(error));
+        }
+        assert_eq!(cnc.exchange_axis(3, 1, 1), Err(ControlError::Channel(3)));
+    }
+
+    #[test]
+    fn parameters_are_replaced() {
+        let cnc = cnc();
+        let name = |index: u8| ask(&cnc, 0x12_2301, 0x1B, &[index, 0, 0, 0]);
+        cnc.set_parameters(1, DynamicKind::P, &[("P7", 1.0), ("P1", f64::NAN)]).unwrap();
+        assert_eq!((name(1), name(2)), (Ok(b"P7\0".to_vec()), Ok(b"P1\0".to_vec())));
+        // Other kinds stay.
+        let depth = ask(&cnc, 0x12_2301, 0x1F, b"V.L.depth\0");
+        assert_eq!(depth, Ok(2.5_f64.to_le_bytes().to_vec()));
+        cnc.set_parameters(1, DynamicKind::P, &[]).unwrap();
+        assert_eq!(name(1), Err(AdsError::INVALID_DATA));
+        let long = format!("P{}", "1".repeat(95));
+        for names in [&["V.L.x"][..], &["P"], &["P1", "P1"], &["P\u{3A9}"], &[&long]] {
+            let named: Vec<(&str, f64)> = names.iter().map(|&name| (name, 0.0)).collect();
+            let error = cnc.set_parameters(1, DynamicKind::P, &named).unwrap_err();
+            assert_eq!(error, ControlError::Name((*names.last().unwrap()).to_owned()));
+        }
+    }
+
+    /// The program asks within, the service over ADS sees it.
+    #[test]
+    fn a_program_has_the_service_interface() {
+        let cnc = cnc();
+        let asked = cnc.with_service(2, |service| {
+            service.write(ServiceVariable::Request, b"3\0")?;
+            service.write(ServiceVariable::RequestState, &[7, 0, 0, 0])
+        });
+        asked.unwrap().unwrap();
+        let state = ask(&cnc, 0x12_2302, 0x48, b"V.G.SERVICE.REQUEST_STATE\0");
+        assert_eq!(state, Ok(vec![7, 0, 0, 0]));
+    }
+
+    /// Whoever panics with the lock in hand, the CNC answers on.
+    #[test]
+    fn a_panic_under_the_lock_stops_nobody() {
+        let cnc = cnc();
+        let panicked = std::thread::scope(|scope| {
+            scope.spawn(|| cnc.with_service(1, |_| panic!("on purpose"))).join()
+        });
+        assert!(panicked.is_err());
+        assert_eq!(ask(&cnc, 0x12_2301, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
+    }
+}

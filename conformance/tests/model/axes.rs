@@ -1,5 +1,7 @@
 //! Places of channels, and channels themselves: axis exchange and activation.
 
+use ads_cnc_conformance::cnc::DEFAULT_MODEL;
+
 use super::{CHANNEL_1, Cnc};
 
 /// V.A.WCS of a place.
@@ -84,9 +86,11 @@ fn axis_exchange_changes_what_a_place_means() {
 #[test]
 fn a_channel_that_is_not_active() {
     let file = std::env::temp_dir().join(format!("ads-cnc-inactive-{}.toml", std::process::id()));
-    let model = include_str!("../../src/cnc/model/default.toml");
-    std::fs::write(&file, model.replacen("number = 1\n", "number = 1\nactive = false\n", 1))
-        .unwrap();
+    std::fs::write(
+        &file,
+        DEFAULT_MODEL.replacen("number = 1\n", "number = 1\nactive = false\n", 1),
+    )
+    .unwrap();
     let cnc = Cnc::start(&["--model", file.to_str().unwrap()]);
     std::fs::remove_file(&file).unwrap();
     let (sda, com) = (cnc.sda(), cnc.com());

@@ -183,4 +183,6 @@ fn encode<'a>(reply: impl Into<Reply<'a>>) -> Answer {
 }
 
 #[cfg(test)]
+mod any_call;
+#[cfg(test)]
 mod tests;

@@ -311,3 +311,53 @@ fn a_defect_shows_in_its_stream_only() {
     assert_eq!(with("variable-count.count.flip", 0x44, b"V.E\0"), Ok(vec![122, 0, 0, 0]));
     assert_eq!(with("variable-count.count.flip", 0x46, b"V.E.vartest\0"), Ok(vec![4, 0, 0, 2]));
 }
+
+/// Sixteen and more platform axes: the stride 0x1000 goes on beyond what looks like another.
+#[test]
+fn many_platform_axes() {
+    let axes: String = (1..=40).map(|n| format!("[[axis]]\nname = \"A{n}\"\n")).collect();
+    let model = axes
+        + "[[channel]]\nnumber = 1\n[class.hld.axis]\nname = \"axis {}\"\n\
+           elements = [{ name = \"n\", type = \"UNS16\", is = \"axis-number\" }]\n";
+    let cnc = Cnc::new(Model::from_toml(&model, "many").unwrap());
+    let query = |axis: u8| cnc.answer(&call(0x12_3900, 0, 8, &[0, 0, 0, 0, axis, 0, 0, 0]));
+    assert_eq!(query(17), Ok(vec![0, 0x33, 0x12, 0, 0, 0x10, 1, 0]));
+    assert_eq!(query(41), Ok(vec![0; 8]));
+    let read = |group, offset, length| {
+        cnc.answer(&Call { service: Service::Read, ..call(group, offset, length, &[]) })
+    };
+    for axis in 1..=40_u32 {
+        let number = Ok(u16::try_from(axis).unwrap().to_le_bytes().to_vec());
+        assert_eq!(read(0x12_3300, 0x1000 * axis + 1, 2), number);
+        assert_eq!(read(0x12_3301, 0x1_0000 * axis + 1, 2), number);
+        // Counted wherever the first element is.
+        assert_eq!(read(0x12_3300, 0x1000 * axis, 4), Ok(vec![1, 0, 0, 0]));
+    }
+}
+
+/// Defects reach what elements and writes are made of too.
+#[test]
+fn a_defect_shows_in_elements_and_writes() {
+    let with = |id: &str| cnc().with_defect(Some(Defect::by_id(id).unwrap()));
+    let read = |group| Call { service: Service::Read, ..call(group, 1, 256, &[]) };
+    let length = with("element-length.length.flip").answer(&read(0x12_3601));
+    assert_eq!(length, Ok(vec![0, 0, 0, 0]));
+    assert_eq!(with("content.content.invert").answer(&read(0x12_3301)), Ok(vec![0xFF]));
+    // The value is misread: 0x7A for 0x7B.
+    let cnc = with("variable-name-write.value.flip");
+    let write = call(0x12_2301, 0x4A, 0, b"V.E.test[4]\0\x7B\0\0\0");
+    assert_eq!(cnc.answer(&Call { service: Service::Write, ..write }), Ok(vec![]));
+    let element = cnc.answer(&call(0x12_2301, 0x48, 4, b"V.E.test[4]\0"));
+    assert_eq!(element, Ok(vec![0x7A, 0, 0, 0]));
+}
+
+/// No NC program takes them yet.
+#[test]
+fn packets_of_the_program_stream() {
+    let write = |group| {
+        let call = call(group, 0x90, 0, b"N10\r\n");
+        cnc().answer(&Call { port: AmsPort::COM, service: Service::Write, ..call })
+    };
+    assert_eq!(write(0x12_0101), Err(AdsError::INVALID_OFFSET));
+    assert_eq!(write(0x12_0103), Err(AdsError::INVALID_GROUP));
+}

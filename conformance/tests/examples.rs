@@ -1,0 +1,148 @@
+//! The examples of the codec run against the simulated CNC.
+
+mod common;
+
+use std::io::Read as _;
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+use std::{env, thread};
+
+use ads::{AmsAddr, Client, Device, Source, Timeouts};
+use common::Serve;
+
+/// How long an example may take, once it is built.
+const TIME: Duration = Duration::from_secs(60);
+
+/// Builds the examples, or finds them built by the run that this test is part of.
+fn built() -> &'static [PathBuf] {
+    static BUILT: OnceLock<Vec<PathBuf>> = OnceLock::new();
+    BUILT.get_or_init(|| {
+        let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let profile = if cfg!(debug_assertions) { "dev" } else { "release" };
+        let build = Command::new(cargo)
+            .args(["build", "--workspace", "--examples", "--message-format=json"])
+            .args(["--profile", profile])
+            .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
+        assert!(build.status.success(), "{}", String::from_utf8_lossy(&build.stderr));
+        let messages = String::from_utf8(build.stdout).unwrap();
+        let executable = |line: &str| {
+            let message: serde_json::Value = serde_json::from_str(line).ok()?;
+            let example = message["target"]["kind"][0] == "example";
+            example.then(|| Some(PathBuf::from(message["executable"].as_str()?))).flatten()
+        };
+        messages.lines().filter_map(executable).collect()
+    })
+}
+
+/// An example under way, ended when it is dropped.
+struct Example(Child);
+
+impl Example {
+    fn start(name: &str, serve: &Serve, arguments: &[&str]) -> Self {
+        let named = |path: &&PathBuf| path.file_stem().is_some_and(|stem| stem == name);
+        let example = Command::new(built().iter().find(named).unwrap())
+            .args([&serve.addr, &serve.net_id])
+            .args(arguments)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn();
+        Self(example.unwrap())
+    }
+
+    /// What it printed, once it has ended well.
+    fn output(mut self) -> String {
+        // Read while it runs: a full pipe would stop it.
+        let mut out = self.0.stdout.take().unwrap();
+        let reader = thread::spawn(move || {
+            let mut text = String::new();
+            out.read_to_string(&mut text).map(|_| text)
+        });
+        let end = Instant::now() + TIME;
+        let status = loop {
+            match self.0.try_wait().unwrap() {
+                Some(status) => break status,
+                None if Instant::now() > end => panic!("it runs for {TIME:?}"),
+                None => thread::sleep(Duration::from_millis(10)),
+            }
+        };
+        let mut errors = String::new();
+        self.0.stderr.take().unwrap().read_to_string(&mut errors).unwrap();
+        assert!(status.success(), "{errors}");
+        reader.join().unwrap().unwrap()
+    }
+}
+
+impl Drop for Example {
+    fn drop(&mut self) {
+        // Ended already is ended too.
+        let _ended = self.0.kill().and_then(|()| self.0.wait());
+    }
+}
+
+#[test]
+fn list_objects() {
+    let serve = Serve::start(&[]);
+    let list = Example::start("list_objects", &serve, &[]).output();
+    for object in [
+        "0x120101 0x3 mc_active_single_block_r BOOL 1",
+        "0x120101 0x1 mc_command_single_block_w BOOL 1",
+        "0x120100 0x251 example_platform_cycle_time_r DWORD 4",
+        "0x120200 0x50001 example_position_r LREAL 8",
+        "0x123301 0x1 feedhold.enable BOOLEAN 1 -",
+        "0x123300 0x5002 example.temperature SGN08 1 \u{b0}C",
+        "0x122306 0x30001 example.programmed REAL64 8 mm",
+        "0x25301 0x1 example.speed REAL64 8 1/min",
+    ] {
+        let listed = |line: &str| line.split_whitespace().eq(object.split(' '));
+        assert!(list.lines().any(listed), "{object}\n{list}");
+    }
+}
+
+/// SVC-9: 1.732051 for 3, and an answer for a number that has no root.
+#[test]
+fn square_root_service() {
+    let serve = Serve::start(&[]);
+    let service = Example::start("square_root_service", &serve, &["1", "2"]);
+    let timeouts = Timeouts::new(Duration::from_secs(5));
+    let client = Client::new(&*serve.addr, timeouts, Source::Auto).unwrap();
+    let sda = client.device(AmsAddr::new(serve.net_id.parse().unwrap(), 552));
+    for (request, response, state) in [
+        ("3", "1.732051", 1),
+        ("-4", "ERROR: cannot calc square root of negative number -4.000000", 99),
+    ] {
+        write(sda, "UUID", b"560aacbf-6335-44a9-895a-8b27f3ed5e47\0");
+        write(sda, "REQUEST", format!("{request}\0").as_bytes());
+        write(sda, "REQUEST_STATE", &[1, 0, 0, 0]);
+        let end = Instant::now() + TIME;
+        while read(sda, "RESPONSE_STATE") == [0; 4] {
+            assert!(Instant::now() < end, "no response");
+            thread::sleep(Duration::from_millis(10));
+        }
+        assert_eq!(read(sda, "RESPONSE_STATE"), [state, 0, 0, 0]);
+        assert_eq!(read(sda, "REQUEST_STATE"), [0; 4]);
+        let text = read(sda, "RESPONSE");
+        let end = text.iter().position(|&byte| byte == 0).unwrap();
+        assert_eq!(String::from_utf8_lossy(&text[..end]), response);
+    }
+    let shown = service.output();
+    assert!(shown.starts_with("3 -> 1.732051, state 1\n"), "{shown}");
+}
+
+fn write(sda: Device<'_>, name: &str, value: &[u8]) {
+    let request = [b"V.G.SERVICE.", name.as_bytes(), b"\0", value].concat();
+    sda.write(0x12_2301, 0x4A, &request).unwrap();
+}
+
+fn read(sda: Device<'_>, name: &str) -> Vec<u8> {
+    let mut reply = vec![0; 2048];
+    let name = format!("V.G.SERVICE.{name}\0");
+    let length = sda.write_read(0x12_2301, 0x48, name.as_bytes(), &mut reply).unwrap();
+    reply.truncate(length);
+    reply
+}
