@@ -2,6 +2,8 @@
 
 use ads_cnc::address::Addressing::{Index, Logical};
 use ads_cnc::address::*;
+use ads_cnc::operation::{FindInstance, Operation as _};
+use ads_cnc::sda::ObjectAddress;
 use ads_cnc::{Error, ErrorKind};
 use proptest::prelude::*;
 
@@ -129,6 +131,35 @@ fn object_addresses() {
     assert_eq!(parts(0x12_2301), class(Logical, Class::Decoder, Attribute::Content, 1));
 }
 
+/// SDA-1, E-02: an object address is asked for by number or by rank, of spindles by rank only.
+#[test]
+fn queries_of_object_addresses() {
+    let hld = FindInstance::new(Class::Hld, 1, 0);
+    assert_eq!(hld.index_group().get(), 0x12_3900);
+    assert_eq!(hld.by_index().index_group().get(), 0x2_3900);
+    let spindle = FindInstance::new(Class::Spindle, 2, 0);
+    assert_eq!(spindle.index_group().get(), 0x2_5900);
+    assert_eq!(spindle.by_index(), spindle);
+}
+
+/// SDA-2: none but (0, 0) says that there is no instance, and an instance is in the group of a class.
+#[test]
+fn first_elements() {
+    let first = |group, offset| {
+        let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
+        ObjectAddress { index_group, index_offset }.first_element()
+    };
+    assert_eq!(first(0, 0), Ok(None));
+    let axis = first(0x12_3300, 0x1000).unwrap().expect("an instance");
+    assert_eq!(axis.group(Attribute::Name).get(), 0x12_3400);
+    assert_eq!(axis.index_offset().get(), 0x1000);
+    for (group, offset) in [(0, 1), (0x12_0101, 0), (0x13_0101, 0), (0xF005, 0)] {
+        let error = first(group, offset).unwrap_err();
+        let numbers = (error.expected(), error.found());
+        assert_eq!((error.kind(), numbers), (ErrorKind::Mismatch, (0x12_0300, group)));
+    }
+}
+
 /// ADR-12: each base is printed without the logical bit too, and is the same but for it.
 #[test]
 fn bases_without_the_logical_bit() {
@@ -216,6 +247,20 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(out_of_range(offset(narrow, 0x1_0000, 0)), ("axis", 0xFFFF, 0x1_0000));
     assert_eq!(out_of_range(offset(wide, 1, 0x1_0000)), ("element", 0xFFFF, 0x1_0000));
     assert_eq!(out_of_range(offset(narrow, 1, 0x1000)), ("element", 0xFFF, 0x1000));
+}
+
+/// SDA-4, ADR-9: elements follow one another to the last that 16 bits hold, and not into the next
+/// axis.
+#[test]
+fn elements_follow_up_to_the_last() {
+    let axis = ChannelAxis::new(2).unwrap();
+    let near = ElementAddress::of_axis(channel(1), Class::Decoder, axis, 0xFFFD).unwrap();
+    let last = near.following(2).unwrap();
+    assert_eq!((last.class_group(), last.index_offset().get()), (near.class_group(), 0x2_FFFF));
+    assert_eq!(last.following(0), Ok(last));
+    for places in [3, 0x1_0000, u32::MAX] {
+        assert_eq!(out_of_range(near.following(places)), ("element", 2, places));
+    }
 }
 
 /// ADR-9: no class, attribute or instance changes another part of the sum.

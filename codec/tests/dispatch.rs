@@ -63,6 +63,12 @@ fn one_fault_is_refused_for_what_it_is() {
             Refusal::Service { takes: Service::Read, asked: Service::ReadWrite },
             0x701,
         ),
+        // Object addresses are asked for without a channel in the group (SDA-1).
+        (
+            refusal(|call| call.index_group = group(0x12_3901)),
+            Refusal::Group(group(0x12_3901)),
+            0x702,
+        ),
         (refusal(|call| call.index_group = group(0xF005)), Refusal::Group(group(0xF005)), 0x702),
         (refusal(|call| call.index_offset = offset(0x4D)), Refusal::Offset(offset(0x4D)), 0x703),
         (
@@ -395,6 +401,7 @@ fn content_is_where_and_as_long_as_was_asked_for() {
         assert_eq!((error.kind(), error.expected()), (ErrorKind::Mismatch, near));
         assert_eq!(WriteObject::new(group(wrong), offset, &[]), Err(error));
     }
+    assert!(ReadObject::new(group(0x12_0101), offset, 0x40_0000).is_ok());
     assert_eq!(
         ReadObject::new(group(0x12_0101), offset, 0x40_0001).unwrap_err().kind(),
         ErrorKind::TooLong
