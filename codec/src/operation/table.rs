@@ -145,19 +145,19 @@ functions! {
     /// Number of dynamic parameters of a kind.
     CountDynamic "number of dynamic parameters": Read Sda, DECODER,
         OffsetRule::OfKind(DynamicKind::COUNT),
-        Query [] to [DynamicCount], "DYN-1", "3.1";
+        Query [] to [DynamicCount], "DYN-1", "3.1 … 3.4";
     /// Name of a dynamic parameter by its index.
     DynamicNameByIndex "dynamic parameter name by index": ReadWrite Sda, DECODER,
         OffsetRule::OfKind(DynamicKind::NAME_BY_INDEX),
-        Query [DynamicIndex] to [DynamicName], "DYN-2", "3.1";
+        Query [DynamicIndex] to [DynamicName], "DYN-2", "3.1 … 3.4";
     /// Value of a dynamic parameter by its name.
     DynamicValueByName "dynamic parameter value by name": ReadWrite Sda, DECODER,
         OffsetRule::OfKind(DynamicKind::VALUE_BY_NAME),
-        Query [DynamicNameRequest] to [DynamicValue], "DYN-3", "3.1";
+        Query [DynamicNameRequest] to [DynamicValue], "DYN-3", "3.1 … 3.4";
     /// Value of a dynamic parameter by its index.
     DynamicValueByIndex "dynamic parameter value by index": ReadWrite Sda, DECODER,
         OffsetRule::OfKind(DynamicKind::VALUE_BY_INDEX),
-        Query [DynamicIndex] to [DynamicValue], "DYN-4", "3.1";
+        Query [DynamicIndex] to [DynamicValue], "DYN-4", "3.1 … 3.4";
     /// Address of an instance of a class.
     FindInstance "object address": ReadWrite Sda, GroupRule::Instances, at(0),
         Query [ObjectAddressQuery] to [ObjectAddress], "SDA-1", "2.2.2";
