@@ -1,6 +1,7 @@
 //! Operations on content: of COM objects, of elements, and of the program stream (COM-5, SDA-4,
 //! STM-1).
 
+use super::element::dispatched;
 use super::request::sealed::Sealed;
 use super::{Call, Function, Operation};
 use crate::address::{
@@ -62,17 +63,6 @@ fn reply(data: &[u8], length: u32) -> Result<ContentRef<'_>, Error> {
         return Err(Error::new(ErrorKind::TooLong, CONTENT, length, length, given));
     }
     Ok(content)
-}
-
-/// The dispatcher has found the group to be one of a class.
-fn dispatched_element(group: Group, call: &Call<'_>) -> Result<ElementAddress, Error> {
-    match group {
-        Group::Class(class) => Ok(ElementAddress::new(class, call.index_offset)),
-        Group::Com(com) => {
-            let found = com.index_group().get();
-            Err(Error::new(ErrorKind::Mismatch, INSTANCE, 0, 0x12_0300, found))
-        }
-    }
 }
 
 /// Declares the operations that read and write one sort of content.
@@ -268,7 +258,7 @@ content_operations! {
     WriteElement,
     /// Which element.
     element: ElementAddress,
-    dispatched_element,
+    dispatched,
     |element: ElementAddress| element.group(Attribute::Content),
     |element: ElementAddress| element.index_offset()
 }

@@ -26,6 +26,11 @@ fn class_group(group: Group) -> Result<ClassGroup, Error> {
     }
 }
 
+/// The element that is called.
+pub(super) fn dispatched(group: Group, call: &Call<'_>) -> Result<ElementAddress, Error> {
+    Ok(ElementAddress::new(class_group(group)?, call.index_offset))
+}
+
 /// Where an instance of a class is: ReadWrite at offset 0 of the class's object address, ports 551
 /// and 552.
 ///
@@ -127,7 +132,7 @@ macro_rules! attribute {
             }
 
             pub(super) fn dispatched(group: Group, call: &Call<'_>) -> Result<Self, Error> {
-                Ok(Self { element: ElementAddress::new(class_group(group)?, call.index_offset) })
+                Ok(Self { element: dispatched(group, call)? })
             }
         }
 
