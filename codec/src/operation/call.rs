@@ -34,7 +34,8 @@ pub enum Refusal {
     Port(AmsPort),
     /// No function of the task has this index group.
     Group(IndexGroup),
-    /// No function of the index group has this offset.
+    /// No function of the index group has this offset, or content alone has, which takes another
+    /// service.
     Offset(IndexOffset),
     /// The function takes another service.
     Service {
