@@ -43,9 +43,9 @@
 //! | `stream-en` 2.1, 2.2, data streaming | [`streaming`] |
 //! | 2.3.3, 2.3.4, 2.3.6, loops, comments, jumps | [`streaming::Findings`] |
 //! | 2.3.1, 2.3.2, 2.3.5, 2.3.7, flushing, subroutines, block search, contours | NC text like any other |
-//! | 3, parameters | [`limits`], [`streaming::OBJECT_NAME`] |
+//! | 3, parameters and object | [`limits`], [`streaming::OBJECT_NAME`], [`streaming::ProgramStreamRef`] |
 //! | 4.1, line ends | [`streaming::LineError`] |
-//! | 4.2, 5, transfer and example | [`streaming::Sender`] |
+//! | 4.2, 5, transfer and example | [`streaming::Sender`], [`operation::WriteProgramStream`] |
 //! | `service-en`, `service-de` 1.03: 1, required versions | [`edition::Feature::ServiceInterface`] |
 //! | 2, variables and process | [`service`] |
 //! | `service-en` 3, cycle SysServiceWait | [`service::SysServiceWait`] |

@@ -10,7 +10,7 @@ bytes_stream! {
     /// Whether its lines are whole, the CNC says when it reads them (STM-5); what
     /// [`Sender`](super::Sender) hands out is.
     ///
-    /// Manual: `stream-en`, sections 3.1 and 4.1.
+    /// Manual: `stream-en`, sections 3.1, 3.2 and 4.1.
     ///
     /// ```
     /// use ads_cnc::Decode;
