@@ -185,28 +185,32 @@ proptest! {
         check_value(&ExtendedReply(None));
     }
 
-    /// Every description comes back: unknown codes, many dimensions, each end of the name.
+    /// Every description comes back: unknown codes, many dimensions, each end of the name. Without
+    /// the name it is the one by name.
     #[test]
     fn descriptions(
         name in open_text(),
         (handle, var_type, access, size) in any::<(u32, u32, u32, u32)>(),
         dimensions in vec(any::<u32>(), 0..=443),
     ) {
-        check_value(&DescriptionByName {
+        let nameless = DescriptionByName {
             handle: Handle(handle),
             var_type: VariableType(var_type),
             access: VariableAccess(access),
             size,
             dimensions: dimensions.clone(),
-        });
-        check_value(&Description {
+        };
+        let description = Description {
             handle: Handle(handle),
             var_type: VariableType(var_type),
             access: VariableAccess(access),
             size,
             dimensions,
             name,
-        });
+        };
+        prop_assert_eq!(description.as_ref().without_name(), nameless.as_ref());
+        check_value(&nameless);
+        check_value(&description);
     }
 
     /// Every value comes back.
