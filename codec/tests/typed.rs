@@ -235,7 +235,11 @@ fn no_elements() {
         assert!(Elements::new(data_type, Numbers::from(&[0]), &[1]).is_err());
         assert_eq!(fault(shape(data_type, &[0, 7], 1)), (ErrorKind::Mismatch, "size", 0, 0, 1));
     }
-    assert!(StringsRef::new(&[], 0).unwrap().is_empty());
+    // The others alone are more than 32 bits hold.
+    let late = [u32::MAX, u32::MAX, 0];
+    assert!(elements(DataType::Uns08, &late, &[]).is_empty());
+    let texts = StringsRef::new(&[], 0).unwrap();
+    assert!(texts.is_empty() && texts.get(0).is_none());
     assert!(Items::<f64>::new(&[]).unwrap().is_empty());
 }
 
