@@ -1,1 +1,1 @@
-"""Parts of `check.py`: the streams of a few areas, and models that go through the sequences."""
+"""The parts of `check.py`: tables of the streams, area by area, and models that go through the sequences."""

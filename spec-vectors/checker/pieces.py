@@ -1,4 +1,4 @@
-"""Bytes written as pieces: ASCII text, hex, a text repeated."""
+"""Bytes written as pieces (ASCII text, hex, a text repeated), and how much two of them differ."""
 
 
 class Bad(Exception):
@@ -25,3 +25,20 @@ def to_bytes(pieces):
 def agree(what, stated, derived):
     if stated != derived:
         raise Bad("%s: stated %r, derived %r" % (what, stated, derived))
+
+
+EDIT_MAX = 8  # a count and the item it adds
+
+
+def edit(good, bad):
+    """Bytes in the one place where two streams differ; 0 if one of them is the other, cut or continued."""
+    short = min(len(good), len(bad))
+    front = 0
+    while front < short and good[front] == bad[front]:
+        front += 1
+    if front == short:
+        return 0
+    back = 0
+    while back < short - front and good[-1 - back] == bad[-1 - back]:
+        back += 1
+    return max(len(good), len(bad)) - front - back

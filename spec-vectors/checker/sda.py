@@ -1,8 +1,5 @@
-"""Streams of SDA and GEO, of the dynamic parameters, of content, and the description by name.
-
-The scalars and texts are in `check.py`.
-"""
-from check import (
+"""Streams of SDA and GEO, of the dynamic parameters, of content, and the description by name."""
+from .scalars import (
     Bad, NUMBERS, Refuse, STREAM_MAX, end, fixed_stream, from_hex, number, number_bytes, plain, read_fields,
     size_of, text, text_bytes, to_hex, u32, write_field, write_fields,
 )

@@ -2,10 +2,9 @@
 import json
 
 from . import nc, service, streaming
-from .pieces import Bad, to_bytes
+from .pieces import EDIT_MAX, Bad, edit, to_bytes
 
 KINDS = {"nc-text": nc.check_text, "nc-check": nc.check_program, "streaming": streaming.check, "service": service.check}
-EDIT_MAX = 8
 
 
 def kind_of(case):
@@ -36,7 +35,7 @@ def bytes_of(step):
     return b"".join(to_bytes(step[key]) for key in ("bytes", "request", "response") if key in step)
 
 
-def check_sibling(case, cases, edit):
+def check_sibling(case, cases):
     sibling = cases.get(case.get("sibling"))
     if sibling is None or "accept" not in sibling["expect"] or kind_of(sibling) != kind_of(case):
         raise Bad("sibling %s is not an accepted case of its kind" % case.get("sibling"))
@@ -66,7 +65,7 @@ def check_sibling(case, cases, edit):
             raise Bad("sibling %s: %d bytes differ in %s" % (sibling["id"], edit(bytes_of(one), bytes_of(other)), other["id"]))
 
 
-def check_case(case, cases, edit):
+def check_case(case, cases):
     KINDS[kind_of(case)](case)
     given = case["given"][kind_of(case)]
     if isinstance(given, dict):
@@ -74,12 +73,12 @@ def check_case(case, cases, edit):
         if len(set(ids)) != len(ids):
             raise Bad("two steps share an id")
     if "reject" in case["expect"]:
-        check_sibling(case, cases, edit)
+        check_sibling(case, cases)
         return "rejected"
     return "accepted"
 
 
-def check_all(folder, edit):
+def check_all(folder):
     """Counts of accepted and rejected cases, and what is wrong."""
     files = {path: json.loads(path.read_text(encoding="utf-8"))["cases"] for path in sorted(folder.glob("*.json"))}
     listed = [case for found in files.values() for case in found]
@@ -93,7 +92,7 @@ def check_all(folder, edit):
         counts = {"accepted": 0, "rejected": 0}
         for case in found:
             try:
-                counts[check_case(case, cases, edit)] += 1
+                counts[check_case(case, cases)] += 1
             except Bad as why:
                 failures.append("%s: %s" % (case["id"], why))
             except (KeyError, TypeError, ValueError, AttributeError, IndexError) as why:
@@ -102,4 +101,4 @@ def check_all(folder, edit):
               % (path.name, counts["accepted"], counts["rejected"], len(found) - sum(counts.values())))
         for key in total:
             total[key] += counts[key]
-    return total, failures
+    return len(listed), total, failures

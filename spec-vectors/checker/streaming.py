@@ -3,24 +3,26 @@ import re
 
 from . import nc
 from .pieces import Bad, agree, to_bytes
+from .scalars import Refuse, from_hex, to_hex
 
 STREAM_MAX = 4094
 LINE_END_ERROR = 21476
 
 
-def program_stream(refuse, to_hex, from_hex):
-    """Writer and reader of the stream `program-stream`: whatever is written, up to a packet."""
-    def write(value, _context):
-        return [("data", from_hex(value["data"]["hex"]))]
+def program_stream_write(value, _context):
+    return [("data", from_hex(value["data"]["hex"]))]
 
-    def read(data, _context):
-        if len(data) > nc.PACKET_MAX:
-            raise refuse("too-long", 0, "data")
-        if not data:
-            raise refuse("truncated", 0, "data")
-        return {"data": {"type": "BYTES", "hex": to_hex(data)}}
 
-    return write, read
+def program_stream_read(data, _context):
+    """Whatever is written, up to a packet."""
+    if len(data) > nc.PACKET_MAX:
+        raise Refuse("too-long", 0, "data")
+    if not data:
+        raise Refuse("truncated", 0, "data")
+    return {"data": {"type": "BYTES", "hex": to_hex(data)}}
+
+
+STREAMS = {"program-stream": (program_stream_write, program_stream_read)}
 
 
 class Model:

@@ -1,0 +1,180 @@
+"""One vector: its segments, its bytes from its value and its value from its bytes, its sibling."""
+import json
+import struct
+
+from . import addresses, ads, com, sda, streaming, variables
+from .pieces import EDIT_MAX, edit
+from .scalars import Bad, Refuse, from_hex, join, number_bytes, text32_bytes, text_bytes, to_hex, write_field
+
+STREAMS = {}
+for area in (ads, addresses, com, sda, streaming, variables):
+    STREAMS.update(area.STREAMS)
+
+
+def canonical_value(value):
+    """The value without what a careful writer leaves out: tails, open ends, odd TRUEs."""
+    if isinstance(value, list):
+        return [canonical_value(item) for item in value]
+    if isinstance(value.get("type"), str):
+        if value["type"] == "BOOLEAN" and value["value"] != "0":
+            return {"type": "BOOLEAN", "value": "1"}
+        return {key: item for key, item in value.items() if key not in ("tail", "open")}
+    value = {key: canonical_value(item) for key, item in value.items()}
+    if value.get("write_access", {}).get("value", "0") != "0":
+        value["write_access"] = {"type": "UNS16", "value": "1"}
+    return value
+
+
+def canonical_bytes(stream, write, value, context, given):
+    """None where the canonical form is the stream itself, or would not fit."""
+    # the texts of a name's parts end with the part
+    canonical = sda.CANONICAL.get(stream, canonical_value)
+    plain_value = value if stream == "variable-path" else canonical(value)
+    try:
+        data = join(write(plain_value, context))
+    except Bad:
+        # a text that fills its field has no room for a NUL, so its only form is the open one
+        return None
+    return None if data == given else data
+
+
+def segment_bytes(segment, width):
+    """The bytes a segment's own value stands for; `width` is the length of its hex."""
+    value = segment["value"]
+    if isinstance(value, list):
+        return b"".join(number_bytes(item) for item in value)
+    kind = value["type"]
+    if kind == "STRING":
+        # in the 32-byte fields the zeros behind the text are left out of the value
+        is_field = segment["field"].split(".")[-1] in ("name", "type") and width == 32 and "tail" not in value
+        return text32_bytes(value) if is_field else text_bytes(value)
+    if kind == "BYTES":
+        return from_hex(value["hex"])
+    return write_field(kind, value)
+
+
+def check_segments(vector):
+    for segment in vector["segments"]:
+        data = from_hex(segment["hex"])
+        if "value" in segment:
+            own = segment_bytes(segment, len(data))
+            if own != data:
+                raise Bad("segment %s: hex %s, its value gives %s" % (segment["field"], to_hex(data), to_hex(own)))
+    if not vector["segments"]:
+        raise Bad("no segments")
+
+
+def check_order(vector, parts):
+    """The segments are the stream's fields, in order; one segment may take a whole list."""
+    rest = [part for part in parts if part[1]]
+    for segment in vector["segments"]:
+        field, data = segment["field"], b""
+        while rest and (rest[0][0] == field or rest[0][0].startswith((field + "[", field + "."))):
+            data += rest.pop(0)[1]
+        if not data and (field, b"") not in parts:
+            raise Bad("segment %s: the stream has no such field here" % field)
+        if data != from_hex(segment["hex"]):
+            raise Bad("segment %s: hex %s, the value gives %s" % (field, segment["hex"], to_hex(data)))
+    if rest:
+        raise Bad("field %s has no segment" % rest[0][0])
+
+
+def differing(path, stated, derived):
+    """The innermost field in which two values differ, and both readings."""
+    if isinstance(stated, dict) and isinstance(derived, dict):
+        for key in list(stated) + [key for key in derived if key not in stated]:
+            if stated.get(key) != derived.get(key):
+                return differing(path + "." + key, stated.get(key), derived.get(key))
+    if isinstance(stated, list) and isinstance(derived, list) and len(stated) == len(derived):
+        for place, (one, other) in enumerate(zip(stated, derived)):
+            if one != other:
+                return differing("%s[%d]" % (path, place), one, other)
+    return path.lstrip("."), stated, derived
+
+
+def check_accept(vector, write, read):
+    accept = vector["expect"]["accept"]
+    data = join((s["field"], from_hex(s["hex"])) for s in vector["segments"])
+    context = vector.get("context", {})
+    parts = write(accept["value"], context)
+    check_order(vector, parts)
+    if join(parts) != data:
+        raise Bad("bytes: stated %s, from the value %s" % (to_hex(data), to_hex(join(parts))))
+    try:
+        derived = read(data, context)
+    except Refuse as why:
+        raise Bad("accepted, but its bytes are refused: %s" % why) from None
+    if derived != accept["value"]:
+        raise Bad("value %s: stated %s, from the bytes %s" % differing("", accept["value"], derived))
+    canonical = canonical_bytes(vector["stream"], write, accept["value"], context, data)
+    stated = from_hex(accept["canonical"]) if "canonical" in accept else None
+    if canonical != stated:
+        raise Bad("canonical: stated %s, derived %s" % tuple(None if x is None else to_hex(x) for x in (stated, canonical)))
+
+
+def check_reject(vector, read, vectors):
+    data = join((s["field"], from_hex(s["hex"])) for s in vector["segments"])
+    stated = vector["expect"]["reject"]
+    try:
+        derived = read(data, vector.get("context", {}))
+    except Refuse as why:
+        for key, found in (("class", why.cls), ("offset", why.offset), ("field", why.field)):
+            if stated[key] != found:
+                raise Bad("%s: stated %s, derived %s" % (key, stated[key], found)) from None
+    else:
+        raise Bad("to be refused as %s, but its bytes read as %s" % (stated["class"], derived))
+    if "sibling" in vector:
+        sibling = vectors.get(vector["sibling"])
+        if sibling is None:
+            raise Bad("sibling %s does not exist" % vector["sibling"])
+        if "accept" not in sibling["expect"]:
+            raise Bad("sibling %s is not accepted" % vector["sibling"])
+        if sibling["stream"] != vector["stream"]:
+            raise Bad("sibling: stream %s, not %s" % (sibling["stream"], vector["stream"]))
+        good = join((s["field"], from_hex(s["hex"])) for s in sibling["segments"])
+        if good == data:
+            raise Bad("sibling %s has the same bytes" % vector["sibling"])
+        if edit(good, data) > EDIT_MAX:
+            raise Bad("sibling %s differs by more than one fault: %s, not %s" % (vector["sibling"], to_hex(data), to_hex(good)))
+
+
+def check(vector, vectors):
+    if vector["stream"] not in STREAMS:
+        raise Bad("unknown stream %s" % vector["stream"])
+    write, read = STREAMS[vector["stream"]]
+    check_segments(vector)
+    if list(vector["expect"]) == ["accept"]:
+        check_accept(vector, write, read)
+        return "accepted"
+    if list(vector["expect"]) == ["reject"]:
+        check_reject(vector, read, vectors)
+        return "rejected"
+    raise Bad("neither accepted nor rejected: %s" % list(vector["expect"]))
+
+
+def check_all(folder):
+    """Counts of accepted and rejected vectors, and what is wrong."""
+    files = {path: json.loads(path.read_text(encoding="utf-8"))["vectors"] for path in sorted(folder.glob("*.json"))}
+    listed = [vector for found in files.values() for vector in found]
+    vectors = {vector["id"]: vector for vector in listed}
+    total, failures = {"accepted": 0, "rejected": 0}, []
+    if not listed:
+        failures.append("no vectors in %s" % folder)
+    if len(vectors) != len(listed):
+        failures.append("%d vectors share an id with another" % (len(listed) - len(vectors)))
+    for path, found in files.items():
+        counts = {"accepted": 0, "rejected": 0}
+        if not found:
+            failures.append("%s: no vectors" % path.name)
+        for vector in found:
+            try:
+                counts[check(vector, vectors)] += 1
+            except Bad as why:
+                failures.append("%s: %s" % (vector["id"], why))
+            except (KeyError, TypeError, ValueError, AttributeError, IndexError, struct.error) as why:
+                failures.append("%s: malformed: %s: %s" % (vector["id"], type(why).__name__, why))
+        print("%s: %d accepted, %d rejected, %d wrong"
+              % (path.name, counts["accepted"], counts["rejected"], len(found) - sum(counts.values())))
+        for key in total:
+            total[key] += counts[key]
+    return len(listed), total, failures
