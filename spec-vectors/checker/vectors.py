@@ -112,6 +112,11 @@ def check_accept(vector, write, read):
         raise Bad("canonical: stated %s, derived %s" % tuple(None if x is None else to_hex(x) for x in (stated, canonical)))
 
 
+def told(vector):
+    """What a decoder is told beside the bytes. Which vector is answered or carried tells it nothing."""
+    return {key: item for key, item in vector.get("context", {}).items() if key not in ("request", "carries")}
+
+
 def check_reject(vector, read, vectors):
     data = join((s["field"], from_hex(s["hex"])) for s in vector["segments"])
     stated = vector["expect"]["reject"]
@@ -131,6 +136,8 @@ def check_reject(vector, read, vectors):
             raise Bad("sibling %s is not accepted" % vector["sibling"])
         if sibling["stream"] != vector["stream"]:
             raise Bad("sibling: stream %s, not %s" % (sibling["stream"], vector["stream"]))
+        if told(sibling) != told(vector):
+            raise Bad("sibling %s: a decoder is told %s, not %s" % (vector["sibling"], told(sibling), told(vector)))
         good = join((s["field"], from_hex(s["hex"])) for s in sibling["segments"])
         if good == data:
             raise Bad("sibling %s has the same bytes" % vector["sibling"])
