@@ -208,6 +208,8 @@ const VECTORS: &[(&str, &str)] = &[
     embedded!("data/vectors/content.json"),
     embedded!("data/vectors/described-by-name.json"),
     embedded!("data/vectors/dynamic.json"),
+    embedded!("data/vectors/frame-examples.json"),
+    embedded!("data/vectors/frame-limits.json"),
     embedded!("data/vectors/frame.json"),
     embedded!("data/vectors/sda.json"),
     embedded!("data/vectors/service.json"),
