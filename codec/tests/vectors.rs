@@ -316,24 +316,41 @@ fn canonical_forms_are_written() {
     assert!(seen >= 26, "{seen} vectors have a canonical form");
 }
 
-/// Puts up to sixteen numbers of a list on a line, and cuts what no person reads to the end.
+/// Puts up to sixteen numbers of a list on a line, bytes as a manual and a text as an NC program has
+/// them, and cuts what no person reads to the end.
 fn short(text: &str) -> String {
-    let is_number =
-        |line: &str| line.strip_suffix(',').is_some_and(|n| n.bytes().all(|c| c.is_ascii_digit()));
     let mut lines: Vec<String> = Vec::new();
-    let mut numbers = 0;
+    let mut numbers: Vec<&str> = Vec::new();
+    let mut field = "";
     for line in text.lines() {
-        let number = line.trim_start();
-        numbers = if is_number(number) { numbers + 1 } else { 0 };
-        match lines.last_mut() {
-            Some(last) if numbers % 16 != 1 && numbers > 1 => *last += &format!(" {number}"),
-            _ => lines.push(line.to_owned()),
+        let word = line.trim_start();
+        match word.strip_suffix(',') {
+            Some(n) if n.bytes().all(|c| c.is_ascii_digit()) => numbers.push(n),
+            _ => {
+                let indent = line.len() - word.len() + 4;
+                for row in numbers.chunks(16) {
+                    lines.push(format!("{:indent$}{}", "", row_of(field, row)));
+                }
+                numbers.clear();
+                field = word.split_once(": ").map_or(field, |(name, _)| name);
+                lines.push(line.to_owned());
+            }
         }
     }
     match lines.len() {
         ..=60 => lines.join("\n"),
         len => format!("{}\n… {} lines more", lines[..40].join("\n"), len - 40),
     }
+}
+
+fn row_of(field: &str, row: &[&str]) -> String {
+    if !["bytes", "data", "value"].contains(&field) {
+        return format!("{},", row.join(", "));
+    }
+    let bytes: Vec<u8> = row.iter().map(|n| n.parse().expect("a byte")).collect();
+    let hex: Vec<String> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+    let seen = |byte: &u8| if (0x20..0x7f).contains(byte) { char::from(*byte) } else { '.' };
+    format!("{:47}  |{}|", hex.join(" "), bytes.iter().map(seen).collect::<String>())
 }
 
 /// Every vector is accepted or refused as it says, by both readings and with the same bytes again,
