@@ -19,7 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
 PACKED = [
-    "README.md", "CHANGELOG.md", "LICENSE-APACHE", "LICENSE-MIT", "check.py", "pack.py",
+    "README.md", "CHANGELOG.md", "LICENSE-APACHE", "LICENSE-MIT", "check.py", "pack.py", "tables.py",
     "checker/*.py", "data/*.json", "data/*/*.json", "schema/*.json",
 ]
 
@@ -58,7 +58,7 @@ def archive(packed, folder):
         for name, data in packed:
             entry = zipfile.ZipInfo("%s/%s" % (folder, name), (1980, 1, 1, 0, 0, 0))
             entry.create_system = 3  # as on Unix, wherever this runs
-            entry.external_attr = (0o100755 if name in ("check.py", "pack.py") else 0o100644) << 16
+            entry.external_attr = (0o100755 if "/" not in name and name.endswith(".py") else 0o100644) << 16
             target.writestr(entry, data)
     return out.getvalue()
 
