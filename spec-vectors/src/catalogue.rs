@@ -161,6 +161,7 @@ pub enum Status {
 ///
 /// let name_end = erratum("E-17").unwrap();
 /// assert_eq!(name_end.status, Status::Open);
+/// assert!(name_end.question.is_some());
 /// assert!(name_end.readings.iter().any(|reading| reading.document == "ads-de"));
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -176,4 +177,7 @@ pub struct Erratum {
     pub ruling: String,
     /// How firmly.
     pub status: Status,
+    /// What a running CNC has to be asked; for those that are open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub question: Option<String>,
 }

@@ -97,6 +97,12 @@ fn wrong_documents_are_refused() {
             &[
                 ("no readings", |d| d["errata"][0]["readings"] = json!([])),
                 ("status", |d| d["errata"][0]["status"] = json!("fixed")),
+                ("open without a question", |d| {
+                    d["errata"][1]["status"] = json!("open");
+                }),
+                ("question though it is ruled", |d| {
+                    d["errata"][1]["question"] = json!("x?");
+                }),
             ],
         ),
         (
