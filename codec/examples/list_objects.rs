@@ -56,7 +56,7 @@ fn com(cnc: &Cnc, list: ObjectList) -> Result<()> {
 /// The elements of one instance.
 fn elements(cnc: &Cnc, first: ElementAddress) -> Result<()> {
     let mut reply = Vec::new();
-    let count = cnc.call(&CountElements::new(first), &mut reply)?.0;
+    let count = cnc.call(&CountElements::new(first)?, &mut reply)?.0;
     for place in 1..=count {
         let element = first.following(place)?;
         let (mut name, mut of_type, mut unit) = (Vec::new(), Vec::new(), Vec::new());

@@ -256,7 +256,7 @@ proptest! {
             }
         }
         let first = ElementAddress::of_channel(channel, Class::Hld, 0).unwrap();
-        check_operation(CountElements::new(first));
+        check_operation(CountElements::new(first).unwrap());
     }
 
     /// dispatch(encode(op)) = op: content of COM objects, and the program stream among them.
@@ -332,6 +332,7 @@ fn functions_are_no_content() {
                 let Some(ads_cnc::address::Group::Class(class)) = group.parts() else { panic!() };
                 let element = ElementAddress::new(class, offset);
                 assert!(WriteElement::new(element, &[]).is_err());
+                assert_eq!(CountElements::new(element).unwrap_err().found(), offset.get());
                 ReadElement::new(element, 4).unwrap_err()
             }
         };
@@ -356,7 +357,7 @@ fn the_count_of_a_platform_axis_is_a_read_of_content() {
     let axis = content(0x12_3300, 0x1000);
     let Some(ads_cnc::address::Group::Class(class)) = axis.index_group.parts() else { panic!() };
     let element = ElementAddress::new(class, axis.index_offset);
-    let sent = Request::from(CountElements::new(element)).encode(&mut []).unwrap();
+    let sent = Request::from(CountElements::new(element).unwrap()).encode(&mut []).unwrap();
     let canonical = ReadElement::new(element, 4).unwrap().into();
     assert_eq!(sent.dispatch(), Ok(canonical));
     assert_eq!(canonical.encode(&mut []), Ok(sent));

@@ -144,7 +144,7 @@ fn read_lengths() {
     assert_eq!(DynamicValueByName { channel, kind: DynamicKind::P, name }.read_length(), 8);
     assert_eq!(FindInstance::new(Class::Hld, 1, 0).read_length(), 8);
     let element = ElementAddress::of_channel(channel, Class::Hld, 1).unwrap();
-    assert_eq!(CountElements::new(element).read_length(), 4);
+    assert_eq!(CountElements::new(element).unwrap().read_length(), 4);
     assert_eq!(ReadElement::new(element, 7).unwrap().read_length(), 7);
     assert_eq!(ReadElementName::new(element).read_length(), 256);
     assert_eq!(ReadElementLength::new(element).read_length(), 4);

@@ -8,6 +8,7 @@ use crate::address::{
 use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
 use crate::layout::field::index_group::INSTANCE;
+use crate::layout::field::index_offset::ELEMENT;
 use crate::limits::TEXT_MAX;
 use crate::sda::{
     ElementCount, ElementLength, ElementTextRef, ElementWriteFlag, ObjectAddress,
@@ -116,18 +117,18 @@ impl Operation for FindInstance {
 macro_rules! attribute {
     (
         $(#[$doc:meta])*
-        $name:ident: $attribute:ident, $reply:ty, at most $most:expr
+        $name:ident by $vis:vis $new:ident: $attribute:ident, $reply:ty, at most $most:expr
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub struct $name {
             /// Which element.
-            pub element: ElementAddress,
+            $vis element: ElementAddress,
         }
 
         impl $name {
             /// For an element.
-            pub const fn new(element: ElementAddress) -> Self {
+            $vis const fn $new(element: ElementAddress) -> Self {
                 Self { element }
             }
 
@@ -181,12 +182,32 @@ attribute! {
     /// use ads_cnc::operation::{CountElements, Operation};
     ///
     /// let first = ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 0)?;
-    /// let op = CountElements::new(first);
+    /// let op = CountElements::new(first)?;
     /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_3301, 0));
     /// assert_eq!(op.decode_reply(&[9, 0, 0, 0])?.0, 9);
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    CountElements: Content, ElementCount, at most 4
+    CountElements by unchecked: Content, ElementCount, at most 4
+}
+
+impl CountElements {
+    /// For the first element of an instance.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Function`](crate::ErrorKind::Function) for an element of the decoder that is
+    /// another function (SDA-12).
+    pub fn new(first: ElementAddress) -> Result<Self, Error> {
+        let (group, offset) = (Group::Class(first.class_group()), first.index_offset());
+        match Function::at(group, offset) {
+            None | Some(Function::CountElements) => Ok(Self::unchecked(first)),
+            Some(_) => Err(Error::new(ErrorKind::Function, ELEMENT, 0, 0, offset.get())),
+        }
+    }
+
+    /// The first element.
+    pub const fn element(&self) -> ElementAddress {
+        self.element
+    }
 }
 
 attribute! {
@@ -204,7 +225,7 @@ attribute! {
     /// assert_eq!(op.decode_reply(b"feedhold.enable\0")?.text.text(), "feedhold.enable");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    ReadElementName: Name, ElementTextRef<'r>, at most to_u32(TEXT_MAX)
+    ReadElementName by pub new: Name, ElementTextRef<'r>, at most to_u32(TEXT_MAX)
 }
 
 attribute! {
@@ -221,7 +242,7 @@ attribute! {
     /// assert_eq!(op.decode_reply(b"BOOLEAN\0")?.text.text(), "BOOLEAN");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    ReadElementType: Type, ElementTextRef<'r>, at most to_u32(TEXT_MAX)
+    ReadElementType by pub new: Type, ElementTextRef<'r>, at most to_u32(TEXT_MAX)
 }
 
 attribute! {
@@ -238,7 +259,7 @@ attribute! {
     /// assert_eq!(op.decode_reply(&[1, 0, 0, 0])?.get(), 1);
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    ReadElementLength: Length, ElementLength, at most 4
+    ReadElementLength by pub new: Length, ElementLength, at most 4
 }
 
 attribute! {
@@ -255,7 +276,7 @@ attribute! {
     /// assert_eq!(op.decode_reply(b"-\0")?.text.text(), "-");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    ReadElementUnit: Unit, ElementTextRef<'r>, at most to_u32(TEXT_MAX)
+    ReadElementUnit by pub new: Unit, ElementTextRef<'r>, at most to_u32(TEXT_MAX)
 }
 
 attribute! {
@@ -273,5 +294,5 @@ attribute! {
     /// assert!(!op.decode_reply(&[0])?.is_writable());
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    ReadElementWriteFlag: WriteFlag, ElementWriteFlag, at most 1
+    ReadElementWriteFlag by pub new: WriteFlag, ElementWriteFlag, at most 1
 }

@@ -117,7 +117,7 @@ impl Cnc {
             Request::ReadObject(op) => running.read_object(op),
             Request::WriteObject(op) => running.write_object(op),
             Request::FindInstance(op) => running.find_instance(op),
-            Request::CountElements(op) => running.read_element(op.element),
+            Request::CountElements(op) => running.read_element(op.element()),
             Request::ReadElement(op) => running.read_element(op.element()),
             Request::WriteElement(op) => running.write_element(op),
             Request::ReadElementName(op) => running.element_name(op.element),
