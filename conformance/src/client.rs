@@ -1,7 +1,8 @@
 //! An AMS/TCP client that keeps every byte it sends and receives, and judges each frame.
 
-use std::io::{self, Read as _, Write as _};
-use std::net::{SocketAddr, TcpStream};
+use std::io;
+use std::net::{IpAddr, SocketAddr};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use ads_cnc::ads::{
@@ -14,8 +15,11 @@ use ads_cnc::operation::{Call, Service};
 use ads_cnc::{Decode, Encode};
 
 use crate::exchange::{Answer, Exchange, Fault, Violation};
-use crate::gate::Gate;
-use crate::net;
+use crate::gate::{Gate, Moment, Permit};
+use crate::net::Wire;
+
+/// The AMS port to ask as; nobody has to listen there.
+const SOURCE_PORT: AmsPort = AmsPort(0x8000);
 
 /// Whom to ask, and as whom.
 #[derive(Clone, Copy, Debug)]
@@ -24,17 +28,31 @@ pub struct Target {
     pub addr: SocketAddr,
     /// Its AMS NetId.
     pub net_id: AmsNetId,
-    /// The NetId to ask as; a device answers only those it has a route to.
-    pub source: AmsAddr,
+    /// The NetId to ask as; a device answers only those it has a route to. Without one it is made
+    /// of this machine's address towards the target, as most are: 192.0.2.7 is 192.0.2.7.1.1.
+    pub source: Option<AmsNetId>,
     /// How long to wait for a connection and for an answer.
     pub timeout: Duration,
+    /// The least time from one request to the next.
+    pub pace: Duration,
 }
 
 impl Target {
     /// A target on this machine.
     pub const fn local(addr: SocketAddr, net_id: AmsNetId) -> Self {
-        let source = AmsAddr { net_id: AmsNetId([127, 0, 0, 1, 1, 2]), port: AmsPort(0x8000) };
-        Self { addr, net_id, source, timeout: Duration::from_secs(2) }
+        let (timeout, pace) = (Duration::from_secs(2), Duration::ZERO);
+        Self { addr, net_id, source: None, timeout, pace }
+    }
+}
+
+/// The NetId that goes with an address; on this machine itself another than the simulated CNC's.
+const fn net_id_of(ip: IpAddr) -> AmsNetId {
+    match ip {
+        IpAddr::V4(ip) if !ip.is_loopback() => {
+            let [a, b, c, d] = ip.octets();
+            AmsNetId([a, b, c, d, 1, 1])
+        }
+        _ => AmsNetId([127, 0, 0, 1, 1, 2]),
     }
 }
 
@@ -42,8 +60,12 @@ impl Target {
 #[derive(Debug)]
 pub struct Client {
     target: Target,
+    source: AmsNetId,
     gate: Gate,
-    stream: Option<TcpStream>,
+    clock: fn() -> Moment,
+    wire: Option<Wire>,
+    dry: bool,
+    last: Option<Instant>,
     invoke_id: u32,
 }
 
@@ -53,52 +75,109 @@ impl Client {
     /// # Errors
     /// If nobody listens there, or the gate is open wider than is safe for another machine.
     pub fn connect(target: Target, gate: Gate) -> io::Result<Self> {
+        let mut client = Self::unconnected(target, gate)?;
+        let wire = Wire::connect(target.addr, target.timeout)?;
+        client.source = target.source.unwrap_or(net_id_of(wire.local().ip()));
+        client.wire = Some(wire);
+        Ok(client)
+    }
+
+    /// A dry run: it connects to nobody and sends nothing, but asks the gate.
+    ///
+    /// # Errors
+    /// If the gate is open wider than is safe for another machine.
+    pub fn dry(target: Target, gate: Gate) -> io::Result<Self> {
+        Ok(Self { dry: true, ..Self::unconnected(target, gate)? })
+    }
+
+    fn unconnected(target: Target, gate: Gate) -> io::Result<Self> {
         if gate.lets_malformed_pass() && !target.addr.ip().is_loopback() {
             let why = "malformed requests are sent to a CNC on this machine only";
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
         }
-        let stream = net::connect(target.addr, target.timeout)?;
-        Ok(Self { target, gate, stream: Some(stream), invoke_id: 0 })
+        Ok(Self {
+            target,
+            source: target.source.unwrap_or(net_id_of(target.addr.ip())),
+            gate,
+            clock: Moment::now,
+            wire: None,
+            dry: false,
+            last: None,
+            invoke_id: 0,
+        })
+    }
+
+    /// With another clock than this machine's.
+    #[must_use]
+    pub fn with_clock(self, clock: fn() -> Moment) -> Self {
+        Self { clock, ..self }
     }
 
     /// The gate in front of the target.
-    pub const fn gate(&self) -> Gate {
-        self.gate
+    pub const fn gate(&self) -> &Gate {
+        &self.gate
+    }
+
+    /// Whom it asks.
+    pub const fn target(&self) -> &Target {
+        &self.target
+    }
+
+    /// The NetId it asks as.
+    pub const fn source(&self) -> AmsNetId {
+        self.source
+    }
+
+    /// Whether nothing is sent.
+    pub const fn is_dry(&self) -> bool {
+        self.dry
     }
 
     /// Sends a call and waits for its answer.
     pub fn call(&mut self, call: &Call<'_>) -> Exchange {
-        self.invoke_id = self.invoke_id.wrapping_add(1);
         let mut exchange = Exchange::new(call);
-        if let Err(closed) = self.gate.check(call) {
-            exchange.outcome = Err(Fault::Refused(closed.to_string()));
-            return exchange;
-        }
+        exchange.outcome = match self.sent(call, &mut exchange) {
+            Ok(header) => {
+                self.judge(&header, &mut exchange);
+                return exchange;
+            }
+            Err(fault) => Err(fault),
+        };
+        exchange
+    }
+
+    /// Sends a call if it may be, and keeps what comes of it; the header it went out with.
+    fn sent(&mut self, call: &Call<'_>, exchange: &mut Exchange) -> Result<AmsHeader, Fault> {
+        self.invoke_id = self.invoke_id.wrapping_add(1);
         let header = AmsHeader {
             target: AmsAddr { net_id: self.target.net_id, port: call.port },
-            source: self.target.source,
+            source: AmsAddr { net_id: self.source, port: SOURCE_PORT },
             command: call.service.command(),
             state_flags: StateFlags::REQUEST,
             data_length: 0,
             error: AdsError::NONE,
             invoke_id: self.invoke_id,
         };
-        exchange.sent = match frame(header, call) {
-            Ok(bytes) => bytes,
-            Err(fault) => {
-                exchange.outcome = Err(fault);
-                return exchange;
-            }
-        };
-        exchange.outcome = self.exchange(header, &mut exchange);
-        if matches!(exchange.outcome, Err(Fault::Closed | Fault::Io(_))) {
-            // A connection may have been closed for being idle. A query can be asked twice.
-            exchange.received.clear();
-            self.stream = None;
-            exchange.outcome = self.exchange(header, &mut exchange);
+        let bytes = frame(header, call)?;
+        let permit = self.gate.check(&bytes, (self.clock)());
+        let permit = permit.map_err(|refusal| Fault::Refused(Box::new(refusal)))?;
+        if self.dry {
+            return Err(Fault::NotSent);
         }
-        self.judge(&header, &mut exchange);
-        exchange
+        exchange.outcome = self.exchange(permit, header, exchange);
+        let lost = matches!(exchange.outcome, Err(Fault::Closed | Fault::Io(_)));
+        if lost && permit.is_repeatable() {
+            // A connection may have been closed for being idle. Whether a write was done before
+            // that nobody knows: it is not sent twice.
+            exchange.received.clear();
+            self.disconnect();
+            exchange.outcome = self.exchange(permit, header, exchange);
+        }
+        exchange.sent = bytes;
+        if let Some(data) = exchange.answer().and_then(Answer::success) {
+            self.gate.learn(call, data);
+        }
+        Ok(header)
     }
 
     /// What is wrong with the frames themselves.
@@ -130,22 +209,38 @@ impl Client {
                     exchange.violations.push(Violation { requirement, what: error.to_string() });
                 }
                 // What comes next on this connection cannot be told apart any more.
-                self.stream = None;
+                self.disconnect();
             }
         }
     }
 
+    /// Ends the connection. Who answers on the next may be another, or have restarted.
+    fn disconnect(&mut self) {
+        self.wire = None;
+        self.gate.forget();
+    }
+
+    /// Waits until the target may be asked again.
+    fn keep_pace(&mut self) {
+        if let Some(last) = self.last {
+            thread::sleep(self.target.pace.saturating_sub(last.elapsed()));
+        }
+        self.last = Some(Instant::now());
+    }
+
     fn exchange(
         &mut self,
+        permit: Permit<'_>,
         sent: AmsHeader,
         exchange: &mut Exchange,
     ) -> Result<(Answer, AmsHeader), Fault> {
-        let stream = match self.stream.take() {
-            Some(stream) => stream,
-            None => net::connect(self.target.addr, self.target.timeout).map_err(Fault::gone)?,
+        self.keep_pace();
+        let wire = match self.wire.take() {
+            Some(wire) => wire,
+            None => Wire::connect(self.target.addr, self.target.timeout).map_err(Fault::gone)?,
         };
-        let stream = self.stream.insert(stream);
-        stream.write_all(&exchange.sent).map_err(Fault::io)?;
+        let wire = self.wire.insert(wire);
+        wire.send(permit).map_err(Fault::io)?;
         let received = &mut exchange.received;
         let asked = Instant::now();
         let mut chunk = [0; 4096];
@@ -158,7 +253,8 @@ impl Client {
                     if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
                         let what = format!("{more} bytes behind the answer that nobody asked for");
                         exchange.violations.push(Violation { requirement: "ADS-5", what });
-                        self.stream = None;
+                        self.wire = None;
+                        self.gate.forget();
                     }
                     received.truncate(len);
                     return answer.map(|answer| (answer, header));
@@ -173,8 +269,7 @@ impl Client {
             if left.is_zero() {
                 return Err(Fault::Silence(self.target.timeout));
             }
-            stream.set_read_timeout(Some(left)).map_err(Fault::io)?;
-            match stream.read(&mut chunk) {
+            match wire.receive(&mut chunk, left) {
                 Ok(0) => return Err(Fault::Closed),
                 Ok(len) => received.extend(chunk.iter().take(len)),
                 Err(error)

@@ -5,8 +5,39 @@ use std::io;
 use std::time::Duration;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::ads::{AdsError, AmsHeader, AmsPort};
+use ads_cnc::ads::{
+    AdsError, AmsHeader, AmsPort, Command, FrameRef, ReadRequest, ReadWriteRequestRef,
+    WriteRequestRef,
+};
 use ads_cnc::operation::{Call, Service};
+use ads_cnc::{Decode as _, Error};
+
+use crate::gate::Refusal;
+
+/// The call that a frame carries; none if its command is none of the three services.
+///
+/// # Errors
+/// Those of the service's request.
+pub fn call_of<'f>(frame: &FrameRef<'f>) -> Result<Option<Call<'f>>, Error> {
+    let port = frame.header().target.port;
+    let (service, index_group, index_offset, read_length, data) = match frame.header().command {
+        Command::READ => {
+            let read = ReadRequest::decode(frame.data())?;
+            (Service::Read, read.index_group, read.index_offset, read.length, &[][..])
+        }
+        Command::WRITE => {
+            let write = WriteRequestRef::decode(frame.data())?;
+            (Service::Write, write.index_group, write.index_offset, 0, write.data)
+        }
+        Command::READ_WRITE => {
+            let both = ReadWriteRequestRef::decode(frame.data())?;
+            let (group, offset) = (both.index_group, both.index_offset);
+            (Service::ReadWrite, group, offset, both.read_length, both.data)
+        }
+        _ => return Ok(None),
+    };
+    Ok(Some(Call { port, service, index_group, index_offset, read_length, data }))
+}
 
 /// One request and what came of it.
 #[derive(Debug)]
@@ -69,15 +100,17 @@ impl fmt::Display for Answer {
 #[derive(Debug)]
 pub enum Fault {
     /// The gate did not let the request through.
-    Refused(String),
+    Refused(Box<Refusal>),
+    /// It was only shown.
+    NotSent,
     /// The request has no form on the wire.
-    Unsendable(ads_cnc::Error),
+    Unsendable(Error),
     /// Nothing came in this time.
     Silence(Duration),
     /// The connection was closed.
     Closed,
     /// What came is no frame, or no reply of the service.
-    Malformed(ads_cnc::Error),
+    Malformed(Error),
     /// The network failed.
     Io(String),
     /// Nobody listens any more.
@@ -98,6 +131,7 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Refused(why) => write!(f, "not sent, refused for safety: {why}"),
+            Self::NotSent => f.write_str("not sent: a dry run"),
             Self::Unsendable(error) => write!(f, "not sent: {error}"),
             Self::Silence(time) => write!(f, "no answer within {} ms", time.as_millis()),
             Self::Closed => f.write_str("connection closed without an answer"),

@@ -8,6 +8,7 @@
 //! | [`suite`] | what is tried, and what comes of it |
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
 //! | [`gate`] | what may be sent to a target |
+//! | [`session`] | a CNC to ask, typed: what tools work with |
 //! | [`profile`] | what a target claims |
 //! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
 //! | [`explain`] | bytes of any stream, field by field |
@@ -46,6 +47,7 @@ pub mod gate;
 pub mod net;
 pub mod profile;
 pub mod report;
+pub mod session;
 pub mod show;
 pub mod suite;
 pub mod verdict;

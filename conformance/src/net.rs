@@ -2,9 +2,11 @@
 
 #![allow(clippy::disallowed_methods, reason = "this is the one place")]
 
-use std::io;
-use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::io::{self, Read as _, Write as _};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::time::Duration;
+
+use crate::gate::Permit;
 
 /// Listens on an address; the system picks the port if it is 0.
 ///
@@ -14,12 +16,56 @@ pub fn listen(addr: SocketAddr) -> io::Result<TcpListener> {
     TcpListener::bind(addr)
 }
 
-/// Connects to an address within `timeout`. What is written leaves at once.
-///
-/// # Errors
-/// Those of the system, and [`io::ErrorKind::TimedOut`].
-pub fn connect(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStream> {
-    let stream = TcpStream::connect_timeout(&addr, timeout)?;
-    stream.set_nodelay(true)?;
-    Ok(stream)
+/// Connects to a listener of this process and closes: what waits for a connection wakes up.
+pub(crate) fn knock(listener: SocketAddr, timeout: Duration) -> io::Result<()> {
+    // A listener on all addresses is reached on this machine's own.
+    let ip = match listener.ip() {
+        IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
+        IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
+        ip => ip,
+    };
+    TcpStream::connect_timeout(&SocketAddr::new(ip, listener.port()), timeout).map(drop)
+}
+
+/// A connection to a target. What leaves on it has passed the gate.
+#[derive(Debug)]
+pub struct Wire {
+    stream: TcpStream,
+    local: SocketAddr,
+}
+
+impl Wire {
+    /// Connects to an address within `timeout`. What is sent leaves at once.
+    ///
+    /// # Errors
+    /// Those of the system, and [`io::ErrorKind::TimedOut`].
+    pub fn connect(addr: SocketAddr, timeout: Duration) -> io::Result<Self> {
+        let stream = TcpStream::connect_timeout(&addr, timeout)?;
+        stream.set_nodelay(true)?;
+        let local = stream.local_addr()?;
+        Ok(Self { stream, local })
+    }
+
+    /// The address of this end.
+    pub const fn local(&self) -> SocketAddr {
+        self.local
+    }
+
+    /// Sends a frame that may be sent.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub fn send(&mut self, permit: Permit<'_>) -> io::Result<()> {
+        self.stream.write_all(permit.frame())
+    }
+
+    /// What has come, waiting at most so long; 0 bytes at the end.
+    ///
+    /// # Errors
+    /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if nothing
+    /// came.
+    pub fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize> {
+        self.stream.set_read_timeout(Some(timeout))?;
+        self.stream.read(buf)
+    }
 }

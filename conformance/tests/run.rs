@@ -7,13 +7,12 @@ use std::net::SocketAddr;
 use std::process::{Command, Output, Stdio};
 use std::sync::{Arc, Mutex};
 use std::thread;
-use std::time::Duration;
 
 use ads_cnc::Decode;
 use ads_cnc::ads::{Command as AmsCommand, FrameRef, ReadRequest, ReadWriteRequestRef};
 use ads_cnc::operation::{Call, Effect, Service};
 use ads_cnc_conformance::net;
-use common::Serve;
+use common::{Serve, connect};
 
 fn ads_cnc(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
@@ -36,7 +35,7 @@ fn tap(target: SocketAddr) -> (SocketAddr, Arc<Mutex<Vec<u8>>>) {
     let keep = Arc::clone(&kept);
     thread::spawn(move || -> io::Result<()> {
         let (client, _) = listener.accept()?;
-        let server = net::connect(target, Duration::from_secs(5))?;
+        let server = connect(target);
         let (mut replies, mut back) = (server.try_clone()?, client.try_clone()?);
         thread::spawn(move || io::copy(&mut replies, &mut back));
         let (mut client, mut server, mut chunk) = (client, server, [0; 4096]);

@@ -4,6 +4,7 @@ mod explain;
 mod model;
 mod run;
 mod serve;
+mod target;
 
 use std::io::Write as _;
 use std::process::ExitCode;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
-use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
+use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
@@ -72,7 +72,7 @@ impl Drop for Server {
     fn drop(&mut self) {
         self.shared.stopped.store(true, Ordering::SeqCst);
         // The acceptor waits for a connection: it gets one. Without, it is left behind.
-        let woken = net::connect(reachable(self.addr), WAKE_TIMEOUT).is_ok();
+        let woken = net::knock(self.addr, WAKE_TIMEOUT).is_ok();
         let acceptor = self.acceptor.take().filter(|acceptor| woken || acceptor.is_finished());
         let threads = acceptor.and_then(|acceptor| acceptor.join().ok()).unwrap_or_default();
         for stream in self.shared.connections().values() {
@@ -83,16 +83,6 @@ impl Drop for Server {
             let _panicked = thread.join();
         }
     }
-}
-
-/// Where a listener on all addresses can be reached from here.
-fn reachable(addr: SocketAddr) -> SocketAddr {
-    let ip = match addr.ip() {
-        IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
-        IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
-        ip => ip,
-    };
-    SocketAddr::new(ip, addr.port())
 }
 
 impl Shared {

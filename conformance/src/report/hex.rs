@@ -19,7 +19,7 @@ pub(crate) fn plain(bytes: &[u8]) -> String {
 }
 
 /// One line for each field: offset, bytes, field; up to the fault, if there is one.
-pub(super) fn annotated(stream: Option<&str>, bytes: &[u8]) -> Vec<String> {
+pub(crate) fn annotated(stream: Option<&str>, bytes: &[u8]) -> Vec<String> {
     let Some(stream) = stream.and_then(Stream::by_name) else {
         return lines(0, bytes, "");
     };

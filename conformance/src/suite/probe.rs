@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use ads_cnc::address::Channel;
-use ads_cnc::operation::{Call, CountObjects, ObjectList, Request, Service};
+use ads_cnc::operation::{Call, Request, Service};
 use ads_cnc::{Decode, Description};
 use ads_cnc_vectors::Level;
 
 use super::case::{Evidence, Judgement, Rule, Step, Stop};
 use crate::client::Client;
-use crate::exchange::{Answer, Exchange, Fault, Violation};
+use crate::exchange::{Exchange, Fault, Violation};
 use crate::profile::Profile;
 use crate::verdict::Verdict;
 
@@ -42,16 +42,6 @@ pub struct Session {
 }
 
 impl Session {
-    /// Asks the least there is to ask, to learn whether anybody answers: an error of ADS does.
-    ///
-    /// # Errors
-    /// Why there is no answer.
-    pub fn greet(&mut self) -> Result<Answer, Fault> {
-        let request = Request::from(CountObjects::new(ObjectList::PLATFORM));
-        let call = request.encode(&mut []).map_err(Fault::Unsendable)?;
-        self.client.call(&call).outcome.map(|(answer, _)| answer)
-    }
-
     /// A session over a connection.
     pub fn new(client: Client, profile: Profile) -> Self {
         Self {

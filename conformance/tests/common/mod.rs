@@ -1,7 +1,11 @@
-//! `ads-cnc serve` in a process of its own.
+//! `ads-cnc serve` in a process of its own, and a connection to it that no gate guards.
+
+#![allow(dead_code, reason = "not every test needs all of it")]
 
 use std::io::{BufRead as _, BufReader};
+use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
 /// A simulated CNC, ended when it is dropped.
 pub(crate) struct Serve {
@@ -33,4 +37,13 @@ impl Drop for Serve {
         // Ended already is ended too.
         let _ended = self.process.kill().and_then(|()| self.process.wait());
     }
+}
+
+/// A bare connection, for bytes that the tool itself never sends.
+#[allow(clippy::disallowed_methods, reason = "to a listener of the test")]
+pub(crate) fn connect(addr: std::net::SocketAddr) -> TcpStream {
+    let stream = TcpStream::connect_timeout(&addr, Duration::from_secs(5)).unwrap();
+    stream.set_nodelay(true).unwrap();
+    stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    stream
 }

@@ -1,0 +1,153 @@
+//! Options of all tools that talk to a CNC.
+
+use std::io;
+use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
+use std::path::PathBuf;
+use std::time::Duration;
+
+use ads_cnc::address::Channel;
+use ads_cnc::ads::AmsNetId;
+use clap::Args;
+
+use crate::client::Target;
+use crate::cnc::Cnc;
+use crate::gate::{Allowed, Gate};
+use crate::session::{Session, TIMEOUT, Trouble};
+
+/// The TCP port of AMS.
+const AMS_TCP_PORT: u16 = 48898;
+
+/// Under which these options stand in the help.
+const TARGET: &str = "Target";
+
+/// For the end of a tool's help, as `after_long_help`.
+pub(super) const REACHING_A_DEVICE: &str = "\
+Reaching a device:
+  It listens for AMS/TCP on TCP port 48898 and answers only who has a route: in its ADS router add
+  one with the AMS NetId you ask as (--source-net-id), the IP address of this machine and TCP/IP.
+  Without a route it takes the connection and closes it at once, or stays silent. --net-id is the
+  device's own AMS NetId, as its router shows it. Ports 551 (GEO), 552 (SDA) and 553 (COM) are
+  asked, and nothing is written without --allow-write.
+
+What may be written, a file for --allow-write:
+  target = \"192.0.2.7.1.1\"             # AMS NetId of the device, nothing else
+  expires = 2026-05-04T17:30:00+02:00  # from then on nothing is written
+  [[variable]]                         # or [[object]], [[element]], [[stream]], [[service]]
+  channel = 1
+  name = \"V.E.name\"
+  A write that is refused says which entry it needs.";
+
+/// Whom to talk to. Without --target a simulated CNC is started for the purpose.
+#[derive(Args, Clone, Debug)]
+pub(super) struct TargetArgs {
+    /// The device: host name or address, and the port if it is not 48898
+    #[arg(long, help_heading = TARGET, value_name = "HOST[:PORT]", requires = "net_id")]
+    target: Option<String>,
+
+    /// AMS NetId of the device
+    #[arg(long, help_heading = TARGET, value_name = "ID", requires = "target")]
+    net_id: Option<AmsNetId>,
+
+    /// AMS NetId to ask as; the device needs a route to it [default: this machine's address and .1.1]
+    #[arg(long, help_heading = TARGET, value_name = "ID", requires = "target")]
+    source_net_id: Option<AmsNetId>,
+
+    /// How long to wait for a connection and for an answer, in milliseconds
+    #[arg(long, help_heading = TARGET, value_name = "MS", default_value_t = TIMEOUT.as_millis().try_into().unwrap_or(u64::MAX))]
+    timeout: u64,
+
+    /// The most requests in a second [default: as fast as they are answered]
+    #[arg(long, help_heading = TARGET, value_name = "PER_SECOND", value_parser = pace)]
+    rate: Option<Duration>,
+
+    /// A file that says what may be written, on whom and until when; nothing may be without
+    #[arg(long, help_heading = TARGET, value_name = "FILE")]
+    allow_write: Option<PathBuf>,
+
+    /// Show what would be sent and send nothing
+    #[arg(long, help_heading = TARGET)]
+    dry_run: bool,
+}
+
+/// Which channel.
+#[derive(Args, Clone, Copy, Debug)]
+pub(super) struct ChannelArgs {
+    /// Number of the channel
+    #[arg(long, help_heading = TARGET, value_name = "N", default_value = "1", value_parser = channel)]
+    pub(super) channel: Channel,
+}
+
+impl TargetArgs {
+    /// Whether a device is meant.
+    pub(super) const fn is_device(&self) -> bool {
+        self.target.is_some()
+    }
+
+    /// Whether nothing is to be sent.
+    pub(super) const fn is_dry(&self) -> bool {
+        self.dry_run
+    }
+
+    /// Connects to the device, or to a CNC that is started here.
+    pub(super) fn open(&self) -> Result<Session, Trouble> {
+        self.open_or(|| {
+            let internal = |error| Trouble::Internal(format!("the default model: {error}"));
+            Cnc::with_default_model().map_err(internal)
+        })
+    }
+
+    /// Connects to the device, or starts this CNC.
+    pub(super) fn open_or(
+        &self,
+        cnc: impl FnOnce() -> Result<Cnc, Trouble>,
+    ) -> Result<Session, Trouble> {
+        let allowed = self.allow_write.as_deref().map(Allowed::from_file).transpose();
+        let allowed = allowed.map_err(|error| Trouble::Usage(error.to_string()))?;
+        let gate = Gate::queries().with_allowed(allowed);
+        match (self.device()?, self.dry_run) {
+            (None, false) => Session::embedded(cnc()?, gate),
+            (None, true) => Session::dry_embedded(gate),
+            (Some(target), false) => Session::connect(target, gate),
+            (Some(target), true) => Session::dry(target, gate),
+        }
+    }
+
+    fn device(&self) -> Result<Option<Target>, Trouble> {
+        let Some(host) = &self.target else { return Ok(None) };
+        let usage = |why: String| Trouble::Usage(why);
+        let net_id = self.net_id.ok_or_else(|| usage("--target needs --net-id".to_owned()))?;
+        Ok(Some(Target {
+            addr: resolve(host).map_err(|error| usage(format!("{host}: {error}")))?,
+            net_id,
+            source: self.source_net_id,
+            timeout: Duration::from_millis(self.timeout.max(1)),
+            pace: self.rate.unwrap_or_default(),
+        }))
+    }
+}
+
+fn channel(text: &str) -> Result<Channel, String> {
+    let number = text.parse().map_err(|_| "a number is needed".to_owned())?;
+    Channel::new(number).map_err(|error| error.to_string())
+}
+
+/// The time between two requests.
+fn pace(text: &str) -> Result<Duration, String> {
+    let odd = || "a number over 0 is needed".to_owned();
+    let rate: f64 = text.parse().map_err(|_| odd())?;
+    // Infinity is no time at all, and 0 forever.
+    Duration::try_from_secs_f64(rate.recip()).map_err(|_| odd())
+}
+
+/// The address of a host, with the port of AMS/TCP if none is given.
+fn resolve(host: &str) -> io::Result<SocketAddr> {
+    if let Ok(ip) = host.parse::<IpAddr>() {
+        return Ok(SocketAddr::new(ip, AMS_TCP_PORT));
+    }
+    let found = match host.parse::<SocketAddr>() {
+        Ok(addr) => return Ok(addr),
+        Err(_) if host.contains(':') => host.to_socket_addrs()?.next(),
+        Err(_) => (host, AMS_TCP_PORT).to_socket_addrs()?.next(),
+    };
+    found.ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "no such host"))
+}

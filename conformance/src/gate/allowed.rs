@@ -1,0 +1,246 @@
+//! What may be written: entries, and what each of them lets through.
+
+use std::fmt;
+
+use ads_cnc::address::{Addressing, Channel, ChannelAxis, IndexGroup, IndexOffset, PlatformAxis};
+use ads_cnc::ads::AmsNetId;
+use ads_cnc::operation::{ObjectList, Operation as _, Request};
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::{CncStr, CncString};
+
+use super::{Learnt, Moment};
+
+/// What may be written, to whom and until when.
+///
+/// As a file, every table any number of times, numbers of channels and axes as the CNC counts them:
+///
+/// ```
+/// let file = r#"
+/// target = "192.0.2.7.1.1"             # the AMS NetId of the device, nothing else
+/// expires = 2026-05-04T17:30:00+02:00  # from then on nothing is written
+///
+/// [[variable]]                 # with its elements; "V.E.list[3]" is one element alone
+/// channel = 1                  # or rank = 1, the first of the active channels
+/// name = "V.E.list"
+///
+/// [[variable]]                 # over the axis interface
+/// channel = 1
+/// axis = 2
+/// name = "V.A.WCS"
+///
+/// [[object]]                   # content of a COM object, by its address
+/// group = 0x120101
+/// offset = 0x1
+///
+/// [[object]]                   # or by its name: in the list of a channel (0 is the platform),
+/// channel = 1                  # of a rank or of a platform axis
+/// name = "mc_command_single_block_w"
+///
+/// [[element]]                  # content of an element of a class
+/// group = 0x123301
+/// offset = 1
+///
+/// [[stream]]                   # NC programs: this moves the machine
+/// channel = 1
+///
+/// [[service]]                  # the answers of a Service Interface host
+/// channel = 1
+/// "#;
+/// let allowed = ads_cnc_conformance::gate::Allowed::from_toml(file)?;
+/// assert_eq!(allowed.entries.len(), 7);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Allowed {
+    /// The one target it is about.
+    pub target: AmsNetId,
+    /// When it is over.
+    pub expires: Moment,
+    /// What may be written.
+    pub entries: Vec<Entry>,
+}
+
+/// One thing that may be written. Shown as the table that allows it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// A variable by its name, or by a handle that was asked for by this name.
+    Variable {
+        /// Which channel.
+        channel: Channel,
+        /// Which axis, over the axis interface.
+        axis: Option<ChannelAxis>,
+        /// The name. Without an index it stands for the elements too.
+        name: CncString,
+    },
+    /// The content at an address: of a COM object or of an element.
+    Content {
+        /// Index group.
+        group: IndexGroup,
+        /// Index offset.
+        offset: IndexOffset,
+    },
+    /// The content of the one COM object of this name in a list.
+    Object {
+        /// Which list.
+        list: List,
+        /// The name.
+        name: CncString,
+    },
+    /// NC programs for a channel.
+    Stream(Channel),
+    /// What a host of the Service Interface writes to a channel.
+    Service(Channel),
+}
+
+/// A list of COM objects.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum List {
+    /// Of the platform.
+    Platform,
+    /// Of a channel.
+    Channel(Channel),
+    /// Of a platform axis.
+    Axis(PlatformAxis),
+}
+
+impl List {
+    /// The list as it is addressed.
+    pub fn list(self) -> ObjectList {
+        match self {
+            Self::Platform => ObjectList::PLATFORM,
+            Self::Channel(channel) => channel.into(),
+            Self::Axis(axis) => axis.into(),
+        }
+    }
+}
+
+impl Entry {
+    /// The entry that would allow a request; none for one that no entry of its own allows.
+    pub fn needed(request: &Request<'_>) -> Option<Self> {
+        Some(match request {
+            Request::WriteByName(op) => {
+                Self::Variable { channel: op.channel, axis: None, name: op.name.into() }
+            }
+            Request::AxisWriteByName(op) => {
+                Self::Variable { channel: op.channel, axis: Some(op.axis), name: op.name.into() }
+            }
+            Request::WriteProgramStream(op) => Self::Stream(op.channel),
+            Request::WriteObject(op) => {
+                Self::Content { group: op.index_group(), offset: op.index_offset() }
+            }
+            Request::WriteElement(op) => {
+                Self::Content { group: op.index_group(), offset: op.index_offset() }
+            }
+            _ => return None,
+        })
+    }
+
+    /// Whether it allows a request that is no query.
+    pub(super) fn allows(&self, request: &Request<'_>, learnt: &Learnt) -> bool {
+        match (self, request) {
+            (Self::Object { list, name }, Request::WriteObject(op)) => {
+                learnt.place(list.list(), name) == Some((op.index_group(), op.index_offset()))
+            }
+            (_, Request::WriteByHandle(op)) => learnt
+                .names(op.channel, op.handle)
+                .any(|(axis, name)| self.allows_variable(op.channel, *axis, name.as_cnc_str())),
+            (_, Request::WriteByName(op)) => self.allows_variable(op.channel, None, op.name),
+            (_, Request::AxisWriteByName(op)) => {
+                self.allows_variable(op.channel, Some(op.axis), op.name)
+            }
+            (Self::Content { .. } | Self::Stream(_), _) => {
+                Self::needed(request).as_ref() == Some(self)
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether a variable of this name may be written.
+    pub(super) fn allows_variable(
+        &self,
+        of: Channel,
+        at: Option<ChannelAxis>,
+        asked: CncStr<'_>,
+    ) -> bool {
+        match self {
+            Self::Variable { channel, axis, name } => {
+                (*channel, *axis) == (of, at) && is_or_is_in(asked, name)
+            }
+            Self::Service(channel) => {
+                *channel == of
+                    && at.is_none()
+                    && SERVICE.iter().any(|variable| asked == *variable.name())
+            }
+            _ => false,
+        }
+    }
+}
+
+/// What a host writes; the rest is the NC program's.
+const SERVICE: [ServiceVariable; 3] =
+    [ServiceVariable::RequestState, ServiceVariable::ResponseState, ServiceVariable::Response];
+
+/// Whether the name is this one, or that of an element: nothing but indices follow.
+fn is_or_is_in(asked: CncStr<'_>, name: &CncString) -> bool {
+    let asked: Vec<u8> = asked.bytes().collect();
+    let Some(rest) = asked.strip_prefix(name.as_bytes()) else { return false };
+    let is_index = |part: &[u8]| match part {
+        [b'[', digits @ ..] => !digits.is_empty() && digits.iter().all(u8::is_ascii_digit),
+        _ => false,
+    };
+    match rest {
+        [] => true,
+        [indices @ .., b']'] => indices.split(|&byte| byte == b']').all(is_index),
+        _ => false,
+    }
+}
+
+/// As a file has it.
+impl fmt::Display for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Variable { channel, axis, name } => {
+                writeln!(f, "[[variable]]\n{}", at(*channel))?;
+                if let Some(axis) = axis {
+                    writeln!(f, "axis = {}", axis.place())?;
+                }
+                write!(f, "name = {}", quoted(name))
+            }
+            Self::Content { group, offset } => {
+                let is_com = group.get() & 0xFFFF < 0x300;
+                let table = if is_com { "object" } else { "element" };
+                write!(f, "[[{table}]]\ngroup = {group}\noffset = {offset}")
+            }
+            Self::Object { list, name } => {
+                let list = match list {
+                    List::Platform => "channel = 0".to_owned(),
+                    List::Channel(channel) => at(*channel),
+                    List::Axis(axis) => format!("axis = {}", axis.place()),
+                };
+                write!(f, "[[object]]\n{list}\nname = {}", quoted(name))
+            }
+            Self::Stream(channel) => write!(f, "[[stream]]\n{}", at(*channel)),
+            Self::Service(channel) => write!(f, "[[service]]\n{}", at(*channel)),
+        }
+    }
+}
+
+fn at(channel: Channel) -> String {
+    let key = match channel.addressing() {
+        Addressing::Logical => "channel",
+        Addressing::Index => "rank",
+    };
+    format!("{key} = {}", channel.number())
+}
+
+/// As a basic string of TOML.
+fn quoted(name: &CncString) -> String {
+    let escaped = name.as_cnc_str().chars().flat_map(|character| match character {
+        '"' | '\\' => vec!['\\', character],
+        character if character.is_control() => {
+            format!("\\u{:04x}", u32::from(character)).chars().collect()
+        }
+        character => vec![character],
+    });
+    format!("\"{}\"", escaped.collect::<String>())
+}

@@ -1,0 +1,233 @@
+//! The file of `--allow-write`.
+
+use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use ads_cnc::address::{
+    Attribute, Channel, ChannelAxis, ClassGroup, ElementAddress, Group, IndexGroup, IndexOffset,
+    PlatformAxis,
+};
+use ads_cnc::ads::AmsNetId;
+use ads_cnc::limits::{DESCRIPTOR_TEXT_LEN, NAME_MAX};
+use ads_cnc::operation::{WriteElement, WriteObject};
+use ads_cnc::{CncString, streaming};
+use serde::Deserialize;
+use serde::de::{Deserializer, Error as _};
+use toml::value::Datetime;
+
+use super::{Allowed, Entry, List, Moment};
+
+/// Why a file allows nothing.
+#[derive(Clone, Debug)]
+pub struct AllowFileError {
+    file: Option<PathBuf>,
+    why: String,
+}
+
+impl fmt::Display for AllowFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.file {
+            Some(file) => write!(f, "{}: {}", file.display(), self.why),
+            None => f.write_str(&self.why),
+        }
+    }
+}
+
+impl std::error::Error for AllowFileError {}
+
+impl Allowed {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and those of [`from_toml`](Self::from_toml).
+    pub fn from_file(file: &Path) -> Result<Self, AllowFileError> {
+        let failed = |why: String| AllowFileError { file: Some(file.to_owned()), why };
+        let text = fs::read_to_string(file).map_err(|error| failed(error.to_string()))?;
+        Self::from_toml(&text).map_err(|error| failed(error.why))
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// The line and what is wrong in it: keys that are unknown or missing, values out of range, an
+    /// address that nothing is written to.
+    pub fn from_toml(text: &str) -> Result<Self, AllowFileError> {
+        let file: File = toml::from_str(text).map_err(|error| {
+            // As it shows itself it draws the line; the message alone does not say which.
+            let why = error.to_string().trim_end().to_owned();
+            AllowFileError { file: None, why }
+        })?;
+        let File { target, expires, variable, object, element, stream, service } = file;
+        let mut entries: Vec<Entry> = variable.into_iter().map(|VariableTable(one)| one).collect();
+        entries.extend(object.into_iter().map(|ObjectTable(one)| one));
+        entries.extend(element.into_iter().map(|ElementTable(one)| one));
+        entries.extend(stream.into_iter().map(|ChannelTable(channel)| Entry::Stream(channel)));
+        entries.extend(service.into_iter().map(|ChannelTable(channel)| Entry::Service(channel)));
+        Ok(Self { target, expires, entries })
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(deserialize_with = "net_id")]
+    target: AmsNetId,
+    #[serde(deserialize_with = "moment")]
+    expires: Moment,
+    #[serde(default)]
+    variable: Vec<VariableTable>,
+    #[serde(default)]
+    object: Vec<ObjectTable>,
+    #[serde(default)]
+    element: Vec<ElementTable>,
+    #[serde(default)]
+    stream: Vec<ChannelTable>,
+    #[serde(default)]
+    service: Vec<ChannelTable>,
+}
+
+fn net_id<'de, D: Deserializer<'de>>(value: D) -> Result<AmsNetId, D::Error> {
+    let text = String::deserialize(value)?;
+    let shaped =
+        |_| D::Error::custom("an AMS NetId is six numbers with dots, as \"192.0.2.7.1.1\"");
+    text.parse().map_err(shaped)
+}
+
+fn moment<'de, D: Deserializer<'de>>(value: D) -> Result<Moment, D::Error> {
+    let lacking = "a date and a time with an offset from UTC, as 2026-05-04T17:30:00+02:00";
+    Moment::from_datetime(Datetime::deserialize(value)?).ok_or_else(|| D::Error::custom(lacking))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawVariable {
+    channel: Option<u32>,
+    rank: Option<u32>,
+    axis: Option<u32>,
+    name: String,
+}
+
+#[derive(Deserialize)]
+#[serde(try_from = "RawVariable")]
+struct VariableTable(Entry);
+
+impl TryFrom<RawVariable> for VariableTable {
+    type Error = String;
+
+    fn try_from(raw: RawVariable) -> Result<Self, String> {
+        let RawVariable { channel, rank, axis, name } = raw;
+        let axis = axis.map(ChannelAxis::new).transpose().map_err(|error| error.to_string())?;
+        let name = text(&name, NAME_MAX)?;
+        Ok(Self(Entry::Variable { channel: one_of(channel, rank)?, axis, name }))
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawObject {
+    channel: Option<u32>,
+    rank: Option<u32>,
+    axis: Option<u32>,
+    name: Option<String>,
+    group: Option<u32>,
+    offset: Option<u32>,
+}
+
+#[derive(Deserialize)]
+#[serde(try_from = "RawObject")]
+struct ObjectTable(Entry);
+
+impl TryFrom<RawObject> for ObjectTable {
+    type Error = String;
+
+    fn try_from(raw: RawObject) -> Result<Self, String> {
+        let RawObject { channel, rank, axis, name, group, offset } = raw;
+        match (name, group, offset, channel.is_some() || rank.is_some() || axis.is_some()) {
+            (Some(name), None, None, _) => {
+                let list = match (channel, rank, axis) {
+                    (Some(0), None, None) => List::Platform,
+                    (None, None, Some(axis)) => {
+                        List::Axis(PlatformAxis::new(axis).map_err(|error| error.to_string())?)
+                    }
+                    (channel, rank, None) => List::Channel(one_of(channel, rank)?),
+                    _ => return Err("an object is in the list of a channel or of an axis".into()),
+                };
+                Ok(Self(Entry::Object { list, name: text(&name, DESCRIPTOR_TEXT_LEN)? }))
+            }
+            (None, Some(group), Some(offset), false) => {
+                let (group, offset) = (IndexGroup::new(group), IndexOffset::new(offset));
+                if offset == streaming::INDEX_OFFSET {
+                    return Err("the program stream is allowed by a table [[stream]]".into());
+                }
+                let odd = |_| format!("no content of a COM object is at {group}, {offset}");
+                WriteObject::new(group, offset, &[]).map_err(odd)?;
+                Ok(Self(Entry::Content { group, offset }))
+            }
+            _ => Err("an object has either group and offset, or channel and name".into()),
+        }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawElement {
+    group: u32,
+    offset: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(try_from = "RawElement")]
+struct ElementTable(Entry);
+
+impl TryFrom<RawElement> for ElementTable {
+    type Error = String;
+
+    fn try_from(raw: RawElement) -> Result<Self, String> {
+        let (group, offset) = (IndexGroup::new(raw.group), IndexOffset::new(raw.offset));
+        let odd = || format!("no content of an element is at {group}, {offset}");
+        let Some(Group::Class(class @ ClassGroup { attribute: Attribute::Content, .. })) =
+            group.parts()
+        else {
+            return Err(odd());
+        };
+        WriteElement::new(ElementAddress::new(class, offset), &[]).map_err(|_| odd())?;
+        Ok(Self(Entry::Content { group, offset }))
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawChannel {
+    channel: Option<u32>,
+    rank: Option<u32>,
+}
+
+#[derive(Deserialize)]
+#[serde(try_from = "RawChannel")]
+struct ChannelTable(Channel);
+
+impl TryFrom<RawChannel> for ChannelTable {
+    type Error = String;
+
+    fn try_from(RawChannel { channel, rank }: RawChannel) -> Result<Self, String> {
+        one_of(channel, rank).map(Self)
+    }
+}
+
+fn one_of(channel: Option<u32>, rank: Option<u32>) -> Result<Channel, String> {
+    let channel = match (channel, rank) {
+        (Some(number), None) => Channel::new(number),
+        (None, Some(rank)) => Channel::by_index(rank),
+        _ => return Err("either channel, its number, or rank is needed".into()),
+    };
+    channel.map_err(|error| error.to_string())
+}
+
+fn text(text: &str, max: usize) -> Result<CncString, String> {
+    let name: CncString = text.parse().map_err(|error: ads_cnc::Error| error.to_string())?;
+    match name.as_bytes().len() {
+        len if (1..=max).contains(&len) => Ok(name),
+        _ => Err(format!("a name has 1 to {max} characters")),
+    }
+}

@@ -1,0 +1,232 @@
+//! What may leave for a target. A machine may move: everything not allowed is refused.
+//!
+//! A frame reaches a socket only with the [`Permit`] that [`Gate::check`] gave for its bytes, see
+//! [`Wire::send`](crate::net::Wire::send). What passes by default comes from the function table:
+//! queries to the port they are documented for, ReadDeviceInfo and ReadState. Whatever changes
+//! something needs an entry in a file that says what, on whom and until when: [`Allowed`].
+//!
+//! ```
+//! use ads_cnc::Encode;
+//! use ads_cnc_conformance::gate;
+//!
+//! // ReadState of the COM task
+//! let state = b"\0\0\x20\0\0\0\x7f\0\0\x01\x01\x01\x29\x02\x7f\0\0\x01\x01\x02\0\x80\
+//!               \x04\0\x04\0\0\0\0\0\0\0\0\0\x01\0\0\0";
+//! assert!(gate::check(state).is_ok());
+//! // WriteControl of the same
+//! let mut control = state.to_vec();
+//! control[22] = 5;
+//! assert!(gate::check(&control).is_err());
+//! ```
+
+mod allowed;
+mod file;
+mod learnt;
+mod moment;
+mod refusal;
+
+pub use allowed::{Allowed, Entry, List};
+pub use file::AllowFileError;
+pub use moment::Moment;
+pub use refusal::{Reason, Refusal};
+
+use std::ops::RangeInclusive;
+
+use ads_cnc::address::{Access, ComTable, Group};
+use ads_cnc::ads::{AmsNetId, Command, FrameRef, StateFlags};
+use ads_cnc::limits::ADS_DATA_MAX;
+use ads_cnc::operation::{Call, Effect, Request, Service, Task};
+use ads_cnc::streaming;
+
+use crate::exchange::call_of;
+use learnt::Learnt;
+
+/// Decides over every frame before a byte of it is sent.
+#[derive(Clone, Debug, Default)]
+pub struct Gate {
+    malformed: bool,
+    allowed: Option<Allowed>,
+    learnt: Learnt,
+}
+
+/// Leave for one frame to go to a target. Only a gate gives it.
+#[derive(Clone, Copy, Debug)]
+pub struct Permit<'f> {
+    frame: &'f [u8],
+    repeatable: bool,
+}
+
+impl<'f> Permit<'f> {
+    /// The frame.
+    pub const fn frame(&self) -> &'f [u8] {
+        self.frame
+    }
+
+    /// Whether sending it twice does no more than sending it once.
+    pub const fn is_repeatable(&self) -> bool {
+        self.repeatable
+    }
+}
+
+/// Whether a frame may be sent by default, without any file: see [`Gate::queries`]. It depends on
+/// nothing but the bytes.
+///
+/// # Errors
+/// Why not, and which entry would allow it.
+pub fn check(frame: &[u8]) -> Result<Permit<'_>, Refusal> {
+    Gate::queries().check(frame, Moment::EPOCH)
+}
+
+impl Gate {
+    /// Well-formed queries of the function table only.
+    pub fn queries() -> Self {
+        Self::default()
+    }
+
+    /// Anything but documented writes and what is never sent: for a CNC on this machine that
+    /// cannot move. [`Client`](crate::client::Client) takes no other target with it.
+    pub fn with_malformed() -> Self {
+        Self { malformed: true, ..Self::default() }
+    }
+
+    /// And the writes that a file allows.
+    #[must_use]
+    pub fn with_allowed(self, allowed: Option<Allowed>) -> Self {
+        Self { allowed, ..self }
+    }
+
+    /// Whether malformed frames pass.
+    pub const fn lets_malformed_pass(&self) -> bool {
+        self.malformed
+    }
+
+    /// Whether this frame may be sent now. It depends on nothing but the gate and what is given.
+    ///
+    /// # Errors
+    /// Why not, and which entry would allow it.
+    pub fn check<'f>(&self, frame: &'f [u8], now: Moment) -> Result<Permit<'f>, Refusal> {
+        let permit = |repeatable| Ok(Permit { frame, repeatable });
+        let malformed = |reason: Reason| match self.malformed {
+            true => permit(false),
+            false => Err(reason.into()),
+        };
+        let whole = match whole(frame) {
+            Ok(whole) => whole,
+            Err(reason) => return malformed(reason),
+        };
+        let header = whole.header();
+        if !header.error.is_none() || header.state_flags != StateFlags::REQUEST {
+            return malformed(Reason::NoRequest(header.state_flags));
+        }
+        match header.command {
+            Command::READ_DEVICE_INFO | Command::READ_STATE => {
+                if Task::from_port(header.target.port).is_none() {
+                    malformed(Reason::NoTask(header.target.port))
+                } else if whole.data().is_empty() {
+                    permit(true)
+                } else {
+                    malformed(Reason::Data(header.command))
+                }
+            }
+            Command::WRITE_CONTROL
+            | Command::ADD_NOTIFICATION
+            | Command::DELETE_NOTIFICATION
+            | Command::NOTIFICATION => Err(Reason::Never(header.command).into()),
+            command => match call_of(&whole) {
+                Ok(Some(call)) => {
+                    self.check_call(&call, header.target.net_id, now).and_then(permit)
+                }
+                Ok(None) => malformed(Reason::Never(command)),
+                Err(error) => malformed(Reason::Malformed(error)),
+            },
+        }
+    }
+
+    /// Keeps what an answer says of handles and of the places of objects, which files name.
+    pub fn learn(&mut self, call: &Call<'_>, reply: &[u8]) {
+        if let Some(allowed) = &self.allowed {
+            self.learnt.learn(allowed, call, reply);
+        }
+    }
+
+    /// Forgets what answers said: whoever answers next may be another.
+    pub fn forget(&mut self) {
+        self.learnt = Learnt::default();
+    }
+
+    /// Whether it can be repeated.
+    fn check_call(&self, call: &Call<'_>, to: AmsNetId, now: Moment) -> Result<bool, Refusal> {
+        never(call)?;
+        let request = match call.dispatch() {
+            Ok(request) => request,
+            Err(_) if self.malformed => return Ok(false),
+            Err(refusal) => return Err(Reason::Unknown(refusal).into()),
+        };
+        let spec = request.function().spec();
+        // That the other of SDA and GEO answers too is assumed.
+        let at_home = call.port == spec.task.port();
+        match spec.effect {
+            Effect::Query if at_home || self.malformed => Ok(true),
+            _ if !at_home => Err(Reason::Port(call.port, request.function()).into()),
+            _ => self.check_change(&request, to, now).map(|()| false),
+        }
+    }
+
+    /// Whether the file names this, this target and no time gone by.
+    fn check_change(
+        &self,
+        request: &Request<'_>,
+        to: AmsNetId,
+        now: Moment,
+    ) -> Result<(), Refusal> {
+        let function = request.function();
+        let needed = Entry::needed(request);
+        let Some(allowed) = &self.allowed else {
+            return Err(Refusal::needing(Reason::NoFile(function, to), needed));
+        };
+        let named = allowed.entries.iter().any(|entry| entry.allows(request, &self.learnt));
+        if !named {
+            return Err(Refusal::needing(Reason::NoEntry(function), needed));
+        }
+        if allowed.target != to {
+            return Err(Reason::OtherTarget { allowed: allowed.target, target: to }.into());
+        }
+        if now >= allowed.expires {
+            return Err(Reason::Expired(allowed.expires).into());
+        }
+        Ok(())
+    }
+}
+
+/// What no opt-in and no entry lets through.
+fn never(call: &Call<'_>) -> Result<(), Refusal> {
+    // Requests with requests inside, writes among them.
+    if SUMS.contains(&call.index_group.get()) {
+        return Err(Reason::Sum(call.index_group).into());
+    }
+    let Some(Group::Com(com)) = call.index_group.parts() else { return Ok(()) };
+    let stream = call.index_offset == streaming::INDEX_OFFSET
+        && com.access == Access::Element
+        && com.table == ComTable::Channel;
+    // As channel 0 the platform may be what channel 1 is, and what a read does nobody says.
+    match stream && (call.service != Service::Write || com.instance == 0) {
+        true => Err(Reason::Stream.into()),
+        false => Ok(()),
+    }
+}
+
+/// The index groups of ADS for several requests in one.
+const SUMS: RangeInclusive<u32> = 0xF080..=0xF08F;
+
+/// The one frame that these bytes are.
+fn whole(bytes: &[u8]) -> Result<FrameRef<'_>, Reason> {
+    let max = u32::try_from(ADS_DATA_MAX).unwrap_or(u32::MAX).saturating_add(16);
+    match FrameRef::split(bytes, max) {
+        Ok(Some((frame, len))) if len == bytes.len() => Ok(frame),
+        Ok(_) => Err(Reason::NoFrame),
+        Err(error) => Err(Reason::Malformed(error)),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,120 @@
+//! A point in time, from outside: nothing here looks at a clock but [`Moment::now`].
+
+use std::fmt;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use toml::value::{Date, Datetime, Offset, Time};
+
+/// Seconds since 1970-01-01T00:00:00Z.
+///
+/// ```
+/// use ads_cnc_conformance::gate::Moment;
+///
+/// let moment = Moment::from_rfc3339("2026-03-01T00:30:00+01:00").unwrap();
+/// assert_eq!(moment.to_string(), "2026-02-28T23:30:00Z");
+/// assert!(moment > Moment::EPOCH && moment < Moment::from_rfc3339("2026-03-01T00:00:00Z").unwrap());
+/// assert_eq!(Moment::from_rfc3339("2026-03-01T00:30:00"), None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Moment(i64);
+
+const DAY: i64 = 86_400;
+
+impl Moment {
+    /// The beginning of 1970.
+    pub const EPOCH: Self = Self(0);
+
+    /// The time of this machine.
+    pub fn now() -> Self {
+        // Before 1970 everything is yet to expire, and so nothing may be: as late as can be.
+        let since = SystemTime::now().duration_since(UNIX_EPOCH);
+        Self(since.map_or(i64::MAX, |time| i64::try_from(time.as_secs()).unwrap_or(i64::MAX)))
+    }
+
+    /// A date and a time with an offset from UTC, as in RFC 3339.
+    pub fn from_rfc3339(text: &str) -> Option<Self> {
+        Self::from_datetime(text.parse().ok()?)
+    }
+
+    /// Fractions of a second are dropped: it is over a little early.
+    pub(super) fn from_datetime(datetime: Datetime) -> Option<Self> {
+        let Date { year, month, day } = datetime.date?;
+        let Time { hour, minute, second, .. } = datetime.time?;
+        let offset = match datetime.offset? {
+            Offset::Z => 0,
+            Offset::Custom { minutes } => i64::from(minutes).checked_mul(60)?,
+        };
+        let seconds = i64::from(hour)
+            .checked_mul(3600)?
+            .checked_add(i64::from(minute).checked_mul(60)?)?
+            .checked_add(i64::from(second.unwrap_or(0)))?;
+        let days = days(year.into(), month.into(), day.into())?;
+        days.checked_mul(DAY)?.checked_add(seconds)?.checked_sub(offset).map(Self)
+    }
+}
+
+/// In UTC.
+impl fmt::Display for Moment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (days, seconds) = (self.0.div_euclid(DAY), self.0.rem_euclid(DAY));
+        let Some((year, month, day)) = date(days) else { return write!(f, "{} s", self.0) };
+        let part = |unit: i64, modulus: i64| seconds.div_euclid(unit).rem_euclid(modulus);
+        let (hour, minute, second) = (part(3600, 24), part(60, 60), part(1, 60));
+        write!(f, "{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
+    }
+}
+
+/// Days from 1970-01-01 in the Gregorian calendar, with years that begin in March so that the leap
+/// day is the last.
+fn days(year: i64, month: i64, day: i64) -> Option<i64> {
+    let year = if month <= 2 { year.checked_sub(1)? } else { year };
+    let shifted = month.checked_add(9)?.rem_euclid(12);
+    let of_year = shifted.checked_mul(153)?.checked_add(2)?.div_euclid(5);
+    let leaps =
+        year.div_euclid(4).checked_sub(year.div_euclid(100))?.checked_add(year.div_euclid(400))?;
+    let before = year.checked_mul(365)?.checked_add(leaps)?.checked_add(of_year)?;
+    // 719 468 days from 0000-03-01 to 1970-01-01.
+    before.checked_add(day)?.checked_sub(1)?.checked_sub(719_468)
+}
+
+/// The date of a day: the year is at most one off the mean, so a few steps find it.
+fn date(day: i64) -> Option<(i64, i64, i64)> {
+    let mut year = day.checked_mul(400)?.div_euclid(146_097).checked_add(1970)?;
+    while days(year, 1, 1)? > day {
+        year = year.checked_sub(1)?;
+    }
+    while days(year.checked_add(1)?, 1, 1)? <= day {
+        year = year.checked_add(1)?;
+    }
+    let mut month = 12;
+    while days(year, month, 1)? > day {
+        month = month.checked_sub(1)?;
+    }
+    Some((year, month, day.checked_sub(days(year, month, 1)?)?.checked_add(1)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates_are_what_a_calendar_says() {
+        // As `date -u -d @…` prints them.
+        for (seconds, text) in [
+            (0, "1970-01-01T00:00:00Z"),
+            (951_782_400, "2000-02-29T00:00:00Z"),
+            (1_709_251_199, "2024-02-29T23:59:59Z"),
+            (1_709_251_200, "2024-03-01T00:00:00Z"),
+            (4_107_542_399, "2100-02-28T23:59:59Z"),
+            (4_107_542_400, "2100-03-01T00:00:00Z"),
+            (253_402_300_799, "9999-12-31T23:59:59Z"),
+        ] {
+            assert_eq!(Moment(seconds).to_string(), text);
+            assert_eq!(Moment::from_rfc3339(text), Some(Moment(seconds)));
+        }
+        for day in -800_000..800_000 {
+            let (year, month, of_month) = date(day).unwrap();
+            assert_eq!(days(year, month, of_month), Some(day));
+        }
+    }
+}

@@ -1,0 +1,387 @@
+use ads_cnc::address::{
+    Attribute, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset,
+};
+use ads_cnc::ads::{
+    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, ReadRequest,
+    ReadWriteRequestRef, StateFlags, WriteRequestRef,
+};
+use ads_cnc::operation::{
+    AxisWriteByName, Call, CountObjects, HandleByName, ReadDescriptors, Request, Service,
+    WriteByHandle, WriteByName, WriteElement, WriteObject, WriteProgramStream,
+};
+use ads_cnc::{Descriptor, Encode as _, Handle, Numbers};
+
+use super::*;
+
+const TARGET: AmsNetId = AmsNetId([192, 0, 2, 7, 1, 1]);
+const SOURCE: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8000) };
+
+/// Half an hour before the files below expire.
+fn now() -> Moment {
+    Moment::from_rfc3339("2026-05-04T15:00:00Z").unwrap()
+}
+
+fn file(tables: &str) -> String {
+    format!("target = \"{TARGET}\"\nexpires = 2026-05-04T17:30:00+02:00\n{tables}")
+}
+
+fn gate(tables: &str) -> Gate {
+    Gate::queries().with_allowed(Some(Allowed::from_toml(&file(tables)).unwrap()))
+}
+
+fn frame(command: Command, port: AmsPort, data: &[u8]) -> Vec<u8> {
+    let header = AmsHeader {
+        target: AmsAddr { net_id: TARGET, port },
+        source: SOURCE,
+        command,
+        state_flags: StateFlags::REQUEST,
+        data_length: 0,
+        error: AdsError::NONE,
+        invoke_id: 1,
+    };
+    FrameRef::new(header, data).unwrap().to_vec().unwrap()
+}
+
+fn call(call: &Call<'_>) -> Vec<u8> {
+    let Call { port, service, index_group, index_offset, read_length, data } = *call;
+    let payload = match service {
+        Service::Read => ReadRequest { index_group, index_offset, length: read_length }.to_vec(),
+        Service::Write => WriteRequestRef { index_group, index_offset, data }.to_vec(),
+        Service::ReadWrite => {
+            ReadWriteRequestRef { index_group, index_offset, read_length, data }.to_vec()
+        }
+    };
+    frame(service.command(), port, &payload.unwrap())
+}
+
+fn request<'a>(request: impl Into<Request<'a>>) -> Vec<u8> {
+    let request = request.into();
+    let mut buf = vec![0; request.encoded_len()];
+    call(&request.encode(&mut buf).unwrap())
+}
+
+fn at(port: AmsPort, service: Service, group: u32, offset: u32, data: &[u8]) -> Vec<u8> {
+    call(&Call {
+        port,
+        service,
+        index_group: IndexGroup::new(group),
+        index_offset: IndexOffset::new(offset),
+        read_length: if service == Service::Write { 0 } else { 4 },
+        data,
+    })
+}
+
+fn channel(number: u32) -> Channel {
+    Channel::new(number).unwrap()
+}
+
+fn by_name(name: &str) -> Vec<u8> {
+    request(WriteByName::new(channel(1), name, &[1]).unwrap())
+}
+
+fn element() -> ElementAddress {
+    ElementAddress::of_channel(channel(1), Class::Hld, 1).unwrap()
+}
+
+/// One of each function that is no query, with the table that allows it.
+fn writes() -> Vec<(Vec<u8>, &'static str)> {
+    let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(1));
+    let axis = ChannelAxis::new(2).unwrap();
+    vec![
+        (by_name("V.E.a"), "[[variable]]\nchannel = 1\nname = \"V.E.a\""),
+        (
+            request(AxisWriteByName::new(channel(1), axis, "V.A.a", &[1]).unwrap()),
+            "[[variable]]\nchannel = 1\naxis = 2\nname = \"V.A.a\"",
+        ),
+        (
+            request(WriteElement::new(element(), &[1]).unwrap()),
+            "[[element]]\ngroup = 0x123301\noffset = 0x1",
+        ),
+        (
+            request(WriteObject::new(group, offset, &[1]).unwrap()),
+            "[[object]]\ngroup = 0x120101\noffset = 0x1",
+        ),
+        (request(WriteProgramStream::new(channel(1), b"M30\r\n")), "[[stream]]\nchannel = 1"),
+    ]
+}
+
+#[test]
+fn only_queries_pass_by_default() {
+    for function in ads_cnc::operation::Function::ALL {
+        let spec = function.spec();
+        if spec.effect != Effect::Query {
+            continue;
+        }
+        // Its address is let through to its own port only; some data fits each.
+        let offset = match spec.offset {
+            ads_cnc::operation::OffsetRule::At(at) => at,
+            ads_cnc::operation::OffsetRule::OfKind([first, ..]) => first,
+            ads_cnc::operation::OffsetRule::From(first) => first.max(1),
+            ads_cnc::operation::OffsetRule::OfAxis(element) => 0x1_0000 | element,
+            _ => 0,
+        };
+        let data: &[&[u8]] = &[b"", b"V.E\0", b"\x01\0\0\0V.E\0", &[1, 0, 0, 0], &[0; 8]];
+        let passes = |port| {
+            data.iter().any(|data| {
+                let data = if spec.service == Service::Read { b"" } else { *data };
+                let group = spec.group.example().get();
+                check(&call(&Call {
+                    port,
+                    service: spec.service,
+                    index_group: IndexGroup::new(group),
+                    index_offset: IndexOffset::new(offset),
+                    read_length: 84,
+                    data,
+                }))
+                .is_ok_and(|permit| permit.is_repeatable())
+            })
+        };
+        assert!(passes(spec.task.port()), "{}", spec.name);
+        for port in [1, 550, 551, 552, 553, 554, 851, 10000].map(AmsPort) {
+            assert_eq!(passes(port), port == spec.task.port(), "{} at {port}", spec.name);
+        }
+    }
+    for (frame, _) in writes() {
+        assert!(check(&frame).is_err());
+    }
+    for port in [551, 552, 553] {
+        assert!(check(&frame(Command::READ_STATE, AmsPort(port), &[])).is_ok());
+        assert!(check(&frame(Command::READ_DEVICE_INFO, AmsPort(port), &[])).is_ok());
+        assert!(check(&frame(Command::READ_STATE, AmsPort(port), &[0])).is_err());
+    }
+    assert!(check(&frame(Command::READ_STATE, AmsPort(10000), &[])).is_err());
+}
+
+#[test]
+fn what_is_never_sent_no_opt_in_sends() {
+    let everything = "[[stream]]\nchannel = 1\n[[object]]\ngroup = 0x120101\noffset = 1";
+    let sda = AmsPort::SDA;
+    let never = [
+        // WriteControl to RUN, notifications, and requests in requests
+        frame(Command::WRITE_CONTROL, AmsPort::COM, &[5, 0, 0, 0, 0, 0, 0, 0]),
+        frame(Command::ADD_NOTIFICATION, AmsPort::COM, &[0; 40]),
+        frame(Command::DELETE_NOTIFICATION, AmsPort::COM, &[0; 4]),
+        frame(Command::NOTIFICATION, AmsPort::COM, &[0; 8]),
+        at(sda, Service::ReadWrite, 0xF080, 1, &[0; 12]),
+        at(sda, Service::ReadWrite, 0xF081, 1, &[0; 13]),
+        at(sda, Service::ReadWrite, 0xF082, 1, &[0; 17]),
+        // The program stream, read, and written as if the platform had one
+        at(AmsPort::COM, Service::Read, 0x12_0101, 0x90, &[]),
+        at(AmsPort::COM, Service::Read, 0x2_0101, 0x90, &[]),
+        at(AmsPort::COM, Service::Read, 0x12_0100, 0x90, &[]),
+        at(AmsPort::COM, Service::ReadWrite, 0x12_0101, 0x90, &[1]),
+        at(AmsPort::COM, Service::Write, 0x12_0100, 0x90, b"M30\r\n"),
+    ];
+    for frame in never {
+        assert!(check(&frame).is_err());
+        assert!(gate(everything).check(&frame, now()).is_err());
+        let refusal = Gate::with_malformed().check(&frame, now()).unwrap_err();
+        assert!(!refusal.to_string().is_empty() && refusal.needed.is_none());
+    }
+}
+
+#[test]
+fn each_write_has_its_entry() {
+    let all = writes();
+    for (frame, table) in &all {
+        let refusal = check(frame).unwrap_err();
+        assert_eq!(refusal.needed.as_ref().unwrap().to_string(), *table);
+        assert!(refusal.advice().contains(table));
+        assert!(Gate::with_malformed().check(frame, now()).is_err());
+
+        let gate = gate(table);
+        assert!(!gate.check(frame, now()).unwrap().is_repeatable());
+        let passed = all.iter().filter(|(other, _)| gate.check(other, now()).is_ok());
+        assert_eq!(passed.count(), 1, "{table}");
+    }
+}
+
+#[test]
+fn an_entry_is_for_one_target_and_one_time() {
+    for (frame, table) in writes() {
+        let gate = gate(table);
+        let end = Moment::from_rfc3339("2026-05-04T15:30:00Z").unwrap();
+        let just = Moment::from_rfc3339("2026-05-04T15:29:59Z").unwrap();
+        assert!(gate.check(&frame, just).is_ok());
+        let refusal = gate.check(&frame, end).unwrap_err();
+        assert!(matches!(refusal.reason, Reason::Expired(at) if at == end), "{refusal}");
+
+        let mut other = frame.clone();
+        other[6] ^= 1;
+        let refusal = gate.check(&other, now()).unwrap_err();
+        assert!(matches!(refusal.reason, Reason::OtherTarget { .. }), "{refusal}");
+        // Whoever it is for, a frame is one frame.
+        let two = [frame.clone(), frame].concat();
+        assert!(gate.check(&two, now()).is_err());
+    }
+}
+
+#[test]
+fn a_variable_stands_for_its_elements_only() {
+    let list = gate("[[variable]]\nchannel = 1\nname = \"V.E.list\"");
+    for (name, passes) in [
+        ("V.E.list", true),
+        ("V.E.list[3]", true),
+        ("V.E.list[3][14]", true),
+        ("V.E.list[3].a", false),
+        ("V.E.list[]", false),
+        ("V.E.list[a]", false),
+        ("V.E.list[1", false),
+        ("V.E.list]", false),
+        ("V.E.list2", false),
+        ("V.E.lis", false),
+        ("v.e.list", false),
+    ] {
+        assert_eq!(list.check(&by_name(name), now()).is_ok(), passes, "{name}");
+    }
+    let one = gate("[[variable]]\nchannel = 1\nname = \"V.E.list[3]\"");
+    assert!(one.check(&by_name("V.E.list[3]"), now()).is_ok());
+    assert!(one.check(&by_name("V.E.list"), now()).is_err());
+    assert!(one.check(&by_name("V.E.list[31]"), now()).is_err());
+    // A rank is no number: another channel may be there.
+    let by_rank = WriteByName::new(Channel::by_index(1).unwrap(), "V.E.list", &[1]).unwrap();
+    assert!(list.check(&request(by_rank), now()).is_err());
+    let other = WriteByName::new(channel(2), "V.E.list", &[1]).unwrap();
+    assert!(list.check(&request(other), now()).is_err());
+}
+
+fn learn<'a>(gate: &mut Gate, request: impl Into<Request<'a>>, reply: &[u8]) {
+    let request = request.into();
+    let mut buf = vec![0; request.encoded_len()];
+    gate.learn(&request.encode(&mut buf).unwrap(), reply);
+}
+
+#[test]
+fn a_handle_is_good_for_what_was_asked() {
+    let mut gate = gate(
+        "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
+                         [[variable]]\nchannel = 1\nname = \"V.E.b[1]\"",
+    );
+    let write =
+        |handle| request(WriteByHandle::new(channel(1), Handle(handle), Numbers::from(&[4]), &[1]));
+    let refusal = gate.check(&write(7), now()).unwrap_err();
+    assert!(refusal.advice().contains("handle"), "{}", refusal.advice());
+    for (name, handle) in [("V.E.a", 7_u32), ("V.E.other", 8), ("V.E.b[1]", 9)] {
+        let op = HandleByName::new(channel(1), name).unwrap();
+        learn(&mut gate, op, &handle.to_le_bytes());
+    }
+    assert!(gate.check(&write(7), now()).is_ok());
+    // No entry, and one for an element, whose handle reaches the others too.
+    assert!(gate.check(&write(8), now()).is_err());
+    assert!(gate.check(&write(9), now()).is_err());
+    gate.forget();
+    assert!(gate.check(&write(7), now()).is_err());
+}
+
+#[test]
+fn an_object_is_known_by_its_name_when_the_list_is() {
+    let object = |name: &str, offset| {
+        let at = (IndexGroup::new(0x12_0101), IndexOffset::new(offset));
+        Descriptor::new(name, "BOOL").unwrap().with_content(at.0, at.1).to_vec().unwrap()
+    };
+    let list = |names: [(&str, u32); 3]| names.map(|(name, offset)| object(name, offset)).concat();
+    let write = |offset| {
+        let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(offset));
+        request(WriteObject::new(group, offset, &[1]).unwrap())
+    };
+    let three = [3, 0, 0, 0];
+    let ask = |first, count| ReadDescriptors::new(channel(1), first, count).unwrap();
+    let table = "[[object]]\nchannel = 1\nname = \"b_w\"";
+
+    let mut known = gate(table);
+    learn(&mut known, CountObjects::new(channel(1)), &three);
+    learn(&mut known, ask(2, 1), &object("b_w", 2));
+    // There might be another.
+    assert!(known.check(&write(2), now()).is_err());
+    learn(&mut known, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("c_w", 3)]));
+    assert!(known.check(&write(2), now()).is_ok());
+    assert!(known.check(&write(1), now()).is_err() && known.check(&write(3), now()).is_err());
+
+    let mut twice = gate(table);
+    learn(&mut twice, CountObjects::new(channel(1)), &three);
+    learn(&mut twice, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("b_w", 3)]));
+    assert!(twice.check(&write(2), now()).is_err() && twice.check(&write(3), now()).is_err());
+}
+
+#[test]
+fn a_host_writes_its_three_variables() {
+    let gate = gate("[[service]]\nchannel = 1");
+    for (name, passes) in [
+        ("V.G.SERVICE.RESPONSE", true),
+        ("V.G.SERVICE.RESPONSE_STATE", true),
+        ("V.G.SERVICE.REQUEST_STATE", true),
+        ("V.G.SERVICE.REQUEST", false),
+        ("V.G.SERVICE.UUID", false),
+        ("V.G.SERVICE.RESPONSE[1]", false),
+    ] {
+        assert_eq!(gate.check(&by_name(name), now()).is_ok(), passes, "{name}");
+    }
+}
+
+#[test]
+fn a_bad_file_is_refused_with_its_line() {
+    for (tables, line, what) in [
+        ("tarlet = 1", 3, "unknown field"),
+        ("[[variable]]\nchannel = 1\nname = \"V.E.a\"\naxes = 1", 6, "unknown field"),
+        ("[[variables]]\nchannel = 1", 3, "unknown field"),
+        ("[[variable]]\nchannel = 1", 3, "missing field"),
+        ("[[variable]]\nname = \"V.E.a\"", 3, "channel"),
+        ("[[variable]]\nchannel = 1\nrank = 1\nname = \"V.E.a\"", 3, "rank"),
+        ("[[variable]]\nchannel = 256\nname = \"V.E.a\"", 3, "out of range"),
+        ("[[variable]]\nchannel = 1\nname = \"\"", 3, "characters"),
+        ("[[variable]]\nchannel = 1\nname = \"\u{3a9}\"", 3, "CP1252"),
+        ("[[object]]\ngroup = 0x120101\noffset = 0x90", 3, "[[stream]]"),
+        ("[[object]]\ngroup = 0x123301\noffset = 1", 3, "no content of a COM object"),
+        ("[[object]]\ngroup = 0x130101\noffset = 1", 3, "no content of a COM object"),
+        ("[[object]]\ngroup = 0x120101", 3, "group and offset"),
+        ("[[element]]\ngroup = 0x120101\noffset = 1", 3, "no content of an element"),
+        ("[[element]]\ngroup = 0x122301\noffset = 0x4A", 3, "no content of an element"),
+        ("[[element]]\ngroup = 0x123401\noffset = 1", 3, "no content of an element"),
+        ("[[stream]]\nchannel = 0", 3, "out of range"),
+    ] {
+        let error = Allowed::from_toml(&file(tables)).unwrap_err().to_string();
+        assert!(error.contains(what), "{tables}\n{error}");
+        assert!(error.contains(&format!("line {line}")), "{tables}\n{error}");
+    }
+    for text in [
+        "expires = 2026-05-04T17:30:00Z",
+        "target = \"192.0.2.7.1.1\"",
+        "target = \"192.0.2.7\"\nexpires = 2026-05-04T17:30:00Z",
+        "target = \"192.0.2.7.1.1\"\nexpires = 2026-05-04T17:30:00",
+        "target = \"192.0.2.7.1.1\"\nexpires = 2026-05-04",
+        "target = \"192.0.2.7.1.1\"\nexpires = \"tomorrow\"",
+    ] {
+        assert!(Allowed::from_toml(text).is_err(), "{text}");
+    }
+    let lost = Allowed::from_file("/no/such/file.toml".as_ref()).unwrap_err();
+    assert!(lost.to_string().starts_with("/no/such/file.toml: "));
+}
+
+/// What a refusal says is needed is what a file takes.
+#[test]
+fn entries_are_shown_as_they_are_read() {
+    let entries = [
+        Entry::Variable {
+            channel: Channel::by_index(3).unwrap(),
+            axis: None,
+            name: "V.E.\"L\\\u{e4}nge\"\u{7f}".parse().unwrap(),
+        },
+        Entry::Object { list: List::Platform, name: "a".parse().unwrap() },
+        Entry::Object { list: List::Channel(channel(2)), name: "a".parse().unwrap() },
+        Entry::Object {
+            list: List::Axis(ads_cnc::address::PlatformAxis::new(3).unwrap()),
+            name: "a".parse().unwrap(),
+        },
+        Entry::Content {
+            group: element().group(Attribute::Content),
+            offset: element().index_offset(),
+        },
+        Entry::Content { group: IndexGroup::new(0x12_0203), offset: IndexOffset::new(1) },
+        Entry::Stream(Channel::by_index(1).unwrap()),
+        Entry::Service(channel(255)),
+    ];
+    for entry in entries {
+        let allowed = Allowed::from_toml(&file(&entry.to_string())).unwrap();
+        assert_eq!(allowed.entries, [entry]);
+    }
+}

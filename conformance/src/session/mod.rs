@@ -1,0 +1,190 @@
+//! What a tool works with: a CNC to ask, typed, through the gate.
+
+mod trouble;
+
+use std::fmt;
+use std::io::{self, Write as _};
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::time::Duration;
+
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::{Call, Operation};
+
+use crate::client::{Client, Target};
+use crate::cnc::{Cnc, NET_ID, Server};
+use crate::exchange::{Exchange, Fault};
+use crate::gate::Gate;
+use crate::net;
+use crate::report::hex;
+
+pub use trouble::Trouble;
+
+/// A conversation with a CNC: a device, or one embedded in this process.
+///
+/// ```
+/// use ads_cnc::address::Channel;
+/// use ads_cnc::operation::{ReadByName, WriteByName};
+/// use ads_cnc_conformance::cnc::Cnc;
+/// use ads_cnc_conformance::gate::Gate;
+/// use ads_cnc_conformance::session::{Session, Trouble};
+///
+/// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+/// let channel = Channel::new(1)?;
+/// let value = session.call(&ReadByName::new(channel, "V.E.Testvar")?)?;
+/// assert_eq!(value.bytes[..4], [123, 0, 0, 0]);
+///
+/// let write = WriteByName::new(channel, "V.E.Testvar[0]", &[1, 0, 0, 0])?;
+/// assert!(matches!(session.call(&write), Err(Trouble::Refused(_))));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Session {
+    // Before the server, which waits for its connections when it is dropped.
+    client: Client,
+    embedded: Option<Server>,
+    request: Vec<u8>,
+    reply: Vec<u8>,
+    answered: bool,
+}
+
+impl Session {
+    /// Connects to a target.
+    ///
+    /// # Errors
+    /// Why there is no connection, and what to look for.
+    pub fn connect(target: Target, gate: Gate) -> Result<Self, Trouble> {
+        match Client::connect(target, gate) {
+            Ok(client) => Ok(Self::over(client, None)),
+            Err(error) => Err(Trouble::unreachable(&target, &error)),
+        }
+    }
+
+    /// Shows on stdout what would be sent to a target, and sends nothing. Writes seem to succeed;
+    /// for what an answer is needed to the call fails with [`Trouble::NotSent`].
+    ///
+    /// # Errors
+    /// If the gate is open wider than is safe for another machine.
+    pub fn dry(target: Target, gate: Gate) -> Result<Self, Trouble> {
+        let client = Client::dry(target, gate);
+        Ok(Self::over(client.map_err(|error| Trouble::Usage(error.to_string()))?, None))
+    }
+
+    /// Starts a CNC in this process, on loopback, and connects to it.
+    ///
+    /// # Errors
+    /// If the system has no socket or no thread left.
+    pub fn embedded(cnc: Cnc, gate: Gate) -> Result<Self, Trouble> {
+        let failed = |error: io::Error| {
+            Trouble::Internal(format!("the embedded CNC could not be started: {error}"))
+        };
+        let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
+        let server = Server::start(listener, Arc::new(cnc)).map_err(failed)?;
+        let target = Target::local(server.addr(), server.net_id());
+        let client = Client::connect(target, gate).map_err(failed)?;
+        Ok(Self::over(client, Some(server)))
+    }
+
+    /// [`dry`](Self::dry) to the CNC that would have been embedded.
+    ///
+    /// # Errors
+    /// Those of [`dry`](Self::dry).
+    pub fn dry_embedded(gate: Gate) -> Result<Self, Trouble> {
+        Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate)
+    }
+
+    fn over(client: Client, embedded: Option<Server>) -> Self {
+        Self { client, embedded, request: Vec::new(), reply: Vec::new(), answered: false }
+    }
+
+    /// Calls a function and reads its reply.
+    ///
+    /// # Errors
+    /// What came instead, or why nothing was sent.
+    pub fn call<'s, O: Operation>(&'s mut self, operation: &O) -> Result<O::Reply<'s>, Trouble> {
+        let spec = O::FUNCTION.spec();
+        self.request.clear();
+        self.request.resize(operation.encoded_len(), 0);
+        let call = Call {
+            port: spec.task.port(),
+            service: spec.service,
+            index_group: operation.index_group(),
+            index_offset: operation.index_offset(),
+            read_length: operation.read_length(),
+            data: operation.encode(&mut self.request).map_err(Trouble::Unsendable)?,
+        };
+        let exchange = self.client.call(&call);
+        if self.client.is_dry() {
+            show(&exchange);
+        }
+        self.reply.clear();
+        match exchange.outcome {
+            Ok((answer, _)) => {
+                self.answered = true;
+                if !answer.ams_error.is_none() {
+                    return Err(Trouble::ams(self.client.target(), call.port, answer.ams_error));
+                }
+                if !answer.result.is_none() {
+                    return Err(Trouble::Ads { function: O::FUNCTION, error: answer.result });
+                }
+                self.reply = answer.data.unwrap_or_default();
+            }
+            // Nothing is waited for.
+            Err(Fault::NotSent) if spec.reply.is_none() => {}
+            Err(fault) => return Err(Trouble::fault(&self.client, fault, self.answered)),
+        }
+        operation.decode_reply(&self.reply).map_err(Trouble::Reply)
+    }
+
+    /// Whether the CNC is one embedded in this process.
+    pub const fn is_embedded(&self) -> bool {
+        self.embedded.is_some()
+    }
+
+    /// Whether nothing is sent.
+    pub const fn is_dry(&self) -> bool {
+        self.client.is_dry()
+    }
+
+    /// Whom it asks.
+    pub const fn target(&self) -> &Target {
+        self.client.target()
+    }
+
+    /// The connection, for what is not typed, and the embedded CNC to keep alive beside it.
+    pub fn into_parts(self) -> (Client, Option<Server>) {
+        (self.client, self.embedded)
+    }
+}
+
+/// What would have been sent.
+fn show(exchange: &Exchange) {
+    // Who does not read it does not want to know it.
+    let _unread = write!(io::stdout().lock(), "{}", Shown(exchange));
+}
+
+/// A request as a dry run shows it: function, address, bytes, and whether it may be sent.
+#[derive(Debug)]
+pub struct Shown<'e>(pub &'e Exchange);
+
+impl fmt::Display for Shown<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let call = self.0.call();
+        let spec = call.dispatch().ok().map(|request| request.function().spec());
+        let (name, clause) = spec.map_or(("no function", "-"), |spec| (spec.name, spec.clause));
+        let verdict = match &self.0.outcome {
+            Err(Fault::Refused(refusal)) => format!("would be refused: {refusal}"),
+            Err(Fault::Unsendable(error)) => format!("has no form on the wire: {error}"),
+            _ => "would be sent".to_owned(),
+        };
+        writeln!(f, "{verdict}\n  {name} ({clause}): {}", self.0)?;
+        if call.read_length > 0 {
+            writeln!(f, "  at most {} bytes back", call.read_length)?;
+        }
+        let stream = spec.and_then(|spec| spec.request).map(|stream: Stream| stream.layout().name);
+        hex::annotated(stream, call.data).iter().try_for_each(|line| writeln!(f, "  {line}"))
+    }
+}
+
+/// How long a tool waits for an answer unless told otherwise.
+pub const TIMEOUT: Duration = Duration::from_secs(2);

@@ -1,0 +1,189 @@
+//! What can go wrong, and what to do next.
+
+use std::fmt;
+use std::io;
+
+use ads_cnc::Error;
+use ads_cnc::ads::{AdsError, AmsPort};
+use ads_cnc::operation::Function;
+
+use crate::client::{Client, Target};
+use crate::exchange::Fault;
+use crate::gate::Refusal;
+use crate::verdict::Exit;
+
+/// Why a tool does not get what it asked for. Its text says what to do next.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum Trouble {
+    /// What was given on the command line or in a file does not do.
+    Usage(String),
+    /// Something that should work on any machine did not.
+    Internal(String),
+    /// The gate did not let it through.
+    Refused(Box<Refusal>),
+    /// A dry run: an answer would be needed to go on.
+    NotSent,
+    /// What was to be sent has no form on the wire.
+    Unsendable(Error),
+    /// No connection, or no answer.
+    NoAnswer(String),
+    /// An AMS error: the request reached no CNC.
+    Ams {
+        /// The error.
+        error: AdsError,
+        /// What to do next.
+        hint: String,
+    },
+    /// The CNC refuses.
+    Ads {
+        /// What it was asked.
+        function: Function,
+        /// The error number.
+        error: AdsError,
+    },
+    /// The reply does not hold together.
+    Reply(Error),
+}
+
+impl Trouble {
+    /// How the process ends with it.
+    pub const fn exit(&self) -> Exit {
+        match self {
+            Self::NotSent => Exit::Success,
+            Self::Ads { .. } | Self::Reply(_) => Exit::Failure,
+            Self::Usage(_) | Self::Unsendable(_) => Exit::Usage,
+            Self::NoAnswer(_) | Self::Ams { .. } => Exit::Nothing,
+            Self::Refused(_) => Exit::Refused,
+            Self::Internal(_) => Exit::Internal,
+        }
+    }
+
+    /// The error number, if the CNC gave one.
+    pub const fn ads_error(&self) -> Option<AdsError> {
+        match self {
+            Self::Ads { error, .. } => Some(*error),
+            _ => None,
+        }
+    }
+
+    pub(super) fn unreachable(target: &Target, error: &io::Error) -> Self {
+        let addr = target.addr;
+        Self::NoAnswer(match error.kind() {
+            io::ErrorKind::ConnectionRefused => format!(
+                "{addr} refuses the connection: nothing listens there. Does the ADS router of the \
+                 device run, is this its TCP port (48898 as a rule), and does its firewall let it \
+                 through?"
+            ),
+            io::ErrorKind::TimedOut | io::ErrorKind::WouldBlock => format!(
+                "{addr} does not answer within {} ms. Is the device on, is this its address, and \
+                 does no firewall drop TCP port {}?",
+                target.timeout.as_millis(),
+                addr.port()
+            ),
+            io::ErrorKind::PermissionDenied => return Self::Usage(error.to_string()),
+            _ => format!(
+                "no connection to {addr}: {error}. Is it reachable, and does it listen for AMS/TCP?"
+            ),
+        })
+    }
+
+    pub(super) fn fault(client: &Client, fault: Fault, answered: bool) -> Self {
+        let Target { addr, net_id, timeout, .. } = client.target();
+        let source = client.source();
+        let route = format!(
+            "a route on the device to the AMS NetId {source} (--source-net-id), at the address of \
+             this machine, by TCP/IP"
+        );
+        Self::NoAnswer(match fault {
+            Fault::Refused(refusal) => return Self::Refused(refusal),
+            Fault::NotSent => return Self::NotSent,
+            Fault::Unsendable(error) => return Self::Unsendable(error),
+            Fault::Malformed(error) if answered => return Self::Reply(error),
+            Fault::Malformed(error) => {
+                format!("{addr} does not speak AMS/TCP: {error}. Is this the port of ADS?")
+            }
+            Fault::Closed | Fault::Io(_) if answered => format!(
+                "{addr} ended the connection: {fault}. Was the device restarted, or does another \
+                 client use the AMS NetId {source}? Whether the last request was carried out is \
+                 not known."
+            ),
+            Fault::Closed | Fault::Io(_) => format!(
+                "{addr} closed the connection without an answer. A device does so with who has no \
+                 route: add {route}. If there is one, end other ADS connections of this machine to \
+                 it: some devices keep one for an address."
+            ),
+            Fault::Silence(_) if answered => format!(
+                "{addr} has stopped answering: nothing within {} ms. If it is busy, give it more \
+                 with --timeout.",
+                timeout.as_millis()
+            ),
+            Fault::Silence(_) => format!(
+                "{addr} takes the connection and does not answer within {} ms. Is {net_id} its AMS \
+                 NetId, and is there {route}?",
+                timeout.as_millis()
+            ),
+            Fault::Gone(error) => format!("no connection to {addr} any more: {error}."),
+        })
+    }
+
+    pub(super) fn ams(target: &Target, port: AmsPort, error: AdsError) -> Self {
+        let Target { addr, net_id, .. } = target;
+        let hint = match error {
+            AdsError::TARGET_PORT_NOT_FOUND => format!(
+                "Nothing runs at the AMS port {port} of {net_id}: is a CNC configured there, and in \
+                 RUN?"
+            ),
+            AdsError::TARGET_MACHINE_NOT_FOUND => {
+                format!("{addr} knows no AMS NetId {net_id}: is it the device's (--net-id)?")
+            }
+            _ => format!("{addr} did not hand the request on to the AMS port {port} of {net_id}."),
+        };
+        Self::Ams { error, hint }
+    }
+}
+
+impl fmt::Display for Trouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Usage(why) | Self::Internal(why) | Self::NoAnswer(why) => f.write_str(why),
+            Self::Refused(refusal) => {
+                write!(f, "not sent, refused for safety: {refusal}")?;
+                match refusal.advice() {
+                    advice if advice.is_empty() => Ok(()),
+                    advice => write!(f, "\n{advice}"),
+                }
+            }
+            Self::NotSent => f.write_str("a dry run: what follows would depend on the answer"),
+            Self::Unsendable(error) => write!(f, "cannot be sent: {error}"),
+            Self::Ams { error, hint } => write!(f, "AMS error {error}. {hint}"),
+            Self::Ads { function, error } => {
+                write!(f, "the CNC refuses \"{}\" with {error}", function.spec().name)?;
+                match meaning(*error) {
+                    Some(meaning) => write!(f, ": {meaning}"),
+                    None => Ok(()),
+                }
+            }
+            Self::Reply(error) => write!(
+                f,
+                "the answer is none that the manuals know: {error}. ads-cnc run judges the device"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Trouble {}
+
+/// What a number most likely means: which one a CNC gives is not documented (ADS-7).
+const fn meaning(error: AdsError) -> Option<&'static str> {
+    Some(match error {
+        AdsError::SERVICE_NOT_SUPPORTED => "it does not offer this",
+        AdsError::INVALID_GROUP => "there is no such channel, axis or class",
+        AdsError::INVALID_OFFSET => "there is no such object, element or function",
+        AdsError::INVALID_ACCESS => "this must not be read, or not be written",
+        AdsError::INVALID_SIZE => "the size does not fit",
+        AdsError::INVALID_DATA => "no such index or handle, or not now",
+        AdsError::SYMBOL_NOT_FOUND => "there is nothing of this name",
+        _ => return None,
+    })
+}
