@@ -123,6 +123,8 @@ pub enum Size {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Type {
+    /// 8-bit unsigned.
+    Uns08,
     /// 16-bit unsigned, little-endian.
     Uns16,
     /// 32-bit unsigned, little-endian.
@@ -144,6 +146,7 @@ pub enum Type {
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Self::Uns08 => "UNS08",
             Self::Uns16 => "UNS16",
             Self::Uns32 => "UNS32",
             Self::Unsigned => "unsigned",

@@ -89,6 +89,8 @@ pub(crate) const SAMPLES: &[(Stream, &[Sample])] = &[
     (Stream::ProgramStream, PROGRAM_STREAM),
     (Stream::VariableHandleRead, VARIABLE_HANDLE_READ),
     (Stream::VariableValue, VARIABLE_VALUE),
+    (Stream::DeviceInfoReply, DEVICE_INFO_REPLY),
+    (Stream::DeviceStateReply, DEVICE_STATE_REPLY),
 ];
 
 const OBJECT_DESCRIPTOR: &[Sample] = &[

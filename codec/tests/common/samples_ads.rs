@@ -119,3 +119,35 @@ pub(super) const READ_WRITE_REPLY: &[Sample] = &[
         &[("result", b"\x06\x07\0\0"), ("length", b"\x01\0\0\0"), ("data", b"\0")],
     ),
 ];
+
+pub(super) const DEVICE_INFO_REPLY: &[Sample] = &[
+    sample(
+        "named",
+        &[
+            ("result", b"\0\0\0\0"),
+            ("major", b"\x03"),
+            ("minor", b"\x01"),
+            ("build", b"\x39\x0c"),
+            ("name", b"CNC\0\0\0\0\0\0\0\0\0\0\0\0\0"),
+        ],
+    ),
+    // A name that fills its bytes, and an error that says all the same.
+    sample(
+        "error-with-all",
+        &[
+            ("result", b"\x05\x07\0\0"),
+            ("major", b"\xff"),
+            ("minor", b"\0"),
+            ("build", b"\0\x80"),
+            ("name", b"0123456789abcdef"),
+        ],
+    ),
+];
+
+pub(super) const DEVICE_STATE_REPLY: &[Sample] = &[
+    sample("run", &[("result", b"\0\0\0\0"), ("ads_state", b"\x05\0"), ("device_state", b"\0\0")]),
+    sample(
+        "unknown",
+        &[("result", b"\x01\x07\0\0"), ("ads_state", b"\xfe\xff"), ("device_state", b"\x01\x80")],
+    ),
+];

@@ -136,4 +136,6 @@ pub(crate) static SUBJECTS: &[Subject] = subjects! {
     DynamicValue: DynamicValue;
     VariableDescriptionByName: DescriptionByNameRef<'_>, DescriptionByName;
     ProgramStream: ProgramStreamRef<'_>, ProgramStream;
+    DeviceInfoReply: DeviceInfoReply;
+    DeviceStateReply: DeviceStateReply;
 };

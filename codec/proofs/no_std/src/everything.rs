@@ -62,6 +62,8 @@ fn readings(bytes: &[u8]) -> bool {
         & both::<DynamicNameRequestRef<'_>>(bytes)
         & both::<DynamicValue>(bytes)
         & both::<ProgramStreamRef<'_>>(bytes)
+        & both::<DeviceInfoReply>(bytes)
+        & both::<DeviceStateReply>(bytes)
 }
 
 fn walks(bytes: &[u8]) -> usize {
