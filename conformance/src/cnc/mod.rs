@@ -36,7 +36,7 @@ pub use answer::Cnc;
 pub use control::ControlError;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
 pub use respond::{DATA_MAX, NET_ID};
-pub use server::{CONNECTIONS_MAX, Server};
+pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Server, ServerOptions};
 
 /// The edition of the manual with this name: `en-1.05` or `de-1.051`.
 ///

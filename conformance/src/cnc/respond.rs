@@ -3,68 +3,102 @@
 use std::ops::Range;
 
 use ads_cnc::ads::{
-    AdsError, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, ReadReplyRef, ReadRequest,
-    ReadWriteReplyRef, ReadWriteRequestRef, StateFlags, WriteReply, WriteRequestRef,
+    AdsError, AdsState, AmsHeader, AmsNetId, AmsPort, AmsTcpHeader, Command, DeviceInfoReply,
+    DeviceStateReply, FrameRef, ReadReplyRef, ReadRequest, ReadWriteReplyRef, ReadWriteRequestRef,
+    StateFlags, WriteReply, WriteRequestRef,
 };
 use ads_cnc::layout::Stream;
-use ads_cnc::limits::AMS_TCP_HEADER_LEN;
+use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::{Call, Service, Task};
 use ads_cnc::{Decode, Encode, Error};
 
-use super::Cnc;
+use super::{Cnc, to_len, to_u32};
 
-/// The most bytes behind the AMS header of a frame that is taken or sent: more ends a connection.
+/// The most bytes behind the AMS header of a frame that is taken or sent: more ends a connection,
+/// and is refused as the answer to a request.
 pub const DATA_MAX: u32 = 0x1_0000;
 
-/// The AMS NetId of the simulated CNC.
+/// The AMS NetId of the simulated CNC, unless it is given another.
 pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 
 /// The bit that a response has and a request has not.
 const RESPONSE_BIT: u16 = StateFlags::REQUEST.0 ^ StateFlags::RESPONSE.0;
 
 impl Cnc {
-    /// The frame to answer with; none for a frame that is no request.
+    /// Appends the frame to answer with, as the device of this NetId; nothing for a frame that is no
+    /// request.
     ///
     /// A frame for another NetId or a port that no task has is answered with an error in the AMS
     /// header and no data, all other refusals with a result.
-    pub fn respond(&self, frame: &FrameRef<'_>) -> Option<Vec<u8>> {
+    pub fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
         let header = frame.header();
         if header.state_flags.0 & RESPONSE_BIT != 0 {
             let flags = header.state_flags.0;
             tracing::warn!("ignored, no request: state_flags {flags:#06x} from {}", header.source);
-            return None;
+            return;
         }
-        let (error, data) = if header.target.net_id != NET_ID {
-            (AdsError::TARGET_MACHINE_NOT_FOUND, Vec::new())
+        let start = answers.len();
+        // The headers come when the length of what they stand before is known.
+        answers.resize(start.saturating_add(FrameRef::HEADERS_LEN), 0);
+        let behind = answers.len();
+        let error = if header.target.net_id != net_id {
+            Ok(AdsError::TARGET_MACHINE_NOT_FOUND)
         } else if Task::from_port(header.target.port).is_none() {
-            (AdsError::TARGET_PORT_NOT_FOUND, Vec::new())
+            Ok(AdsError::TARGET_PORT_NOT_FOUND)
         } else {
-            let reply = self.serve(header.command, header.target.port, frame.data());
-            (AdsError::NONE, reply.map_err(unencodable).ok()?)
+            let served = self.serve(header.command, header.target.port, frame.data(), answers);
+            served.map(|()| AdsError::NONE)
         };
-        let answer = AmsHeader {
-            target: header.source,
-            source: header.target,
-            state_flags: StateFlags::RESPONSE,
-            error,
-            ..header
-        };
-        let encoded = FrameRef::new(answer, &data).and_then(|frame| frame.to_vec());
-        let mut bytes = encoded.map_err(unencodable).ok()?;
-        self.change_part(Stream::AmsTcpHeader, &mut bytes, 0..AMS_TCP_HEADER_LEN);
-        self.change_part(Stream::AmsHeader, &mut bytes, AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN);
-        Some(bytes)
+        let data_length = to_u32(answers.len().saturating_sub(behind));
+        let done = error.and_then(|error| {
+            let answer = AmsHeader {
+                target: header.source,
+                source: header.target,
+                state_flags: StateFlags::RESPONSE,
+                error,
+                data_length,
+                ..header
+            };
+            self.write_headers(answer, answers, start)
+        });
+        if let Err(error) = done {
+            tracing::error!("no answer, it does not encode: {error}");
+            answers.truncate(start);
+        }
     }
 
-    /// The data of the response to a command for a port that a task has.
-    fn serve(&self, command: Command, port: AmsPort, data: &[u8]) -> Result<Vec<u8>, Error> {
+    fn write_headers(
+        &self,
+        header: AmsHeader,
+        answers: &mut [u8],
+        start: usize,
+    ) -> Result<(), Error> {
+        let middle = start.saturating_add(AMS_TCP_HEADER_LEN);
+        let end = start.saturating_add(FrameRef::HEADERS_LEN);
+        let length = header.data_length.saturating_add(to_u32(AMS_HEADER_LEN));
+        let tcp = AmsTcpHeader { reserved: 0, length };
+        tcp.encode(answers.get_mut(start..middle).unwrap_or_default())?;
+        header.encode(answers.get_mut(middle..end).unwrap_or_default())?;
+        self.change_part(Stream::AmsTcpHeader, answers, start..middle);
+        self.change_part(Stream::AmsHeader, answers, middle..end);
+        Ok(())
+    }
+
+    /// Appends the data of the response to a command for a port that a task has.
+    fn serve(
+        &self,
+        command: Command,
+        port: AmsPort,
+        data: &[u8],
+        answers: &mut Vec<u8>,
+    ) -> Result<(), Error> {
         match command {
             Command::READ => {
                 let reply = self.misread(
                     data,
                     |data| {
                         let ReadRequest { index_group, index_offset, length } = decode(data)?;
-                        self.answer(&Call {
+                        self.ask(&Call {
                             port,
                             service: Service::Read,
                             index_group,
@@ -76,14 +110,14 @@ impl Cnc {
                     Stream::ReadRequest,
                 );
                 let (result, data) = split(&reply);
-                self.reply_stream(&ReadReplyRef { result, data }, Stream::ReadReply)
+                self.append(&ReadReplyRef { result, data }, Stream::ReadReply, answers)
             }
             Command::READ_WRITE => {
                 let reply = self.misread(
                     data,
                     |data| {
                         let request: ReadWriteRequestRef<'_> = decode(data)?;
-                        self.answer(&Call {
+                        self.ask(&Call {
                             port,
                             service: Service::ReadWrite,
                             index_group: request.index_group,
@@ -95,14 +129,14 @@ impl Cnc {
                     Stream::ReadWriteRequest,
                 );
                 let (result, data) = split(&reply);
-                self.reply_stream(&ReadWriteReplyRef { result, data }, Stream::ReadWriteReply)
+                self.append(&ReadWriteReplyRef { result, data }, Stream::ReadWriteReply, answers)
             }
             Command::WRITE => {
                 let reply = self.misread(
                     data,
                     |data| {
                         let request: WriteRequestRef<'_> = decode(data)?;
-                        self.answer(&Call {
+                        self.ask(&Call {
                             port,
                             service: Service::Write,
                             index_group: request.index_group,
@@ -114,14 +148,41 @@ impl Cnc {
                     Stream::WriteRequest,
                 );
                 let (result, _) = split(&reply);
-                self.reply_stream(&WriteReply { result }, Stream::WriteReply)
+                self.append(&WriteReply { result }, Stream::WriteReply, answers)
             }
-            // No other command has a stream yet; a result alone is the reply that all have.
+            Command::READ_DEVICE_INFO => {
+                let result = without_data(data);
+                self.append(&DeviceInfoReply { result, ..INFO }, Stream::DeviceInfoReply, answers)
+            }
+            Command::READ_STATE => {
+                let (result, ads_state) = (without_data(data), AdsState::RUN);
+                let state = DeviceStateReply { result, ads_state, device_state: 0 };
+                self.append(&state, Stream::DeviceStateReply, answers)
+            }
             _ => {
-                let result = AdsError::SERVICE_NOT_SUPPORTED;
-                self.reply_stream(&WriteReply { result }, Stream::WriteReply)
+                tracing::debug!("refused: command {}", command.0);
+                self.refuse(command, answers)
             }
         }
+    }
+
+    /// What is not offered is refused in the shape that its reply has.
+    fn refuse(&self, command: Command, answers: &mut Vec<u8>) -> Result<(), Error> {
+        let result = AdsError::SERVICE_NOT_SUPPORTED;
+        match command {
+            // A result and the notification's handle, 0: as an empty Read has a result and length 0.
+            Command::ADD_NOTIFICATION => {
+                append(&ReadReplyRef { result, data: Some(&[]) }, answers).map(drop)
+            }
+            _ => self.append(&WriteReply { result }, Stream::WriteReply, answers),
+        }
+    }
+
+    /// Asks the CNC; what no frame has room for is too much to ask.
+    fn ask(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
+        let answer = self.answer(call)?;
+        let room = to_len(DATA_MAX).saturating_sub(SERVICE_LEN);
+        if answer.len() > room { Err(AdsError::INVALID_SIZE) } else { Ok(answer) }
     }
 
     /// Hands the request on, with the defect if it is about that stream.
@@ -137,9 +198,15 @@ impl Cnc {
         }
     }
 
-    fn reply_stream(&self, reply: &impl Encode, stream: Stream) -> Result<Vec<u8>, Error> {
-        let bytes = reply.to_vec()?;
-        Ok(self.change(stream, &bytes).unwrap_or(bytes))
+    fn append(
+        &self,
+        reply: &impl Encode,
+        stream: Stream,
+        answers: &mut Vec<u8>,
+    ) -> Result<(), Error> {
+        let part = append(reply, answers)?;
+        self.change_part(stream, answers, part);
+        Ok(())
     }
 
     fn change_part(&self, stream: Stream, bytes: &mut [u8], part: Range<usize>) {
@@ -148,6 +215,43 @@ impl Cnc {
             part.iter_mut().zip(changed).for_each(|(byte, new)| *byte = new);
         }
     }
+}
+
+/// Result and length before the data of a reply.
+const SERVICE_LEN: usize = 8;
+
+/// What the simulated CNC says of itself: a name, and the version of this program.
+const INFO: DeviceInfoReply = DeviceInfoReply {
+    result: AdsError::NONE,
+    major: number(env!("CARGO_PKG_VERSION_MAJOR")),
+    minor: number(env!("CARGO_PKG_VERSION_MINOR")),
+    build: match u16::from_str_radix(env!("CARGO_PKG_VERSION_PATCH"), 10) {
+        Ok(number) => number,
+        Err(_) => u16::MAX,
+    },
+    name: *b"ads-cnc serve\0\0\0",
+};
+
+/// The number of a version, or 255 if it is more.
+const fn number(text: &str) -> u8 {
+    match u8::from_str_radix(text, 10) {
+        Ok(number) => number,
+        Err(_) => u8::MAX,
+    }
+}
+
+/// A command that takes none.
+const fn without_data(data: &[u8]) -> AdsError {
+    if data.is_empty() { AdsError::NONE } else { AdsError::INVALID_SIZE }
+}
+
+/// Appends a stream; where it stands.
+fn append(reply: &impl Encode, answers: &mut Vec<u8>) -> Result<Range<usize>, Error> {
+    let start = answers.len();
+    let part = start..start.saturating_add(reply.encoded_len());
+    answers.resize(part.end, 0);
+    reply.encode(answers.get_mut(part.clone()).unwrap_or_default())?;
+    Ok(part)
 }
 
 /// A service's header that does not hold together is a request of the wrong size.
@@ -164,10 +268,6 @@ fn split(reply: &Result<Vec<u8>, AdsError>) -> (AdsError, Option<&[u8]>) {
         Ok(data) => (AdsError::NONE, Some(data)),
         Err(result) => (*result, Some(&[])),
     }
-}
-
-fn unencodable(error: Error) {
-    tracing::error!("no answer, it does not encode: {error}");
 }
 
 #[cfg(test)]
@@ -196,7 +296,11 @@ mod tests {
     }
 
     fn respond(cnc: &Cnc, header: AmsHeader, data: &[u8]) -> Option<(AmsHeader, Vec<u8>)> {
-        let bytes = cnc.respond(&FrameRef::new(header, data).unwrap())?;
+        let mut bytes = Vec::new();
+        cnc.respond(NET_ID, &FrameRef::new(header, data).unwrap(), &mut bytes);
+        if bytes.is_empty() {
+            return None;
+        }
         let (frame, len) = FrameRef::split(&bytes, DATA_MAX).unwrap().unwrap();
         assert_eq!(len, bytes.len());
         Some((frame.header(), frame.data().to_vec()))
@@ -234,9 +338,37 @@ mod tests {
         assert_eq!(ask(Command::WRITE, 553, write).1, [0, 0, 0, 0]);
         let write = b"\x01\x01\x12\0\x03\0\0\0\x01\0\0\0\x01";
         assert_eq!(ask(Command::WRITE, 553, write).1, [4, 7, 0, 0]);
-        for command in [0, 1, 4, 5, 6, 7, 8, 10, 0xFFFF] {
+        for command in [0, 5, 7, 8, 10, 0xFFFF] {
             assert_eq!(ask(Command(command), 552, &[]).1, [1, 7, 0, 0], "{command}");
         }
+        // Its reply has a handle.
+        assert_eq!(ask(Command::ADD_NOTIFICATION, 552, &[0; 40]).1, refused(1));
+    }
+
+    #[test]
+    fn it_says_what_it_is() {
+        for port in [551, 552, 553] {
+            let info = ask(Command::READ_DEVICE_INFO, port, &[]).1;
+            assert_eq!(info[..8], [0, 0, 0, 0, 0, 1, 0, 0]);
+            assert_eq!(info[8..], *b"ads-cnc serve\0\0\0");
+            assert_eq!(ask(Command::READ_STATE, port, &[]).1, [0, 0, 0, 0, 5, 0, 0, 0]);
+        }
+        assert_eq!(ask(Command::READ_DEVICE_INFO, 552, &[0]).1[..4], [5, 7, 0, 0]);
+        assert_eq!(ask(Command::READ_STATE, 552, &[0]).1[..4], [5, 7, 0, 0]);
+        assert_eq!(ask(Command::READ_STATE, 10000, &[]).0.error, AdsError::TARGET_PORT_NOT_FOUND);
+    }
+
+    #[test]
+    fn answers_are_gathered() {
+        let cnc = Cnc::with_default_model().unwrap();
+        let frame = FrameRef::new(request(Command::READ_WRITE, 552, COUNT), COUNT).unwrap();
+        let mut answers = vec![0xAA; 3];
+        for times in 1..4 {
+            cnc.respond(NET_ID, &frame, &mut answers);
+            assert_eq!(answers.len(), 3 + times * 50);
+        }
+        assert_eq!(answers[3..53], answers[103..]);
+        assert_eq!(answers[..3], [0xAA; 3]);
     }
 
     #[test]
@@ -274,7 +406,8 @@ mod tests {
         // Read as offset 0x45.
         assert_eq!(ask("read-write-request.index_offset.flip").1[..2], [5, 7]);
         let frame = FrameRef::new(request(Command::READ_WRITE, 552, COUNT), COUNT).unwrap();
-        let bytes = cnc("ams-tcp-header.length.flip").respond(&frame).unwrap();
+        let mut bytes = Vec::new();
+        cnc("ams-tcp-header.length.flip").respond(NET_ID, &frame, &mut bytes);
         assert_eq!(bytes[..6], [0, 0, 45, 0, 0, 0]);
     }
 }

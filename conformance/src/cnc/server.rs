@@ -1,23 +1,51 @@
 //! The AMS/TCP server: a thread for each connection, a bounded number of them.
 
+mod connection;
+
 use std::collections::BTreeMap;
-use std::io::{self, Read, Write};
+use std::io;
 use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use ads_cnc::ads::{AmsNetId, FrameRef};
+use ads_cnc::ads::AmsNetId;
 
-use super::{Cnc, DATA_MAX, NET_ID};
+use super::{Cnc, NET_ID};
 use crate::net;
 
 /// The most connections at a time; one more is closed at once.
 pub const CONNECTIONS_MAX: usize = 64;
 
-/// Bytes taken from a socket at a time. A connection holds at most so many and one frame.
-const CHUNK: usize = 8 * 1024;
+/// The most bytes that a connection holds of what it received and of what it is about to send; an
+/// answer being made comes on top, which is no longer than a frame. They are taken as they are
+/// needed.
+pub const CONNECTION_BYTES_MAX: usize = connection::HELD_MAX;
+
+/// Bytes of the stack of a connection's thread.
+const STACK: usize = 1024 * 1024;
+
+/// How a server serves.
+#[derive(Clone, Copy, Debug)]
+pub struct ServerOptions {
+    /// The AMS NetId it answers for.
+    pub net_id: AmsNetId,
+    /// How long a connection may be without a whole request before it is ended; for ever if none.
+    /// Clients that are gone without a word would take the places of others.
+    pub idle: Option<Duration>,
+}
+
+impl ServerOptions {
+    /// Ten minutes without a request: people who wait for the next have come back by then.
+    pub const IDLE: Duration = Duration::from_secs(600);
+}
+
+impl Default for ServerOptions {
+    fn default() -> Self {
+        Self { net_id: NET_ID, idle: Some(Self::IDLE) }
+    }
+}
 
 /// How long a client may leave an answer lying before its connection ends.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
@@ -36,6 +64,7 @@ pub struct Server {
 #[derive(Debug)]
 struct Shared {
     cnc: Arc<Cnc>,
+    options: ServerOptions,
     stopped: AtomicBool,
     /// The open connections, to end them from outside.
     connections: Mutex<BTreeMap<u64, TcpStream>>,
@@ -47,9 +76,22 @@ impl Server {
     /// # Errors
     /// If the listener has no address or the system no thread.
     pub fn start(listener: TcpListener, cnc: Arc<Cnc>) -> io::Result<Self> {
+        Self::with_options(listener, cnc, ServerOptions::default())
+    }
+
+    /// Serves the connections of a listener until dropped, as the options say.
+    ///
+    /// # Errors
+    /// If the listener has no address or the system no thread.
+    pub fn with_options(
+        listener: TcpListener,
+        cnc: Arc<Cnc>,
+        options: ServerOptions,
+    ) -> io::Result<Self> {
         let addr = listener.local_addr()?;
+        let stopped = AtomicBool::new(false);
         let connections = Mutex::new(BTreeMap::new());
-        let shared = Arc::new(Shared { cnc, stopped: AtomicBool::new(false), connections });
+        let shared = Arc::new(Shared { cnc, options, stopped, connections });
         let accepting = Arc::clone(&shared);
         let acceptor = thread::Builder::new()
             .name("cnc-accept".to_owned())
@@ -63,8 +105,8 @@ impl Server {
     }
 
     /// The AMS NetId it answers for.
-    pub const fn net_id(&self) -> AmsNetId {
-        NET_ID
+    pub fn net_id(&self) -> AmsNetId {
+        self.shared.options.net_id
     }
 }
 
@@ -117,6 +159,9 @@ impl Shared {
     ) -> io::Result<JoinHandle<()>> {
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(WRITE_TIMEOUT))?;
+        let ServerOptions { net_id, idle } = self.options;
+        // No time at all cannot be set; the shortest can.
+        stream.set_read_timeout(idle.map(|idle| idle.max(Duration::from_millis(1))))?;
         let mut connections = self.connections();
         if connections.len() >= CONNECTIONS_MAX {
             return Err(io::Error::other("there are as many as there may be"));
@@ -125,9 +170,10 @@ impl Shared {
         drop(connections);
         // Taken off the list when dropped: at the thread's end, or here if there is no thread.
         let open = Open { shared: Arc::clone(&self), id };
-        thread::Builder::new().name(format!("cnc-{id}")).spawn(move || {
+        let thread = thread::Builder::new().name(format!("cnc-{id}")).stack_size(STACK);
+        thread.spawn(move || {
             tracing::info!(%peer, "connected");
-            match serve(&open.shared.cnc, &stream) {
+            match connection::serve(&open.shared.cnc, net_id, &stream, idle) {
                 Ok(()) => tracing::info!(%peer, "closed"),
                 Err(error) => tracing::warn!(%peer, "connection ended: {error}"),
             }
@@ -148,40 +194,6 @@ struct Open {
 impl Drop for Open {
     fn drop(&mut self) {
         self.shared.connections().remove(&self.id);
-    }
-}
-
-/// Answers frames in their order, however they are cut, until the client closes or one of them
-/// does not hold together: what follows it cannot be found.
-fn serve(cnc: &Cnc, mut stream: &TcpStream) -> io::Result<()> {
-    let mut received = Vec::new();
-    let mut chunk = [0; CHUNK];
-    loop {
-        let count = match stream.read(&mut chunk) {
-            Ok(0) => return Ok(()),
-            Ok(count) => count,
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
-            Err(error) => return Err(error),
-        };
-        received.extend_from_slice(chunk.get(..count).unwrap_or_default());
-        let mut rest = received.as_slice();
-        loop {
-            match FrameRef::split(rest, DATA_MAX) {
-                Ok(Some((frame, len))) => {
-                    if let Some(answer) = cnc.respond(&frame) {
-                        stream.write_all(&answer)?;
-                    }
-                    rest = rest.get(len..).unwrap_or_default();
-                }
-                Ok(None) => break,
-                Err(error) => {
-                    let error = format!("malformed frame: {error}");
-                    return Err(io::Error::new(io::ErrorKind::InvalidData, error));
-                }
-            }
-        }
-        let left = rest.len();
-        received.drain(..received.len().saturating_sub(left));
     }
 }
 

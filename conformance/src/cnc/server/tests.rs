@@ -1,3 +1,4 @@
+use std::io::{Read as _, Write as _};
 use std::time::Instant;
 
 use super::*;
@@ -23,8 +24,17 @@ fn with_id(frame: &[u8], id: u8) -> Vec<u8> {
 }
 
 fn server() -> Server {
+    serving(ServerOptions::default())
+}
+
+fn serving(options: ServerOptions) -> Server {
     let listener = net::listen("127.0.0.1:0".parse().unwrap()).unwrap();
-    Server::start(listener, Arc::new(Cnc::with_default_model().unwrap())).unwrap()
+    let cnc = Arc::new(Cnc::with_default_model().unwrap());
+    Server::with_options(listener, cnc, options).unwrap()
+}
+
+fn idle(millis: u64) -> ServerOptions {
+    ServerOptions { idle: Some(Duration::from_millis(millis)), ..ServerOptions::default() }
 }
 
 #[allow(clippy::disallowed_methods, reason = "to a server of the test")]
@@ -166,4 +176,113 @@ fn dropping_it_ends_all_connections() {
     ends(&idle);
     ends(&busy);
     assert!(connect(addr).is_err());
+}
+
+#[test]
+fn a_frame_of_the_longest_length_is_taken_and_one_longer_is_not() {
+    let server = server();
+    let frame = |data: u32| {
+        let mut frame = COUNT[..38].to_vec();
+        frame[2..6].copy_from_slice(&(data + 32).to_le_bytes());
+        frame[26..30].copy_from_slice(&data.to_le_bytes());
+        frame.resize(38 + data as usize, 0);
+        frame
+    };
+    let mut stream = client(&server);
+    // More than one at a time, cut anywhere.
+    let longest = [frame(0x1_0000), frame(0x1_0000), COUNT.to_vec()].concat();
+    for piece in longest.chunks(50_000) {
+        stream.write_all(piece).unwrap();
+    }
+    // A write length that is not that of the data is a request of the wrong size.
+    let mut refused = ANSWER[..46].to_vec();
+    (refused[2], refused[26], refused[42]) = (40, 8, 0);
+    refused[38..40].copy_from_slice(&[5, 7]);
+    expect(&stream, &[&refused[..], &refused[..], ANSWER].concat());
+    stream.write_all(&frame(0x1_0001)[..40]).unwrap();
+    ends(&stream);
+}
+
+#[test]
+fn other_commands_are_answered_between() {
+    let server = server();
+    let mut stream = client(&server);
+    let command = |command: u8| {
+        let mut frame = COUNT[..38].to_vec();
+        (frame[2], frame[22], frame[26]) = (32, command, 0);
+        frame
+    };
+    let answer = |command: u8, data: &[u8]| {
+        let mut frame = ANSWER[..38].to_vec();
+        let len = u8::try_from(data.len()).unwrap();
+        (frame[2], frame[22], frame[26]) = (32 + len, command, len);
+        [&frame, data].concat()
+    };
+    // ReadState, WriteControl, Read without its header, and the count
+    stream.write_all(&[command(4), command(5), command(2), COUNT.to_vec()].concat()).unwrap();
+    let state = answer(4, &[0, 0, 0, 0, 5, 0, 0, 0]);
+    let control = answer(5, &[1, 7, 0, 0]);
+    let read = answer(2, &[5, 7, 0, 0, 0, 0, 0, 0]);
+    expect(&stream, &[&state, &control, &read, ANSWER].concat());
+}
+
+#[test]
+fn who_asks_nothing_is_let_go_and_makes_room() {
+    let server = serving(idle(300));
+    let silent: Vec<_> = (0..CONNECTIONS_MAX).map(|_| client(&server)).collect();
+    silent.iter().for_each(ends);
+    works(&client(&server));
+}
+
+#[test]
+fn a_byte_now_and_then_is_no_request() {
+    let server = serving(idle(300));
+    let (mut slow, begun) = (client(&server), Instant::now());
+    let gone = COUNT.iter().any(|byte| {
+        thread::sleep(Duration::from_millis(40));
+        slow.write_all(&[*byte]).is_err() || begun.elapsed() > Duration::from_millis(1500)
+    });
+    assert!(gone);
+    ends(&slow);
+    // Who asks is not idle, however long the connection lasts.
+    let busy = client(&server);
+    while begun.elapsed() < Duration::from_millis(3000) {
+        works(&busy);
+        thread::sleep(Duration::from_millis(30));
+    }
+}
+
+#[test]
+fn many_clients_are_served_at_once() {
+    let server = server();
+    thread::scope(|scope| {
+        for of in 0..32_u8 {
+            let mut stream = client(&server);
+            scope.spawn(move || {
+                for _ in 0..50 {
+                    let batch: Vec<u8> = (0..8).flat_map(|at| with_id(COUNT, of ^ at)).collect();
+                    stream.write_all(&batch).unwrap();
+                    let wanted: Vec<u8> = (0..8).flat_map(|at| with_id(ANSWER, of ^ at)).collect();
+                    expect(&stream, &wanted);
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn it_answers_for_the_net_id_it_is_given() {
+    let options = ServerOptions { net_id: AmsNetId([10, 0, 0, 1, 1, 1]), ..Default::default() };
+    let server = serving(options);
+    let mut stream = client(&server);
+    stream.write_all(COUNT).unwrap();
+    let mut answer = [0; 38];
+    stream.read_exact(&mut answer).unwrap();
+    assert_eq!(answer[30..34], [7, 0, 0, 0]);
+    let mut named = COUNT.to_vec();
+    named[6..12].copy_from_slice(&[10, 0, 0, 1, 1, 1]);
+    stream.write_all(&named).unwrap();
+    let mut answer = ANSWER.to_vec();
+    answer[14..20].copy_from_slice(&[10, 0, 0, 1, 1, 1]);
+    expect(&stream, &answer);
 }
