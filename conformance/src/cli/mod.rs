@@ -1,6 +1,8 @@
 //! The command line of `ads-cnc`.
 
 mod explain;
+mod interrupt;
+mod log;
 mod model;
 mod run;
 mod serve;
@@ -18,6 +20,10 @@ use crate::verdict::Exit;
 #[derive(Debug, Parser)]
 #[command(name = "ads-cnc", version)]
 struct Cli {
+    /// Log to stderr: a level (error, warn, info, debug, trace), or a list of module=level
+    #[arg(long, global = true, value_name = "LEVEL|FILTER")]
+    log: Option<log::Filter>,
+
     /// `run` if none is given.
     #[command(subcommand)]
     command: Option<Command>,
@@ -29,6 +35,16 @@ enum Command {
     Serve(serve::Args),
     Run(run::Run),
     Explain(explain::Explain),
+}
+
+impl Command {
+    /// What is logged unless told otherwise.
+    fn log(&self) -> Option<log::Filter> {
+        match self {
+            Self::Serve(_) => "info".parse().ok(),
+            _ => None,
+        }
+    }
 }
 
 /// Runs the tool with the arguments of the process.
@@ -47,6 +63,9 @@ pub fn main() -> ExitCode {
 
 impl Cli {
     fn run(self) -> ExitCode {
+        if let Some(filter) = self.log.or_else(|| self.command.as_ref()?.log()) {
+            log::to_stderr(filter);
+        }
         match self.command {
             Some(Command::Run(run)) => run.execute().into(),
             Some(Command::Explain(explain)) => explain.execute().into(),

@@ -4,21 +4,52 @@ use std::io::{self, Write as _};
 use std::net::SocketAddr;
 use std::process::ExitCode;
 use std::sync::Arc;
+use std::time::Duration;
 
+use ads_cnc::ads::AmsNetId;
+
+use super::interrupt::Interrupt;
 use super::model::ModelArgs;
-use super::{find_defect, refuse};
+use super::{complain, find_defect, refuse};
 use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start};
-use crate::cnc::{Cnc, DEFAULT_MODEL, Server};
+use crate::cnc::{
+    CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
+};
 use crate::defect::Defect;
 use crate::net;
 use crate::verdict::Exit;
 
+/// For the end of the help.
+const MORE: &str = "\
+It speaks AMS/TCP, as a device does, and answers at the AMS ports 551 (GEO), 552 (SDA) and 553
+(COM). A client needs no route. Ctrl-C ends it.
+
+There are at most 64 connections. Each holds at most 192 KiB of requests and answers, one answer in
+the making of at most 64 KiB, and a thread's stack of 1 MiB. A frame that is longer than 64 KiB or
+does not hold together ends its own connection, as the log says.";
+
+/// So the help says.
+const _: () = assert!(CONNECTIONS_MAX == 64 && CONNECTION_BYTES_MAX <= 192 * 1024);
+
 /// Options of `serve`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = MORE)]
 pub(super) struct Args {
-    /// Loopback address and port to listen on; with port 0 the system picks one.
+    /// Address and port to listen on; with port 0 the system picks one.
     #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:48898")]
     listen: SocketAddr,
+
+    /// Listen on another address than loopback too. Whoever reaches it can read and write.
+    #[arg(long)]
+    allow_remote: bool,
+
+    /// AMS NetId to answer for.
+    #[arg(long, value_name = "ID", default_value_t = NET_ID)]
+    net_id: AmsNetId,
+
+    /// Seconds after which a connection without a request ends; 0 for never.
+    #[arg(long, value_name = "SECONDS", default_value_t = ServerOptions::IDLE.as_secs())]
+    idle: u64,
 
     #[command(flatten)]
     model: ModelArgs,
@@ -51,21 +82,13 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     if args.print_model {
         return print_model();
     }
-    if !args.listen.ip().is_loopback() {
-        let addr = args.listen;
-        return refuse(
-            Exit::Usage,
-            format_args!(
-                "{addr} is not a loopback address; the simulated CNC asks nobody who he is, so it is \
-             served on this machine only, for example on 127.0.0.1:48898"
-            ),
-        );
+    if let Err(why) = args.check_address() {
+        return refuse(Exit::Usage, why);
     }
     let defect = match find_defect(args.defect.as_deref()) {
         Ok(defect) => defect,
         Err(why) => return refuse(Exit::Usage, why),
     };
-    log_to_stderr();
     let cnc = match args.model.cnc() {
         Ok(cnc) => cnc,
         Err(why) => return refuse(Exit::Usage, why),
@@ -73,7 +96,11 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     if let Err(why) = programs(&cnc, args) {
         return refuse(Exit::Internal, why);
     }
-    let server = match start(args.listen, cnc, defect) {
+    let interrupt = match Interrupt::catch() {
+        Ok(interrupt) => interrupt,
+        Err(why) => return refuse(why.exit(), why),
+    };
+    let server = match start(args.listen, cnc, defect, args.options()) {
         Ok(server) => server,
         Err(why) => return refuse(Exit::Internal, why),
     };
@@ -85,20 +112,57 @@ pub(super) fn serve(args: &Args) -> ExitCode {
             format_args!("nobody can be told where it listens: {error}"),
         );
     }
-    // Until interrupted: the threads of the server do the rest.
-    loop {
-        std::thread::park();
+    drop(out);
+    // The threads of the server do the rest.
+    interrupt.wait();
+    tracing::info!("interrupted, ending");
+    drop(server);
+    ExitCode::SUCCESS
+}
+
+impl Args {
+    const fn options(&self) -> ServerOptions {
+        let idle = match self.idle {
+            0 => None,
+            seconds => Some(Duration::from_secs(seconds)),
+        };
+        ServerOptions { net_id: self.net_id, idle }
+    }
+
+    fn check_address(&self) -> Result<(), String> {
+        let addr = self.listen;
+        if addr.ip().is_loopback() {
+            return Ok(());
+        }
+        let open = "the simulated CNC asks nobody who he is";
+        if self.allow_remote {
+            complain(format_args!(
+                "warning: {addr} is not a loopback address: {open}, and whoever reaches it can read \
+                 and write"
+            ));
+            return Ok(());
+        }
+        Err(format!(
+            "{addr} is not a loopback address; {open}, so it is served on this machine only, for \
+             example on 127.0.0.1:48898, unless --allow-remote says otherwise"
+        ))
     }
 }
 
-fn start(addr: SocketAddr, cnc: Cnc, defect: Option<Defect>) -> Result<Server, String> {
+fn start(
+    addr: SocketAddr,
+    cnc: Cnc,
+    defect: Option<Defect>,
+    options: ServerOptions,
+) -> Result<Server, String> {
     if let Some(defect) = &defect {
         tracing::warn!("serving with a seeded defect: {defect}");
     }
     let listener =
         net::listen(addr).map_err(|error| format!("cannot listen on {addr}: {error}"))?;
     let cnc = Arc::new(cnc.with_defect(defect));
-    Server::start(listener, cnc).map_err(|error| format!("cannot serve on {addr}: {error}"))
+    let server = Server::with_options(listener, cnc, options);
+    server.map_err(|error| format!("cannot serve on {addr}: {error}"))
 }
 
 fn pace(text: &str) -> Result<Pace, String> {
@@ -139,13 +203,4 @@ fn list_defects() -> ExitCode {
         }
     }
     ExitCode::SUCCESS
-}
-
-fn log_to_stderr() {
-    // Only the first in a process sets it; there is no other.
-    let _already_set = tracing_subscriber::fmt()
-        .with_writer(io::stderr)
-        .with_ansi(false)
-        .without_time()
-        .try_init();
 }

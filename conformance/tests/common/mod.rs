@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "not every test needs all of it")]
 
+pub(crate) mod harmless;
+
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
@@ -16,12 +18,26 @@ pub(crate) struct Serve {
 
 impl Serve {
     pub(crate) fn start(options: &[&str]) -> Self {
+        Self::with_stderr(options, Stdio::null())
+    }
+
+    /// With what it logs to be read.
+    pub(crate) fn logging(options: &[&str]) -> Self {
+        Self::with_stderr(options, Stdio::piped())
+    }
+
+    fn with_stderr(options: &[&str], stderr: Stdio) -> Self {
+        let listen: &[&str] = match options.contains(&"--listen") {
+            true => &[],
+            false => &["--listen", "127.0.0.1:0"],
+        };
         let mut process = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-            .args(["serve", "--listen", "127.0.0.1:0"])
+            .arg("serve")
+            .args(listen)
             .args(options)
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
-            .stderr(Stdio::null())
+            .stderr(stderr)
             .spawn()
             .unwrap();
         let mut line = String::new();

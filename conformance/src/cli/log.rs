@@ -1,0 +1,41 @@
+//! Logs on stderr.
+
+use std::io;
+
+use tracing_subscriber::filter::Targets;
+use tracing_subscriber::fmt;
+use tracing_subscriber::layer::SubscriberExt as _;
+use tracing_subscriber::util::SubscriberInitExt as _;
+
+/// What is logged.
+#[derive(Clone, Debug)]
+pub(super) struct Filter(Targets);
+
+impl std::str::FromStr for Filter {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let odd = || {
+            "a level (off, error, warn, info, debug, trace) or a list of module=level is needed, \
+             as ads_cnc_conformance::cnc=debug"
+                .to_owned()
+        };
+        // Any word is a module to it.
+        let is_level = |word: &str| word.parse::<tracing::level_filters::LevelFilter>().is_ok();
+        let words = text.split(',');
+        let known = |word: &str| {
+            is_level(word) || word.split_once('=').is_some_and(|(_, level)| is_level(level))
+        };
+        if !words.into_iter().all(known) {
+            return Err(odd());
+        }
+        text.parse().map(Self).map_err(|_| odd())
+    }
+}
+
+/// Logs what the filter lets through from here on.
+pub(super) fn to_stderr(filter: Filter) {
+    let lines = fmt::layer().with_writer(io::stderr).with_ansi(false);
+    // Only the first in a process sets it; there is no other.
+    let _already_set = tracing_subscriber::registry().with(lines).with(filter.0).try_init();
+}

@@ -1,0 +1,120 @@
+//! `ads-cnc serve` as a person calls it, but for what it answers.
+
+mod common;
+
+use std::io::{Read as _, Write as _};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use common::{Serve, connect};
+
+/// ReadState of the COM task, and its answer.
+const STATE: &[u8] = b"\0\0\x20\0\0\0\x7f\0\0\x01\x01\x01\x29\x02\x7f\0\0\x01\x01\x02\0\x80\
+                       \x04\0\x04\0\0\0\0\0\0\0\0\0\x01\0\0\0";
+const RUN: &[u8] = b"\0\0\x28\0\0\0\x7f\0\0\x01\x01\x02\0\x80\x7f\0\0\x01\x01\x01\x29\x02\
+                     \x04\0\x05\0\x08\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0\x05\0\0\0";
+
+fn works(serve: &Serve) -> std::net::TcpStream {
+    let mut stream = connect(serve.addr.parse().unwrap());
+    stream.write_all(STATE).unwrap();
+    let mut answer = vec![0; RUN.len()];
+    stream.read_exact(&mut answer).unwrap();
+    assert_eq!(answer, RUN);
+    stream
+}
+
+/// Ctrl-C ends it in order, with clients or without: exit code 0, and the log says so.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_it_cleanly() {
+    for with_clients in [false, true] {
+        let mut serve = Serve::logging(&["--log", "info"]);
+        let mut client = with_clients.then(|| works(&serve));
+        let id = serve.process.id().to_string();
+        assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+        let begun = Instant::now();
+        let status = loop {
+            match serve.process.try_wait().unwrap() {
+                Some(status) => break status,
+                None if begun.elapsed() > Duration::from_secs(20) => panic!("it goes on"),
+                None => std::thread::sleep(Duration::from_millis(5)),
+            }
+        };
+        assert_eq!(status.code(), Some(0));
+        let mut log = String::new();
+        serve.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+        assert!(log.contains("interrupted"), "{log}");
+        assert_eq!(log.contains("connected"), with_clients, "{log}");
+        if let Some(client) = &mut client {
+            // The end, or a reset.
+            assert!(matches!(client.read(&mut [0; 1]), Ok(0) | Err(_)));
+        }
+    }
+}
+
+/// The log says why a connection ended, and of which client; other clients work on.
+#[test]
+fn the_log_says_why_a_connection_ended() {
+    let mut serve = Serve::logging(&["--idle", "1"]);
+    let mut bad = works(&serve);
+    let peer = bad.local_addr().unwrap().to_string();
+    bad.write_all(b"GET / HTTP/1.1\r\n\r\n").unwrap();
+    assert!(matches!(bad.read(&mut [0; 1]), Ok(0) | Err(_)));
+    let mut idle = works(&serve);
+    let silent = idle.local_addr().unwrap().to_string();
+    assert!(matches!(idle.read(&mut [0; 1]), Ok(0) | Err(_)));
+    drop(works(&serve));
+
+    serve.process.kill().unwrap();
+    let mut log = String::new();
+    serve.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+    let line = |peer: &str| log.lines().find(|line| line.contains(peer) && line.contains("ended"));
+    assert!(line(&peer).unwrap().contains("malformed frame: ams-tcp-header: reserved"), "{log}");
+    assert!(line(&silent).unwrap().contains("no request for 1 s"), "{log}");
+}
+
+/// What is logged is a matter of the filter.
+#[test]
+fn logs_are_filtered() {
+    for (filter, logged) in [
+        ("off", false),
+        ("error", false),
+        ("info", true),
+        ("warn,ads_cnc_conformance::cnc::server=debug", true),
+        ("info,ads_cnc_conformance=error", false),
+    ] {
+        let mut serve = Serve::logging(&["--log", filter]);
+        drop(works(&serve));
+        drop(works(&serve));
+        serve.process.kill().unwrap();
+        let mut log = String::new();
+        serve.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+        assert_eq!(log.contains("connected"), logged, "{filter}: {log}");
+    }
+    let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["serve", "--listen", "127.0.0.1:0", "--log", "loud"])
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("info"));
+}
+
+/// Other machines reach it only if that is asked for, and then it says what that means.
+#[test]
+fn other_machines_are_an_option() {
+    let mut serve = Serve::logging(&["--listen", "0.0.0.0:0", "--allow-remote"]);
+    let port = serve.addr.rsplit_once(':').unwrap().1.to_owned();
+    serve.addr = format!("127.0.0.1:{port}");
+    drop(works(&serve));
+    serve.process.kill().unwrap();
+    let mut log = String::new();
+    serve.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+    assert!(log.contains("warning: 0.0.0.0:0 is not a loopback address"), "{log}");
+}
+
+#[test]
+fn it_answers_for_another_net_id() {
+    let serve = Serve::start(&["--net-id", "10.0.0.1.1.1"]);
+    assert_eq!(serve.net_id, "10.0.0.1.1.1");
+}
