@@ -115,31 +115,30 @@ impl Gate {
             Err(reason) => return malformed(reason),
         };
         let header = whole.header();
-        if !header.error.is_none() || header.state_flags != StateFlags::REQUEST {
-            return malformed(Reason::NoRequest(header.state_flags));
-        }
-        match header.command {
-            Command::READ_DEVICE_INFO | Command::READ_STATE => {
-                if Task::from_port(header.target.port).is_none() {
-                    malformed(Reason::NoTask(header.target.port))
-                } else if whole.data().is_empty() {
-                    permit(true)
-                } else {
-                    malformed(Reason::Data(header.command))
-                }
-            }
+        // What is never sent is not sent with odd flags either.
+        let repeatable = match header.command {
             Command::WRITE_CONTROL
             | Command::ADD_NOTIFICATION
             | Command::DELETE_NOTIFICATION
-            | Command::NOTIFICATION => Err(Reason::Never(header.command).into()),
-            command => match call_of(&whole) {
-                Ok(Some(call)) => {
-                    self.check_call(&call, header.target.net_id, now).and_then(permit)
+            | Command::NOTIFICATION => return Err(Reason::Never(header.command).into()),
+            Command::READ_DEVICE_INFO | Command::READ_STATE => {
+                if Task::from_port(header.target.port).is_none() {
+                    return malformed(Reason::NoTask(header.target.port));
+                } else if !whole.data().is_empty() {
+                    return malformed(Reason::Data(header.command));
                 }
-                Ok(None) => malformed(Reason::Never(command)),
-                Err(error) => malformed(Reason::Malformed(error)),
+                true
+            }
+            command => match call_of(&whole) {
+                Ok(Some(call)) => self.check_call(&call, header.target.net_id, now)?,
+                Ok(None) => return malformed(Reason::Never(command)),
+                Err(error) => return malformed(Reason::Malformed(error)),
             },
+        };
+        if !header.error.is_none() || header.state_flags != StateFlags::REQUEST {
+            return malformed(Reason::NoRequest(header.state_flags));
         }
+        permit(repeatable)
     }
 
     /// Keeps what an answer says of handles and of the places of objects, which files name.

@@ -1,0 +1,185 @@
+//! What leaves for a target by default changes nothing there. A CNC behind a tripwire takes down
+//! every frame, and each is judged here by its bytes alone: no codec and no gate stands in between.
+
+mod common;
+
+use std::fs;
+use std::io::{self, Read as _, Write as _};
+use std::net::{SocketAddr, TcpStream};
+use std::process::{Command, Output};
+use std::sync::{Arc, Mutex};
+use std::thread;
+
+use ads_cnc_conformance::cnc::{Cnc, Server};
+use ads_cnc_conformance::net;
+use common::connect;
+use common::harmless::{is_harmless, number};
+
+/// The tools that talk to a target, as they are called by default: a new one is added here. With
+/// each the exit code, and whether it asks anything at all before it is refused.
+const TOOLS: &[(&[&str], i32, bool)] = &[(&["run"], 0, true)];
+
+/// A CNC, and what was sent to it.
+struct Tripwire {
+    addr: SocketAddr,
+    kept: Arc<Mutex<Vec<Vec<u8>>>>,
+    _server: Server,
+}
+
+impl Tripwire {
+    fn start() -> Self {
+        let loopback = SocketAddr::from(([127, 0, 0, 1], 0));
+        let cnc = Arc::new(Cnc::with_default_model().unwrap());
+        let server = Server::start(net::listen(loopback).unwrap(), cnc).unwrap();
+        let listener = net::listen(loopback).unwrap();
+        let (addr, cnc) = (listener.local_addr().unwrap(), server.addr());
+        let kept = Arc::new(Mutex::new(Vec::new()));
+        let keep = Arc::clone(&kept);
+        thread::spawn(move || {
+            for client in listener.incoming() {
+                let (client, keep) = (client.unwrap(), Arc::clone(&keep));
+                let place = {
+                    let mut all = keep.lock().unwrap();
+                    all.push(Vec::new());
+                    all.len() - 1
+                };
+                thread::spawn(move || pass(client, connect(cnc), &keep, place));
+            }
+        });
+        Self { addr, kept, _server: server }
+    }
+
+    /// What was sent, connection by connection.
+    fn connections(&self) -> Vec<Vec<u8>> {
+        self.kept.lock().unwrap().clone()
+    }
+
+    fn call(&self, args: &[&str]) -> Output {
+        let (tool, rest) = args.split_first().unwrap();
+        Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+            .args([*tool, "--target", &self.addr.to_string(), "--net-id", "127.0.0.1.1.1"])
+            .args(rest)
+            .output()
+            .unwrap()
+    }
+}
+
+/// Passes a connection on and keeps what the client sends before the CNC has it.
+fn pass(mut client: TcpStream, cnc: TcpStream, keep: &Mutex<Vec<Vec<u8>>>, place: usize) {
+    client.set_nodelay(true).unwrap();
+    let (mut replies, mut back) = (cnc.try_clone().unwrap(), client.try_clone().unwrap());
+    thread::spawn(move || io::copy(&mut replies, &mut back));
+    let (mut cnc, mut chunk) = (cnc, [0; 4096]);
+    while let Ok(len @ 1..) = client.read(&mut chunk) {
+        keep.lock().unwrap()[place].extend_from_slice(&chunk[..len]);
+        if cnc.write_all(&chunk[..len]).is_err() {
+            break;
+        }
+    }
+    let _gone = cnc.shutdown(std::net::Shutdown::Both);
+}
+
+/// The frames of a connection; it ends with a whole one.
+fn frames(mut bytes: &[u8]) -> Vec<&[u8]> {
+    let mut frames = Vec::new();
+    while !bytes.is_empty() {
+        assert_eq!(bytes[..2], [0, 0], "no frame");
+        let (frame, rest) = bytes.split_at(6 + number(bytes, 2) as usize);
+        frames.push(frame);
+        bytes = rest;
+    }
+    frames
+}
+
+#[test]
+fn default_runs_of_every_tool_change_nothing() {
+    for (args, code, asks) in TOOLS {
+        let tripwire = Tripwire::start();
+        let output = tripwire.call(args);
+        assert_eq!(output.status.code(), Some(*code), "{args:?}: {output:?}");
+        let connections = tripwire.connections();
+        let mut seen = 0;
+        for frame in connections.iter().flat_map(|bytes| frames(bytes)) {
+            assert!(is_harmless(frame), "{args:?}: {frame:02x?}");
+            seen += 1;
+        }
+        assert_eq!(seen > 0, *asks, "{args:?}: {seen} frames");
+    }
+}
+
+/// That something may be written is no reason to write it.
+#[test]
+fn a_file_alone_changes_nothing() {
+    let file = std::env::temp_dir().join(format!("ads-cnc-tripwire-{}.toml", std::process::id()));
+    let allowed = "target = \"127.0.0.1.1.1\"\nexpires = 9999-12-31T23:59:59Z\n\
+                   [[stream]]\nchannel = 1\n[[variable]]\nchannel = 1\nname = \"V.E.Testvar\"\n";
+    fs::write(&file, allowed).unwrap();
+    let tripwire = Tripwire::start();
+    let output = tripwire.call(&["run", "--allow-write", file.to_str().unwrap()]);
+    fs::remove_file(&file).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let connections = tripwire.connections();
+    assert!(connections.iter().flat_map(|bytes| frames(bytes)).all(is_harmless));
+}
+
+/// A dry run shows what it would send, and does not even connect.
+#[test]
+fn a_dry_run_sends_nothing() {
+    for (args, ..) in TOOLS {
+        let tripwire = Tripwire::start();
+        let output = tripwire.call(&[args, &["--dry-run"][..]].concat());
+        assert_eq!(output.status.code(), Some(0), "{args:?}: {output:?}");
+        let shown = String::from_utf8(output.stdout).unwrap();
+        assert!(shown.contains("would be sent"), "{args:?}: {shown}");
+        assert_eq!(tripwire.connections().len(), 0, "{args:?}");
+    }
+}
+
+/// What is wrong in a file is said with its line before anything is sent.
+#[test]
+fn a_bad_file_sends_nothing() {
+    let file = std::env::temp_dir().join(format!("ads-cnc-bad-{}.toml", std::process::id()));
+    fs::write(&file, "target = \"127.0.0.1.1.1\"\nexpires = 2026-05-04T17:30:00Z\nwrite = true\n")
+        .unwrap();
+    let tripwire = Tripwire::start();
+    let output = tripwire.call(&["run", "--allow-write", file.to_str().unwrap()]);
+    fs::remove_file(&file).unwrap();
+    let why = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{why}");
+    assert!(
+        why.contains("ads-cnc-bad-") && why.contains("line 3") && why.contains("write"),
+        "{why}"
+    );
+    assert_eq!(tripwire.connections().len(), 0);
+}
+
+/// The tripwire itself takes what is not harmless for what it is.
+#[test]
+fn the_tripwire_sees_what_it_should() {
+    let frame = |command: u8, port: u16, group: u32, offset: u32, data: &[u8]| {
+        let mut frame = vec![0; 38];
+        frame[12..14].copy_from_slice(&port.to_le_bytes());
+        (frame[22], frame[24]) = (command, 4);
+        for word in [group, offset, 4] {
+            frame.extend_from_slice(&word.to_le_bytes());
+        }
+        frame.extend_from_slice(data);
+        frame
+    };
+    for (harmless, frame) in [
+        (true, frame(2, 553, 0x13_0101, 1, b"")),
+        (true, frame(9, 552, 0x12_2301, 0x44, b"\x04\0\0\0V.E\0")),
+        (true, frame(9, 552, 0x12_2301, 0x2_0005, b"\x04\0\0\0V.A\0")),
+        (true, frame(9, 552, 0x12_3900, 0, &[8, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0])),
+        (false, frame(2, 553, 0x2_0101, 0x90, b"")),
+        (false, frame(2, 553, 0x12_0101, 0x90, b"")),
+        (false, frame(2, 851, 0x13_0101, 1, b"")),
+        (false, frame(3, 552, 0x12_2301, 0x4A, b"V.E.a\0\x01")),
+        (false, frame(9, 552, 0x12_2301, 0x4A, b"\x07\0\0\0V.E.a\0\x01")),
+        (false, frame(9, 552, 0xF081, 1, b"")),
+        (false, frame(5, 552, 0, 0, b"")),
+        (false, frame(6, 552, 0, 0, b"")),
+    ] {
+        assert_eq!(is_harmless(&frame), harmless, "{frame:02x?}");
+    }
+}
