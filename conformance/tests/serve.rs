@@ -4,7 +4,6 @@ mod common;
 
 use std::io::{Read as _, Write as _};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
 use common::{Serve, connect};
 
@@ -27,6 +26,8 @@ fn works(serve: &Serve) -> std::net::TcpStream {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_ends_it_cleanly() {
+    use std::time::{Duration, Instant};
+
     for with_clients in [false, true] {
         let mut serve = Serve::logging(&["--log", "info"]);
         let mut client = with_clients.then(|| works(&serve));

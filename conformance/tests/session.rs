@@ -1,0 +1,204 @@
+//! What tools work with: typed questions, writes that are allowed, and what to do when nobody answers.
+
+mod common;
+
+use std::io::{Read as _, Write as _};
+use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use ads_cnc::address::Channel;
+use ads_cnc::ads::{AdsError, AmsNetId};
+use ads_cnc::operation::{
+    CountObjects, HandleByName, ReadByName, ReadDescriptors, WriteByHandle, WriteByName,
+    WriteObject,
+};
+use ads_cnc::{Descriptors, Numbers};
+use ads_cnc_conformance::client::Target;
+use ads_cnc_conformance::cnc::{Cnc, NET_ID};
+use ads_cnc_conformance::gate::{Allowed, Gate};
+use ads_cnc_conformance::net;
+use ads_cnc_conformance::session::{Session, Trouble};
+use ads_cnc_conformance::verdict::Exit;
+use common::Serve;
+
+fn channel() -> Channel {
+    Channel::new(1).unwrap()
+}
+
+fn allowing(tables: &str) -> Gate {
+    let file = format!("target = \"{NET_ID}\"\nexpires = 9999-12-31T23:59:59Z\n{tables}");
+    Gate::queries().with_allowed(Some(Allowed::from_toml(&file).unwrap()))
+}
+
+fn embedded(gate: Gate) -> Session {
+    Session::embedded(Cnc::with_default_model().unwrap(), gate).unwrap()
+}
+
+fn variable(name: &str) -> String {
+    format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n")
+}
+
+/// A variable of the default model that may be written.
+const WRITABLE: &str = "V.E.test";
+
+#[test]
+fn what_is_allowed_is_written_and_nothing_else() {
+    let mut session = embedded(allowing(&variable(WRITABLE)));
+    let value = [7, 0, 0, 0];
+    let write = |name| WriteByName::new(channel(), name, &value).unwrap();
+    session.call(&write("V.E.test[4]")).unwrap();
+    let read = ReadByName::new(channel(), "V.E.test[4]").unwrap();
+    assert_eq!(session.call(&read).unwrap().bytes, value);
+
+    let trouble = session.call(&write("V.E.Testvar[4]")).unwrap_err();
+    assert_eq!(trouble.exit(), Exit::Refused);
+    let text = trouble.to_string();
+    assert!(text.contains("refused for safety") && text.contains("V.E.Testvar[4]"), "{text}");
+}
+
+#[test]
+fn a_handle_asked_for_by_an_allowed_name_is_written() {
+    let mut session = embedded(allowing(&variable(WRITABLE)));
+    let handle = session.call(&HandleByName::new(channel(), WRITABLE).unwrap()).unwrap();
+    let other = session.call(&HandleByName::new(channel(), "V.E.Testvar").unwrap()).unwrap();
+    let write = |handle| WriteByHandle::new(channel(), handle, Numbers::from(&[4]), &[8, 0, 0, 0]);
+    session.call(&write(handle)).unwrap();
+    assert!(matches!(session.call(&write(other)), Err(Trouble::Refused(_))));
+}
+
+#[test]
+fn an_object_allowed_by_its_name_is_written_once_the_list_is_known() {
+    const NAME: &str = "mc_command_single_block_w";
+    let mut session = embedded(allowing(&format!("[[object]]\nchannel = 1\nname = \"{NAME}\"\n")));
+    let count = session.call(&CountObjects::new(channel())).unwrap().0;
+    let list = ReadDescriptors::new(channel(), 1, count).unwrap();
+    let objects: Descriptors =
+        session.call(&list).unwrap().iter().map(|one| one.to_owned()).collect();
+    let objects = objects.as_ref();
+    let object = objects.iter().find(|object| object.name() == NAME).unwrap();
+    let (group, offset) = (object.index_group(), object.index_offset());
+    session.call(&WriteObject::new(group, offset, &[1]).unwrap()).unwrap();
+
+    let mut session = embedded(allowing(&format!("[[object]]\nchannel = 1\nname = \"{NAME}\"\n")));
+    let write = WriteObject::new(group, offset, &[1]).unwrap();
+    assert!(matches!(session.call(&write), Err(Trouble::Refused(_))));
+}
+
+#[test]
+fn an_error_of_the_cnc_is_told_with_its_meaning() {
+    let mut session = embedded(Gate::queries());
+    let read = ReadByName::new(channel(), "V.E.nothing_there").unwrap();
+    let trouble = session.call(&read).unwrap_err();
+    assert_eq!(trouble.ads_error(), Some(AdsError::SYMBOL_NOT_FOUND));
+    assert_eq!(trouble.exit(), Exit::Failure);
+    assert!(trouble.to_string().contains("nothing of this name"), "{trouble}");
+}
+
+#[test]
+fn a_dry_run_goes_through_writes_and_stops_at_questions() {
+    let gate = allowing(&variable(WRITABLE));
+    let nobody = Target::local(SocketAddr::from(([127, 0, 0, 1], 1)), NET_ID);
+    let mut session = Session::dry(nobody, gate).unwrap();
+    let write = |name| WriteByName::new(channel(), name, &[1]).unwrap();
+    for _ in 0..3 {
+        session.call(&write(WRITABLE)).unwrap();
+    }
+    assert!(matches!(session.call(&write("V.E.b")), Err(Trouble::Refused(_))));
+    let read = ReadByName::new(channel(), WRITABLE).unwrap();
+    assert!(matches!(session.call(&read), Err(Trouble::NotSent)));
+}
+
+/// A listener that does this with its first connections, the same with each.
+fn device(with: fn(TcpStream)) -> Target {
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let addr = listener.local_addr().unwrap();
+    thread::spawn(move || listener.incoming().flatten().for_each(with));
+    let net_id = AmsNetId([192, 0, 2, 7, 1, 1]);
+    Target { timeout: Duration::from_millis(200), ..Target::local(addr, net_id) }
+}
+
+fn ask(target: Target) -> (Exit, String) {
+    let asked = Session::connect(target, Gate::queries())
+        .and_then(|mut session| session.call(&CountObjects::new(channel())).map(drop));
+    let trouble = asked.unwrap_err();
+    (trouble.exit(), trouble.to_string())
+}
+
+/// Each way in which a device can be out of reach says what to do about it.
+#[test]
+fn who_does_not_answer_is_told_apart() {
+    let gone: TcpListener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let nobody = Target::local(gone.local_addr().unwrap(), NET_ID);
+    drop(gone);
+    let (exit, text) = ask(nobody);
+    assert_eq!(exit, Exit::Nothing);
+    assert!(text.contains("refuses the connection") && text.contains("48898"), "{text}");
+
+    // A route is missing.
+    let (exit, text) = ask(device(drop));
+    assert_eq!(exit, Exit::Nothing);
+    let parts = ["closed the connection without an answer", "route", "127.0.0.1.1.2"];
+    assert!(parts.iter().all(|part| text.contains(part)), "{text}");
+
+    // It takes the request and is silent.
+    let (exit, text) = ask(device(|stream| {
+        thread::spawn(move || {
+            thread::sleep(Duration::from_secs(5));
+            drop(stream);
+        });
+    }));
+    assert_eq!(exit, Exit::Nothing);
+    let parts = ["does not answer within 200 ms", "192.0.2.7.1.1", "--source-net-id"];
+    assert!(parts.iter().all(|part| text.contains(part)), "{text}");
+
+    // Something else listens there.
+    let (exit, text) = ask(device(|mut stream| {
+        let _asked = stream.read(&mut [0; 64]);
+        let _answered = stream.write_all(b"HTTP/1.1 400 Bad Request\r\n\r\n");
+        thread::sleep(Duration::from_millis(50));
+    }));
+    assert_eq!(exit, Exit::Nothing);
+    assert!(text.contains("does not speak AMS/TCP"), "{text}");
+
+    // The NetId is another's.
+    let serve = Serve::start(&[]);
+    let addr = serve.addr.parse().unwrap();
+    let (exit, text) = ask(Target::local(addr, AmsNetId([1, 2, 3, 4, 1, 1])));
+    assert_eq!(exit, Exit::Nothing);
+    assert!(text.contains("0x7") && text.contains("--net-id"), "{text}");
+}
+
+/// A write is sent once, whatever becomes of its connection.
+#[test]
+fn a_write_is_not_repeated() {
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let target = Target::local(listener.local_addr().unwrap(), NET_ID);
+    let taken = thread::spawn(move || {
+        let (mut stream, _) = listener.accept().unwrap();
+        let len = stream.read(&mut [0; 256]).unwrap();
+        drop(stream);
+        listener.set_nonblocking(true).unwrap();
+        thread::sleep(Duration::from_millis(300));
+        (len, listener.accept().is_ok())
+    });
+    let mut session = Session::connect(target, allowing(&variable(WRITABLE))).unwrap();
+    let write = WriteByName::new(channel(), WRITABLE, &[1]).unwrap();
+    assert!(matches!(session.call(&write), Err(Trouble::NoAnswer(_))));
+    let (len, again) = taken.join().unwrap();
+    assert!(len > 38 && !again);
+}
+
+/// No more requests in a second than asked for.
+#[test]
+fn requests_keep_their_pace() {
+    let serve = Serve::start(&[]);
+    let pace = Duration::from_millis(40);
+    let target = Target { pace, ..Target::local(serve.addr.parse().unwrap(), NET_ID) };
+    let mut session = Session::connect(target, Gate::queries()).unwrap();
+    let begun = Instant::now();
+    for _ in 0..6 {
+        session.call(&CountObjects::new(channel())).unwrap();
+    }
+    assert!(begun.elapsed() >= 5 * pace);
+}
