@@ -44,6 +44,7 @@ pub mod defect;
 pub mod exchange;
 pub mod explain;
 pub mod gate;
+pub mod matrix;
 pub mod net;
 pub mod profile;
 pub mod report;

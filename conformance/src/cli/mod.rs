@@ -4,6 +4,7 @@ mod explain;
 mod interrupt;
 mod log;
 mod model;
+mod requirements;
 mod run;
 mod serve;
 mod target;
@@ -35,6 +36,7 @@ enum Command {
     Serve(serve::Args),
     Run(run::Run),
     Explain(explain::Explain),
+    Requirements(requirements::Requirements),
 }
 
 impl Command {
@@ -69,6 +71,7 @@ impl Cli {
         match self.command {
             Some(Command::Run(run)) => run.execute().into(),
             Some(Command::Explain(explain)) => explain.execute().into(),
+            Some(Command::Requirements(requirements)) => requirements.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
             // The suite against the embedded CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),

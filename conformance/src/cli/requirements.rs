@@ -1,0 +1,66 @@
+//! `ads-cnc requirements`: the traceability matrix.
+
+use std::io::{self, Write as _};
+
+use super::complain;
+use crate::matrix::{self, Row};
+use crate::verdict::Exit;
+
+/// Print the traceability matrix: from each requirement to its sources, errata, vectors, cases of
+/// the suite and fuzz targets
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  ads-cnc requirements --only VAR\n  \
+    ads-cnc requirements --only VAR-11 --format json\n\n\
+    Exit codes: 0 printed, 2 wrong usage, 3 no requirement matches, 70 internal error")]
+pub(super) struct Requirements {
+    /// An area such as VAR or a requirement such as VAR-11; more than one may be given
+    #[arg(long, value_name = "AREA|ID")]
+    only: Vec<String>,
+
+    /// How it is printed
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Format {
+    Text,
+    Markdown,
+    Json,
+}
+
+impl Requirements {
+    pub(super) fn execute(&self) -> Exit {
+        let mut rows = matrix::matrix();
+        rows.retain(|row| self.matches(row));
+        if rows.is_empty() {
+            complain(format_args!("no requirement is {}", self.only.join(" or ")));
+            return Exit::Nothing;
+        }
+        let text = match self.format {
+            Format::Text => Ok(matrix::to_text(&rows)),
+            Format::Markdown => Ok(matrix::to_markdown(&rows)),
+            Format::Json => serde_json::to_string_pretty(&rows).map(|json| json + "\n"),
+        };
+        let printed = text.map_err(io::Error::from).and_then(|text| {
+            let mut out = io::stdout().lock();
+            out.write_all(text.as_bytes()).and_then(|()| out.flush())
+        });
+        match printed {
+            Ok(()) => Exit::Success,
+            // Whoever reads has seen enough.
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Success,
+            Err(error) => {
+                complain(format_args!("the matrix is not printed: {error}"));
+                Exit::Internal
+            }
+        }
+    }
+
+    fn matches(&self, row: &Row) -> bool {
+        let area = row.id.split_once('-').map_or("", |(area, _)| area);
+        let named =
+            |only: &String| only.eq_ignore_ascii_case(&row.id) || only.eq_ignore_ascii_case(area);
+        self.only.is_empty() || self.only.iter().any(named)
+    }
+}

@@ -1,0 +1,194 @@
+//! The traceability matrix: from each requirement to what stands behind it and what judges it.
+//!
+//! ```
+//! use ads_cnc_conformance::matrix::matrix;
+//!
+//! let rows = matrix();
+//! let row = rows.iter().find(|row| row.id == "VAR-11").unwrap();
+//! assert!(row.accepted.iter().any(|id| id == "handle-read-printed-element"));
+//! assert!(!row.rejected.is_empty() && !row.cases.is_empty());
+//! assert_eq!(row.fuzz_targets, ["streams", "dispatch"]);
+//! ```
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::Function;
+use ads_cnc_vectors::{Requirement, requirements, sequences, vectors};
+use serde::Serialize;
+
+use crate::suite::{self, Needs};
+
+/// A requirement with everything that leads from it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct Row {
+    /// The requirement.
+    pub id: String,
+    /// In a few words.
+    pub title: String,
+    /// Stated, derived, …
+    pub basis: String,
+    /// Must, should or info.
+    pub level: String,
+    /// Why nothing judges it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub excluded: Option<String>,
+    /// Document, edition and section.
+    pub sources: Vec<String>,
+    /// Contradictions that touch it.
+    pub errata: Vec<String>,
+    /// Vectors and sequences that are accepted.
+    pub accepted: Vec<String>,
+    /// Vectors and sequences that are refused.
+    pub rejected: Vec<String>,
+    /// Cases of the suite that ask a target; those that decode a vector are with the vectors.
+    pub cases: Vec<String>,
+    /// Fuzz targets that reach its bytes.
+    pub fuzz_targets: Vec<&'static str>,
+}
+
+/// All requirements in the catalogue's order.
+pub fn matrix() -> Vec<Row> {
+    let cases = suite::cases();
+    requirements().iter().map(|requirement| row(requirement, &cases)).collect()
+}
+
+fn row(requirement: &Requirement, cases: &[suite::Case]) -> Row {
+    let id = requirement.id.as_str();
+    let (mut accepted, mut rejected) = (Vec::new(), Vec::new());
+    let mut streams = BTreeSet::new();
+    for vector in vectors().iter().filter(|vector| vector.requirements.iter().any(|one| one == id))
+    {
+        let list = if vector.is_accepted() { &mut accepted } else { &mut rejected };
+        list.push(vector.id.clone());
+        streams.extend(Stream::by_name(&vector.stream));
+    }
+    for sequence in sequences().iter().filter(|one| one.requirements.iter().any(|one| one == id)) {
+        let list = if sequence.is_accepted() { &mut accepted } else { &mut rejected };
+        list.push(sequence.id.clone());
+    }
+    let of_target = cases.iter().filter(|case| case.needs != Needs::Codec);
+    let judging = of_target.filter(|case| case.requirements.contains(&id));
+    let called = Function::ALL.iter().map(|function| function.spec());
+    let dispatched = called.filter(|spec| {
+        spec.clause == id || spec.request.is_some_and(|stream| streams.contains(&stream))
+    });
+    let mut fuzz_targets = Vec::new();
+    fuzz_targets.extend((!streams.is_empty()).then_some("streams"));
+    fuzz_targets.extend((dispatched.count() > 0).then_some("dispatch"));
+    Row {
+        id: requirement.id.clone(),
+        title: requirement.title.clone(),
+        basis: format!("{:?}", requirement.basis).to_lowercase(),
+        level: format!("{:?}", requirement.level).to_lowercase(),
+        excluded: requirement.excluded.clone(),
+        sources: requirement
+            .sources
+            .iter()
+            .map(|source| {
+                let words = [&source.document, &source.edition, "§"].join(" ");
+                format!("{}{}", words.replace("  ", " "), source.section)
+            })
+            .collect(),
+        errata: requirement.errata.clone(),
+        accepted,
+        rejected,
+        cases: judging.map(|case| case.id.clone()).collect(),
+        fuzz_targets,
+    }
+}
+
+/// For people: each requirement with its lists below it.
+pub fn to_text(rows: &[Row]) -> String {
+    let mut text = String::new();
+    for row in rows {
+        // Writing to a String does not fail.
+        let _ = writeln!(text, "{}  {} ({}, {})", row.id, row.title, row.level, row.basis);
+        if let Some(why) = &row.excluded {
+            let _ = writeln!(text, "  excluded  {why}");
+        }
+        for (name, list) in [
+            ("sources", &row.sources),
+            ("errata", &row.errata),
+            ("accepted", &row.accepted),
+            ("rejected", &row.rejected),
+            ("cases", &row.cases),
+        ] {
+            if !list.is_empty() {
+                let _ = writeln!(text, "  {name:<8}  {}", list.join(", "));
+            }
+        }
+        if !row.fuzz_targets.is_empty() {
+            let _ = writeln!(text, "  fuzzed    {}", row.fuzz_targets.join(", "));
+        }
+    }
+    text
+}
+
+/// One table; of vectors and cases the numbers.
+pub fn to_markdown(rows: &[Row]) -> String {
+    let mut text = String::from(
+        "| requirement | level | basis | sources | errata | accepted | rejected | cases | fuzzed |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
+    );
+    for row in rows {
+        let count = |list: &[String]| match (list.len(), &row.excluded) {
+            (0, _) => String::new(),
+            (count, _) => count.to_string(),
+        };
+        let title = row.title.replace('|', "\\|");
+        let excluded = row.excluded.as_ref().map_or("", |_| " (excluded)");
+        let _ = writeln!(
+            text,
+            "| {} {title}{excluded} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            row.id,
+            row.level,
+            row.basis,
+            row.sources.join("<br>"),
+            row.errata.join(" "),
+            count(&row.accepted),
+            count(&row.rejected),
+            count(&row.cases),
+            row.fuzz_targets.join(" "),
+        );
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nothing stands in the matrix without a reason, and nothing is left out of it.
+    #[test]
+    fn every_requirement_leads_somewhere() {
+        let rows = matrix();
+        assert_eq!(rows.len(), requirements().len());
+        let listed: usize = rows.iter().map(|row| row.accepted.len() + row.rejected.len()).sum();
+        let cited = |ids: &[String]| ids.len();
+        let vectors: usize = vectors().iter().map(|vector| cited(&vector.requirements)).sum();
+        let sequences: usize = sequences().iter().map(|one| cited(&one.requirements)).sum();
+        assert_eq!(listed, vectors + sequences);
+        for row in &rows {
+            let by_bytes = !row.accepted.is_empty() || !row.cases.is_empty();
+            let live = requirements().iter().any(|one| {
+                one.id == row.id && !one.observable.contains(&ads_cnc_vectors::Observable::Codec)
+            });
+            assert!(by_bytes || row.excluded.is_some() || live, "{}", row.id);
+        }
+    }
+
+    /// The three forms have all requirements.
+    #[test]
+    fn all_forms_have_all_rows() {
+        let rows = matrix();
+        let (text, table) = (to_text(&rows), to_markdown(&rows));
+        for row in &rows {
+            assert!(text.contains(&format!("{}  {}", row.id, row.title)), "{}", row.id);
+            assert!(table.contains(&format!("| {} ", row.id)), "{}", row.id);
+        }
+        assert_eq!(table.lines().count(), rows.len() + 2);
+    }
+}
