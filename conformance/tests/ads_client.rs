@@ -196,14 +196,31 @@ fn refusals_are_error_numbers() {
         // Another service, another port, another device.
         assert_eq!(read(sda, CHANNEL_1, 0x44, 4), Err(0x701));
         assert_eq!(number(sda.write(CHANNEL_1, 0x44, b"V.E\0")), Err(0x701));
-        assert_eq!(number(sda.get_state().map(|_| ())), Err(0x701));
-        assert_eq!(number(sda.get_info().map(|_| ())), Err(0x701));
+        assert_eq!(number(sda.write_control(ads::AdsState::Stop, 0)), Err(0x701));
+        let each = ads::notif::TransmissionMode::ServerCycle;
+        let attributes = ads::notif::Attributes::new(4, each, Duration::ZERO, Duration::ZERO);
+        let notified = com.add_notification(0x12_0101, 1, &attributes);
+        assert_eq!(number(notified.map(|_| ())), Err(0x701));
         let plc = port(client, net_id, 851);
         assert_eq!(ask(plc, CHANNEL_1, 0x44, b"V.E\0"), Err(0x6));
         let other = port(client, AmsNetId::new(192, 0, 2, 1, 1, 1), SDA);
         assert_eq!(ask(other, CHANNEL_1, 0x44, b"V.E\0"), Err(0x7));
         // And it still answers.
         assert_eq!(ask(sda, CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
+    });
+}
+
+#[test]
+fn it_says_what_it_is_and_that_it_runs() {
+    with_cnc(&[], |client, net_id| {
+        for task in [GEO, SDA, COM] {
+            let device = port(client, net_id, task);
+            let info = device.get_info().unwrap();
+            assert_eq!((&*info.name, info.major, info.minor), ("ads-cnc serve", 0, 1));
+            assert_eq!(device.get_state().unwrap(), (ads::AdsState::Run, 0));
+        }
+        let plc = port(client, net_id, 851);
+        assert_eq!(number(plc.get_state().map(|_| ())), Err(0x6));
     });
 }
 

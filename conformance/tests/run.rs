@@ -4,7 +4,7 @@ mod common;
 
 use std::io::{Read as _, Write as _};
 use std::net::SocketAddr;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 use std::thread;
 
 use ads_cnc_conformance::net;
@@ -151,7 +151,7 @@ fn who_is_no_cnc_is_not_judged() {
 fn a_lost_report_is_no_success() {
     let full = std::fs::File::options().write(true).open("/dev/full").unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
-    let status = command.stdout(full).stderr(Stdio::null()).status().unwrap();
+    let status = command.stdout(full).stderr(std::process::Stdio::null()).status().unwrap();
     assert_eq!(status.code(), Some(70));
 }
 
