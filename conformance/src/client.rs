@@ -133,6 +133,16 @@ impl Client {
         self.dry
     }
 
+    /// Whether the gate would let a call pass now; nothing is sent.
+    ///
+    /// # Errors
+    /// [`Fault::Refused`], [`Fault::Unsendable`].
+    pub fn check(&self, call: &Call<'_>) -> Result<(), Fault> {
+        let bytes = frame(self.header(call), call)?;
+        let permit = self.gate.check(&bytes, (self.clock)());
+        permit.map(drop).map_err(|refusal| Fault::Refused(Box::new(refusal)))
+    }
+
     /// Sends a call and waits for its answer.
     pub fn call(&mut self, call: &Call<'_>) -> Exchange {
         let mut exchange = Exchange::new(call);
@@ -149,15 +159,7 @@ impl Client {
     /// Sends a call if it may be, and keeps what comes of it; the header it went out with.
     fn sent(&mut self, call: &Call<'_>, exchange: &mut Exchange) -> Result<AmsHeader, Fault> {
         self.invoke_id = self.invoke_id.wrapping_add(1);
-        let header = AmsHeader {
-            target: AmsAddr { net_id: self.target.net_id, port: call.port },
-            source: AmsAddr { net_id: self.source, port: SOURCE_PORT },
-            command: call.service.command(),
-            state_flags: StateFlags::REQUEST,
-            data_length: 0,
-            error: AdsError::NONE,
-            invoke_id: self.invoke_id,
-        };
+        let header = self.header(call);
         let bytes = frame(header, call)?;
         let permit = self.gate.check(&bytes, (self.clock)());
         let permit = permit.map_err(|refusal| Fault::Refused(Box::new(refusal)))?;
@@ -178,6 +180,18 @@ impl Client {
             self.gate.learn(call, data);
         }
         Ok(header)
+    }
+
+    fn header(&self, call: &Call<'_>) -> AmsHeader {
+        AmsHeader {
+            target: AmsAddr { net_id: self.target.net_id, port: call.port },
+            source: AmsAddr { net_id: self.source, port: SOURCE_PORT },
+            command: call.service.command(),
+            state_flags: StateFlags::REQUEST,
+            data_length: 0,
+            error: AdsError::NONE,
+            invoke_id: self.invoke_id,
+        }
     }
 
     /// What is wrong with the frames themselves.

@@ -118,6 +118,7 @@ impl Entry {
     /// The entry that would allow a request; none for one that no entry of its own allows.
     pub fn needed(request: &Request<'_>) -> Option<Self> {
         Some(match request {
+            Request::WriteByName(op) if is_of_service(op.name) => Self::Service(op.channel),
             Request::WriteByName(op) => {
                 Self::Variable { channel: op.channel, axis: None, name: op.name.into() }
             }
@@ -166,11 +167,7 @@ impl Entry {
             Self::Variable { channel, axis, name } => {
                 (*channel, *axis) == (of, at) && is_or_is_in(asked, name)
             }
-            Self::Service(channel) => {
-                *channel == of
-                    && at.is_none()
-                    && SERVICE.iter().any(|variable| asked == *variable.name())
-            }
+            Self::Service(channel) => *channel == of && at.is_none() && is_of_service(asked),
             _ => false,
         }
     }
@@ -179,6 +176,10 @@ impl Entry {
 /// What a host writes; the rest is the NC program's.
 const SERVICE: [ServiceVariable; 3] =
     [ServiceVariable::RequestState, ServiceVariable::ResponseState, ServiceVariable::Response];
+
+fn is_of_service(name: CncStr<'_>) -> bool {
+    SERVICE.iter().any(|variable| name == *variable.name())
+}
 
 /// Whether the name is this one, or that of an element: nothing but indices follow.
 fn is_or_is_in(asked: CncStr<'_>, name: &CncString) -> bool {

@@ -103,16 +103,7 @@ impl Session {
     /// What came instead, or why nothing was sent.
     pub fn call<'s, O: Operation>(&'s mut self, operation: &O) -> Result<O::Reply<'s>, Trouble> {
         let spec = O::FUNCTION.spec();
-        self.request.clear();
-        self.request.resize(operation.encoded_len(), 0);
-        let call = Call {
-            port: spec.task.port(),
-            service: spec.service,
-            index_group: operation.index_group(),
-            index_offset: operation.index_offset(),
-            read_length: operation.read_length(),
-            data: operation.encode(&mut self.request).map_err(Trouble::Unsendable)?,
-        };
+        let call = call(operation, &mut self.request)?;
         let exchange = self.client.call(&call);
         if self.client.is_dry() {
             show(&exchange);
@@ -136,6 +127,17 @@ impl Session {
         operation.decode_reply(&self.reply).map_err(Trouble::Reply)
     }
 
+    /// Whether the gate would let a call pass now: what a tool asks before it begins something that
+    /// a refusal would leave half done. Nothing is sent.
+    ///
+    /// # Errors
+    /// [`Trouble::Refused`], [`Trouble::Unsendable`].
+    pub fn check<O: Operation>(&self, operation: &O) -> Result<(), Trouble> {
+        let mut request = Vec::new();
+        let checked = self.client.check(&call(operation, &mut request)?);
+        checked.map_err(|fault| Trouble::fault(&self.client, fault, self.answered))
+    }
+
     /// Whether the CNC is one embedded in this process.
     pub const fn is_embedded(&self) -> bool {
         self.embedded.is_some()
@@ -155,6 +157,21 @@ impl Session {
     pub fn into_parts(self) -> (Client, Option<Server>) {
         (self.client, self.embedded)
     }
+}
+
+/// The call of an operation, its data in `request`.
+fn call<'r, O: Operation>(operation: &O, request: &'r mut Vec<u8>) -> Result<Call<'r>, Trouble> {
+    let spec = O::FUNCTION.spec();
+    request.clear();
+    request.resize(operation.encoded_len(), 0);
+    Ok(Call {
+        port: spec.task.port(),
+        service: spec.service,
+        index_group: operation.index_group(),
+        index_offset: operation.index_offset(),
+        read_length: operation.read_length(),
+        data: operation.encode(request).map_err(Trouble::Unsendable)?,
+    })
 }
 
 /// What would have been sent.
