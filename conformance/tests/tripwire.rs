@@ -17,7 +17,11 @@ use common::harmless::{is_harmless, number};
 
 /// The tools that talk to a target, as they are called by default: a new one is added here. With
 /// each the exit code, and whether it asks anything at all before it is refused.
-const TOOLS: &[(&[&str], i32, bool)] = &[(&["run"], 0, true)];
+const TOOLS: &[(&[&str], i32, bool)] = &[
+    (&["run"], 0, true),
+    // Any text in ASCII is an NC program.
+    (&["stream", concat!(env!("CARGO_MANIFEST_DIR"), "/LICENSE-MIT")], 4, false),
+];
 
 /// A CNC, and what was sent to it.
 struct Tripwire {
@@ -125,12 +129,13 @@ fn a_file_alone_changes_nothing() {
 /// A dry run shows what it would send, and does not even connect.
 #[test]
 fn a_dry_run_sends_nothing() {
-    for (args, ..) in TOOLS {
+    for (args, code, _) in TOOLS {
         let tripwire = Tripwire::start();
-        let output = tripwire.call(&[args, &["--dry-run"][..]].concat());
-        assert_eq!(output.status.code(), Some(0), "{args:?}: {output:?}");
+        let output = tripwire.call(&[&args[..1], &["--dry-run"], &args[1..]].concat());
+        assert_eq!(output.status.code(), Some(*code), "{args:?}: {output:?}");
         let shown = String::from_utf8(output.stdout).unwrap();
-        assert!(shown.contains("would be sent"), "{args:?}: {shown}");
+        let verdict = if *code == 0 { "would be sent" } else { "would be refused" };
+        assert!(shown.contains(verdict), "{args:?}: {shown}");
         assert_eq!(tripwire.connections().len(), 0, "{args:?}");
     }
 }

@@ -4,6 +4,7 @@ use std::io;
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
+use std::time::Duration;
 
 use crate::session::Trouble;
 
@@ -37,5 +38,16 @@ impl Interrupt {
     pub(super) fn wait(&self) {
         // The other end is never dropped.
         let _came = self.0.recv();
+    }
+
+    /// Whether it has come.
+    pub(super) fn came(&self) -> bool {
+        CAME.load(Ordering::SeqCst)
+    }
+
+    /// Lets this time pass, or less if it comes; whether it has come.
+    pub(super) fn sleep(&self, time: Duration) -> bool {
+        // Told once; who asks again looks.
+        self.came() || self.0.recv_timeout(time).is_ok()
     }
 }

@@ -1,5 +1,6 @@
 //! The command line of `ads-cnc`.
 
+mod duration;
 mod explain;
 mod interrupt;
 mod log;
@@ -7,6 +8,7 @@ mod model;
 mod requirements;
 mod run;
 mod serve;
+mod stream;
 mod target;
 
 use std::io::Write as _;
@@ -37,6 +39,7 @@ enum Command {
     Run(run::Run),
     Explain(explain::Explain),
     Requirements(requirements::Requirements),
+    Stream(stream::Stream),
 }
 
 impl Command {
@@ -72,6 +75,7 @@ impl Cli {
             Some(Command::Run(run)) => run.execute().into(),
             Some(Command::Explain(explain)) => explain.execute().into(),
             Some(Command::Requirements(requirements)) => requirements.execute().into(),
+            Some(Command::Stream(stream)) => stream.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
             // The suite against the embedded CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "not every test needs all of it")]
 
+pub(crate) mod fake;
 pub(crate) mod harmless;
 
 use std::io::{BufRead as _, BufReader};

@@ -1,0 +1,47 @@
+//! Times on the command line: a number and its unit.
+
+use std::time::Duration;
+
+/// A time as people write it: `500ms`, `2s`, `1.5min`.
+pub(super) fn duration(text: &str) -> Result<Duration, String> {
+    let odd = || "a number and its unit are needed, ms, s or min: 500ms".to_owned();
+    let end = text.find(|byte: char| !byte.is_ascii_digit() && byte != '.').ok_or_else(odd)?;
+    let (number, unit) = text.split_at_checked(end).ok_or_else(odd)?;
+    let number: f64 = number.parse().map_err(|_| odd())?;
+    let seconds = match unit {
+        "ms" => number / 1000.0,
+        "s" => number,
+        "min" => number * 60.0,
+        _ => return Err(odd()),
+    };
+    let too_much = || "at most 24 hours are taken".to_owned();
+    Duration::try_from_secs_f64(seconds).ok().filter(|time| *time <= MAX).ok_or_else(too_much)
+}
+
+/// As [`duration`], but some time at least.
+pub(super) fn some_time(text: &str) -> Result<Duration, String> {
+    match duration(text)? {
+        none if none < Duration::from_millis(1) => Err("at least 1ms is needed".to_owned()),
+        time => Ok(time),
+    }
+}
+
+const MAX: Duration = Duration::from_secs(24 * 60 * 60);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_time_has_a_unit() {
+        for (text, millis) in
+            [("500ms", 500), ("2s", 2000), ("1.5s", 1500), ("1min", 60_000), ("0s", 0)]
+        {
+            assert_eq!(duration(text), Ok(Duration::from_millis(millis)), "{text}");
+        }
+        for text in ["", "5", "ms", "-1s", "1 s", "1h", "1e3s", "1.2.3s", "25000min", "٣s"] {
+            assert!(duration(text).is_err(), "{text}");
+        }
+        assert!(some_time("0s").is_err() && some_time("1ms").is_ok());
+    }
+}

@@ -1,0 +1,137 @@
+//! What is wrong with a program, found before any of it is sent.
+
+use std::io::{self, Write};
+
+use ads_cnc::streaming::{LineError, LineErrorKind, NcText};
+
+/// The most lines of messages: who sends a picture wants no more.
+const SHOWN_MAX: usize = 100;
+
+/// A text that can be sent.
+pub(super) struct Checked<'a> {
+    pub(super) text: NcText<'a>,
+    /// Places where the CNC would end streaming.
+    pub(super) ends: usize,
+}
+
+/// Looks through a text and says what is wrong, one line for each place; nothing if there are lines
+/// that cannot be sent.
+pub(super) fn check<'a>(bytes: &'a [u8], name: &str, out: &mut dyn Write) -> Option<Checked<'a>> {
+    let mut messages = Messages { out, count: 0 };
+    let Ok(text) = NcText::new(bytes) else {
+        for (line, error) in line_errors(bytes) {
+            let (column, kind, clause) = (error.column(), error.kind(), clause(error.kind()));
+            messages.say(format_args!("{name}:{line}:{column}: error: {kind} ({clause})"));
+        }
+        messages.end();
+        return None;
+    };
+    let mut ends = 0_usize;
+    for finding in text.findings() {
+        let (line, column) = (finding.line, finding.column);
+        let level = match finding.kind.ends_streaming() {
+            true => "error",
+            false => "warning",
+        };
+        ends = ends.saturating_add(usize::from(finding.kind.ends_streaming()));
+        // It says its place itself, though not as compilers do.
+        let whole = finding.to_string();
+        let place = format!("line {line}, column {column}: ");
+        let what = whole.strip_prefix(&place).unwrap_or(&whole);
+        messages.say(format_args!("{name}:{line}:{column}: {level}: {what}"));
+    }
+    messages.end();
+    Some(Checked { text, ends })
+}
+
+struct Messages<'o> {
+    out: &'o mut dyn Write,
+    count: usize,
+}
+
+impl Messages<'_> {
+    fn say(&mut self, message: std::fmt::Arguments<'_>) {
+        self.count = self.count.saturating_add(1);
+        if self.count <= SHOWN_MAX {
+            let _unread: io::Result<()> = writeln!(self.out, "{message}");
+        }
+    }
+
+    fn end(&mut self) {
+        if let Some(more) = self.count.checked_sub(SHOWN_MAX).filter(|more| *more > 0) {
+            let _unread: io::Result<()> = writeln!(self.out, "… and {more} more");
+        }
+    }
+}
+
+/// The first error of every line that has one, with the number of the line.
+fn line_errors(bytes: &[u8]) -> impl Iterator<Item = (u32, LineError)> {
+    let mut rest = bytes;
+    let lines = std::iter::from_fn(move || {
+        let end = rest.iter().position(|byte| matches!(byte, b'\r' | b'\n')).unwrap_or(rest.len());
+        let (line, behind) = rest.split_at_checked(end).filter(|_| !rest.is_empty())?;
+        rest = match behind {
+            [b'\r', b'\n', rest @ ..] | [_, rest @ ..] => rest,
+            [] => &[],
+        };
+        Some(line)
+    });
+    (1..).zip(lines).filter_map(|(number, line)| Some((number, NcText::new(line).err()?)))
+}
+
+/// The requirement that a line does not meet.
+const fn clause(kind: LineErrorKind) -> &'static str {
+    match kind {
+        LineErrorKind::TooLong { .. } => "STM-20",
+        LineErrorKind::NotAscii { .. } | LineErrorKind::Nul => "STM-7",
+        _ => "STM-5",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(bytes: &[u8]) -> (String, Option<usize>) {
+        let mut out = Vec::new();
+        let checked = check(bytes, "part.nc", &mut out);
+        let ends = checked.map(|checked| checked.ends);
+        (String::from_utf8(out).unwrap(), ends)
+    }
+
+    /// Every line that cannot be sent is named, with the codec's own line numbers.
+    #[test]
+    fn every_bad_line_is_named() {
+        let long = [&b"\r"[..], &[b'X'; 991]].concat();
+        let bytes = [&b"N1 (\xE4 \xF6)\r\n\nN3\n\0N4\rN5 \x80"[..], &long].concat();
+        let (said, ends) = said(&bytes);
+        assert_eq!(
+            said,
+            "part.nc:1:5: error: ASCII character expected, byte 0xE4 found (STM-7)\n\
+             part.nc:4:1: error: ASCII character expected, NUL found (STM-7)\n\
+             part.nc:5:4: error: ASCII character expected, byte 0x80 found (STM-7)\n\
+             part.nc:6:991: error: line of at most 990 characters expected, 991 found (STM-20)\n"
+        );
+        assert_eq!(ends, None);
+        assert_eq!(NcText::new(&bytes).unwrap_err().line(), 1);
+    }
+
+    #[test]
+    fn findings_have_a_level() {
+        let (said, ends) = said(b"N10: G0 X0\nN20 $GOTO N10\nN30 $WHILE 1\nN40 M30\nN50 X1\n");
+        assert_eq!(
+            said,
+            "part.nc:2:5: error: $GOTO back to line 1 (STM-8)\n\
+             part.nc:3:5: error: $WHILE in a stream (STM-8)\n\
+             part.nc:5:1: warning: text behind the M30 of line 4 (STM-10)\n"
+        );
+        assert_eq!(ends, Some(2));
+    }
+
+    #[test]
+    fn a_picture_is_not_shown_whole() {
+        let (said, _) = said(&b"\xFF\n".repeat(1000));
+        assert_eq!(said.lines().count(), SHOWN_MAX + 1);
+        assert!(said.ends_with("\n… and 900 more\n"), "{said}");
+    }
+}

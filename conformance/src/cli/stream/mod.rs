@@ -1,0 +1,210 @@
+//! `ads-cnc stream`: an NC program, packet by packet, to the streaming object of a channel.
+
+mod check;
+mod progress;
+mod send;
+
+use std::fs::File;
+use std::io::{self, Read, Write as _};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use ads_cnc::operation::WriteProgramStream;
+use ads_cnc::streaming::{NcText, Sender};
+use clap::Args;
+
+use super::complain;
+use super::duration::duration;
+use super::interrupt::Interrupt;
+use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs};
+use crate::session::{Session, Trouble};
+use crate::verdict::Exit;
+use check::Checked;
+use progress::Progress;
+use send::{End, Retry, Sending};
+
+/// The most bytes of a program.
+const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
+
+/// Sends an NC program to the program stream of a channel. This moves the machine.
+///
+/// The whole text is checked first; then it is sent in packets of whole lines while the CNC runs
+/// what it has. A packet that the CNC cannot take for now is sent again.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
+pub(super) struct Stream {
+    /// The NC program; - reads it from stdin
+    #[arg(value_name = "FILE.nc")]
+    file: PathBuf,
+
+    /// How long to wait before a packet that was refused for now is sent again
+    #[arg(long, value_name = "TIME", default_value = "500ms", value_parser = duration)]
+    retry_after: Duration,
+
+    /// How often a packet is sent again before it is given up; 1200 times 500ms are ten minutes
+    #[arg(long, value_name = "N", default_value_t = 1200)]
+    retries: u32,
+
+    /// Send even what the check says would end streaming
+    #[arg(long)]
+    force: bool,
+
+    /// Show no progress
+    #[arg(long, short)]
+    quiet: bool,
+
+    #[command(flatten)]
+    channel: ChannelArgs,
+
+    #[command(flatten)]
+    target: TargetArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ads-cnc stream part.nc --dry-run
+  ads-cnc stream part.nc --channel 2 --allow-write allow.toml \\
+      --target 192.0.2.7 --net-id 192.0.2.7.1.1
+  generate-path | ads-cnc stream - --allow-write allow.toml
+
+The file of --allow-write needs a table [[stream]] with the channel.
+
+The CNC takes the text if the program named by P-CHAN-00158 has been started there. It holds 4094
+bytes; while that is full it refuses for now, and the packet is sent again. What it has taken it may
+not have run yet: wait until it has before the next program. A line that cannot be sent is an error.
+So is what ends streaming, a loop or a jump back; as the check may be wrong about it, --force sends
+it. What would be lost or left over is warned of.
+
+Ctrl-C ends between two packets. It does not stop the machine, which runs what it has; nor is a
+packet sent twice whose answer did not come.
+
+Exit codes: 0 all of it was taken; 1 the text is faulty, or the CNC refuses it; 2 wrong usage;
+3 unfinished: Ctrl-C, no connection or no answer; 4 refused for safety; 70 internal error.
+Unless it is 0, stdout says which lines were taken and which were not.";
+
+impl Stream {
+    /// Sends, and says how the process ends.
+    pub(super) fn execute(&self) -> Exit {
+        self.run().unwrap_or_else(|trouble| {
+            complain(&trouble);
+            trouble.exit()
+        })
+    }
+
+    fn run(&self) -> Result<Exit, Trouble> {
+        let name = self.name();
+        let bytes = self.read(&name)?;
+        let Checked { text, ends } = match check::check(&bytes, &name, &mut io::stderr().lock()) {
+            Some(checked) => checked,
+            None => {
+                complain("nothing was sent: these lines cannot be");
+                return Ok(Exit::Failure);
+            }
+        };
+        if ends > 0 && !self.force {
+            complain(
+                "nothing was sent: the CNC would end streaming there; --force sends it all the same",
+            );
+            return Ok(Exit::Failure);
+        }
+        let Some(lines) = NonZeroUsize::new(text.line_count()) else {
+            return Err(Trouble::Usage(format!("{name} is empty: there is nothing to send")));
+        };
+        match self.target.is_dry() {
+            true => self.show(text),
+            false => self.send(&name, text, lines),
+        }
+    }
+
+    /// Every packet as it would be sent, and whether it would be.
+    fn show(&self, text: NcText<'_>) -> Result<Exit, Trouble> {
+        let mut session = self.target.open()?;
+        let mut sender = Sender::new(text);
+        let mut refused = None;
+        while let Some(packet) = sender.packet() {
+            let shown = session.call(&WriteProgramStream::new(self.channel.channel, packet));
+            match shown.map(drop) {
+                Err(trouble @ Trouble::Refused(_)) => refused = Some(trouble),
+                other => other?,
+            }
+            send::acknowledge(&mut sender, ads_cnc::streaming::Ack::Accepted)?;
+        }
+        refused.map_or(Ok(Exit::Success), Err)
+    }
+
+    fn send(&self, name: &str, text: NcText<'_>, lines: NonZeroUsize) -> Result<Exit, Trouble> {
+        let interrupt = Interrupt::catch()?;
+        let mut session: Session = self.target.open()?;
+        let mut sending = Sending {
+            sender: Sender::new(text),
+            channel: self.channel.channel,
+            retry: Retry { after: self.retry_after, times: self.retries },
+            refusals: 0,
+            out: 0,
+        };
+        let mut progress = Progress::new(text, self.quiet);
+        let end = sending.run(&mut session, &interrupt, &mut progress);
+        progress.clear();
+        let channel = self.channel.channel.number();
+        let summary = sending.summary(name, lines.get(), &end, progress.elapsed());
+        if let Err(error) = writeln!(io::stdout().lock(), "{summary}") {
+            complain(format_args!("{summary}"));
+            return Err(Trouble::Internal(format!("that could not be written: {error}")));
+        }
+        Ok(match end {
+            End::Done => Exit::Success,
+            End::Interrupted => {
+                complain("interrupted. The machine runs what the CNC has taken");
+                Exit::Nothing
+            }
+            End::GivenUp(error) => {
+                complain(format_args!(
+                    "given up: the CNC still refuses, with {error}. Is the streaming program (see \
+                     P-CHAN-00158) running in channel {channel}, and does nothing hold the machine? \
+                     --retries waits longer"
+                ));
+                Exit::Failure
+            }
+            End::Stopped(trouble) => {
+                complain(&trouble);
+                if trouble.ads_error().is_some() {
+                    complain(format_args!(
+                        "that is no refusal for the time being. Has channel {channel} a streaming \
+                         program? It is off unless P-CHAN-00158 names one"
+                    ));
+                }
+                trouble.exit()
+            }
+            End::Unknown(trouble) => {
+                complain(&trouble);
+                complain("it is not sent again: lines that are run twice may do harm");
+                trouble.exit()
+            }
+        })
+    }
+
+    /// The program as messages name it.
+    fn name(&self) -> String {
+        match self.file == Path::new("-") {
+            true => "stdin".to_owned(),
+            false => self.file.display().to_string(),
+        }
+    }
+
+    fn read(&self, name: &str) -> Result<Vec<u8>, Trouble> {
+        let failed = |error: io::Error| Trouble::Usage(format!("{name}: {error}"));
+        let from: &mut dyn Read = match self.file == Path::new("-") {
+            true => &mut io::stdin().lock(),
+            false => &mut File::open(&self.file).map_err(failed)?,
+        };
+        let mut bytes = Vec::new();
+        from.take(PROGRAM_MAX.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
+        match u64::try_from(bytes.len()) {
+            Ok(length) if length <= PROGRAM_MAX => Ok(bytes),
+            _ => Err(Trouble::Usage(format!(
+                "{name} has more than {PROGRAM_MAX} bytes; send it in parts"
+            ))),
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! How far it is, on stderr.
+
+use std::fmt;
+use std::io::{self, IsTerminal as _, Write as _};
+use std::time::{Duration, Instant};
+
+use ads_cnc::streaming::{self, NcText};
+
+/// How often the line of a terminal changes, and how often one is written elsewhere.
+const ON_TERMINAL: Duration = Duration::from_millis(100);
+const ELSEWHERE: Duration = Duration::from_secs(5);
+
+/// Shows how far it is: one line that changes on a terminal, one every few seconds elsewhere.
+pub(super) struct Progress {
+    lines: usize,
+    bytes: usize,
+    started: Instant,
+    shown: Instant,
+    terminal: bool,
+    quiet: bool,
+    waited: bool,
+    /// Characters that stand on the terminal's line.
+    width: usize,
+}
+
+impl Progress {
+    pub(super) fn new(text: NcText<'_>, quiet: bool) -> Self {
+        Self {
+            lines: text.line_count(),
+            bytes: text.wire_len(),
+            started: Instant::now(),
+            shown: Instant::now(),
+            terminal: io::stderr().is_terminal(),
+            quiet,
+            waited: false,
+            width: 0,
+        }
+    }
+
+    pub(super) fn elapsed(&self) -> Duration {
+        self.started.elapsed()
+    }
+
+    /// Shows how much was accepted, if that is due, and why it waits.
+    pub(super) fn show(&mut self, sent: streaming::Progress, waits: Option<&str>) {
+        let due = match self.terminal {
+            // Nothing may come after it for long.
+            true if waits.is_some() && !self.waited => Duration::ZERO,
+            true => ON_TERMINAL,
+            false => ELSEWHERE,
+        };
+        self.waited = waits.is_some();
+        if self.quiet || self.shown.elapsed() < due {
+            return;
+        }
+        self.shown = Instant::now();
+        let line = self.line(sent, waits);
+        let mut err = io::stderr().lock();
+        // Progress that nobody sees is none.
+        let _unseen = match self.terminal {
+            true => write!(err, "\r{line:<0$}", self.width).and_then(|()| err.flush()),
+            false => writeln!(err, "{line}"),
+        };
+        self.width = line.chars().count();
+    }
+
+    fn line(&self, sent: streaming::Progress, waits: Option<&str>) -> String {
+        let streaming::Progress { packets, lines, bytes } = sent;
+        let (all, of, rate) = (self.lines, Size(self.bytes), Rate(bytes, self.elapsed()));
+        let bytes = Size(bytes);
+        let (comma, waits) = waits.map_or(("", ""), |waits| (", ", waits));
+        format!("{packets} packets, {lines} of {all} lines, {bytes} of {of}, {rate}{comma}{waits}")
+    }
+
+    /// Takes the line off the terminal.
+    pub(super) fn clear(&mut self) {
+        if self.terminal && self.width > 0 {
+            let mut err = io::stderr().lock();
+            let _unseen = write!(err, "\r{:1$}\r", "", self.width).and_then(|()| err.flush());
+            self.width = 0;
+        }
+    }
+}
+
+/// Bytes as people count them.
+pub(super) struct Size(pub(super) usize);
+
+impl fmt::Display for Size {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        scaled(u32::try_from(self.0).map_or(f64::MAX, f64::from), f)
+    }
+}
+
+/// Bytes in this time.
+pub(super) struct Rate(pub(super) usize, pub(super) Duration);
+
+impl fmt::Display for Rate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // A time too short to be measured says nothing.
+        let seconds = self.1.as_secs_f64().max(0.001);
+        let bytes = u32::try_from(self.0).map_or(f64::MAX, f64::from);
+        scaled(bytes / seconds, f)?;
+        f.write_str("/s")
+    }
+}
+
+fn scaled(bytes: f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    match bytes {
+        bytes if bytes < 10_000.0 => write!(f, "{bytes:.0} bytes"),
+        bytes if bytes < 10_000_000.0 => write!(f, "{:.1} kB", bytes / 1e3),
+        bytes => write!(f, "{:.1} MB", bytes / 1e6),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_have_a_fitting_unit() {
+        for (bytes, shown) in
+            [(0, "0 bytes"), (9_999, "9999 bytes"), (10_000, "10.0 kB"), (10_485_760, "10.5 MB")]
+        {
+            assert_eq!(Size(bytes).to_string(), shown);
+        }
+        assert_eq!(Rate(4000, Duration::from_secs(2)).to_string(), "2000 bytes/s");
+        assert_eq!(Rate(10, Duration::ZERO).to_string(), "10.0 kB/s");
+    }
+
+    #[test]
+    fn a_line_says_how_far_it_is() {
+        let text = NcText::new(b"N10 G0 X0\nN20 M30\n").unwrap();
+        let progress = Progress::new(text, false);
+        let sent = streaming::Progress { packets: 1, lines: 1, bytes: 11 };
+        let line = progress.line(sent, Some("refused 3 times"));
+        assert!(line.starts_with("1 packets, 1 of 2 lines, 11 bytes of 20 bytes, "), "{line}");
+        assert!(line.ends_with("/s, refused 3 times"), "{line}");
+    }
+}

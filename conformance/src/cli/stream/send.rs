@@ -1,0 +1,145 @@
+//! Packets out, acknowledgements in.
+
+use std::fmt::Write as _;
+use std::time::Duration;
+
+use ads_cnc::address::Channel;
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::WriteProgramStream;
+use ads_cnc::streaming::{Ack, Sender};
+
+use super::super::interrupt::Interrupt;
+use super::progress::{Progress, Rate, Size};
+use crate::session::{Session, Trouble};
+
+/// What happens when a packet is refused for now.
+pub(super) struct Retry {
+    pub(super) after: Duration,
+    pub(super) times: u32,
+}
+
+/// Why no more is sent.
+pub(super) enum End {
+    /// All of it was taken.
+    Done,
+    /// Ctrl-C.
+    Interrupted,
+    /// A packet was refused for now, once too often.
+    GivenUp(AdsError),
+    /// A packet was refused for good, or did not leave.
+    Stopped(Trouble),
+    /// A packet left, and whether it was taken is not known.
+    Unknown(Trouble),
+}
+
+/// A program on its way.
+pub(super) struct Sending<'a> {
+    pub(super) sender: Sender<'a>,
+    pub(super) channel: Channel,
+    pub(super) retry: Retry,
+    /// How often packets were refused for now.
+    pub(super) refusals: u64,
+    /// Lines of the packet that went out last.
+    pub(super) out: usize,
+}
+
+impl Sending<'_> {
+    /// Sends until all is taken or something ends it.
+    pub(super) fn run(
+        &mut self,
+        session: &mut Session,
+        interrupt: &Interrupt,
+        progress: &mut Progress,
+    ) -> End {
+        loop {
+            if interrupt.came() {
+                return End::Interrupted;
+            }
+            let Some(packet) = self.sender.packet() else { return End::Done };
+            self.out = packet.iter().filter(|&&byte| byte == b'\n').count();
+            let write = WriteProgramStream::new(self.channel, packet);
+            let trouble = session.call(&write).err();
+            // What is no answer of the CNC's is not sent again.
+            let ack = match &trouble {
+                None => Ack::Accepted,
+                Some(trouble) => trouble.ads_error().map_or(Ack::Refused, Ack::of),
+            };
+            if let Err(trouble) = acknowledge(&mut self.sender, ack) {
+                return End::Stopped(trouble);
+            }
+            match trouble {
+                None => progress.show(self.sender.sent(), None),
+                Some(Trouble::Ads { error, .. }) if ack == Ack::Later => {
+                    self.refusals = self.refusals.saturating_add(1);
+                    let times = self.sender.refusals();
+                    if times > self.retry.times {
+                        return End::GivenUp(error);
+                    }
+                    let times =
+                        if times == 1 { "once".to_owned() } else { format!("{times} times") };
+                    let waits = format!("refused {times} with {error}");
+                    progress.show(self.sender.sent(), Some(&waits));
+                    if interrupt.sleep(self.retry.after) {
+                        return End::Interrupted;
+                    }
+                }
+                // It may have arrived.
+                Some(trouble @ (Trouble::NoAnswer(_) | Trouble::Reply(_))) => {
+                    return End::Unknown(trouble);
+                }
+                Some(trouble) => return End::Stopped(trouble),
+            }
+        }
+    }
+
+    /// What was taken, and what was not.
+    pub(super) fn summary(&self, name: &str, lines: usize, end: &End, took: Duration) -> String {
+        let sent = self.sender.sent();
+        let (packets, bytes, rate) = (sent.packets, Size(sent.bytes), Rate(sent.bytes, took));
+        let channel = self.channel.number();
+        let mut summary = match sent.lines {
+            0 => format!("{name}: channel {channel} has taken nothing"),
+            _ => {
+                let packets = match packets {
+                    1 => "1 packet".to_owned(),
+                    _ => format!("{packets} packets"),
+                };
+                let took = took.as_secs_f64();
+                format!(
+                    "{name}: channel {channel} has taken {} in {packets}, {bytes}, within {took:.1} \
+                     s ({rate})",
+                    range(1, sent.lines),
+                )
+            }
+        };
+        let refused = match self.refusals {
+            0 => String::new(),
+            1 => ", after 1 refusal for the time being".to_owned(),
+            times => format!(", after {times} refusals for the time being"),
+        };
+        summary.push_str(&refused);
+        let mut next = sent.lines.saturating_add(1);
+        if let End::Unknown(_) = end {
+            let behind = next.saturating_add(self.out);
+            let out = range(next, behind.saturating_sub(1));
+            let _infallible = write!(summary, "\n  not known whether it was taken: {out}");
+            next = behind;
+        }
+        if next <= lines {
+            let _infallible = write!(summary, "\n  not sent or not taken: {}", range(next, lines));
+        }
+        summary
+    }
+}
+
+fn range(first: usize, last: usize) -> String {
+    match first == last {
+        true => format!("line {first}"),
+        false => format!("lines {first} to {last}"),
+    }
+}
+
+/// Acknowledges the packet that is out.
+pub(super) fn acknowledge(sender: &mut Sender<'_>, ack: Ack) -> Result<(), Trouble> {
+    sender.acknowledge(ack).map_err(|error| Trouble::Internal(error.to_string()))
+}
