@@ -21,6 +21,7 @@ const TOOLS: &[(&[&str], i32, bool)] = &[
     (&["run"], 0, true),
     // Any text in ASCII is an NC program.
     (&["stream", concat!(env!("CARGO_MANIFEST_DIR"), "/LICENSE-MIT")], 4, false),
+    (&["service", "--uuid", "560AACBF-6335-44a9-895A-8B27F3ED5E47", "--", "echo"], 4, false),
 ];
 
 /// A CNC, and what was sent to it.

@@ -8,6 +8,7 @@ mod model;
 mod requirements;
 mod run;
 mod serve;
+mod service;
 mod stream;
 mod target;
 
@@ -40,6 +41,7 @@ enum Command {
     Explain(explain::Explain),
     Requirements(requirements::Requirements),
     Stream(stream::Stream),
+    Service(service::Service),
 }
 
 impl Command {
@@ -76,6 +78,7 @@ impl Cli {
             Some(Command::Explain(explain)) => explain.execute().into(),
             Some(Command::Requirements(requirements)) => requirements.execute().into(),
             Some(Command::Stream(stream)) => stream.execute().into(),
+            Some(Command::Service(service)) => service.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
             // The suite against the embedded CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),

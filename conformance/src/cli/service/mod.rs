@@ -1,0 +1,314 @@
+//! `ads-cnc service`: a host of the Service Interface that runs a command for each request.
+
+mod command;
+mod response;
+
+use std::io::{self, Write as _};
+use std::time::Duration;
+
+use ads_cnc::CncStr;
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{ReadByName, WriteByName};
+use ads_cnc::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable};
+use clap::Args;
+
+use super::complain;
+use super::duration::some_time;
+use super::interrupt::Interrupt;
+use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs};
+use crate::session::{Session, Trouble};
+use crate::verdict::Exit;
+use command::Command;
+use response::Answer;
+
+/// How often writes may fail, one after the other.
+const FAILED_WRITES_MAX: u32 = 5;
+
+/// Answers the requests of NC programs, as a service of the Service Interface: a command is run for
+/// each.
+///
+/// The command gets the request on stdin; what it writes to stdout is the response, and its exit
+/// code the response state.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
+pub(super) struct Service {
+    /// UUID of the service; several, with commas between them, share the command
+    #[arg(long, value_name = "UUID", required = true, value_delimiter = ',', value_parser = uuid)]
+    uuid: Vec<ServiceId>,
+
+    /// How long the command may run
+    #[arg(long, value_name = "TIME", default_value = "30s", value_parser = some_time)]
+    time_limit: Duration,
+
+    /// How often it looks for a request
+    #[arg(long, value_name = "TIME", default_value = "50ms", value_parser = some_time)]
+    poll: Duration,
+
+    /// End after so many answers
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    answers: Option<u64>,
+
+    /// End after one answer
+    #[arg(long, conflicts_with = "answers")]
+    once: bool,
+
+    #[command(flatten)]
+    channel: ChannelArgs,
+
+    #[command(flatten)]
+    target: TargetArgs,
+
+    /// The command and its arguments; no shell comes between
+    #[arg(last = true, required = true, value_name = "CMD")]
+    command: Vec<String>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ads-cnc service --uuid 19719079-BA06-4740-BC02-DE5215211751 --channel 1 \\
+      --target 192.0.2.7 --net-id 192.0.2.7.1.1 --allow-write allow.toml -- ./some-service
+  ads-cnc service --uuid 560AACBF-6335-44a9-895A-8B27F3ED5E47 --once \\
+      --allow-write allow.toml -- python3 square_root.py
+  ads-cnc service --uuid 560AACBF-6335-44a9-895A-8B27F3ED5E47 --dry-run -- true
+
+The file of --allow-write needs a table [[service]] with the channel.
+
+The command
+  stdin     the request in UTF-8 and a line feed; it is never an argument, as anybody who writes an
+            NC program chooses it
+  stdout    the response in UTF-8 (what is none is taken as CP1252), without its last line end. It is
+            cut to the 127 bytes of CP1252 that fit, with a warning
+  stderr    left as it is
+  ADS_CNC_UUID, ADS_CNC_REQUEST_STATE, ADS_CNC_CHANNEL
+            in the environment: UUID as given to --uuid, request state, channel
+
+The response state
+  1         exit code 0
+  2, 3, …   this exit code
+  1001      exit code 1, which would look like success
+  1002      the time limit was over; the command was ended, on Unix with what it has started
+  1003      ended by a signal, or by Ctrl-C here
+  1004      the command could not be started
+  A response of these that would be empty says why.
+
+An answer that comes when its request is gone is dropped. Ctrl-C ends; a command that runs is ended
+and answered for. When the connection is lost it ends with an error: to read, it connects once more,
+but a write whose answer did not come may have arrived.
+
+Exit codes: 0 ended by Ctrl-C, --once or --answers; 1 the CNC refuses; 2 wrong usage; 3 no
+connection, or lost; 4 refused for safety; 70 internal error.";
+
+fn uuid(text: &str) -> Result<ServiceId, String> {
+    ServiceId::new(text)
+        .map_err(|error| format!("{error}: 8, 4, 4, 4 and 12 hex digits are needed"))
+}
+
+impl Service {
+    /// Serves, and says how the process ends.
+    pub(super) fn execute(&self) -> Exit {
+        let done = match self.target.is_dry() {
+            true => self.show(),
+            false => self.serve(),
+        };
+        match done {
+            Ok(()) => Exit::Success,
+            Err(trouble) => {
+                complain(&trouble);
+                trouble.exit()
+            }
+        }
+    }
+
+    /// What looking for a request and one answer take.
+    fn show(&self) -> Result<(), Trouble> {
+        use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
+
+        let mut session = self.target.open()?;
+        let channel = self.channel.channel;
+        for variable in [RequestState, Uuid, Request] {
+            match session.call(&read(channel, variable)?).map(drop) {
+                Err(Trouble::NotSent) => {}
+                other => other?,
+            }
+        }
+        let mut refused = None;
+        for (variable, value) in
+            [(Response, &b"\0"[..]), (RequestState, &[0; 4]), (ResponseState, &[1, 0, 0, 0])]
+        {
+            match session.call(&write(channel, variable, value)?).map(drop) {
+                Err(trouble @ Trouble::Refused(_)) => refused = Some(trouble),
+                other => other?,
+            }
+        }
+        refused.map_or(Ok(()), Err)
+    }
+
+    fn serve(&self) -> Result<(), Trouble> {
+        let interrupt = Interrupt::catch()?;
+        let mut session = self.target.open()?;
+        let channel = self.channel.channel;
+        // A program that has asked would wait for an answer that may not be written.
+        for variable in [
+            ServiceVariable::Response,
+            ServiceVariable::RequestState,
+            ServiceVariable::ResponseState,
+        ] {
+            session.check(&write(channel, variable, &[0; 4])?)?;
+        }
+        let mut serving = Serving {
+            host: Host::new(&self.uuid),
+            command: Command {
+                words: &self.command,
+                channel: channel.number(),
+                limit: self.time_limit,
+                interrupt: &interrupt,
+            },
+            channel,
+            served: None,
+            answered: 0,
+            failed_writes: 0,
+            said: String::new(),
+        };
+        let answers = if self.once { Some(1) } else { self.answers };
+        complain(format_args!(
+            "waiting for requests to {} in channel {}; Ctrl-C ends",
+            self.uuid.iter().map(ServiceId::to_string).collect::<Vec<_>>().join(", "),
+            channel.number()
+        ));
+        while answers.is_none_or(|answers| serving.answered < answers) {
+            let is_idle = serving.step(&mut session)?;
+            // An answer is written to its end.
+            if is_idle && (serving.is_enough(answers) || interrupt.sleep(self.poll)) {
+                break;
+            }
+        }
+        serving.unanswered();
+        Ok(())
+    }
+}
+
+/// A host at work.
+struct Serving<'s> {
+    host: Host<'s>,
+    command: Command<'s>,
+    channel: Channel,
+    /// The request that was answered, as it is shown, until it is known how that ended.
+    served: Option<String>,
+    answered: u64,
+    failed_writes: u32,
+    /// What was complained of last.
+    said: String,
+}
+
+impl Serving<'_> {
+    fn is_enough(&self, answers: Option<u64>) -> bool {
+        answers.is_some_and(|answers| self.answered >= answers)
+    }
+
+    /// Does the next step; whether time is to pass before the one after it.
+    fn step(&mut self, session: &mut Session) -> Result<bool, Trouble> {
+        match self.host.step() {
+            HostStep::Read(variable) => {
+                let value = session.call(&read(self.channel, variable)?)?;
+                if let Err(error) = self.host.read(value.bytes) {
+                    self.say_once(&error.to_string());
+                    return Ok(true);
+                }
+                Ok(false)
+            }
+            HostStep::Write(variable, value) => {
+                match session.call(&write(self.channel, variable, value)?).map(drop) {
+                    Ok(()) => {
+                        self.failed_writes = 0;
+                        self.host.written();
+                        Ok(false)
+                    }
+                    Err(trouble @ Trouble::Ads { .. }) => {
+                        self.failed_writes = self.failed_writes.saturating_add(1);
+                        if self.failed_writes >= FAILED_WRITES_MAX {
+                            self.unanswered();
+                            return Err(trouble);
+                        }
+                        self.host.failed();
+                        Ok(true)
+                    }
+                    Err(trouble) => {
+                        self.unanswered();
+                        Err(trouble)
+                    }
+                }
+            }
+            HostStep::Serve { uuid, request, request_state } => {
+                let Answer { response, state, warnings } =
+                    self.command.run(*uuid, request, request_state);
+                let shown = format!(
+                    "{uuid} {:?}, state {request_state}: {:?}, state {state}",
+                    request.to_string(),
+                    response.to_string()
+                );
+                for warning in warnings {
+                    complain(format_args!("warning: {warning}"));
+                }
+                let answered = self.host.answer(response.as_cnc_str(), state);
+                answered.map_err(|error| Trouble::Internal(error.to_string()))?;
+                self.served = Some(shown);
+                Ok(false)
+            }
+            HostStep::Wait => {
+                self.tell_outcome()?;
+                self.host.poll();
+                Ok(true)
+            }
+        }
+    }
+
+    /// Says how the last answer ended.
+    fn tell_outcome(&mut self) -> Result<(), Trouble> {
+        let Some(served) = self.served.take() else { return Ok(()) };
+        match self.host.outcome() {
+            Some(Outcome::Answered) => {
+                self.answered = self.answered.saturating_add(1);
+                let mut out = io::stdout().lock();
+                let told = writeln!(out, "{served}").and_then(|()| out.flush());
+                told.map_err(|error| Trouble::Internal(format!("stdout is lost: {error}")))
+            }
+            _ => {
+                complain(format_args!("dropped, the request is no longer there: {served}"));
+                Ok(())
+            }
+        }
+    }
+
+    fn unanswered(&self) {
+        if let Some(served) = &self.served {
+            complain(format_args!(
+                "this answer may not have arrived, and the NC program may wait for it: {served}"
+            ));
+        }
+    }
+
+    /// Complains, unless it was that already.
+    fn say_once(&mut self, what: &str) {
+        if self.said != what {
+            complain(format_args!("warning: no request: {what}"));
+            what.clone_into(&mut self.said);
+        }
+    }
+}
+
+fn read(channel: Channel, variable: ServiceVariable) -> Result<ReadByName<'static>, Trouble> {
+    ReadByName::new(channel, variable.name()).map_err(Trouble::Unsendable)
+}
+
+fn write(
+    channel: Channel,
+    variable: ServiceVariable,
+    value: &[u8],
+) -> Result<WriteByName<'_>, Trouble> {
+    WriteByName::new(channel, variable.name(), value).map_err(Trouble::Unsendable)
+}
+
+/// As a command gets and gives it.
+fn utf8(text: CncStr<'_>) -> String {
+    text.chars().collect()
+}

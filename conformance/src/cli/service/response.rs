@@ -1,0 +1,191 @@
+//! From what a command did to what the NC program is told.
+
+use std::process::ExitStatus;
+use std::time::Duration;
+
+use ads_cnc::limits::SERVICE_TEXT_MAX;
+use ads_cnc::text::char_to_cp1252;
+use ads_cnc::{CncStr, CncString};
+
+/// Bytes of stdout that are kept: more than can be answered, in UTF-8 too.
+pub(super) const KEPT: usize = 1024;
+
+/// The state of success.
+const SUCCESS: u32 = 1;
+/// Exit code 1.
+const EXIT_CODE_1: u32 = 1001;
+const TIME_OVER: u32 = 1002;
+const ENDED: u32 = 1003;
+const NOT_STARTED: u32 = 1004;
+
+/// What the NC program is told.
+#[derive(Debug)]
+pub(super) struct Answer {
+    pub(super) response: CncString,
+    pub(super) state: u32,
+    pub(super) warnings: Vec<String>,
+}
+
+/// How a command ended.
+#[derive(Debug)]
+pub(super) enum Ended {
+    /// Of itself, or by a signal.
+    Exited(ExitStatus),
+    /// It took longer than this.
+    TimeOver(Duration),
+    /// Ctrl-C.
+    Interrupted,
+    /// It could not be started.
+    NotStarted(String),
+}
+
+impl Ended {
+    /// The response state; never 0.
+    fn state(&self) -> u32 {
+        match self {
+            Self::Exited(status) => match status.code() {
+                Some(0) => SUCCESS,
+                Some(1) => EXIT_CODE_1,
+                // Windows has codes of 32 bits, which are shown as negative.
+                Some(code) => u32::from_le_bytes(code.to_le_bytes()),
+                None => ENDED,
+            },
+            Self::TimeOver(_) => TIME_OVER,
+            Self::Interrupted => ENDED,
+            Self::NotStarted(_) => NOT_STARTED,
+        }
+    }
+
+    /// What is wrong, if it is not for the command to say.
+    fn reason(&self) -> Option<String> {
+        match self {
+            Self::Exited(status) if status.code().is_some() => None,
+            Self::Exited(_) => Some("ERROR: command was ended".to_owned()),
+            Self::TimeOver(limit) => Some(format!("ERROR: time limit of {limit:?} exceeded")),
+            Self::Interrupted => Some("ERROR: service was ended".to_owned()),
+            Self::NotStarted(_) => Some("ERROR: command not started".to_owned()),
+        }
+    }
+}
+
+/// What the NC program is told when a command ended so with this on stdout.
+pub(super) fn answer(ended: &Ended, stdout: &[u8]) -> Answer {
+    let mut warnings = Vec::new();
+    match ended {
+        Ended::NotStarted(why) => warnings.push(format!("the command could not be started: {why}")),
+        Ended::TimeOver(limit) => {
+            warnings.push(format!("the command ran longer than {limit:?} and was ended"));
+        }
+        _ => {}
+    }
+    let mut response = cp1252(stdout, &mut warnings);
+    if let Some(reason) = ended.reason().filter(|_| response.is_empty()) {
+        response = reason.into_bytes();
+    }
+    // Without a NUL; the CNC has one behind it.
+    let most = SERVICE_TEXT_MAX.saturating_sub(1);
+    if response.len() > most {
+        warnings.push(format!("the response is cut to {most} bytes"));
+        response.truncate(most);
+    }
+    let response = CncStr::from_bytes(&response).map(CncString::from).unwrap_or_default();
+    Answer { response, state: ended.state(), warnings }
+}
+
+/// Text of a command in CP1252, without its last line end.
+fn cp1252(stdout: &[u8], warnings: &mut Vec<String>) -> Vec<u8> {
+    let mut bytes = match std::str::from_utf8(stdout) {
+        Ok(text) => to_cp1252(text, warnings),
+        // Cut when it was captured, within a character.
+        Err(error) if error.error_len().is_none() && stdout.len() >= KEPT => {
+            let whole = stdout.get(..error.valid_up_to()).unwrap_or_default();
+            to_cp1252(std::str::from_utf8(whole).unwrap_or_default(), warnings)
+        }
+        Err(_) => stdout.to_vec(),
+    };
+    if let Some(nul) = bytes.iter().position(|&byte| byte == 0) {
+        warnings.push("the response ends at a NUL".to_owned());
+        bytes.truncate(nul);
+    }
+    for end in [b'\n', b'\r'] {
+        if bytes.last() == Some(&end) {
+            bytes.pop();
+        }
+    }
+    bytes
+}
+
+fn to_cp1252(text: &str, warnings: &mut Vec<String>) -> Vec<u8> {
+    let mut strange = None;
+    let bytes = text.chars().map(|character| {
+        char_to_cp1252(character).unwrap_or_else(|| {
+            strange.get_or_insert(character);
+            b'?'
+        })
+    });
+    let bytes = bytes.collect();
+    if let Some(character) = strange {
+        warnings.push(format!("CP1252 has no {character:?}; there is a ? for each such character"));
+    }
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(stdout: &[u8]) -> (Vec<u8>, Vec<String>) {
+        // Any end that leaves stdout alone.
+        let Answer { response, warnings, .. } = answer(&Ended::Interrupted, stdout);
+        (response.as_bytes().to_vec(), warnings)
+    }
+
+    #[test]
+    fn stdout_is_cut_to_what_fits() {
+        assert_eq!(of(b"1.732051\r\n"), (b"1.732051".to_vec(), vec![]));
+        assert_eq!(of(b"two\nlines\n\n").0, b"two\nlines\n");
+        assert_eq!(of("12,5 €/m²".as_bytes()), (b"12,5 \x80/m\xB2".to_vec(), vec![]));
+        assert_eq!(of(b"12 \x80/m\xB2."), (b"12 \x80/m\xB2.".to_vec(), vec![]));
+
+        let (response, warnings) = of("Ω".as_bytes());
+        assert_eq!((&response[..], warnings.len()), (&b"?"[..], 1));
+        let (response, warnings) = of(b"a\0b");
+        assert_eq!((&response[..], warnings.len()), (&b"a"[..], 1));
+
+        // By characters, each of which is one byte there.
+        assert_eq!(of("ä".repeat(127).as_bytes()), (vec![0xE4; 127], vec![]));
+        let (response, warnings) = of("ä".repeat(128).as_bytes());
+        assert_eq!((response, warnings.len()), (vec![0xE4; 127], 1));
+        // A capture may end within a character; a text may not.
+        let captured = [&b"a"[..], "ä".repeat(512).as_bytes()].concat();
+        assert_eq!(of(&captured[..KEPT]).0, of(&captured).0);
+        assert_eq!(of(b"L\xE4").0, b"L\xE4");
+    }
+
+    #[test]
+    fn no_state_is_0_and_no_failure_looks_like_success() {
+        let all = [
+            (Ended::TimeOver(Duration::from_secs(1)), TIME_OVER),
+            (Ended::Interrupted, ENDED),
+            (Ended::NotStarted("not there".to_owned()), NOT_STARTED),
+        ];
+        for (ended, state) in all {
+            let answer = answer(&ended, b"");
+            assert_eq!(answer.state, state);
+            assert!(answer.response.to_string().starts_with("ERROR: "), "{answer:?}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn exit_codes_are_states() {
+        use std::os::unix::process::ExitStatusExt as _;
+
+        for (raw, state) in [(0, 1), (1 << 8, 1001), (2 << 8, 2), (255 << 8, 255), (9, 1003)] {
+            assert_eq!(Ended::Exited(ExitStatus::from_raw(raw)).state(), state);
+        }
+        assert!(
+            answer(&Ended::Exited(ExitStatus::from_raw(0)), b"").response.as_bytes().is_empty()
+        );
+    }
+}

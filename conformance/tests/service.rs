@@ -1,0 +1,336 @@
+//! `ads-cnc service` as a person calls it, with an NC program that asks.
+
+mod common;
+
+use std::io::{BufRead, BufReader, Read as _};
+use std::process::{Child, Command, Output, Stdio};
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use ads_cnc::CncStr;
+use ads_cnc::service::ServiceVariable::{RequestState, Uuid};
+use ads_cnc::service::{Call, CallStep, Interface, ServiceId, ServiceVariable, SysServiceWait};
+use ads_cnc_conformance::cnc::{Cnc, Server};
+use ads_cnc_conformance::net;
+use common::fake::TestFile;
+
+const ID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
+const OTHER: &str = "19719079-BA06-4740-BC02-DE5215211751";
+
+/// How long anything may take.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// A CNC in this process, and the tool in another.
+struct Bench {
+    cnc: Arc<Cnc>,
+    server: Server,
+    allow: TestFile,
+}
+
+impl Bench {
+    fn start() -> Self {
+        let cnc = Arc::new(Cnc::with_default_model().unwrap());
+        let listener = net::listen(([127, 0, 0, 1], 0).into()).unwrap();
+        let server = Server::start(listener, Arc::clone(&cnc)).unwrap();
+        Self { cnc, server, allow: TestFile::allowing("[[service]]\nchannel = 2\n") }
+    }
+
+    fn tool(&self, options: &[&str], command: &[&str]) -> Command {
+        let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+        tool.args(["service", "--target", &self.server.addr().to_string()])
+            .args(["--net-id", "127.0.0.1.1.1", "--channel", "2"])
+            .args(["--allow-write", self.allow.path()])
+            .args(options)
+            .arg("--")
+            .args(command)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        tool
+    }
+
+    fn with<T>(&self, then: impl FnOnce(&mut Interface) -> T) -> T {
+        self.cnc.with_service(2, then).unwrap()
+    }
+
+    /// Asks as an NC program does, and waits for the response and its state.
+    fn ask(&self, id: &str, request: &str) -> (String, u32) {
+        let (id, request) = (ServiceId::new(id).unwrap(), CncStr::new(request).unwrap());
+        let mut call = Call::with_state(id, request, 7, SysServiceWait::default()).unwrap();
+        let begun = Instant::now();
+        loop {
+            let now = begun.elapsed();
+            assert!(now < PATIENCE, "no response");
+            match call.step() {
+                CallStep::Read(variable) => {
+                    self.with(|interface| call.read(interface.read(variable), now)).unwrap();
+                }
+                CallStep::Write(variable, value) => {
+                    self.with(|interface| interface.write(variable, value)).unwrap();
+                    call.written(now);
+                }
+                CallStep::Wait { .. } => {
+                    thread::sleep(Duration::from_millis(2));
+                    call.poll();
+                }
+                CallStep::Done { state, response } => return (response.to_string(), state),
+                CallStep::TimedOut => panic!("there is no longest wait"),
+            }
+        }
+    }
+
+    /// Asks once, with a tool that answers once.
+    fn once(&self, options: &[&str], command: &[&str], request: &str) -> ((String, u32), Output) {
+        let options = [&["--uuid", ID, "--once", "--poll", "5ms"], options].concat();
+        let tool = self.tool(&options, command).spawn().unwrap();
+        let answer = self.ask(ID, request);
+        (answer, ended(tool))
+    }
+}
+
+fn ended(tool: Child) -> Output {
+    let output = tool.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    output
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// A command that is there on every system: this project's own.
+const EXPLAIN: [&str; 5] =
+    [env!("CARGO_BIN_EXE_ads-cnc"), "explain", "--stream", "variable-handle", "-"];
+
+/// In a shell of the system.
+fn shell<'a>(unix: &'a str, windows: &'a str) -> [&'a str; 3] {
+    if cfg!(windows) { ["cmd", "/C", windows] } else { ["sh", "-c", unix] }
+}
+
+/// The request is on stdin, stdout the response, cut to what fits, exit code 0 the state 1.
+#[test]
+fn a_command_answers() {
+    let ((response, state), output) = Bench::start().once(&[], &EXPLAIN, "04 00 00 02");
+    assert_eq!(state, 1);
+    assert!(response.starts_with("Variable handle by name"), "{response}");
+    assert_eq!(response.chars().count(), 127);
+    let (told, said) = (text(&output.stdout), text(&output.stderr));
+    let line = format!("{ID} \"04 00 00 02\", state 7: \"Variable handle by name");
+    assert!(told.starts_with(&line) && told.ends_with(", state 1\n"), "{told}");
+    assert!(said.contains("warning: the response is cut to 127 bytes"), "{said}");
+}
+
+/// A failure is no success to the program: 1 is another state, the others are themselves.
+#[test]
+fn an_exit_code_is_the_state() {
+    let bench = Bench::start();
+    assert_eq!(bench.once(&[], &EXPLAIN, "04 00").0.1, 1001);
+    assert_eq!(bench.once(&[], &EXPLAIN, "no hex").0, (String::new(), 2));
+    let ((response, state), _) = bench.once(&[], &shell("exit 99", "exit 99"), "");
+    assert_eq!((response, state), (String::new(), 99));
+}
+
+#[test]
+fn the_environment_says_who_is_asked() {
+    let echo = shell(
+        "echo $ADS_CNC_UUID $ADS_CNC_REQUEST_STATE $ADS_CNC_CHANNEL",
+        "echo %ADS_CNC_UUID% %ADS_CNC_REQUEST_STATE% %ADS_CNC_CHANNEL%",
+    );
+    let (answer, _) = Bench::start().once(&[], &echo, "");
+    assert_eq!(answer, (format!("{ID} 7 2"), 1));
+}
+
+/// A command that does not end is ended, and the program told.
+#[test]
+fn a_time_limit_ends_a_command() {
+    let serve = [env!("CARGO_BIN_EXE_ads-cnc"), "serve", "--listen", "127.0.0.1:0"];
+    let ((response, state), output) = Bench::start().once(&["--time-limit", "1s"], &serve, "");
+    assert_eq!(state, 1002);
+    assert!(response.starts_with("listening on 127.0.0.1:"), "{response}");
+    assert!(text(&output.stderr).contains("ran longer than 1s"));
+}
+
+#[test]
+fn a_command_that_is_not_there_is_answered_for() {
+    let (answer, output) = Bench::start().once(&[], &["ads-cnc-no-such-command"], "");
+    assert_eq!(answer, ("ERROR: command not started".to_owned(), 1004));
+    assert!(text(&output.stderr).contains("ads-cnc-no-such-command"));
+}
+
+/// Several services share the command; other UUIDs are left alone.
+#[test]
+fn several_services_share_a_command() {
+    let bench = Bench::start();
+    let both = format!("{ID},{OTHER}");
+    let options = ["--uuid", &both, "--answers", "3", "--poll", "5ms"];
+    let echo = shell("echo $ADS_CNC_UUID", "echo %ADS_CNC_UUID%");
+    let tool = bench.tool(&options, &echo).spawn().unwrap();
+    bench.with(|interface| {
+        let other = b"00000000-0000-0000-0000-000000000000\0";
+        interface.write(Uuid, other).unwrap();
+        interface.write(RequestState, &[1, 0, 0, 0]).unwrap();
+    });
+    thread::sleep(Duration::from_millis(100));
+    assert_eq!(bench.with(|interface| interface.read(RequestState).to_vec()), [1, 0, 0, 0]);
+    for id in [ID, OTHER, ID] {
+        assert_eq!(bench.ask(id, "x"), (id.to_owned(), 1));
+    }
+    assert_eq!(text(&ended(tool).stdout).lines().count(), 3);
+}
+
+/// Without an entry that names the service of this channel it does not begin: an NC program would
+/// wait for an answer that may not be written.
+#[test]
+fn an_entry_has_to_name_the_service() {
+    let mut bench = Bench::start();
+    for table in ["", "[[service]]\nchannel = 1\n", "[[stream]]\nchannel = 2\n"] {
+        bench.allow = TestFile::allowing(table);
+        let output = bench.tool(&["--uuid", ID], &["echo"]).output().unwrap();
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(4), "{said}");
+        assert!(said.ends_with("\n\n[[service]]\nchannel = 2\n"), "{said}");
+    }
+}
+
+/// A dry run shows what a request takes, and runs no command.
+#[test]
+fn a_dry_run_shows_what_an_answer_takes() {
+    let mut bench = Bench::start();
+    for (table, code, verdict) in
+        [("[[service]]\nchannel = 2\n", 0, "would be sent"), ("", 4, "would be refused")]
+    {
+        bench.allow = TestFile::allowing(table);
+        let output = bench.tool(&["--uuid", ID, "--dry-run"], &["echo"]).output().unwrap();
+        let shown = text(&output.stdout);
+        assert_eq!(output.status.code(), Some(code), "{}", text(&output.stderr));
+        assert!(shown.matches(verdict).count() >= 3, "{shown}");
+        assert_eq!(shown.matches("would be").count(), 6, "{shown}");
+    }
+}
+
+/// Wrong usage is said before anything is asked.
+#[test]
+fn wrong_usage_is_said() {
+    let bench = Bench::start();
+    let short = &ID[..35];
+    for options in [
+        &["--uuid", short][..],
+        &[],
+        &["--uuid", ID, "--time-limit", "0s"],
+        &["--uuid", ID, "--poll", "50"],
+        &["--uuid", ID, "--answers", "0"],
+    ] {
+        let output = bench.tool(options, &["echo"]).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+    }
+    let output = bench.tool(&["--uuid", ID], &[]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+}
+
+/// When the CNC is gone it ends with an error: it does not connect again.
+#[test]
+fn a_lost_connection_ends_it() {
+    let bench = Bench::start();
+    let mut tool = bench.tool(&["--uuid", ID], &["echo"]).spawn().unwrap();
+    let mut stderr = BufReader::new(tool.stderr.take().unwrap());
+    wait_for("waiting for requests", &mut stderr);
+    drop(bench.server);
+    let mut said = String::new();
+    stderr.read_to_string(&mut said).unwrap();
+    assert_eq!(tool.wait().unwrap().code(), Some(3), "{said}");
+}
+
+/// Reads lines until one says so.
+fn wait_for(what: &str, from: &mut impl BufRead) {
+    let found = from.lines().map(Result::unwrap).any(|line| line.contains(what));
+    assert!(found, "nothing says {what:?}");
+}
+
+#[cfg(unix)]
+fn interrupt(tool: &Child) {
+    let id = tool.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+}
+
+/// Ctrl-C ends it, and what it runs is ended and answered for.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_it_cleanly() {
+    let bench = Bench::start();
+    let mut tool = bench.tool(&["--uuid", ID], &["sleep", "1000"]).spawn().unwrap();
+    wait_for("waiting", &mut BufReader::new(tool.stderr.as_mut().unwrap()));
+    interrupt(&tool);
+    ended(tool);
+
+    let script = "echo begun | tee /dev/stderr; sleep 1000 | sleep 1000";
+    let mut tool = bench.tool(&["--uuid", ID], &["sh", "-c", script]).spawn().unwrap();
+    let stderr = tool.stderr.take().unwrap();
+    let answer = thread::scope(|scope| {
+        let asked = scope.spawn(|| bench.ask(ID, "do"));
+        wait_for("begun", &mut BufReader::new(stderr));
+        interrupt(&tool);
+        asked.join().unwrap()
+    });
+    assert_eq!(answer, ("begun".to_owned(), 1003));
+    ended(tool);
+}
+
+/// What the command has started ends with it, and holds nobody up.
+#[cfg(unix)]
+#[test]
+fn a_time_limit_ends_all_that_was_started() {
+    let begun = Instant::now();
+    let command = ["sh", "-c", "(sleep 1000; echo never) & sleep 1000"];
+    let (answer, _) = Bench::start().once(&["--time-limit", "200ms"], &command, "");
+    assert_eq!(answer, ("ERROR: time limit of 200ms exceeded".to_owned(), 1002));
+    assert!(begun.elapsed() < PATIENCE);
+}
+
+/// A command may leave something running that holds its stdout: its answer is given all the same.
+#[cfg(unix)]
+#[test]
+fn what_stays_behind_holds_nobody_up() {
+    let ((response, state), output) =
+        Bench::start().once(&[], &["sh", "-c", "sleep 5 & echo done"], "");
+    assert_eq!((&response[..], state), ("done", 1));
+    assert!(text(&output.stderr).contains("still has its stdout"));
+}
+
+/// However much a command writes, it is not held up, and no more than fits is kept.
+#[cfg(unix)]
+#[test]
+fn much_output_is_cut() {
+    let command = ["sh", "-c", "yes | head -c 10000000; kill -TERM $$"];
+    let ((response, state), _) = Bench::start().once(&[], &command, "");
+    assert_eq!((response.len(), state), (127, 1003));
+}
+
+/// Text goes both ways by its characters.
+#[cfg(unix)]
+#[test]
+fn text_is_utf8_to_the_command() {
+    let (answer, _) = Bench::start().once(&[], &["cat"], "12,5 € für 2 m²");
+    assert_eq!(answer, ("12,5 € für 2 m²".to_owned(), 1));
+}
+
+/// An answer that comes too late is dropped, and the next request served.
+#[cfg(unix)]
+#[test]
+fn a_late_answer_is_dropped() {
+    let bench = Bench::start();
+    let options = ["--uuid", ID, "--once", "--poll", "5ms"];
+    let script = "read x; echo begun >&2; sleep $x; echo $x";
+    let mut tool = bench.tool(&options, &["sh", "-c", script]).spawn().unwrap();
+    let mut stderr = BufReader::new(tool.stderr.take().unwrap());
+    bench.with(|interface| {
+        interface.write(Uuid, ID.as_bytes()).unwrap();
+        interface.write(ServiceVariable::Request, b"1\0").unwrap();
+        interface.write(RequestState, &[1, 0, 0, 0]).unwrap();
+    });
+    wait_for("begun", &mut stderr);
+    bench.with(Interface::reset);
+    wait_for("dropped, the request is no longer there", &mut stderr);
+    assert_eq!(bench.ask(ID, "0"), ("0".to_owned(), 1));
+    assert_eq!(text(&ended(tool).stdout).lines().count(), 1);
+}
