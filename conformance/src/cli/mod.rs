@@ -1,5 +1,6 @@
 //! The command line of `ads-cnc`.
 
+mod completions;
 mod duration;
 mod explain;
 mod interrupt;
@@ -42,6 +43,7 @@ enum Command {
     Requirements(requirements::Requirements),
     Stream(stream::Stream),
     Service(service::Service),
+    Completions(completions::Completions),
 }
 
 impl Command {
@@ -79,6 +81,7 @@ impl Cli {
             Some(Command::Requirements(requirements)) => requirements.execute().into(),
             Some(Command::Stream(stream)) => stream.execute().into(),
             Some(Command::Service(service)) => service.execute().into(),
+            Some(Command::Completions(completions)) => completions.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
             // The suite against the embedded CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),
