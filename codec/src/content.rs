@@ -11,6 +11,8 @@ bytes_stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.2 and 2.2.2.
     ///
+    /// `decode` refuses with [`TooLong`](crate::ErrorKind::TooLong).
+    ///
     /// ```
     /// use ads_cnc::{ContentRef, Decode};
     ///

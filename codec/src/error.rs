@@ -27,6 +27,14 @@ pub struct Error {
 }
 
 /// The class of an [`Error`]; says what its two numbers mean.
+///
+/// ```
+/// use ads_cnc::{Decode, ErrorKind, Handle};
+///
+/// let error = Handle::decode(&[4, 0, 0, 2, 0]).unwrap_err();
+/// assert_eq!(error.kind(), ErrorKind::Trailing);
+/// assert_eq!((error.expected(), error.found()), (4, 5));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {

@@ -8,6 +8,20 @@ use crate::layout::Stream;
 ///
 /// `XRef` types borrow from the bytes and never allocate; `X` types own what they read. Both
 /// accept the same bytes and refuse the others with the same [`Error`].
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.
+///
+/// ```
+/// use ads_cnc::{Decode, Handle};
+///
+/// assert_eq!(Handle::STREAM.layout().name, "variable-handle");
+/// assert_eq!(Handle::decode(&[4, 0, 0, 2])?, Handle(0x2000004));
+/// assert_eq!(
+///     Handle::decode(&[4, 0, 0]).unwrap_err().to_string(),
+///     "variable-handle: handle at offset 0: truncated, 4 bytes expected, 3 there"
+/// );
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 pub trait Decode<'a>: Sized {
     /// The stream this reads, with its field table.
     const STREAM: Stream;
@@ -24,6 +38,18 @@ pub trait Decode<'a>: Sized {
 const FRAME_MAX: usize = crate::ads::FrameRef::HEADERS_LEN + 16 + crate::limits::ADS_DATA_MAX;
 
 /// Writes a stream. What was decoded encodes to the same bytes.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.
+///
+/// ```
+/// use ads_cnc::{Encode, ErrorKind, Handle};
+///
+/// let handle = Handle(0x2000004);
+/// assert_eq!(handle.encoded_len(), 4);
+/// assert_eq!(handle.encode(&mut [0; 8])?, [4, 0, 0, 2]);
+/// assert_eq!(handle.encode(&mut [0; 3]).unwrap_err().kind(), ErrorKind::BufferTooSmall);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 pub trait Encode {
     /// How many bytes [`encode`](Self::encode) writes.
     fn encoded_len(&self) -> usize;
@@ -48,6 +74,18 @@ pub trait Encode {
 }
 
 /// What comes back from a function that returns nothing (VAR-17).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6, 4.3.7 and 4.3.11.
+///
+/// `decode` refuses with [`Trailing`](crate::ErrorKind::Trailing).
+///
+/// ```
+/// use ads_cnc::{Decode, NoData};
+///
+/// assert_eq!(NoData::decode(&[])?, NoData);
+/// assert!(NoData::decode(&[0]).is_err());
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct NoData;
 

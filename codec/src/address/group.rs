@@ -92,6 +92,16 @@ impl fmt::Display for IndexGroup {
 }
 
 /// What an index group addresses.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1 and 2.2.1.
+///
+/// ```
+/// use ads_cnc::address::{Class, Group, IndexGroup};
+///
+/// assert!(matches!(IndexGroup::new(0x13_0101).parts(), Some(Group::Com(_))));
+/// let Some(Group::Class(parts)) = IndexGroup::new(0x12_2301).parts() else { panic!() };
+/// assert_eq!((parts.class, parts.instance), (Class::Decoder, 1));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Group {
     /// The COM task, AMS port 553.
@@ -112,6 +122,18 @@ impl Group {
 }
 
 /// Logical addressing or addressing by index (ADR-1).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.
+///
+/// ```
+/// use ads_cnc::address::{Attribute, Channel, Class};
+///
+/// // channel 6, which is the second of the active ones
+/// let interpolator = |channel: Channel| channel.class(Class::Interpolator, Attribute::Content);
+/// assert_eq!(interpolator(Channel::new(6)?).get(), 0x12_1306);
+/// assert_eq!(interpolator(Channel::by_index(2)?).get(), 0x2_1302);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Addressing {
     /// By the configured number: bit 0x100000 is set.
@@ -130,6 +152,16 @@ impl Addressing {
 }
 
 /// The content of elements, or the description of objects (ADR-4).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1 and 2.1.2.
+///
+/// ```
+/// use ads_cnc::address::{Access, Channel};
+///
+/// assert_eq!(Channel::new(1)?.com(Access::Object).get(), 0x13_0101);
+/// assert_eq!(Channel::new(1)?.com(Access::Element).get(), 0x12_0101);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Access {
     /// Element access, 0x20000.
@@ -139,6 +171,16 @@ pub enum Access {
 }
 
 /// Which of COM's two tables a group addresses (ADR-3).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 and 2.1.
+///
+/// ```
+/// use ads_cnc::address::{Access, ComGroup, ComTable};
+///
+/// let platform = ComGroup::platform(Access::Element);
+/// let first_axis = ComGroup { table: ComTable::Axis, instance: 1, ..platform };
+/// assert_eq!(first_axis.index_group().get(), 0x12_0201);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ComTable {
     /// 0x100: platform (0, or 1: the first channel drives it) and channels.
@@ -236,6 +278,15 @@ impl ClassGroup {
 }
 
 /// A class of the CNC (ADR-5).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.1.
+///
+/// ```
+/// use ads_cnc::address::{Attribute, Channel, Class};
+///
+/// assert_eq!(Channel::new(1)?.class(Class::Decoder, Attribute::Content).get(), 0x12_2301);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Class {
     /// Position controller, once in a CNC, with the platform's axes.
@@ -287,6 +338,15 @@ impl Class {
 }
 
 /// An attribute of an element (ADR-6).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
+///
+/// ```
+/// use ads_cnc::address::{Attribute, Channel, Class};
+///
+/// assert_eq!(Channel::new(1)?.class(Class::Hld, Attribute::Name).get(), 0x12_3401);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Attribute {
     /// The content, of the element's type.

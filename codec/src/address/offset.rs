@@ -30,6 +30,16 @@ pub struct IndexOffset(u32);
 const AXIS_MAX: u32 = 0xFFFF;
 
 /// How far an axis is from the next in an index offset.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1, 2.1.2, 2.2.2 and 4.2.2.
+///
+/// ```
+/// use ads_cnc::address::{AxisStride, IndexOffset};
+///
+/// assert_eq!(IndexOffset::of_axis(AxisStride::X10000, 1, 1)?.get(), 0x1_0001);
+/// assert_eq!(IndexOffset::of_axis(AxisStride::X1000, 1, 0)?.get(), 0x1000);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum AxisStride {
     /// 0x10000: SDA and GEO (ADR-7), COM by its examples (ADR-8).

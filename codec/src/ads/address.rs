@@ -8,6 +8,8 @@ use crate::layout::field::ams_net_id::{NUMBER, NUMBERS};
 
 /// An AMS NetId, six bytes written with dots.
 ///
+/// Source: the vendors' public help pages; the manuals do not describe it.
+///
 /// ```
 /// use ads_cnc::ads::AmsNetId;
 ///
@@ -68,6 +70,15 @@ impl FromStr for AmsNetId {
 }
 
 /// An AMS port.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 1.
+///
+/// ```
+/// use ads_cnc::ads::AmsPort;
+///
+/// assert_eq!([AmsPort::GEO, AmsPort::SDA, AmsPort::COM].map(|port| port.0), [551, 552, 553]);
+/// assert_eq!(AmsPort(0x8001).to_string(), "32769");
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct AmsPort(pub u16);
 
@@ -93,6 +104,16 @@ impl fmt::Debug for AmsPort {
 }
 
 /// A NetId and a port: one end of a conversation.
+///
+/// Source: the vendors' public help pages; the manuals do not describe it.
+///
+/// ```
+/// use ads_cnc::ads::{AmsAddr, AmsPort};
+///
+/// let com = AmsAddr { net_id: "192.0.2.7.1.1".parse()?, port: AmsPort::COM };
+/// assert_eq!(com.to_string(), "192.0.2.7.1.1:553");
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct AmsAddr {
     /// The device.

@@ -14,6 +14,9 @@ use crate::stream::{Decode, Encode};
 ///
 /// Source: the vendors' public help pages; the five manuals do not describe it.
 ///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
+///
 /// ```
 /// use ads_cnc::{Decode, ads::AmsTcpHeader};
 ///
@@ -64,6 +67,16 @@ impl Encode for AmsTcpHeader {
 }
 
 /// An AMS command; unknown numbers stay what they are.
+///
+/// Source: the vendors' public help pages; the manuals do not describe it.
+///
+/// ```
+/// use ads_cnc::ads::Command;
+///
+/// let commands = [Command::READ, Command::WRITE, Command::READ_WRITE];
+/// assert_eq!(commands.map(|command| command.0), [2, 3, 9]);
+/// assert_ne!(Command(77), Command::READ);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct Command(pub u16);
@@ -90,6 +103,15 @@ impl Command {
 }
 
 /// The state flags of an AMS header; unknown bits stay what they are.
+///
+/// Source: the vendors' public help pages; the manuals do not describe it.
+///
+/// ```
+/// use ads_cnc::ads::StateFlags;
+///
+/// // A response has the bit that says so, and else the flags of its request.
+/// assert_eq!(StateFlags::RESPONSE, StateFlags(StateFlags::REQUEST.0 | 1));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct StateFlags(pub u16);
@@ -105,6 +127,19 @@ impl StateFlags {
 ///
 /// Which number a CNC gives is not documented (ADS-7): those named here are assumed, and a
 /// client should only tell 0 from not 0.
+///
+/// Source: the vendors' public help pages; the manuals do not describe it.
+///
+/// ```
+/// use ads_cnc::ads::{AdsError, WriteReply};
+/// use ads_cnc::Decode;
+///
+/// let reply = WriteReply::decode(&[0x03, 0x07, 0, 0])?;
+/// assert_eq!(reply.result, AdsError::INVALID_OFFSET);
+/// assert!(!reply.result.is_none());
+/// assert_eq!(reply.result.to_string(), "0x703");
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct AdsError(pub u32);
@@ -152,6 +187,9 @@ impl core::fmt::Debug for AdsError {
 #[doc = include_str!("../../doc/ams-header.md")]
 ///
 /// Source: the vendors' public help pages; the five manuals do not describe it.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, StateFlags};

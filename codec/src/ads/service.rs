@@ -17,6 +17,9 @@ use crate::stream::{Decode, Encode};
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
 ///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
+///
 /// ```
 /// use ads_cnc::address::{IndexGroup, IndexOffset};
 /// use ads_cnc::{Decode, ads::ReadRequest};
@@ -68,6 +71,9 @@ impl Encode for ReadRequest {
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
 ///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
+///
 /// ```
 /// use ads_cnc::ads::{AdsError, WriteReply};
 /// use ads_cnc::Decode;
@@ -112,6 +118,9 @@ macro_rules! request_with_data {
         #[doc = include_str!($doc)]
         ///
         /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
+        ///
+        /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+        /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
         ///
         #[doc = $example]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -227,6 +236,9 @@ macro_rules! reply_with_data {
         /// A reply whose result is not 0 may stop behind it (ADS-6): it has no data then.
         ///
         /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
+        ///
+        /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+        /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
         ///
         /// ```
         #[doc = concat!("use ads_cnc::{Decode, ads::", stringify!($ref), "};")]

@@ -10,6 +10,9 @@ crate::number::number_stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
     ///
+    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`Trailing`](crate::ErrorKind::Trailing).
+    ///
     /// ```
     /// use ads_cnc::{Decode, ObjectCount};
     ///

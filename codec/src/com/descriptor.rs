@@ -35,6 +35,16 @@ const _: () = assert!(size_of::<DescriptorLayout>() == DESCRIPTOR_LEN);
 const _: () = assert!(core::mem::offset_of!(DescriptorLayout, type_name) == 52);
 
 /// Whether an object may be written; any value but 0 is TRUE, and is kept (E-08).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
+///
+/// ```
+/// use ads_cnc::WriteAccess;
+///
+/// assert!(!WriteAccess::READ_ONLY.is_writable());
+/// assert!(WriteAccess(0xFFFF).is_writable());
+/// assert_ne!(WriteAccess(0xFFFF), WriteAccess::WRITABLE);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct WriteAccess(pub u16);
@@ -56,6 +66,9 @@ impl WriteAccess {
 /// Texts end at their first NUL or fill their 32 bytes; what follows the NUL is kept.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::{Decode, DescriptorRef};

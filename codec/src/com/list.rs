@@ -20,6 +20,9 @@ use crate::stream::{Decode, Encode};
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
 ///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`TooLong`](crate::ErrorKind::TooLong).
+///
 /// ```
 /// use ads_cnc::{Decode, DescriptorsRef};
 ///

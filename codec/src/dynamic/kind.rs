@@ -14,6 +14,17 @@ use crate::address::IndexOffset;
 /// | V.S | 0x05 | 0x24 | 0x25 | 0x26 |
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
+///
+/// ```
+/// use ads_cnc::address::Channel;
+/// use ads_cnc::dynamic::DynamicKind;
+/// use ads_cnc::operation::{CountDynamic, Operation};
+///
+/// let count = CountDynamic { channel: Channel::new(1)?, kind: DynamicKind::P };
+/// assert_eq!((count.index_group().get(), count.index_offset().get()), (0x12_2301, 0x02));
+/// assert_eq!(DynamicKind::VL.to_string(), "V.L");
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum DynamicKind {
     /// P parameters.

@@ -12,6 +12,9 @@ crate::text::text_stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
     ///
+    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`TooLong`](crate::ErrorKind::TooLong).
+    ///
     /// ```
     /// use ads_cnc::Decode;
     /// use ads_cnc::dynamic::DynamicNameRef;
@@ -33,6 +36,9 @@ crate::text::text_stream! {
     /// A NUL is sent; that it may be missing, and that more may pad the name, is assumed.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
+    ///
+    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+    /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
     /// use ads_cnc::{Decode, Encode, TextRef};

@@ -15,6 +15,9 @@ crate::number::number_stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
     ///
+    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`Trailing`](crate::ErrorKind::Trailing).
+    ///
     /// ```
     /// use ads_cnc::Decode;
     /// use ads_cnc::dynamic::DynamicCount;
@@ -29,6 +32,9 @@ crate::number::number_stream! {
 #[doc = include_str!("../../doc/dynamic-index.md")]
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+/// [`OutOfRange`](crate::ErrorKind::OutOfRange) or [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::dynamic::DynamicIndex;
@@ -81,6 +87,9 @@ impl Encode for DynamicIndex {
 /// The bits are kept, those of a NaN too; two values are equal if their bits are.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::Encode;

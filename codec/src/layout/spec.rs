@@ -6,6 +6,15 @@ use super::Stream;
 use super::tables::TABLES;
 
 /// The table of one stream.
+///
+/// ```
+/// use ads_cnc::layout::Stream;
+///
+/// let layout = Stream::ObjectDescriptor.layout();
+/// assert_eq!((layout.name, layout.max), ("object-descriptor", 84));
+/// assert!(layout.is_fixed() && !layout.repeats);
+/// assert!(Stream::ObjectDescriptors.layout().repeats);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Layout {
@@ -44,6 +53,14 @@ impl Layout {
 }
 
 /// One row of a table.
+///
+/// ```
+/// use ads_cnc::layout::Stream;
+///
+/// // The name stands behind m numbers of elements: at 20 + 4m.
+/// let name = Stream::VariableDescription.layout().fields.last().unwrap();
+/// assert_eq!((name.name, name.offset, name.per_item), ("name", 20, 4));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FieldSpec {
@@ -64,6 +81,16 @@ pub struct FieldSpec {
 }
 
 /// How long a field is.
+///
+/// ```
+/// use ads_cnc::layout::{Field, Size, Stream};
+///
+/// let size = |stream, name| Field::by_name(stream, name)?.spec().map(|spec| spec.size);
+/// assert_eq!(size(Stream::ObjectDescriptor, "id"), Some(Size::Fixed(4)));
+/// assert_eq!(size(Stream::ObjectDescriptor, "name"), Some(Size::Padded(32)));
+/// let dimensions = size(Stream::VariableDescription, "dimensions");
+/// assert_eq!(dimensions, Some(Size::Items { each: 4, max: 506 }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Size {
@@ -120,6 +147,16 @@ pub enum Size {
 }
 
 /// The name of a type on the wire, as the manuals and ADS spell it.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 3.1 and 4.3.
+///
+/// ```
+/// use ads_cnc::layout::{Stream, Type};
+///
+/// let [index, kind] = Stream::VariableIndexKind.layout().fields else { panic!() };
+/// assert_eq!((index.ty, kind.ty), (Type::Uns32, Type::String));
+/// assert_eq!(index.ty.to_string(), "UNS32");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Type {
@@ -160,6 +197,16 @@ impl fmt::Display for Type {
 }
 
 /// A field of a stream, or the stream as a whole.
+///
+/// ```
+/// use ads_cnc::layout::{Field, Stream};
+/// use ads_cnc::{Decode, DescriptionRef};
+///
+/// let error = DescriptionRef::decode(&[2, 0, 0, 2, 1, 0]).unwrap_err();
+/// assert_eq!(Some(error.field()), Field::by_name(Stream::VariableDescription, "type"));
+/// assert_eq!(error.field().spec().unwrap().offset, 4);
+/// assert_eq!(Field::whole(Stream::VariableDescription).name(), "stream");
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Field {
     stream: Stream,

@@ -17,6 +17,15 @@ macro_rules! layouts {
         } )?
     )+) => {
         /// A stream, or one of the tables that only name what an error is about.
+        ///
+        /// ```
+        /// use ads_cnc::layout::Stream;
+        ///
+        /// let stream = Stream::by_name("variable-index-kind").unwrap();
+        /// assert_eq!(stream, Stream::VariableIndexKind);
+        /// assert_eq!(stream.layout().max, 260);
+        /// assert!(Stream::all().all(|stream| stream.layout().is_stream()));
+        /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[non_exhaustive]
         pub enum Stream { $( $(#[$doc])* $stream, )+ }

@@ -5,6 +5,18 @@ use crate::bytes::Reader;
 use crate::error::Error;
 
 /// The bytes of one field, or of one item of a field that has several.
+///
+/// ```
+/// use ads_cnc::layout::Stream;
+///
+/// // handle of V.G.array, and the index of its fifth element
+/// let bytes = [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0];
+/// let mut last = None;
+/// Stream::VariableHandleRead.walk(&bytes, |segment| last = Some(segment))?;
+/// let last = last.unwrap();
+/// assert_eq!((last.item, last.offset, last.bytes), (0, 8, &[4, 0, 0, 0][..]));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Segment<'a> {

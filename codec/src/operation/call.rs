@@ -10,6 +10,24 @@ use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
 
 /// An ADS request as it reaches a CNC.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.1 and 5.
+///
+/// ```
+/// use ads_cnc::address::{IndexGroup, IndexOffset};
+/// use ads_cnc::ads::AmsPort;
+/// use ads_cnc::operation::{Call, Function, Service};
+///
+/// let call = Call {
+///     port: AmsPort::SDA,
+///     service: Service::ReadWrite,
+///     index_group: IndexGroup::new(0x12_2301),
+///     index_offset: IndexOffset::new(0x44),
+///     read_length: 4,
+///     data: b"V.E\0",
+/// };
+/// assert_eq!(call.dispatch().unwrap().function(), Function::CountVariables);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Call<'a> {
     /// The AMS port it was sent to.
@@ -27,6 +45,27 @@ pub struct Call<'a> {
 }
 
 /// Why a call is none that a CNC answers.
+///
+/// ```
+/// use ads_cnc::address::{IndexGroup, IndexOffset};
+/// use ads_cnc::ads::{AdsError, AmsPort};
+/// use ads_cnc::operation::{Call, Refusal, Service};
+///
+/// // 0x4E is reserved.
+/// let index_offset = IndexOffset::new(0x4E);
+/// let call = Call {
+///     port: AmsPort::SDA,
+///     service: Service::ReadWrite,
+///     index_group: IndexGroup::new(0x12_2301),
+///     index_offset,
+///     read_length: 4,
+///     data: &[],
+/// };
+/// let refusal = call.dispatch().unwrap_err();
+/// assert_eq!(refusal, Refusal::Offset(index_offset));
+/// assert_eq!(refusal.ads_error(), AdsError::INVALID_OFFSET);
+/// assert_eq!(refusal.to_string(), "no function has index offset 0x4e");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Refusal {

@@ -14,6 +14,8 @@ use crate::limits::DESCRIPTOR_LEN;
 
 /// Whose objects: the platform's, a channel's, a platform axis's.
 ///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1 and 2.1.1.
+///
 /// ```
 /// use ads_cnc::address::{Channel, PlatformAxis};
 /// use ads_cnc::operation::ObjectList;

@@ -17,6 +17,25 @@ pub(super) mod sealed {
 }
 
 /// A call of one function of the table.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.1.2, 2.2.2, 3.1 … 3.4 and
+/// 4.3.1 … 4.3.11.
+///
+/// ```
+/// use ads_cnc::address::Channel;
+/// use ads_cnc::operation::{CountVariables, Operation};
+/// use ads_cnc::{Error, Kind, VariableCount};
+///
+/// /// Over any transport: address and data go out, what comes back is read.
+/// fn ask<O: Operation>(op: &O, reply: &'static [u8]) -> Result<O::Reply<'static>, Error> {
+///     assert_eq!(op.encode(&mut [0; 256])?, b"V.E\0");
+///     op.decode_reply(reply)
+/// }
+///
+/// let count = CountVariables::new(Channel::new(1)?, Kind::V_E);
+/// assert_eq!(ask(&count, &[123, 0, 0, 0])?, VariableCount(123));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 pub trait Operation: sealed::Sealed {
     /// Which function.
     const FUNCTION: Function;
@@ -55,6 +74,22 @@ pub trait Operation: sealed::Sealed {
 macro_rules! requests {
     ($( $function:ident($operation:ty) => $reply:ident, )+) => {
         /// Any operation: what a server is asked, what a tool shows.
+        ///
+        /// ```
+        /// use ads_cnc::address::Channel;
+        /// use ads_cnc::ads::AmsPort;
+        /// use ads_cnc::operation::{HandleByName, Reply, Request};
+        /// use ads_cnc::Handle;
+        ///
+        /// let request = Request::from(HandleByName::new(Channel::new(1)?, "V.E.vartest")?);
+        /// let mut buf = [0; 256];
+        /// let call = request.encode(&mut buf)?;
+        /// assert_eq!((call.port, call.index_offset.get()), (AmsPort::SDA, 0x46));
+        /// assert_eq!(call.data, b"V.E.vartest\0");
+        /// assert_eq!(call.dispatch(), Ok(request));
+        /// assert_eq!(request.decode_reply(&[4, 0, 0, 2])?, Reply::Handle(Handle(0x2000004)));
+        /// # Ok::<(), ads_cnc::Error>(())
+        /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[non_exhaustive]
         pub enum Request<'a> {

@@ -6,6 +6,19 @@ use crate::address::{
 };
 
 /// The index groups of a function.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1, 2.2.1 and 4.2.
+///
+/// ```
+/// use ads_cnc::address::IndexGroup;
+/// use ads_cnc::operation::Function;
+///
+/// let rule = Function::HandleByName.spec().group;
+/// assert_eq!(rule.example().get(), 0x12_2301);
+/// // the decoder of channel 2, but not its interpolator
+/// assert!(rule.holds(IndexGroup::new(0x12_2302).parts().unwrap()));
+/// assert!(!rule.holds(IndexGroup::new(0x12_1302).parts().unwrap()));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GroupRule {
@@ -68,6 +81,18 @@ const fn class_group(class: Class, attribute: Attribute, instance: u8) -> IndexG
 }
 
 /// The index offsets of a function.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.2.2, 3.1 … 3.4 and 4.2.
+///
+/// ```
+/// use ads_cnc::address::IndexOffset;
+/// use ads_cnc::operation::{Function, OffsetRule};
+///
+/// assert_eq!(Function::HandleByName.spec().offset, OffsetRule::At(0x46));
+/// let of_axis = Function::AxisHandleByName.spec().offset;
+/// assert!(of_axis.holds(IndexOffset::new(0x1_0004)) && of_axis.holds(IndexOffset::new(0x2_0004)));
+/// assert!(!of_axis.holds(IndexOffset::new(4)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum OffsetRule {

@@ -5,6 +5,17 @@ use core::fmt;
 use crate::ads::{AmsPort, Command};
 
 /// An ADS service.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
+///
+/// ```
+/// use ads_cnc::ads::Command;
+/// use ads_cnc::operation::{Function, Service};
+///
+/// assert_eq!(Function::CountObjects.spec().service, Service::Read);
+/// assert_eq!(Function::WriteByName.spec().service.command(), Command::WRITE);
+/// assert_eq!(Service::ReadWrite.to_string(), "ReadWrite");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Service {
     /// ADS Read.
@@ -33,6 +44,17 @@ impl fmt::Display for Service {
 }
 
 /// A task of the CNC, each with its AMS port (GEN-4).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 1.
+///
+/// ```
+/// use ads_cnc::ads::AmsPort;
+/// use ads_cnc::operation::Task;
+///
+/// assert_eq!(Task::Com.port(), AmsPort(553));
+/// assert_eq!(Task::from_port(AmsPort(552)), Some(Task::Sda));
+/// assert_eq!(Task::from_port(AmsPort(851)), None);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Task {
     /// Port 551.

@@ -6,6 +6,17 @@ use crate::dynamic::DynamicKind;
 use crate::layout::Stream;
 
 /// What the table says of a function.
+///
+/// ```
+/// use ads_cnc::layout::Stream;
+/// use ads_cnc::operation::Function;
+///
+/// let spec = Function::DescribeByIndex.spec();
+/// assert_eq!((spec.name, spec.section), ("variable description by index", "4.3.2"));
+/// assert_eq!(spec.request, Some(Stream::VariableIndexKind));
+/// assert_eq!(spec.reply, Some(Stream::VariableDescription));
+/// assert!(!spec.is_content());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FunctionSpec {
@@ -41,6 +52,15 @@ impl FunctionSpec {
 }
 
 /// What a function does to the machine.
+///
+/// ```
+/// use ads_cnc::operation::{Effect, Function};
+///
+/// assert_eq!(Function::ReadByName.spec().effect, Effect::Query);
+/// assert_eq!(Function::WriteByName.spec().effect, Effect::Write);
+/// assert_eq!(Function::WriteProgramStream.spec().effect, Effect::Motion);
+/// assert!(Effect::Query < Effect::Write && Effect::Write < Effect::Motion);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Effect {
@@ -60,6 +80,17 @@ macro_rules! functions {
             $effect:ident [$( $request:ident )?] to [$( $reply:ident )?], $clause:literal, $section:literal;
     )+) => {
         /// A documented function.
+        ///
+        /// The manual's section of each is in its [row](FunctionSpec::section).
+        ///
+        /// ```
+        /// use ads_cnc::operation::{Function, Service, Task};
+        ///
+        /// let spec = Function::HandleByName.spec();
+        /// assert_eq!((spec.task, spec.service), (Task::Sda, Service::ReadWrite));
+        /// let writes = Function::ALL.iter().filter(|it| it.spec().service == Service::Write);
+        /// assert_eq!(writes.count(), 6);
+        /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[non_exhaustive]
         pub enum Function { $( $(#[$doc])* $function, )+ }

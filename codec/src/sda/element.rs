@@ -14,6 +14,9 @@ crate::number::number_stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The width is assumed.
     ///
+    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`Trailing`](crate::ErrorKind::Trailing).
+    ///
     /// ```
     /// use ads_cnc::Decode;
     /// use ads_cnc::sda::ElementCount;
@@ -32,6 +35,8 @@ crate::text::text_stream! {
     /// An empty reply is an empty text, and 256 bytes are the most that are asked for (assumed).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
+    ///
+    /// `decode` refuses with [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
     /// use ads_cnc::Decode;
@@ -54,6 +59,9 @@ crate::text::text_stream! {
 /// written of a new one (assumed).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::sda::ElementLength;
@@ -145,6 +153,9 @@ impl<'a> arbitrary::Arbitrary<'a> for ElementLength {
 /// (E-11).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::Decode;

@@ -45,6 +45,9 @@ fn encode(stream: Stream, first: u32, second: u32, buf: &mut [u8]) -> Result<&[u
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The widths are assumed.
 ///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
+///
 /// ```
 /// use ads_cnc::Encode;
 /// use ads_cnc::sda::ObjectAddressQuery;
@@ -85,6 +88,9 @@ impl Encode for ObjectAddressQuery {
 #[doc = include_str!("../../doc/object-address.md")]
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The widths are assumed.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::Decode;

@@ -54,6 +54,16 @@ enum Phase {
 /// What a call needs next; shown at [`Call`].
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
+///
+/// ```
+/// use ads_cnc::CncStr;
+/// use ads_cnc::service::{Call, CallStep, ServiceId, ServiceVariable, SysServiceWait};
+///
+/// let id = ServiceId::new("19719079-BA06-4740-BC02-DE5215211751")?;
+/// let call = Call::new(id, CncStr::new("some-command")?, SysServiceWait::default())?;
+/// assert!(matches!(call.step(), CallStep::Write(ServiceVariable::Uuid, _)));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CallStep<'a> {
     /// Read this variable and pass its value to [`Call::read`].

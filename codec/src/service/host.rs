@@ -112,6 +112,17 @@ impl Phase {
 /// What a host needs next; shown at [`Host`].
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
+///
+/// ```
+/// use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
+///
+/// let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
+/// let mut host = Host::new(&ids);
+/// assert_eq!(host.step(), HostStep::Read(ServiceVariable::RequestState));
+/// host.read(&[0, 0, 0, 0])?; // no request
+/// assert_eq!(host.step(), HostStep::Wait);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HostStep<'a> {
     /// Read this variable and pass its value to [`Host::read`].

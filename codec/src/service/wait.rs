@@ -44,6 +44,15 @@ pub struct SysServiceWait {
 }
 
 /// The longest wait of the cycle SysServiceWait: its @P2 and @P3; shown at [`SysServiceWait`].
+///
+/// ```
+/// use ads_cnc::service::SysServiceWait;
+///
+/// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
+/// let longest = wait.longest.unwrap();
+/// assert_eq!((longest.time.as_millis(), longest.timer), (5000, 1));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LongestWait {
     /// How long.
@@ -118,6 +127,18 @@ enum Phase {
 /// What a wait needs next; shown at [`Waiting`].
 ///
 /// Manual: `service-en`, section 3.
+///
+/// ```
+/// use core::time::Duration;
+///
+/// use ads_cnc::service::{SysServiceWait, WaitStep};
+///
+/// // For ever, if there is no @P2.
+/// let mut waiting = SysServiceWait::default().start(Duration::ZERO);
+/// waiting.read(&[0, 0, 0, 0], Duration::ZERO)?;
+/// assert_eq!(waiting.step(), WaitStep::Wait { until: None });
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WaitStep {
     /// Read this variable and pass its value to [`Waiting::read`].

@@ -49,6 +49,13 @@ pub struct Checker {
 }
 
 /// What a [`Checker`] finds; shown there.
+///
+/// ```
+/// use ads_cnc::streaming::{Checker, Found, ProgramEnd};
+///
+/// let end = Checker::new().check(b"N10 X1\r\nN20 M30\r\n").next();
+/// assert_eq!(end, Some(Found::End { end: ProgramEnd::M30, line: 2, column: 5 }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Found {
     /// What streaming does not permit, or what would be lost.
@@ -127,6 +134,15 @@ impl fmt::Debug for Checker {
 }
 
 /// What a [`Checker`] finds in some lines; shown there.
+///
+/// ```
+/// use ads_cnc::streaming::Checker;
+///
+/// let mut checker = Checker::new();
+/// let mut found = checker.check(b"N10 X1\r\nN20 M30\r\nN30 X2\r\n");
+/// assert_eq!(found.next().map(|found| found.line()), Some(2));
+/// assert_eq!(found.below(), b"N30 X2\r\n");
+/// ```
 pub struct CheckedLines<'c> {
     scan: Scan<'c>,
     labels: &'c Labels,

@@ -12,6 +12,9 @@ bytes_stream! {
     ///
     /// Manual: `stream-en`, sections 3.1, 3.2 and 4.1.
     ///
+    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`TooLong`](crate::ErrorKind::TooLong).
+    ///
     /// ```
     /// use ads_cnc::Decode;
     /// use ads_cnc::streaming::ProgramStreamRef;

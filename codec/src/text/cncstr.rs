@@ -147,6 +147,13 @@ impl<'a> CncStr<'a> {
 }
 
 /// The characters of a [`CncStr`].
+///
+/// ```
+/// use ads_cnc::CncStr;
+///
+/// assert!(CncStr::from_bytes(b"L\xE4nge")?.chars().eq("Länge".chars()));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Chars<'a>(CharSource<'a>);
 

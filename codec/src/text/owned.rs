@@ -58,6 +58,15 @@ impl fmt::Debug for CncString {
 }
 
 /// A text field with its end, owned: see [`TextRef`].
+///
+/// ```
+/// use ads_cnc::{Decode, VariableName};
+///
+/// let padded = VariableName::decode(b"V.E.a\0\0\0")?.name;
+/// assert_eq!(padded.text.as_bytes(), b"V.E.a");
+/// assert_eq!(padded.tail.as_deref(), Some(&[0, 0][..]));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Text {
     /// The text.

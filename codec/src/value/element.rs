@@ -15,6 +15,18 @@ use crate::variable::Numbers;
 /// One element of a value.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2; sizes of the types: GEN-5.
+///
+/// ```
+/// use ads_cnc::Numbers;
+/// use ads_cnc::value::{Boolean, DataType, Element, Elements};
+///
+/// // two BOOLEANs, as of V.E.Variable_3
+/// let elements = Elements::new(DataType::Boolean, Numbers::from(&[2]), &[0, 1])?;
+/// let second = elements.element(Numbers::from(&[1]))?;
+/// assert_eq!(second, Element::Boolean(Boolean::TRUE));
+/// assert_eq!(second.data_type(), DataType::Boolean);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Element<'a> {
@@ -66,6 +78,8 @@ impl Element<'_> {
 
 /// The elements of a value, by their indices or in their order: of more than one dimension, the
 /// last index runs fastest (VAR-21, assumed).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.2 and 4.3.4 … 4.3.7.
 ///
 /// ```
 /// use ads_cnc::Numbers;
@@ -200,6 +214,16 @@ impl fmt::Debug for Elements<'_> {
 }
 
 /// [`Elements`] in their order.
+///
+/// ```
+/// use ads_cnc::Numbers;
+/// use ads_cnc::value::{DataType, Element, Elements};
+///
+/// let bytes = [123_i32, 234, 345].map(i32::to_le_bytes).concat();
+/// let elements = Elements::new(DataType::Sgn32, Numbers::from(&[3]), &bytes)?;
+/// assert_eq!(elements.iter().last(), Some(Element::Sgn32(345)));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct ElementIter<'a> {
     elements: Elements<'a>,

@@ -102,6 +102,14 @@ mod owned {
     use crate::text::CncStr;
 
     /// [`StringsRef`], owned, in one allocation.
+    ///
+    /// ```
+    /// use ads_cnc::value::{Strings, StringsRef};
+    ///
+    /// let texts = Strings::from(StringsRef::new(b"abc\0d\0\0e", 2)?);
+    /// assert_eq!(texts.as_ref().get(0).unwrap().text(), "abc");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
     #[derive(Clone, PartialEq, Eq, Hash)]
     pub struct Strings {
         bytes: Vec<u8>,

@@ -33,6 +33,9 @@ const _: () = assert!(size_of::<Head>() == 20);
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
 ///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+/// [`TooMany`](crate::ErrorKind::TooMany) or [`TooLong`](crate::ErrorKind::TooLong).
+///
 /// ```
 /// use ads_cnc::{Decode, DescriptionRef, VariableType};
 ///
@@ -127,6 +130,16 @@ mod owned {
     use crate::text::Text;
 
     /// [`DescriptionRef`], owned.
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, Description, VariableAccess};
+    ///
+    /// let bytes = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
+    /// let variable = Description::decode(bytes)?;
+    /// assert_eq!((variable.access, variable.size), (VariableAccess::READ_ONLY, 2));
+    /// assert_eq!(variable.dimensions, [2]);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
     #[derive(Clone, Debug, PartialEq, Eq, Hash)]
     pub struct Description {
         /// Handle of the variable.

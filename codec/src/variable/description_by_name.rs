@@ -18,6 +18,10 @@ use crate::stream::{Decode, Encode};
 /// Documented online only, for CNC versions from V3.1.3132.0 and V4.29.0 on; `ads-en` 1.05 and
 /// `ads-de` 1.051 reserve the offset in section 4.2.1.
 ///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+/// [`TooMany`](crate::ErrorKind::TooMany), [`Trailing`](crate::ErrorKind::Trailing) or
+/// [`TooLong`](crate::ErrorKind::TooLong).
+///
 /// ```
 /// use ads_cnc::{Decode, DescriptionByNameRef, VariableType};
 ///
@@ -108,6 +112,14 @@ mod owned {
     use crate::bridge::{self, Fixed};
 
     /// [`DescriptionByNameRef`], owned.
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, DescriptionByName};
+    ///
+    /// let bytes = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0";
+    /// assert_eq!(DescriptionByName::decode(bytes)?.dimensions, [2]);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
     #[derive(Clone, Debug, PartialEq, Eq, Hash)]
     pub struct DescriptionByName {
         /// Handle of the variable.

@@ -15,6 +15,9 @@ use crate::stream::{Decode, Encode};
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
 ///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`TooLong`](crate::ErrorKind::TooLong).
+///
 /// ```
 /// use ads_cnc::{Decode, ExtendedDescription, ExtendedReply, Synchronisation, Validity};
 ///
@@ -32,6 +35,19 @@ use crate::stream::{Decode, Encode};
 pub struct ExtendedReply(pub Option<ExtendedDescription>);
 
 /// What a V.E variable has beyond its description.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
+///
+/// ```
+/// use ads_cnc::{Encode, ExtendedDescription, ExtendedReply, Synchronisation, Validity};
+///
+/// let extended = ExtendedDescription {
+///     synchronisation: Synchronisation::NO_SYNC,
+///     validity: Validity::CHANNEL,
+/// };
+/// assert_eq!(ExtendedReply(Some(extended)).encode(&mut [0; 8])?, [1, 0, 0, 0, 1, 0, 0, 0]);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct ExtendedDescription {

@@ -18,6 +18,9 @@ crate::number::number_stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.3.
     ///
+    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`Trailing`](crate::ErrorKind::Trailing).
+    ///
     /// ```
     /// use ads_cnc::{Decode, Handle};
     ///
@@ -38,6 +41,10 @@ impl fmt::Debug for Handle {
 /// No index reads the whole variable; otherwise there is one for each dimension.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.4.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+/// [`TooMany`](crate::ErrorKind::TooMany), [`Trailing`](crate::ErrorKind::Trailing) or
+/// [`TooLong`](crate::ErrorKind::TooLong).
 ///
 /// ```
 /// use ads_cnc::{Encode, Handle, HandleReadRef, Numbers};
@@ -97,6 +104,14 @@ mod owned {
     use crate::bridge;
 
     /// [`HandleReadRef`], owned.
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, Handle, HandleRead};
+    ///
+    /// let read = HandleRead::decode(&[0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0])?;
+    /// assert_eq!(read, HandleRead { handle: Handle(0x20012341), indices: vec![4] });
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
     #[derive(Clone, Debug, PartialEq, Eq, Hash)]
     pub struct HandleRead {
         /// Handle of the variable.

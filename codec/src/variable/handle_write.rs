@@ -14,6 +14,9 @@ use crate::stream::{Decode, Encode};
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.6.
 ///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+/// [`TooMany`](crate::ErrorKind::TooMany) or [`TooLong`](crate::ErrorKind::TooLong).
+///
 /// ```
 /// use ads_cnc::{Encode, Handle, HandleWriteRef, Numbers};
 ///
@@ -79,6 +82,15 @@ mod owned {
     use crate::bridge;
 
     /// [`HandleWriteRef`], owned.
+    ///
+    /// ```
+    /// use ads_cnc::{Encode, Handle, HandleWrite};
+    ///
+    /// let (handle, value) = (Handle(0x2001234), 123_i32.to_le_bytes().to_vec());
+    /// let write = HandleWrite { handle, indices: vec![4], value };
+    /// assert_eq!(write.to_vec()?, [0x34, 0x12, 0, 2, 1, 0, 0, 0, 4, 0, 0, 0, 123, 0, 0, 0]);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
     #[derive(Clone, Debug, PartialEq, Eq, Hash)]
     pub struct HandleWrite {
         /// Handle of the variable.

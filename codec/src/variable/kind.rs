@@ -15,6 +15,8 @@ use crate::text::{CncStr, TextRef};
 /// Any text is one: which kinds a function takes is the CNC's to say. What the editions say of it is
 /// in [`edition`](crate::edition).
 ///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.1 and 4.3.1.
+///
 /// ```
 /// use ads_cnc::Kind;
 ///
@@ -81,6 +83,9 @@ impl fmt::Debug for Kind<'_> {
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.1.
 ///
+/// `decode` refuses with [`MissingNul`](crate::ErrorKind::MissingNul),
+/// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
+///
 /// ```
 /// use ads_cnc::{Decode, VariableKindRef};
 ///
@@ -129,6 +134,9 @@ crate::number::number_stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.1.
     ///
+    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`Trailing`](crate::ErrorKind::Trailing).
+    ///
     /// ```
     /// use ads_cnc::{Decode, VariableCount};
     ///
@@ -142,6 +150,10 @@ crate::number::number_stream! {
 #[doc = include_str!("../../doc/variable-index-kind.md")]
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+/// [`MissingNul`](crate::ErrorKind::MissingNul), [`Trailing`](crate::ErrorKind::Trailing) or
+/// [`TooLong`](crate::ErrorKind::TooLong).
 ///
 /// ```
 /// use ads_cnc::{Encode, Kind, VariableIndexKindRef};
@@ -202,6 +214,13 @@ mod owned {
     }
 
     /// [`VariableKindRef`], owned.
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, VariableKind};
+    ///
+    /// assert_eq!(VariableKind::decode(b"V.E\0")?.kind.text.as_bytes(), b"V.E");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
     #[derive(Clone, Debug, PartialEq, Eq, Hash)]
     pub struct VariableKind {
         /// The kind.
@@ -236,6 +255,14 @@ mod owned {
     }
 
     /// [`VariableIndexKindRef`], owned.
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, VariableIndexKind};
+    ///
+    /// let request = VariableIndexKind::decode(b"\x02\0\0\0V.E\0")?;
+    /// assert_eq!((request.index, request.kind.text.as_bytes()), (2, &b"V.E"[..]));
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
     #[derive(Clone, Debug, PartialEq, Eq, Hash)]
     pub struct VariableIndexKind {
         /// Index of the variable, from 0.

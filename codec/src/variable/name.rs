@@ -10,6 +10,9 @@ crate::text::text_stream! {
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.3 and 4.3.5.
     ///
+    /// `decode` refuses with [`MissingNul`](crate::ErrorKind::MissingNul),
+    /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
+    ///
     /// ```
     /// use ads_cnc::{Decode, VariableNameRef};
     ///

@@ -14,6 +14,9 @@ use crate::text::{CncStr, TextRef};
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.7 and 4.3.11.
 ///
+/// `decode` refuses with [`MissingNul`](crate::ErrorKind::MissingNul) or
+/// [`TooLong`](crate::ErrorKind::TooLong).
+///
 /// ```
 /// use ads_cnc::{CncStr, Encode, NameWriteRef};
 ///
@@ -71,6 +74,14 @@ mod owned {
     use crate::text::CncString;
 
     /// [`NameWriteRef`], owned.
+    ///
+    /// ```
+    /// use ads_cnc::{Encode, NameWrite};
+    ///
+    /// let write = NameWrite { name: "V.E.test[4]".parse()?, value: 123_i32.to_le_bytes().to_vec() };
+    /// assert_eq!(write.to_vec()?, b"V.E.test[4]\0\x7b\0\0\0");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
     #[derive(Clone, Debug, PartialEq, Eq, Hash)]
     pub struct NameWrite {
         /// Name of the variable.

@@ -9,6 +9,8 @@ use crate::bytes::Writer;
 /// Dimensions or indices: borrowed from a stream's bytes, from a slice of numbers or from the
 /// brackets of a name.
 ///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.2, 4.3.4 and 4.3.6.
+///
 /// ```
 /// use ads_cnc::{Decode, HandleReadRef, Numbers};
 ///

@@ -13,6 +13,8 @@ use crate::stream::{Decode, Encode};
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.4 and 4.3.5.
 ///
+/// `decode` refuses with [`TooLong`](crate::ErrorKind::TooLong).
+///
 /// ```
 /// use ads_cnc::{Decode, ValueRef};
 ///
@@ -56,6 +58,13 @@ mod owned {
     use crate::bridge;
 
     /// [`ValueRef`], owned.
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, Value};
+    ///
+    /// assert_eq!(Value::decode(&[123, 0, 0, 0])?.bytes, 123_i32.to_le_bytes());
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
     #[derive(Clone, Debug, PartialEq, Eq, Hash)]
     pub struct Value {
         /// The bytes.

@@ -32,6 +32,16 @@ impl fmt::Display for PathPart<'_> {
 }
 
 /// The parts of a name behind its kind: see [`VariablePath::parts`](super::VariablePath::parts).
+///
+/// ```
+/// use ads_cnc::VariablePath;
+///
+/// let path = VariablePath::new("V.E.test[4]")?;
+/// let mut parts = path.parts();
+/// assert_eq!(parts.next().unwrap().to_string(), "test[4]");
+/// assert!(parts.next().is_none());
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct PathParts<'a>(CncStr<'a>);
 
