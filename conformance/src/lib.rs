@@ -9,6 +9,7 @@
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
 //! | [`gate`] | what may be sent to a target |
 //! | [`session`] | a CNC to ask, typed: what tools work with |
+//! | [`values`] | values as people read and write them |
 //! | [`profile`] | what a target claims |
 //! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
 //! | [`explain`] | bytes of any stream, field by field |
@@ -51,4 +52,5 @@ pub mod report;
 pub mod session;
 pub mod show;
 pub mod suite;
+pub mod values;
 pub mod verdict;

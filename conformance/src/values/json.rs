@@ -1,0 +1,71 @@
+//! Values as JSON.
+
+use ads_cnc::Element;
+use serde_json::Value;
+
+use super::{Type, printable};
+
+/// The value: a number, a truth, a text, or arrays of them, one in another for each dimension. A
+/// REAL that JSON has no number for is a text, `NaN` for one.
+///
+/// ```
+/// use ads_cnc::value::DataType;
+/// use ads_cnc_conformance::values::{Type, value_of};
+///
+/// let matrix = Type::known(DataType::Uns08, vec![2, 2]);
+/// assert_eq!(value_of(&matrix, &[1, 2, 3, 4]).unwrap().to_string(), "[[1,2],[3,4]]");
+/// ```
+///
+/// None if its type is not known or the bytes are not of it.
+pub fn value_of(ty: &Type, bytes: &[u8]) -> Option<Value> {
+    let elements = ty.elements(bytes).ok().flatten()?;
+    let mut values: Vec<Value> = elements.iter().map(element).collect();
+    let mut dimensions = ty.dimensions.iter().rev();
+    let Some(mut row) = dimensions.next().copied() else { return values.pop() };
+    for &outer in dimensions {
+        let len = usize::try_from(row).unwrap_or(usize::MAX).max(1);
+        values = values.chunks(len).map(|chunk| Value::Array(chunk.to_vec())).collect();
+        row = outer;
+    }
+    Some(Value::Array(values))
+}
+
+fn element(element: Element<'_>) -> Value {
+    match element {
+        Element::Boolean(flag) => flag.is_true().into(),
+        Element::Sgn08(number) => number.into(),
+        Element::Uns08(number) => number.into(),
+        Element::Sgn16(number) => number.into(),
+        Element::Uns16(number) => number.into(),
+        Element::Sgn32(number) => number.into(),
+        Element::Uns32(number) => number.into(),
+        Element::Lint(number) => number.into(),
+        Element::Lword(number) => number.into(),
+        Element::Real32(number) if number.is_finite() => number.into(),
+        Element::Real32(number) => format!("{number:?}").into(),
+        Element::Real64(number) if number.is_finite() => number.into(),
+        Element::Real64(number) => format!("{number:?}").into(),
+        Element::String(text) => text.text().to_string().into(),
+        other => printable(&format!("{other:?}")).into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ads_cnc::value::{DataType, EncodeValue as _};
+
+    use super::*;
+
+    #[test]
+    fn every_number_has_a_place() {
+        let real = Type::known(DataType::Real64, vec![2]);
+        let bytes = [f64::NAN, 0.25].value_to_vec().unwrap();
+        assert_eq!(value_of(&real, &bytes).unwrap().to_string(), "[\"NaN\",0.25]");
+        let lword = Type::known(DataType::Lword, vec![]);
+        assert_eq!(value_of(&lword, &[0xFF; 8]).unwrap().to_string(), u64::MAX.to_string());
+        let none = Type::known(DataType::Uns08, vec![0]);
+        assert_eq!(value_of(&none, &[]).unwrap().to_string(), "[]");
+        let text = Type::hinted(DataType::String);
+        assert_eq!(value_of(&text, b"L\xE4nge\0x").unwrap().to_string(), "\"Länge\"");
+    }
+}

@@ -1,0 +1,140 @@
+//! Values as people read and write them: typed by a description, a descriptor or an element's
+//! attributes.
+
+mod json;
+mod parse;
+mod show;
+
+pub use json::value_of;
+pub use parse::{Unfit, parse};
+pub use show::{hex_lines, lines, plain, printable};
+
+use std::fmt;
+
+use ads_cnc::value::{DataType, Shape};
+use ads_cnc::{CncStr, Elements, Error, Numbers, VariableType};
+
+/// What is known of a value: its type, its dimensions, its size.
+///
+/// ```
+/// use ads_cnc::value::DataType;
+/// use ads_cnc_conformance::values::{Type, parse, plain};
+///
+/// let ty = Type::known(DataType::Sgn16, vec![3]);
+/// assert_eq!(ty.to_string(), "SGN16[3]");
+/// let bytes = parse(&ty, "1,-2,0x10").unwrap();
+/// assert_eq!(bytes, [1, 0, 0xFE, 0xFF, 0x10, 0]);
+/// assert_eq!(plain(&ty, &bytes).as_deref(), Some("1,-2,16"));
+/// assert_eq!(
+///     parse(&ty, "1,2,40000").unwrap_err().to_string(),
+///     "40000 is no SGN16, which has -32768 to 32767"
+/// );
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Type {
+    /// The name that the CNC gives it.
+    pub name: String,
+    /// The type, if it is one of the manuals'.
+    pub data_type: Option<DataType>,
+    /// Elements in each dimension; none for a single element.
+    pub dimensions: Vec<u32>,
+    /// Bytes of the whole, if that is said anywhere.
+    pub size: Option<u32>,
+}
+
+impl Type {
+    /// Nothing is known.
+    pub const UNKNOWN: Self =
+        Self { name: String::new(), data_type: None, dimensions: Vec::new(), size: None };
+
+    /// Of a variable's description.
+    pub fn of_variable(var_type: VariableType, dimensions: Numbers<'_>, size: u32) -> Self {
+        let data_type = var_type.data_type();
+        let name = match data_type {
+            Some(known) => known.name().to_owned(),
+            None => format!("type {}", var_type.0),
+        };
+        Self { name, data_type, dimensions: dimensions.iter().collect(), size: Some(size) }
+    }
+
+    /// Of the content of an object or an element: an array if it has room for several.
+    pub fn of_content(name: CncStr<'_>, size: u32) -> Self {
+        let data_type = DataType::by_name(name);
+        let ty =
+            Self { name: name.to_string(), data_type, dimensions: Vec::new(), size: Some(size) };
+        ty.fitted(size)
+    }
+
+    /// Of a type that somebody knows, and of these dimensions.
+    pub fn known(data_type: DataType, dimensions: Vec<u32>) -> Self {
+        let count = dimensions.iter().try_fold(1_u32, |count, &len| count.checked_mul(len));
+        let size = data_type.size().zip(count).and_then(|(each, count)| each.checked_mul(count));
+        Self { name: data_type.name().to_owned(), data_type: Some(data_type), dimensions, size }
+    }
+
+    /// Of a type that somebody knows; its dimensions and its size, nobody does.
+    pub fn hinted(data_type: DataType) -> Self {
+        let name = data_type.name().to_owned();
+        Self { name, data_type: Some(data_type), dimensions: Vec::new(), size: None }
+    }
+
+    /// As many elements as so many bytes have room for, if no dimension says it.
+    #[must_use]
+    pub fn fitted(mut self, len: u32) -> Self {
+        let each = self.data_type.and_then(DataType::size);
+        if let (Some(each), true) = (each, self.dimensions.is_empty()) {
+            match (len.checked_div(each), len.checked_rem(each)) {
+                (Some(count), Some(0)) if count > 1 => self.dimensions.push(count),
+                _ => {}
+            }
+        }
+        self.size = self.size.or(Some(len));
+        self
+    }
+
+    /// The type of one element, which these indices select.
+    ///
+    /// # Errors
+    /// What is wrong with the indices.
+    pub fn element(&self, indices: Numbers<'_>) -> Result<Self, String> {
+        let one = Self { dimensions: Vec::new(), size: None, ..self.clone() };
+        let dimensions = &self.dimensions;
+        if indices.len() != dimensions.len() {
+            let given: String = indices.iter().map(|index| format!("[{index}]")).collect();
+            let needed = dimensions.len();
+            return Err(match needed {
+                0 => format!("{self} is no array, so that it has no element {given}"),
+                _ => format!("{given} is no element of {self}, which has {needed} indices"),
+            });
+        }
+        for (index, &len) in indices.iter().zip(dimensions) {
+            if index >= len {
+                return Err(format!("index {index} is beyond {self}, counted from 0"));
+            }
+        }
+        let shape = self.shape().map(|shape| shape.one().size());
+        Ok(Self { size: shape.or(one.data_type.and_then(DataType::size)), ..one })
+    }
+
+    /// Type, dimensions and size, if they agree.
+    fn shape(&self) -> Option<Shape<'_>> {
+        Shape::new(self.data_type?, Numbers::from(self.dimensions.as_slice()), self.size?).ok()
+    }
+
+    /// The elements of a value; none if the type is not known.
+    ///
+    /// # Errors
+    /// Bytes that are not those of a value of this type.
+    pub fn elements<'a>(&'a self, bytes: &'a [u8]) -> Result<Option<Elements<'a>>, Error> {
+        let dimensions = Numbers::from(self.dimensions.as_slice());
+        self.data_type.map(|known| Elements::new(known, dimensions, bytes)).transpose()
+    }
+}
+
+/// The name, and the dimensions in brackets.
+impl fmt::Display for Type {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&printable(&self.name))?;
+        self.dimensions.iter().try_for_each(|len| write!(f, "[{len}]"))
+    }
+}

@@ -1,0 +1,277 @@
+//! Values from what a person types.
+
+use std::str::FromStr;
+
+use ads_cnc::value::{Boolean, DataType, EncodeValue as _, Item, Shape};
+use ads_cnc::{CncStr, Numbers};
+
+use super::Type;
+
+/// Why a text is no value of a type.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Unfit(String);
+
+/// The bytes of a value: a number, decimal or with 0x, `TRUE` or `FALSE`, a text; of an array all
+/// elements with commas between, the last index running fastest. Of several texts one that has a
+/// comma is in quotes, a quote in it doubled.
+///
+/// A single text is taken as it is. It is written with one NUL, and is shorter than its room.
+///
+/// # Errors
+/// What does not fit, and what would.
+pub fn parse(ty: &Type, text: &str) -> Result<Vec<u8>, Unfit> {
+    let Some(data_type) = ty.data_type else {
+        let name = if ty.name.is_empty() { "its type" } else { ty.name.as_str() };
+        return Err(Unfit(format!("{name} is not known; --type says what to take it for")));
+    };
+    match data_type {
+        DataType::Boolean => items(ty, text, boolean),
+        DataType::Sgn08 => items(ty, text, |text| integer(text, i8::MIN, i8::MAX, data_type)),
+        DataType::Uns08 => items(ty, text, |text| integer(text, u8::MIN, u8::MAX, data_type)),
+        DataType::Sgn16 => items(ty, text, |text| integer(text, i16::MIN, i16::MAX, data_type)),
+        DataType::Uns16 => items(ty, text, |text| integer(text, u16::MIN, u16::MAX, data_type)),
+        DataType::Sgn32 => items(ty, text, |text| integer(text, i32::MIN, i32::MAX, data_type)),
+        DataType::Uns32 => items(ty, text, |text| integer(text, u32::MIN, u32::MAX, data_type)),
+        DataType::Lint => items(ty, text, |text| integer(text, i64::MIN, i64::MAX, data_type)),
+        DataType::Lword => items(ty, text, |text| integer(text, u64::MIN, u64::MAX, data_type)),
+        DataType::Real32 => items(ty, text, |text| {
+            let number: f32 = real(text, data_type)?;
+            within(number.is_finite(), number, text, (f32::MIN, f32::MAX), data_type)
+        }),
+        DataType::Real64 => items(ty, text, |text| {
+            let number: f64 = real(text, data_type)?;
+            within(number.is_finite(), number, text, (f64::MIN, f64::MAX), data_type)
+        }),
+        DataType::String => texts(ty, text),
+        other => Err(Unfit(format!("{other:?} cannot be written here"))),
+    }
+}
+
+fn boolean(text: &str) -> Result<Boolean, Unfit> {
+    match text.to_ascii_uppercase().as_str() {
+        "TRUE" | "1" => Ok(Boolean::TRUE),
+        "FALSE" | "0" => Ok(Boolean::FALSE),
+        _ => Err(Unfit(format!("{text} is no BOOLEAN, which has TRUE and FALSE, or 1 and 0"))),
+    }
+}
+
+fn integer<T>(text: &str, least: T, most: T, ty: DataType) -> Result<T, Unfit>
+where
+    T: TryFrom<i128> + Into<i128> + Copy,
+{
+    let (sign, digits) = match text.strip_prefix('-') {
+        Some(digits) => (-1_i128, digits),
+        None => (1, text.strip_prefix('+').unwrap_or(text)),
+    };
+    let hex = digits.strip_prefix("0x").or_else(|| digits.strip_prefix("0X"));
+    let (digits, radix) = hex.map_or((digits, 10), |digits| (digits, 16));
+    let is_number = !digits.is_empty() && digits.chars().all(|digit| digit.is_digit(radix));
+    let name = ty.name();
+    if !is_number {
+        return Err(Unfit(format!("{text} is no {name}, which is a whole number")));
+    }
+    // One too long is out of range as well.
+    let number = i128::from_str_radix(digits, radix).unwrap_or(i128::MAX).checked_mul(sign);
+    number.and_then(|number| T::try_from(number).ok()).ok_or_else(|| {
+        let (least, most) = (least.into(), most.into());
+        Unfit(format!("{text} is no {name}, which has {least} to {most}"))
+    })
+}
+
+fn real<T: FromStr>(text: &str, ty: DataType) -> Result<T, Unfit> {
+    let no = || Unfit(format!("{text} is no {}, which is a number such as -1.5e3", ty.name()));
+    // Nothing in words: nobody wants an axis to go to infinity.
+    let in_digits = text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c));
+    if in_digits { text.parse().map_err(|_| no()) } else { Err(no()) }
+}
+
+fn within<T: std::fmt::Debug>(
+    is_within: bool,
+    number: T,
+    text: &str,
+    (least, most): (T, T),
+    ty: DataType,
+) -> Result<T, Unfit> {
+    match is_within {
+        true => Ok(number),
+        false => Err(Unfit(format!("{text} is no {}, which has {least:?} to {most:?}", ty.name()))),
+    }
+}
+
+/// Checks how many there are; as many as are given if nobody knows.
+fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, Unfit> {
+    let count = u32::try_from(given).unwrap_or(u32::MAX);
+    if ty.size.is_none() && ty.dimensions.is_empty() {
+        return Ok(if count == 1 { Vec::new() } else { vec![count] });
+    }
+    let needed = ty.dimensions.iter().fold(1_u32, |count, &len| count.saturating_mul(len));
+    match needed == count {
+        true => Ok(ty.dimensions.clone()),
+        false if needed == 1 => Err(Unfit(format!("{ty} is one element, {count} are given"))),
+        false => Err(Unfit(format!("{ty} has {needed} elements, {count} given"))),
+    }
+}
+
+fn items<T: Item>(
+    ty: &Type,
+    text: &str,
+    one: impl Fn(&str) -> Result<T, Unfit>,
+) -> Result<Vec<u8>, Unfit> {
+    let items: Vec<T> = text.split(',').map(|item| one(item.trim())).collect::<Result<_, _>>()?;
+    counted(ty, items.len())?;
+    items.as_slice().value_to_vec().map_err(|error| Unfit(error.to_string()))
+}
+
+fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, Unfit> {
+    let all = match ty.dimensions.is_empty() {
+        true => vec![given.to_owned()],
+        false => split(given)?,
+    };
+    let dimensions = counted(ty, all.len())?;
+    let encoded = |text| {
+        let foreign = |error| Unfit(format!("{text:?} is no STRING: {error}"));
+        CncStr::new(text).map_err(foreign)
+    };
+    let texts: Vec<CncStr<'_>> =
+        all.iter().map(|text| encoded(text.as_str())).collect::<Result<_, _>>()?;
+    let longest = texts.iter().map(CncStr::len).max().unwrap_or(0).saturating_add(1);
+    let longest = u32::try_from(longest).unwrap_or(u32::MAX);
+    let count = u32::try_from(texts.len()).unwrap_or(u32::MAX).max(1);
+    let size = ty.size.unwrap_or(longest.saturating_mul(count));
+    let each = size.checked_div(count).unwrap_or(0);
+    if longest > each {
+        let (most, given) = (each.saturating_sub(1), longest.saturating_sub(1));
+        return Err(Unfit(format!(
+            "a STRING of {each} bytes has at most {most} characters and its NUL, {given} are given"
+        )));
+    }
+    let shape = Shape::new(DataType::String, Numbers::from(dimensions.as_slice()), size);
+    let mut room = vec![0; usize::try_from(size).unwrap_or(usize::MAX)];
+    let done = shape.and_then(|shape| shape.encode_texts(&texts, &mut room).map(<[u8]>::to_vec));
+    done.map_err(|error| Unfit(error.to_string()))
+}
+
+/// The texts between commas.
+fn split(given: &str) -> Result<Vec<String>, Unfit> {
+    let (mut all, mut rest) = (Vec::new(), given);
+    loop {
+        let (text, behind) = match rest.trim_start().strip_prefix('"') {
+            Some(quoted) => quoted_text(quoted)?,
+            None => match rest.split_once(',') {
+                Some((text, behind)) => (text.trim().to_owned(), Some(behind)),
+                None => (rest.trim().to_owned(), None),
+            },
+        };
+        all.push(text);
+        match behind {
+            Some(behind) => rest = behind,
+            None => return Ok(all),
+        }
+    }
+}
+
+/// A text up to its quote, and what is behind the comma.
+fn quoted_text(given: &str) -> Result<(String, Option<&str>), Unfit> {
+    let (mut text, mut rest) = (String::new(), given);
+    loop {
+        let open = || Unfit("a text in quotes does not end".to_owned());
+        let (before, behind) = rest.split_once('"').ok_or_else(open)?;
+        text.push_str(before);
+        if let Some(more) = behind.strip_prefix('"') {
+            text.push('"');
+            rest = more;
+            continue;
+        }
+        let behind = behind.trim_start();
+        return match behind.strip_prefix(',') {
+            Some(behind) => Ok((text, Some(behind))),
+            None if behind.is_empty() => Ok((text, None)),
+            None => Err(Unfit(format!("behind a quote a comma is expected, not {behind}"))),
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::plain;
+    use super::*;
+
+    fn single(ty: DataType) -> Type {
+        Type::known(ty, Vec::new())
+    }
+
+    #[test]
+    fn numbers_are_decimal_or_hex() {
+        let cases: [(DataType, &str, &[u8]); 9] = [
+            (DataType::Sgn08, "-128", &[0x80]),
+            (DataType::Uns08, "0xfF", &[0xFF]),
+            (DataType::Uns16, "0x12", &[0x12, 0]),
+            (DataType::Sgn32, "-0x1", &[0xFF; 4]),
+            (DataType::Lword, "18446744073709551615", &[0xFF; 8]),
+            (DataType::Lint, "-9223372036854775808", &[0, 0, 0, 0, 0, 0, 0, 0x80]),
+            (DataType::Real32, "1.5", &[0, 0, 0xC0, 0x3F]),
+            (DataType::Real64, "-2", &[0, 0, 0, 0, 0, 0, 0, 0xC0]),
+            (DataType::Boolean, "true", &[1]),
+        ];
+        for (ty, text, bytes) in cases {
+            assert_eq!(parse(&single(ty), text).unwrap(), bytes, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_says_what_would() {
+        for (ty, text, why) in [
+            (DataType::Sgn08, "128", "128 is no SGN08, which has -128 to 127"),
+            (DataType::Uns32, "-1", "-1 is no UNS32, which has 0 to 4294967295"),
+            (DataType::Lint, "0x1_0", "0x1_0 is no LINT, which is a whole number"),
+            (
+                DataType::Lword,
+                "99999999999999999999999999999999999999999999",
+                "99999999999999999999999999999999999999999999 is no LWORD, which has 0 to \
+                 18446744073709551615",
+            ),
+            (DataType::Uns16, "1.5", "1.5 is no UNS16, which is a whole number"),
+            (DataType::Real64, "inf", "inf is no REAL64, which is a number such as -1.5e3"),
+            (
+                DataType::Real32,
+                "1e39",
+                "1e39 is no REAL32, which has -3.4028235e38 to 3.4028235e38",
+            ),
+            (DataType::Boolean, "2", "2 is no BOOLEAN, which has TRUE and FALSE, or 1 and 0"),
+            (DataType::Uns08, "1,2", "UNS08 is one element, 2 are given"),
+        ] {
+            assert_eq!(parse(&single(ty), text).unwrap_err().to_string(), why);
+        }
+    }
+
+    #[test]
+    fn texts_have_room_or_are_refused() {
+        let ty = Type { size: Some(4), ..Type::hinted(DataType::String) };
+        assert_eq!(parse(&ty, "a,b").unwrap(), b"a,b\0");
+        assert_eq!(parse(&ty, "").unwrap(), b"\0");
+        assert_eq!(
+            parse(&ty, "abcd").unwrap_err().to_string(),
+            "a STRING of 4 bytes has at most 3 characters and its NUL, 4 are given"
+        );
+        assert!(parse(&ty, "Ω").unwrap_err().to_string().contains("CP1252"));
+        let two = Type { dimensions: vec![2], size: Some(12), ..ty };
+        let bytes = parse(&two, "\"a,\"\"b\", c").unwrap();
+        assert_eq!(bytes, b"a,\"b\0\0c\0\0\0\0\0");
+        assert_eq!(plain(&two, &bytes).unwrap(), "\"a,\"\"b\",c");
+        for odd in ["\"a", "\"a\"b,c", "a", "a,b,c"] {
+            assert!(parse(&two, odd).is_err(), "{odd}");
+        }
+    }
+
+    #[test]
+    fn a_value_is_read_back_as_it_was_given() {
+        for (ty, text) in [
+            (Type::known(DataType::Sgn16, vec![2, 2]), "1,-2,3,-4"),
+            (Type::known(DataType::Real64, vec![]), "0.1"),
+            (Type::known(DataType::Boolean, vec![2]), "TRUE,FALSE"),
+        ] {
+            assert_eq!(plain(&ty, &parse(&ty, text).unwrap()).unwrap(), text);
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! Values as text.
+
+use ads_cnc::Element;
+use ads_cnc::text::cp1252_to_char;
+
+use super::Type;
+use crate::report::hex;
+
+/// The most columns of a line.
+const WIDTH: usize = 72;
+/// The most numbers on a line.
+const PER_LINE: usize = 10;
+
+/// Text of which a terminal acts on nothing.
+pub fn printable(text: &str) -> String {
+    let shown = |character: char| match character.is_control() {
+        true => character.escape_default().to_string(),
+        false => character.to_string(),
+    };
+    text.chars().map(shown).collect()
+}
+
+/// The whole value on one line, as it can be given again; none if its type is not known or the
+/// bytes are not of it.
+pub fn plain(ty: &Type, bytes: &[u8]) -> Option<String> {
+    let elements = ty.elements(bytes).ok().flatten()?;
+    let several = !ty.dimensions.is_empty();
+    let items = elements.iter().map(|element| match element {
+        Element::String(text) if several => listed(&printable(&text.text().to_string())),
+        Element::String(text) => printable(&text.text().to_string()),
+        other => number(other),
+    });
+    Some(items.collect::<Vec<_>>().join(","))
+}
+
+/// A text among others: in quotes if it would be taken for two.
+fn listed(text: &str) -> String {
+    match text.contains([',', '"']) || text != text.trim() {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text.to_owned(),
+    }
+}
+
+fn number(element: Element<'_>) -> String {
+    match element {
+        Element::Boolean(flag) if flag.is_true() => "TRUE".to_owned(),
+        Element::Boolean(_) => "FALSE".to_owned(),
+        Element::Sgn08(number) => number.to_string(),
+        Element::Uns08(number) => number.to_string(),
+        Element::Sgn16(number) => number.to_string(),
+        Element::Uns16(number) => number.to_string(),
+        Element::Sgn32(number) => number.to_string(),
+        Element::Uns32(number) => number.to_string(),
+        Element::Lint(number) => number.to_string(),
+        Element::Lword(number) => number.to_string(),
+        Element::Real32(number) => format!("{number:?}"),
+        Element::Real64(number) => format!("{number:?}"),
+        other => format!("{other:?}"),
+    }
+}
+
+/// An element as it is shown: a text in quotes, what is odd about it behind it.
+fn shown(element: Element<'_>) -> String {
+    match element {
+        Element::Boolean(flag) if flag.0 > 1 => format!("TRUE ({})", flag.0),
+        Element::String(text) => {
+            let quoted = |bytes: &[u8]| {
+                let text: String = bytes.iter().copied().map(cp1252_to_char).collect();
+                format!("{text:?}")
+            };
+            let bytes: Vec<u8> = text.text().bytes().collect();
+            match text.tail() {
+                Some(tail) if tail.iter().any(|&byte| byte != 0) => {
+                    let end = tail.iter().rposition(|&byte| byte != 0).unwrap_or(0);
+                    let tail = tail.get(..=end).unwrap_or(tail);
+                    format!("{} and behind its end {}", quoted(&bytes), quoted(tail))
+                }
+                _ => quoted(&bytes),
+            }
+        }
+        other => number(other),
+    }
+}
+
+/// The value on as many lines as it takes: one without indices for a single element; of an array
+/// so many elements on each as fit, with the indices of the first.
+///
+/// ```
+/// use ads_cnc::value::DataType;
+/// use ads_cnc_conformance::values::{Type, lines};
+///
+/// let matrix = Type::known(DataType::Uns08, vec![2, 3]);
+/// let shown = lines(&matrix, &[1, 2, 3, 40, 5, 6]).unwrap();
+/// assert_eq!(shown, ["[0][0]   1   2   3", "[1][0]  40   5   6"]);
+/// ```
+///
+/// None if its type is not known or the bytes are not of it.
+pub fn lines(ty: &Type, bytes: &[u8]) -> Option<Vec<String>> {
+    let elements = ty.elements(bytes).ok().flatten()?;
+    let texts: Vec<String> = elements.iter().map(shown).collect();
+    let Some(&row) = ty.dimensions.last() else { return Some(texts) };
+    let row = usize::try_from(row).unwrap_or(usize::MAX).max(1);
+    let widest = |texts: &[String]| texts.iter().map(|text| text.chars().count()).max();
+    let (width, is_text) = (widest(&texts).unwrap_or(0), texts.iter().any(|t| t.starts_with('"')));
+    let fit = WIDTH.checked_div(width.saturating_add(2)).unwrap_or(1).clamp(1, PER_LINE);
+    let fit = if is_text { 1 } else { fit };
+    let mut all: Vec<(String, String)> = Vec::new();
+    for (number, chunk) in texts.chunks(row).enumerate() {
+        for (part, items) in chunk.chunks(fit).enumerate() {
+            let at = number.saturating_mul(row).saturating_add(part.saturating_mul(fit));
+            let items: Vec<String> = items.iter().map(|item| format!("{item:>width$}")).collect();
+            let items = if is_text { items.concat().trim().to_owned() } else { items.join("  ") };
+            all.push((indices(at, &ty.dimensions), items));
+        }
+    }
+    let width = all.iter().map(|(label, _)| label.len()).max().unwrap_or(0);
+    Some(all.into_iter().map(|(label, items)| format!("{label:<width$}  {items}")).collect())
+}
+
+/// The indices of an element; the last runs fastest (VAR-21, assumed).
+fn indices(at: usize, dimensions: &[u32]) -> String {
+    let (mut left, mut all) = (at, Vec::new());
+    for &len in dimensions.iter().rev() {
+        let len = usize::try_from(len).unwrap_or(usize::MAX);
+        all.push(left.checked_rem(len).unwrap_or(0));
+        left = left.checked_div(len).unwrap_or(0);
+    }
+    all.iter().rev().map(|index| format!("[{index}]")).collect()
+}
+
+/// The bytes in hex, 16 a line, with the offset of the first.
+pub fn hex_lines(bytes: &[u8]) -> Vec<String> {
+    hex::annotated(None, bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use ads_cnc::value::DataType;
+
+    use super::*;
+
+    #[test]
+    fn texts_keep_what_is_odd_about_them() {
+        let ty = Type::hinted(DataType::String);
+        assert_eq!(lines(&ty, b"L\xE4nge\0\0").unwrap(), ["\"Länge\""]);
+        assert_eq!(lines(&ty, b"a\0b\0").unwrap(), ["\"a\" and behind its end \"b\""]);
+        assert_eq!(plain(&ty, b"\x1B[2J\0").unwrap(), "\\u{1b}[2J");
+        let two = Type { dimensions: vec![2], ..ty };
+        assert_eq!(plain(&two, b"a,b\0c\0\0\0").unwrap(), "\"a,b\",c");
+        assert_eq!(lines(&two, b"a,b\0c\0\0\0").unwrap(), ["[0]  \"a,b\"", "[1]  \"c\""]);
+    }
+
+    #[test]
+    fn long_rows_are_split() {
+        let ty = Type::known(DataType::Uns08, vec![12]);
+        let bytes: Vec<u8> = (0..12).collect();
+        let shown = lines(&ty, &bytes).unwrap();
+        assert_eq!(shown, ["[0]    0   1   2   3   4   5   6   7   8   9", "[10]  10  11"]);
+    }
+
+    #[test]
+    fn bytes_of_no_value_are_none() {
+        assert_eq!(lines(&Type::known(DataType::Uns32, vec![]), &[1, 2]), None);
+        assert_eq!(plain(&Type::UNKNOWN, &[1, 2]), None);
+        let odd = Type::hinted(DataType::Boolean);
+        assert_eq!(lines(&odd, &[2]).unwrap(), ["TRUE (2)"]);
+    }
+}
