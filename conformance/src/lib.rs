@@ -9,6 +9,7 @@
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
 //! | [`gate`] | what may be sent to a target |
 //! | [`session`] | a CNC to ask, typed: what tools work with |
+//! | [`objects`] | what a CNC has |
 //! | [`values`] | values as people read and write them |
 //! | [`profile`] | what a target claims |
 //! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
@@ -47,6 +48,7 @@ pub mod explain;
 pub mod gate;
 pub mod matrix;
 pub mod net;
+pub mod objects;
 pub mod profile;
 pub mod report;
 pub mod session;

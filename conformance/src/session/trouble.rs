@@ -18,6 +18,8 @@ use crate::verdict::Exit;
 pub enum Trouble {
     /// What was given on the command line or in a file does not do.
     Usage(String),
+    /// The CNC does not have what was asked for, or says that it cannot be done.
+    Unable(String),
     /// Something that should work on any machine did not.
     Internal(String),
     /// The gate did not let it through.
@@ -51,7 +53,7 @@ impl Trouble {
     pub const fn exit(&self) -> Exit {
         match self {
             Self::NotSent => Exit::Success,
-            Self::Ads { .. } | Self::Reply(_) => Exit::Failure,
+            Self::Ads { .. } | Self::Reply(_) | Self::Unable(_) => Exit::Failure,
             Self::Usage(_) | Self::Unsendable(_) => Exit::Usage,
             Self::NoAnswer(_) | Self::Ams { .. } => Exit::Nothing,
             Self::Refused(_) => Exit::Refused,
@@ -146,7 +148,9 @@ impl Trouble {
 impl fmt::Display for Trouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Usage(why) | Self::Internal(why) | Self::NoAnswer(why) => f.write_str(why),
+            Self::Usage(why) | Self::Unable(why) | Self::Internal(why) | Self::NoAnswer(why) => {
+                f.write_str(why)
+            }
             Self::Refused(refusal) => {
                 write!(f, "not sent, refused for safety: {refusal}")?;
                 match refusal.advice() {

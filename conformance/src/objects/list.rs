@@ -1,0 +1,86 @@
+//! Whose objects are in a list.
+
+use std::fmt;
+
+use ads_cnc::address::Class;
+use ads_cnc::dynamic::DynamicKind;
+
+/// A list of objects, elements or variables, as people name it.
+///
+/// ```
+/// use ads_cnc::address::Class;
+/// use ads_cnc_conformance::objects::List;
+///
+/// let decoder = List::Class { class: Class::Decoder, channel: Some(1), axis: Some(2) };
+/// assert_eq!(decoder.to_string(), "decoder channel 1 axis 2");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum List {
+    /// COM: the platform.
+    Platform,
+    /// COM: a channel.
+    Channel(u8),
+    /// COM: a platform axis.
+    Axis(u8),
+    /// An instance of a class of SDA and GEO.
+    Class {
+        /// Which class.
+        class: Class,
+        /// Which channel; of a spindle its index, of the platform none.
+        channel: Option<u8>,
+        /// Which axis, or which place of the channel; none for the channel itself.
+        axis: Option<u8>,
+    },
+    /// Variables of a kind, `V.E` for one.
+    Variables {
+        /// The kind.
+        kind: &'static str,
+        /// Which channel.
+        channel: u8,
+        /// Which place, over the axis interface.
+        axis: Option<u16>,
+    },
+    /// Dynamic parameters.
+    Parameters {
+        /// The kind.
+        kind: DynamicKind,
+        /// Which channel.
+        channel: u8,
+    },
+}
+
+/// What a class is called.
+const fn class_name(class: Class) -> &'static str {
+    match class {
+        Class::PositionController => "position controller",
+        Class::Interpolator => "interpolator",
+        Class::Decoder => "decoder",
+        Class::Hld => "HLD",
+        Class::PathPreparation => "path preparation",
+        Class::Spindle => "spindle",
+    }
+}
+
+impl fmt::Display for List {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Platform => f.write_str("COM platform"),
+            Self::Channel(number) => write!(f, "COM channel {number}"),
+            Self::Axis(place) => write!(f, "COM axis {place}"),
+            Self::Class { class, channel, axis } => {
+                f.write_str(class_name(class))?;
+                match channel {
+                    Some(index) if class == Class::Spindle => write!(f, " {index}")?,
+                    Some(number) => write!(f, " channel {number}")?,
+                    None => {}
+                }
+                axis.map_or(Ok(()), |axis| write!(f, " axis {axis}"))
+            }
+            Self::Variables { kind, channel, axis } => {
+                write!(f, "{kind} channel {channel}")?;
+                axis.map_or(Ok(()), |axis| write!(f, " axis {axis}"))
+            }
+            Self::Parameters { kind, channel } => write!(f, "{kind} channel {channel}"),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Which names are meant.
+
+/// A pattern for names. Case does not matter.
+///
+/// ```
+/// use ads_cnc_conformance::objects::Pattern;
+///
+/// let part = Pattern::part("single_block");
+/// assert!(part.fits("mc_active_single_block_r") && !part.fits("mc_program_stream_w"));
+/// // A star stands for any characters, a question mark for one; then it is the whole name.
+/// assert!(Pattern::part("v.g.np[?].*").fits("V.G.NP[0].V"));
+/// assert!(!Pattern::part("single?block*").fits("mc_active_single_block_r"));
+/// assert!(Pattern::whole("COM channel 1").fits("COM channel 1"));
+/// assert!(!Pattern::whole("COM channel 1").fits("COM channel 12"));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Pattern {
+    wanted: Vec<char>,
+}
+
+impl Pattern {
+    /// A part of the name; the whole name if it has a star or a question mark.
+    pub fn part(text: &str) -> Self {
+        match text.contains(['*', '?']) {
+            true => Self::whole(text),
+            false => Self::whole(&format!("*{text}*")),
+        }
+    }
+
+    /// The whole name.
+    pub fn whole(text: &str) -> Self {
+        Self { wanted: folded(text).collect() }
+    }
+
+    /// Whether a name is meant.
+    pub fn fits(&self, name: &str) -> bool {
+        let name: Vec<char> = folded(name).collect();
+        let (mut pattern, mut rest) = (self.wanted.as_slice(), name.as_slice());
+        // Where to go on if it does not fit: behind the last star, one character further.
+        let mut back: Option<(&[char], &[char])> = None;
+        loop {
+            match (pattern.split_first(), rest.split_first()) {
+                (Some(('*', behind)), _) => {
+                    back = Some((behind, rest));
+                    pattern = behind;
+                }
+                (Some((wanted, behind)), Some((there, further)))
+                    if *wanted == '?' || wanted == there =>
+                {
+                    (pattern, rest) = (behind, further);
+                }
+                (None, None) => return true,
+                _ => match back.and_then(|(behind, rest)| Some((behind, rest.split_first()?.1))) {
+                    Some((behind, further)) => {
+                        back = Some((behind, further));
+                        (pattern, rest) = (behind, further);
+                    }
+                    None => return false,
+                },
+            }
+        }
+    }
+}
+
+fn folded(text: &str) -> impl Iterator<Item = char> + '_ {
+    text.chars().flat_map(char::to_lowercase)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stars_take_as_much_as_they_have_to() {
+        for (pattern, name, fits) in [
+            ("*", "", true),
+            ("?", "", false),
+            ("a*b*c", "axxbyybzzc", true),
+            ("a*b*c", "axxbyybzz", false),
+            ("*ab", "aab", true),
+            ("**", "x", true),
+            ("a**?", "a", false),
+            ("L?NGE*", "länge", true),
+        ] {
+            assert_eq!(Pattern::whole(pattern).fits(name), fits, "{pattern} {name}");
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Objects as data.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::Object;
+use crate::client::Target;
+use crate::report::hex;
+use crate::values::value_of;
+
+/// Objects of a target, as they are written as JSON; see `schema/objects.schema.json`.
+#[derive(Clone, Debug, Serialize)]
+pub struct ObjectsReport {
+    /// The version of this format.
+    pub format: u32,
+    /// Where the target listens.
+    pub target: String,
+    /// Its AMS NetId.
+    pub net_id: String,
+    /// What was asked for.
+    pub objects: Vec<ObjectReport>,
+    /// What the CNC did not tell.
+    pub notes: Vec<String>,
+}
+
+impl ObjectsReport {
+    /// Of a target.
+    pub fn new(target: &Target, objects: Vec<ObjectReport>, notes: Vec<String>) -> Self {
+        let (target, net_id) = (target.addr.to_string(), target.net_id.to_string());
+        Self { format: 1, target, net_id, objects, notes }
+    }
+}
+
+/// An object.
+#[derive(Clone, Debug, Serialize)]
+pub struct ObjectReport {
+    /// The list it is in.
+    pub list: String,
+    /// Its name.
+    pub name: String,
+    /// The name of its type.
+    pub r#type: Option<String>,
+    /// Elements in each dimension.
+    pub dimensions: Vec<u32>,
+    /// Bytes of its value.
+    pub size: Option<u32>,
+    /// Its unit.
+    pub unit: Option<String>,
+    /// `R`, `RW`, or a code that no manual has.
+    pub access: Option<String>,
+    /// Index group of its content.
+    pub group: Option<u32>,
+    /// Index offset of its content.
+    pub offset: Option<u32>,
+    /// Handle of a variable.
+    pub handle: Option<u32>,
+    /// The bytes of its value, if they were read.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hex: Option<String>,
+    /// Its value, if its type is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<Value>,
+    /// Why it was not read.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+}
+
+impl From<&Object> for ObjectReport {
+    fn from(object: &Object) -> Self {
+        let text = |text: String| Some(text).filter(|text| !text.is_empty());
+        let address = object.place.address();
+        Self {
+            list: object.list.to_string(),
+            name: object.name.to_string(),
+            r#type: text(object.ty.name.clone()),
+            dimensions: object.ty.dimensions.clone(),
+            size: object.ty.size,
+            unit: object.unit.as_ref().map(ToString::to_string),
+            access: text(object.access.to_string()),
+            group: address.map(|(group, _)| group.get()),
+            offset: address.map(|(_, offset)| offset.get()),
+            handle: object.handle.map(|handle| handle.0),
+            hex: None,
+            value: None,
+            error: None,
+        }
+    }
+}
+
+impl ObjectReport {
+    /// With what was read.
+    pub fn read(object: &Object, content: &Result<Vec<u8>, String>) -> Self {
+        let report = Self::from(object);
+        match content {
+            Ok(bytes) => {
+                let (hex, value) = (Some(hex::plain(bytes)), value_of(&object.ty, bytes));
+                Self { hex, value, ..report }
+            }
+            Err(error) => Self { error: Some(error.clone()), ..report },
+        }
+    }
+}

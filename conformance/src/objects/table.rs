@@ -1,0 +1,118 @@
+//! Objects as a table: for people, and as CSV.
+
+use std::io::{self, Write};
+
+use super::Object;
+use crate::values::printable;
+
+/// A column: its head, and what it has of an object.
+#[derive(Clone, Copy, Debug)]
+pub struct Column {
+    /// What the column is called.
+    pub head: &'static str,
+    /// The cell of an object.
+    pub cell: fn(&Object) -> String,
+}
+
+/// The columns of objects and elements, or of variables.
+pub const fn columns(variables: bool) -> &'static [Column] {
+    if variables { VARIABLE } else { OBJECT }
+}
+
+const LIST: Column = Column { head: "list", cell: |object| object.list.to_string() };
+const NAME: Column = Column { head: "name", cell: |object| printable(&object.name.to_string()) };
+const TYPE: Column = Column { head: "type", cell: |object| object.ty.to_string() };
+const SIZE: Column = Column {
+    head: "size",
+    cell: |object| object.ty.size.map_or_else(String::new, |size| size.to_string()),
+};
+const ACCESS: Column = Column { head: "access", cell: |object| object.access.to_string() };
+
+const OBJECT: &[Column] = &[
+    LIST,
+    NAME,
+    TYPE,
+    SIZE,
+    Column {
+        head: "unit",
+        cell: |object| {
+            object.unit.as_ref().map_or_else(String::new, |unit| printable(&unit.to_string()))
+        },
+    },
+    ACCESS,
+    Column {
+        head: "group",
+        cell: |object| {
+            object.place.address().map_or_else(String::new, |(group, _)| group.to_string())
+        },
+    },
+    Column {
+        head: "offset",
+        cell: |object| {
+            object.place.address().map_or_else(String::new, |(_, offset)| offset.to_string())
+        },
+    },
+];
+
+const VARIABLE: &[Column] = &[
+    LIST,
+    NAME,
+    TYPE,
+    SIZE,
+    ACCESS,
+    Column {
+        head: "handle",
+        cell: |object| object.handle.map_or_else(String::new, |handle| format!("{:#x}", handle.0)),
+    },
+];
+
+/// Writes rows of cells under their heads, each column as wide as it has to be.
+///
+/// # Errors
+/// Those of `out`.
+pub fn table(heads: &[&str], rows: &[Vec<String>], out: &mut impl Write) -> io::Result<()> {
+    let mut widths: Vec<usize> = heads.iter().map(|head| head.len()).collect();
+    for row in rows {
+        for (width, cell) in widths.iter_mut().zip(row) {
+            *width = (*width).max(cell.chars().count());
+        }
+    }
+    let heads: Vec<String> = heads.iter().map(|head| head.to_uppercase()).collect();
+    for row in std::iter::once(&heads).chain(rows) {
+        let cells = row.iter().zip(&widths).map(|(cell, &width)| format!("{cell:<width$}"));
+        writeln!(out, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;
+    }
+    Ok(())
+}
+
+/// Writes rows of cells as comma-separated values with CR LF, as in RFC 4180.
+///
+/// # Errors
+/// Those of `out`.
+pub fn csv(heads: &[&str], rows: &[Vec<String>], out: &mut impl Write) -> io::Result<()> {
+    let heads: Vec<String> = heads.iter().map(|&head| head.to_owned()).collect();
+    for row in std::iter::once(&heads).chain(rows) {
+        let cells: Vec<String> = row.iter().map(|cell| quoted(cell)).collect();
+        write!(out, "{}\r\n", cells.join(","))?;
+    }
+    Ok(())
+}
+
+fn quoted(cell: &str) -> String {
+    match cell.contains([',', '"', '\r', '\n']) {
+        true => format!("\"{}\"", cell.replace('"', "\"\"")),
+        false => cell.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_with_commas_are_quoted() {
+        let (mut out, row) = (Vec::new(), vec!["a,b".to_owned(), "\"c\"".to_owned()]);
+        csv(&["one", "two"], &[row], &mut out).unwrap();
+        assert_eq!(out, b"one,two\r\n\"a,b\",\"\"\"c\"\"\"\r\n");
+    }
+}

@@ -1,0 +1,231 @@
+//! Finds what is there: see [`objects`](super) for which requests that takes.
+
+mod com;
+mod elements;
+mod variables;
+
+pub(crate) use variables::parameter;
+
+use ads_cnc::address::{Channel, Class, ElementAddress};
+use ads_cnc::operation::{CountObjects, FindInstance, ObjectList, Operation};
+
+use super::{List, Object, Pattern};
+use crate::session::{Session, Trouble};
+use elements::Attributes;
+
+/// The most numbers in a row that are not there before no more are asked for.
+pub const GAP: u32 = 8;
+/// Descriptors that are asked for in one request.
+pub const RANGE: u32 = 256;
+/// The most channels, axes, places and spindles.
+const NUMBER_MAX: u32 = 255;
+
+/// What to look for.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Which channels; none for all.
+    pub channels: Vec<Channel>,
+    /// Which lists, by the name that [`List`] shows.
+    pub lists: Option<Pattern>,
+    /// Which names.
+    pub names: Option<Pattern>,
+    /// Variables and parameters, not objects and elements.
+    pub variables: bool,
+    /// Ask every attribute of every element.
+    pub exact: bool,
+}
+
+/// What was found.
+#[derive(Clone, Debug, Default)]
+pub struct Found {
+    /// In the order of their lists.
+    pub objects: Vec<Object>,
+    /// How many lists there are.
+    pub lists: u32,
+    /// How many requests it took.
+    pub requests: u64,
+    /// What the CNC did not tell.
+    pub notes: Vec<String>,
+}
+
+/// How far it is, for whoever waits.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// In which list.
+    pub list: List,
+    /// Objects found so far.
+    pub objects: usize,
+    /// Requests so far.
+    pub requests: u64,
+}
+
+/// Finds all that is meant. What the CNC refuses to tell is noted and left out.
+///
+/// ```
+/// use ads_cnc_conformance::cnc::Cnc;
+/// use ads_cnc_conformance::gate::Gate;
+/// use ads_cnc_conformance::objects::{Options, Pattern, walk};
+/// use ads_cnc_conformance::session::Session;
+///
+/// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+/// let options = Options { names: Some(Pattern::part("feedhold")), ..Options::default() };
+/// let found = walk(&mut session, &options, &mut |_| {})?;
+/// let lists: Vec<String> = found.objects.iter().map(|object| object.list.to_string()).collect();
+/// assert_eq!(lists, ["HLD channel 1", "HLD channel 2", "HLD channel 6"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// That there is no answer at all.
+pub fn walk(
+    session: &mut Session,
+    options: &Options,
+    watch: &mut dyn FnMut(Seen),
+) -> Result<Found, Trouble> {
+    let found = Found::default();
+    let (instances, alike) = (Vec::new(), Vec::new());
+    let mut walk = Walk { session, options, watch, found, instances, alike };
+    let channels = walk.channels()?;
+    if options.variables {
+        walk.variables(&channels)?;
+    } else {
+        walk.com(&channels)?;
+        walk.elements(&channels)?;
+    }
+    Ok(walk.found)
+}
+
+struct Walk<'w> {
+    session: &'w mut Session,
+    options: &'w Options,
+    watch: &'w mut dyn FnMut(Seen),
+    found: Found,
+    /// The first elements of the instances found.
+    instances: Vec<ElementAddress>,
+    /// What elements said of themselves, for those that are alike.
+    alike: Vec<Attributes>,
+}
+
+impl Walk<'_> {
+    /// The reply; none if the CNC refuses, or answers what cannot be read.
+    fn ask<O: Operation>(&mut self, operation: &O) -> Result<Option<O::Reply<'_>>, Trouble> {
+        self.found.requests = self.found.requests.saturating_add(1);
+        match self.session.call(operation) {
+            Ok(reply) => Ok(Some(reply)),
+            Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(None),
+            Err(trouble) => Err(trouble),
+        }
+    }
+
+    fn note(&mut self, list: List, what: impl std::fmt::Display) {
+        self.found.notes.push(format!("{list}: {what}"));
+    }
+
+    fn is_meant(&self, list: List) -> bool {
+        self.options.lists.as_ref().is_none_or(|lists| lists.fits(&list.to_string()))
+    }
+
+    /// Whether a list is meant; tells that it is there.
+    fn enter(&mut self, list: List) -> bool {
+        let meant = self.is_meant(list);
+        if meant {
+            self.found.lists = self.found.lists.saturating_add(1);
+            self.tell(list);
+        }
+        meant
+    }
+
+    fn tell(&mut self, list: List) {
+        let (objects, requests) = (self.found.objects.len(), self.found.requests);
+        (self.watch)(Seen { list, objects, requests });
+    }
+
+    fn is_named(&self, name: impl std::fmt::Display) -> bool {
+        self.options.names.as_ref().is_none_or(|names| names.fits(&name.to_string()))
+    }
+
+    fn found(&mut self, object: Object) {
+        let list = object.list;
+        self.found.objects.push(object);
+        self.tell(list);
+    }
+
+    /// The channels that are active.
+    fn channels(&mut self) -> Result<Vec<Channel>, Trouble> {
+        if !self.options.channels.is_empty() {
+            return Ok(self.options.channels.clone());
+        }
+        let mut ranks = 0_usize;
+        for rank in (1..=NUMBER_MAX).map_while(|rank| Channel::by_index(rank).ok()) {
+            if self.count_objects(rank.into())?.is_none() {
+                break;
+            }
+            ranks = ranks.saturating_add(1);
+        }
+        let (mut found, mut gap) = (Vec::new(), 0_u32);
+        for number in (1..=NUMBER_MAX).map_while(|number| Channel::new(number).ok()) {
+            if found.len() >= ranks && (ranks > 0 || gap >= GAP) {
+                break;
+            }
+            let is_there = match ranks {
+                0 => self.is_instance(&decoder_of(number))?,
+                _ => self.count_objects(number.into())?.is_some(),
+            };
+            gap = if is_there { 0 } else { gap.saturating_add(1) };
+            found.extend(is_there.then_some(number));
+        }
+        Ok(found)
+    }
+
+    /// How many objects a list has; a list of none is none.
+    fn count_objects(&mut self, list: ObjectList) -> Result<Option<u32>, Trouble> {
+        let count = self.ask(&CountObjects::new(list))?;
+        Ok(count.map(|count| count.0).filter(|&count| count > 0))
+    }
+
+    fn is_instance(&mut self, query: &FindInstance) -> Result<bool, Trouble> {
+        let found = self.ask(query)?;
+        Ok(found.is_some_and(|found| matches!(found.first_element(), Ok(Some(_)))))
+    }
+}
+
+/// A channel that has no objects still decodes.
+fn decoder_of(channel: Channel) -> FindInstance {
+    FindInstance::new(Class::Decoder, channel.number().into(), 0)
+}
+
+/// How many did not answer. Parameters come and go while they are asked for.
+struct Tally {
+    count: u32,
+    refused: u32,
+    in_a_row: u32,
+}
+
+impl Tally {
+    const fn new(count: u32) -> Self {
+        Self { count, refused: 0, in_a_row: 0 }
+    }
+
+    fn answered(&mut self) {
+        self.in_a_row = 0;
+    }
+
+    /// Takes down that the one behind so many was refused; whether to ask no more.
+    fn refused(&mut self, before: u32) -> bool {
+        self.refused = self.refused.saturating_add(1);
+        self.in_a_row = self.in_a_row.saturating_add(1);
+        let enough = self.in_a_row >= GAP;
+        if enough {
+            let left = self.count.saturating_sub(before).saturating_sub(1);
+            self.refused = self.refused.saturating_add(left);
+        }
+        enough
+    }
+
+    fn note(&self, list: List, walk: &mut Walk<'_>) {
+        let Self { count, refused, .. } = *self;
+        if refused > 0 {
+            walk.note(list, format_args!("{refused} of {count} were refused"));
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What is asked of a CNC to find what it has: not more than there is to find, and an end however
+//! the CNC answers.
+
+use ads_cnc_conformance::cnc::Cnc;
+use ads_cnc_conformance::defect::Defect;
+use ads_cnc_conformance::gate::Gate;
+use ads_cnc_conformance::objects::{Found, Options, Pattern, walk};
+use ads_cnc_conformance::session::Session;
+
+fn found(cnc: Cnc, options: &Options) -> Found {
+    let mut session = Session::embedded(cnc, Gate::queries()).unwrap();
+    walk(&mut session, options, &mut |_| {}).unwrap()
+}
+
+fn default_cnc() -> Cnc {
+    Cnc::with_default_model().unwrap()
+}
+
+/// So many requests are what the rules say of the default model.
+#[test]
+fn few_requests_find_everything() {
+    let all = found(default_cnc(), &Options::default());
+    // COM 29, position controller 38, interpolator 74, decoder 95, HLD 49, path preparation 47,
+    // spindles 17
+    assert_eq!((all.objects.len(), all.lists, all.requests), (177, 60, 349));
+    let exact = found(default_cnc(), &Options { exact: true, ..Options::default() });
+    assert_eq!((exact.objects.len(), exact.requests), (177, 693));
+    // Ten for the channels, seven numbers for each of them, one for each variable.
+    let variables = found(default_cnc(), &Options { variables: true, ..Options::default() });
+    assert_eq!((variables.objects.len(), variables.requests), (164, 195));
+    assert!(all.notes.is_empty() && exact.notes.is_empty() && variables.notes.is_empty());
+
+    let one = Options { lists: Some(Pattern::whole("COM channel 1")), ..Options::default() };
+    let one = found(default_cnc(), &one);
+    assert_eq!((one.objects.len(), one.lists), (28, 1));
+}
+
+/// An answer that is wrong in any field ends no walk later than a right one by much.
+#[test]
+fn wrong_answers_end() {
+    let streams = [
+        "object-count",
+        "object-descriptor",
+        "object-address",
+        "element-",
+        "variable-count",
+        "variable-description",
+        "dynamic-",
+    ];
+    let mut tried = 0;
+    for defect in Defect::all() {
+        let stream = defect.stream.layout().name;
+        if !streams.iter().any(|part| stream.starts_with(part)) {
+            continue;
+        }
+        tried += 1;
+        for variables in [false, true] {
+            let cnc = default_cnc().with_defect(Some(defect.clone()));
+            let found = found(cnc, &Options { variables, ..Options::default() });
+            assert!(found.requests < 4000, "{}: {} requests", defect.id, found.requests);
+        }
+    }
+    assert!(tried > 40, "{tried} defects");
+}
