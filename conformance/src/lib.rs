@@ -9,7 +9,7 @@
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
 //! | [`gate`] | what may be sent to a target |
 //! | [`session`] | a CNC to ask, typed: what tools work with |
-//! | [`objects`] | what a CNC has |
+//! | [`objects`], [`named`] | what a CNC has, all of it or one thing by its name |
 //! | [`values`] | values as people read and write them |
 //! | [`profile`] | what a target claims |
 //! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
@@ -47,6 +47,7 @@ pub mod exchange;
 pub mod explain;
 pub mod gate;
 pub mod matrix;
+pub mod named;
 pub mod net;
 pub mod objects;
 pub mod profile;

@@ -1,0 +1,87 @@
+//! Finds what has a name: a variable, an element of one, a parameter, an object.
+
+mod object;
+mod variable;
+
+use ads_cnc::address::{Channel, ChannelAxis};
+use ads_cnc::value::DataType;
+
+use crate::objects::{Object, Pattern};
+use crate::session::{Session, Trouble};
+
+/// What is asked for by a name.
+///
+/// | name | is |
+/// |---|---|
+/// | `V.L.…`, `V.P.…`, `V.S.…`, `P` and a digit | a dynamic parameter |
+/// | any other `V.…` | a variable; with `[i][j]` at its end an element |
+/// | anything else | a COM object or an element of SDA or GEO, by its whole name |
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// The name.
+    pub name: String,
+    /// Which channel.
+    pub channel: Channel,
+    /// Which place, over the axis interface; of V.A only.
+    pub axis: Option<ChannelAxis>,
+    /// Which lists of objects, if several have the name.
+    pub lists: Option<Pattern>,
+    /// At which offset, if a list has the name several times.
+    pub offset: Option<u32>,
+    /// What to take it for, whatever the CNC says.
+    pub ty: Option<DataType>,
+}
+
+/// Finds it.
+///
+/// ```
+/// use ads_cnc::address::Channel;
+/// use ads_cnc_conformance::cnc::Cnc;
+/// use ads_cnc_conformance::gate::Gate;
+/// use ads_cnc_conformance::named::{Question, find};
+/// use ads_cnc_conformance::session::Session;
+/// use ads_cnc_conformance::values::plain;
+///
+/// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+/// let mut value = |name: &str| {
+///     let question = Question::new(name, Channel::new(1).unwrap());
+///     let object = find(&mut session, &question)?;
+///     let bytes = object.place.read(&mut session, object.ty.size.unwrap_or(0))?;
+///     Ok::<_, ads_cnc_conformance::session::Trouble>(plain(&object.ty, &bytes).unwrap())
+/// };
+/// assert_eq!(value("V.E.Testvar")?, "123,234,345,456,567");
+/// assert_eq!(value("V.E.matrix[1][2]")?, "23");
+/// assert_eq!(value("P1")?, "4711.0");
+/// assert_eq!(value("mc_active_single_block_r")?, "FALSE");
+/// assert_eq!(value("feedhold.enable")?, "TRUE");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// That there is nothing of this name, or several, and what to do about it.
+pub fn find(session: &mut Session, question: &Question) -> Result<Object, Trouble> {
+    if variable::is_named(&question.name) || question.axis.is_some() {
+        variable::find(session, question)
+    } else {
+        object::find(session, question)
+    }
+}
+
+/// What is asked for, if its name alone says where it is. Its type is what somebody takes it for.
+///
+/// # Errors
+/// A name that has no form on the wire.
+pub fn by_name_alone(question: &Question) -> Result<Option<Object>, Trouble> {
+    match variable::is_named(&question.name) || question.axis.is_some() {
+        true => variable::unasked(question).map(Some),
+        false => Ok(None),
+    }
+}
+
+impl Question {
+    /// What has this name, in a channel.
+    pub fn new(name: &str, channel: Channel) -> Self {
+        let name = name.to_owned();
+        Self { name, channel, axis: None, lists: None, offset: None, ty: None }
+    }
+}

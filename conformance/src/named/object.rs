@@ -1,0 +1,74 @@
+//! Objects and elements by their names.
+
+use ads_cnc::CncString;
+
+use super::Question;
+use crate::objects::{Object, Options, Pattern, walk};
+use crate::session::{Session, Trouble};
+use crate::values::Type;
+
+/// Candidates that are shown.
+const SHOWN: usize = 12;
+
+/// Looks through all lists that may have the name: if two have it, neither is meant more.
+pub(super) fn find(session: &mut Session, question: &Question) -> Result<Object, Trouble> {
+    let Question { name, channel, lists, offset, ty, .. } = question;
+    let wanted: CncString = name.parse().map_err(Trouble::Unsendable)?;
+    let options = Options {
+        channels: vec![*channel],
+        lists: lists.clone(),
+        names: Some(Pattern::whole(name)),
+        ..Options::default()
+    };
+    let mut found = walk(session, &options, &mut |_| {})?;
+    found.objects.retain(|object| {
+        let at = object.place.address().map(|(_, offset)| offset.get());
+        object.name == wanted && (offset.is_none() || *offset == at)
+    });
+    match (found.objects.pop(), found.objects.as_slice()) {
+        (Some(object), []) => Ok(match ty {
+            Some(ty) => {
+                let size = object.ty.size;
+                let taken = Type::hinted(*ty);
+                let taken = size.map_or(taken.clone(), |size| taken.fitted(size));
+                Object { ty: taken, ..object }
+            }
+            None => object,
+        }),
+        (Some(last), others) => {
+            let all: Vec<&Object> = others.iter().chain([&last]).collect();
+            Err(Trouble::Usage(several(name, &all)))
+        }
+        (None, _) => Err(Trouble::Unable(absent(question))),
+    }
+}
+
+fn several(name: &str, all: &[&Object]) -> String {
+    let mut why = format!("{} have the name {name}; say which:", all.len());
+    for object in all.iter().take(SHOWN) {
+        let Object { list, place, .. } = object;
+        let offset = place.address().map(|(_, offset)| offset.to_string()).unwrap_or_default();
+        let alone = all.iter().filter(|other| other.list == *list).count() == 1;
+        let offset = if alone { String::new() } else { format!(" --offset {offset}") };
+        why.push_str(&format!("\n  --of \"{list}\"{offset}"));
+    }
+    let more = all.len().saturating_sub(SHOWN);
+    if more > 0 {
+        why.push_str(&format!("\n  and {more} more: ads-cnc browse --filter \"{name}\""));
+    }
+    why
+}
+
+fn absent(question: &Question) -> String {
+    let Question { name, channel, lists, offset, .. } = question;
+    let number = channel.number();
+    let place = match (lists, offset) {
+        (None, None) => format!("of channel {number}, the platform, its axes and spindles"),
+        _ => "there".to_owned(),
+    };
+    format!(
+        "no object or element {place} is called {name}; upper and lower case count. \
+         ads-cnc browse --filter \"{name}\" looks for names like it in every channel, and with \
+         --variables for variables"
+    )
+}

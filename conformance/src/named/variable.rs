@@ -1,0 +1,170 @@
+//! Variables and parameters by their names.
+
+use ads_cnc::address::{Channel, ChannelAxis};
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeByName};
+use ads_cnc::value::DataType;
+use ads_cnc::{CncStr, CncString, DescriptionRef, Handle, Kind, VariablePath};
+
+use super::Question;
+use crate::objects::{Access, List, Object, Place, parameter};
+use crate::session::{Session, Trouble};
+use crate::values::Type;
+
+/// Kinds of variables, as lists have them.
+const KINDS: [&str; 4] = ["V.E", "V.G", "V.A", "V.CYC"];
+
+/// Whether the name is one of a variable or a parameter.
+pub(super) fn is_named(name: &str) -> bool {
+    name.starts_with("V.") || kind_of_parameter(name).is_some()
+}
+
+fn kind_of_parameter(name: &str) -> Option<DynamicKind> {
+    let of_prefix =
+        [("V.L.", DynamicKind::VL), ("V.P.", DynamicKind::VP), ("V.S.", DynamicKind::VS)];
+    if let Some((_, kind)) = of_prefix.into_iter().find(|(prefix, _)| name.starts_with(prefix)) {
+        return Some(kind);
+    }
+    let number = name.strip_prefix('P')?;
+    number.starts_with(|digit: char| digit.is_ascii_digit()).then_some(DynamicKind::P)
+}
+
+/// What the name alone says.
+pub(super) fn unasked(question: &Question) -> Result<Object, Trouble> {
+    let Question { name, channel, axis, ty, .. } = question;
+    let text: CncString = name.parse().map_err(Trouble::Unsendable)?;
+    let hint = |ty: &Option<DataType>| ty.map_or(Type::UNKNOWN, Type::hinted);
+    match (kind_of_parameter(name), axis) {
+        (Some(kind), None) => Ok(parameter(*channel, kind, text)),
+        _ => {
+            let path = VariablePath::new(name).map_err(|error| {
+                Trouble::Usage(format!("{name} is not the name of a variable: {error}"))
+            })?;
+            let kind = path.kind().text().to_string();
+            if axis.is_some() && kind != "V.A" {
+                let why = format!("--axis is for V.A variables, and {name} is of {kind}");
+                return Err(Trouble::Usage(why));
+            }
+            let kind = KINDS.into_iter().find(|known| *known == kind).unwrap_or("V");
+            let list = List::Variables {
+                kind,
+                channel: channel.number(),
+                axis: axis.map(ChannelAxis::place),
+            };
+            Ok(Object {
+                list,
+                place: Place::Variable { channel: *channel, axis: *axis, name: text.clone() },
+                name: text,
+                ty: hint(ty),
+                unit: None,
+                access: Access::Unknown,
+                handle: None,
+            })
+        }
+    }
+}
+
+/// The variable with its type: by its name if the CNC describes that, else by index.
+pub(super) fn find(session: &mut Session, question: &Question) -> Result<Object, Trouble> {
+    let object = unasked(question)?;
+    let Place::Variable { channel, axis, name } = &object.place else { return Ok(object) };
+    if question.ty.is_some() {
+        return Ok(object);
+    }
+    let path = VariablePath::from_text(name.as_cnc_str()).map_err(Trouble::Unsendable)?;
+    let told = match axis {
+        None => described(session, *channel, &path)?,
+        Some(_) => None,
+    };
+    let told = match told {
+        Some(told) => Some(told),
+        None => {
+            // What is not there need not be looked for.
+            object.place.read(session, 0)?;
+            listed(session, *channel, &path, axis.is_some())?
+        }
+    };
+    let Some(Told { ty, access, handle }) = told else { return Ok(object) };
+    let indices = path.elements();
+    let ty = match indices.is_empty() {
+        true => ty,
+        false => {
+            let odd = |why| Trouble::Usage(format!("{}: {why}", path.text()));
+            ty.element(indices).map_err(odd)?
+        }
+    };
+    Ok(Object { ty, access, handle, ..object })
+}
+
+/// What a description tells.
+struct Told {
+    ty: Type,
+    access: Access,
+    handle: Option<Handle>,
+}
+
+/// By its name; none if the CNC does not describe that (0x4C is documented online only).
+fn described(
+    session: &mut Session,
+    channel: Channel,
+    path: &VariablePath<'_>,
+) -> Result<Option<Told>, Trouble> {
+    let describe = DescribeByName { channel, name: path.variable().text().into() };
+    match session.call(&describe) {
+        Ok(variable) => Ok(Some(Told {
+            ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
+            access: Access::of_variable(variable.access),
+            // One that is by name only has none.
+            handle: Some(variable.handle).filter(|handle| handle.0 != 0),
+        })),
+        Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(None),
+        Err(trouble) => Err(trouble),
+    }
+}
+
+/// From the descriptions of its kind; none of a kind that has no indices. One of the axis interface
+/// is what the channel interface has with the name of any axis behind it (assumed).
+fn listed(
+    session: &mut Session,
+    channel: Channel,
+    path: &VariablePath<'_>,
+    of_axis: bool,
+) -> Result<Option<Told>, Trouble> {
+    let kind = path.kind();
+    if ![Kind::V_E, Kind::V_G, Kind::V_A].iter().any(|known| known.text() == kind.text()) {
+        return Ok(None);
+    }
+    let count = match session.call(&CountVariables::new(channel, kind)) {
+        Ok(count) => count.0,
+        Err(Trouble::Ads { .. }) => return Ok(None),
+        Err(trouble) => return Err(trouble),
+    };
+    let wanted = path.variable();
+    for index in 0..count {
+        match session.call(&DescribeByIndex::new(channel, index, kind)) {
+            Ok(variable) if is_it(&variable, wanted.text(), of_axis) => {
+                return Ok(Some(Told {
+                    ty: Type::of_variable(variable.var_type, variable.dimensions, variable.size),
+                    access: Access::of_variable(variable.access),
+                    // The handle is that of another place.
+                    handle: Some(variable.handle).filter(|_| !of_axis),
+                }));
+            }
+            Ok(_) | Err(Trouble::Reply(_)) => {}
+            // They have become fewer.
+            Err(Trouble::Ads { .. }) => return Ok(None),
+            Err(trouble) => return Err(trouble),
+        }
+    }
+    Ok(None)
+}
+
+fn is_it(variable: &DescriptionRef<'_>, wanted: CncStr<'_>, of_axis: bool) -> bool {
+    let name = variable.name.text();
+    match of_axis {
+        false => name == wanted,
+        true => VariablePath::from_text(name)
+            .and_then(|path| path.without_axis())
+            .is_ok_and(|name| name.as_cnc_str() == wanted),
+    }
+}
