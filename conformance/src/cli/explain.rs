@@ -11,7 +11,7 @@ use ads_cnc::operation::Service;
 use ads_cnc::value::DataType;
 use clap::{Args, ValueEnum};
 
-use super::complain;
+use super::{complain, number};
 use crate::explain::{
     Paint, Place, Question, Subject, Values, candidates, explain, looks_like_frame, parse_hex,
     print, type_by_name,
@@ -117,17 +117,6 @@ enum Color {
     Auto,
     Always,
     Never,
-}
-
-/// A number, decimal or in hex with 0x.
-fn number(text: &str) -> Result<u32, String> {
-    let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
-    let number = match hex {
-        Some(digits) if digits.starts_with('+') => None,
-        Some(digits) => u32::from_str_radix(digits, 16).ok(),
-        None => text.parse().ok(),
-    };
-    number.ok_or_else(|| "a number of 32 bits, decimal or with 0x, is expected".to_owned())
 }
 
 impl Explain {

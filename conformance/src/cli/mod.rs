@@ -2,11 +2,15 @@
 
 mod completions;
 mod duration;
+mod browse;
 mod explain;
+mod get;
 mod interrupt;
 mod log;
 mod model;
 mod requirements;
+mod name;
+mod progress;
 mod run;
 mod serve;
 mod service;
@@ -44,6 +48,8 @@ enum Command {
     Stream(stream::Stream),
     Service(service::Service),
     Completions(completions::Completions),
+    Browse(browse::Browse),
+    Get(get::Get),
 }
 
 impl Command {
@@ -82,6 +88,8 @@ impl Cli {
             Some(Command::Stream(stream)) => stream.execute().into(),
             Some(Command::Service(service)) => service.execute().into(),
             Some(Command::Completions(completions)) => completions.execute().into(),
+            Some(Command::Browse(browse)) => browse.execute().into(),
+            Some(Command::Get(get)) => get.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
             // The suite against the embedded CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),
@@ -98,6 +106,17 @@ fn complain(why: impl std::fmt::Display) {
 fn refuse(exit: Exit, why: impl std::fmt::Display) -> ExitCode {
     complain(why);
     exit.into()
+}
+
+/// A number, decimal or in hex with 0x.
+fn number(text: &str) -> Result<u32, String> {
+    let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
+    let number = match hex {
+        Some(digits) if digits.starts_with('+') => None,
+        Some(digits) => u32::from_str_radix(digits, 16).ok(),
+        None => text.parse().ok(),
+    };
+    number.ok_or_else(|| "a number of 32 bits, decimal or with 0x, is expected".to_owned())
 }
 
 /// The defect with this ID, if one is asked for.

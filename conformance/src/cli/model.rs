@@ -1,28 +1,44 @@
-//! Which data model the simulated CNC has: options of `serve`.
+//! Which data model the simulated CNC has: options of `serve` and of tools that embed it.
 
 use std::path::PathBuf;
 
 use ads_cnc::edition::{CncVersion, Edition};
 
+use super::target::TargetArgs;
 use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, ModelError, Settings};
+use crate::session::{Session, Trouble};
+
+/// Under which these options stand in the help.
+const MODEL: &str = "Simulated CNC";
 
 /// Options that choose the data model.
 #[derive(Debug, clap::Args)]
 pub(super) struct ModelArgs {
-    /// Data model to serve instead of the default one.
-    #[arg(long, value_name = "FILE")]
+    /// Data model instead of the default one.
+    #[arg(long, help_heading = MODEL, value_name = "FILE")]
     model: Option<PathBuf>,
 
     /// Edition of the manual that the CNC follows, whatever the model says: en-1.05 or de-1.051.
-    #[arg(long, value_name = "EDITION", value_parser = cnc::edition)]
+    #[arg(long, help_heading = MODEL, value_name = "EDITION", value_parser = cnc::edition)]
     edition: Option<Edition>,
 
     /// Version that the CNC claims to be, whatever the model says: V4.29.0 for one.
-    #[arg(long, value_name = "VERSION")]
+    #[arg(long, help_heading = MODEL, value_name = "VERSION")]
     cnc_version: Option<CncVersion>,
 }
 
 impl ModelArgs {
+    /// Connects to the device, or to the CNC with this model, which is started here.
+    pub(super) fn open(&self, target: &TargetArgs) -> Result<Session, Trouble> {
+        let is_given = self.model.is_some() || self.edition.is_some() || self.cnc_version.is_some();
+        if is_given && target.is_device() {
+            let why =
+                "--model, --edition and --cnc-version are of the embedded CNC, not of --target";
+            return Err(Trouble::Usage(why.to_owned()));
+        }
+        target.open_or(|| self.cnc().map_err(|error| Trouble::Usage(error.to_string())))
+    }
+
     /// The CNC with this model.
     pub(super) fn cnc(&self) -> Result<Cnc, ModelError> {
         let settings = Settings { edition: self.edition, version: self.cnc_version };

@@ -126,7 +126,7 @@ impl TargetArgs {
     }
 }
 
-fn channel(text: &str) -> Result<Channel, String> {
+pub(super) fn channel(text: &str) -> Result<Channel, String> {
     let number = text.parse().map_err(|_| "a number is needed".to_owned())?;
     Channel::new(number).map_err(|error| error.to_string())
 }

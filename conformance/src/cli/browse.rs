@@ -1,0 +1,221 @@
+//! `ads-cnc browse`: what a CNC has.
+
+use std::io::{self, BufWriter, Write as _};
+
+use ads_cnc::address::Channel;
+use clap::{Args, ValueEnum};
+
+use super::complain;
+use super::model::ModelArgs;
+use super::name::written;
+use super::progress::Progress;
+use super::target::{REACHING_A_DEVICE, TargetArgs, channel};
+use crate::objects::{
+    Found, Object, ObjectReport, ObjectsReport, Options, Pattern, columns, csv, table, walk,
+};
+use crate::report::hex;
+use crate::session::{Session, Trouble};
+use crate::values::plain;
+use crate::verdict::Exit;
+
+/// Characters of a value in a table; CSV and JSON have all of it.
+const VALUE_MAX: usize = 48;
+/// The most bytes of a content that is read here; get reads more.
+const CONTENT_MAX: u32 = 0x1_0000;
+
+/// Lists every object of the COM task and every element of SDA and GEO, or all variables.
+///
+/// Nothing is written, and no more is asked than what there is has to be asked for: descriptors in
+/// ranges, channels by their number until all are found, axes and spindles until one is not there.
+/// Elements take a request each, and four more for type, length, unit and access of those that were
+/// not met before under this name at this place of the class; --exact asks them of all. --of and
+/// --filter save requests, --rate keeps a device from being asked too fast.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
+pub(super) struct Browse {
+    /// Variables by their descriptions (V.E, V.G, V.A) and parameters (P, V.L, V.P, V.S); V.CYC has no
+    /// list
+    #[arg(long)]
+    variables: bool,
+
+    /// Only names with this in them, or with * or ? whole names; upper and lower case are the same
+    #[arg(long, value_name = "PATTERN")]
+    filter: Option<String>,
+
+    /// Only lists of this name, whole, as the table has it, with * and ?: 'COM *', 'decoder channel 1'
+    #[arg(long, value_name = "LIST")]
+    of: Option<String>,
+
+    /// Only these channels [default: all that are active]
+    #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = channel)]
+    channel: Vec<Channel>,
+
+    /// Read the values too
+    #[arg(long)]
+    content: bool,
+
+    /// Ask every attribute of every element
+    #[arg(long, conflicts_with = "variables")]
+    exact: bool,
+
+    /// How to write it
+    #[arg(long, value_name = "FORMAT", default_value = "table")]
+    format: Format,
+
+    #[command(flatten)]
+    target: TargetArgs,
+
+    #[command(flatten)]
+    model: ModelArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ads-cnc browse
+  ads-cnc browse --of 'COM *' --filter single_block --content
+  ads-cnc browse --variables --filter 'V.G.*'
+  ads-cnc browse --format csv --target 192.0.2.10 --net-id 192.0.2.10.1.1 --rate 200 > objects.csv
+
+Exit codes: 0 listed; 2 wrong usage; 3 no answer, or nothing fits; 4 refused for safety;
+70 internal error. What a CNC refuses to tell is noted on stderr and left out.";
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people
+    Table,
+    /// Comma-separated, with a line of heads
+    Csv,
+    /// One document
+    Json,
+}
+
+/// A value, or why it was not read.
+type Content = Result<Vec<u8>, String>;
+
+impl Browse {
+    pub(super) fn execute(&self) -> Exit {
+        self.run().unwrap_or_else(|trouble| {
+            complain(&trouble);
+            trouble.exit()
+        })
+    }
+
+    fn run(&self) -> Result<Exit, Trouble> {
+        let mut session = self.model.open(&self.target)?;
+        let options = Options {
+            channels: self.channel.clone(),
+            lists: self.of.as_deref().map(Pattern::whole),
+            names: self.filter.as_deref().map(Pattern::part),
+            variables: self.variables,
+            exact: self.exact,
+        };
+        let mut progress = Progress::new();
+        let found = walk(&mut session, &options, &mut |seen| {
+            progress.tell(|| {
+                format!("{}: {} found, {} requests", seen.list, seen.objects, seen.requests)
+            });
+        })?;
+        let contents = match self.content {
+            true => Some(read_all(&mut session, &found.objects, &mut progress)?),
+            false => None,
+        };
+        drop(progress);
+        self.write(&session, &found, contents.as_deref())?;
+        for note in &found.notes {
+            complain(note);
+        }
+        if found.objects.is_empty() {
+            complain(
+                "nothing fits: --filter takes a part of a name, --of the whole name of a list",
+            );
+            return Ok(Exit::Nothing);
+        }
+        Ok(Exit::Success)
+    }
+
+    fn write(
+        &self,
+        session: &Session,
+        found: &Found,
+        contents: Option<&[Content]>,
+    ) -> Result<(), Trouble> {
+        let mut out = BufWriter::new(io::stdout().lock());
+        let shown = match self.format {
+            Format::Json => {
+                let objects =
+                    found.objects.iter().enumerate().map(|(place, object)| {
+                        match contents.and_then(|contents| contents.get(place)) {
+                            Some(content) => ObjectReport::read(object, content),
+                            None => ObjectReport::from(object),
+                        }
+                    });
+                let (objects, notes) = (objects.collect(), found.notes.clone());
+                let report = ObjectsReport::new(session.target(), objects, notes);
+                serde_json::to_writer_pretty(&mut out, &report)
+                    .map_err(io::Error::from)
+                    .and_then(|()| writeln!(out))
+            }
+            format => {
+                let columns = columns(self.variables);
+                let mut heads: Vec<&str> = columns.iter().map(|column| column.head).collect();
+                heads.extend(contents.map(|_| "value"));
+                let rows = found.objects.iter().enumerate().map(|(place, object)| {
+                    let mut row: Vec<String> =
+                        columns.iter().map(|column| (column.cell)(object)).collect();
+                    let content = contents.and_then(|contents| contents.get(place));
+                    row.extend(content.map(|content| cell(object, content, format)));
+                    row
+                });
+                let rows: Vec<Vec<String>> = rows.collect();
+                match format {
+                    Format::Csv => csv(&heads, &rows, &mut out),
+                    _ => table(&heads, &rows, &mut out),
+                }
+            }
+        };
+        written(shown.and_then(|()| out.flush()))
+    }
+}
+
+fn read_all(
+    session: &mut Session,
+    objects: &[Object],
+    progress: &mut Progress,
+) -> Result<Vec<Content>, Trouble> {
+    let mut contents = Vec::with_capacity(objects.len());
+    for (place, object) in objects.iter().enumerate() {
+        progress.tell(|| format!("values: {place} of {}", objects.len()));
+        let size = object.ty.size.unwrap_or(0);
+        let content = match size {
+            0..=CONTENT_MAX => object.place.read(session, size),
+            _ => Err(Trouble::Unable(format!("{size} bytes; get reads them"))),
+        };
+        contents.push(match content {
+            Ok(bytes) => Ok(bytes),
+            // One that cannot be read is no reason to read no other.
+            Err(
+                why @ (Trouble::Ads { .. }
+                | Trouble::Reply(_)
+                | Trouble::Unable(_)
+                | Trouble::Unsendable(_)
+                | Trouble::Refused(_)),
+            ) => Err(why.to_string()),
+            Err(trouble) => return Err(trouble),
+        });
+    }
+    Ok(contents)
+}
+
+fn cell(object: &Object, content: &Content, format: Format) -> String {
+    let text = match content {
+        Ok(bytes) => plain(&object.ty, bytes).unwrap_or_else(|| hex::plain(bytes)),
+        Err(_) if format == Format::Csv => return String::new(),
+        Err(why) => format!("({why})"),
+    };
+    let is_long = text.chars().count() > VALUE_MAX && format == Format::Table;
+    if is_long {
+        let start: String = text.chars().take(VALUE_MAX).collect();
+        return format!("{start}…");
+    }
+    text
+}

@@ -1,0 +1,123 @@
+//! `ads-cnc get`: a value by its name.
+
+use std::io::{self, BufWriter, Write};
+
+use clap::Args;
+
+use super::complain;
+use super::model::ModelArgs;
+use super::name::{NameArgs, headline, written};
+use super::target::{REACHING_A_DEVICE, TargetArgs};
+use crate::named::find;
+use crate::objects::{Object, ObjectReport, ObjectsReport};
+use crate::session::Trouble;
+use crate::values::{hex_lines, lines, plain};
+use crate::verdict::Exit;
+
+/// Reads a variable, a parameter, an object or an element by its name.
+///
+/// A variable is typed by its description: asked for by name, and on CNCs that do not describe that,
+/// by going through the descriptions of its kind. A COM object or an element is looked for in the
+/// lists of the channel, of the platform, its axes and spindles; --of makes that quick. Nothing is
+/// written.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
+pub(super) struct Get {
+    #[command(flatten)]
+    name: NameArgs,
+
+    /// Only the value, on one line, as set takes it
+    #[arg(long, conflicts_with_all = ["json", "hex"])]
+    plain: bool,
+
+    /// Write one JSON document
+    #[arg(long, conflicts_with = "hex")]
+    json: bool,
+
+    /// Only the bytes
+    #[arg(long)]
+    hex: bool,
+
+    #[command(flatten)]
+    target: TargetArgs,
+
+    #[command(flatten)]
+    model: ModelArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ads-cnc get V.E.Testvar
+  ads-cnc get 'V.E.matrix[1][2]' --plain
+  ads-cnc get V.A.ACT_POS.X
+  ads-cnc get V.A.ACT_POS --axis 2
+  ads-cnc get P1 --channel 1 --json
+  ads-cnc get V.CYC.count --type UNS32
+  ads-cnc get mc_active_single_block_r --target 192.0.2.10 --net-id 192.0.2.10.1.1
+  ads-cnc get example.enable --of 'HLD axis 1'
+
+Exit codes: 0 read; 1 the CNC has nothing of this name, or what it answers is no value of the type;
+2 wrong usage, and several things have the name; 3 no answer; 4 refused for safety; 70 internal
+error.";
+
+impl Get {
+    pub(super) fn execute(&self) -> Exit {
+        self.run().unwrap_or_else(|trouble| {
+            complain(&trouble);
+            if let Some(advice) = self.name.advice(&trouble) {
+                complain(advice);
+            }
+            trouble.exit()
+        })
+    }
+
+    fn run(&self) -> Result<Exit, Trouble> {
+        let mut session = self.model.open(&self.target)?;
+        let mut object = find(&mut session, &self.name.question())?;
+        let bytes = object.place.read(&mut session, object.ty.size.unwrap_or(0))?;
+        object.ty = object.ty.fitted(u32::try_from(bytes.len()).unwrap_or(u32::MAX));
+        let mut out = BufWriter::new(io::stdout().lock());
+        let shown = if self.json {
+            let one = ObjectReport::read(&object, &Ok(bytes.clone()));
+            let report = ObjectsReport::new(session.target(), vec![one], Vec::new());
+            serde_json::to_writer_pretty(&mut out, &report)
+                .map_err(io::Error::from)
+                .and_then(|()| writeln!(out))
+        } else if self.hex {
+            show(&hex_lines(&bytes), "", &mut out)
+        } else if self.plain {
+            let value = plain(&object.ty, &bytes);
+            value.map_or(Ok(()), |value| writeln!(out, "{value}"))
+        } else {
+            let shown = lines(&object.ty, &bytes).unwrap_or_else(|| hex_lines(&bytes));
+            writeln!(out, "{}", headline(&object)).and_then(|()| show(&shown, "  ", &mut out))
+        };
+        written(shown.and_then(|()| out.flush()))?;
+        Ok(self.judge(&object, &bytes))
+    }
+
+    /// Bytes are no value yet.
+    fn judge(&self, object: &Object, bytes: &[u8]) -> Exit {
+        match object.ty.elements(bytes) {
+            Ok(Some(_)) => Exit::Success,
+            // Whoever asks for bytes has got them.
+            _ if self.hex => Exit::Success,
+            Ok(None) => {
+                let ty = match object.ty.name.as_str() {
+                    "" => "the CNC does not say its type".to_owned(),
+                    name => format!("{name} is no type of the manuals"),
+                };
+                complain(format_args!("{ty}; --type TYPE reads the bytes as one"));
+                if self.plain { Exit::Failure } else { Exit::Success }
+            }
+            Err(error) => {
+                complain(format_args!("what was read is no {}: {error}", object.ty));
+                Exit::Failure
+            }
+        }
+    }
+}
+
+fn show(lines: &[String], indent: &str, out: &mut impl Write) -> io::Result<()> {
+    lines.iter().try_for_each(|line| writeln!(out, "{indent}{line}"))
+}

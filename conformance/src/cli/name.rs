@@ -1,0 +1,103 @@
+//! Options of the tools that take a name.
+
+use std::io;
+
+use ads_cnc::address::ChannelAxis;
+use ads_cnc::value::DataType;
+use clap::Args;
+
+use super::target::ChannelArgs;
+use crate::explain::type_by_name;
+use crate::named::Question;
+use crate::objects::{Object, Pattern};
+use crate::session::Trouble;
+
+/// Which value is meant.
+#[derive(Args, Clone, Debug)]
+pub(super) struct NameArgs {
+    /// Name of a variable (V.E.list, V.E.list[3], V.G.NP[0].V), of a parameter (P1, V.P.count), of a
+    /// COM object or of an element of SDA and GEO
+    #[arg(value_name = "NAME")]
+    name: String,
+
+    #[command(flatten)]
+    channel: ChannelArgs,
+
+    /// Ask the axis interface for a V.A variable: place of the axis in the channel, from 1
+    #[arg(long, value_name = "PLACE", value_parser = axis)]
+    axis: Option<ChannelAxis>,
+
+    /// Which list of objects, if the name is in several: as browse shows them, with * and ?
+    #[arg(long, value_name = "LIST", conflicts_with = "axis")]
+    of: Option<String>,
+
+    /// At which index offset, if a list has the name several times
+    #[arg(long, value_name = "NUMBER", value_parser = super::number, conflicts_with = "axis")]
+    offset: Option<u32>,
+
+    /// Take the value for this type, and ask no description: BOOLEAN, SGN32, REAL64, STRING, …
+    #[arg(long = "type", value_name = "TYPE", value_parser = type_by_name)]
+    pub(super) ty: Option<DataType>,
+}
+
+impl NameArgs {
+    pub(super) fn question(&self) -> Question {
+        Question {
+            name: self.name.clone(),
+            channel: self.channel.channel,
+            axis: self.axis,
+            lists: self.of.as_deref().map(Pattern::whole),
+            offset: self.offset,
+            ty: self.ty,
+        }
+    }
+
+    /// What to do next if there is nothing of this name.
+    pub(super) fn advice(&self, trouble: &Trouble) -> Option<String> {
+        trouble.ads_error()?;
+        if self.name.starts_with("V.CYC.") {
+            return Some("V.CYC variables are known by their names only: no CNC lists them".into());
+        }
+        let (name, channel) = (&self.name, self.channel.channel.number());
+        let part = name.split(['[', '.']).nth(2).unwrap_or(name);
+        Some(format!(
+            "ads-cnc browse --variables --channel {channel} --filter \"{part}\" shows what there is"
+        ))
+    }
+}
+
+/// What is known of an object, on one line.
+pub(super) fn headline(object: &Object) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    if !object.ty.name.is_empty() {
+        parts.push(object.ty.to_string());
+    }
+    parts.extend(object.ty.size.map(|size| match size {
+        1 => "1 byte".to_owned(),
+        size => format!("{size} bytes"),
+    }));
+    let unit = object.unit.as_ref().map(ToString::to_string);
+    parts.extend(unit.filter(|unit| !unit.is_empty() && unit != "-"));
+    parts.push(object.access.to_string());
+    parts.push(object.list.to_string());
+    parts.extend(object.place.address().map(|(group, offset)| format!("{group} {offset}")));
+    parts.extend(object.handle.map(|handle| format!("handle {:#x}", handle.0)));
+    parts.retain(|part| !part.is_empty());
+    let name = crate::values::printable(&object.name.to_string());
+    format!("{name}  {}", crate::values::printable(&parts.join(", ")))
+}
+
+fn axis(text: &str) -> Result<ChannelAxis, String> {
+    let place = text.parse().map_err(|_| "a number is needed".to_owned())?;
+    ChannelAxis::new(place).map_err(|error| error.to_string())
+}
+
+/// A reader that has seen enough is no failure.
+pub(super) fn written(result: io::Result<()>) -> Result<(), Trouble> {
+    match result {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Trouble::Internal(format!("the output could not be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
