@@ -15,6 +15,7 @@ mod run;
 mod serve;
 mod service;
 mod stream;
+mod set;
 mod target;
 
 use std::io::Write as _;
@@ -50,6 +51,7 @@ enum Command {
     Completions(completions::Completions),
     Browse(browse::Browse),
     Get(get::Get),
+    Set(set::Set),
 }
 
 impl Command {
@@ -90,6 +92,7 @@ impl Cli {
             Some(Command::Completions(completions)) => completions.execute().into(),
             Some(Command::Browse(browse)) => browse.execute().into(),
             Some(Command::Get(get)) => get.execute().into(),
+            Some(Command::Set(set)) => set.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
             // The suite against the embedded CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),

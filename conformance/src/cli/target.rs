@@ -83,6 +83,11 @@ impl TargetArgs {
         self.target.is_some()
     }
 
+    /// Whether a file says what may be written.
+    pub(super) const fn has_file(&self) -> bool {
+        self.allow_write.is_some()
+    }
+
     /// Whether nothing is to be sent.
     pub(super) const fn is_dry(&self) -> bool {
         self.dry_run

@@ -93,6 +93,22 @@ impl Session {
         Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate)
     }
 
+    /// The same embedded CNC behind another gate, over a connection of its own: what a device is
+    /// never without a file, a CNC that is thrown away may be.
+    ///
+    /// # Errors
+    /// [`Trouble::Usage`] for anything but an embedded CNC.
+    pub fn behind(self, gate: Gate) -> Result<Self, Trouble> {
+        let Self { client, embedded: Some(server), .. } = self else {
+            return Err(Trouble::Usage("only an embedded CNC can have another gate".to_owned()));
+        };
+        let target = *client.target();
+        drop(client);
+        let client = Client::connect(target, gate);
+        let client = client.map_err(|error| Trouble::unreachable(&target, &error))?;
+        Ok(Self::over(client, Some(server)))
+    }
+
     fn over(client: Client, embedded: Option<Server>) -> Self {
         Self { client, embedded, request: Vec::new(), reply: Vec::new(), answered: false }
     }

@@ -1,0 +1,185 @@
+//! `ads-cnc set`: writes a value by its name.
+
+use std::io::{self, Write as _};
+
+use ads_cnc::dynamic::DynamicKind;
+use clap::Args;
+
+use super::complain;
+use super::model::ModelArgs;
+use super::name::{NameArgs, written};
+use super::target::{REACHING_A_DEVICE, TargetArgs};
+use crate::cnc::NET_ID;
+use crate::gate::{Allowed, Entry, Gate, Moment};
+use crate::named::{by_name_alone, find};
+use crate::objects::{Access, Object, Place};
+use crate::session::{Session, Trouble};
+use crate::values::{Type, parse, plain};
+use crate::verdict::Exit;
+
+/// Writes a variable, an object or an element by its name, reads it back and shows both.
+///
+/// A machine may move. A device is written to only what a file for --allow-write names: this
+/// variable, object or element, on this device, for the time the file says; without, the write is
+/// refused with the entry that it needs.
+///
+/// Without --target the embedded CNC is written to, without a file. It ends with this command and
+/// keeps nothing: that shows what would happen, no more.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
+pub(super) struct Set {
+    #[command(flatten)]
+    name: NameArgs,
+
+    /// The value: a number, decimal or with 0x; TRUE or FALSE; a text; of an array all elements, 1,2,3
+    #[arg(value_name = "VALUE", allow_hyphen_values = true)]
+    value: String,
+
+    #[command(flatten)]
+    target: TargetArgs,
+
+    #[command(flatten)]
+    model: ModelArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  ads-cnc set 'V.E.test[4]' 123
+  ads-cnc set V.E.test 1,2,3,4,0xFF
+  ads-cnc set V.E.text 'a text'
+  ads-cnc set V.A.WCS 123.456 --axis 2
+  ads-cnc set V.CYC.count 7 --type UNS32
+  ads-cnc set V.E.test 1,2,3,4,5 --target 192.0.2.10 --net-id 192.0.2.10.1.1 --allow-write FILE
+  ads-cnc set V.E.vartest 7 --type UNS16 --dry-run --target 192.0.2.10 --net-id 192.0.2.10.1.1
+
+Of an array with more dimensions the last index runs fastest (assumed). Of several texts one with a
+comma is in double quotes.
+
+Exit codes: 0 written, and read back the same; 1 the CNC refuses, says that it is read only, or
+reads back another value, as a command that is consumed does; 2 wrong usage, and a value that does
+not fit; 3 no answer; 4 refused for safety; 70 internal error.";
+
+impl Set {
+    pub(super) fn execute(&self) -> Exit {
+        self.run().unwrap_or_else(|trouble| {
+            complain(&trouble);
+            match (&trouble, self.name.advice(&trouble)) {
+                (Trouble::NotSent, _) => complain("with --type TYPE the write itself is shown"),
+                (_, Some(advice)) => complain(advice),
+                _ => {}
+            }
+            trouble.exit()
+        })
+    }
+
+    fn run(&self) -> Result<Exit, Trouble> {
+        let question = self.name.question();
+        let alone = by_name_alone(&question)?;
+        let mut session = self.open(alone.as_ref())?;
+        let object = find(&mut session, &question)?;
+        check(&object)?;
+        let size = object.ty.size.unwrap_or(0);
+        let old = match object.place.read(&mut session, size) {
+            Ok(old) => Some(old),
+            // What cannot be read may be written all the same.
+            Err(Trouble::Ads { .. }) => None,
+            Err(Trouble::NotSent) if session.is_dry() => None,
+            Err(trouble) => return Err(trouble),
+        };
+        let ty = match &old {
+            Some(old) => object.ty.clone().fitted(u32::try_from(old.len()).unwrap_or(u32::MAX)),
+            None => object.ty.clone(),
+        };
+        let mut bytes = parse(&ty, &self.value).map_err(|why| Trouble::Usage(why.to_string()))?;
+        if object.place.address().is_some() {
+            // A content has one size, whatever the text in it.
+            bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).max(bytes.len()), 0);
+        }
+        if session.is_embedded() && !self.target.has_file() {
+            session = session.behind(gate(object.place.entry()))?;
+        }
+        object.place.write(&mut session, &bytes)?;
+        if session.is_dry() {
+            return Ok(Exit::Success);
+        }
+        let new = match object.place.read(&mut session, size) {
+            Ok(new) => Some(new),
+            Err(Trouble::Ads { .. }) => None,
+            Err(trouble) => return Err(trouble),
+        };
+        self.show(&object, &ty, old.as_deref(), new.as_deref())?;
+        if session.is_embedded() {
+            complain(
+                "the embedded CNC ends here and keeps nothing; --target writes to one that stays",
+            );
+        }
+        Ok(judge(&ty, &bytes, new.as_deref()))
+    }
+
+    /// The embedded CNC may be written what is asked for, in a dry run too.
+    fn open(&self, alone: Option<&Object>) -> Result<Session, Trouble> {
+        let embedded = !self.target.is_device() && !self.target.has_file();
+        match alone {
+            Some(object) if embedded && self.target.is_dry() => {
+                Session::dry_embedded(gate(object.place.entry()))
+            }
+            _ => self.model.open(&self.target),
+        }
+    }
+
+    fn show(
+        &self,
+        object: &Object,
+        ty: &Type,
+        old: Option<&[u8]>,
+        new: Option<&[u8]>,
+    ) -> Result<(), Trouble> {
+        let text = |bytes: Option<&[u8]>| match bytes {
+            Some(bytes) => plain(ty, bytes).unwrap_or_else(|| crate::report::hex::plain(bytes)),
+            None => "(not readable)".to_owned(),
+        };
+        let (name, old, new) = (object.name.to_string(), text(old), text(new));
+        // Long ones beneath each other.
+        let between = if old.len().max(new.len()) > 30 { "\n  → " } else { " → " };
+        let start = if between.starts_with('\n') { "\n    " } else { " " };
+        let name = crate::values::printable(&name);
+        written(writeln!(io::stdout().lock(), "{name}:{start}{old}{between}{new}"))
+    }
+}
+
+/// Whether it may be written at all, as far as the CNC says.
+fn check(object: &Object) -> Result<(), Trouble> {
+    let name = &object.name;
+    if matches!(object.place, Place::Parameter { kind: DynamicKind::P, .. }) {
+        let why = format!("{name} is a P parameter, and no documented function writes those");
+        return Err(Trouble::Unable(why));
+    }
+    match object.access {
+        Access::Read => Err(Trouble::Unable(format!(
+            "{name} is read only, as the CNC says; nothing was written"
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Whether it reads as it was written; a text up to its end.
+fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
+    let Some(new) = new else {
+        complain("it was written, and the CNC does not let it be read back");
+        return Exit::Success;
+    };
+    let same = written == new
+        || plain(ty, written).is_some_and(|written| plain(ty, new).as_ref() == Some(&written));
+    if same {
+        return Exit::Success;
+    }
+    let wrote = plain(ty, written).unwrap_or_default();
+    complain(format_args!("the CNC took {wrote}, and reads another value now"));
+    Exit::Failure
+}
+
+/// A gate that lets this write through to an embedded CNC.
+fn gate(entry: Entry) -> Gate {
+    let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
+    Gate::queries().with_allowed(Some(Allowed { target: NET_ID, expires, entries: vec![entry] }))
+}
