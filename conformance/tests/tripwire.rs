@@ -22,6 +22,16 @@ const TOOLS: &[(&[&str], i32, bool)] = &[
     // Any text in ASCII is an NC program.
     (&["stream", concat!(env!("CARGO_MANIFEST_DIR"), "/LICENSE-MIT")], 4, false),
     (&["service", "--uuid", "560AACBF-6335-44a9-895A-8B27F3ED5E47", "--", "echo"], 4, false),
+    (&["browse", "--content", "--exact"], 0, true),
+    (&["browse", "--variables", "--content"], 0, true),
+    (&["get", "V.E.matrix[1][2]"], 0, true),
+    (&["get", "V.A.WCS", "--axis", "2"], 0, true),
+    (&["get", "P1"], 0, true),
+    (&["get", "feedhold.enable"], 0, true),
+    (&["set", "V.E.vartest", "1"], 4, true),
+    (&["set", "V.A.WCS", "1", "--axis", "2"], 4, true),
+    (&["set", "mc_command_single_block_w", "TRUE"], 4, true),
+    (&["set", "example.feed", "1"], 4, true),
 ];
 
 /// A CNC, and what was sent to it.
