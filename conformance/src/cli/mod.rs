@@ -1,21 +1,21 @@
 //! The command line of `ads-cnc`.
 
+mod browse;
 mod completions;
 mod duration;
-mod browse;
 mod explain;
 mod get;
 mod interrupt;
 mod log;
 mod model;
-mod requirements;
 mod name;
 mod progress;
+mod requirements;
 mod run;
 mod serve;
 mod service;
-mod stream;
 mod set;
+mod stream;
 mod target;
 
 use std::io::Write as _;
