@@ -76,6 +76,10 @@ impl Set {
         let question = self.name.question();
         let alone = by_name_alone(&question)?;
         let mut session = self.open(alone.as_ref())?;
+        if let Some(object) = &alone {
+            check(object)?;
+            self.ask_gate(object, &mut session)?;
+        }
         let object = find(&mut session, &question)?;
         check(&object)?;
         let size = object.ty.size.unwrap_or(0);
@@ -114,6 +118,20 @@ impl Set {
             );
         }
         Ok(judge(&ty, &bytes, new.as_deref()))
+    }
+
+    /// Ends it before anything is asked, if the name alone tells that it may not be written.
+    fn ask_gate(&self, object: &Object, session: &mut Session) -> Result<(), Trouble> {
+        if session.is_embedded() && !self.target.has_file() {
+            return Ok(());
+        }
+        let checked = object.place.check(session);
+        if checked.is_err() && session.is_dry() {
+            // Shows it as well; the value only if its type is given.
+            let value = parse(&object.ty, &self.value).unwrap_or_default();
+            return object.place.write(session, &value);
+        }
+        checked
     }
 
     /// The embedded CNC may be written what is asked for, in a dry run too.

@@ -168,6 +168,30 @@ impl Place {
         }
     }
 
+    /// Whether the gate lets it be written, so that nothing is asked in vain. Nothing is sent.
+    ///
+    /// # Errors
+    /// That it does not.
+    pub fn check(&self, session: &Session) -> Result<(), Trouble> {
+        match self {
+            Self::Object { group, offset } => {
+                session.check(&WriteObject::new(*group, *offset, &[]).map_err(no_object)?)
+            }
+            Self::Element(element) => {
+                session.check(&WriteElement::new(*element, &[]).map_err(no_element)?)
+            }
+            Self::Variable { channel, axis: Some(axis), name } => {
+                let (channel, axis, name) = (*channel, *axis, name.as_cnc_str());
+                session.check(&AxisWriteByName { channel, axis, name, value: &[] })
+            }
+            Self::Variable { channel, axis: None, name }
+            | Self::Parameter { channel, name, .. } => {
+                let (channel, name) = (*channel, name.as_cnc_str());
+                session.check(&WriteByName { channel, name, value: &[] })
+            }
+        }
+    }
+
     /// Writes the bytes of a value.
     ///
     /// # Errors
