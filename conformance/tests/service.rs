@@ -11,6 +11,8 @@ use std::time::{Duration, Instant};
 use ads_cnc::CncStr;
 use ads_cnc::service::ServiceVariable::{RequestState, Uuid};
 use ads_cnc::service::{Call, CallStep, Interface, ServiceId, ServiceVariable, SysServiceWait};
+#[cfg(unix)]
+use ads_cnc_conformance::cnc::program::{Script, ScriptConfig};
 use ads_cnc_conformance::cnc::{Cnc, Server};
 use ads_cnc_conformance::net;
 use common::fake::TestFile;
@@ -119,6 +121,24 @@ fn a_command_answers() {
     let line = format!("{ID} \"04 00 00 02\", state 7: \"Variable handle by name");
     assert!(told.starts_with(&line) && told.ends_with(", state 1\n"), "{told}");
     assert!(said.contains("warning: the response is cut to 127 bytes"), "{said}");
+}
+
+/// The manual's own example: an NC program of the simulated CNC asks for square roots.
+#[cfg(unix)]
+#[test]
+fn a_script_is_answered() {
+    let bench = Bench::start();
+    let script = Script::new(ScriptConfig::square_root().unwrap()).unwrap();
+    bench.cnc.set_script(2, Some(script)).unwrap();
+    let answers = "read x; case $x in -*) echo ERROR; exit 99;; esac; echo 1.732051";
+    let options = ["--uuid", ID, "--answers", "2", "--poll", "5ms"];
+    let tool = bench.tool(&options, &["sh", "-c", answers]).spawn().unwrap();
+    let told = text(&ended(tool).stdout);
+    let lines: Vec<&str> = told.lines().map(|line| line.split_once(' ').unwrap().1).collect();
+    assert_eq!(
+        lines,
+        [r#""3", state 1: "1.732051", state 1"#, r#""-3", state 1: "ERROR", state 99"#]
+    );
 }
 
 /// A failure is no success to the program: 1 is another state, the others are themselves.

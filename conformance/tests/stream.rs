@@ -6,10 +6,14 @@ use std::io::Write as _;
 use std::net::SocketAddr;
 use std::process::{Command, Output, Stdio};
 use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::streaming::{Ack, Interface};
-use common::Serve;
+use ads_cnc_conformance::cnc::program::{Pace, ProgramConfig};
+use ads_cnc_conformance::cnc::{Cnc, Server};
+use ads_cnc_conformance::net;
 use common::fake::{Answer, TestFile, fake};
 
 const STREAM_1: &str = "[[stream]]\nchannel = 1\n";
@@ -254,14 +258,27 @@ fn ctrl_c_says_what_was_sent() {
     assert!(said.contains("interrupted"), "{said}");
 }
 
-/// The simulated CNC takes a program.
+/// A slow CNC runs every line once, in order.
 #[test]
-#[ignore = "the simulated CNC runs no streamed programs yet"]
-fn the_simulated_cnc_takes_a_program() {
-    let serve = Serve::start(&[]);
+fn a_slow_cnc_runs_every_line_once() {
+    let cnc = Arc::new(Cnc::with_default_model().unwrap());
+    let pace = Pace::lines_per_second(2000).unwrap();
+    cnc.set_program(1, ProgramConfig { pace, ..ProgramConfig::default() }).unwrap();
+    let listener = net::listen(([127, 0, 0, 1], 0).into()).unwrap();
+    let server = Server::start(listener, Arc::clone(&cnc)).unwrap();
     let allow = TestFile::allowing(STREAM_1);
-    let addr = serve.addr.parse().unwrap();
-    let output = stream(program().as_bytes(), addr, &allow, &["--retry-after", "10ms"]);
+    let output = stream(program().as_bytes(), server.addr(), &allow, &["--retry-after", "10ms"]);
+    let shown = text(&output.stdout);
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
-    assert!(text(&output.stdout).contains("has taken lines 1 to 1000 in 16 packets"));
+    assert!(shown.contains("has taken lines 1 to 1000 in 16 packets"), "{shown}");
+    assert!(shown.contains(" for the time being"), "{shown}");
+    let begun = Instant::now();
+    let executed = loop {
+        let executed = cnc.with_program(1, |program| program.executed().clone()).unwrap();
+        if executed.line_count() >= 1000 || begun.elapsed() > Duration::from_secs(20) {
+            break executed;
+        }
+        thread::sleep(Duration::from_millis(10));
+    };
+    assert_eq!(text(executed.kept()), program().replace('\n', "\r\n"));
 }
