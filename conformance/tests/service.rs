@@ -141,6 +141,20 @@ fn a_script_is_answered() {
     );
 }
 
+/// Without a target a CNC is started that asks, and needs no file.
+#[test]
+fn an_embedded_cnc_asks_too() {
+    let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    tool.args(["service", "--uuid", ID, "--answers", "2", "--"]).args(EXPLAIN);
+    let output = tool.output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    // Neither a number nor its negative is a handle.
+    assert_eq!(text(&output.stdout).matches(", state 2\n").count(), 2);
+    let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    tool.args(["service", "--uuid", ID, "--channel", "7", "--once", "--", "echo"]);
+    assert_eq!(tool.output().unwrap().status.code(), Some(2));
+}
+
 /// A failure is no success to the program: 1 is another state, the others are themselves.
 #[test]
 fn an_exit_code_is_the_state() {

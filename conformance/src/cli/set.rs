@@ -8,9 +8,7 @@ use clap::Args;
 use super::complain;
 use super::model::ModelArgs;
 use super::name::{NameArgs, written};
-use super::target::{REACHING_A_DEVICE, TargetArgs};
-use crate::cnc::NET_ID;
-use crate::gate::{Allowed, Entry, Gate, Moment};
+use super::target::{REACHING_A_DEVICE, TargetArgs, embedded_gate};
 use crate::named::{by_name_alone, find};
 use crate::objects::{Access, Object, Place};
 use crate::session::{Session, Trouble};
@@ -100,7 +98,7 @@ impl Set {
             bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).max(bytes.len()), 0);
         }
         if session.is_embedded() && !self.target.has_file() {
-            session = session.behind(gate(object.place.entry()))?;
+            session = session.behind(embedded_gate(object.place.entry()))?;
         }
         object.place.write(&mut session, &bytes)?;
         if session.is_dry() {
@@ -139,7 +137,7 @@ impl Set {
         let embedded = !self.target.is_device() && !self.target.has_file();
         match alone {
             Some(object) if embedded && self.target.is_dry() => {
-                Session::dry_embedded(gate(object.place.entry()))
+                Session::dry_embedded(embedded_gate(object.place.entry()))
             }
             _ => self.model.open(&self.target),
         }
@@ -194,10 +192,4 @@ fn judge(ty: &Type, written: &[u8], new: Option<&[u8]>) -> Exit {
     let wrote = plain(ty, written).unwrap_or_default();
     complain(format_args!("the CNC took {wrote}, and reads another value now"));
     Exit::Failure
-}
-
-/// A gate that lets this write through to an embedded CNC.
-fn gate(entry: Entry) -> Gate {
-    let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
-    Gate::queries().with_allowed(Some(Allowed { target: NET_ID, expires, entries: vec![entry] }))
 }

@@ -10,8 +10,8 @@ use ads_cnc::ads::AmsNetId;
 use clap::Args;
 
 use crate::client::Target;
-use crate::cnc::Cnc;
-use crate::gate::{Allowed, Gate};
+use crate::cnc::{Cnc, NET_ID};
+use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::session::{Session, TIMEOUT, Trouble};
 
 /// The TCP port of AMS.
@@ -95,10 +95,21 @@ impl TargetArgs {
 
     /// Connects to the device, or to a CNC that is started here.
     pub(super) fn open(&self) -> Result<Session, Trouble> {
-        self.open_or(|| {
-            let internal = |error| Trouble::Internal(format!("the default model: {error}"));
-            Cnc::with_default_model().map_err(internal)
-        })
+        self.open_or(default_cnc)
+    }
+
+    /// Connects to the device, or starts this CNC, which may be written this one thing if no file
+    /// says what may be: it moves nothing, and is there for the purpose.
+    pub(super) fn open_to_write(
+        &self,
+        entry: Entry,
+        cnc: impl FnOnce() -> Result<Cnc, Trouble>,
+    ) -> Result<Session, Trouble> {
+        match (self.is_device() || self.has_file(), self.dry_run) {
+            (true, _) => self.open_or(cnc),
+            (false, true) => Session::dry_embedded(embedded_gate(entry)),
+            (false, false) => Session::embedded(cnc()?, embedded_gate(entry)),
+        }
     }
 
     /// Connects to the device, or starts this CNC.
@@ -129,6 +140,18 @@ impl TargetArgs {
             pace: self.rate.unwrap_or_default(),
         }))
     }
+}
+
+/// The CNC that is embedded unless told otherwise.
+pub(super) fn default_cnc() -> Result<Cnc, Trouble> {
+    let internal = |error| Trouble::Internal(format!("the default model: {error}"));
+    Cnc::with_default_model().map_err(internal)
+}
+
+/// A gate that lets this write through to an embedded CNC.
+pub(super) fn embedded_gate(entry: Entry) -> Gate {
+    let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
+    Gate::queries().with_allowed(Some(Allowed { target: NET_ID, expires, entries: vec![entry] }))
 }
 
 pub(super) fn channel(text: &str) -> Result<Channel, String> {

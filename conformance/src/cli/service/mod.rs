@@ -15,7 +15,9 @@ use clap::Args;
 use super::complain;
 use super::duration::some_time;
 use super::interrupt::Interrupt;
-use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs};
+use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
+use crate::cnc::program::{Repeat, Script, ScriptConfig};
+use crate::gate::Entry;
 use crate::session::{Session, Trouble};
 use crate::verdict::Exit;
 use command::Command;
@@ -119,11 +121,27 @@ impl Service {
         }
     }
 
+    /// Connects to the device, or to a CNC with the manual's NC program, which asks for square
+    /// roots.
+    fn open(&self) -> Result<Session, Trouble> {
+        let channel = self.channel.channel;
+        self.target.open_to_write(Entry::Service(channel), || {
+            let cnc = default_cnc()?;
+            let internal = |error: &dyn std::error::Error| Trouble::Internal(error.to_string());
+            let square_root = ScriptConfig::square_root().map_err(|error| internal(&error))?;
+            let config = ScriptConfig { repeat: Repeat::Endless, ..square_root };
+            let script = Script::new(config).map_err(|error| internal(&error))?;
+            cnc.set_script(channel.number(), Some(script))
+                .map_err(|error| Trouble::Usage(format!("the simulated CNC: {error}")))?;
+            Ok(cnc)
+        })
+    }
+
     /// What looking for a request and one answer take.
     fn show(&self) -> Result<(), Trouble> {
         use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 
-        let mut session = self.target.open()?;
+        let mut session = self.open()?;
         let channel = self.channel.channel;
         for variable in [RequestState, Uuid, Request] {
             match session.call(&read(channel, variable)?).map(drop) {
@@ -145,7 +163,7 @@ impl Service {
 
     fn serve(&self) -> Result<(), Trouble> {
         let interrupt = Interrupt::catch()?;
-        let mut session = self.target.open()?;
+        let mut session = self.open()?;
         let channel = self.channel.channel;
         // A program that has asked would wait for an answer that may not be written.
         for variable in [

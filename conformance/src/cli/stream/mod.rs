@@ -17,7 +17,8 @@ use clap::Args;
 use super::complain;
 use super::duration::duration;
 use super::interrupt::Interrupt;
-use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs};
+use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
+use crate::gate::Entry;
 use crate::session::{Session, Trouble};
 use crate::verdict::Exit;
 use check::Checked;
@@ -63,12 +64,15 @@ pub(super) struct Stream {
 
 const EXAMPLES: &str = "\
 Examples:
+  ads-cnc stream part.nc
   ads-cnc stream part.nc --dry-run
   ads-cnc stream part.nc --channel 2 --allow-write allow.toml \\
       --target 192.0.2.7 --net-id 192.0.2.7.1.1
-  generate-path | ads-cnc stream - --allow-write allow.toml
+  generate-path | ads-cnc stream - --target 127.0.0.1 --net-id 127.0.0.1.1.1 \
+      --allow-write allow.toml
 
-The file of --allow-write needs a table [[stream]] with the channel.
+The file of --allow-write needs a table [[stream]] with the channel. Without --target a simulated CNC
+is started, which needs no file and ends with the tool: a trial.
 
 The CNC takes the text if the program named by P-CHAN-00158 has been started there. It holds 4094
 bytes; while that is full it refuses for now, and the packet is sent again. What it has taken it may
@@ -117,9 +121,13 @@ impl Stream {
         }
     }
 
+    fn open(&self) -> Result<Session, Trouble> {
+        self.target.open_to_write(Entry::Stream(self.channel.channel), default_cnc)
+    }
+
     /// Every packet as it would be sent, and whether it would be.
     fn show(&self, text: NcText<'_>) -> Result<Exit, Trouble> {
-        let mut session = self.target.open()?;
+        let mut session = self.open()?;
         let mut sender = Sender::new(text);
         let mut refused = None;
         while let Some(packet) = sender.packet() {
@@ -135,7 +143,7 @@ impl Stream {
 
     fn send(&self, name: &str, text: NcText<'_>, lines: NonZeroUsize) -> Result<Exit, Trouble> {
         let interrupt = Interrupt::catch()?;
-        let mut session: Session = self.target.open()?;
+        let mut session = self.open()?;
         let mut sending = Sending {
             sender: Sender::new(text),
             channel: self.channel.channel,
