@@ -1,0 +1,113 @@
+//! Content: where it is, how long it is, and that no function is any.
+
+mod common;
+
+use ads_cnc::ErrorKind;
+use ads_cnc::address::{Channel, Class, ElementAddress, IndexGroup, IndexOffset};
+use ads_cnc::ads::AmsPort;
+use ads_cnc::operation::*;
+use common::CALLS;
+
+fn content(group: u32, offset: u32) -> Call<'static> {
+    let call = CALLS.iter().find(|sample| sample.slug == "content-printed").unwrap().call;
+    let port = if group & 0xF00 <= 0x200 { AmsPort::COM } else { AmsPort::SDA };
+    let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
+    Call { port, index_group, index_offset, ..call }
+}
+
+/// SDA-12, STM-1: where a function is, nothing is read or written as content, by anybody.
+#[test]
+fn functions_are_no_content() {
+    let functions = (0x44..=0x4C).chain(0x1B..=0x26).chain([0x1_0004, 0x2_0006]);
+    let of_decoder = functions.map(|offset| (0x12_2301, offset));
+    for (group, offset) in of_decoder.chain([(0x12_0101, 0x90), (0x2_0106, 0x90)]) {
+        let call = content(group, offset);
+        let refusal = call.dispatch().unwrap_err();
+        assert!(matches!(refusal, Refusal::Service { .. }), "{call:?}: {refusal}");
+        let (group, offset) = (call.index_group, call.index_offset);
+        let error = match call.port {
+            AmsPort::COM => {
+                assert!(WriteObject::new(group, offset, &[]).is_err());
+                ReadObject::new(group, offset, 4).unwrap_err()
+            }
+            _ => {
+                let Some(ads_cnc::address::Group::Class(class)) = group.parts() else { panic!() };
+                let element = ElementAddress::new(class, offset);
+                assert!(WriteElement::new(element, &[]).is_err());
+                assert_eq!(CountElements::new(element).unwrap_err().found(), offset.get());
+                ReadElement::new(element, 4).unwrap_err()
+            }
+        };
+        assert_eq!((error.kind(), error.found()), (ErrorKind::Function, offset.get()));
+    }
+    // A read of 0x02 … 0x05 is that function, and one of element 0 counts the elements.
+    for offset in 2..=5 {
+        let reached = content(0x12_2301, offset).dispatch().unwrap();
+        assert_eq!(reached.function(), Function::CountDynamic);
+    }
+    assert_eq!(content(0x12_3301, 0).dispatch().unwrap().function(), Function::CountElements);
+    // None of this holds for other classes, other channels' platforms, or the first axis.
+    for (group, offset) in [(0x12_1301, 0x44), (0x12_2300, 0x44), (0x12_2301, 7)] {
+        assert_eq!(content(group, offset).dispatch().unwrap().function(), Function::ReadElement);
+    }
+}
+
+/// E-01: what counts elements at an offset of the stride 0x1000 is a read of content to a server;
+/// that is its canonical form, and encodes to the same call.
+#[test]
+fn the_count_of_a_platform_axis_is_a_read_of_content() {
+    let axis = content(0x12_3300, 0x1000);
+    let Some(ads_cnc::address::Group::Class(class)) = axis.index_group.parts() else { panic!() };
+    let element = ElementAddress::new(class, axis.index_offset);
+    let sent = Request::from(CountElements::new(element).unwrap()).encode(&mut []).unwrap();
+    let canonical = ReadElement::new(element, 4).unwrap().into();
+    assert_eq!(sent.dispatch(), Ok(canonical));
+    assert_eq!(canonical.encode(&mut []), Ok(sent));
+}
+
+/// The content of a platform axis as the table of 2.1 and the example of 2.1.2 address it (E-04);
+/// its descriptors have one group only.
+#[test]
+fn content_of_a_platform_axis_has_two_addresses() {
+    let call = |group, offset| Call {
+        port: AmsPort::COM,
+        service: Service::Read,
+        index_group: IndexGroup::new(group),
+        index_offset: IndexOffset::new(offset),
+        read_length: 8,
+        data: &[],
+    };
+    for call in [call(0x12_0201, 1), call(0x12_0200, 0x1_0001)] {
+        let request = call.dispatch().unwrap();
+        assert_eq!(request.function(), Function::ReadObject);
+        assert_eq!(request.encode(&mut []), Ok(call));
+    }
+    let group = IndexGroup::new(0x13_0200);
+    let refused = Call { index_group: group, ..call(0, 0) }.dispatch();
+    assert_eq!(refused, Err(Refusal::Group(group)));
+}
+
+/// Content is not longer than was asked for, and its addresses are those of content.
+#[test]
+fn content_is_where_and_as_long_as_was_asked_for() {
+    let group = IndexGroup::new;
+    let offset = IndexOffset::new(3);
+    let read = ReadObject::new(group(0x12_0101), offset, 2).unwrap();
+    assert_eq!(read.decode_reply(&[1]).unwrap().bytes, [1]);
+    let error = read.decode_reply(&[1, 2, 3]).unwrap_err();
+    assert_eq!((error.kind(), error.expected(), error.found()), (ErrorKind::TooLong, 2, 3));
+    let element = ElementAddress::of_channel(Channel::new(1).unwrap(), Class::Hld, 1).unwrap();
+    assert!(ReadElement::new(element, 1).unwrap().decode_reply(&[0, 0]).is_err());
+
+    for (wrong, near) in [(0x13_0101, 0x12_0101), (0x12_2301, 0x12_0100), (0xF005, 0x12_0100)] {
+        let error = ReadObject::new(group(wrong), offset, 2).unwrap_err();
+        assert_eq!((error.kind(), error.expected()), (ErrorKind::Mismatch, near));
+        assert_eq!(WriteObject::new(group(wrong), offset, &[]), Err(error));
+    }
+    assert!(ReadObject::new(group(0x12_0101), offset, 0x40_0000).is_ok());
+    assert_eq!(
+        ReadObject::new(group(0x12_0101), offset, 0x40_0001).unwrap_err().kind(),
+        ErrorKind::TooLong
+    );
+    assert!(ReadElement::new(element, 0x40_0001).is_err());
+}
