@@ -15,6 +15,7 @@
 //! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
 //! | [`explain`] | bytes of any stream, field by field |
 //! | [`verdict`], [`report`] | what a judgement can be, and how it is shown |
+//! | [`waivers`] | failures that are known |
 //! | [`net`] | the one place where sockets are opened |
 //! | [`cli`] | the command line of `ads-cnc` |
 //!
@@ -57,3 +58,4 @@ pub mod show;
 pub mod suite;
 pub mod values;
 pub mod verdict;
+pub mod waivers;

@@ -4,10 +4,10 @@ use std::fmt;
 use std::process::ExitCode;
 
 use ads_cnc_vectors::Level;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The judgement of one requirement in one case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// Done as required.
@@ -77,6 +77,17 @@ impl Verdict {
         matches!(self, Self::Pass | Self::Fail | Self::Warning | Self::Differs | Self::Vacuous)
     }
 
+    /// Whether a run with it is no success.
+    pub const fn is_trouble(self) -> bool {
+        matches!(self, Self::Fail | Self::Vacuous | Self::Inconclusive | Self::HarnessError)
+    }
+
+    /// Whether somebody may put up with it.
+    pub const fn is_waivable(self) -> bool {
+        let known = matches!(self, Self::Fail | Self::Vacuous | Self::Inconclusive);
+        known || matches!(self, Self::Warning | Self::Differs)
+    }
+
     /// How much of a reader's attention it needs; the verdict of a group is its gravest.
     pub const fn gravity(self) -> u8 {
         match self {
@@ -113,6 +124,8 @@ pub enum Exit {
     Nothing,
     /// Refused for safety.
     Refused,
+    /// A waiver no longer holds.
+    Stale,
     /// An internal error.
     Internal,
 }
@@ -126,24 +139,75 @@ impl Exit {
             Self::Usage => 2,
             Self::Nothing => 3,
             Self::Refused => 4,
+            Self::Stale => 5,
             Self::Internal => 70,
         }
     }
 
+    /// The one with this number.
+    pub fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.into_iter().find(|exit| exit.code() == code)
+    }
+
+    /// All of them, in the order in which they win over one another.
+    pub const ALL: [Self; 7] = [
+        Self::Internal,
+        Self::Usage,
+        Self::Refused,
+        Self::Failure,
+        Self::Stale,
+        Self::Nothing,
+        Self::Success,
+    ];
+
     /// The first that holds for these verdicts.
     pub fn of(verdicts: impl IntoIterator<Item = Verdict>) -> Self {
-        let (mut judged, mut failed, mut open, mut broken) = (false, false, false, false);
-        for verdict in verdicts {
-            judged |= verdict.is_judged();
-            failed |= matches!(verdict, Verdict::Fail | Verdict::Vacuous);
-            open |= verdict == Verdict::Inconclusive;
-            broken |= verdict == Verdict::HarnessError;
+        let mut tally = Tally::default();
+        verdicts.into_iter().for_each(|verdict| tally.add(verdict, false));
+        tally.exit()
+    }
+}
+
+/// What a run had, as far as it decides how the process ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    judged: bool,
+    failed: bool,
+    open: bool,
+    broken: bool,
+    /// Something was refused for safety.
+    pub refused: bool,
+    /// A waiver no longer holds.
+    pub stale: bool,
+}
+
+impl Tally {
+    /// Counts a verdict. One that is put up with is judged, and that is all.
+    pub const fn add(&mut self, verdict: Verdict, waived: bool) {
+        if verdict.is_judged() || waived {
+            self.judged = true;
         }
-        match (broken, failed, open || !judged) {
-            (true, ..) => Self::Internal,
-            (_, true, _) => Self::Failure,
-            (.., true) => Self::Nothing,
-            _ => Self::Success,
+        if waived {
+            return;
+        }
+        match verdict {
+            Verdict::Fail | Verdict::Vacuous => self.failed = true,
+            Verdict::Inconclusive => self.open = true,
+            Verdict::HarnessError => self.broken = true,
+            _ => {}
+        }
+    }
+
+    /// The first that holds.
+    pub const fn exit(self) -> Exit {
+        let Self { judged, failed, open, broken, refused, stale } = self;
+        match (broken, refused, failed, stale) {
+            (true, ..) => Exit::Internal,
+            (_, true, ..) => Exit::Refused,
+            (_, _, true, _) => Exit::Failure,
+            (.., true) => Exit::Stale,
+            _ if open || !judged => Exit::Nothing,
+            _ => Exit::Success,
         }
     }
 }
@@ -175,6 +239,26 @@ mod tests {
         ];
         for (verdicts, code) in cases {
             assert_eq!(Exit::of(verdicts.iter().copied()).code(), code, "{verdicts:?}");
+        }
+    }
+
+    /// What is put up with does not decide; that it is known no longer does, but a failure first.
+    #[test]
+    fn waivers_decide_in_their_turn() {
+        use Verdict::*;
+        let exit = |verdicts: &[(Verdict, bool)], stale, refused| {
+            let mut tally = Tally { stale, refused, ..Tally::default() };
+            verdicts.iter().for_each(|&(verdict, waived)| tally.add(verdict, waived));
+            tally.exit().code()
+        };
+        assert_eq!(exit(&[(Pass, false), (Fail, true), (Inconclusive, true)], false, false), 0);
+        assert_eq!(exit(&[(Fail, true)], false, false), 0);
+        assert_eq!(exit(&[(Fail, true), (Fail, false)], true, false), 1);
+        assert_eq!(exit(&[(Fail, true), (Inconclusive, false)], true, false), 5);
+        assert_eq!(exit(&[(Fail, false)], true, true), 4);
+        assert_eq!(exit(&[(HarnessError, false)], true, true), 70);
+        for exit in Exit::ALL {
+            assert_eq!(Exit::from_code(exit.code()), Some(exit));
         }
     }
 }

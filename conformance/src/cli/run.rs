@@ -11,12 +11,13 @@ use super::target::{REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect};
 use crate::cnc::Cnc;
 use crate::defect::Defect;
-use crate::gate::Gate;
+use crate::gate::{Gate, Moment};
 use crate::profile::Profile;
-use crate::report::{self, Report, TargetReport};
+use crate::report::{self, About, Report, TargetReport};
 use crate::session::{self, Trouble};
 use crate::suite::{self, Needs, Session};
 use crate::verdict::Exit;
+use crate::waivers::Waivers;
 
 /// Runs the conformance suite against the embedded CNC, or against a device.
 ///
@@ -79,8 +80,13 @@ impl Run {
         let outcomes = suite::run(cases, Some(&mut session), None);
         let name = "device".to_owned();
         let (address, net_id) = (target.addr.to_string(), target.net_id.to_string());
-        let target = TargetReport { name, address, net_id };
-        Ok(Report::new(target, session.profile, session.frames, outcomes))
+        let target = TargetReport {
+            name,
+            address: Some(address),
+            net_id: Some(net_id),
+            ..TargetReport::default()
+        };
+        Ok(Report::new(about(target, &session), &outcomes, &[]))
     }
 
     fn write(&self, report: &Report) -> Exit {
@@ -124,7 +130,24 @@ fn embedded(defect: Option<Defect>) -> Result<Report, Trouble> {
         None => "embedded CNC".to_owned(),
         Some(defect) => format!("embedded CNC with the defect {}", defect.id),
     };
-    let target =
-        TargetReport { name, address: target.addr.to_string(), net_id: target.net_id.to_string() };
-    Ok(Report::new(target, session.profile, session.frames, outcomes))
+    let target = TargetReport {
+        name,
+        address: Some(target.addr.to_string()),
+        net_id: Some(target.net_id.to_string()),
+        ..TargetReport::default()
+    };
+    Ok(Report::new(about(target, &session), &outcomes, &[]))
+}
+
+fn about(target: TargetReport, session: &Session) -> About {
+    About {
+        time: Moment::now(),
+        edition: "en-1.05".to_owned(),
+        seed: 0,
+        only: Vec::new(),
+        target,
+        profile: Some(session.profile.clone()),
+        waivers: Waivers::default(),
+        frames: session.frames,
+    }
 }

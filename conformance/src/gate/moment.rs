@@ -36,6 +36,12 @@ impl Moment {
         Self::from_datetime(text.parse().ok()?)
     }
 
+    /// The beginning of a day in UTC.
+    pub(crate) fn from_date(date: Date) -> Option<Self> {
+        let Date { year, month, day } = date;
+        days(year.into(), month.into(), day.into())?.checked_mul(DAY).map(Self)
+    }
+
     /// Fractions of a second are dropped: it is over a little early.
     pub(super) fn from_datetime(datetime: Datetime) -> Option<Self> {
         let Date { year, month, day } = datetime.date?;

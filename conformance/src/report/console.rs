@@ -3,99 +3,132 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use super::hex::annotated;
-use super::model::{CaseReport, FailureReport, Report};
-use crate::suite::{Evidence, Judgement};
+use super::BytesReport;
+use super::hex::lines;
+use super::model::{
+    CaseReport, EvidenceReport, FailureReport, Report, TargetReport, Totals, WaiverReport,
+};
+use crate::suite::Subject;
 use crate::verdict::{Exit, Verdict};
 
-/// Writes the report. `verbose` shows the cases of the codec one by one too.
+/// Writes the report. `verbose` shows the cases made of vectors one by one too.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn print(report: &Report, verbose: bool, out: &mut impl Write) -> io::Result<()> {
     head(report, out)?;
-    codec_cases(report, verbose, out)?;
-    target_cases(report, out)?;
+    for subject in &report.subjects {
+        cases(report, subject.subject, verbose, out)?;
+    }
     for case in &report.cases {
         failures(case, out)?;
     }
     areas(report, out)?;
+    waivers(&report.waivers, out)?;
     tail(report, out)
 }
 
 fn head(report: &Report, out: &mut impl Write) -> io::Result<()> {
-    let Report { suite, vectors, target, profile, .. } = report;
-    writeln!(out, "ads-cnc {suite}, vectors {vectors}")?;
-    writeln!(out, "target   {} at {}, AMS NetId {}", target.name, target.address, target.net_id)?;
-    let channels: Vec<String> = profile.channels.iter().map(u32::to_string).collect();
-    writeln!(out, "profile  {}: channels {}", profile.name, channels.join(", "))?;
-    writeln!(out)
-}
-
-/// The cases of the codec: one line for each stream.
-fn codec_cases(report: &Report, verbose: bool, out: &mut impl Write) -> io::Result<()> {
-    let mut streams: BTreeMap<&str, BTreeMap<&str, usize>> = BTreeMap::new();
-    for case in report.cases.iter().filter(|case| case.codec) {
-        let stream = case.stream().unwrap_or_default();
-        let number = streams.entry(stream).or_default().entry(case.verdict.name()).or_default();
-        *number = number.saturating_add(1);
-    }
-    if streams.is_empty() {
-        return Ok(());
-    }
-    writeln!(out, "The codec against the golden vectors")?;
-    for (stream, verdicts) in streams {
-        writeln!(out, "  {stream:<22}  {}", counts(&verdicts))?;
-        if verbose {
-            let mine =
-                report.cases.iter().filter(|case| case.codec && case.stream() == Some(stream));
-            for case in mine {
-                line(case, out)?;
-            }
+    let Report { suite, vectors, edition, seed, only, target, profile, .. } = report;
+    writeln!(out, "ads-cnc {suite}, vectors {vectors}, edition {edition}, seed {seed}")?;
+    writeln!(out, "target   {}", describe(target))?;
+    if let Some(profile) = profile {
+        let channels = profile.claims.get("channels").and_then(|list| list.as_array());
+        let channels = channels.into_iter().flatten().map(ToString::to_string);
+        let channels: Vec<String> = channels.collect();
+        match channels.is_empty() {
+            true => writeln!(out, "profile  {}", profile.name)?,
+            false => writeln!(out, "profile  {}: channels {}", profile.name, channels.join(", "))?,
         }
     }
+    if !only.is_empty() {
+        writeln!(out, "only     {}", only.join(", "))?;
+    }
     writeln!(out)
 }
 
-fn target_cases(report: &Report, out: &mut impl Write) -> io::Result<()> {
-    writeln!(out, "The target, asked over AMS/TCP")?;
-    for case in report.cases.iter().filter(|case| !case.codec) {
-        line(case, out)?;
+/// Who was judged, in a line.
+pub(super) fn describe(target: &TargetReport) -> String {
+    let TargetReport { name, version, language, command, address, net_id, file } = target;
+    let mut text = name.clone();
+    let parts = [
+        (" ", version),
+        (", in ", language),
+        (" at ", address),
+        (", AMS NetId ", net_id),
+        (", started by ", command),
+        (", ", file),
+    ];
+    for (before, part) in parts {
+        text.extend(part.iter().flat_map(|part| [before, part.as_str()]));
     }
+    text
+}
+
+const fn heading(subject: Subject) -> &'static str {
+    match subject {
+        Subject::Codec => "The codec against the golden vectors",
+        Subject::Testee => "The testee against the golden vectors",
+        Subject::Target => "The target, asked over AMS/TCP",
+        Subject::Client => "The client, answered over AMS/TCP",
+        Subject::Capture => "The captured traffic",
+    }
+}
+
+/// The cases of one who was judged: of vectors one line for each stream.
+fn cases(report: &Report, who: Subject, verbose: bool, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "{}", heading(who))?;
+    let mine = || report.cases.iter().filter(|case| case.subject == who);
+    let mut streams: BTreeMap<&str, Vec<&CaseReport>> = BTreeMap::new();
+    for case in mine() {
+        if let Some(stream) = &case.stream {
+            streams.entry(stream).or_default().push(case);
+        }
+    }
+    for (stream, cases) in streams {
+        let mut totals = Totals::new();
+        for case in &cases {
+            let number = totals.entry(case.verdict).or_default();
+            *number = number.saturating_add(1);
+        }
+        let waived = cases.iter().filter(|case| case.waived).count();
+        writeln!(out, "  {stream:<22}  {}", counts(&totals, waived))?;
+        if verbose {
+            cases.iter().try_for_each(|case| line(case, out))?;
+        }
+    }
+    mine().filter(|case| case.stream.is_none()).try_for_each(|case| line(case, out))?;
     writeln!(out)
 }
 
 fn line(case: &CaseReport, out: &mut impl Write) -> io::Result<()> {
-    let requirements: Vec<&str> = case.requirements.iter().map(|one| one.requirement).collect();
-    writeln!(out, "  {:<14}  {}  [{}]", case.verdict, case.title, requirements.join(" "))?;
+    let requirements: Vec<&str> =
+        case.requirements.iter().map(|one| one.requirement.as_str()).collect();
+    let verdict = worded(case.verdict, case.waived);
+    writeln!(out, "  {verdict:<14}  {}  [{}]", case.title, requirements.join(" "))?;
     match &case.note {
         Some(note) => writeln!(out, "  {:<14}    {note}", ""),
         None => Ok(()),
     }
 }
 
+/// A verdict, and whether somebody puts up with it.
+pub(super) fn worded(verdict: Verdict, waived: bool) -> String {
+    if waived { format!("{verdict}, waived") } else { verdict.to_string() }
+}
+
 /// Each check that was not passed, with its clauses and its bytes.
 fn failures(case: &CaseReport, out: &mut impl Write) -> io::Result<()> {
-    let mut shown: Vec<(&FailureReport, &Judgement, Vec<&FailureReport>)> = Vec::new();
-    for (failure, judgement) in case.failures.iter().zip(case.judgements()) {
-        // One check may stand for several requirements: its bytes are shown once.
-        let same = shown.iter_mut().find(|(first, ..)| {
-            (&first.expected, &first.found, &first.sent, first.verdict)
-                == (&failure.expected, &failure.found, &failure.sent, failure.verdict)
-        });
-        match same {
-            Some((.., all)) => all.push(failure),
-            None => shown.push((failure, judgement, vec![failure])),
-        }
-    }
-    for (failure, judgement, all) in shown {
-        writeln!(out, "{}  {}: {}", failure.verdict.name().to_uppercase(), case.id, case.title)?;
-        for one in all {
+    for all in case.findings() {
+        let Some(failure) = all.first() else { continue };
+        let verdict = worded(failure.verdict, failure.waived).to_uppercase();
+        writeln!(out, "{verdict}  {}: {}", case.id, case.title)?;
+        for one in &all {
             clause(one, out)?;
         }
         writeln!(out, "  expected  {}", failure.expected)?;
         writeln!(out, "  found     {}", failure.found)?;
-        if let Some(evidence) = &judgement.evidence {
+        if let Some(evidence) = &failure.evidence {
             bytes(evidence, out)?;
         }
         if failure.more > 0 {
@@ -115,18 +148,23 @@ fn clause(failure: &FailureReport, out: &mut impl Write) -> io::Result<()> {
     }
 }
 
-fn bytes(evidence: &Evidence, out: &mut impl Write) -> io::Result<()> {
-    writeln!(out, "  sent      {}", evidence.call)?;
-    for line in annotated(evidence.request_stream, &evidence.sent) {
+fn bytes(evidence: &EvidenceReport, out: &mut impl Write) -> io::Result<()> {
+    let EvidenceReport { call, result, sent, received, expected, frame_sent, .. } = evidence;
+    writeln!(out, "  sent      {call}")?;
+    show(sent.as_ref(), out)?;
+    if received.is_some() || !frame_sent.is_empty() {
+        writeln!(out, "  received  {result}")?;
+    }
+    show(received.as_ref(), out)?;
+    if expected.is_some() {
+        writeln!(out, "  instead of")?;
+    }
+    show(expected.as_ref(), out)
+}
+
+fn show(bytes: Option<&BytesReport>, out: &mut impl Write) -> io::Result<()> {
+    for line in bytes.map(lines).unwrap_or_default() {
         writeln!(out, "    {line}")?;
-    }
-    if evidence.received.is_some() || !evidence.frame_sent.is_empty() {
-        writeln!(out, "  received  {}", evidence.result)?;
-    }
-    if let Some(received) = &evidence.received {
-        for line in annotated(evidence.reply_stream, received) {
-            writeln!(out, "    {line}")?;
-        }
     }
     Ok(())
 }
@@ -136,10 +174,11 @@ fn areas(report: &Report, out: &mut impl Write) -> io::Result<()> {
         writeln!(out, "Requirements by area, the {}", subject.subject)?;
         for area in &subject.areas {
             let total: usize = area.totals.values().sum();
-            writeln!(out, "  {}  {total:3}: {}", area.area, counts(&area.totals))?;
+            let waived = area.requirements.iter().filter(|one| one.waived).count();
+            writeln!(out, "  {}  {total:3}: {}", area.area, counts(&area.totals, waived))?;
             for verdict in Verdict::ALL.into_iter().filter(|verdict| *verdict != Verdict::Pass) {
                 let mine = area.requirements.iter().filter(|one| one.verdict == verdict);
-                let ids: Vec<&str> = mine.map(|one| one.requirement).collect();
+                let ids: Vec<&str> = mine.map(|one| one.requirement.as_str()).collect();
                 if !ids.is_empty() {
                     writeln!(out, "            {verdict}: {}", ids.join(" "))?;
                 }
@@ -150,21 +189,38 @@ fn areas(report: &Report, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
+fn waivers(waivers: &[WaiverReport], out: &mut impl Write) -> io::Result<()> {
+    if waivers.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "Waivers")?;
+    for WaiverReport { test, requirement, verdict, reason, expires, state, found } in waivers {
+        let found = found.filter(|found| found != verdict);
+        let found = found.map_or_else(String::new, |found| format!(", found {found}"));
+        writeln!(out, "  {}: {test} [{requirement}], {verdict} expected{found}", state.name())?;
+        writeln!(out, "    until {expires}: {reason}")?;
+    }
+    writeln!(out)
+}
+
 fn tail(report: &Report, out: &mut impl Write) -> io::Result<()> {
-    let Report { checks, frames, .. } = report;
+    let Report { checks, frames, left_out, .. } = report;
     let cases = report.cases.len();
+    let left_out = if *left_out > 0 { format!(", {left_out} not selected") } else { String::new() };
     let verdict = if report.exit() == Exit::Success { "PASSED" } else { "NOT PASSED" };
     let subjects = report.subjects.iter();
-    let totals = subjects.map(|one| format!("{}: {}", one.subject, counts(&one.totals)));
+    let totals =
+        subjects.map(|one| format!("{}: {}", one.subject, counts(&one.totals, one.waived)));
     explain(report, out)?;
     writeln!(out, "{verdict}  {}", totals.collect::<Vec<_>>().join("; "))?;
-    writeln!(out, "{cases} cases, {checks} checks, {frames} frames; exit code {}", report.exit_code)
+    let code = report.exit_code;
+    writeln!(out, "{cases} cases{left_out}, {checks} checks, {frames} frames; exit code {code}")
 }
 
 /// What the verdicts mean that this report has and that do not say so themselves.
 fn explain(report: &Report, out: &mut impl Write) -> io::Result<()> {
     let known = |verdict: Verdict| {
-        report.subjects.iter().any(|subject| subject.totals.contains_key(verdict.name()))
+        report.subjects.iter().any(|subject| subject.totals.contains_key(&verdict))
     };
     for (verdict, meaning) in [
         (Verdict::Warning, "known from help pages only, and done otherwise: fails nobody"),
@@ -181,10 +237,8 @@ fn explain(report: &Report, out: &mut impl Write) -> io::Result<()> {
 }
 
 /// Verdicts with their numbers, in the order of [`Verdict::ALL`].
-fn counts(verdicts: &BTreeMap<&str, usize>) -> String {
-    let named = Verdict::ALL.into_iter().filter_map(|verdict| {
-        let number = verdicts.get(verdict.name())?;
-        Some(format!("{number} {verdict}"))
-    });
-    named.collect::<Vec<_>>().join(", ")
+pub(super) fn counts(totals: &Totals, waived: usize) -> String {
+    let named = totals.iter().map(|(verdict, number)| format!("{number} {verdict}"));
+    let waived = (waived > 0).then(|| format!("{waived} of them waived"));
+    named.chain(waived).collect::<Vec<_>>().join(", ")
 }

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use ads_cnc::layout::Stream;
+use super::{BytesReport, FieldReport};
+use crate::explain::Values;
 
 /// Bytes of a field shown on one line.
 const LINE: usize = 16;
@@ -18,40 +19,37 @@ pub(crate) fn plain(bytes: &[u8]) -> String {
     text
 }
 
-/// One line for each field: offset, bytes, field; up to the fault, if there is one.
+/// A byte as a character, if it is one.
+pub(super) fn character(byte: u8) -> char {
+    if byte.is_ascii_graphic() { char::from(byte) } else { '·' }
+}
+
+/// The lines of bytes that are held against nothing.
 pub(crate) fn annotated(stream: Option<&str>, bytes: &[u8]) -> Vec<String> {
-    let Some(stream) = stream.and_then(Stream::by_name) else {
-        return lines(0, bytes, "");
-    };
-    let mut all = Vec::new();
-    let mut end = 0_usize;
-    let walked = stream.walk(bytes, |segment| {
-        let at = usize::try_from(segment.offset).unwrap_or(usize::MAX);
-        end = at.saturating_add(segment.bytes.len());
-        all.extend(lines(at, segment.bytes, segment.field.name()));
-    });
-    if let Err(error) = walked {
-        all.extend(lines(end, bytes.get(end..).unwrap_or_default(), "?"));
-        all.push(format!("      ! {error}"));
-    }
+    lines(&BytesReport::new(stream, bytes, None, &Values::default()))
+}
+
+/// One line for each field: offset, bytes, characters, name; up to the fault, if there is one. A
+/// line with a byte that is not the expected one begins with an exclamation mark.
+pub(super) fn lines(bytes: &BytesReport) -> Vec<String> {
+    let mut all: Vec<String> = bytes.fields.iter().flat_map(of_field).collect();
+    all.extend(bytes.faults.iter().map(|fault| format!("      ! {fault}")));
     all
 }
 
-fn lines(at: usize, bytes: &[u8], field: &str) -> Vec<String> {
-    if bytes.is_empty() {
-        return Vec::new();
-    }
-    let chunks = (at..).step_by(LINE).zip(bytes.chunks(LINE)).enumerate();
-    chunks
-        .map(|(line, (at, chunk))| {
-            let field = if line == 0 { field } else { "" };
-            let text: String = chunk
-                .iter()
-                .map(|&byte| if byte.is_ascii_graphic() { char::from(byte) } else { '·' })
-                .collect();
-            format!("{at:6}  {:<47}  {text:<16}  {field}", plain(chunk)).trim_end().to_owned()
-        })
-        .collect()
+fn of_field(field: &FieldReport) -> Vec<String> {
+    let bytes: Vec<u8> = field.bytes().collect();
+    let begins = (0_usize..).step_by(LINE);
+    let line = |(begin, chunk): (usize, &[u8])| {
+        let end = begin.saturating_add(LINE);
+        let differs = field.differs.iter().any(|place| (begin..end).contains(place));
+        let mark = if differs { '!' } else { ' ' };
+        let at = field.offset.saturating_add(begin);
+        let text: String = chunk.iter().copied().map(character).collect();
+        let name = if begin == 0 { field.field.as_str() } else { "" };
+        format!("{mark}{at:5}  {:<47}  {text:<16}  {name}", plain(chunk)).trim_end().to_owned()
+    };
+    begins.zip(bytes.chunks(LINE)).map(line).collect()
 }
 
 #[cfg(test)]
@@ -61,15 +59,28 @@ mod tests {
     /// What is shown of a broken stream goes up to its fault and names it.
     #[test]
     fn a_fault_is_shown_where_it_is() {
-        let shown = annotated(Some("variable-handle-read"), &[1, 0, 0, 2, 9, 0, 0, 0, 4]);
+        let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];
+        let stream = Some("variable-handle-read");
+        let report = BytesReport::new(stream, &bytes, None, &Values::default());
         assert_eq!(
-            shown,
+            lines(&report),
             [
                 "     0  01 00 00 02                                      ····              handle",
                 "     4  09 00 00 00                                      ····              index_count",
                 "     8  04                                               ·                 ?",
-                "      ! variable-handle-read: index_count at offset 4: too many, at most 0 expected, 9 found",
+                "      ! index_count at offset 4: too many, at most 0 expected, 9 found",
             ]
         );
+    }
+
+    /// What differs is marked, on its line.
+    #[test]
+    fn differing_lines_are_marked() {
+        let (bytes, mut other) = ([0x41; 20], [0x41; 20]);
+        other[17] = 0;
+        let report = BytesReport::new(None, &bytes, Some(&other), &Values::default());
+        let marks: Vec<char> =
+            lines(&report).iter().filter_map(|line| line.chars().next()).collect();
+        assert_eq!(marks, [' ', '!']);
     }
 }

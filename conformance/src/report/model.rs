@@ -1,113 +1,227 @@
-//! The report's data.
+//! The report's data: plain, and the same when it is read back. Everything that is shown of a run
+//! is made from it alone.
 
 use std::collections::BTreeMap;
 
-use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
-use serde::Serialize;
+use ads_cnc_vectors::Level;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
-use crate::profile::Profile;
-use crate::suite::{Body, Evidence, Judgement, Outcome, gravest};
+use super::BytesReport;
+use crate::suite::Subject;
 use crate::verdict::{Exit, Verdict};
 
+/// Number of this structure.
+pub const FORMAT: u32 = 1;
+
+/// Verdicts with their numbers; those that do not occur are left out.
+pub type Totals = BTreeMap<Verdict, usize>;
+
 /// A whole run.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Report {
-    /// Version of this structure.
+    /// Number of this structure: [`FORMAT`].
     pub format: u32,
     /// Version of the suite.
-    pub suite: &'static str,
+    pub suite: String,
     /// Version of the vectors.
-    pub vectors: &'static str,
+    pub vectors: String,
+    /// When the run began, in UTC.
+    pub time: String,
+    /// Edition of the manual that was judged by.
+    pub edition: String,
+    /// From which the order of the cases comes.
+    pub seed: u32,
+    /// What was selected; all if it is empty.
+    pub only: Vec<String>,
     /// Who was judged.
     pub target: TargetReport,
     /// What it claims.
-    pub profile: Profile,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<ProfileReport>,
+    /// Failures that are known, and what became of each.
+    pub waivers: Vec<WaiverReport>,
     /// The exit code this run ends with.
     pub exit_code: u8,
-    #[serde(skip)]
-    exit: Exit,
     /// Checks made.
     pub checks: usize,
     /// Frames exchanged.
     pub frames: usize,
-    /// The codec and the target, each judged for itself.
+    /// Cases that were not selected; they are not among the cases.
+    pub left_out: usize,
+    /// Each who was judged, for itself.
     pub subjects: Vec<SubjectReport>,
     /// Every case in the order it was run.
     pub cases: Vec<CaseReport>,
 }
 
 /// Who was judged.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct TargetReport {
     /// What it is.
     pub name: String,
-    /// Where it listens.
-    pub address: String,
+    /// Its version, as it says itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub version: Option<String>,
+    /// In which language it is written, as it says itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub language: Option<String>,
+    /// How it was started.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub command: Option<String>,
+    /// Where it listens, or from where it connected.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub address: Option<String>,
     /// Its AMS NetId.
-    pub net_id: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub net_id: Option<String>,
+    /// The file that was judged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+}
+
+/// What a target claims.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProfileReport {
+    /// The profile's name.
+    pub name: String,
+    /// Each claim under its name.
+    pub claims: BTreeMap<String, Value>,
+}
+
+/// A known failure, and what became of it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WaiverReport {
+    /// The case.
+    pub test: String,
+    /// The requirement.
+    pub requirement: String,
+    /// The verdict that is expected.
+    pub verdict: Verdict,
+    /// Why it is put up with.
+    pub reason: String,
+    /// The first day on which it holds no longer.
+    pub expires: String,
+    /// What became of it.
+    pub state: WaiverState,
+    /// The verdict in this run, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub found: Option<Verdict>,
+}
+
+/// What became of a waiver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WaiverState {
+    /// The verdict is the expected one.
+    Used,
+    /// What it is about was not run: nothing is known.
+    NotRun,
+    /// Its time is over. Stale.
+    Expired,
+    /// Nothing that ran is called that. Stale.
+    Unmatched,
+    /// The verdict is another one. Stale.
+    Otherwise,
+}
+
+impl WaiverState {
+    /// Whether the file has to be mended.
+    pub const fn is_stale(self) -> bool {
+        matches!(self, Self::Expired | Self::Unmatched | Self::Otherwise)
+    }
+
+    /// For people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Used => "used",
+            Self::NotRun => "not run",
+            Self::Expired => "stale: expired",
+            Self::Unmatched => "stale: nothing that ran is called that",
+            Self::Otherwise => "stale: the verdict is another one",
+        }
+    }
 }
 
 /// What is said of one who was judged.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SubjectReport {
-    /// `codec` or `target`.
-    pub subject: &'static str,
+    /// Who it is.
+    pub subject: Subject,
     /// Verdicts of its requirements, each once and by its gravest.
-    pub totals: BTreeMap<&'static str, usize>,
+    pub totals: Totals,
+    /// How many of them are put up with.
+    pub waived: usize,
     /// By area.
     pub areas: Vec<AreaReport>,
 }
 
 /// One area of requirements.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct AreaReport {
     /// The area's letters.
     pub area: String,
     /// Verdicts of its requirements, each once and by its gravest.
-    pub totals: BTreeMap<&'static str, usize>,
+    pub totals: Totals,
     /// The requirements, in their order.
     pub requirements: Vec<RequirementReport>,
 }
 
 /// The verdict on one requirement.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RequirementReport {
     /// The requirement.
-    pub requirement: &'static str,
+    pub requirement: String,
     /// The gravest verdict on it.
     pub verdict: Verdict,
+    /// Whether it is put up with.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub waived: bool,
 }
 
 /// One case.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CaseReport {
     /// The case's slug.
     pub id: String,
     /// What it tries.
     pub title: String,
+    /// Who is judged.
+    pub subject: Subject,
+    /// The stream of a case that is a vector.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stream: Option<String>,
     /// The gravest of its verdicts.
     pub verdict: Verdict,
+    /// Whether that is put up with.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub waived: bool,
     /// The verdict on each of its requirements.
     pub requirements: Vec<RequirementReport>,
     /// Checks made.
     pub checks: usize,
     /// Why it did not run, or not to its end.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
     /// Checks that were not passed.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failures: Vec<FailureReport>,
-    /// Whether the codec was judged, without a target.
-    pub codec: bool,
-    #[serde(skip)]
-    pub(super) outcome: Outcome,
 }
 
 /// A check that was not passed.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct FailureReport {
     /// The requirement.
-    pub requirement: &'static str,
+    pub requirement: String,
     /// The level it was judged at; that of an assumed part may be lower than the whole's.
     pub level: Option<Level>,
     /// What it says, or the parts of that level.
@@ -116,205 +230,91 @@ pub struct FailureReport {
     pub sources: Vec<String>,
     /// The verdict.
     pub verdict: Verdict,
+    /// Whether it is put up with.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub waived: bool,
     /// What was expected.
     pub expected: String,
     /// What was there.
     pub found: String,
     /// Checks with the same verdict that are not shown.
     pub more: usize,
+    /// The bytes behind it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub evidence: Option<EvidenceReport>,
+}
+
+/// The bytes behind a check.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EvidenceReport {
     /// Where the request went.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub call: Option<String>,
-    /// Data of the request in hex.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sent: Option<String>,
-    /// Data of the reply in hex.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub received: Option<String>,
-    /// The whole frame sent in hex.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frame_sent: Option<String>,
-    /// The whole frame received in hex.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frame_received: Option<String>,
+    pub call: String,
+    /// What came of it, in a few words.
+    pub result: String,
+    /// Data of the request.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sent: Option<BytesReport>,
+    /// Data of the reply.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub received: Option<BytesReport>,
+    /// What should have been received.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expected: Option<BytesReport>,
+    /// The whole frame sent, in hex.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub frame_sent: String,
+    /// The whole frame received, or as much as came, in hex.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub frame_received: String,
 }
 
 impl Report {
-    /// Puts the outcomes of a run together.
-    pub fn new(
-        target: TargetReport,
-        profile: Profile,
-        frames: usize,
-        outcomes: Vec<Outcome>,
-    ) -> Self {
-        let exit = Exit::of(
-            outcomes
-                .iter()
-                .flat_map(|outcome| outcome.verdicts.iter().map(|judged| judged.verdict)),
-        );
-        // The embedded CNC refuses nothing; a device for which the gate closed was not judged whole.
-        let refused = outcomes.iter().any(|outcome| outcome.refused);
-        let exit = if refused && exit != Exit::Internal { Exit::Refused } else { exit };
-        let judged = |codec: bool| {
-            let mine = outcomes.iter().filter(move |one| is_codec(one) == codec);
-            mine.collect::<Vec<_>>()
-        };
-        let subjects = [("codec", judged(true)), ("target", judged(false))];
-        let subjects = subjects.into_iter().filter(|(_, outcomes)| !outcomes.is_empty());
-        let subjects = subjects.map(|(name, outcomes)| SubjectReport::new(name, &outcomes));
-        let subjects = subjects.collect();
-        Self {
-            format: 1,
-            suite: env!("CARGO_PKG_VERSION"),
-            vectors: ads_cnc_vectors::VERSION,
-            target,
-            profile,
-            exit_code: exit.code(),
-            exit,
-            checks: outcomes.iter().map(|outcome| outcome.checks).sum(),
-            frames,
-            subjects,
-            cases: outcomes.into_iter().map(CaseReport::new).collect(),
-        }
-    }
-
     /// How the process ends.
-    pub const fn exit(&self) -> Exit {
-        self.exit
+    pub fn exit(&self) -> Exit {
+        Exit::from_code(self.exit_code).unwrap_or(Exit::Internal)
     }
-}
 
-impl SubjectReport {
-    fn new(subject: &'static str, outcomes: &[&Outcome]) -> Self {
-        let verdicts = by_requirement(outcomes);
-        let mut areas: Vec<AreaReport> = Vec::new();
-        for (id, verdict) in &verdicts {
-            let area = id.split('-').next().unwrap_or_default();
-            if areas.last().is_none_or(|last| last.area != area) {
-                areas.push(AreaReport {
-                    area: area.to_owned(),
-                    totals: BTreeMap::new(),
-                    requirements: Vec::new(),
-                });
-            }
-            if let Some(last) = areas.last_mut() {
-                last.requirements.push(RequirementReport { requirement: id, verdict: *verdict });
-            }
+    /// Reads a report.
+    ///
+    /// # Errors
+    /// Text that is no report, or one of another format.
+    pub fn from_json(text: &str) -> Result<Self, String> {
+        #[derive(Deserialize)]
+        struct Format {
+            format: u32,
         }
-        for area in &mut areas {
-            area.totals = totals(area.requirements.iter().map(|one| one.verdict));
+        let Format { format } = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        if format != FORMAT {
+            return Err(format!("a report of format {format}; this version reads {FORMAT}"));
         }
-        let totals = totals(verdicts.iter().map(|(_, verdict)| *verdict));
-        Self { subject, totals, areas }
+        serde_json::from_str(text).map_err(|error| error.to_string())
     }
-}
-
-fn is_codec(outcome: &Outcome) -> bool {
-    matches!(outcome.case.body, Body::Vector(_))
-}
-
-fn totals(verdicts: impl Iterator<Item = Verdict>) -> BTreeMap<&'static str, usize> {
-    let mut totals = BTreeMap::new();
-    for verdict in verdicts {
-        let number: &mut usize = totals.entry(verdict.name()).or_default();
-        *number = number.saturating_add(1);
-    }
-    totals
-}
-
-/// Each requirement once, in the catalogue's order; those no case touches are not observed.
-fn by_requirement(outcomes: &[&Outcome]) -> Vec<(&'static str, Verdict)> {
-    let verdict = |requirement: &Requirement| {
-        let judged = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
-        let mine = judged.filter(|judged| judged.requirement == requirement.id);
-        gravest(mine.map(|judged| judged.verdict)).unwrap_or(Verdict::NotObserved)
-    };
-    requirements()
-        .iter()
-        .map(|requirement| (requirement.id.as_str(), verdict(requirement)))
-        .collect()
 }
 
 impl CaseReport {
-    fn new(outcome: Outcome) -> Self {
-        let verdicts = &outcome.verdicts;
-        Self {
-            id: outcome.case.id.clone(),
-            title: outcome.case.title.clone(),
-            verdict: outcome.verdict(),
-            requirements: verdicts
-                .iter()
-                .map(|one| RequirementReport { requirement: one.requirement, verdict: one.verdict })
-                .collect(),
-            checks: outcome.checks,
-            note: outcome.note.clone(),
-            failures: verdicts
-                .iter()
-                .flat_map(|judged| &judged.judgements)
-                .map(FailureReport::new)
-                .collect(),
-            codec: is_codec(&outcome),
-            outcome,
+    /// The failures, those with the same bytes together: one check may stand for several
+    /// requirements.
+    pub(super) fn findings(&self) -> Vec<Vec<&FailureReport>> {
+        let mut findings: Vec<Vec<&FailureReport>> = Vec::new();
+        for failure in &self.failures {
+            let same = findings.iter_mut().find(|all| {
+                all.first().is_some_and(|first| {
+                    (&first.expected, &first.found, &first.evidence, first.verdict, first.waived)
+                        == (
+                            &failure.expected,
+                            &failure.found,
+                            &failure.evidence,
+                            failure.verdict,
+                            failure.waived,
+                        )
+                })
+            });
+            match same {
+                Some(all) => all.push(failure),
+                None => findings.push(vec![failure]),
+            }
         }
+        findings
     }
-
-    /// The stream of a case of the codec.
-    pub(super) fn stream(&self) -> Option<&'static str> {
-        match self.outcome.case.body {
-            Body::Vector(vector) => Some(vector.stream.as_str()),
-            _ => None,
-        }
-    }
-
-    /// The bytes behind the case's failed checks.
-    pub(super) fn judgements(&self) -> impl Iterator<Item = &Judgement> {
-        self.outcome.verdicts.iter().flat_map(|judged| &judged.judgements)
-    }
-}
-
-impl FailureReport {
-    fn new(judgement: &Judgement) -> Self {
-        let clause = requirement(judgement.requirement);
-        let evidence = judgement.evidence.as_ref();
-        let hex = |bytes: fn(&Evidence) -> &[u8]| {
-            evidence.map(bytes).filter(|bytes| !bytes.is_empty()).map(super::hex::plain)
-        };
-        Self {
-            requirement: judgement.requirement,
-            level: judgement.level,
-            clause: clause.map(|clause| text(clause, judgement.level)).unwrap_or_default(),
-            sources: clause.map(|clause| sources(clause, judgement.level)).unwrap_or_default(),
-            verdict: judgement.verdict,
-            expected: judgement.expected.clone(),
-            found: judgement.found.clone(),
-            more: judgement.more,
-            call: evidence.map(|evidence| evidence.call.clone()),
-            sent: hex(|evidence| &evidence.sent),
-            received: hex(|evidence| evidence.received.as_deref().unwrap_or_default()),
-            frame_sent: hex(|evidence| &evidence.frame_sent),
-            frame_received: hex(|evidence| &evidence.frame_received),
-        }
-    }
-}
-
-/// What a requirement says at a level: the whole of it, or its parts of that level.
-fn text(requirement: &Requirement, level: Option<Level>) -> String {
-    let parts = requirement.parts.iter().filter(|part| Some(part.level) == level);
-    let parts: Vec<&str> = parts.map(|part| part.text.as_str()).collect();
-    match level == Some(requirement.level) || parts.is_empty() {
-        true => requirement.text.clone(),
-        false => parts.join(" "),
-    }
-}
-
-/// Where a requirement stands; an assumed part of it stands nowhere.
-fn sources(requirement: &Requirement, level: Option<Level>) -> Vec<String> {
-    if level == Some(Level::Info) {
-        return Vec::new();
-    }
-    let sources = requirement.sources.iter().map(|source| match source.edition.as_str() {
-        "" => format!("{}, {}", source.document, source.section),
-        edition => format!("{} {edition} §{}", source.document, source.section),
-    });
-    sources.collect()
 }

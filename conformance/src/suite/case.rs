@@ -1,9 +1,13 @@
 //! What a case is and what it finds.
 
+use std::fmt;
+
 use ads_cnc_vectors::{Level, Vector, requirement};
+use serde::{Deserialize, Serialize};
 
 use super::Probe;
 use crate::exchange::Exchange;
+use crate::explain::Values;
 use crate::verdict::Verdict;
 
 /// One thing the suite tries.
@@ -13,12 +17,53 @@ pub struct Case {
     pub id: String,
     /// What is tried, in a sentence.
     pub title: String,
+    /// Who is judged.
+    pub subject: Subject,
     /// The requirements it can judge.
     pub requirements: Vec<&'static str>,
     /// What it asks of the target beyond a first channel.
     pub needs: Needs,
     /// How it is done.
     pub body: Body,
+}
+
+/// Who is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Subject {
+    /// This project's codec.
+    Codec,
+    /// A codec behind a pipe.
+    Testee,
+    /// A CNC.
+    Target,
+    /// What asks a CNC.
+    Client,
+    /// Traffic of others.
+    Capture,
+}
+
+impl Subject {
+    /// All of them, in the order of reports.
+    pub const ALL: [Self; 5] =
+        [Self::Codec, Self::Testee, Self::Target, Self::Client, Self::Capture];
+
+    /// Its name in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Codec => "codec",
+            Self::Testee => "testee",
+            Self::Target => "target",
+            Self::Client => "client",
+            Self::Capture => "capture",
+        }
+    }
+}
+
+impl fmt::Display for Subject {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
 }
 
 /// What a case asks of the target.
@@ -110,7 +155,7 @@ pub struct Judgement {
 }
 
 /// The bytes of an exchange, as a report shows them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Evidence {
     /// Where the request went.
     pub call: String,
@@ -122,6 +167,10 @@ pub struct Evidence {
     pub sent: Vec<u8>,
     /// Data of the reply.
     pub received: Option<Vec<u8>>,
+    /// What the data of the reply should have been, where that is known to the byte.
+    pub expected: Option<Vec<u8>>,
+    /// How values among the data are to be read.
+    pub values: Values,
     /// What came of it, in a few words.
     pub result: String,
     /// The whole frame sent.
@@ -144,6 +193,7 @@ impl From<&Exchange> for Evidence {
             result: exchange.result(),
             frame_sent: exchange.sent.clone(),
             frame_received: exchange.received.clone(),
+            ..Self::default()
         }
     }
 }

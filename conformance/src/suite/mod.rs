@@ -13,7 +13,9 @@ mod values;
 mod variable;
 mod vectors;
 
-pub use case::{Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, assumed, online};
+pub use case::{
+    Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, Subject, assumed, online,
+};
 pub use outcome::{Outcome, RequirementVerdict, gravest};
 pub use probe::{Probe, Session};
 pub use run::run;
@@ -24,6 +26,7 @@ macro_rules! declare {
         $crate::suite::Case {
             id: $id.to_owned(),
             title: $title.to_owned(),
+            subject: $crate::suite::Subject::Target,
             requirements: vec![$($requirement),+],
             needs: $crate::suite::Needs::$needs,
             body: $crate::suite::Body::Probe($body),

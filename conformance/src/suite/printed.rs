@@ -7,7 +7,7 @@ use ads_cnc_vectors::{
     Direction, Hex, Level, ProvenanceKind, Vector, requirement, vector, vectors,
 };
 
-use super::case::{Body, Case, Needs, Rule, Step, Stop};
+use super::case::{Body, Case, Needs, Rule, Step, Stop, Subject};
 use super::probe::{Probe, harness};
 
 /// One example contradicts another of the same variable (E-27): no CNC answers both.
@@ -32,6 +32,7 @@ pub(super) fn case_of(vector: &Vector, prefix: &str, needs: Needs, body: Body) -
     Case {
         id: format!("{prefix}-{}", vector.id),
         title: vector.title.clone(),
+        subject: if needs == Needs::Codec { Subject::Codec } else { Subject::Target },
         requirements: known.map(|requirement| requirement.id.as_str()).collect(),
         needs,
         body,

@@ -46,12 +46,9 @@ pub(super) fn judge(vector: &Vector, defect: Option<&Defect>) -> Judgement {
     let evidence = Evidence {
         call: format!("vector {}, to the codec", vector.id),
         request_stream: stream.map(|stream| stream.layout().name),
-        reply_stream: None,
         sent: bytes,
-        received: None,
         result: found.clone(),
-        frame_sent: Vec::new(),
-        frame_received: Vec::new(),
+        ..Evidence::default()
     };
     let verdict = if kept { Verdict::Pass } else { Verdict::Fail };
     let evidence = Some(evidence);

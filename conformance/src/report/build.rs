@@ -1,0 +1,247 @@
+//! From the outcomes of a run to its report.
+
+use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
+
+use super::model::{
+    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
+    RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
+};
+use super::{BytesReport, hex};
+use crate::gate::Moment;
+use crate::profile::Profile;
+use crate::suite::{Body, Evidence, Judgement, Outcome, Subject, gravest};
+use crate::verdict::{Tally, Verdict};
+use crate::waivers::Waivers;
+
+/// What a run was, apart from what came of it.
+#[derive(Clone, Debug)]
+pub struct About {
+    /// When it began.
+    pub time: Moment,
+    /// The edition that is judged by.
+    pub edition: String,
+    /// From which the order of the cases comes.
+    pub seed: u32,
+    /// What was selected; all if it is empty.
+    pub only: Vec<String>,
+    /// Who was judged.
+    pub target: TargetReport,
+    /// What it claims.
+    pub profile: Option<Profile>,
+    /// Known failures.
+    pub waivers: Waivers,
+    /// Frames exchanged.
+    pub frames: usize,
+}
+
+/// What was left out of a run on demand.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// The case.
+    pub id: String,
+    /// Whom it would have judged.
+    pub subject: Subject,
+    /// And by what.
+    pub requirements: Vec<&'static str>,
+}
+
+impl Report {
+    /// Puts the outcomes of a run together.
+    pub fn new(about: About, outcomes: &[Outcome], left_out: &[LeftOut]) -> Self {
+        let About { time, edition, seed, only, target, profile, waivers, frames } = about;
+        let waivers = waivers.apply(outcomes, left_out, time);
+        let cases: Vec<CaseReport> =
+            outcomes.iter().map(|outcome| case(outcome, &waivers)).collect();
+        let mut tally = Tally::default();
+        for one in cases.iter().flat_map(|case| &case.requirements) {
+            tally.add(one.verdict, one.waived);
+        }
+        // The embedded CNC refuses nothing; a device for which the gate closed was not judged whole.
+        tally.refused = outcomes.iter().any(|outcome| outcome.refused);
+        tally.stale = waivers.iter().any(|waiver| waiver.state.is_stale());
+        let is_whole = |left: &&LeftOut| !outcomes.iter().any(|one| one.case.id == left.id);
+        let subjects = Subject::ALL.into_iter().filter_map(|subject| {
+            let mine: Vec<_> = cases.iter().filter(|case| case.subject == subject).collect();
+            let left: Vec<_> = left_out.iter().filter(|left| left.subject == subject).collect();
+            (!mine.is_empty()).then(|| of_subject(subject, &mine, &left))
+        });
+        Self {
+            format: FORMAT,
+            suite: env!("CARGO_PKG_VERSION").to_owned(),
+            vectors: ads_cnc_vectors::VERSION.to_owned(),
+            time: time.to_string(),
+            edition,
+            seed,
+            only,
+            target,
+            profile: profile.as_ref().map(ProfileReport::from),
+            waivers,
+            exit_code: tally.exit().code(),
+            checks: outcomes.iter().map(|outcome| outcome.checks).sum(),
+            frames,
+            left_out: left_out.iter().filter(is_whole).count(),
+            subjects: subjects.collect(),
+            cases,
+        }
+    }
+}
+
+impl From<&Profile> for ProfileReport {
+    fn from(profile: &Profile) -> Self {
+        let claims = match serde_json::to_value(profile) {
+            Ok(serde_json::Value::Object(claims)) => claims,
+            _ => serde_json::Map::new(),
+        };
+        let claims = claims.into_iter().filter(|(name, _)| name != "name").collect();
+        Self { name: profile.name.to_string(), claims }
+    }
+}
+
+fn of_subject(subject: Subject, cases: &[&CaseReport], left: &[&LeftOut]) -> SubjectReport {
+    let mut areas: Vec<AreaReport> = Vec::new();
+    for requirement in requirements() {
+        if areas.last().is_none_or(|last| last.area != requirement.area) {
+            let (area, totals) = (requirement.area.clone(), Totals::new());
+            areas.push(AreaReport { area, totals, requirements: Vec::new() });
+        }
+        if let Some(last) = areas.last_mut() {
+            last.requirements.push(of_requirement(&requirement.id, cases, left));
+        }
+    }
+    for area in &mut areas {
+        area.totals = totals(&area.requirements);
+    }
+    let all: Vec<_> = areas.iter().flat_map(|area| &area.requirements).cloned().collect();
+    let waived = all.iter().filter(|one| one.waived).count();
+    SubjectReport { subject, totals: totals(&all), waived, areas }
+}
+
+fn totals(requirements: &[RequirementReport]) -> Totals {
+    let mut totals = Totals::new();
+    for one in requirements {
+        let number = totals.entry(one.verdict).or_default();
+        *number = number.saturating_add(1);
+    }
+    totals
+}
+
+/// The verdict on a requirement by all cases: one that nothing touches is not observed, or not run
+/// if that was so wished.
+fn of_requirement(id: &str, cases: &[&CaseReport], left: &[&LeftOut]) -> RequirementReport {
+    let all = cases.iter().flat_map(|case| &case.requirements);
+    let mine: Vec<_> = all.filter(|one| one.requirement == id).collect();
+    let is_left = || left.iter().any(|left| left.requirements.contains(&id));
+    let (verdict, waived) = together(mine.iter().map(|one| (one.verdict, one.waived)))
+        .unwrap_or((if is_left() { Verdict::NotRun } else { Verdict::NotObserved }, false));
+    RequirementReport { requirement: id.to_owned(), verdict, waived }
+}
+
+/// The gravest verdict. What is put up with does not hide what is not.
+fn together(verdicts: impl Iterator<Item = (Verdict, bool)> + Clone) -> Option<(Verdict, bool)> {
+    let open = verdicts.clone().filter(|(_, waived)| !waived).map(|(verdict, _)| verdict);
+    let open = gravest(open).filter(|verdict| verdict.is_trouble());
+    let known = verdicts.clone().filter(|(_, waived)| *waived).map(|(verdict, _)| verdict);
+    match (open, gravest(known)) {
+        (Some(open), _) => Some((open, false)),
+        (None, Some(known)) => Some((known, true)),
+        (None, None) => gravest(verdicts.map(|(verdict, _)| verdict)).map(|one| (one, false)),
+    }
+}
+
+fn case(outcome: &Outcome, waivers: &[WaiverReport]) -> CaseReport {
+    let case = &outcome.case;
+    let waived = |requirement: &str| {
+        waivers.iter().any(|waiver| {
+            waiver.state == WaiverState::Used
+                && waiver.test == case.id
+                && waiver.requirement == requirement
+        })
+    };
+    let requirements: Vec<RequirementReport> = outcome
+        .verdicts
+        .iter()
+        .map(|one| RequirementReport {
+            requirement: one.requirement.to_owned(),
+            verdict: one.verdict,
+            waived: waived(one.requirement),
+        })
+        .collect();
+    let (verdict, is_waived) = together(requirements.iter().map(|one| (one.verdict, one.waived)))
+        .unwrap_or((Verdict::NotObserved, false));
+    let failures = outcome.verdicts.iter().zip(&requirements).flat_map(|(one, requirement)| {
+        one.judgements.iter().map(|judgement| failure(judgement, requirement.waived))
+    });
+    CaseReport {
+        id: case.id.clone(),
+        title: case.title.clone(),
+        subject: case.subject,
+        stream: match case.body {
+            Body::Vector(vector) => Some(vector.stream.clone()),
+            _ => None,
+        },
+        verdict,
+        waived: is_waived,
+        requirements: requirements.clone(),
+        checks: outcome.checks,
+        note: outcome.note.clone(),
+        failures: failures.collect(),
+    }
+}
+
+fn failure(judgement: &Judgement, waived: bool) -> FailureReport {
+    let clause = requirement(judgement.requirement);
+    FailureReport {
+        requirement: judgement.requirement.to_owned(),
+        level: judgement.level,
+        clause: clause.map(|clause| text(clause, judgement.level)).unwrap_or_default(),
+        sources: clause.map(|clause| sources(clause, judgement.level)).unwrap_or_default(),
+        verdict: judgement.verdict,
+        waived,
+        expected: judgement.expected.clone(),
+        found: judgement.found.clone(),
+        more: judgement.more,
+        evidence: judgement.evidence.as_ref().map(EvidenceReport::from),
+    }
+}
+
+impl From<&Evidence> for EvidenceReport {
+    fn from(evidence: &Evidence) -> Self {
+        let Evidence { request_stream, reply_stream, sent, received, expected, values, .. } =
+            evidence;
+        let reply = |bytes: &[u8], other: Option<&[u8]>| {
+            BytesReport::new(*reply_stream, bytes, other, values)
+        };
+        let (received, expected) = (received.as_deref(), expected.as_deref());
+        Self {
+            call: evidence.call.clone(),
+            result: evidence.result.clone(),
+            sent: (!sent.is_empty()).then(|| BytesReport::new(*request_stream, sent, None, values)),
+            received: received.map(|bytes| reply(bytes, expected)),
+            expected: expected.map(|bytes| reply(bytes, received)),
+            frame_sent: hex::plain(&evidence.frame_sent),
+            frame_received: hex::plain(&evidence.frame_received),
+        }
+    }
+}
+
+/// What a requirement says at a level: the whole of it, or its parts of that level.
+fn text(requirement: &Requirement, level: Option<Level>) -> String {
+    let parts = requirement.parts.iter().filter(|part| Some(part.level) == level);
+    let parts: Vec<&str> = parts.map(|part| part.text.as_str()).collect();
+    match level == Some(requirement.level) || parts.is_empty() {
+        true => requirement.text.clone(),
+        false => parts.join(" "),
+    }
+}
+
+/// Where a requirement stands; an assumed part of it stands nowhere.
+fn sources(requirement: &Requirement, level: Option<Level>) -> Vec<String> {
+    if level == Some(Level::Info) {
+        return Vec::new();
+    }
+    let sources = requirement.sources.iter().map(|source| match source.edition.as_str() {
+        "" => format!("{}, {}", source.document, source.section),
+        edition => format!("{} {edition} §{}", source.document, source.section),
+    });
+    sources.collect()
+}

@@ -1,0 +1,155 @@
+//! Bytes field by field, with those marked that are not the expected ones.
+
+use ads_cnc::layout::Stream;
+use serde::{Deserialize, Serialize};
+
+use super::hex::plain;
+use crate::explain::{Question, Subject, Values, explain};
+
+/// Bytes field by field.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BytesReport {
+    /// The stream they are; none if no table describes them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stream: Option<String>,
+    /// How many.
+    pub length: usize,
+    /// The fields in their order; together they are all of the bytes.
+    pub fields: Vec<FieldReport>,
+    /// What is wrong with them by themselves.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub faults: Vec<String>,
+}
+
+/// One field, or one item of a field with several.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FieldReport {
+    /// Its offset.
+    pub offset: usize,
+    /// Its bytes in hex.
+    pub hex: String,
+    /// Its name; `?` for what cannot be read, empty for bytes that no table describes.
+    pub field: String,
+    /// Its value.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub value: String,
+    /// What the field says.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub meaning: String,
+    /// Which of its bytes, from 0, are not those expected there.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub differs: Vec<usize>,
+}
+
+impl BytesReport {
+    /// Takes bytes apart; `other` is what they are held against.
+    pub fn new(stream: Option<&str>, bytes: &[u8], other: Option<&[u8]>, values: &Values) -> Self {
+        let known = stream.and_then(Stream::by_name);
+        let (mut fields, mut faults) = (Vec::new(), Vec::new());
+        if let Some(stream) = known {
+            let question = Question { subject: Subject::Stream(stream), values: values.clone() };
+            let part = explain(&question, bytes).parts.into_iter().next().unwrap_or_default();
+            fields.extend(part.rows.into_iter().map(|row| FieldReport {
+                offset: row.offset,
+                hex: row.hex,
+                field: row.field,
+                value: row.value,
+                meaning: row.meaning.to_owned(),
+                differs: Vec::new(),
+            }));
+            fields.extend(
+                part.unread.map(|unread| FieldReport::bare(unread.offset, unread.hex, "?")),
+            );
+            faults.extend(part.faults.into_iter().map(|fault| fault.text));
+        } else if !bytes.is_empty() {
+            fields.push(FieldReport::bare(0, plain(bytes), ""));
+        }
+        let mut report = Self {
+            stream: known.map(|stream| stream.layout().name.to_owned()),
+            length: bytes.len(),
+            fields,
+            faults,
+        };
+        if let Some(other) = other {
+            report.mark(bytes, other);
+        }
+        report
+    }
+
+    fn mark(&mut self, bytes: &[u8], other: &[u8]) {
+        for field in &mut self.fields {
+            let mine = bytes.iter().enumerate().skip(field.offset).take(field.bytes().count());
+            let differs = mine.filter(|(at, byte)| other.get(*at) != Some(byte));
+            let begin = field.offset;
+            field.differs = differs.map(|(at, _)| at.saturating_sub(begin)).collect();
+        }
+    }
+}
+
+impl FieldReport {
+    fn bare(offset: usize, hex: String, field: &str) -> Self {
+        let (value, meaning) = (String::new(), String::new());
+        Self { offset, hex, field: field.to_owned(), value, meaning, differs: Vec::new() }
+    }
+
+    /// Its bytes.
+    pub fn bytes(&self) -> impl Iterator<Item = u8> {
+        self.hex.split(' ').filter_map(|byte| u8::from_str_radix(byte, 16).ok())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DESCRIPTION: &[u8] =
+        b"\x02\0\0\x03\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
+
+    /// All bytes are there, once, and just those are marked that are not as expected.
+    #[test]
+    fn fields_are_the_bytes() {
+        let mut wrong = DESCRIPTION.to_vec();
+        wrong[13] = 7;
+        wrong[30] = b'_';
+        let stream = Some("variable-description");
+        let report = BytesReport::new(stream, &wrong, Some(DESCRIPTION), &Values::default());
+        let bytes: Vec<u8> = report.fields.iter().flat_map(FieldReport::bytes).collect();
+        assert_eq!(bytes, wrong);
+        let marked: Vec<_> = report
+            .fields
+            .iter()
+            .filter(|field| !field.differs.is_empty())
+            .map(|field| (field.field.as_str(), field.differs.as_slice()))
+            .collect();
+        assert_eq!(marked, [("size", &[1][..]), ("name", &[6])]);
+        assert_eq!(report.faults, [""; 0]);
+    }
+
+    /// What is missing differs at the side that has it.
+    #[test]
+    fn a_byte_too_many_differs() {
+        let values = Values::default();
+        let long = BytesReport::new(None, &[1, 2, 3], Some(&[1, 2]), &values);
+        assert_eq!(long.fields[0].differs, [2]);
+        let short = BytesReport::new(None, &[1, 2], Some(&[1, 2, 3]), &values);
+        assert_eq!(short.fields[0].differs, [0; 0]);
+        assert_eq!(BytesReport::new(None, &[], None, &values).fields, []);
+    }
+
+    /// What is shown of a broken stream goes up to its fault and names it.
+    #[test]
+    fn a_fault_is_shown_where_it_is() {
+        let bytes = [1, 0, 0, 2, 9, 0, 0, 0, 4];
+        let report =
+            BytesReport::new(Some("variable-handle-read"), &bytes, None, &Values::default());
+        let shown: Vec<_> =
+            report.fields.iter().map(|one| (one.offset, one.field.as_str())).collect();
+        assert_eq!(shown, [(0, "handle"), (4, "index_count"), (8, "?")]);
+        assert_eq!(
+            report.faults,
+            ["index_count at offset 4: too many, at most 0 expected, 9 found"]
+        );
+    }
+}

@@ -1,0 +1,198 @@
+//! Known failures that a run puts up with: the file of `--waivers`.
+//!
+//! ```
+//! use ads_cnc_conformance::waivers::Waivers;
+//!
+//! let waivers = Waivers::from_toml(r#"
+//!     [[waiver]]
+//!     test = "var-descriptions"
+//!     requirement = "VAR-8"
+//!     verdict = "fail"
+//!     reason = "sizes are rounded up to 4 until firmware 2.1"
+//!     expires = 2027-01-31
+//! "#)?;
+//! assert_eq!(waivers.len(), 1);
+//! # Ok::<(), ads_cnc_conformance::waivers::WaiverError>(())
+//! ```
+//!
+//! One that no longer holds makes the run end with the exit code 5: its day is over, nothing that
+//! ran is called that, or the verdict is another one by now. Of what was not run nothing is known.
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::Path;
+
+use ads_cnc_vectors::requirement;
+use serde::Deserialize;
+use serde::de::{Deserializer, Error as _};
+use toml::Spanned;
+use toml::value::{Date, Datetime};
+
+use crate::gate::Moment;
+use crate::report::{LeftOut, WaiverReport, WaiverState};
+use crate::suite::Outcome;
+use crate::verdict::Verdict;
+
+/// Known failures.
+#[derive(Clone, Debug, Default)]
+pub struct Waivers(Vec<Waiver>);
+
+/// Why a file waives nothing: where it says what cannot be, and why not.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{why}", file.as_deref().map(|file| format!("{file}: ")).unwrap_or_default())]
+pub struct WaiverError {
+    file: Option<String>,
+    why: String,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Waiver {
+    #[serde(deserialize_with = "test")]
+    test: String,
+    #[serde(deserialize_with = "known_requirement")]
+    requirement: String,
+    #[serde(deserialize_with = "waivable")]
+    verdict: Verdict,
+    #[serde(deserialize_with = "reason")]
+    reason: String,
+    #[serde(deserialize_with = "day")]
+    expires: Date,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default)]
+    waiver: Vec<Spanned<Waiver>>,
+}
+
+impl Waivers {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and those of [`from_toml`](Self::from_toml).
+    pub fn from_file(file: &Path) -> Result<Self, WaiverError> {
+        let name = Some(file.display().to_string());
+        let text = fs::read_to_string(file)
+            .map_err(|error| WaiverError { file: name.clone(), why: error.to_string() })?;
+        Self::from_toml(&text).map_err(|error| WaiverError { file: name, ..error })
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// The line and what is wrong in it: keys that are unknown or missing, a requirement that does
+    /// not exist, a verdict that needs no waiver, no reason, no day, or one waiver twice.
+    pub fn from_toml(text: &str) -> Result<Self, WaiverError> {
+        let failed = |why: String| WaiverError { file: None, why };
+        let file: File = toml::from_str(text).map_err(|error| {
+            // As it shows itself it draws the line; the message alone does not say which.
+            failed(error.to_string().trim_end().to_owned())
+        })?;
+        let mut known = HashSet::new();
+        for waiver in &file.waiver {
+            let Waiver { test, requirement, .. } = waiver.get_ref();
+            if !known.insert((test, requirement)) {
+                let before = text.as_bytes().get(..waiver.span().start).unwrap_or_default();
+                let newlines = before.iter().filter(|&&byte| byte == b'\n').count();
+                let line = newlines.saturating_add(1);
+                let why = format!("line {line}: a second waiver of {requirement} in {test}");
+                return Err(failed(why));
+            }
+        }
+        Ok(Self(file.waiver.into_iter().map(Spanned::into_inner).collect()))
+    }
+
+    /// How many there are.
+    pub const fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there is none.
+    pub const fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// What becomes of each.
+    pub(crate) fn apply(
+        &self,
+        outcomes: &[Outcome],
+        left_out: &[LeftOut],
+        now: Moment,
+    ) -> Vec<WaiverReport> {
+        self.0.iter().map(|waiver| waiver.apply(outcomes, left_out, now)).collect()
+    }
+}
+
+impl Waiver {
+    fn apply(&self, outcomes: &[Outcome], left_out: &[LeftOut], now: Moment) -> WaiverReport {
+        let Self { test, requirement, verdict, reason, expires } = self;
+        let left = left_out
+            .iter()
+            .any(|left| left.id == *test && left.requirements.iter().any(|one| one == requirement));
+        let verdicts = outcomes.iter().filter(|one| one.case.id == *test);
+        let mut verdicts = verdicts.flat_map(|outcome| &outcome.verdicts);
+        let found = verdicts.find(|one| one.requirement == requirement).map(|one| one.verdict);
+        let over = Moment::from_date(*expires).is_none_or(|expires| now >= expires);
+        let state = match found {
+            _ if over => WaiverState::Expired,
+            Some(found) if found == *verdict => WaiverState::Used,
+            Some(Verdict::NotRun) => WaiverState::NotRun,
+            Some(_) => WaiverState::Otherwise,
+            None if left => WaiverState::NotRun,
+            None => WaiverState::Unmatched,
+        };
+        WaiverReport {
+            test: test.clone(),
+            requirement: requirement.clone(),
+            verdict: *verdict,
+            reason: reason.clone(),
+            expires: expires.to_string(),
+            state,
+            found,
+        }
+    }
+}
+
+fn text<'de, D: Deserializer<'de>>(value: D, what: &str) -> Result<String, D::Error> {
+    let text = String::deserialize(value)?;
+    match text.trim() {
+        "" => Err(D::Error::custom(what)),
+        trimmed => Ok(trimmed.to_owned()),
+    }
+}
+
+fn test<'de, D: Deserializer<'de>>(value: D) -> Result<String, D::Error> {
+    text(value, "the ID of a case, as run --list shows it")
+}
+
+fn reason<'de, D: Deserializer<'de>>(value: D) -> Result<String, D::Error> {
+    text(value, "a waiver needs a reason")
+}
+
+fn known_requirement<'de, D: Deserializer<'de>>(value: D) -> Result<String, D::Error> {
+    let id = String::deserialize(value)?;
+    match requirement(&id) {
+        Some(_) => Ok(id),
+        None => Err(D::Error::custom(format!("there is no requirement {id}"))),
+    }
+}
+
+fn waivable<'de, D: Deserializer<'de>>(value: D) -> Result<Verdict, D::Error> {
+    let name = String::deserialize(value)?;
+    let waivable = Verdict::ALL.into_iter().filter(|verdict| verdict.is_waivable());
+    waivable.clone().find(|verdict| verdict.name() == name).ok_or_else(|| {
+        let names: Vec<&str> = waivable.map(Verdict::name).collect();
+        D::Error::custom(format!("the verdict to be put up with is one of {}", names.join(", ")))
+    })
+}
+
+fn day<'de, D: Deserializer<'de>>(value: D) -> Result<Date, D::Error> {
+    let odd =
+        || D::Error::custom("a day alone, as 2027-01-31: the first on which it does not hold");
+    match Datetime::deserialize(value)? {
+        Datetime { date: Some(date), time: None, offset: None } => Ok(date),
+        _ => Err(odd()),
+    }
+}
