@@ -25,7 +25,11 @@ fn show_tagged(one: &Tagged) -> String {
         (_, None, hex) => hex.as_ref().map_or_else(String::new, Hex::to_string),
     };
     if let Some(tail) = &one.tail {
-        text.push_str(&format!(" and behind its NUL {tail}"));
+        // What fills up a field would hide what follows it.
+        match tail.len() > 4 && tail.iter().all(|&byte| byte == 0) {
+            true => text.push_str(&format!(" and behind its NUL {} × 00", tail.len())),
+            false => text.push_str(&format!(" and behind its NUL {tail}")),
+        }
     }
     if one.open {
         text.push_str(" without NUL");

@@ -33,6 +33,7 @@ mod value;
 pub use address::describe;
 pub use frame::looks_like_frame;
 pub use input::{HexError, parse_hex};
+pub(crate) use model::sources;
 pub use model::{
     Address, Explanation, Fault, FunctionReport, Outcome, Part, Place, Question, Row, Subject,
     Unread,

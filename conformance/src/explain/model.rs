@@ -331,7 +331,7 @@ pub(super) fn size(number: u32) -> usize {
 }
 
 /// Where a requirement stands.
-pub(super) fn sources(clause: &str) -> Vec<String> {
+pub(crate) fn sources(clause: &str) -> Vec<String> {
     let Some(requirement) = requirement(clause) else { return Vec::new() };
     // One entry for each document, with all its sections.
     let mut all: Vec<(&str, String)> = Vec::new();

@@ -7,6 +7,7 @@ use super::model::{
     RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
 };
 use super::{BytesReport, hex};
+use crate::explain;
 use crate::gate::Moment;
 use crate::profile::Profile;
 use crate::suite::{Body, Evidence, Judgement, Outcome, Subject, gravest};
@@ -236,12 +237,5 @@ fn text(requirement: &Requirement, level: Option<Level>) -> String {
 
 /// Where a requirement stands; an assumed part of it stands nowhere.
 fn sources(requirement: &Requirement, level: Option<Level>) -> Vec<String> {
-    if level == Some(Level::Info) {
-        return Vec::new();
-    }
-    let sources = requirement.sources.iter().map(|source| match source.edition.as_str() {
-        "" => format!("{}, {}", source.document, source.section),
-        edition => format!("{} {edition} §{}", source.document, source.section),
-    });
-    sources.collect()
+    if level == Some(Level::Info) { Vec::new() } else { explain::sources(&requirement.id) }
 }

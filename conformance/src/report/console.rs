@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use super::BytesReport;
-use super::hex::lines;
+use super::hex::{lines, marked};
 use super::model::{
     CaseReport, EvidenceReport, FailureReport, Report, TargetReport, Totals, WaiverReport,
 };
+use super::{BytesReport, FieldReport};
 use crate::suite::Subject;
 use crate::verdict::{Exit, Verdict};
 
@@ -151,22 +151,24 @@ fn clause(failure: &FailureReport, out: &mut impl Write) -> io::Result<()> {
 fn bytes(evidence: &EvidenceReport, out: &mut impl Write) -> io::Result<()> {
     let EvidenceReport { call, result, sent, received, expected, frame_sent, .. } = evidence;
     writeln!(out, "  sent      {call}")?;
-    show(sent.as_ref(), out)?;
+    show(sent.as_ref().map(lines), out)?;
     if received.is_some() || !frame_sent.is_empty() {
         writeln!(out, "  received  {result}")?;
     }
-    show(received.as_ref(), out)?;
+    let hex = |bytes: &BytesReport| -> Vec<u8> {
+        bytes.fields.iter().flat_map(FieldReport::bytes).collect()
+    };
+    let is_same = sent.as_ref().map(hex) == received.as_ref().map(hex);
+    show(received.as_ref().map(if is_same { marked } else { lines }), out)?;
+    let expected = expected.as_ref().map(marked).filter(|lines| !lines.is_empty());
     if expected.is_some() {
         writeln!(out, "  instead of")?;
     }
-    show(expected.as_ref(), out)
+    show(expected, out)
 }
 
-fn show(bytes: Option<&BytesReport>, out: &mut impl Write) -> io::Result<()> {
-    for line in bytes.map(lines).unwrap_or_default() {
-        writeln!(out, "    {line}")?;
-    }
-    Ok(())
+fn show(lines: Option<Vec<String>>, out: &mut impl Write) -> io::Result<()> {
+    lines.unwrap_or_default().iter().try_for_each(|line| writeln!(out, "    {line}"))
 }
 
 fn areas(report: &Report, out: &mut impl Write) -> io::Result<()> {

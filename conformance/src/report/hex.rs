@@ -24,32 +24,58 @@ pub(super) fn character(byte: u8) -> char {
     if byte.is_ascii_graphic() { char::from(byte) } else { '·' }
 }
 
-/// The lines of bytes that are held against nothing.
+/// All lines of bytes that are held against nothing.
 pub(crate) fn annotated(stream: Option<&str>, bytes: &[u8]) -> Vec<String> {
-    lines(&BytesReport::new(stream, bytes, None, &Values::default()))
+    all_lines(&BytesReport::new(stream, bytes, None, &Values::default()), false)
 }
 
 /// One line for each field: offset, bytes, characters, name; up to the fault, if there is one. A
 /// line with a byte that is not the expected one begins with an exclamation mark.
 pub(super) fn lines(bytes: &BytesReport) -> Vec<String> {
-    let mut all: Vec<String> = bytes.fields.iter().flat_map(of_field).collect();
+    all_lines(bytes, true)
+}
+
+fn all_lines(bytes: &BytesReport, fold: bool) -> Vec<String> {
+    let mut all: Vec<String> =
+        bytes.fields.iter().flat_map(|field| of_field(field, fold)).collect();
     all.extend(bytes.faults.iter().map(|fault| format!("      ! {fault}")));
     all
 }
 
-fn of_field(field: &FieldReport) -> Vec<String> {
+/// As [`lines`], those alone that have a byte that differs.
+pub(super) fn marked(bytes: &BytesReport) -> Vec<String> {
+    lines(bytes).into_iter().filter(|line| line.starts_with('!')).collect()
+}
+
+fn of_field(field: &FieldReport, fold: bool) -> Vec<String> {
     let bytes: Vec<u8> = field.bytes().collect();
-    let begins = (0_usize..).step_by(LINE);
-    let line = |(begin, chunk): (usize, &[u8])| {
+    let (mut all, mut zeros) = (Vec::new(), 0_usize);
+    for (begin, chunk) in (0_usize..).step_by(LINE).zip(bytes.chunks(LINE)) {
         let end = begin.saturating_add(LINE);
         let differs = field.differs.iter().any(|place| (begin..end).contains(place));
+        // What a text is filled up with would hide the rest.
+        if fold && begin > 0 && !differs && chunk.iter().all(|&byte| byte == 0) {
+            zeros = zeros.saturating_add(chunk.len());
+            continue;
+        }
+        fill(&mut all, &mut zeros);
         let mark = if differs { '!' } else { ' ' };
         let at = field.offset.saturating_add(begin);
         let text: String = chunk.iter().copied().map(character).collect();
         let name = if begin == 0 { field.field.as_str() } else { "" };
-        format!("{mark}{at:5}  {:<47}  {text:<16}  {name}", plain(chunk)).trim_end().to_owned()
-    };
-    begins.zip(bytes.chunks(LINE)).map(line).collect()
+        let line = format!("{mark}{at:5}  {:<47}  {text:<16}  {name}", plain(chunk));
+        all.push(line.trim_end().to_owned());
+    }
+    fill(&mut all, &mut zeros);
+    all
+}
+
+/// A line for the zeros that were passed over.
+fn fill(lines: &mut Vec<String>, zeros: &mut usize) {
+    if *zeros > 0 {
+        lines.push(format!("     …  {zeros} × 00"));
+        *zeros = 0;
+    }
 }
 
 #[cfg(test)]

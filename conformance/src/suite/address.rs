@@ -116,10 +116,10 @@ fn same_by_rank(probe: &mut Probe<'_>, rules: &[Rule], rank: Channel, number: Ch
         let Some(logical) = probe.try_ask(logical)? else { continue };
         let exchange = probe.send(by_index)?;
         let same = exchange.answer().and_then(|answer| answer.success()) == Some(&logical[..]);
-        let (by, expected) = (number.number(), Hex(logical));
+        let (by, expected) = (number.number(), Hex(logical.clone()));
         let expected = format!("{function}: {expected}, the answer of channel {by}");
         for &rule in rules {
-            probe.check(rule, same, &expected, exchange.result());
+            probe.check_reply(rule, same, &logical, &expected, exchange.result());
         }
     }
     Ok(())

@@ -4,11 +4,12 @@ use ads_cnc::address::{Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Service, Task};
 use ads_cnc_vectors::{
-    Direction, Hex, Level, ProvenanceKind, Vector, requirement, vector, vectors,
+    Context, Direction, Hex, Level, ProvenanceKind, Vector, requirement, vector, vectors,
 };
 
-use super::case::{Body, Case, Needs, Rule, Step, Stop, Subject};
+use super::case::{Body, Case, Evidence, Needs, Rule, Step, Stop, Subject};
 use super::probe::{Probe, harness};
+use crate::explain::{Values, type_by_name};
 
 /// One example contradicts another of the same variable (E-27): no CNC answers both.
 const CONTRADICTED: &str = "value-printed-name-element";
@@ -69,6 +70,8 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
         data: &data,
     };
     let exchange = probe.call(&call)?;
+    let values = typed(context);
+    probe.show(probe.evidence().map(|evidence| Evidence { values, ..evidence }));
     let received = exchange.answer().and_then(|answer| answer.success());
     let found = received.map_or_else(|| exchange.result(), |bytes| Hex(bytes.to_vec()).to_string());
     let wrong = wrong_requirements(reply, stream, &expected, received);
@@ -80,9 +83,16 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
             Some(bytes) if bytes != expected => !wrong.contains(&id),
             received => received.is_some(),
         };
-        probe.check(rule, kept, format!("{} as printed", Hex(expected.clone())), &found);
+        let printed = format!("{} as printed", Hex(expected.clone()));
+        probe.check_reply(rule, kept, &expected, printed, &found);
     }
     Ok(())
+}
+
+/// How a report reads the value of a vector.
+pub(super) fn typed(context: &Context) -> Values {
+    let ty = context.kind.and_then(|kind| type_by_name(kind.name()).ok());
+    Values { ty, dimensions: context.dimensions.clone().unwrap_or_default() }
 }
 
 /// The requirements of the fields in which a reply is not the printed one; all of the vector's if

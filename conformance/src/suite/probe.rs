@@ -106,6 +106,26 @@ impl<'s> Probe<'s> {
         kept
     }
 
+    /// As [`check`](Self::check), where the data of the reply is known to the byte: the evidence
+    /// shows both.
+    pub fn check_reply(
+        &mut self,
+        rule: impl Into<Rule>,
+        kept: bool,
+        reply: &[u8],
+        expected: impl Display,
+        found: impl Display,
+    ) -> bool {
+        if let Some(last) = self.last.as_mut().filter(|_| !kept) {
+            last.expected = Some(reply.to_vec());
+        }
+        let kept = self.check(rule, kept, expected, found);
+        if let Some(last) = &mut self.last {
+            last.expected = None;
+        }
+        kept
+    }
+
     /// As [`check`](Self::check), and there is nothing to go on with if it fails.
     pub fn require(
         &mut self,
@@ -296,6 +316,11 @@ impl<'s> Probe<'s> {
             true => vec![first, first.saturating_add(1), u32::MAX],
             false => vec![first],
         }
+    }
+
+    /// The evidence of the last call.
+    pub(super) fn evidence(&self) -> Option<Evidence> {
+        self.last.clone()
     }
 
     /// Puts this evidence under the checks that follow.

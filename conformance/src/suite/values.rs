@@ -6,10 +6,11 @@ use ads_cnc::operation::{ReadByHandle, ReadByName, Request};
 use ads_cnc::{CncString, Description, Handle, Numbers, VariableType};
 use ads_cnc_vectors::{Hex, Level};
 
-use super::case::{Case, Rule, Step, Stop, assumed};
+use super::case::{Case, Evidence, Rule, Step, Stop, assumed};
 use super::declare;
 use super::probe::Probe;
 use super::variable::name_of;
+use crate::explain::{Values, type_by_name};
 
 /// The most elements of an array that are read one by one.
 const ELEMENTS_MAX: usize = 64;
@@ -113,18 +114,24 @@ impl Steady {
                 probe.check(rule, true, "", "");
                 return Ok(());
             }
+            let evidence = probe.evidence();
             if probe.ask("VAR-14", whole(channel, variable))? == before {
-                differs = Some((before, read));
+                differs = Some((before, read, evidence));
             } else {
                 differs = None;
             }
         }
         match differs {
             // Each time it stood still before and after, and read otherwise in between.
-            Some((before, read)) => {
+            Some((before, read, evidence)) => {
                 self.judged = true;
-                let expected = format!("{} of the whole of {name}", Hex(part(&before)));
-                probe.check(rule, false, expected, Hex(read));
+                let expected = part(&before);
+                let dimensions: &[u32] =
+                    if expected == before { &variable.dimensions } else { &[] };
+                let values = typed(variable, dimensions);
+                probe.show(evidence.map(|evidence| Evidence { values, ..evidence }));
+                let words = format!("{} of the whole of {name}", Hex(expected.clone()));
+                probe.check_reply(rule, false, &expected, words, Hex(read));
             }
             None => self.moved = Some(format!("{name} does not stand still")),
         }
@@ -137,6 +144,12 @@ impl Steady {
             _ => Ok(()),
         }
     }
+}
+
+/// How a report reads the value of a variable.
+fn typed(variable: &Description, dimensions: &[u32]) -> Values {
+    let ty = variable.var_type.name().and_then(|name| type_by_name(name).ok());
+    Values { ty, dimensions: dimensions.to_vec() }
 }
 
 /// Every variable of every channel.

@@ -4,7 +4,7 @@ use ads_cnc::layout::Stream;
 use ads_cnc_vectors::{Expect, Hex, Vector, vectors};
 
 use super::case::{Body, Case, Evidence, Judgement, Needs};
-use super::printed::case_of;
+use super::printed::{case_of, typed};
 use crate::codec::{self, Refused};
 use crate::defect::Defect;
 use crate::show::show;
@@ -22,7 +22,10 @@ pub(super) fn judge(vector: &Vector, defect: Option<&Defect>) -> Judgement {
     if let Some(defect) = defect.filter(|one| stream.is_some_and(|stream| one.touches(stream))) {
         bytes = defect.apply(&bytes);
     }
-    let (kept, expected, found) = match (&vector.expect, codec::decode(vector, &bytes)) {
+    let decoded = codec::decode(vector, &bytes);
+    let again = decoded.as_ref().ok().filter(|_| vector.is_accepted());
+    let again = again.map(|decoded| decoded.bytes.clone());
+    let (kept, expected, found) = match (&vector.expect, decoded) {
         (Expect::Accept(accept), Ok(decoded)) => {
             let expected = show(&accept.value);
             if decoded.fields != accept.value {
@@ -47,7 +50,11 @@ pub(super) fn judge(vector: &Vector, defect: Option<&Defect>) -> Judgement {
         call: format!("vector {}, to the codec", vector.id),
         request_stream: stream.map(|stream| stream.layout().name),
         sent: bytes,
-        result: found.clone(),
+        reply_stream: stream.map(|stream| stream.layout().name),
+        expected: again.is_some().then(|| vector.bytes()),
+        result: if again.is_some() { "encoded again".to_owned() } else { found.clone() },
+        received: again,
+        values: typed(&vector.context),
         ..Evidence::default()
     };
     let verdict = if kept { Verdict::Pass } else { Verdict::Fail };
