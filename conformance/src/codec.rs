@@ -1,8 +1,13 @@
-//! This project's codec as the vectors see it: bytes in, fields or a refusal out.
+//! This project's codec as the vectors see it: bytes in, fields or a refusal out, and back again.
 
 mod address;
 mod elements;
+mod encode;
 mod frame;
+mod given;
+mod path;
+
+pub use encode::encode;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{
@@ -16,9 +21,9 @@ use ads_cnc::{
     CncStr, Decode, Description, Descriptor, DescriptorRef, Descriptors, Element, Elements, Encode,
     Error, ErrorKind, ExtendedReply, Handle, HandleRead, HandleWrite, NameWrite, Numbers,
     ObjectCount, Text, TextRef, Value as CncValue, VariableCount, VariableIndexKind, VariableKind,
-    VariableName, VariablePath,
+    VariableName,
 };
-use ads_cnc_vectors::{Context, Fields, Hex, Tagged, Type, Value, Vector};
+use ads_cnc_vectors::{Context, Fields, Hex, Tagged, Type, Value};
 
 /// What the codec makes of a stream: its fields, and the bytes it encodes to again.
 #[derive(Debug, PartialEq)]
@@ -34,6 +39,8 @@ pub struct Decoded {
 pub enum Refused {
     /// It refuses the bytes.
     Error(Error),
+    /// These fields are no value of the stream.
+    Unfit(String),
     /// It does not know the stream, or the context lacks what it needs.
     Unsupported(String),
 }
@@ -60,15 +67,11 @@ pub fn class(error: &Error) -> &'static str {
     }
 }
 
-/// Decodes `bytes` as the stream of `vector`.
+/// Decodes `bytes` as the stream of this name.
 ///
 /// # Errors
 /// The codec's refusal.
-pub fn decode(vector: &Vector, bytes: &[u8]) -> Result<Decoded, Refused> {
-    decode_stream(&vector.stream, &vector.context, bytes)
-}
-
-fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
+pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
     let (fields, bytes) = match name {
         "ams-tcp-header" => stream(bytes, |header: &AmsTcpHeader| {
             vec![("reserved", uns16(header.reserved)), ("length", uns32(header.length))]
@@ -157,7 +160,7 @@ fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded,
                 ("validity", uns32(extended.validity.0)),
             ],
         }),
-        "variable-path" => return path(bytes),
+        "variable-path" => return path::decode(bytes),
         "program-stream" => {
             stream(bytes, |write: &ProgramStream| vec![("data", data(&write.bytes))])
         }
@@ -231,22 +234,6 @@ fn text_tagged(text: TextRef<'_>) -> Tagged {
         tail: text.tail().filter(|tail| !tail.is_empty()).map(|tail| Hex(tail.to_vec())),
         open: text.tail().is_none(),
     }
-}
-
-/// A name by its parts, and put together again.
-fn path(bytes: &[u8]) -> Result<Decoded, Refused> {
-    let path = VariablePath::from_text(CncStr::from_bytes(bytes)?)?;
-    let characters =
-        |text: CncStr<'_>| Value::One(Tagged { open: true, ..text_tagged(TextRef::from(text)) });
-    let parts = path.parts().map(|part| {
-        let indices: Vec<u32> = part.indices.iter().collect();
-        record(vec![("name", characters(part.name)), ("indices", numbers(&indices))])
-    });
-    let fields =
-        vec![("kind", characters(path.kind().text())), ("parts", Value::List(parts.collect()))];
-    let mut buf = [0; ads_cnc::limits::NAME_MAX];
-    let again = VariablePath::write(path.kind(), path.parts(), &mut buf)?;
-    Ok(Decoded { fields: collect(fields), bytes: again.text().bytes().collect() })
 }
 
 /// A text in 32 bytes: its tail counts only if it is more than padding.

@@ -6,6 +6,8 @@
 //! | [`cnc`] | the simulated CNC: data model, answers, AMS/TCP server |
 //! | [`defect`] | seeded defects: changed bytes around the codec |
 //! | [`suite`] | what is tried, and what comes of it |
+//! | [`testee`] | codecs of others, asked over stdin and stdout |
+//! | [`child`] | commands that a user names |
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
 //! | [`gate`] | what may be sent to a target |
 //! | [`session`] | a CNC to ask, typed: what tools work with |
@@ -39,6 +41,7 @@
     )
 )]
 
+pub mod child;
 pub mod cli;
 pub mod client;
 pub mod cnc;
@@ -56,6 +59,7 @@ pub mod report;
 pub mod session;
 pub mod show;
 pub mod suite;
+pub mod testee;
 pub mod values;
 pub mod verdict;
 pub mod waivers;

@@ -22,7 +22,7 @@ fn run(defect: Option<&Defect>, wanted: impl Fn(&Case) -> bool) -> Vec<Outcome> 
     let target = Target::local(server.addr(), server.net_id());
     let client = Client::connect(target, Gate::with_malformed()).unwrap();
     let mut session = Session::new(client, Profile::EMBEDDED);
-    suite::run(cases, Some(&mut session), defect)
+    suite::run(cases, Some(&mut session), defect, 0)
 }
 
 fn failed(outcomes: &[Outcome]) -> Vec<&str> {

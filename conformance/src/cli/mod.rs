@@ -17,6 +17,7 @@ mod service;
 mod set;
 mod stream;
 mod target;
+mod testee;
 
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -52,6 +53,7 @@ enum Command {
     Browse(browse::Browse),
     Get(get::Get),
     Set(set::Set),
+    Testee(testee::Testee),
 }
 
 impl Command {
@@ -93,6 +95,7 @@ impl Cli {
             Some(Command::Browse(browse)) => browse.execute().into(),
             Some(Command::Get(get)) => get.execute().into(),
             Some(Command::Set(set)) => set.execute().into(),
+            Some(Command::Testee(testee)) => testee.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
             // The suite against the embedded CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),

@@ -77,7 +77,7 @@ impl Run {
         let (client, _) = session.into_parts();
         let mut session = Session::new(client, Profile::DEVICE);
         let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
-        let outcomes = suite::run(cases, Some(&mut session), None);
+        let outcomes = suite::run(cases, Some(&mut session), None, 0);
         let name = "device".to_owned();
         let (address, net_id) = (target.addr.to_string(), target.net_id.to_string());
         let target = TargetReport {
@@ -125,7 +125,7 @@ fn embedded(defect: Option<Defect>) -> Result<Report, Trouble> {
     // The CNC runs as long as it is held.
     let (client, _running) = session.into_parts();
     let mut session = Session::new(client, Profile::EMBEDDED);
-    let outcomes = suite::run(suite::cases(), Some(&mut session), defect.as_ref());
+    let outcomes = suite::run(suite::cases(), Some(&mut session), defect.as_ref(), 0);
     let name = match &defect {
         None => "embedded CNC".to_owned(),
         Some(defect) => format!("embedded CNC with the defect {}", defect.id),

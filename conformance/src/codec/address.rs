@@ -1,12 +1,13 @@
 //! Index groups and offsets, which are no streams of the codec.
 
 use ads_cnc::address::{
-    Access, Addressing, Attribute, AxisStride, Channel, Class, ComTable, Group, IndexGroup,
-    IndexOffset, PlatformAxis, Spindle,
+    Access, Addressing, Attribute, AxisStride, Channel, Class, ClassGroup, ComGroup, ComTable,
+    Group, IndexGroup, IndexOffset, PlatformAxis, Spindle,
 };
-use ads_cnc::{Decode, Error, ObjectCount};
+use ads_cnc::{Decode, Encode as _, Error, ObjectCount};
 use ads_cnc_vectors::{Context, Type};
 
+use super::given::Given;
 use super::{Decoded, Refused, collect, name, one, uns32};
 
 /// The number of a stream that is no stream of the codec: an address by itself.
@@ -104,14 +105,70 @@ fn attribute_name(attribute: Attribute) -> &'static str {
 }
 
 pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
-    let stride = match context.stride {
-        Some(0x1_0000) => AxisStride::X10000,
-        Some(0x1000) => AxisStride::X1000,
-        other => return Err(Refused::Unsupported(format!("an axis stride of {other:?}"))),
-    };
+    let stride = stride(context)?;
     let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride)?;
     let again = IndexOffset::of_axis(stride, axis, element)?;
     // Neither has more than 16 bits, or the offset would not have been put together again.
     let fields = vec![("axis", one(Type::Uns16, axis)), ("element", one(Type::Uns16, element))];
     Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
+}
+
+/// A group by its parts where there are some, for the number has to follow from them.
+pub(super) fn encode_group(of: Given<'_>) -> Result<Vec<u8>, Refused> {
+    let number = of.number("index_group")?;
+    let group = match of.has("task") {
+        false => IndexGroup::new(number),
+        true => parts(of)?.index_group(),
+    };
+    match group.get() == number {
+        true => Ok(ObjectCount(number).to_vec()?),
+        false => Err(Refused::Unfit(format!("{number:#x}, but its parts are {group}"))),
+    }
+}
+
+fn parts(of: Given<'_>) -> Result<Group, Refused> {
+    let no = |what: &str, word: &str| Refused::Unfit(format!("no {what} {word}"));
+    let addressings = [Addressing::Logical, Addressing::Index];
+    let word = of.word("addressing")?;
+    let addressing = addressings.into_iter().find(|&one| addressing(one) == word);
+    let addressing = addressing.ok_or_else(|| no("addressing", word))?;
+    let instance = of.number("instance")?;
+    match of.word("task")? {
+        "COM" => {
+            let access = match of.word("access")? {
+                "object" => Access::Object,
+                "element" => Access::Element,
+                other => return Err(no("access", other)),
+            };
+            let table = match of.word("table")? {
+                "axis" => ComTable::Axis,
+                "channel" => ComTable::Channel,
+                other => return Err(no("table", other)),
+            };
+            Ok(Group::Com(ComGroup { addressing, access, table, instance }))
+        }
+        "SDA/GEO" => {
+            let (class, attribute) = (of.word("class")?, of.word("attribute")?);
+            let known = Class::ALL.into_iter().find(|&one| class_name(one) == class);
+            let class = known.ok_or_else(|| no("class", class))?;
+            let known = Attribute::ALL.into_iter().find(|&one| attribute_name(one) == attribute);
+            let attribute = known.ok_or_else(|| no("attribute", attribute))?;
+            Ok(Group::Class(ClassGroup { addressing, class, attribute, instance }))
+        }
+        other => Err(no("task", other)),
+    }
+}
+
+pub(super) fn encode_offset(of: Given<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
+    let stride = stride(context)?;
+    let offset = IndexOffset::of_axis(stride, of.number("axis")?, of.number("element")?)?;
+    Ok(ObjectCount(offset.get()).to_vec()?)
+}
+
+fn stride(context: &Context) -> Result<AxisStride, Refused> {
+    match context.stride {
+        Some(0x1_0000) => Ok(AxisStride::X10000),
+        Some(0x1000) => Ok(AxisStride::X1000),
+        other => Err(Refused::Unsupported(format!("an axis stride of {other:?}"))),
+    }
 }

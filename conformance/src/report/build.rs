@@ -178,6 +178,7 @@ fn case(outcome: &Outcome, waivers: &[WaiverReport]) -> CaseReport {
         subject: case.subject,
         stream: match case.body {
             Body::Vector(vector) => Some(vector.stream.clone()),
+            Body::Sequence(sequence) => Some(sequence.kind().to_owned()),
             _ => None,
         },
         verdict,

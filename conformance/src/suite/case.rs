@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use ads_cnc_vectors::{Level, Vector, requirement};
+use ads_cnc_vectors::{Level, Sequence, Vector, requirement};
 use serde::{Deserialize, Serialize};
 
 use super::Probe;
@@ -88,8 +88,12 @@ pub enum Body {
     Probe(fn(&mut Probe<'_>) -> Step),
     /// By sending a printed request and comparing the reply with the printed one.
     Printed(&'static Vector),
-    /// By decoding a vector.
+    /// By decoding and encoding a vector.
     Vector(&'static Vector),
+    /// By putting an NC text into packets, or looking through one.
+    Sequence(&'static Sequence),
+    /// By watching how a testee answers all the others.
+    Manners,
 }
 
 /// How a step of a case goes on.

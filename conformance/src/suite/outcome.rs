@@ -31,7 +31,7 @@ pub struct RequirementVerdict {
 
 impl Outcome {
     /// A case that was not tried.
-    pub(super) fn untried(case: Case, verdict: Verdict, note: impl Into<String>) -> Self {
+    pub(crate) fn untried(case: Case, verdict: Verdict, note: impl Into<String>) -> Self {
         let verdicts = case.requirements.iter().map(|&requirement| RequirementVerdict {
             requirement,
             verdict,
@@ -42,7 +42,7 @@ impl Outcome {
     }
 
     /// A case that was tried.
-    pub(super) fn tried(
+    pub(crate) fn tried(
         case: Case,
         judgements: Vec<Judgement>,
         checks: usize,

@@ -90,7 +90,7 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
 }
 
 /// How a report reads the value of a vector.
-pub(super) fn typed(context: &Context) -> Values {
+pub(crate) fn typed(context: &Context) -> Values {
     let ty = context.kind.and_then(|kind| type_by_name(kind.name()).ok());
     Values { ty, dimensions: context.dimensions.clone().unwrap_or_default() }
 }

@@ -1,33 +1,36 @@
 //! Running cases.
 
-use super::case::{Body, Case, Judgement, Needs, Rule, Stop};
+use super::case::{Body, Case, Needs, Stop, Subject};
 use super::outcome::Outcome;
 use super::probe::{Probe, Session};
-use super::{printed, vectors};
+use super::printed;
 use crate::defect::Defect;
+use crate::testee::{self, Terms};
 use crate::verdict::Verdict;
 
-/// Runs the cases against a session; those without a target against the codec.
+/// Runs the cases: those of the codec against the codec, all others against a session.
 ///
-/// `defect` changes bytes on their way into the codec, to show that its cases can fail.
+/// `defect` changes bytes on their way into and out of the codec, to show that its cases can fail.
 pub fn run(
     cases: Vec<Case>,
     mut session: Option<&mut Session>,
     defect: Option<&Defect>,
+    seed: u64,
 ) -> Vec<Outcome> {
-    cases.into_iter().map(|case| one(case, session.as_deref_mut(), defect)).collect()
+    let (codec, target): (Vec<Case>, Vec<Case>) =
+        cases.into_iter().partition(|case| case.needs == Needs::Codec);
+    let mut outcomes = match codec.is_empty() {
+        true => Vec::new(),
+        false => {
+            let mut own = testee::Own { defect: defect.cloned() };
+            testee::judge(&mut own, codec, Terms { seed, subject: Subject::Codec, edition: None, strict: true }).outcomes
+        }
+    };
+    outcomes.extend(target.into_iter().map(|case| one(case, session.as_deref_mut())));
+    outcomes
 }
 
-fn one(case: Case, session: Option<&mut Session>, defect: Option<&Defect>) -> Outcome {
-    if let Body::Vector(vector) = case.body {
-        let judgement = vectors::judge(vector, defect);
-        let judgements = case.requirements.iter().map(|&id| {
-            let Rule { id, level } = Rule::from(id);
-            Judgement { requirement: id, level, ..judgement.clone() }
-        });
-        let judgements = judgements.collect();
-        return Outcome::tried(case, judgements, 1, None);
-    }
+fn one(case: Case, session: Option<&mut Session>) -> Outcome {
     let Some(session) = session else {
         return Outcome::untried(case, Verdict::NotRun, "no target");
     };
@@ -50,7 +53,9 @@ fn one(case: Case, session: Option<&mut Session>, defect: Option<&Defect>) -> Ou
     let step = match case.body {
         Body::Probe(body) => body(&mut probe),
         Body::Printed(vector) => printed::ask(&mut probe, vector),
-        Body::Vector(_) => Err(Stop::Harness("a vector needs no target".to_owned())),
+        Body::Vector(_) | Body::Sequence(_) | Body::Manners => {
+            Err(Stop::Harness("a case of a codec needs no target".to_owned()))
+        }
     };
     let (judgements, checks) = probe.into_findings();
     Outcome::tried(case, judgements, checks, step.err())

@@ -13,6 +13,7 @@ use ads_cnc::service::ServiceId;
 use super::super::interrupt::Interrupt;
 use super::response::{Answer, Ended, KEPT, answer};
 use super::utf8;
+use crate::child::{apart, end};
 
 /// How long stdout may stay open when the command has ended: what it has started may hold it.
 const GRACE: Duration = Duration::from_millis(500);
@@ -89,39 +90,6 @@ impl Command<'_> {
             }
         }
     }
-}
-
-/// Ctrl-C is for this tool alone, which answers for the command; and what the command starts can be
-/// ended with it.
-#[cfg(unix)]
-fn apart(command: &mut process::Command) {
-    use std::os::unix::process::CommandExt as _;
-
-    command.process_group(0);
-}
-
-#[cfg(windows)]
-fn apart(command: &mut process::Command) {
-    use std::os::windows::process::CommandExt as _;
-
-    const CREATE_NEW_PROCESS_GROUP: u32 = 0x200;
-    command.creation_flags(CREATE_NEW_PROCESS_GROUP);
-}
-
-#[cfg(not(any(unix, windows)))]
-fn apart(_: &mut process::Command) {}
-
-/// Ends a command that runs.
-fn end(child: &mut Child) {
-    #[cfg(unix)]
-    if let Ok(group) = i32::try_from(child.id()) {
-        use nix::sys::signal::{Signal, killpg};
-        use nix::unistd::Pid;
-
-        // Nobody has waited for it: its number is still its own.
-        let _gone = killpg(Pid::from_raw(group), Signal::SIGKILL);
-    }
-    let _ended = child.kill().and_then(|()| child.wait());
 }
 
 /// The front of what a command writes.

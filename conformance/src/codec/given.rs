@@ -1,0 +1,192 @@
+//! Fields of a value that is to be encoded, under their names and of the types they need.
+
+use std::fmt::Display;
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::value::{DataType, EncodeValue as _, Strings, Values};
+use ads_cnc::{CncStr, Element, Numbers, Text, TextRef};
+use ads_cnc_vectors::{Context, Fields, Tagged, Type, Value};
+
+use super::Refused;
+
+/// The fields of one record.
+#[derive(Clone, Copy)]
+pub(super) struct Given<'f>(pub(super) &'f Fields);
+
+fn unfit(why: impl Display) -> Refused {
+    Refused::Unfit(why.to_string())
+}
+
+impl<'f> Given<'f> {
+    fn field(self, name: &str) -> Result<&'f Value, Refused> {
+        self.0.get(name).ok_or_else(|| unfit(format_args!("no field {name}")))
+    }
+
+    pub(super) fn has(self, name: &str) -> bool {
+        self.0.contains_key(name)
+    }
+
+    fn one(self, name: &str) -> Result<&'f Tagged, Refused> {
+        let single = || unfit(format_args!("{name} is no single value"));
+        self.field(name)?.tagged().ok_or_else(single)
+    }
+
+    fn list(self, name: &str) -> Result<&'f [Value], Refused> {
+        self.field(name)?.list().ok_or_else(|| unfit(format_args!("{name} is no list")))
+    }
+
+    pub(super) fn record(self, name: &str) -> Result<Given<'f>, Refused> {
+        record(self.field(name)?)
+    }
+
+    pub(super) fn records(self, name: &str) -> Result<Vec<Given<'f>>, Refused> {
+        self.list(name)?.iter().map(record).collect()
+    }
+
+    /// A whole number that its type has room for.
+    pub(super) fn number<T: TryFrom<i128>>(self, name: &str) -> Result<T, Refused> {
+        integer(self.one(name)?)
+    }
+
+    /// Which type a number is given as.
+    pub(super) fn kind(self, name: &str) -> Result<Type, Refused> {
+        Ok(self.one(name)?.kind)
+    }
+
+    pub(super) fn numbers(self, name: &str) -> Result<Vec<u32>, Refused> {
+        let number = |value: &Value| match value.tagged() {
+            Some(tagged) => integer(tagged),
+            None => Err(unfit(format_args!("{name} is no list of numbers"))),
+        };
+        self.list(name)?.iter().map(number).collect()
+    }
+
+    pub(super) fn bits(self, name: &str) -> Result<u64, Refused> {
+        bits(self.one(name)?)
+    }
+
+    pub(super) fn word(self, name: &str) -> Result<&'f str, Refused> {
+        let tagged = self.one(name)?;
+        tagged.value.as_deref().ok_or_else(|| unfit(format_args!("{name} has no value")))
+    }
+
+    pub(super) fn bytes(self, name: &str) -> Result<Vec<u8>, Refused> {
+        Ok(hex(self.one(name)?)?.to_vec())
+    }
+
+    pub(super) fn text(self, name: &str) -> Result<Text, Refused> {
+        Ok(Text::from(text(self.one(name)?)?))
+    }
+
+    /// Characters alone: a text without its end.
+    pub(super) fn characters(self, name: &str) -> Result<CncStr<'f>, Refused> {
+        Ok(text(self.one(name)?)?.text())
+    }
+
+    pub(super) fn place(self) -> Result<(IndexGroup, IndexOffset), Refused> {
+        let group = IndexGroup::new(self.number("index_group")?);
+        Ok((group, IndexOffset::new(self.number("index_offset")?)))
+    }
+
+    /// The bytes of a value: as many elements of the context's type as its dimensions say.
+    pub(super) fn elements(self, name: &str, context: &Context) -> Result<Vec<u8>, Refused> {
+        let lacks = |what: &str| Refused::Unsupported(format!("a value without {what}"));
+        let kind = context.kind.ok_or_else(|| lacks("a type"))?;
+        let dimensions = context.dimensions.as_deref().ok_or_else(|| lacks("dimensions"))?;
+        let Some(data_type) = DataType::by_name(CncStr::new(kind.name())?) else {
+            return Err(Refused::Unsupported(format!("values of type {kind:?}")));
+        };
+        let given = self.list(name)?;
+        let items = given.iter().map(|value| match value.tagged() {
+            Some(tagged) if tagged.kind == kind => Ok(tagged),
+            _ => Err(unfit(format_args!("{name} has an element that is no {}", kind.name()))),
+        });
+        let items: Vec<&Tagged> = items.collect::<Result<_, _>>()?;
+        let count = dimensions.iter().try_fold(1_usize, |count, &len| {
+            count.checked_mul(usize::try_from(len).unwrap_or(usize::MAX))
+        });
+        if count != Some(items.len()) {
+            let dimensions = Numbers::from(dimensions);
+            return Err(unfit(format_args!("{} elements for {dimensions:?}", items.len())));
+        }
+        encode(data_type, &items)
+    }
+}
+
+/// The elements one behind the other, as the codec writes them.
+fn encode(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Refused> {
+    fn all<T>(
+        items: &[&Tagged],
+        one: impl Fn(&Tagged) -> Result<T, Refused>,
+    ) -> Result<Vec<T>, Refused> {
+        items.iter().map(|tagged| one(tagged)).collect()
+    }
+    let values = match data_type {
+        DataType::Boolean => {
+            Values::Boolean(all(items, |one| integer(one).map(ads_cnc::value::Boolean))?)
+        }
+        DataType::Sgn08 => Values::Sgn08(all(items, integer)?),
+        DataType::Uns08 => Values::Uns08(all(items, integer)?),
+        DataType::Sgn16 => Values::Sgn16(all(items, integer)?),
+        DataType::Uns16 => Values::Uns16(all(items, integer)?),
+        DataType::Sgn32 => Values::Sgn32(all(items, integer)?),
+        DataType::Uns32 => Values::Uns32(all(items, integer)?),
+        DataType::Lint => Values::Lint(all(items, integer)?),
+        DataType::Lword => Values::Lword(all(items, integer)?),
+        DataType::Real64 => Values::Real64(all(items, |one| bits(one).map(f64::from_bits))?),
+        DataType::Real32 => Values::Real32(all(items, |one| {
+            let bits = u32::try_from(bits(one)?).map_err(|_| unfit("more than 32 bits"))?;
+            Ok(f32::from_bits(bits))
+        })?),
+        DataType::String => match items {
+            [single] => return Ok(Element::String(text(single)?).value_to_vec()?),
+            several => {
+                let texts: Vec<TextRef<'_>> = all_texts(several)?;
+                let same = texts.windows(2).all(|two| match two {
+                    [first, second] => first.field_len() == second.field_len(),
+                    _ => true,
+                });
+                if !same {
+                    return Err(unfit("texts of an array have the same room each"));
+                }
+                let bytes: Result<Vec<Vec<u8>>, _> =
+                    texts.iter().map(|text| Element::String(*text).value_to_vec()).collect();
+                let bytes = bytes?.concat();
+                let count = u32::try_from(several.len()).unwrap_or(u32::MAX);
+                Values::String(Strings::from(ads_cnc::value::StringsRef::new(&bytes, count)?))
+            }
+        },
+        other => return Err(Refused::Unsupported(format!("values of type {other:?}"))),
+    };
+    Ok(values.value_to_vec()?)
+}
+
+fn all_texts<'f>(items: &[&'f Tagged]) -> Result<Vec<TextRef<'f>>, Refused> {
+    items.iter().map(|tagged| text(tagged)).collect()
+}
+
+fn record(value: &Value) -> Result<Given<'_>, Refused> {
+    match value {
+        Value::Record(fields) => Ok(Given(fields)),
+        _ => Err(unfit("no record where one has to be")),
+    }
+}
+
+fn integer<T: TryFrom<i128>>(tagged: &Tagged) -> Result<T, Refused> {
+    let number = tagged.integer().ok_or_else(|| unfit("no whole number where one has to be"))?;
+    T::try_from(number).map_err(|_| unfit(format_args!("{number} is out of range")))
+}
+
+fn bits(tagged: &Tagged) -> Result<u64, Refused> {
+    tagged.real_bits().ok_or_else(|| unfit("a float without its bits"))
+}
+
+fn hex(tagged: &Tagged) -> Result<&[u8], Refused> {
+    tagged.hex.as_deref().ok_or_else(|| unfit("no hex where there has to be some"))
+}
+
+fn text(tagged: &Tagged) -> Result<TextRef<'_>, Refused> {
+    let characters = CncStr::from_bytes(hex(tagged)?)?;
+    let tail = tagged.tail.as_deref().unwrap_or_default();
+    Ok(TextRef::with_tail(characters, (!tagged.open).then_some(tail)))
+}

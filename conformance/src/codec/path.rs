@@ -1,0 +1,37 @@
+//! A variable's name by its parts, and put together again.
+
+use ads_cnc::text::CncStr;
+use ads_cnc::{Kind, Numbers, PathPart, TextRef, VariablePath};
+use ads_cnc_vectors::{Tagged, Value};
+
+use super::given::Given;
+use super::{Decoded, Refused, collect, numbers, record, text_tagged};
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, Refused> {
+    let path = VariablePath::from_text(CncStr::from_bytes(bytes)?)?;
+    let characters =
+        |text: CncStr<'_>| Value::One(Tagged { open: true, ..text_tagged(TextRef::from(text)) });
+    let parts = path.parts().map(|part| {
+        let indices: Vec<u32> = part.indices.iter().collect();
+        record(vec![("name", characters(part.name)), ("indices", numbers(&indices))])
+    });
+    let fields =
+        vec![("kind", characters(path.kind().text())), ("parts", Value::List(parts.collect()))];
+    let mut buf = [0; ads_cnc::limits::NAME_MAX];
+    let again = VariablePath::write(path.kind(), path.parts(), &mut buf)?;
+    Ok(Decoded { fields: collect(fields), bytes: again.text().bytes().collect() })
+}
+
+pub(super) fn encode(of: Given<'_>) -> Result<Vec<u8>, Refused> {
+    let parts = of.records("parts")?.into_iter().map(|part| {
+        Ok((part.characters("name")?, part.numbers("indices")?))
+    });
+    let parts = parts.collect::<Result<Vec<(CncStr<'_>, Vec<u32>)>, Refused>>()?;
+    let parts = parts
+        .iter()
+        .map(|(name, indices)| PathPart { name: *name, indices: Numbers::from(indices.as_slice()) });
+    let kind = Kind::from_field(TextRef::from(of.characters("kind")?));
+    let mut buf = [0; ads_cnc::limits::NAME_MAX];
+    let path = VariablePath::write(kind, parts, &mut buf)?;
+    Ok(path.text().bytes().collect())
+}

@@ -1,0 +1,162 @@
+//! Whether a value is the one that was meant: by what decides, and where it is not.
+
+use ads_cnc_vectors::{Fields, Tagged, Type, Value};
+use serde_json::Value as Json;
+
+use super::message::compact;
+
+/// How a value differs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Difference {
+    /// It is another one.
+    Other(String),
+    /// What follows a text is not told.
+    Untold(String),
+}
+
+/// The first difference between what was meant and what has come.
+pub(super) fn compare(meant: &Fields, found: &Json) -> Option<Difference> {
+    record("", meant, found)
+}
+
+fn other(place: &str, what: impl std::fmt::Display) -> Option<Difference> {
+    let place = if place.is_empty() { "the value" } else { place };
+    Some(Difference::Other(format!("{place}: {what}")))
+}
+
+fn within(place: &str, name: &str) -> String {
+    if place.is_empty() { name.to_owned() } else { format!("{place}.{name}") }
+}
+
+fn record(place: &str, meant: &Fields, found: &Json) -> Option<Difference> {
+    let Some(given) = found.as_object() else {
+        return other(place, format_args!("an object with fields is expected, not {found}"));
+    };
+    if let Some(surplus) = given.keys().find(|name| !meant.contains_key(*name)) {
+        return other(&within(place, surplus), "no such field");
+    }
+    let mut untold = None;
+    for (name, value) in meant {
+        let place = within(place, name);
+        let difference = match given.get(name) {
+            None => other(&place, "is missing"),
+            Some(found) => one(&place, value, found),
+        };
+        match difference {
+            Some(Difference::Other(_)) => return difference,
+            Some(Difference::Untold(_)) => untold = untold.or(difference),
+            None => {}
+        }
+    }
+    untold
+}
+
+fn one(place: &str, meant: &Value, found: &Json) -> Option<Difference> {
+    match meant {
+        Value::One(tagged) => single(place, tagged, found),
+        Value::Record(fields) => record(place, fields, found),
+        Value::List(items) => {
+            let Some(given) = found.as_array() else {
+                return other(place, format_args!("a list is expected, not {found}"));
+            };
+            if given.len() != items.len() {
+                return other(
+                    place,
+                    format_args!("{} items are expected, not {}", items.len(), given.len()),
+                );
+            }
+            let pairs = items.iter().zip(given).enumerate();
+            let mut differences = pairs.filter_map(|(index, (meant, found))| {
+                one(&format!("{place}[{index}]"), meant, found)
+            });
+            let first = differences.next()?;
+            match first {
+                Difference::Other(_) => Some(first),
+                untold => differences
+                    .find(|one| matches!(one, Difference::Other(_)))
+                    .or(Some(untold)),
+            }
+        }
+    }
+}
+
+fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
+    let text = |name: &str| found.get(name).and_then(Json::as_str);
+    let kind = meant.kind.name();
+    match text("type") {
+        Some(given) if given == kind => {}
+        Some(given) => return other(place, format_args!("type {kind} is expected, not {given}")),
+        None => return other(place, format_args!("an object with a type is expected, not {found}")),
+    }
+    match meant.kind {
+        Type::String => {
+            let characters = hex(place, meant.hex.as_deref().unwrap_or_default(), text("hex"));
+            if characters.is_some() {
+                return characters;
+            }
+            end(place, meant, found)
+        }
+        Type::Bytes => hex(place, meant.hex.as_deref().unwrap_or_default(), text("hex")),
+        Type::Real32 | Type::Real64 | Type::Real | Type::Lreal => {
+            let bits = |text: &str| {
+                u64::from_str_radix(text.strip_prefix("0x").unwrap_or_default(), 16).ok()
+            };
+            let given = text("bits");
+            let same = given.and_then(bits).is_some_and(|bits| Some(bits) == meant.real_bits());
+            let expected = meant.bits.as_deref().unwrap_or_default();
+            let found = given.unwrap_or("none");
+            if same { None } else { other(place, format_args!("bits {expected}, not {found}")) }
+        }
+        Type::NetId | Type::Name => {
+            let expected = meant.value.as_deref().unwrap_or_default();
+            let given = text("value").unwrap_or("none");
+            if expected == given { None } else { other(place, format_args!("{expected}, not {given}")) }
+        }
+        _ => {
+            let given = text("value");
+            let number = given.and_then(|text| text.parse::<i128>().ok());
+            let expected = meant.value.as_deref().unwrap_or_default();
+            match number.is_some() && number == meant.integer() {
+                true => None,
+                false => other(place, format_args!("{expected}, not {}", given.unwrap_or("none"))),
+            }
+        }
+    }
+}
+
+fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
+    let expected = compact::show(meant);
+    let Some(given) = given else {
+        return other(place, format_args!("hex {expected}, and none is given"));
+    };
+    match compact::parse(given) {
+        Ok(bytes) if bytes == meant => None,
+        Ok(bytes) => other(place, format_args!("hex {expected}, not {}", compact::show(&bytes))),
+        Err(why) => other(place, why),
+    }
+}
+
+/// What follows a text. Who says nothing of it has not said anything wrong.
+fn end(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
+    let open = found.get("open").and_then(Json::as_bool).unwrap_or(false);
+    let tail = found.get("tail").and_then(Json::as_str).map(compact::parse);
+    let said = open || tail.is_some();
+    let meant_tail = meant.tail.as_deref().unwrap_or_default();
+    let given_tail = match &tail {
+        None => &[],
+        Some(Ok(bytes)) => bytes.as_slice(),
+        Some(Err(why)) => return other(place, why),
+    };
+    if open == meant.open && given_tail == meant_tail {
+        return None;
+    }
+    let expected = match (meant.open, meant_tail) {
+        (true, _) => "no NUL".to_owned(),
+        (false, []) => "one NUL behind it".to_owned(),
+        (false, tail) => format!("{} behind its NUL", compact::show(tail)),
+    };
+    match said {
+        true => other(place, format_args!("{expected} is expected")),
+        false => Some(Difference::Untold(format!("{place}: {expected}, which is not told"))),
+    }
+}

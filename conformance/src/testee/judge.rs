@@ -1,0 +1,502 @@
+//! Asking a testee everything, and what comes of it.
+
+use std::collections::HashMap;
+
+use ads_cnc_vectors::{Expect, Level, SequenceExpect, Vector};
+
+use super::assumed::rests_on_assumption;
+use super::message::{Answer, Hello, Output, Question, compact};
+use super::plan::{Asked, Purpose, plan, questions};
+use super::{Reaction, Testee, compare};
+use crate::show::show;
+use crate::suite::{self, Body, Case, Evidence, Judgement, Needs, Outcome, Rule, Stop, Subject};
+use crate::verdict::Verdict;
+
+/// What the protocol asks of a testee, beside the requirements of the catalogue.
+pub const TESTEE: &str = "TESTEE";
+
+/// Questions in a row that end with a crash or in silence, after which no more are asked.
+const LOST_MAX: usize = 12;
+
+/// How a testee is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Terms<'t> {
+    /// Seed of the order.
+    pub seed: u64,
+    /// As whom it is judged.
+    pub subject: Subject,
+    /// The edition it is judged by, if one was chosen.
+    pub edition: Option<&'t str>,
+    /// Whether what is assumed is required too, as it is of this project's own codec.
+    pub strict: bool,
+}
+
+/// What came of a testee.
+#[derive(Debug)]
+pub struct Judged {
+    /// What it says of itself.
+    pub hello: Option<Hello>,
+    /// Of each case, and of the protocol.
+    pub outcomes: Vec<Outcome>,
+    /// Questions asked.
+    pub asked: usize,
+    /// How often it had to be started anew.
+    pub restarts: usize,
+}
+
+/// The answers to the questions of a case, by op.
+type Reactions = HashMap<(usize, String), Reaction>;
+
+/// Asks a testee all that these cases have.
+pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) -> Judged {
+    cases.iter_mut().for_each(|case| case.subject = terms.subject);
+    let hello = match testee.hello() {
+        Ok(hello) => hello,
+        Err(reaction) => return without_hello(cases, &reaction, terms.subject),
+    };
+    let capabilities = &hello.capabilities;
+    let claimed = capabilities.editions.first().map(String::as_str);
+    let edition = terms.edition.or(claimed).unwrap_or("en-1.05").to_owned();
+    let mut manners = Manners::default();
+    if let Some(asked) = terms.edition
+        && !capabilities.editions.is_empty()
+        && !capabilities.editions.iter().any(|one| one == asked)
+    {
+        let untried = |case| {
+            let note = format!("the testee does not claim the edition {asked}");
+            Outcome::untried(case, Verdict::NotApplicable, note)
+        };
+        let outcomes = cases.into_iter().map(untried).collect();
+        return Judged { hello: Some(hello), outcomes, asked: 0, restarts: 0 };
+    }
+    // Siblings decide, so they are asked even if nobody wants to know of them.
+    let wanted = cases.len();
+    let missing = suite::siblings_of(&cases);
+    cases.extend(missing);
+    let mut reactions = Reactions::new();
+    let (mut lost, mut restarts, mut asked, mut gone) = (0_usize, 0_usize, 0_usize, None);
+    for Asked { purpose, question } in plan(&cases, capabilities, &edition, terms.seed) {
+        let reaction = testee.ask(&question);
+        asked = asked.saturating_add(1);
+        if matches!(reaction, Reaction::Crashed(_) | Reaction::Silent(_) | Reaction::Broken(_)) {
+            (lost, restarts) = (lost.saturating_add(1), restarts.saturating_add(1));
+        } else {
+            lost = 0;
+        }
+        match purpose {
+            Purpose::Case(case) => {
+                reactions.insert((case, question.op), reaction);
+            }
+            Purpose::Sanity { case, first } => manners.sanity(case, first, question, reaction),
+            Purpose::MadeUp => manners.made_up(&question, &reaction),
+        }
+        if lost >= LOST_MAX {
+            gone = Some(format!("{LOST_MAX} questions in a row without an answer"));
+            break;
+        }
+    }
+    if gone.is_none()
+        && let Err(why) = testee.bye()
+    {
+        manners.fault("it ends with exit code 0 after bye", why, None);
+    }
+    let view = View { cases: &cases, reactions: &reactions, hello: &hello, edition, terms, gone };
+    let mut outcomes: Vec<Outcome> =
+        (0..wanted).filter_map(|place| view.outcome(place)).collect();
+    outcomes.push(manners.outcome(terms.subject));
+    Judged { hello: Some(hello), outcomes, asked, restarts }
+}
+
+fn without_hello(cases: Vec<Case>, reaction: &Reaction, subject: Subject) -> Judged {
+    let mut manners = Manners::default();
+    manners.fault("an answer to hello", describe(reaction), None);
+    let untried = |case| Outcome::untried(case, Verdict::NotRun, "there was no answer to hello");
+    let mut outcomes: Vec<Outcome> = cases.into_iter().map(untried).collect();
+    outcomes.push(manners.outcome(subject));
+    Judged { hello: None, outcomes, asked: 0, restarts: 0 }
+}
+
+/// How a testee keeps to the protocol.
+#[derive(Default)]
+struct Manners {
+    faults: Vec<Judgement>,
+    checks: usize,
+    first: Reactions,
+}
+
+impl Manners {
+    fn sanity(&mut self, case: usize, first: bool, question: Question, reaction: Reaction) {
+        if first {
+            self.first.insert((case, question.op), reaction);
+            return;
+        }
+        self.checks = self.checks.saturating_add(1);
+        let before = self.first.get(&(case, question.op.clone()));
+        if before != Some(&reaction) {
+            let before = before.map_or_else(|| "nothing".to_owned(), describe);
+            let evidence = evidence(&question, &reaction, "", None);
+            self.fault(
+                format!("the same answer at the end as at the start: {before}"),
+                describe(&reaction),
+                Some(evidence),
+            );
+        }
+    }
+
+    fn made_up(&mut self, question: &Question, reaction: &Reaction) {
+        self.checks = self.checks.saturating_add(1);
+        if !matches!(reaction, Reaction::Answer(Answer::Unsupported { .. })) {
+            let expected = format!("unsupported, for the op {}", question.op);
+            self.fault(expected, describe(reaction), Some(evidence(question, reaction, "", None)));
+        }
+    }
+
+    fn fault(
+        &mut self,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+        evidence: Option<Evidence>,
+    ) {
+        self.faults.push(Judgement {
+            requirement: TESTEE,
+            level: Some(Level::Must),
+            verdict: Verdict::Fail,
+            expected: expected.into(),
+            found: found.into(),
+            evidence,
+            more: 0,
+        });
+    }
+
+    fn outcome(self, subject: Subject) -> Outcome {
+        let case = Case {
+            id: "testee-manners".to_owned(),
+            title: "It keeps to the protocol, and does at the end what it did at the start"
+                .to_owned(),
+            subject,
+            requirements: vec![TESTEE],
+            needs: Needs::Codec,
+            body: Body::Manners,
+        };
+        let pass = Judgement {
+            requirement: TESTEE,
+            level: Some(Level::Must),
+            verdict: Verdict::Pass,
+            expected: String::new(),
+            found: String::new(),
+            evidence: None,
+            more: 0,
+        };
+        let judgements = if self.faults.is_empty() { vec![pass] } else { self.faults };
+        Outcome::tried(case, judgements, self.checks.max(1), None)
+    }
+}
+
+/// Everything that was asked and answered.
+struct View<'v> {
+    cases: &'v [Case],
+    reactions: &'v Reactions,
+    hello: &'v Hello,
+    edition: String,
+    terms: Terms<'v>,
+    gone: Option<String>,
+}
+
+/// What came of one question.
+struct Check {
+    verdict: Verdict,
+    expected: String,
+    found: String,
+    evidence: Evidence,
+}
+
+impl View<'_> {
+    fn outcome(&self, place: usize) -> Option<Outcome> {
+        let case = self.cases.get(place)?;
+        let questions = questions(case, &self.edition);
+        if questions.is_empty() {
+            return None;
+        }
+        let claimed: Vec<&Question> = questions
+            .iter()
+            .filter(|one| self.hello.capabilities.claim(&one.op, &one.stream))
+            .collect();
+        if claimed.is_empty() {
+            let note = "the testee does not claim it";
+            return Some(Outcome::untried(case.clone(), Verdict::NotApplicable, note));
+        }
+        let mut stop = None;
+        let mut judgements = Vec::new();
+        for question in &claimed {
+            let Some(reaction) = self.reactions.get(&(place, question.op.clone())) else {
+                let why = self.gone.clone().unwrap_or_default();
+                stop = Some(Stop::Inconclusive(format!("the testee is gone: {why}")));
+                continue;
+            };
+            let check = self.check(case, question, reaction);
+            judgements.extend(case.requirements.iter().map(|&id| self.judgement(id, &check)));
+        }
+        Some(Outcome::tried(case.clone(), judgements, claimed.len(), stop))
+    }
+
+    fn judgement(&self, id: &'static str, check: &Check) -> Judgement {
+        let Rule { level, .. } = Rule::from(id);
+        let verdict = match (check.verdict, level) {
+            (Verdict::Fail, Some(level)) if !self.terms.strict => Verdict::missed(level),
+            (verdict, _) => verdict,
+        };
+        let level = if verdict == Verdict::Differs { Some(Level::Info) } else { level };
+        Judgement {
+            requirement: id,
+            level,
+            verdict,
+            expected: check.expected.clone(),
+            found: check.found.clone(),
+            evidence: Some(check.evidence.clone()),
+            more: 0,
+        }
+    }
+
+    fn check(&self, case: &Case, question: &Question, reaction: &Reaction) -> Check {
+        let (verdict, expected, found) = match &case.body {
+            Body::Vector(vector) => {
+                let (verdict, expected, found) = self.vector(vector, question, reaction);
+                // Only an answer can differ: a crash is one whatever was asked.
+                let answered = matches!(
+                    reaction,
+                    Reaction::Answer(Answer::Ok(_) | Answer::Reject(_))
+                );
+                let lenient = !self.terms.strict && answered && rests_on_assumption(vector);
+                let missed = matches!(verdict, Verdict::Fail | Verdict::Vacuous);
+                (if lenient && missed { Verdict::Differs } else { verdict }, expected, found)
+            }
+            Body::Sequence(sequence) => self.sequence(sequence, reaction),
+            _ => (Verdict::HarnessError, String::new(), "a case without a question".to_owned()),
+        };
+        let canonical = match &case.body {
+            Body::Vector(vector) if question.op == "encode" => Some(vector.bytes()),
+            _ => None,
+        };
+        let evidence = evidence(question, reaction, &case.id, canonical);
+        Check { verdict, evidence, expected, found }
+    }
+
+    fn vector(
+        &self,
+        vector: &Vector,
+        question: &Question,
+        reaction: &Reaction,
+    ) -> (Verdict, String, String) {
+        match (&vector.expect, question.op.as_str()) {
+            (Expect::Accept(accept), "encode") => {
+                let mut forms = vec![vector.bytes()];
+                forms.extend(accept.canonical.as_ref().map(|hex| hex.to_vec()));
+                let shown: Vec<String> = forms.iter().map(|form| compact::show(form)).collect();
+                let expected = shown.join(" or ");
+                match reaction {
+                    Reaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => {
+                        let found = compact::show(hex);
+                        let verdict =
+                            if forms.contains(hex) { Verdict::Pass } else { Verdict::Fail };
+                        (verdict, expected, found)
+                    }
+                    other => (Verdict::Fail, expected, describe(other)),
+                }
+            }
+            (Expect::Accept(accept), _) => {
+                let expected = show(&accept.value);
+                let Reaction::Answer(Answer::Ok(Output { value: Some(value), .. })) = reaction
+                else {
+                    return (Verdict::Fail, expected, describe(reaction));
+                };
+                match compare::compare(&accept.value, value) {
+                    None => (Verdict::Pass, expected, String::new()),
+                    Some(compare::Difference::Other(what)) => (Verdict::Fail, expected, what),
+                    Some(compare::Difference::Untold(what)) if self.terms.strict => {
+                        (Verdict::Fail, expected, what)
+                    }
+                    Some(compare::Difference::Untold(what)) => (Verdict::Differs, expected, what),
+                }
+            }
+            (Expect::Reject(reject), _) => {
+                let place = format!("{} at offset {} in {}", reject.class, reject.offset, reject.field);
+                let expected = format!("refused: {place}");
+                match reaction {
+                    Reaction::Answer(Answer::Reject(_)) => match self.sibling(vector) {
+                        Ok(()) => (Verdict::Pass, expected, String::new()),
+                        Err(why) => (Verdict::Vacuous, expected, why),
+                    },
+                    other => (Verdict::Fail, expected, describe(other)),
+                }
+            }
+        }
+    }
+
+    /// Whether the sibling of a refused vector was accepted: else it may be refused for any reason.
+    fn sibling(&self, vector: &Vector) -> Result<(), String> {
+        let wanted = vector.sibling.as_deref().unwrap_or_default();
+        let found = self.cases.iter().enumerate().find_map(|(place, case)| match &case.body {
+            Body::Vector(vector) if vector.id == wanted => Some((place, *vector)),
+            _ => None,
+        });
+        let Some((place, sibling)) = found else {
+            return Err(format!("{wanted}, which lacks this fault, was not tried"));
+        };
+        match self.reactions.get(&(place, "decode".to_owned())) {
+            Some(Reaction::Answer(Answer::Ok(_))) => Ok(()),
+            Some(other) => {
+                Err(format!("refused, but {}, which lacks this fault: {}", sibling.id, describe(other)))
+            }
+            None => Err(format!("{wanted}, which lacks this fault, was not answered")),
+        }
+    }
+
+    fn sequence(
+        &self,
+        sequence: &ads_cnc_vectors::Sequence,
+        reaction: &Reaction,
+    ) -> (Verdict, String, String) {
+        match (&sequence.expect, reaction) {
+            (SequenceExpect::Accept(accept), Reaction::Answer(Answer::Ok(output))) => {
+                let Some(packets) = &accept.packets else {
+                    return (Verdict::Pass, String::new(), String::new());
+                };
+                let stated: Vec<Vec<u8>> = packets.iter().map(|one| one.bytes()).collect();
+                let text = stated.concat();
+                match packets_fault(&text, output.packets.as_deref().unwrap_or_default()) {
+                    None => (Verdict::Pass, String::new(), String::new()),
+                    Some(found) => {
+                        let expected = format!(
+                            "{} bytes of whole lines in packets of at most 992",
+                            text.len()
+                        );
+                        (Verdict::Fail, expected, found)
+                    }
+                }
+            }
+            (SequenceExpect::Accept(_), other) => {
+                (Verdict::Fail, "accepted".to_owned(), describe(other))
+            }
+            (SequenceExpect::Reject(reject), reaction) => {
+                let line = reject.line.map(|line| format!(" in line {line}")).unwrap_or_default();
+                let expected = format!("refused: {}{line}", reject.class);
+                match reaction {
+                    Reaction::Answer(Answer::Reject(_)) => match self.other_text(sequence) {
+                        Ok(()) => (Verdict::Pass, expected, String::new()),
+                        Err(why) => (Verdict::Vacuous, expected, why),
+                    },
+                    other => (Verdict::Fail, expected, describe(other)),
+                }
+            }
+        }
+    }
+
+    fn other_text(&self, sequence: &ads_cnc_vectors::Sequence) -> Result<(), String> {
+        let wanted = sequence.sibling.as_deref().unwrap_or_default();
+        let mut cases = self.cases.iter().enumerate();
+        let found = cases.find_map(|(place, case)| match &case.body {
+            Body::Sequence(sequence) if sequence.id == wanted => Some(place),
+            _ => None,
+        });
+        let reaction = found.and_then(|place| {
+            let op = if sequence.kind() == "nc-text" { "packets" } else { "check" };
+            self.reactions.get(&(place, op.to_owned()))
+        });
+        match reaction {
+            Some(Reaction::Answer(Answer::Ok(_))) => Ok(()),
+            Some(other) => {
+                Err(format!("refused, but {wanted}, which lacks this fault: {}", describe(other)))
+            }
+            None => Err(format!("{wanted}, which lacks this fault, was not answered")),
+        }
+    }
+}
+
+/// What is wrong with packets that have to carry this text.
+fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
+    let max = ads_cnc::limits::STREAM_PACKET_MAX;
+    for (place, packet) in packets.iter().enumerate() {
+        let number = place.saturating_add(1);
+        if packet.len() > max || packet.is_empty() {
+            return Some(format!("packet {number} has {} bytes", packet.len()));
+        }
+        if !packet.ends_with(b"\r\n") {
+            return Some(format!("packet {number} does not end with CR LF"));
+        }
+    }
+    let all = packets.concat();
+    match all == text {
+        true => None,
+        false => {
+            let same = all.iter().zip(text).take_while(|(one, other)| one == other).count();
+            Some(format!("{} bytes in all, another one at offset {same}", all.len()))
+        }
+    }
+}
+
+fn describe(reaction: &Reaction) -> String {
+    match reaction {
+        Reaction::Answer(Answer::Ok(output)) => match output {
+            Output { value: Some(value), .. } => format!("accepted: {value}"),
+            Output { hex: Some(hex), .. } => format!("accepted: {}", compact::show(hex)),
+            Output { packets: Some(packets), .. } => format!("{} packets", packets.len()),
+            _ => "accepted".to_owned(),
+        },
+        Reaction::Answer(Answer::Reject(reject)) => {
+            let mut text = "refused".to_owned();
+            if let Some(class) = &reject.class {
+                text.push_str(&format!(": {class}"));
+            }
+            if let Some(at) = reject.at {
+                text.push_str(&format!(" at offset {at}"));
+            }
+            if let Some(message) = &reject.message {
+                text.push_str(&format!(" ({message})"));
+            }
+            text
+        }
+        Reaction::Answer(Answer::Unsupported { what }) => {
+            format!("unsupported: {what}, which it claims to support")
+        }
+        Reaction::Answer(Answer::Error { message }) => format!("an error of its own: {message}"),
+        Reaction::Garbled(why) => format!("no answer of the protocol: {why}"),
+        Reaction::Crashed(how) => format!("a crash: {how}"),
+        Reaction::Silent(limit) => format!("no answer within {} ms", limit.as_millis()),
+        Reaction::Broken(why) => why.clone(),
+    }
+}
+
+fn evidence(
+    question: &Question,
+    reaction: &Reaction,
+    id: &str,
+    expected: Option<Vec<u8>>,
+) -> Evidence {
+    let stream = ads_cnc::layout::Stream::by_name(&question.stream);
+    let stream = stream.map(|stream| stream.layout().name);
+    let received = match reaction {
+        Reaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => Some(hex.clone()),
+        _ => None,
+    };
+    let shown = match &question.value {
+        Some(fields) => show(fields),
+        None => question.stream.clone(),
+    };
+    let sent = match (&question.hex, &question.packets) {
+        (Some(hex), _) => hex.clone(),
+        (None, Some(packets)) => packets.concat(),
+        (None, None) => Vec::new(),
+    };
+    let id = id.strip_prefix("vec-").unwrap_or(id);
+    Evidence {
+        call: format!("{} {shown} ({id})", question.op),
+        request_stream: stream,
+        reply_stream: stream,
+        sent,
+        expected: expected.filter(|_| received.is_some()),
+        received,
+        values: question.context.context().as_ref().map(suite::typed).unwrap_or_default(),
+        result: describe(reaction),
+        ..Evidence::default()
+    }
+}

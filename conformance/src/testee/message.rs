@@ -1,0 +1,285 @@
+//! The lines that go to a testee and come from it.
+
+use ads_cnc_vectors::{Context, Fields, Type};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// Version of the protocol.
+pub const PROTOCOL: u32 = 1;
+
+/// The longest line, its end not counted.
+pub const LINE_MAX: usize = 32 << 20;
+
+/// A line to the testee.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "cmd", rename_all = "lowercase")]
+pub enum Command {
+    /// The first line.
+    Hello {
+        /// Version of the protocol.
+        protocol: u32,
+    },
+    /// A case.
+    Case {
+        /// Number of the case in this run.
+        seq: u64,
+        /// What is asked.
+        #[serde(flatten)]
+        question: Question,
+    },
+    /// The last line.
+    Bye,
+}
+
+/// What a testee is asked.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Question {
+    /// `decode`, `encode`, `packets`, `check`, or one that does not exist.
+    pub op: String,
+    /// The stream.
+    pub stream: String,
+    /// The edition, such as `en-1.05`.
+    pub edition: String,
+    /// What has to be known beside the bytes.
+    #[serde(default)]
+    pub context: Known,
+    /// Bytes.
+    #[serde(default, with = "compact::option", skip_serializing_if = "Option::is_none")]
+    pub hex: Option<Vec<u8>>,
+    /// Fields of a value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<Fields>,
+    /// Pieces of an NC program as they are written.
+    #[serde(default, with = "compact::list", skip_serializing_if = "Option::is_none")]
+    pub packets: Option<Vec<Vec<u8>>>,
+}
+
+/// What a testee is told beside the bytes: no more than it needs.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Known {
+    /// Type of the elements of a value or content.
+    #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
+    pub kind: Option<Type>,
+    /// Its dimensions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dimensions: Option<Vec<u32>>,
+    /// What an axis counts in an index offset.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stride: Option<String>,
+    /// Index group without its number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<String>,
+}
+
+impl From<&Context> for Known {
+    fn from(context: &Context) -> Self {
+        let address = |number: u32| format!("{number:#x}");
+        Self {
+            kind: context.kind,
+            dimensions: context.dimensions.clone(),
+            stride: context.stride.map(address),
+            base: context.base.map(address),
+        }
+    }
+}
+
+impl Known {
+    /// As a context of the vectors; none if an address is none.
+    pub(super) fn context(&self) -> Option<Context> {
+        let address = |text: &Option<String>| match text.as_deref() {
+            None => Some(None),
+            Some(text) => {
+                let digits = text.strip_prefix("0x")?;
+                u32::from_str_radix(digits, 16).ok().map(Some)
+            }
+        };
+        Some(Context {
+            kind: self.kind,
+            dimensions: self.dimensions.clone(),
+            stride: address(&self.stride)?,
+            base: address(&self.base)?,
+            ..Context::default()
+        })
+    }
+}
+
+/// The answer to `hello`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Hello {
+    /// Version of the protocol.
+    pub protocol: u32,
+    /// Who answers.
+    pub testee: Identity,
+    /// What it can do.
+    pub capabilities: Capabilities,
+}
+
+/// Who answers.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Identity {
+    /// Its name.
+    pub name: String,
+    /// Its version.
+    #[serde(default)]
+    pub version: String,
+    /// What it is written in.
+    #[serde(default)]
+    pub language: String,
+}
+
+/// What a testee claims to be able to do.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Capabilities {
+    /// Ops.
+    pub ops: Vec<String>,
+    /// Streams by name.
+    pub streams: Vec<String>,
+    /// Editions, such as `en-1.05`.
+    #[serde(default)]
+    pub editions: Vec<String>,
+}
+
+impl Capabilities {
+    /// Whether it claims this op of this stream.
+    pub fn claim(&self, op: &str, stream: &str) -> bool {
+        let is_text = matches!(op, "packets" | "check");
+        self.ops.iter().any(|one| one == op)
+            && (is_text || self.streams.iter().any(|one| one == stream))
+    }
+}
+
+/// The answer to a case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Answer {
+    /// It was done.
+    Ok(Output),
+    /// It cannot be.
+    Reject(Rejection),
+    /// The testee does not do this.
+    Unsupported {
+        /// Of the question: `op`, `stream`, `edition`, `context`.
+        what: String,
+    },
+    /// Something else is wrong.
+    Error {
+        /// What.
+        message: String,
+    },
+}
+
+/// What has come of a case.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Of `decode`: the value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<Value>,
+    /// Of `encode`: the bytes.
+    #[serde(default, with = "compact::option", skip_serializing_if = "Option::is_none")]
+    pub hex: Option<Vec<u8>>,
+    /// Of `packets`: what is written one after the other.
+    #[serde(default, with = "compact::list", skip_serializing_if = "Option::is_none")]
+    pub packets: Option<Vec<Vec<u8>>>,
+}
+
+/// Why something cannot be.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Rejection {
+    /// Sort of fault.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub class: Option<String>,
+    /// Where, in bytes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<u64>,
+    /// Where, in lines from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<u64>,
+    /// Anything that helps a person.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
+}
+
+/// A line from the testee that answers a case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reply {
+    /// Number of the case; none if the line of the case could not be read.
+    pub seq: Option<u64>,
+    /// The answer.
+    #[serde(flatten)]
+    pub answer: Answer,
+}
+
+/// Bytes as hex without spaces; spaces are read.
+pub(super) mod compact {
+    pub(crate) fn show(bytes: &[u8]) -> String {
+        bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    pub(crate) fn parse(text: &str) -> Result<Vec<u8>, String> {
+        let digits: Option<Vec<u8>> = text
+            .chars()
+            .filter(|character| !character.is_ascii_whitespace())
+            .map(|character| character.to_digit(16).and_then(|digit| u8::try_from(digit).ok()))
+            .collect();
+        let digits = digits.ok_or_else(|| format!("{} is no hex", cut(text)))?;
+        let (pairs, rest) = digits.as_chunks::<2>();
+        match rest.is_empty() {
+            true => Ok(pairs.iter().map(|&[high, low]| high << 4 | low).collect()),
+            false => Err(format!("{} has an odd number of digits", cut(text))),
+        }
+    }
+
+    fn cut(text: &str) -> String {
+        let mut shown: String = text.chars().take(40).collect();
+        if shown.len() < text.len() {
+            shown.push('…');
+        }
+        format!("{shown:?}")
+    }
+
+    pub(crate) mod option {
+        use serde::{Deserialize, Deserializer, Serializer, de::Error as _};
+
+        pub(crate) fn serialize<S: Serializer>(
+            bytes: &Option<Vec<u8>>,
+            to: S,
+        ) -> Result<S::Ok, S::Error> {
+            match bytes {
+                Some(bytes) => to.serialize_str(&super::show(bytes)),
+                None => to.serialize_none(),
+            }
+        }
+
+        pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
+            from: D,
+        ) -> Result<Option<Vec<u8>>, D::Error> {
+            let text = Option::<String>::deserialize(from)?;
+            text.map(|text| super::parse(&text).map_err(D::Error::custom)).transpose()
+        }
+    }
+
+    pub(crate) mod list {
+        use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
+
+        pub(crate) fn serialize<S: Serializer>(
+            list: &Option<Vec<Vec<u8>>>,
+            to: S,
+        ) -> Result<S::Ok, S::Error> {
+            let list = list.as_ref().map(|list| {
+                list.iter().map(|bytes| super::show(bytes)).collect::<Vec<String>>()
+            });
+            list.serialize(to)
+        }
+
+        pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
+            from: D,
+        ) -> Result<Option<Vec<Vec<u8>>>, D::Error> {
+            let list = Option::<Vec<String>>::deserialize(from)?;
+            let parse = |list: Vec<String>| {
+                list.iter().map(|text| super::parse(text)).collect::<Result<_, _>>()
+            };
+            list.map(|list| parse(list).map_err(D::Error::custom)).transpose()
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! Codecs of others: a command that is asked over stdin and stdout, one line of JSON at a time.
+//!
+//! The protocol is described in `adapters/README.md`. [`Own`] answers it with this project's codec;
+//! [`Process`] is whoever else does. [`judge`] asks either everything the golden vectors have.
+
+mod assumed;
+mod compare;
+mod judge;
+mod message;
+mod own;
+mod plan;
+mod process;
+
+use std::time::Duration;
+
+pub use judge::{Judged, TESTEE, Terms, judge};
+pub use message::{
+    Answer, Capabilities, Command, Hello, Identity, Known, LINE_MAX, Output, PROTOCOL, Question,
+    Rejection, Reply,
+};
+pub use own::Own;
+pub use process::Process;
+
+/// Who is judged by the golden vectors.
+pub trait Testee {
+    /// Starts it and asks what it can do.
+    ///
+    /// # Errors
+    /// Whatever it did instead of saying so.
+    fn hello(&mut self) -> Result<Hello, Reaction>;
+
+    /// Asks it something; one that has ended before is started anew.
+    fn ask(&mut self, question: &Question) -> Reaction;
+
+    /// Lets it end.
+    ///
+    /// # Errors
+    /// How it ended otherwise than it should.
+    fn bye(&mut self) -> Result<(), String>;
+
+    /// What it had to say beside its answers.
+    fn stderr(&self) -> String {
+        String::new()
+    }
+}
+
+/// What a testee does when it is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reaction {
+    /// It answers.
+    Answer(Answer),
+    /// It answers something that is no answer.
+    Garbled(String),
+    /// It ends.
+    Crashed(String),
+    /// It says nothing for so long.
+    Silent(Duration),
+    /// It could not be asked.
+    Broken(String),
+}
+
+impl Testee for Own {
+    fn hello(&mut self) -> Result<Hello, Reaction> {
+        Ok(Own::hello(self))
+    }
+
+    fn ask(&mut self, question: &Question) -> Reaction {
+        Reaction::Answer(self.answer(question))
+    }
+
+    fn bye(&mut self) -> Result<(), String> {
+        Ok(())
+    }
+}

@@ -1,0 +1,154 @@
+//! This project's codec as a testee.
+
+use ads_cnc::limits::STREAM_PACKET_MAX;
+use ads_cnc::streaming::{Checker, Found, LineErrorKind, NcText};
+use ads_cnc_vectors::vectors;
+
+use super::message::{
+    Answer, Capabilities, Hello, Identity, Output, PROTOCOL, Question, Rejection,
+};
+use crate::codec::{self, Refused};
+use crate::defect::Defect;
+
+/// The codec's answers, with a defect if that is asked for.
+#[derive(Clone, Debug, Default)]
+pub struct Own {
+    /// Changes bytes before they are decoded and after they are encoded.
+    pub defect: Option<Defect>,
+}
+
+impl Own {
+    /// What it says of itself: it does whatever the vectors have.
+    pub fn hello(&self) -> Hello {
+        let mut streams: Vec<String> = vectors().iter().map(|one| one.stream.clone()).collect();
+        streams.sort();
+        streams.dedup();
+        let name = match &self.defect {
+            None => "ads-cnc".to_owned(),
+            Some(defect) => format!("ads-cnc with the defect {}", defect.id),
+        };
+        Hello {
+            protocol: PROTOCOL,
+            testee: Identity {
+                name,
+                version: env!("CARGO_PKG_VERSION").to_owned(),
+                language: "Rust".to_owned(),
+            },
+            capabilities: Capabilities {
+                ops: ["decode", "encode", "packets", "check"].map(str::to_owned).to_vec(),
+                streams,
+                editions: ["en-1.05", "de-1.051"].map(str::to_owned).to_vec(),
+            },
+        }
+    }
+
+    /// Answers a question.
+    pub fn answer(&self, question: &Question) -> Answer {
+        match self.try_answer(question) {
+            Ok(output) => Answer::Ok(output),
+            Err(answer) => answer,
+        }
+    }
+
+    fn try_answer(&self, question: &Question) -> Result<Output, Answer> {
+        let Question { op, stream, hex, value, packets, .. } = question;
+        let lacks = |what: &str| Answer::Error { message: format!("a {op} without {what}") };
+        let context = question.context.context().ok_or_else(|| unsupported("context"))?;
+        match op.as_str() {
+            "decode" => {
+                let bytes = hex.as_deref().ok_or_else(|| lacks("hex"))?;
+                let changed = self.changed(stream, bytes);
+                let decoded = codec::decode_stream(stream, &context, &changed).map_err(refusal)?;
+                let error = |error| Answer::Error { message: format!("{error}") };
+                let value = serde_json::to_value(decoded.fields).map_err(error)?;
+                Ok(Output { value: Some(value), ..Output::default() })
+            }
+            "encode" => {
+                let fields = value.as_ref().ok_or_else(|| lacks("value"))?;
+                let bytes = codec::encode(stream, &context, fields).map_err(refusal)?;
+                Ok(Output { hex: Some(self.changed(stream, &bytes)), ..Output::default() })
+            }
+            "packets" => split(hex.as_deref().ok_or_else(|| lacks("hex"))?),
+            "check" => check(packets.as_deref().ok_or_else(|| lacks("packets"))?),
+            _ => Err(unsupported("op")),
+        }
+    }
+
+    fn changed(&self, stream: &str, bytes: &[u8]) -> Vec<u8> {
+        let stream = ads_cnc::layout::Stream::by_name(stream);
+        let touches = |defect: &&Defect| stream.is_some_and(|stream| defect.touches(stream));
+        match self.defect.as_ref().filter(touches) {
+            None => bytes.to_vec(),
+            Some(defect) => defect.apply(bytes),
+        }
+    }
+}
+
+fn unsupported(what: &str) -> Answer {
+    Answer::Unsupported { what: what.to_owned() }
+}
+
+fn refusal(refused: Refused) -> Answer {
+    match refused {
+        Refused::Error(error) => Answer::Reject(Rejection {
+            class: Some(codec::class(&error).to_owned()),
+            at: Some(error.offset().into()),
+            message: Some(error.to_string()),
+            ..Rejection::default()
+        }),
+        Refused::Unfit(why) => {
+            Answer::Reject(Rejection { message: Some(why), ..Rejection::default() })
+        }
+        Refused::Unsupported(what) => match what.starts_with("stream ") {
+            true => unsupported("stream"),
+            false => unsupported("context"),
+        },
+    }
+}
+
+/// NC text as it is written to a CNC.
+fn split(text: &[u8]) -> Result<Output, Answer> {
+    let text = NcText::new(text).map_err(|error| {
+        let class = match error.kind() {
+            LineErrorKind::TooLong { .. } => "too-long",
+            LineErrorKind::NotAscii { .. } => "not-ascii",
+            LineErrorKind::Nul => "nul",
+            _ => "other",
+        };
+        Answer::Reject(Rejection {
+            class: Some(class.to_owned()),
+            line: Some(error.line().into()),
+            message: Some(error.to_string()),
+            ..Rejection::default()
+        })
+    })?;
+    let mut packets = text.packets();
+    let mut buf = [0; STREAM_PACKET_MAX];
+    let mut all = Vec::new();
+    while let Some(packet) = packets.next_into(&mut buf) {
+        all.push(packet.to_vec());
+    }
+    Ok(Output { packets: Some(all), ..Output::default() })
+}
+
+/// What streaming does not permit, packet after packet as a CNC would see it.
+fn check(packets: &[Vec<u8>]) -> Result<Output, Answer> {
+    let mut checker = Checker::new();
+    let mut found = None;
+    for packet in packets {
+        for one in checker.check(packet) {
+            if let (None, Found::Finding(finding)) = (&found, one) {
+                found = Some(finding);
+            }
+        }
+    }
+    match found.or_else(|| checker.open_comment()) {
+        None => Ok(Output::default()),
+        Some(finding) => Err(Answer::Reject(Rejection {
+            class: Some(finding.kind.clause().to_owned()),
+            line: Some(finding.line.into()),
+            ..Rejection::default()
+        })),
+    }
+}
+
