@@ -47,6 +47,7 @@ pub mod client;
 pub mod cnc;
 pub mod codec;
 pub mod defect;
+mod duration;
 pub mod exchange;
 pub mod explain;
 pub mod gate;

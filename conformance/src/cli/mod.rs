@@ -2,7 +2,6 @@
 
 mod browse;
 mod completions;
-mod duration;
 mod explain;
 mod get;
 mod interrupt;

@@ -4,7 +4,7 @@ use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 use ads_cnc::{CncString, service};
 
 use super::Cnc;
-use super::model::{Parameter, parameter_kind};
+use super::model::{Parameter, Times, parameter_kind};
 use super::program::{Program, ProgramConfig, Script};
 use super::state::ChannelState;
 
@@ -82,12 +82,9 @@ impl Cnc {
                 return Err(wrong());
             }
             let value = DynamicValue::from(value);
-            new.push(Parameter { kind, name: text, value, needs: None });
+            new.push(Parameter { kind, name: text, value, needs: None, times: Times::default() });
         }
-        self.of_channel(channel, |channel| {
-            channel.parameters.retain(|one| one.kind != kind);
-            channel.parameters.append(&mut new);
-        })
+        self.of_channel(channel, |channel| channel.parameters.replace(kind, new))
     }
 
     /// The Service Interface of a channel, as the NC program has it. It is locked meanwhile: no

@@ -24,9 +24,11 @@
 //! ```
 
 mod answer;
+mod clock;
 mod content;
 mod control;
 mod model;
+mod parameters;
 pub mod program;
 mod respond;
 mod server;

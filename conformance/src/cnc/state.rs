@@ -8,7 +8,8 @@ use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::service;
 
 use super::content::Owner;
-use super::model::{AxisModel, ChannelModel, Item, Model, Parameter, Variables, class_place};
+use super::model::{AxisModel, ChannelModel, Item, Model, Variables, class_place};
+use super::parameters::{ParameterState, Parameters};
 use super::program::{Program, ProgramConfig, Script, Start};
 
 /// Contents, in the order of what they belong to.
@@ -33,7 +34,7 @@ pub(super) struct ChannelState {
     objects: Values,
     variables: Values,
     elements: [Values; 6],
-    pub(super) parameters: Vec<Parameter>,
+    pub(super) parameters: Parameters,
     pub(super) service: service::Interface,
     /// Its streaming program, with what is in the interface.
     pub(super) program: Program,
@@ -73,7 +74,7 @@ impl State {
                     .map(|class| items(&class.channel.items, place))
                     .unwrap_or_default()
             }),
-            parameters: channel.parameters.clone(),
+            parameters: Parameters::new(&channel.parameters),
             service: service::Interface::new(),
             // Nobody can start one over ADS.
             program: Program::new(ProgramConfig { start: Start::Again, ..Default::default() }),
@@ -98,9 +99,10 @@ impl State {
         }
     }
 
-    /// Lets the programs of all channels make up for the time that has passed.
+    /// Lets the parameters and programs of all channels make up for the time that has passed.
     pub(super) fn advance(&mut self, now: Duration) {
         for channel in &mut self.channels {
+            channel.parameters.advance(now);
             channel.program.advance(now);
             if let Some(script) = &mut channel.script {
                 script.advance(now, &mut channel.service);
@@ -215,10 +217,10 @@ impl State {
         &self,
         channel: usize,
         kind: DynamicKind,
-    ) -> impl Iterator<Item = &Parameter> {
+    ) -> impl Iterator<Item = &ParameterState> {
         let channel = self.channels.get(channel);
         let parameters = channel.into_iter().flat_map(ChannelState::present);
-        parameters.filter(move |parameter| parameter.kind == kind)
+        parameters.filter(move |parameter| parameter.is.kind == kind)
     }
 
     /// Puts the axis with this logical number at a place of a channel: where it was, none is now;
@@ -262,11 +264,12 @@ impl State {
 }
 
 impl ChannelState {
-    fn present(&self) -> impl Iterator<Item = &Parameter> {
+    fn present(&self) -> impl Iterator<Item = &ParameterState> {
         let is_zero = |object: usize| {
             let content = self.objects.get(object);
             content.is_none_or(|content| content.iter().all(|&byte| byte == 0))
         };
-        self.parameters.iter().filter(move |parameter| !parameter.needs.is_some_and(is_zero))
+        let parameters = self.parameters.at_their_time();
+        parameters.filter(move |parameter| !parameter.is.needs.is_some_and(is_zero))
     }
 }

@@ -13,10 +13,10 @@ use ads_cnc::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable};
 use clap::Args;
 
 use super::complain;
-use super::duration::some_time;
 use super::interrupt::Interrupt;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
 use crate::cnc::program::{Repeat, Script, ScriptConfig};
+use crate::duration::some_time;
 use crate::gate::Entry;
 use crate::session::{Session, Trouble};
 use crate::verdict::Exit;

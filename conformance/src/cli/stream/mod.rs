@@ -15,9 +15,9 @@ use ads_cnc::streaming::{NcText, Sender};
 use clap::Args;
 
 use super::complain;
-use super::duration::duration;
 use super::interrupt::Interrupt;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
+use crate::duration::duration;
 use crate::gate::Entry;
 use crate::session::{Session, Trouble};
 use crate::verdict::Exit;

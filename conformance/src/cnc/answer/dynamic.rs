@@ -8,7 +8,7 @@ use ads_cnc::operation::{
 };
 
 use super::{Answer, Running, encode};
-use crate::cnc::model::Parameter;
+use crate::cnc::parameters::ParameterState;
 use crate::cnc::{to_len, to_u32};
 
 impl Running<'_> {
@@ -20,7 +20,7 @@ impl Running<'_> {
     pub(super) fn dynamic_name(&self, op: &DynamicNameByIndex) -> Answer {
         let channel = self.channel(op.channel)?;
         let parameter = self.parameter(channel, op.kind, op.index)?;
-        encode(DynamicNameRef { name: TextRef::from(parameter.name.as_cnc_str()) })
+        encode(DynamicNameRef { name: TextRef::from(parameter.name()) })
     }
 
     pub(super) fn dynamic_by_index(&self, op: &DynamicValueByIndex) -> Answer {
@@ -31,7 +31,7 @@ impl Running<'_> {
     pub(super) fn dynamic_by_name(&self, op: &DynamicValueByName<'_>) -> Answer {
         let channel = self.channel(op.channel)?;
         let mut parameters = self.state.parameters(channel, op.kind);
-        let found = parameters.find(|one| one.name.as_cnc_str() == op.name.text());
+        let found = parameters.find(|one| one.name() == op.name.text());
         encode(found.ok_or(AdsError::SYMBOL_NOT_FOUND)?.value)
     }
 
@@ -40,7 +40,7 @@ impl Running<'_> {
         channel: usize,
         kind: DynamicKind,
         index: u32,
-    ) -> Result<&Parameter, AdsError> {
+    ) -> Result<&ParameterState, AdsError> {
         let before = to_len(index).checked_sub(1).ok_or(AdsError::INVALID_DATA)?;
         self.state.parameters(channel, kind).nth(before).ok_or(AdsError::INVALID_DATA)
     }

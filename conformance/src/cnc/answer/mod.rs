@@ -6,7 +6,7 @@ mod objects;
 mod variables;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::ads::AdsError;
@@ -14,6 +14,7 @@ use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Reply, Request, WriteProgramStream};
 use ads_cnc::{Encode, NoData};
 
+use super::clock::Clock;
 use super::state::State;
 use super::{Model, ModelError, program, to_u32};
 use crate::defect::Defect;
@@ -23,8 +24,7 @@ use crate::defect::Defect;
 pub struct Cnc {
     model: Model,
     state: Mutex<State>,
-    /// When it was switched on.
-    since: Instant,
+    clock: Clock,
     defect: Option<Defect>,
 }
 
@@ -35,7 +35,7 @@ impl Cnc {
     /// A CNC with this data model, in the state it starts in.
     pub fn new(model: Model) -> Self {
         let state = Mutex::new(State::new(&model));
-        Self { model, state, since: Instant::now(), defect: None }
+        Self { model, state, clock: Clock::running(), defect: None }
     }
 
     /// The CNC that answers what the manuals print: see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
@@ -54,6 +54,47 @@ impl Cnc {
         self
     }
 
+    /// With a clock that stands: time passes by [`pass`](Self::pass) only. What happens in time,
+    /// a test then has under control.
+    ///
+    /// ```
+    /// use std::time::Duration;
+    ///
+    /// use ads_cnc::address::{IndexGroup, IndexOffset};
+    /// use ads_cnc::ads::AmsPort;
+    /// use ads_cnc::operation::{Call, Service};
+    /// use ads_cnc_conformance::cnc::{Cnc, Model};
+    ///
+    /// let model = r#"
+    /// [[channel]]
+    /// number = 1
+    /// parameters = [{ name = "V.L.feed", comes = "2s", goes = "5s" }]
+    /// "#;
+    /// let cnc = Cnc::new(Model::from_toml(model, "an example")?).with_standing_clock();
+    /// let count = Call {
+    ///     port: AmsPort::SDA,
+    ///     service: Service::Read,
+    ///     index_group: IndexGroup::new(0x12_2301),
+    ///     index_offset: IndexOffset::new(0x03),
+    ///     read_length: 4,
+    ///     data: &[],
+    /// };
+    /// assert_eq!(cnc.answer(&count), Ok(vec![0; 4]));
+    /// cnc.pass(Duration::from_secs(2));
+    /// assert_eq!(cnc.answer(&count), Ok(vec![1, 0, 0, 0]));
+    /// # Ok::<(), ads_cnc_conformance::cnc::ModelError>(())
+    /// ```
+    #[must_use]
+    pub fn with_standing_clock(mut self) -> Self {
+        self.clock = Clock::standing();
+        self
+    }
+
+    /// Lets time pass: parameters come and go, programs run on.
+    pub fn pass(&self, time: Duration) {
+        self.clock.pass(time);
+    }
+
     /// Its data model.
     pub const fn model(&self) -> &Model {
         &self.model
@@ -69,7 +110,7 @@ impl Cnc {
 
     /// Time since it was switched on.
     pub(super) fn now(&self) -> Duration {
-        self.since.elapsed()
+        self.clock.now()
     }
 
     /// The data to answer with.

@@ -128,7 +128,7 @@ impl Running<'_> {
             (Named::Variable(at), indices) => self.read(channel, at, &indices),
             (Named::Parameter, _) => {
                 let (kind, name) = parameter(op.name.text())?;
-                let found = self.state.parameters(channel, kind).find(|one| one.name == name);
+                let found = self.state.parameters(channel, kind).find(|one| one.is.name == name);
                 encode(found.ok_or(UNKNOWN)?.value)
             }
         }
@@ -141,11 +141,9 @@ impl Running<'_> {
             (Named::Parameter, _) => {
                 let (_, name) = parameter(op.name)?;
                 let value = op.value.try_into().map_err(|_| AdsError::INVALID_SIZE)?;
-                let parameters =
-                    self.state.channels.get_mut(channel).map(|one| &mut one.parameters);
-                let found = parameters.into_iter().flatten().find(|one| one.name == name);
-                let bits = u64::from_le_bytes(value);
-                found.ok_or(UNKNOWN)?.value = DynamicValue::from_bits(bits);
+                let channel = self.state.channels.get_mut(channel);
+                let found = channel.and_then(|one| one.parameters.value_mut(&name));
+                *found.ok_or(UNKNOWN)? = DynamicValue::from_bits(u64::from_le_bytes(value));
                 Ok(Vec::new())
             }
         }
@@ -236,7 +234,7 @@ impl Running<'_> {
             return Ok((Named::Variable(at), indices));
         }
         let (kind, name) = parameter(name)?;
-        let found = self.state.parameters(channel, kind).any(|one| one.name == name);
+        let found = self.state.parameters(channel, kind).any(|one| one.is.name == name);
         if found { Ok((Named::Parameter, Vec::new())) } else { Err(UNKNOWN) }
     }
 

@@ -162,4 +162,7 @@ pub(super) struct ParameterRow {
     #[serde(default)]
     pub(super) value: f64,
     pub(super) r#while: Option<Spanned<String>>,
+    pub(super) comes: Option<Spanned<String>>,
+    pub(super) goes: Option<Spanned<String>>,
+    pub(super) period: Option<Spanned<String>>,
 }

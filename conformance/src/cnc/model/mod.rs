@@ -7,6 +7,7 @@ mod build;
 mod document;
 mod error;
 mod item;
+mod parameter;
 mod types;
 mod variable;
 
@@ -14,12 +15,12 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use ads_cnc::address::Class;
-use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 use ads_cnc::edition::{CncVersion, Edition};
 use ads_cnc::{CncString, Descriptors};
 
 pub use error::ModelError;
 pub(super) use item::{ClassModel, Item, Meaning, Objects};
+pub(super) use parameter::{Parameter, Times};
 pub(super) use variable::{At, Variable, Variables, handle_at};
 
 pub(super) use build::{edition, parameter_kind};
@@ -79,16 +80,6 @@ pub(super) struct AxisModel {
     pub(super) name: CncString,
     /// Logical axis number, not 0.
     pub(super) number: u32,
-}
-
-/// A dynamic parameter (DYN).
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Parameter {
-    pub(super) kind: DynamicKind,
-    pub(super) name: CncString,
-    pub(super) value: DynamicValue,
-    /// It is there while the content of this object of the channel is not 0.
-    pub(super) needs: Option<usize>,
 }
 
 /// What overrides the settings of a file.

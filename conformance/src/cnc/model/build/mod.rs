@@ -7,6 +7,7 @@ mod parameters;
 mod variables;
 
 use std::collections::BTreeSet;
+use std::time::Duration;
 
 use ads_cnc::CncString;
 use ads_cnc::edition::{CncVersion, Edition};
@@ -18,6 +19,7 @@ use super::document::{AxisTable, Document};
 use super::error::Source;
 use super::{AxisModel, Model, ModelError, Settings};
 use crate::cnc::to_len;
+use crate::duration::duration;
 
 /// Platform axes, spindles and places of a channel: what index groups and handles have room for.
 const INSTANCES_MAX: usize = 255;
@@ -120,6 +122,11 @@ fn axes(source: Source<'_>, tables: &[AxisTable]) -> Result<Vec<AxisModel>, Mode
 /// CP1252.
 fn text(source: Source<'_>, text: &Spanned<String>) -> Result<CncString, ModelError> {
     text.get_ref().parse().map_err(|error| source.error(&text.span(), error))
+}
+
+/// A number and its unit.
+fn time(source: Source<'_>, said: &Spanned<String>) -> Result<Duration, ModelError> {
+    duration(said.get_ref()).map_err(|why| source.error(&said.span(), why))
 }
 
 /// Whether it encodes, whatever it is.

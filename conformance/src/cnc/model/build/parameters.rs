@@ -5,11 +5,12 @@ use std::collections::BTreeSet;
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::{CncString, VariablePath};
+use toml::Spanned;
 
 use super::super::document::ParameterRow;
 use super::super::error::Source;
 use super::super::item::Objects;
-use super::super::{ModelError, Parameter};
+use super::super::{ModelError, Parameter, Times};
 
 /// The parameters of a channel that has these objects.
 pub(super) fn of_channel(
@@ -34,9 +35,22 @@ pub(super) fn of_channel(
             return Err(source.error(&span, format!("{name} is there twice")));
         }
         let (value, needs) = (DynamicValue::from(row.value), needs.transpose()?);
-        parameters.push(Parameter { kind, name, value, needs });
+        let times = times(source, row)?;
+        parameters.push(Parameter { kind, name, value, needs, times });
     }
     Ok(parameters)
+}
+
+fn times(source: Source<'_>, row: &ParameterRow) -> Result<Times, ModelError> {
+    let time = |said: &Option<Spanned<String>>| {
+        said.as_ref().map(|said| super::time(source, said)).transpose()
+    };
+    let (comes, goes, period) = (time(&row.comes)?, time(&row.goes)?, time(&row.period)?);
+    let times = Times::new(comes.unwrap_or_default(), goes, period);
+    times.map_err(|why| {
+        let last = row.period.as_ref().or(row.goes.as_ref()).or(row.comes.as_ref());
+        source.error(&last.map_or_else(|| row.name.span(), Spanned::span), why)
+    })
 }
 
 /// The kind of parameter that has this name.

@@ -1,9 +1,9 @@
-//! Times on the command line: a number and its unit.
+//! Times on the command line and in models: a number and its unit.
 
 use std::time::Duration;
 
 /// A time as people write it: `500ms`, `2s`, `1.5min`.
-pub(super) fn duration(text: &str) -> Result<Duration, String> {
+pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     let odd = || "a number and its unit are needed, ms, s or min: 500ms".to_owned();
     let end = text.find(|byte: char| !byte.is_ascii_digit() && byte != '.').ok_or_else(odd)?;
     let (number, unit) = text.split_at_checked(end).ok_or_else(odd)?;
@@ -19,7 +19,7 @@ pub(super) fn duration(text: &str) -> Result<Duration, String> {
 }
 
 /// As [`duration`], but some time at least.
-pub(super) fn some_time(text: &str) -> Result<Duration, String> {
+pub(crate) fn some_time(text: &str) -> Result<Duration, String> {
     match duration(text)? {
         none if none < Duration::from_millis(1) => Err("at least 1ms is needed".to_owned()),
         time => Ok(time),
