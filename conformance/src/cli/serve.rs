@@ -26,10 +26,12 @@ It speaks AMS/TCP, as a device does, and answers at the AMS ports 551 (GEO), 552
 
 There are at most 64 connections. Each holds at most 192 KiB of requests and answers, one answer in
 the making of at most 64 KiB, and a thread's stack of 1 MiB. A frame that is longer than 64 KiB or
-does not hold together ends its own connection, as the log says.";
+does not hold together ends its own connection, as the log says. So does a new connection without
+a whole request for 10 s, and one that leaves a frame unfinished for 10 s.";
 
 /// So the help says.
 const _: () = assert!(CONNECTIONS_MAX == 64 && CONNECTION_BYTES_MAX <= 192 * 1024);
+const _: () = assert!(ServerOptions::FRAME.as_secs() == 10);
 
 /// Options of `serve`.
 #[derive(Debug, clap::Args)]
@@ -47,7 +49,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "ID", default_value_t = NET_ID)]
     net_id: AmsNetId,
 
-    /// Seconds after which a connection without a request ends; 0 for never.
+    /// Seconds after which a connection without another request ends; 0 for never.
     #[arg(long, value_name = "SECONDS", default_value_t = ServerOptions::IDLE.as_secs())]
     idle: u64,
 
@@ -126,7 +128,7 @@ impl Args {
             0 => None,
             seconds => Some(Duration::from_secs(seconds)),
         };
-        ServerOptions { net_id: self.net_id, idle }
+        ServerOptions { net_id: self.net_id, idle, frame: Some(ServerOptions::FRAME) }
     }
 
     fn check_address(&self) -> Result<(), String> {

@@ -34,16 +34,23 @@ pub struct ServerOptions {
     /// How long a connection may be without a whole request before it is ended; for ever if none.
     /// Clients that are gone without a word would take the places of others.
     pub idle: Option<Duration>,
+    /// How long a new connection may be without its first whole request, and any connection with a
+    /// part of one; for ever if none. Whoever is there for something has said so by then, and
+    /// whoever opens connections only, or leaves requests half sent, locks nobody out for long.
+    pub frame: Option<Duration>,
 }
 
 impl ServerOptions {
     /// Ten minutes without a request: people who wait for the next have come back by then.
     pub const IDLE: Duration = Duration::from_secs(600);
+
+    /// Ten seconds for a frame, and for the first: a frame is one write of its client.
+    pub const FRAME: Duration = Duration::from_secs(10);
 }
 
 impl Default for ServerOptions {
     fn default() -> Self {
-        Self { net_id: NET_ID, idle: Some(Self::IDLE) }
+        Self { net_id: NET_ID, idle: Some(Self::IDLE), frame: Some(Self::FRAME) }
     }
 }
 
@@ -159,9 +166,7 @@ impl Shared {
     ) -> io::Result<JoinHandle<()>> {
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(WRITE_TIMEOUT))?;
-        let ServerOptions { net_id, idle } = self.options;
-        // No time at all cannot be set; the shortest can.
-        stream.set_read_timeout(idle.map(|idle| idle.max(Duration::from_millis(1))))?;
+        let options = self.options;
         let mut connections = self.connections();
         if connections.len() >= CONNECTIONS_MAX {
             return Err(io::Error::other("there are as many as there may be"));
@@ -173,7 +178,7 @@ impl Shared {
         let thread = thread::Builder::new().name(format!("cnc-{id}")).stack_size(STACK);
         thread.spawn(move || {
             tracing::info!(%peer, "connected");
-            match connection::serve(&open.shared.cnc, net_id, &stream, idle) {
+            match connection::serve(&open.shared.cnc, &options, &stream) {
                 Ok(()) => tracing::info!(%peer, "closed"),
                 Err(error) => tracing::warn!(%peer, "connection ended: {error}"),
             }

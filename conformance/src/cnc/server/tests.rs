@@ -252,6 +252,62 @@ fn a_byte_now_and_then_is_no_request() {
     }
 }
 
+fn hasty(millis: u64) -> ServerOptions {
+    ServerOptions { frame: Some(Duration::from_millis(millis)), ..ServerOptions::default() }
+}
+
+/// The other limit is ten minutes: the test would fail on its own, after five seconds.
+#[test]
+fn connections_without_a_first_request_lock_nobody_out() {
+    let server = serving(hasty(500));
+    let mut open: Vec<_> = (0..CONNECTIONS_MAX).map(|_| client(&server)).collect();
+    for (count, stream) in open.iter_mut().enumerate() {
+        let _gone = stream.write_all(&COUNT[..count % COUNT.len()]);
+    }
+    open.iter().for_each(ends);
+    works(&client(&server));
+}
+
+#[test]
+fn a_frame_without_its_end_ends_its_connection() {
+    let server = serving(hasty(1000));
+    let mut half = client(&server);
+    works(&half);
+    // The next may take its time to begin, but not to end.
+    thread::sleep(Duration::from_millis(1200));
+    half.write_all(&COUNT[..50]).unwrap();
+    // A part that comes along with a whole frame is one too.
+    let mut behind = client(&server);
+    behind.write_all(&[COUNT, &COUNT[..1]].concat()).unwrap();
+    expect(&behind, ANSWER);
+    ends(&half);
+    ends(&behind);
+}
+
+/// Each byte gives no more time: the limit is for all of the frame.
+#[test]
+fn a_frame_in_drops_ends_its_connection() {
+    let server = serving(hasty(1000));
+    let (mut slow, begun) = (client(&server), Instant::now());
+    works(&slow);
+    let gone = COUNT.iter().any(|byte| {
+        thread::sleep(Duration::from_millis(40));
+        slow.write_all(&[*byte]).is_err() || begun.elapsed() > Duration::from_millis(3000)
+    });
+    assert!(gone);
+    ends(&slow);
+}
+
+/// Once it has asked, a connection may be silent for as long as it may be idle.
+#[test]
+fn who_has_asked_may_be_silent() {
+    let server = serving(hasty(1000));
+    let stream = client(&server);
+    works(&stream);
+    thread::sleep(Duration::from_millis(1200));
+    works(&stream);
+}
+
 #[test]
 fn many_clients_are_served_at_once() {
     let server = server();
