@@ -11,7 +11,7 @@ use ads_cnc::ads::AmsNetId;
 use super::interrupt::Interrupt;
 use super::model::ModelArgs;
 use super::{complain, find_defect, refuse};
-use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start};
+use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
 use crate::cnc::{
     CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
 };
@@ -60,11 +60,13 @@ pub(super) struct Args {
     #[arg(long)]
     print_model: bool,
 
-    /// How fast streamed NC lines are run: so many lines a second, or `fast`.
-    #[arg(long, value_name = "LINES", default_value = "1000", value_parser = pace)]
-    pace: Pace,
+    /// How fast streamed NC lines are run in all channels, whatever the model says: so many lines a
+    /// second (1000 in the default model), `4000 bytes/s`, `fast` or `hold`.
+    #[arg(long, value_name = "PACE")]
+    pace: Option<Pace>,
 
-    /// Let an NC program of channel 1 ask the manual's service for square roots, again and again.
+    /// Let an NC program of channel 1 ask the manual's service for square roots, again and again,
+    /// instead of what the model has it ask.
     #[arg(long)]
     ask_square_roots: bool,
 
@@ -167,19 +169,13 @@ fn start(
     server.map_err(|error| format!("cannot serve on {addr}: {error}"))
 }
 
-fn pace(text: &str) -> Result<Pace, String> {
-    let lines = match text {
-        "fast" => return Ok(Pace::Fast),
-        lines => lines.parse().ok().and_then(Pace::lines_per_second),
-    };
-    lines.ok_or_else(|| "a number of lines from 1 on, or `fast`".to_owned())
-}
-
-/// The NC programs of the channels.
+/// What the options say of the NC programs of the channels.
 fn programs(cnc: &Cnc, args: &Args) -> Result<(), Box<dyn std::error::Error>> {
-    for channel in cnc.model().channels() {
-        let (pace, start) = (args.pace, Start::Again);
-        cnc.set_program(channel, ProgramConfig { pace, start, ..ProgramConfig::default() })?;
+    if let Some(pace) = args.pace {
+        for channel in cnc.model().channels() {
+            let of_model = cnc.model().program(channel).cloned().unwrap_or_default();
+            cnc.set_program(channel, ProgramConfig { pace, ..of_model })?;
+        }
     }
     if args.ask_square_roots {
         let script = ScriptConfig { repeat: Repeat::Endless, ..ScriptConfig::square_root()? };

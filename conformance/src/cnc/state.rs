@@ -10,7 +10,7 @@ use ads_cnc::service;
 use super::content::Owner;
 use super::model::{AxisModel, ChannelModel, Item, Model, Variables, class_place};
 use super::parameters::{ParameterState, Parameters};
-use super::program::{Program, ProgramConfig, Script, Start};
+use super::program::{Program, Script};
 
 /// Contents, in the order of what they belong to.
 pub(super) type Values = Vec<Vec<u8>>;
@@ -76,9 +76,9 @@ impl State {
             }),
             parameters: Parameters::new(&channel.parameters),
             service: service::Interface::new(),
-            // Nobody can start one over ADS.
-            program: Program::new(ProgramConfig { start: Start::Again, ..Default::default() }),
-            script: None,
+            program: Program::new(channel.program.clone()),
+            // The model was checked: it is one.
+            script: channel.script.clone().and_then(|script| Script::new(script).ok()),
         };
         let axis = |(place, _): (usize, &AxisModel)| AxisState {
             objects: items(&model.platform_axis.items, place),

@@ -1,12 +1,8 @@
 //! Dynamic parameters.
 
-use std::time::Duration;
+use ads_cnc_conformance::cnc::DEFAULT_MODEL;
 
-use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::ads::AmsPort;
-use ads_cnc::operation::{Call, Service};
-use ads_cnc_conformance::cnc::{self, DEFAULT_MODEL, Model};
-
+use super::timed::Timed;
 use super::{CHANNEL_1, Cnc};
 
 /// Count, name by index, value by name, value by index of each kind.
@@ -87,40 +83,16 @@ fn parameters_come_and_go() {
     assert_eq!(sda.ask(CHANNEL_1, 0x20, &[2, 0, 0, 0]), Err(0x706));
 }
 
-/// A CNC whose time passes when a test lets it.
-struct Timed(cnc::Cnc);
+/// A channel with these parameters.
+fn with_parameters(parameters: &str) -> Timed {
+    let edition = "edition = \"de-1.051\"\n";
+    Timed::new(&format!("{edition}[[channel]]\nnumber = 1\nparameters = [\n{parameters}\n]\n"))
+}
 
 impl Timed {
-    fn new(parameters: &str) -> Self {
-        let edition = "edition = \"de-1.051\"\n";
-        let model = format!("{edition}[[channel]]\nnumber = 1\nparameters = [\n{parameters}\n]\n");
-        let model = Model::from_toml(&model, "timed").unwrap();
-        Self(cnc::Cnc::new(model).with_standing_clock())
-    }
-
-    fn pass(&self, milliseconds: u64) {
-        self.0.pass(Duration::from_millis(milliseconds));
-    }
-
-    fn call(&self, service: Service, offset: u32, data: &[u8]) -> Result<Vec<u8>, u32> {
-        let call = Call {
-            port: AmsPort::SDA,
-            service,
-            index_group: IndexGroup::new(CHANNEL_1),
-            index_offset: IndexOffset::new(offset),
-            read_length: 2048,
-            data,
-        };
-        self.0.answer(&call).map_err(|error| error.0)
-    }
-
-    fn ask(&self, offset: u32, data: &[u8]) -> Result<Vec<u8>, u32> {
-        self.call(Service::ReadWrite, offset, data)
-    }
-
     /// The names of a kind, by their indices; as many as are counted, and no more.
     fn names(&self, kind: [u32; 4]) -> String {
-        let count = self.call(Service::Read, kind[0], &[]).unwrap();
+        let count = self.read(kind[0]).unwrap();
         let name = |index: u8| {
             let name = self.ask(kind[1], &[index, 0, 0, 0]);
             name.map(|name| String::from_utf8(name).unwrap().replace('\0', ""))
@@ -133,7 +105,7 @@ impl Timed {
 /// The indices behind one that comes or goes move; without it there is neither value nor name.
 #[test]
 fn parameters_come_and_go_in_time() {
-    let cnc = Timed::new(
+    let cnc = with_parameters(
         r#"{ name = "V.L.late", value = 1, comes = "2s" },
         { name = "V.L.early", value = 2, goes = "1500ms" },
         { name = "V.L.always", value = 3 },
@@ -166,20 +138,17 @@ fn parameters_come_and_go_in_time() {
 /// even if nobody looked while it was away.
 #[test]
 fn what_comes_again_has_the_value_of_the_start() {
-    let cnc = Timed::new(
+    let cnc = with_parameters(
         r#"{ name = "V.P.often", value = 1.5, comes = "1s", goes = "2s", period = "4s" },
         { name = "V.P.stays", value = 2.5 },"#,
     );
     let read = |name: &str| cnc.ask(0x48, format!("{name}\0").as_bytes());
-    let write = |name: &str, value: f64| {
-        let data = [name.as_bytes(), b"\0", &value.to_le_bytes()].concat();
-        cnc.call(Service::Write, 0x4A, &data)
-    };
+    let write = |name: &str, value: f64| cnc.write(name, &value.to_le_bytes());
     assert_eq!((read("V.P.often"), write("V.P.often", 9.0)), (Err(0x710), Err(0x710)));
     cnc.pass(1000);
     assert_eq!(cnc.names(VP), "V.P.often V.P.stays");
-    assert_eq!(write("V.P.often", 9.0), Ok(Vec::new()));
-    assert_eq!(write("V.P.stays", 8.0), Ok(Vec::new()));
+    assert_eq!(write("V.P.often", 9.0), Ok(()));
+    assert_eq!(write("V.P.stays", 8.0), Ok(()));
     cnc.pass(999);
     assert_eq!((read("V.P.often"), cnc.ask(VP[3], &[1, 0, 0, 0])), (real(9.0), real(9.0)));
     // A whole period later.
@@ -195,19 +164,8 @@ fn what_comes_again_has_the_value_of_the_start() {
 fn time_and_object_both_count() {
     let timed = "while = \"example_subroutine_w\", comes = \"2s\"";
     let model = DEFAULT_MODEL.replace("while = \"example_subroutine_w\"", timed);
-    let model = Model::from_toml(&model, "both").unwrap();
-    let cnc = Timed(cnc::Cnc::new(model).with_standing_clock());
-    let object = |value: u8| {
-        let call = Call {
-            port: AmsPort::COM,
-            service: Service::Write,
-            index_group: IndexGroup::new(0x12_0101),
-            index_offset: IndexOffset::new(0x1F),
-            read_length: 0,
-            data: &[value],
-        };
-        assert_eq!(cnc.0.answer(&call), Ok(Vec::new()));
-    };
+    let cnc = Timed::new(&model);
+    let object = |value: u8| assert_eq!(cnc.write_object(0x1F, &[value]), Ok(()));
     object(1);
     assert_eq!(cnc.names(VL), "V.L.depth");
     cnc.pass(2000);
@@ -222,7 +180,7 @@ fn the_commented_parameter_is_one() {
     let row = DEFAULT_MODEL.lines().find_map(|line| {
         line.strip_prefix("#   ").filter(|row| row.starts_with("{ name = \"V.L.feed\""))
     });
-    let cnc = Timed::new(row.unwrap());
+    let cnc = with_parameters(row.unwrap());
     let there = (0..20).filter(|_| {
         let there = cnc.names(VL) == "V.L.feed";
         cnc.pass(1000);

@@ -19,17 +19,17 @@ fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
 }
 
 /// A file that is gone with the test.
-struct File(PathBuf);
+pub(crate) struct File(PathBuf);
 
 impl File {
-    fn with(name: &str, text: &str) -> Self {
+    pub(crate) fn with(name: &str, text: &str) -> Self {
         let name = format!("ads-cnc-{}-{name}.toml", std::process::id());
         let path = std::env::temp_dir().join(name);
         std::fs::write(&path, text).unwrap();
         Self(path)
     }
 
-    fn path(&self) -> &str {
+    pub(crate) fn path(&self) -> &str {
         self.0.to_str().unwrap()
     }
 }
@@ -215,6 +215,12 @@ const FAULTS: &[(&str, &str, &str)] = &[
         "comes = \"1s\", goes = \"3s\", period = \"2s\" },\n  # While",
         "within its period",
     ),
+    // Streaming.
+    ("pace = \"1000 lines/s\"", "pace = 0", "from 1 on"),
+    ("pace = \"1000 lines/s\"", "pace = \"1000 blocks/s\"", "from 1 on"),
+    ("pace = \"1000 lines/s\"", "pace = 1.5", "from 1 on"),
+    ("pace = \"1000 lines/s\"", "start = \"now\"", "again, once and by-hand"),
+    ("pace = \"1000 lines/s\"", "speed = 1000", "unknown field `speed`"),
     // Elements.
     (
         "\"feedhold.enable\", type = \"BOOLEAN\"",

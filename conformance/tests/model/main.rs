@@ -10,7 +10,9 @@ mod editions;
 mod elements;
 mod files;
 mod objects;
+mod programs;
 mod service;
+mod timed;
 mod variables;
 
 use std::time::Duration;

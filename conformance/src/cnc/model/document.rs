@@ -44,6 +44,44 @@ pub(super) struct ChannelTable {
     pub(super) variables: Vec<VariableRow>,
     #[serde(default)]
     pub(super) parameters: Vec<ParameterRow>,
+    #[serde(default)]
+    pub(super) streaming: StreamingTable,
+    pub(super) service: Option<Spanned<ServiceTable>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StreamingTable {
+    pub(super) file: Option<String>,
+    pub(super) start: Option<Spanned<String>>,
+    pub(super) pace: Option<Spanned<Value>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ServiceTable {
+    pub(super) times: Option<Spanned<u32>>,
+    pub(super) pause: Option<Spanned<String>>,
+    pub(super) cycle: Option<Spanned<String>>,
+    pub(super) requests: Spanned<Vec<RequestRow>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RequestRow {
+    pub(super) uuid: Spanned<String>,
+    pub(super) request: Spanned<String>,
+    pub(super) state: Option<Spanned<u32>>,
+    pub(super) wait: Option<Spanned<WaitTable>>,
+}
+
+/// Parameters of the cycle.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "UPPERCASE")]
+pub(super) struct WaitTable {
+    pub(super) p1: Option<u32>,
+    pub(super) p2: Option<u32>,
+    pub(super) p3: Option<u32>,
 }
 
 #[derive(Debug, Default, Deserialize)]

@@ -23,6 +23,7 @@ pub(super) use item::{ClassModel, Item, Meaning, Objects};
 pub(super) use parameter::{Parameter, Times};
 pub(super) use variable::{At, Variable, Variables, handle_at};
 
+use super::program::{ProgramConfig, ScriptConfig};
 pub(super) use build::{edition, parameter_kind};
 use error::Source;
 
@@ -67,6 +68,10 @@ pub(super) struct ChannelModel {
     pub(super) global: Vec<usize>,
     pub(super) by_handle: HashMap<u32, At>,
     pub(super) parameters: Vec<Parameter>,
+    /// Its streaming program.
+    pub(super) program: ProgramConfig,
+    /// Its program that asks services, if it has one.
+    pub(super) script: Option<ScriptConfig>,
     /// Its objects and those of its places.
     pub(super) list: Descriptors,
     /// Those, and behind them the platform's (COM-4).
@@ -141,6 +146,12 @@ impl Model {
     /// Logical numbers of all channels, the inactive too.
     pub fn channels(&self) -> impl Iterator<Item = u8> {
         self.channels.iter().map(|channel| channel.number)
+    }
+
+    /// How streaming is set up in the channel with this logical number.
+    pub fn program(&self, channel: u8) -> Option<&ProgramConfig> {
+        let channel = self.channels.iter().find(|one| one.number == channel);
+        channel.map(|channel| &channel.program)
     }
 
     /// The class's elements; of which instances, the class says.

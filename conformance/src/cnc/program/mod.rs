@@ -38,7 +38,7 @@ mod stream;
 
 pub use answer::{Answer, Outcome};
 pub use executed::{Executed, digest};
-pub use pace::Pace;
+pub use pace::{Pace, ParsePaceError};
 pub use script::{Repeat, Request, Script, ScriptConfig, ScriptError, ScriptState, Wait};
 pub use state::{Message, StartError, State};
 pub use stream::{Program, ProgramConfig, Start, result};

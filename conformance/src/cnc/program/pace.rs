@@ -35,6 +35,40 @@ impl Pace {
     }
 }
 
+/// What is no [`Pace`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a number of lines a second from 1 on, `4000 bytes/s`, `fast` or `hold`")]
+pub struct ParsePaceError;
+
+/// A number of lines with or without `lines/s`, one of bytes with `bytes/s`, `fast` or `hold`.
+///
+/// ```
+/// use ads_cnc_conformance::cnc::program::Pace;
+///
+/// assert_eq!("500".parse::<Pace>()?, Pace::lines_per_second(500).unwrap());
+/// assert_eq!("4000 bytes/s".parse::<Pace>()?, Pace::bytes_per_second(4000).unwrap());
+/// assert!("0".parse::<Pace>().is_err());
+/// # Ok::<(), ads_cnc_conformance::cnc::program::ParsePaceError>(())
+/// ```
+impl std::str::FromStr for Pace {
+    type Err = ParsePaceError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let (number, unit) = text.split_once(' ').unwrap_or((text, "lines/s"));
+        // The number's own parser takes a sign too.
+        let number = Some(number).filter(|number| !number.starts_with('+'));
+        let number = number.and_then(|number| number.parse().ok());
+        let pace = match (text, unit) {
+            ("fast", _) => Some(Self::Fast),
+            ("hold", _) => Some(Self::Hold),
+            (_, "lines/s") => number.and_then(Self::lines_per_second),
+            (_, "bytes/s") => number.and_then(Self::bytes_per_second),
+            _ => None,
+        };
+        pace.ok_or(ParsePaceError)
+    }
+}
+
 impl std::fmt::Display for Pace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -77,5 +111,28 @@ impl Clock {
             self.units = units;
         }
         due <= now
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pace_is_read_as_it_is_written() {
+        for (text, pace) in [
+            ("1", Pace::lines_per_second(1)),
+            ("500 lines/s", Pace::lines_per_second(500)),
+            ("4294967295 bytes/s", Pace::bytes_per_second(u32::MAX)),
+            ("fast", Some(Pace::Fast)),
+            ("hold", Some(Pace::Hold)),
+        ] {
+            assert_eq!(text.parse().ok(), pace, "{text}");
+        }
+        let bad =
+            ["", "0", "-1", "+1", "1.5", " 1", "1 ", "4294967296", "0 bytes/s", "1 lines", "Fast"];
+        for text in bad {
+            assert_eq!(text.parse::<Pace>(), Err(ParsePaceError), "{text}");
+        }
     }
 }

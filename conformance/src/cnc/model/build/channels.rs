@@ -11,7 +11,7 @@ use super::super::item::Objects;
 use super::super::variable::{At, Variables, handle_at};
 use super::super::{AxisModel, ChannelModel, ModelError};
 use super::variables::{self, handle_span};
-use super::{INSTANCES_MAX, items, parameters};
+use super::{INSTANCES_MAX, items, parameters, programs};
 
 /// What channels are built with.
 pub(super) struct Channels<'a> {
@@ -99,6 +99,15 @@ impl Channels<'_> {
             }
         }
         let parameters = parameters::of_channel(source, &table.parameters, &objects)?;
+        let program = programs::streaming(source, &table.streaming)?;
+        let script = match &table.service {
+            Some(table) if !service => {
+                let why = "a CNC of this version has no Service Interface";
+                return Err(source.error(&table.span(), why));
+            }
+            Some(table) => Some(programs::service(source, table.get_ref())?),
+            None => None,
+        };
         let of_kind = |kind: &str| {
             let named = variables.list.iter().enumerate();
             let named = named.filter(|(_, one)| one.name.as_bytes().starts_with(kind.as_bytes()));
@@ -114,6 +123,8 @@ impl Channels<'_> {
             variables,
             by_handle,
             parameters,
+            program,
+            script,
             list: Descriptors::default(),
             list_of_first: Descriptors::default(),
         })

@@ -4,6 +4,7 @@ mod channels;
 mod items;
 mod lists;
 mod parameters;
+mod programs;
 mod variables;
 
 use std::collections::BTreeSet;
