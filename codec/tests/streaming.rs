@@ -78,7 +78,7 @@ fn lines_at_the_limit() {
             assert_eq!(
                 error.to_string(),
                 format!(
-                    "line {line}, column 991: line of at most 990 characters expected, 991 found"
+                    "line {line}, column 991: line of at most 990 characters expected, 991 found (STM-20)"
                 )
             );
         }
@@ -116,22 +116,25 @@ fn other_controls_are_text() {
 #[test]
 fn errors_name_the_first_fault() {
     let show = |bytes: &[u8]| NcText::new(bytes).unwrap_err().to_string();
-    assert_eq!(show(b"\0"), "line 1, column 1: ASCII character expected, NUL found");
+    assert_eq!(show(b"\0"), "line 1, column 1: ASCII character expected, NUL found (STM-7)");
     assert_eq!(
         show(b"N1\r\nN2\rN\x80"),
-        "line 3, column 2: ASCII character expected, byte 0x80 found"
+        "line 3, column 2: ASCII character expected, byte 0x80 found (STM-7)"
     );
     assert_eq!(
         show("N1\n\n(ä)".as_bytes()),
-        "line 3, column 2: ASCII character expected, byte 0xC3 found"
+        "line 3, column 2: ASCII character expected, byte 0xC3 found (STM-7)"
     );
     let long = [&b"X".repeat(2000)[..], b"\xFF\n\0"].concat();
     assert_eq!(
         show(&long),
-        "line 1, column 991: line of at most 990 characters expected, 2001 found"
+        "line 1, column 991: line of at most 990 characters expected, 2001 found (STM-20)"
     );
     let early = [&b"X".repeat(900)[..], b"\xFF", &b"X".repeat(900)].concat();
-    assert_eq!(show(&early), "line 1, column 901: ASCII character expected, byte 0xFF found");
+    assert_eq!(
+        show(&early),
+        "line 1, column 901: ASCII character expected, byte 0xFF found (STM-7)"
+    );
 }
 
 /// The manual's driver (`stream-en` 5) sends what does not fit its buffer without a line end,
@@ -143,7 +146,7 @@ fn what_the_printed_driver_sends_wrongly_shows_on_read() {
     assert_eq!(interface.write(b"N20 M30"), Ack::Accepted);
     let error = interface.read().unwrap_err();
     assert_eq!(error.kind(), LineErrorKind::NoLineEnd);
-    assert_eq!(error.to_string(), "line 2, column 8: CR LF expected, end of data found");
+    assert_eq!(error.to_string(), "line 2, column 8: CR LF expected, end of data found (STM-5)");
     assert_eq!((interface.len(), interface.read()), (0, Ok(&b""[..])));
     // Borders of writes vanish: a line may come in two if both are there when it is read.
     interface.write(b"N10 \r");
@@ -153,7 +156,7 @@ fn what_the_printed_driver_sends_wrongly_shows_on_read() {
     interface.write(b"N10\r\nN20\rN30\r\n");
     assert_eq!(
         interface.read().unwrap_err().to_string(),
-        "line 2, column 4: CR LF expected, CR alone found"
+        "line 2, column 4: CR LF expected, CR alone found (STM-5)"
     );
 }
 

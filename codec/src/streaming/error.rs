@@ -12,10 +12,11 @@
 /// let error = NcText::new(b"N10 G0 X0\n(L\xE4nge)\n").unwrap_err();
 /// assert_eq!((error.line(), error.column()), (2, 3));
 /// assert_eq!(error.kind(), LineErrorKind::NotAscii { byte: 0xE4 });
-/// assert_eq!(error.to_string(), "line 2, column 3: ASCII character expected, byte 0xE4 found");
+/// let text = "line 2, column 3: ASCII character expected, byte 0xE4 found (STM-7)";
+/// assert_eq!(error.to_string(), text);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
-#[error("line {line}, column {column}: {kind}")]
+#[error("line {line}, column {column}: {kind} ({})", .kind.clause())]
 pub struct LineError {
     line: u32,
     column: u32,
@@ -28,7 +29,8 @@ pub struct LineError {
 /// use ads_cnc::streaming::{LineErrorKind, NcText};
 ///
 /// let line = [b'X'; 991];
-/// assert_eq!(NcText::new(&line).unwrap_err().kind(), LineErrorKind::TooLong { length: 991 });
+/// let kind = NcText::new(&line).unwrap_err().kind();
+/// assert_eq!((kind, kind.clause()), (LineErrorKind::TooLong { length: 991 }, "STM-20"));
 /// assert!(NcText::new(&line[..990]).is_ok());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
@@ -59,6 +61,17 @@ pub enum LineErrorKind {
     /// Data that was received ends within a line (STM-5).
     #[error("CR LF expected, end of data found")]
     NoLineEnd,
+}
+
+impl LineErrorKind {
+    /// The requirement it is about.
+    pub const fn clause(self) -> &'static str {
+        match self {
+            Self::TooLong { .. } => "STM-20",
+            Self::NotAscii { .. } | Self::Nul => "STM-7",
+            Self::LfAlone | Self::CrAlone | Self::NoLineEnd => "STM-5",
+        }
+    }
 }
 
 impl LineError {

@@ -26,7 +26,7 @@ use crate::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 /// assert_eq!(interface.write(b"N30 G0 X0\n"), Ack::Accepted);
 /// assert_eq!(
 ///     interface.read().unwrap_err().to_string(),
-///     "line 1, column 10: CR LF expected, LF alone found"
+///     "line 1, column 10: CR LF expected, LF alone found (STM-5)"
 /// );
 /// # Ok::<(), ads_cnc::streaming::LineError>(())
 /// ```

@@ -32,7 +32,7 @@ pub(super) fn add(part: &mut Part, segment: &Segment<'_>) {
     cnc.write(data);
     if let Err(error) = cnc.read() {
         let number = streaming::LINE_END_ERROR;
-        fault(part, &lines, &error, &format!(": the CNC aborts with error {number} (STM-5)"));
+        fault(part, &lines, &error, &format!(": the CNC aborts with error {number}"));
     }
     match NcText::new(data) {
         Err(error) => fault(part, &lines, &error, ""),

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use ads_cnc::streaming::{LineError, LineErrorKind, NcText};
+use ads_cnc::streaming::{LineError, NcText};
 
 /// The most lines of messages: who sends a picture wants no more.
 const SHOWN_MAX: usize = 100;
@@ -20,7 +20,7 @@ pub(super) fn check<'a>(bytes: &'a [u8], name: &str, out: &mut dyn Write) -> Opt
     let mut messages = Messages { out, count: 0 };
     let Ok(text) = NcText::new(bytes) else {
         for (line, error) in line_errors(bytes) {
-            let (column, kind, clause) = (error.column(), error.kind(), clause(error.kind()));
+            let (column, kind, clause) = (error.column(), error.kind(), error.kind().clause());
             messages.say(format_args!("{name}:{line}:{column}: error: {kind} ({clause})"));
         }
         messages.end();
@@ -77,15 +77,6 @@ fn line_errors(bytes: &[u8]) -> impl Iterator<Item = (u32, LineError)> {
         Some(line)
     });
     (1..).zip(lines).filter_map(|(number, line)| Some((number, NcText::new(line).err()?)))
-}
-
-/// The requirement that a line does not meet.
-const fn clause(kind: LineErrorKind) -> &'static str {
-    match kind {
-        LineErrorKind::TooLong { .. } => "STM-20",
-        LineErrorKind::NotAscii { .. } | LineErrorKind::Nul => "STM-7",
-        _ => "STM-5",
-    }
 }
 
 #[cfg(test)]
