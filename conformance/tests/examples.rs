@@ -11,6 +11,7 @@ use std::{env, thread};
 
 use ads::{AmsAddr, Client, Device, Source, Timeouts};
 use common::Serve;
+use common::fake::TestFile;
 
 /// How long an example may take, once it is built.
 const TIME: Duration = Duration::from_secs(60);
@@ -56,7 +57,20 @@ impl Example {
     }
 
     /// What it printed, once it has ended well.
-    fn output(mut self) -> String {
+    fn output(self) -> String {
+        let (is_success, out, errors) = self.ended();
+        assert!(is_success, "{errors}");
+        out
+    }
+
+    /// What it complained of, once it has failed.
+    fn failure(self) -> String {
+        let (is_success, out, errors) = self.ended();
+        assert!(!is_success, "{out}");
+        errors
+    }
+
+    fn ended(mut self) -> (bool, String, String) {
         // Read while it runs: a full pipe would stop it.
         let mut out = self.0.stdout.take().unwrap();
         let reader = thread::spawn(move || {
@@ -73,8 +87,7 @@ impl Example {
         };
         let mut errors = String::new();
         self.0.stderr.take().unwrap().read_to_string(&mut errors).unwrap();
-        assert!(status.success(), "{errors}");
-        reader.join().unwrap().unwrap()
+        (status.success(), reader.join().unwrap().unwrap(), errors)
     }
 }
 
@@ -102,6 +115,41 @@ fn list_objects() {
         let listed = |line: &str| line.split_whitespace().eq(object.split(' '));
         assert!(list.lines().any(listed), "{object}\n{list}");
     }
+}
+
+/// VAR-5: the value is of the type that the description says, whole or an element of it.
+#[test]
+fn read_variable() {
+    let serve = Serve::start(&[]);
+    for (name, printed) in [
+        (
+            "V.E.Testvar",
+            "Sgn32 [5]\n  Sgn32(123)\n  Sgn32(234)\n  Sgn32(345)\n  Sgn32(456)\n  Sgn32(567)\n",
+        ),
+        ("V.E.matrix[1][2]", "Sgn16 []\n  Sgn16(23)\n"),
+        ("V.A.WCS.Y", "Real64 []\n  Real64(1234.2)\n"),
+    ] {
+        let read = Example::start("read_variable", &serve, &["1", name]).output();
+        assert_eq!(read, format!("{name}: {printed}"));
+    }
+    // No description by name there: it looks through the kind.
+    let older = Serve::start(&["--cnc-version", "V4.20.0"]);
+    let read = Example::start("read_variable", &older, &["1", "V.G.NP[1].V[2]"]).output();
+    assert_eq!(read, "V.G.NP[1].V[2]: Real64 []\n  Real64(6.0)\n");
+}
+
+/// STM-3, STM-6: more than the interface holds, so that it has to wait and send again.
+#[test]
+fn stream_program() {
+    let serve = Serve::start(&["--pace", "200"]);
+    let lines = (1..300).map(|line| format!("N{line}0 G1 X{line} Y-{line}\n"));
+    let program =
+        TestFile::new(".nc", lines.chain(["M30\n".to_owned()]).collect::<String>().as_bytes());
+    let sent = Example::start("stream_program", &serve, &["1", program.path()]).output();
+    assert!(sent.starts_with("300 lines sent in "), "{sent}");
+    let loops = TestFile::new(".nc", b"N10 $FOR P1=0,10,1\nN20 $ENDFOR\n");
+    let errors = Example::start("stream_program", &serve, &["1", loops.path()]).failure();
+    assert!(errors.starts_with("line 1, column 5: $FOR in a stream (STM-8)\n"), "{errors}");
 }
 
 /// SVC-9: 1.732051 for 3, and an answer for a number that has no root.
