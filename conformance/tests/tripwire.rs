@@ -122,6 +122,33 @@ fn default_runs_of_every_tool_change_nothing() {
     }
 }
 
+/// What its name tells may not be written is refused before anybody is called: it would be no use
+/// to reach the device first.
+#[test]
+fn a_refusal_needs_no_connection() {
+    let addr = nobody().to_string();
+    let program = std::env::temp_dir().join(format!("ads-cnc-no-one-{}.nc", std::process::id()));
+    fs::write(&program, "M30\n").unwrap();
+    for (code, args) in [
+        (4, &["set", "V.E.Testvar[0]", "1"][..]),
+        (4, &["stream", program.to_str().unwrap()]),
+        (4, &["service", "--uuid", "560AACBF-6335-44a9-895A-8B27F3ED5E47", "--", "echo"]),
+        (3, &["get", "V.E.Testvar[0]"]),
+    ] {
+        let target = ["--target", &addr, "--net-id", "127.0.0.1.1.1"];
+        let args = [&args[..1], &target, &args[1..]].concat();
+        let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(&args).output().unwrap();
+        assert_eq!(output.status.code(), Some(code), "{args:?}: {output:?}");
+    }
+    fs::remove_file(&program).unwrap();
+}
+
+/// An address where nobody listens.
+fn nobody() -> SocketAddr {
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    listener.local_addr().unwrap()
+}
+
 /// That something may be written is no reason to write it.
 #[test]
 fn a_file_alone_changes_nothing() {

@@ -73,9 +73,12 @@ impl Set {
     fn run(&self) -> Result<Exit, Trouble> {
         let question = self.name.question();
         let alone = by_name_alone(&question)?;
-        let mut session = self.open(alone.as_ref())?;
         if let Some(object) = &alone {
             check(object)?;
+            self.target.ask_gate(|session| object.place.check(session))?;
+        }
+        let mut session = self.open(alone.as_ref())?;
+        if let Some(object) = &alone {
             self.ask_gate(object, &mut session)?;
         }
         let object = find(&mut session, &question)?;

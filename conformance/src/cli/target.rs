@@ -112,14 +112,30 @@ impl TargetArgs {
         }
     }
 
+    /// Asks the gate of a device before anybody connects: who may not write needs no connection.
+    /// A dry run shows what would be refused instead.
+    pub(super) fn ask_gate(
+        &self,
+        check: impl FnOnce(&Session) -> Result<(), Trouble>,
+    ) -> Result<(), Trouble> {
+        match self.device()? {
+            Some(target) if !self.dry_run => check(&Session::dry(target, self.gate()?)?),
+            _ => Ok(()),
+        }
+    }
+
+    fn gate(&self) -> Result<Gate, Trouble> {
+        let allowed = self.allow_write.as_deref().map(Allowed::from_file).transpose();
+        let allowed = allowed.map_err(|error| Trouble::Usage(error.to_string()))?;
+        Ok(Gate::queries().with_allowed(allowed))
+    }
+
     /// Connects to the device, or starts this CNC.
     pub(super) fn open_or(
         &self,
         cnc: impl FnOnce() -> Result<Cnc, Trouble>,
     ) -> Result<Session, Trouble> {
-        let allowed = self.allow_write.as_deref().map(Allowed::from_file).transpose();
-        let allowed = allowed.map_err(|error| Trouble::Usage(error.to_string()))?;
-        let gate = Gate::queries().with_allowed(allowed);
+        let gate = self.gate()?;
         match (self.device()?, self.dry_run) {
             (None, false) => Session::embedded(cnc()?, gate),
             (None, true) => Session::dry_embedded(gate),

@@ -162,17 +162,17 @@ impl Service {
     }
 
     fn serve(&self) -> Result<(), Trouble> {
-        let interrupt = Interrupt::catch()?;
-        let mut session = self.open()?;
         let channel = self.channel.channel;
         // A program that has asked would wait for an answer that may not be written.
-        for variable in [
-            ServiceVariable::Response,
-            ServiceVariable::RequestState,
-            ServiceVariable::ResponseState,
-        ] {
-            session.check(&write(channel, variable, &[0; 4])?)?;
-        }
+        let check = |session: &Session| {
+            use ServiceVariable::{RequestState, Response, ResponseState};
+            let mut writes = [Response, RequestState, ResponseState].into_iter();
+            writes.try_for_each(|variable| session.check(&write(channel, variable, &[0; 4])?))
+        };
+        self.target.ask_gate(check)?;
+        let interrupt = Interrupt::catch()?;
+        let mut session = self.open()?;
+        check(&session)?;
         let mut serving = Serving {
             host: Host::new(&self.uuid),
             command: Command {

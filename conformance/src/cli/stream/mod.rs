@@ -85,7 +85,7 @@ packet sent twice whose answer did not come.
 
 Exit codes: 0 all of it was taken; 1 the text is faulty, or the CNC refuses it; 2 wrong usage;
 3 unfinished: Ctrl-C, no connection or no answer; 4 refused for safety; 70 internal error.
-Unless it is 0, stdout says which lines were taken and which were not.";
+Once it sends, stdout says which lines were taken, and which were not if it ends before its time.";
 
 impl Stream {
     /// Sends, and says how the process ends.
@@ -142,6 +142,10 @@ impl Stream {
     }
 
     fn send(&self, name: &str, text: NcText<'_>, lines: NonZeroUsize) -> Result<Exit, Trouble> {
+        let mut first = Sender::new(text);
+        let write =
+            WriteProgramStream::new(self.channel.channel, first.packet().unwrap_or_default());
+        self.target.ask_gate(|session| session.check(&write))?;
         let interrupt = Interrupt::catch()?;
         let mut session = self.open()?;
         let mut sending = Sending {
