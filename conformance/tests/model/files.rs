@@ -18,6 +18,16 @@ fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
     (run.status.code(), text(run.stdout), text(run.stderr))
 }
 
+/// Where a file is no text is said as everything else is.
+#[test]
+fn a_file_in_another_encoding_has_a_line() {
+    let file = File::with("cp1252", "");
+    std::fs::write(&file.0, b"# a comment\nname = \"L\xE4nge\"\n").unwrap();
+    let (code, _, why) = ads_cnc(&["--model", file.path()]);
+    assert_eq!(code, Some(2), "{why}");
+    assert!(why.ends_with(".toml:2: text in UTF-8 is needed, and byte 0xE4 is none\n"), "{why}");
+}
+
 /// A file that is gone with the test.
 pub(crate) struct File(PathBuf);
 

@@ -44,9 +44,20 @@ pub(super) struct Source<'a> {
 
 impl Source<'_> {
     pub(super) fn error(self, span: &Range<usize>, reason: impl ToString) -> ModelError {
-        let before = self.text.as_bytes().get(..span.start).unwrap_or(self.text.as_bytes());
-        let newlines = before.iter().filter(|&&byte| byte == b'\n').count();
-        let (file, line) = (self.file.to_owned(), Some(newlines.saturating_add(1)));
-        ModelError { file, line, reason: reason.to_string() }
+        let line = Some(line(self.text.as_bytes(), span.start));
+        ModelError { file: self.file.to_owned(), line, reason: reason.to_string() }
     }
+
+    /// A file that is no text from there on.
+    pub(super) fn not_text(bytes: &[u8], at: usize, file: &str) -> ModelError {
+        let byte = bytes.get(at).copied().unwrap_or_default();
+        let reason = format!("text in UTF-8 is needed, and byte {byte:#04X} is none");
+        ModelError { file: file.to_owned(), line: Some(line(bytes, at)), reason }
+    }
+}
+
+/// The line of a place, from 1.
+fn line(bytes: &[u8], at: usize) -> usize {
+    let before = bytes.get(..at).unwrap_or(bytes);
+    before.iter().filter(|&&byte| byte == b'\n').count().saturating_add(1)
 }

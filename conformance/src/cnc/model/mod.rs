@@ -128,9 +128,11 @@ impl Model {
     /// Those of [`from_toml`](Self::from_toml), and a file that cannot be read.
     pub fn load(path: &Path, settings: Settings) -> Result<Self, ModelError> {
         let file = path.display().to_string();
-        let text = std::fs::read_to_string(path);
-        let text = text.map_err(|error| ModelError::of_file(&file, error))?;
-        Self::with_settings(&text, &file, settings)
+        let bytes = std::fs::read(path).map_err(|error| ModelError::of_file(&file, error))?;
+        match std::str::from_utf8(&bytes) {
+            Ok(text) => Self::with_settings(text, &file, settings),
+            Err(error) => Err(Source::not_text(&bytes, error.valid_up_to(), &file)),
+        }
     }
 
     /// The edition of the manual that it follows.
