@@ -197,6 +197,15 @@ fn all_ways_in_are_the_same() {
     assert_eq!(stdin(&["--file", "-", "--hex"], b"3412000200000000"), from_hex);
 }
 
+/// An empty file is not everything that may be empty.
+#[test]
+fn no_bytes_are_none() {
+    let output = ads_cnc(&["--file", if cfg!(windows) { "NUL" } else { "/dev/null" }]);
+    let why = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{why}");
+    assert!(why.starts_with("ads-cnc: no bytes are given\n"), "{why}");
+}
+
 /// No escape sequence in a pipe, and none from the bytes even where there is colour.
 #[test]
 fn colour_is_for_terminals() {

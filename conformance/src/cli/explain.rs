@@ -164,6 +164,7 @@ impl Explain {
             Some(place) if !self.frame => Ok(Subject::Place(place)),
             place if self.frame => Ok(Subject::Frames(place)),
             place => match bytes.unwrap_or_default() {
+                [] => Err(format!("no bytes are given\n{SAY}")),
                 bytes if looks_like_frame(bytes) => Ok(Subject::Frames(place)),
                 bytes => Err(unknown(bytes)),
             },
