@@ -201,6 +201,19 @@ fn what_cannot_be_set_says_why() {
     );
 }
 
+/// A channel that is not there is no other's fault, and one that is named twice is one.
+#[test]
+fn channels_are_what_is_there() {
+    let browse = |args: &[&str]| {
+        let output = ads_cnc(&[&["browse", "--filter", "feedhold", "--channel"], args].concat());
+        (text(&output.stdout).lines().count(), text(&output.stderr))
+    };
+    let listed = browse(&["1,1,6"]);
+    assert_eq!(listed, (3, String::new()));
+    let listed = browse(&["9,1"]);
+    assert_eq!(listed, (2, "ads-cnc: channel 9: not there, or not active\n".to_owned()));
+}
+
 /// A CNC that does not describe variables by name has them all the same.
 #[test]
 fn older_cncs_are_asked_by_index() {

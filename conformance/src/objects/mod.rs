@@ -7,6 +7,7 @@
 //! | what | asked | ends |
 //! |---|---|---|
 //! | channels | number of objects, by rank and by number | when as many numbers are found as ranks; without ranks behind [`GAP`] numbers in a row that are not there |
+//! | channels that are named | number of objects of each | with them |
 //! | objects | descriptors, [`RANGE`] in a request | with their number |
 //! | platform axes | number of objects | at the first that is not there |
 //! | position controller, HLD of the platform | axes from 1 on | at the first that is not there |

@@ -153,7 +153,7 @@ impl Walk<'_> {
     /// The channels that are active.
     fn channels(&mut self) -> Result<Vec<Channel>, Trouble> {
         if !self.options.channels.is_empty() {
-            return Ok(self.options.channels.clone());
+            return self.of_those_named();
         }
         let mut ranks = 0_usize;
         for rank in (1..=NUMBER_MAX).map_while(|rank| Channel::by_index(rank).ok()) {
@@ -173,6 +173,25 @@ impl Walk<'_> {
             };
             gap = if is_there { 0 } else { gap.saturating_add(1) };
             found.extend(is_there.then_some(number));
+        }
+        Ok(found)
+    }
+
+    /// Of the channels that are asked for those that are there, each once.
+    fn of_those_named(&mut self) -> Result<Vec<Channel>, Trouble> {
+        let mut found = Vec::new();
+        for &channel in &self.options.channels {
+            if found.contains(&channel) {
+                continue;
+            }
+            if self.count_objects(channel.into())?.is_some()
+                || self.is_instance(&decoder_of(channel))?
+            {
+                found.push(channel);
+            } else {
+                let number = channel.number();
+                self.found.notes.push(format!("channel {number}: not there, or not active"));
+            }
         }
         Ok(found)
     }
