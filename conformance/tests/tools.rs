@@ -159,6 +159,7 @@ fn what_cannot_be_read_says_what_to_do() {
             &["get", "mc_program_stream_w"],
             &["get", "example.p_count"],
             &["get", "V.E.vartest", "--channel", "9"],
+            &["get", "V.A.ACT_POS"],
         ])
     );
 }

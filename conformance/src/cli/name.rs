@@ -3,6 +3,7 @@
 use std::io;
 
 use ads_cnc::address::ChannelAxis;
+use ads_cnc::operation::Function;
 use ads_cnc::value::DataType;
 use clap::Args;
 
@@ -60,9 +61,28 @@ impl NameArgs {
         }
         let (name, channel) = (&self.name, self.channel.channel.number());
         let part = name.split(['[', '.']).nth(2).unwrap_or(name);
-        Some(format!(
+        let browse = format!(
             "ads-cnc browse --variables --channel {channel} --filter \"{part}\" shows what there is"
-        ))
+        );
+        Some(match trouble {
+            Trouble::Ads { function: Function::WriteByName, .. }
+                if ["V.P.", "V.L.", "V.S."].iter().any(|kind| name.starts_with(kind)) =>
+            {
+                format!(
+                    "V.P, V.L and V.S are written as variables, which takes a CNC from V4.18.0, \
+                     V3.1.3115, V3.1.3081.07, V2.11.2847 or V2.11.2077 on (ads-de 1.051, section \
+                     4.1). {browse}"
+                )
+            }
+            // With the axis behind it the name would have a part more.
+            _ if name.starts_with("V.A.")
+                && name.split('.').count() == 3
+                && self.axis.is_none() =>
+            {
+                format!("of which axis? --axis PLACE says it, or {name}.X with its name. {browse}")
+            }
+            _ => browse,
+        })
     }
 }
 
