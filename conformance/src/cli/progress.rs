@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 /// How often the line is written.
 const EVERY: Duration = Duration::from_millis(100);
 /// So that it never wraps, which would leave lines behind.
-const WIDTH: usize = 76;
+pub(super) const WIDTH: usize = 76;
 
 /// A line on stderr, written over and over; nothing where stderr is no terminal.
 #[derive(Debug)]

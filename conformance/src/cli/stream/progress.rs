@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::streaming::{self, NcText};
 
+use super::super::progress::WIDTH;
+
 /// How often the line of a terminal changes, and how often one is written elsewhere.
 const ON_TERMINAL: Duration = Duration::from_millis(100);
 const ELSEWHERE: Duration = Duration::from_secs(5);
@@ -65,11 +67,15 @@ impl Progress {
     }
 
     fn line(&self, sent: streaming::Progress, waits: Option<&str>) -> String {
-        let streaming::Progress { packets, lines, bytes } = sent;
+        let streaming::Progress { lines, bytes, .. } = sent;
         let (all, of, rate) = (self.lines, Size(self.bytes), Rate(bytes, self.elapsed()));
         let bytes = Size(bytes);
         let (comma, waits) = waits.map_or(("", ""), |waits| (", ", waits));
-        format!("{packets} packets, {lines} of {all} lines, {bytes} of {of}, {rate}{comma}{waits}")
+        let line = format!("{lines} of {all} lines, {bytes} of {of}, {rate}{comma}{waits}");
+        match self.terminal {
+            true => line.chars().take(WIDTH).collect(),
+            false => line,
+        }
     }
 
     /// Takes the line off the terminal.
@@ -133,7 +139,11 @@ mod tests {
         let progress = Progress::new(text, false);
         let sent = streaming::Progress { packets: 1, lines: 1, bytes: 11 };
         let line = progress.line(sent, Some("refused 3 times"));
-        assert!(line.starts_with("1 packets, 1 of 2 lines, 11 bytes of 20 bytes, "), "{line}");
+        assert!(line.starts_with("1 of 2 lines, 11 bytes of 20 bytes, "), "{line}");
         assert!(line.ends_with("/s, refused 3 times"), "{line}");
+        let progress = Progress { terminal: true, lines: 12_345_678, ..progress };
+        let sent = streaming::Progress { packets: 123_456, lines: 1_234_567, bytes: 123_456_789 };
+        let line = progress.line(sent, Some("refused 1200 times with 0x706"));
+        assert_eq!(line.chars().count(), WIDTH, "{line}");
     }
 }
