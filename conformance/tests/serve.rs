@@ -114,6 +114,23 @@ fn other_machines_are_an_option() {
     assert!(log.contains("warning: 0.0.0.0:0 is not a loopback address"), "{log}");
 }
 
+/// What is wrong with an address says what would be right.
+#[test]
+fn an_address_that_is_none_says_what_to_do() {
+    let serve = |options: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+        let output = command.arg("serve").args(options).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, why) = serve(&["--listen", "localhost"]);
+    assert!(code == Some(2) && why.contains("as 127.0.0.1:48898"), "{why}");
+    let other = Serve::start(&[]);
+    let (code, why) = serve(&["--listen", &other.addr]);
+    assert!(code == Some(70) && why.contains("--listen 127.0.0.1:0"), "{why}");
+    // The default model is not the one of a file.
+    assert_eq!(serve(&["--print-model", "--model", "mine.toml"]).0, Some(2));
+}
+
 #[test]
 fn it_answers_for_another_net_id() {
     let serve = Serve::start(&["--net-id", "10.0.0.1.1.1"]);

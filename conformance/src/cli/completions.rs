@@ -22,7 +22,9 @@ Examples:
   ads-cnc completions bash > ~/.local/share/bash-completion/completions/ads-cnc
   ads-cnc completions zsh > ~/.zfunc/_ads-cnc       (with ~/.zfunc in fpath)
   ads-cnc completions fish > ~/.config/fish/completions/ads-cnc.fish
-  ads-cnc completions powershell >> $PROFILE";
+  ads-cnc completions powershell >> $PROFILE
+
+Exit codes: 0 written; 2 wrong usage; 70 internal error.";
 
 impl Completions {
     /// Writes the script, and says how the process ends.

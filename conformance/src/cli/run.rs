@@ -25,7 +25,7 @@ use crate::waivers::Waivers;
 /// A device is only read: nothing is sent to it but documented queries, to the ports they are
 /// documented for. Some ask for what is not there, by one beyond the last, to see it refused.
 #[derive(Args, Debug)]
-#[command(after_long_help = REACHING_A_DEVICE)]
+#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
 pub(super) struct Run {
     #[command(flatten)]
     target: TargetArgs,
@@ -42,6 +42,17 @@ pub(super) struct Run {
     #[arg(long, value_name = "ID", conflicts_with = "target")]
     defect: Option<String>,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  ads-cnc run
+  ads-cnc run --target 192.0.2.10 --net-id 192.0.2.10.1.1 --source-net-id 192.0.2.20.1.1 \
+      --json report.json
+  ads-cnc run --defect variable-description.size.flip
+
+Exit codes: 0 passed, with warnings and differences or without; 1 a requirement is not met;
+2 wrong usage; 3 nothing could be judged, or something stayed inconclusive; 4 refused for safety;
+70 internal error.";
 
 impl Run {
     /// Runs the suite and writes its reports.

@@ -21,13 +21,22 @@ use crate::verdict::Exit;
 
 /// For the end of the help.
 const MORE: &str = "\
+Examples:
+  ads-cnc serve
+  ads-cnc serve --print-model > mine.toml
+  ads-cnc serve --model mine.toml --listen 127.0.0.1:0 --log debug
+  ads-cnc serve --edition de-1.051 --cnc-version V3.1.3131.0 --pace 20
+
 It speaks AMS/TCP, as a device does, and answers at the AMS ports 551 (GEO), 552 (SDA) and 553
 (COM). A client needs no route. Ctrl-C ends it.
 
 There are at most 64 connections. Each holds at most 192 KiB of requests and answers, one answer in
 the making of at most 64 KiB, and a thread's stack of 1 MiB. A frame that is longer than 64 KiB or
 does not hold together ends its own connection, as the log says. So does a new connection without
-a whole request for 10 s, and one that leaves a frame unfinished for 10 s.";
+a whole request for 10 s, and one that leaves a frame unfinished for 10 s.
+
+Exit codes: 0 ended by Ctrl-C; 2 wrong usage, and a model that is refused; 70 internal error, and an
+address that cannot be listened on.";
 
 /// So the help says.
 const _: () = assert!(CONNECTIONS_MAX == 64 && CONNECTION_BYTES_MAX <= 192 * 1024);
@@ -38,7 +47,7 @@ const _: () = assert!(ServerOptions::FRAME.as_secs() == 10);
 #[command(after_help = MORE)]
 pub(super) struct Args {
     /// Address and port to listen on; with port 0 the system picks one.
-    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:48898")]
+    #[arg(long, value_name = "ADDR", default_value = "127.0.0.1:48898", value_parser = address)]
     listen: SocketAddr,
 
     /// Listen on another address than loopback too. Whoever reaches it can read and write.
@@ -57,7 +66,7 @@ pub(super) struct Args {
     model: ModelArgs,
 
     /// Write the default model out, with comments that say what a model can be, and end.
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["model", "edition", "cnc_version"])]
     print_model: bool,
 
     /// How fast streamed NC lines are run in all channels, whatever the model says: so many lines a
@@ -162,11 +171,25 @@ fn start(
     if let Some(defect) = &defect {
         tracing::warn!("serving with a seeded defect: {defect}");
     }
-    let listener =
-        net::listen(addr).map_err(|error| format!("cannot listen on {addr}: {error}"))?;
+    let listener = net::listen(addr).map_err(|error| {
+        let next = match error.kind() {
+            io::ErrorKind::AddrInUse => {
+                "; does another CNC or an ADS router run here? --listen 127.0.0.1:0 lets the system \
+                 pick a port"
+            }
+            _ => "",
+        };
+        format!("cannot listen on {addr}: {error}{next}")
+    })?;
     let cnc = Arc::new(cnc.with_defect(defect));
     let server = Server::with_options(listener, cnc, options);
     server.map_err(|error| format!("cannot serve on {addr}: {error}"))
+}
+
+fn address(text: &str) -> Result<SocketAddr, String> {
+    text.parse().map_err(|_| {
+        "an IP address and a port are needed, as 127.0.0.1:48898 or [::1]:48898".to_owned()
+    })
 }
 
 /// What the options say of the NC programs of the channels.
