@@ -5,7 +5,7 @@ use std::io::{self, BufRead as _, Write as _};
 use clap::Args;
 
 use super::{complain, find_defect};
-use crate::testee::{Answer, Command, Own, Reply};
+use crate::testee::{Act, Answer, Command, Miniature, Own, Reply};
 use crate::verdict::Exit;
 
 /// Answers the protocol of `run --testee` with this project's codec, on stdin and stdout.
@@ -17,6 +17,10 @@ pub(super) struct Testee {
     /// Switch on a defect of the codec (see serve --list-defects)
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
+
+    /// Misbehave as a whole: accepts-all, refuses-all, hangs, crashes and more; to try the suite with
+    #[arg(long, value_name = "NAME", conflicts_with = "defect", value_parser = Miniature::by_name)]
+    miniature: Option<Miniature>,
 }
 
 impl Testee {
@@ -29,7 +33,12 @@ impl Testee {
                 return Exit::Usage;
             }
         };
-        match answer(&Own { defect }) {
+        let own = Own { defect };
+        let done = match self.miniature {
+            None => answer(&own),
+            Some(miniature) => misbehave(miniature, &own),
+        };
+        match done {
             Ok(()) => Exit::Success,
             Err(error) => {
                 complain(format_args!("stdin or stdout: {error}"));
@@ -58,4 +67,41 @@ fn answer(own: &Own) -> io::Result<()> {
         out.flush()?;
     }
     Ok(())
+}
+
+fn misbehave(miniature: Miniature, own: &Own) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    let mut seq = 0;
+    for line in io::stdin().lock().lines() {
+        let line = line?;
+        if miniature == Miniature::Noisy {
+            writeln!(io::stderr(), "{line:>1000}")?;
+        }
+        match serde_json::from_str::<Command>(&line) {
+            Ok(Command::Hello { .. }) => {
+                serde_json::to_writer(&mut out, &miniature.hello(own))?;
+                out.write_all(b"\n")?;
+            }
+            Ok(Command::Bye) if miniature == Miniature::Stays => stay(),
+            Ok(Command::Bye) => return Ok(()),
+            other => {
+                if let Ok(Command::Case { seq: given, .. }) = other {
+                    seq = given;
+                }
+                match miniature.act(own, &line, seq) {
+                    Act::Say(line) => writeln!(out, "{line}")?,
+                    Act::Hang => stay(),
+                    Act::Crash => std::process::exit(i32::from(Exit::Internal.code())),
+                }
+            }
+        }
+        out.flush()?;
+    }
+    Ok(())
+}
+
+/// Does nothing any more; whoever waits for that ends it. Not for ever, if nobody does.
+fn stay() -> ! {
+    std::thread::sleep(std::time::Duration::from_secs(60));
+    std::process::exit(i32::from(Exit::Internal.code()))
 }

@@ -27,10 +27,9 @@ use super::{Refused, address};
 pub fn encode(stream: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, Refused> {
     let of = Given(fields);
     Ok(match stream {
-        "ams-tcp-header" => bytes(AmsTcpHeader {
-            reserved: of.number("reserved")?,
-            length: of.number("length")?,
-        }),
+        "ams-tcp-header" => {
+            bytes(AmsTcpHeader { reserved: of.number("reserved")?, length: of.number("length")? })
+        }
         "ams-header" => bytes(ams_header(of, of.number("data_length")?)?),
         "read-request" | "read-reply" | "write-request" | "write-reply" | "read-write-request"
         | "read-write-reply" => service(stream, of),
@@ -41,10 +40,9 @@ pub fn encode(stream: &str, context: &Context, fields: &Fields) -> Result<Vec<u8
             let records = of.records("descriptors")?;
             bytes(records.into_iter().map(descriptor).collect::<Result<Descriptors, _>>()?)
         }
-        "object-address-query" => bytes(ObjectAddressQuery {
-            channel: of.number("channel")?,
-            axis: of.number("axis")?,
-        }),
+        "object-address-query" => {
+            bytes(ObjectAddressQuery { channel: of.number("channel")?, axis: of.number("axis")? })
+        }
         "object-address" => {
             let (index_group, index_offset) = of.place()?;
             bytes(ObjectAddress { index_group, index_offset })

@@ -23,13 +23,15 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, Refused> {
 }
 
 pub(super) fn encode(of: Given<'_>) -> Result<Vec<u8>, Refused> {
-    let parts = of.records("parts")?.into_iter().map(|part| {
-        Ok((part.characters("name")?, part.numbers("indices")?))
-    });
+    let parts = of
+        .records("parts")?
+        .into_iter()
+        .map(|part| Ok((part.characters("name")?, part.numbers("indices")?)));
     let parts = parts.collect::<Result<Vec<(CncStr<'_>, Vec<u32>)>, Refused>>()?;
-    let parts = parts
-        .iter()
-        .map(|(name, indices)| PathPart { name: *name, indices: Numbers::from(indices.as_slice()) });
+    let parts = parts.iter().map(|(name, indices)| PathPart {
+        name: *name,
+        indices: Numbers::from(indices.as_slice()),
+    });
     let kind = Kind::from_field(TextRef::from(of.characters("kind")?));
     let mut buf = [0; ads_cnc::limits::NAME_MAX];
     let path = VariablePath::write(kind, parts, &mut buf)?;

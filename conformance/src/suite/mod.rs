@@ -16,8 +16,8 @@ mod vectors;
 pub use case::{
     Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, Subject, assumed, online,
 };
-pub(crate) use printed::typed;
 pub use outcome::{Outcome, RequirementVerdict, gravest};
+pub(crate) use printed::typed;
 pub use probe::{Probe, Session};
 pub use run::run;
 pub use vectors::siblings_of;

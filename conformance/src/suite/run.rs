@@ -2,8 +2,8 @@
 
 use super::case::{Body, Case, Needs, Stop, Subject};
 use super::outcome::Outcome;
-use super::probe::{Probe, Session};
 use super::printed;
+use super::probe::{Probe, Session};
 use crate::defect::Defect;
 use crate::testee::{self, Terms};
 use crate::verdict::Verdict;
@@ -23,7 +23,12 @@ pub fn run(
         true => Vec::new(),
         false => {
             let mut own = testee::Own { defect: defect.cloned() };
-            testee::judge(&mut own, codec, Terms { seed, subject: Subject::Codec, edition: None, strict: true }).outcomes
+            testee::judge(
+                &mut own,
+                codec,
+                Terms { seed, subject: Subject::Codec, edition: None, strict: true },
+            )
+            .outcomes
         }
     };
     outcomes.extend(target.into_iter().map(|case| one(case, session.as_deref_mut())));

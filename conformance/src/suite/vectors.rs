@@ -9,8 +9,7 @@ use super::printed::case_of;
 
 /// One case for each vector, and for each text that is put into packets or looked through.
 pub(super) fn cases() -> Vec<Case> {
-    let vectors =
-        vectors().iter().map(|one| case_of(one, "vec", Needs::Codec, Body::Vector(one)));
+    let vectors = vectors().iter().map(|one| case_of(one, "vec", Needs::Codec, Body::Vector(one)));
     let texts = sequences().iter().filter(|one| is_text(one)).map(of_text);
     vectors.chain(texts).collect()
 }
@@ -47,8 +46,7 @@ pub fn siblings_of(cases: &[Case]) -> Vec<Case> {
     let mut missing = Vec::new();
     for id in wanted {
         if known.insert(id) {
-            let of_vector =
-                |one| case_of(one, "vec", Needs::Codec, Body::Vector(one));
+            let of_vector = |one| case_of(one, "vec", Needs::Codec, Body::Vector(one));
             missing.extend(vector(id).map(of_vector).or_else(|| sequence(id).map(of_text)));
         }
     }

@@ -72,9 +72,9 @@ fn one(place: &str, meant: &Value, found: &Json) -> Option<Difference> {
             let first = differences.next()?;
             match first {
                 Difference::Other(_) => Some(first),
-                untold => differences
-                    .find(|one| matches!(one, Difference::Other(_)))
-                    .or(Some(untold)),
+                untold => {
+                    differences.find(|one| matches!(one, Difference::Other(_))).or(Some(untold))
+                }
             }
         }
     }
@@ -86,7 +86,9 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
     match text("type") {
         Some(given) if given == kind => {}
         Some(given) => return other(place, format_args!("type {kind} is expected, not {given}")),
-        None => return other(place, format_args!("an object with a type is expected, not {found}")),
+        None => {
+            return other(place, format_args!("an object with a type is expected, not {found}"));
+        }
     }
     match meant.kind {
         Type::String => {
@@ -110,7 +112,11 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
         Type::NetId | Type::Name => {
             let expected = meant.value.as_deref().unwrap_or_default();
             let given = text("value").unwrap_or("none");
-            if expected == given { None } else { other(place, format_args!("{expected}, not {given}")) }
+            if expected == given {
+                None
+            } else {
+                other(place, format_args!("{expected}, not {given}"))
+            }
         }
         _ => {
             let given = text("value");

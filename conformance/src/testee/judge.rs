@@ -101,8 +101,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         manners.fault("it ends with exit code 0 after bye", why, None);
     }
     let view = View { cases: &cases, reactions: &reactions, hello: &hello, edition, terms, gone };
-    let mut outcomes: Vec<Outcome> =
-        (0..wanted).filter_map(|place| view.outcome(place)).collect();
+    let mut outcomes: Vec<Outcome> = (0..wanted).filter_map(|place| view.outcome(place)).collect();
     outcomes.push(manners.outcome(terms.subject));
     Judged { hello: Some(hello), outcomes, asked, restarts }
 }
@@ -262,10 +261,8 @@ impl View<'_> {
             Body::Vector(vector) => {
                 let (verdict, expected, found) = self.vector(vector, question, reaction);
                 // Only an answer can differ: a crash is one whatever was asked.
-                let answered = matches!(
-                    reaction,
-                    Reaction::Answer(Answer::Ok(_) | Answer::Reject(_))
-                );
+                let answered =
+                    matches!(reaction, Reaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
                 let lenient = !self.terms.strict && answered && rests_on_assumption(vector);
                 let missed = matches!(verdict, Verdict::Fail | Verdict::Vacuous);
                 (if lenient && missed { Verdict::Differs } else { verdict }, expected, found)
@@ -319,7 +316,8 @@ impl View<'_> {
                 }
             }
             (Expect::Reject(reject), _) => {
-                let place = format!("{} at offset {} in {}", reject.class, reject.offset, reject.field);
+                let place =
+                    format!("{} at offset {} in {}", reject.class, reject.offset, reject.field);
                 let expected = format!("refused: {place}");
                 match reaction {
                     Reaction::Answer(Answer::Reject(_)) => match self.sibling(vector) {
@@ -344,9 +342,11 @@ impl View<'_> {
         };
         match self.reactions.get(&(place, "decode".to_owned())) {
             Some(Reaction::Answer(Answer::Ok(_))) => Ok(()),
-            Some(other) => {
-                Err(format!("refused, but {}, which lacks this fault: {}", sibling.id, describe(other)))
-            }
+            Some(other) => Err(format!(
+                "refused, but {}, which lacks this fault: {}",
+                sibling.id,
+                describe(other)
+            )),
             None => Err(format!("{wanted}, which lacks this fault, was not answered")),
         }
     }

@@ -266,9 +266,9 @@ pub(super) mod compact {
             list: &Option<Vec<Vec<u8>>>,
             to: S,
         ) -> Result<S::Ok, S::Error> {
-            let list = list.as_ref().map(|list| {
-                list.iter().map(|bytes| super::show(bytes)).collect::<Vec<String>>()
-            });
+            let list = list
+                .as_ref()
+                .map(|list| list.iter().map(|bytes| super::show(bytes)).collect::<Vec<String>>());
             list.serialize(to)
         }
 

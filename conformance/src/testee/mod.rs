@@ -7,6 +7,7 @@ mod assumed;
 mod compare;
 mod judge;
 mod message;
+mod miniature;
 mod own;
 mod plan;
 mod process;
@@ -18,6 +19,7 @@ pub use message::{
     Answer, Capabilities, Command, Hello, Identity, Known, LINE_MAX, Output, PROTOCOL, Question,
     Rejection, Reply,
 };
+pub use miniature::{Act, Miniature};
 pub use own::Own;
 pub use process::Process;
 

@@ -151,4 +151,3 @@ fn check(packets: &[Vec<u8>]) -> Result<Output, Answer> {
         })),
     }
 }
-

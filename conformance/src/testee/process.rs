@@ -138,8 +138,9 @@ impl Testee for Process {
         self.kill();
         self.start()?;
         let line = self.exchange(&Command::Hello { protocol: PROTOCOL })?;
-        let hello: Hello = serde_json::from_str(&line)
-            .map_err(|error| Reaction::Garbled(format!("{error} in the answer to hello: {}", cut(&line))))?;
+        let hello: Hello = serde_json::from_str(&line).map_err(|error| {
+            Reaction::Garbled(format!("{error} in the answer to hello: {}", cut(&line)))
+        })?;
         match hello.protocol {
             PROTOCOL => Ok(hello),
             other => Err(Reaction::Garbled(format!("it speaks protocol {other}, not {PROTOCOL}"))),

@@ -1,0 +1,183 @@
+//! Testees that misbehave as a whole: whoever judges codecs has to see through each of them.
+
+use super::Own;
+use super::message::{Answer, Capabilities, Command, Hello, Output, Question, Rejection, Reply};
+
+/// A testee that misbehaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Miniature {
+    /// Accepts everything.
+    AcceptsAll,
+    /// Refuses everything.
+    RefusesAll,
+    /// Says back what it is given.
+    Echoes,
+    /// Says nothing to every fortieth case.
+    Hangs,
+    /// Ends at every tenth case.
+    Crashes,
+    /// Claims what it does not do.
+    Boasts,
+    /// Does ops that do not exist.
+    KnowsAll,
+    /// Calls whatever is wrong an error of its own.
+    Excuses,
+    /// Answers with the number of another case.
+    Miscounts,
+    /// Answers something that is no JSON.
+    Mumbles,
+    /// Has forgotten everything after a hundred cases.
+    Tires,
+    /// Does not end after bye.
+    Stays,
+    /// Writes much to stderr. Right otherwise.
+    Noisy,
+    /// Does decode alone, and says so. Right.
+    DecodesOnly,
+    /// Leaves out whatever does not decide. Right.
+    Terse,
+}
+
+impl Miniature {
+    /// All of them.
+    pub const ALL: [Self; 15] = [
+        Self::AcceptsAll,
+        Self::RefusesAll,
+        Self::Echoes,
+        Self::Hangs,
+        Self::Crashes,
+        Self::Boasts,
+        Self::KnowsAll,
+        Self::Excuses,
+        Self::Miscounts,
+        Self::Mumbles,
+        Self::Tires,
+        Self::Stays,
+        Self::Noisy,
+        Self::DecodesOnly,
+        Self::Terse,
+    ];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::AcceptsAll => "accepts-all",
+            Self::RefusesAll => "refuses-all",
+            Self::Echoes => "echoes",
+            Self::Hangs => "hangs",
+            Self::Crashes => "crashes",
+            Self::Boasts => "boasts",
+            Self::KnowsAll => "knows-all",
+            Self::Excuses => "excuses",
+            Self::Miscounts => "miscounts",
+            Self::Mumbles => "mumbles",
+            Self::Tires => "tires",
+            Self::Stays => "stays",
+            Self::Noisy => "noisy",
+            Self::DecodesOnly => "decodes-only",
+            Self::Terse => "terse",
+        }
+    }
+
+    /// Whether it does nothing wrong.
+    pub const fn is_right(self) -> bool {
+        matches!(self, Self::Noisy | Self::DecodesOnly | Self::Terse)
+    }
+
+    /// The one of this name.
+    ///
+    /// # Errors
+    /// The names that there are.
+    pub fn by_name(name: &str) -> Result<Self, String> {
+        Self::ALL.into_iter().find(|one| one.name() == name).ok_or_else(|| {
+            let names: Vec<&str> = Self::ALL.iter().map(|one| one.name()).collect();
+            format!("there are {}", names.join(", "))
+        })
+    }
+
+    /// What it says of itself.
+    pub fn hello(self, own: &Own) -> Hello {
+        let mut hello = own.hello();
+        hello.testee.name = format!("miniature {}", self.name());
+        if self == Self::DecodesOnly {
+            let capabilities = hello.capabilities;
+            hello.capabilities = Capabilities { ops: vec!["decode".to_owned()], ..capabilities };
+        }
+        hello
+    }
+
+    /// What it does with a line, the `seq`th case.
+    pub fn act(self, own: &Own, line: &str, seq: u64) -> Act {
+        let Ok(Command::Case { question, .. }) = serde_json::from_str(line) else {
+            return Act::Say(r#"{"seq":null,"error":{"message":"no case"}}"#.to_owned());
+        };
+        let tenth = seq % 10 == 9;
+        match self {
+            Self::Hangs if seq % 40 == 9 => return Act::Hang,
+            Self::Crashes if tenth => return Act::Crash,
+            Self::Mumbles if tenth => return Act::Say("what?".to_owned()),
+            _ => {}
+        }
+        let answer = self.answer(own, &question, seq);
+        let seq = if self == Self::Miscounts && tenth { seq.saturating_add(1) } else { seq };
+        let line = serde_json::to_string(&Reply { seq: Some(seq), answer });
+        Act::Say(line.unwrap_or_default())
+    }
+
+    fn answer(self, own: &Own, question: &Question, seq: u64) -> Answer {
+        let refused = || Answer::Reject(Rejection::default());
+        let unsupported = |what: &str| Answer::Unsupported { what: what.to_owned() };
+        let right = own.answer(question);
+        match (self, right) {
+            (_, unsupported @ Answer::Unsupported { .. }) if self != Self::KnowsAll => unsupported,
+            (Self::KnowsAll, Answer::Unsupported { .. })
+            | (Self::AcceptsAll, Answer::Reject(_)) => {
+                Answer::Ok(Output { value: Some(serde_json::json!({})), ..Output::default() })
+            }
+            (Self::RefusesAll, _) => refused(),
+            (Self::Echoes, _) => Answer::Ok(Output {
+                value: question.value.as_ref().and_then(|value| serde_json::to_value(value).ok()),
+                hex: question.hex.clone(),
+                packets: question.packets.clone(),
+            }),
+            (Self::Boasts, _) if question.stream.starts_with("variable") => unsupported("stream"),
+            (Self::Excuses, Answer::Reject(_)) => {
+                Answer::Error { message: "an exception".to_owned() }
+            }
+            (Self::Tires, _) if seq > 100 => refused(),
+            (Self::Terse, Answer::Ok(mut output)) => {
+                output.value.iter_mut().for_each(strip);
+                Answer::Ok(output)
+            }
+            (_, right) => right,
+        }
+    }
+}
+
+/// What a miniature does.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Act {
+    /// Says a line.
+    Say(String),
+    /// Says nothing any more.
+    Hang,
+    /// Ends.
+    Crash,
+}
+
+/// Leaves what decides: of a text and of bytes the hex, of a float the bits.
+fn strip(value: &mut serde_json::Value) {
+    match value {
+        serde_json::Value::Array(items) => items.iter_mut().for_each(strip),
+        serde_json::Value::Object(fields) => {
+            if fields.get("type").is_some_and(serde_json::Value::is_string) {
+                if fields.contains_key("hex") || fields.contains_key("bits") {
+                    fields.remove("value");
+                }
+            } else {
+                fields.values_mut().for_each(strip);
+            }
+        }
+        _ => {}
+    }
+}

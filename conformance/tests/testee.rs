@@ -1,0 +1,158 @@
+//! Codecs over the testee protocol: this project's own, with and without a defect, and miniatures
+//! that misbehave as a whole.
+
+use std::time::Duration;
+
+use ads_cnc_conformance::defect::Defect;
+use ads_cnc_conformance::suite::{self, Case, Needs, Outcome, Subject};
+use ads_cnc_conformance::testee::{Judged, Miniature, Own, Process, TESTEE, Terms, Testee, judge};
+use ads_cnc_conformance::verdict::{Exit, Verdict};
+
+const OF_A_TESTEE: Terms<'static> =
+    Terms { seed: 7, subject: Subject::Testee, edition: None, strict: false };
+
+fn cases() -> Vec<Case> {
+    suite::cases().into_iter().filter(|case| case.needs == Needs::Codec).collect()
+}
+
+/// Few enough for a testee that has to be started anew again and again.
+fn some() -> Vec<Case> {
+    let every = cases().into_iter().enumerate().filter(|(place, _)| place % 25 == 0);
+    every.map(|(_, case)| case).collect()
+}
+
+fn own() -> String {
+    format!("\"{}\" testee", env!("CARGO_BIN_EXE_ads-cnc"))
+}
+
+fn process(arguments: &str) -> Process {
+    Process::new(format!("{} {arguments}", own()), Duration::from_millis(1500))
+}
+
+fn failed(outcomes: &[Outcome]) -> Vec<&str> {
+    let mut failed: Vec<&str> = outcomes
+        .iter()
+        .flat_map(|outcome| &outcome.verdicts)
+        .filter(|one| matches!(one.verdict, Verdict::Fail | Verdict::Vacuous))
+        .map(|one| one.requirement)
+        .collect();
+    failed.sort_unstable();
+    failed.dedup();
+    failed
+}
+
+fn exit(judged: &Judged) -> Exit {
+    Exit::of(judged.outcomes.iter().flat_map(|one| &one.verdicts).map(|one| one.verdict))
+}
+
+#[test]
+fn the_own_codec_passes_over_pipes_as_in_the_process() {
+    let mut over_pipes = process("");
+    let piped = judge(&mut over_pipes, cases(), OF_A_TESTEE);
+    let mut own = Own::default();
+    let direct = judge(&mut own, cases(), OF_A_TESTEE);
+    assert_eq!(exit(&piped), Exit::Success, "{:?}", failed(&piped.outcomes));
+    assert_eq!(piped.asked, direct.asked);
+    assert!(piped.asked > 1800, "{}", piped.asked);
+    assert_eq!((piped.restarts, over_pipes.starts), (0, 1));
+    let verdicts = |judged: &Judged| -> Vec<(String, Verdict)> {
+        judged.outcomes.iter().map(|one| (one.case.id.clone(), one.verdict())).collect()
+    };
+    assert_eq!(verdicts(&piped), verdicts(&direct));
+    assert!(verdicts(&piped).iter().all(|(_, verdict)| *verdict == Verdict::Pass));
+}
+
+#[test]
+fn the_order_comes_from_the_seed_and_does_not_matter() {
+    let with = |seed| {
+        let mut own = Own::default();
+        let judged = judge(&mut own, cases(), Terms { seed, ..OF_A_TESTEE });
+        judged.outcomes.iter().map(|one| one.verdict()).collect::<Vec<_>>()
+    };
+    assert_eq!(with(1), with(2));
+}
+
+/// Each miniature, and whether it is seen through by the protocol or by requirements.
+#[test]
+fn miniatures_are_seen_through() {
+    for miniature in Miniature::ALL {
+        let mut process = process(&format!("--miniature {}", miniature.name()));
+        let judged = judge(&mut process, some(), OF_A_TESTEE);
+        let failed = failed(&judged.outcomes);
+        let expected = if miniature.is_right() { Exit::Success } else { Exit::Failure };
+        assert_eq!(exit(&judged), expected, "{}: {failed:?}", miniature.name());
+        let by_manners =
+            matches!(miniature, Miniature::KnowsAll | Miniature::Tires | Miniature::Stays);
+        if by_manners {
+            assert!(failed.contains(&TESTEE), "{}: {failed:?}", miniature.name());
+        }
+        if miniature == Miniature::Stays {
+            assert_eq!(failed, [TESTEE]);
+        }
+        match miniature {
+            Miniature::Hangs => assert!(judged.restarts > 1),
+            Miniature::Crashes => assert!(judged.restarts > 3),
+            Miniature::Miscounts => assert!(process.starts > 3),
+            _ => assert_eq!(process.starts, 1, "{}", miniature.name()),
+        }
+        if miniature == Miniature::Noisy {
+            assert!(process.stderr().len() > 10_000);
+        }
+    }
+}
+
+#[test]
+fn what_is_refused_for_another_reason_is_vacuous() {
+    let mut process = process("--miniature refuses-all");
+    let judged = judge(&mut process, some(), OF_A_TESTEE);
+    let refused = |outcome: &&Outcome| outcome.case.title.contains("cut");
+    let cut: Vec<_> = judged.outcomes.iter().filter(refused).collect();
+    assert!(!cut.is_empty());
+    for outcome in cut {
+        assert!(
+            matches!(outcome.verdict(), Verdict::Vacuous | Verdict::Differs),
+            "{}: {}",
+            outcome.case.id,
+            outcome.verdict()
+        );
+    }
+}
+
+#[test]
+fn what_is_not_claimed_is_not_applicable() {
+    let mut process = process("--miniature decodes-only");
+    let judged = judge(&mut process, cases(), OF_A_TESTEE);
+    let of = |id: &str| judged.outcomes.iter().find(|one| one.case.id == id).unwrap();
+    assert_eq!(of("vec-handle-printed").verdict(), Verdict::Pass);
+    assert_eq!(of("vec-handle-printed").checks, 1);
+    let text = judged.outcomes.iter().find(|one| one.case.id.starts_with("seq-")).unwrap();
+    assert_eq!(text.verdict(), Verdict::NotApplicable);
+}
+
+#[test]
+fn a_field_done_wrong_fails_its_requirement() {
+    for (id, requirement) in [
+        ("variable-description.size.flip", "VAR-4"),
+        ("variable-handle-read.indices.swap", "VAR-11"),
+        ("object-descriptor.index_offset.swap", "COM-2"),
+        ("ams-header.invoke_id.swap", "ADS-5"),
+        ("dynamic-value.value.swap", "GEN-1"),
+    ] {
+        let mut own = Own { defect: Some(Defect::by_id(id).unwrap()) };
+        let judged = judge(&mut own, cases(), OF_A_TESTEE);
+        assert!(failed(&judged.outcomes).contains(&requirement), "{id}");
+    }
+}
+
+#[test]
+fn what_cannot_be_started_fails_by_the_protocol_alone() {
+    for command in ["ads-cnc-no-such-command", "exit 3"] {
+        let mut process = Process::new(command, Duration::from_millis(500));
+        assert!(process.hello().is_err());
+        let judged = judge(&mut process, some(), OF_A_TESTEE);
+        assert_eq!(failed(&judged.outcomes), [TESTEE]);
+        assert!(judged.hello.is_none());
+        let fault = &judged.outcomes.last().unwrap().verdicts[0].judgements[0];
+        assert!(fault.found.contains("crash"), "{}", fault.found);
+    }
+}
