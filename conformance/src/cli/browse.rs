@@ -28,7 +28,8 @@ const CONTENT_MAX: u32 = 0x1_0000;
 /// Nothing is written, and no more is asked than what there is has to be asked for: descriptors in
 /// ranges, channels by their number until all are found, axes and spindles until one is not there.
 /// Elements take a request each, and four more for type, length, unit and access of those that were
-/// not met before under this name at this place of the class; --exact asks them of all. --of and
+/// not met before under this name at this place of the class; --exact asks them of all. Which of the
+/// tasks SDA and GEO has a class no manual says: GEO is asked for what SDA does not have. --of and
 /// --filter save requests, --rate keeps a device from being asked too fast.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]

@@ -33,9 +33,9 @@ pub use refusal::{Reason, Refusal};
 use std::ops::RangeInclusive;
 
 use ads_cnc::address::{Access, ComTable, Group};
-use ads_cnc::ads::{AmsNetId, Command, FrameRef, StateFlags};
+use ads_cnc::ads::{AmsNetId, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::limits::ADS_DATA_MAX;
-use ads_cnc::operation::{Call, Effect, Request, Service, Task};
+use ads_cnc::operation::{Call, Effect, Function, Request, Service, Task};
 use ads_cnc::streaming;
 
 use crate::exchange::call_of;
@@ -162,11 +162,14 @@ impl Gate {
             Err(refusal) => return Err(Reason::Unknown(refusal).into()),
         };
         let spec = request.function().spec();
-        // That the other of SDA and GEO answers too is assumed.
-        let at_home = call.port == spec.task.port();
+        let at_home = call.port == spec.task.port()
+            || (call.port == AmsPort::GEO && OF_CLASSES.contains(&request.function()));
         match spec.effect {
             Effect::Query if at_home || self.malformed => Ok(true),
-            _ if !at_home => Err(Reason::Port(call.port, request.function()).into()),
+            // An entry does not tell the tasks apart: it is about SDA and COM.
+            _ if call.port != spec.task.port() => {
+                Err(Reason::Port(call.port, request.function()).into())
+            }
             _ => self.check_change(&request, to, now).map(|()| false),
         }
     }
@@ -196,6 +199,19 @@ impl Gate {
         Ok(())
     }
 }
+
+/// The queries of classes, which the manual has for SDA and GEO alike (section 2.2). That the rest of
+/// SDA's functions are answered by GEO too is assumed, and nothing is sent there for it.
+const OF_CLASSES: [Function; 8] = [
+    Function::FindInstance,
+    Function::CountElements,
+    Function::ReadElement,
+    Function::ReadElementName,
+    Function::ReadElementType,
+    Function::ReadElementLength,
+    Function::ReadElementUnit,
+    Function::ReadElementWriteFlag,
+];
 
 /// What no opt-in and no entry lets through.
 fn never(call: &Call<'_>) -> Result<(), Refusal> {

@@ -39,7 +39,8 @@ pub enum Reason {
     Stream,
     /// No function of the table takes this: it might be anything.
     Unknown(operation::Refusal),
-    /// The function is documented for another port.
+    /// The function is documented for another port, or changes something at GEO, which no entry is
+    /// about.
     Port(AmsPort, Function),
     /// The function changes something, and no file allows anything.
     NoFile(Function, AmsNetId),
@@ -110,7 +111,7 @@ impl fmt::Display for Refusal {
             Reason::Stream => f.write_str("what this does to the program stream is not documented"),
             Reason::Unknown(refusal) => write!(f, "no documented query: {refusal}"),
             Reason::Port(port, function) => {
-                write!(f, "\"{}\" is not documented for port {port}", name(function))
+                write!(f, "\"{}\" is not sent to port {port}", name(function))
             }
             Reason::NoFile(function, _) => {
                 write!(

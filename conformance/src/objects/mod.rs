@@ -17,7 +17,8 @@
 //! | spindles | from 0 on | at the first that is not there |
 //! | elements | name, type, length, unit, write flag | with their number; behind [`GAP`] refused in a row |
 //!
-//! An instance that is not there is one request: (0, 0), an error or the place of another instance is
+//! Which of SDA and GEO has a class no manual says: SDA is asked, and GEO for a class of which SDA has
+//! nothing. An instance that is not there is one request: (0, 0), an error or the place of another instance is
 //! the answer. No number goes beyond 255. Type, length, unit and write flag of an element are asked once of a class, for
 //! its channels and for its axes: an element of the same name at the same place of another is taken
 //! for alike (assumed; [`Options::exact`] asks all).

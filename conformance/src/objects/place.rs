@@ -3,9 +3,10 @@
 use std::fmt;
 
 use ads_cnc::address::{Attribute, Channel, ChannelAxis, ElementAddress, IndexGroup, IndexOffset};
+use ads_cnc::ads::AmsPort;
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::{
-    AxisReadByName, AxisWriteByName, DynamicValueByName, ReadByName, ReadElement, ReadObject,
+    AxisReadByName, AxisWriteByName, DynamicValueByName, ReadByName, ReadElement, ReadObject, Task,
     WriteByName, WriteElement, WriteObject,
 };
 use ads_cnc::value::EncodeValue as _;
@@ -85,8 +86,13 @@ pub enum Place {
         /// Index offset.
         offset: IndexOffset,
     },
-    /// The content of an element of SDA or GEO.
-    Element(ElementAddress),
+    /// The content of an element of a class.
+    Element {
+        /// Where it is.
+        element: ElementAddress,
+        /// SDA or GEO.
+        task: Task,
+    },
     /// A variable, by its name.
     Variable {
         /// Which channel.
@@ -112,9 +118,18 @@ impl Place {
     pub const fn address(&self) -> Option<(IndexGroup, IndexOffset)> {
         match self {
             Self::Object { group, offset } => Some((*group, *offset)),
-            Self::Element(element) => {
+            Self::Element { element, .. } => {
                 Some((element.group(Attribute::Content), element.index_offset()))
             }
+            _ => None,
+        }
+    }
+
+    /// The AMS port of the task that has the content, if it has an address of its own.
+    pub const fn port(&self) -> Option<AmsPort> {
+        match self {
+            Self::Object { .. } => Some(AmsPort::COM),
+            Self::Element { task, .. } => Some(task.port()),
             _ => None,
         }
     }
@@ -123,7 +138,7 @@ impl Place {
     pub fn entry(&self) -> Entry {
         match self {
             Self::Object { group, offset } => Entry::Content { group: *group, offset: *offset },
-            Self::Element(element) => Entry::Content {
+            Self::Element { element, .. } => Entry::Content {
                 group: element.group(Attribute::Content),
                 offset: element.index_offset(),
             },
@@ -146,9 +161,9 @@ impl Place {
                 let read = ReadObject::new(*group, *offset, size).map_err(no_object)?;
                 session.call(&read).map(|content| content.bytes.to_vec())
             }
-            Self::Element(element) => {
+            Self::Element { element, task } => {
                 let read = ReadElement::new(*element, size).map_err(no_element)?;
-                session.call(&read).map(|content| content.bytes.to_vec())
+                session.call_at(*task, &read).map(|content| content.bytes.to_vec())
             }
             Self::Variable { channel, axis: None, name } => {
                 let read = ReadByName { channel: *channel, name: name.as_cnc_str().into() };
@@ -177,8 +192,9 @@ impl Place {
             Self::Object { group, offset } => {
                 session.check(&WriteObject::new(*group, *offset, &[]).map_err(no_object)?)
             }
-            Self::Element(element) => {
-                session.check(&WriteElement::new(*element, &[]).map_err(no_element)?)
+            Self::Element { element, task } => {
+                let write = WriteElement::new(*element, &[]).map_err(no_element)?;
+                session.check_at(*task, &write)
             }
             Self::Variable { channel, axis: Some(axis), name } => {
                 let (channel, axis, name) = (*channel, *axis, name.as_cnc_str());
@@ -202,9 +218,9 @@ impl Place {
                 let write = WriteObject::new(*group, *offset, value);
                 session.call(&write.map_err(no_object)?)
             }
-            Self::Element(element) => {
+            Self::Element { element, task } => {
                 let write = WriteElement::new(*element, value);
-                session.call(&write.map_err(no_element)?)
+                session.call_at(*task, &write.map_err(no_element)?)
             }
             Self::Variable { channel, axis: Some(axis), name } => {
                 let name = name.as_cnc_str();

@@ -48,6 +48,8 @@ pub struct ObjectReport {
     pub unit: Option<String>,
     /// `R`, `RW`, or a code that no manual has.
     pub access: Option<String>,
+    /// AMS port of the task that has its content.
+    pub port: Option<u16>,
     /// Index group of its content.
     pub group: Option<u32>,
     /// Index offset of its content.
@@ -77,6 +79,7 @@ impl From<&Object> for ObjectReport {
             size: object.ty.size,
             unit: object.unit.as_ref().map(ToString::to_string),
             access: text(object.access.to_string()),
+            port: object.place.port().map(|port| port.0),
             group: address.map(|(group, _)| group.get()),
             offset: address.map(|(_, offset)| offset.get()),
             handle: object.handle.map(|handle| handle.0),

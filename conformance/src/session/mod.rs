@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Operation};
+use ads_cnc::operation::{Call, Operation, Task};
 
 use crate::client::{Client, Target};
 use crate::cnc::{Cnc, NET_ID, Server};
@@ -118,8 +118,20 @@ impl Session {
     /// # Errors
     /// What came instead, or why nothing was sent.
     pub fn call<'s, O: Operation>(&'s mut self, operation: &O) -> Result<O::Reply<'s>, Trouble> {
+        self.call_at(O::FUNCTION.spec().task, operation)
+    }
+
+    /// [`call`](Self::call), at this task: SDA and GEO share the functions of classes.
+    ///
+    /// # Errors
+    /// Those of [`call`](Self::call).
+    pub fn call_at<'s, O: Operation>(
+        &'s mut self,
+        task: Task,
+        operation: &O,
+    ) -> Result<O::Reply<'s>, Trouble> {
         let spec = O::FUNCTION.spec();
-        let call = call(operation, &mut self.request)?;
+        let call = call(task, operation, &mut self.request)?;
         let exchange = self.client.call(&call);
         if self.client.is_dry() {
             show(&exchange);
@@ -149,8 +161,16 @@ impl Session {
     /// # Errors
     /// [`Trouble::Refused`], [`Trouble::Unsendable`].
     pub fn check<O: Operation>(&self, operation: &O) -> Result<(), Trouble> {
+        self.check_at(O::FUNCTION.spec().task, operation)
+    }
+
+    /// [`check`](Self::check), at this task.
+    ///
+    /// # Errors
+    /// Those of [`check`](Self::check).
+    pub fn check_at<O: Operation>(&self, task: Task, operation: &O) -> Result<(), Trouble> {
         let mut request = Vec::new();
-        let checked = self.client.check(&call(operation, &mut request)?);
+        let checked = self.client.check(&call(task, operation, &mut request)?);
         checked.map_err(|fault| Trouble::fault(&self.client, fault, self.answered))
     }
 
@@ -176,12 +196,16 @@ impl Session {
 }
 
 /// The call of an operation, its data in `request`.
-fn call<'r, O: Operation>(operation: &O, request: &'r mut Vec<u8>) -> Result<Call<'r>, Trouble> {
+fn call<'r, O: Operation>(
+    task: Task,
+    operation: &O,
+    request: &'r mut Vec<u8>,
+) -> Result<Call<'r>, Trouble> {
     let spec = O::FUNCTION.spec();
     request.clear();
     request.resize(operation.encoded_len(), 0);
     Ok(Call {
-        port: spec.task.port(),
+        port: task.port(),
         service: spec.service,
         index_group: operation.index_group(),
         index_offset: operation.index_offset(),

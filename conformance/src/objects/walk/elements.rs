@@ -4,7 +4,7 @@ use ads_cnc::CncString;
 use ads_cnc::address::{Channel, Class, ElementAddress};
 use ads_cnc::operation::{
     CountElements, FindInstance, ReadElementLength, ReadElementName, ReadElementType,
-    ReadElementUnit, ReadElementWriteFlag,
+    ReadElementUnit, ReadElementWriteFlag, Task,
 };
 
 use super::super::{Access, List, Object, Place};
@@ -27,40 +27,69 @@ pub(super) struct Attributes {
     access: Access,
 }
 
-/// Classes that have channels and places of axes in them.
-const OF_PLACES: [Class; 3] = [Class::Interpolator, Class::Decoder, Class::PathPreparation];
+/// In this order they are listed.
+const CLASSES: [Class; 6] = [
+    Class::PositionController,
+    Class::Interpolator,
+    Class::Decoder,
+    Class::PathPreparation,
+    Class::Hld,
+    Class::Spindle,
+];
 
 impl Walk<'_> {
+    /// Which of SDA and GEO has a class no manual says: GEO is asked for what SDA does not have.
     pub(super) fn elements(&mut self, channels: &[Channel]) -> Result<(), Trouble> {
-        self.platform_axes(Class::PositionController, None)?;
-        for class in OF_PLACES {
-            for &channel in channels {
-                if self.instance(class, Some(channel), 0)? {
-                    self.axes(class, Some(channel))?;
-                }
+        for class in CLASSES {
+            self.task = Task::Sda;
+            self.class(class, channels)?;
+            if !self.has(class) && self.geo.is_ok() {
+                self.task = Task::Geo;
+                self.class(class, channels)?;
+            }
+            let list = List::Class { class, channel: None, axis: None };
+            match (self.has(class), &self.geo) {
+                (true, _) if self.task == Task::Geo => self.note(list, "of the GEO task"),
+                (true, _) => {}
+                (false, Ok(())) => self.note(list, "none is there, as the SDA and GEO tasks say"),
+                (false, Err(_)) => self.note(list, "none is there, as the SDA task says"),
             }
         }
-        for &channel in channels {
-            self.instance(Class::Hld, Some(channel), 0)?;
+        if let Err(why) = &self.geo {
+            self.found.notes.push(format!("the GEO task cannot be asked: {why}"));
         }
-        self.platform_axes(Class::Hld, channels.first().copied())?;
-        for index in 0..=NUMBER_MAX {
-            let query = FindInstance::new(Class::Spindle, index, 0);
-            if !self.found_instance(&query, Class::Spindle, u8::try_from(index).ok(), None)? {
-                break;
-            }
-        }
-        self.note_absent();
         Ok(())
     }
 
-    /// That a class has nothing may mean that another task than SDA serves it.
-    fn note_absent(&mut self) {
-        for class in Class::ALL {
-            let mut found = self.instances.iter().map(|first| first.class_group().class);
-            if !found.any(|there| there == class) {
-                let list = List::Class { class, channel: None, axis: None };
-                self.note(list, "none is there, as the SDA task says");
+    fn has(&self, class: Class) -> bool {
+        self.instances.iter().any(|first| first.class_group().class == class)
+    }
+
+    fn class(&mut self, class: Class, channels: &[Channel]) -> Result<(), Trouble> {
+        match class {
+            Class::PositionController => self.platform_axes(class, None),
+            Class::Hld => {
+                for &channel in channels {
+                    self.instance(class, Some(channel), 0)?;
+                }
+                self.platform_axes(class, channels.first().copied())
+            }
+            Class::Spindle => {
+                for index in 0..=NUMBER_MAX {
+                    let query = FindInstance::new(class, index, 0);
+                    if !self.found_instance(&query, class, u8::try_from(index).ok(), None)? {
+                        break;
+                    }
+                }
+                Ok(())
+            }
+            Class::Interpolator | Class::Decoder | Class::PathPreparation => {
+                for &channel in channels {
+                    if self.instance(class, Some(channel), 0)? {
+                        self.axes(class, Some(channel))?;
+                    }
+                }
+                Ok(())
             }
         }
     }
@@ -104,7 +133,7 @@ impl Walk<'_> {
         axis: Option<u8>,
     ) -> Result<bool, Trouble> {
         let list = List::Class { class, channel, axis };
-        let first = match self.ask(query)?.map(|found| (found, found.first_element())) {
+        let first = match self.ask_task(query)?.map(|found| (found, found.first_element())) {
             Some((_, Ok(first))) => first,
             Some((found, Err(_))) => {
                 let (group, offset) = (found.index_group, found.index_offset);
@@ -134,7 +163,7 @@ impl Walk<'_> {
     ) -> Result<(), Trouble> {
         // An instance may be said to begin where a function is.
         let count = match CountElements::new(first) {
-            Ok(count) => self.ask(&count)?.map(|count| count.0),
+            Ok(count) => self.ask_task(&count)?.map(|count| count.0),
             Err(_) => None,
         };
         let Some(count) = count else {
@@ -144,7 +173,7 @@ impl Walk<'_> {
         let mut tally = Tally::new(count);
         for place in 1..=count.min(ELEMENTS_MAX) {
             let Ok(element) = first.following(place) else { break };
-            let name = self.ask(&ReadElementName::new(element))?;
+            let name = self.ask_task(&ReadElementName::new(element))?;
             let Some(name) = name.map(|name| CncString::from(name.text.text())) else {
                 if tally.refused(place.saturating_sub(1)) {
                     break;
@@ -158,7 +187,7 @@ impl Walk<'_> {
                 self.found(Object {
                     list,
                     name: one.name,
-                    place: Place::Element(element),
+                    place: Place::Element { element, task: self.task },
                     ty: one.ty,
                     unit: one.unit,
                     access: one.access,
@@ -185,16 +214,16 @@ impl Walk<'_> {
         if let Some(known) = known.filter(|_| !self.options.exact) {
             return Ok(known.clone());
         }
-        let ty = self.ask(&ReadElementType::new(address))?;
+        let ty = self.ask_task(&ReadElementType::new(address))?;
         let type_name = ty.map(|ty| CncString::from(ty.text.text())).unwrap_or_default();
-        let length = self.ask(&ReadElementLength::new(address))?.map(|length| length.get());
+        let length = self.ask_task(&ReadElementLength::new(address))?.map(|length| length.get());
         let ty = match length {
             Some(length) => Type::of_content(type_name.as_cnc_str(), length),
             None => Type { size: None, ..Type::of_content(type_name.as_cnc_str(), 0) },
         };
-        let unit = self.ask(&ReadElementUnit::new(address))?;
+        let unit = self.ask_task(&ReadElementUnit::new(address))?;
         let unit = unit.map(|unit| CncString::from(unit.text.text()));
-        let flag = self.ask(&ReadElementWriteFlag::new(address))?;
+        let flag = self.ask_task(&ReadElementWriteFlag::new(address))?;
         let access = flag.map_or(Access::Unknown, |flag| Access::of_flag(flag.is_writable()));
         let known = Attributes { class, of_axis, element, name, ty, unit, access };
         self.alike.push(known.clone());

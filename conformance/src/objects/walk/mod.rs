@@ -7,7 +7,7 @@ mod variables;
 pub(crate) use variables::parameter;
 
 use ads_cnc::address::{Channel, Class, ElementAddress};
-use ads_cnc::operation::{CountObjects, FindInstance, ObjectList, Operation};
+use ads_cnc::operation::{CountObjects, FindInstance, ObjectList, Operation, Task};
 
 use super::{List, Object, Pattern};
 use crate::session::{Session, Trouble};
@@ -83,8 +83,8 @@ pub fn walk(
     watch: &mut dyn FnMut(Seen),
 ) -> Result<Found, Trouble> {
     let found = Found::default();
-    let (instances, alike) = (Vec::new(), Vec::new());
-    let mut walk = Walk { session, options, watch, found, instances, alike };
+    let (instances, alike, task) = (Vec::new(), Vec::new(), Task::Sda);
+    let mut walk = Walk { session, options, watch, found, instances, alike, task, geo: Ok(()) };
     let channels = walk.channels()?;
     if options.variables {
         walk.variables(&channels)?;
@@ -102,6 +102,10 @@ struct Walk<'w> {
     found: Found,
     /// The first elements of the instances found.
     instances: Vec<ElementAddress>,
+    /// Which of SDA and GEO is asked for elements.
+    task: Task,
+    /// Why GEO is not asked.
+    geo: Result<(), Trouble>,
     /// What elements said of themselves, for those that are alike.
     alike: Vec<Attributes>,
 }
@@ -113,6 +117,26 @@ impl Walk<'_> {
         match self.session.call(operation) {
             Ok(reply) => Ok(Some(reply)),
             Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(None),
+            Err(trouble) => Err(trouble),
+        }
+    }
+
+    /// [`ask`](Self::ask) of the task that elements are looked for at.
+    fn ask_task<O: Operation>(&mut self, operation: &O) -> Result<Option<O::Reply<'_>>, Trouble> {
+        if self.task == Task::Geo && self.geo.is_err() {
+            return Ok(None);
+        }
+        self.found.requests = self.found.requests.saturating_add(1);
+        match self.session.call_at(self.task, operation) {
+            Ok(reply) => Ok(Some(reply)),
+            Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(None),
+            // Not every CNC need have it.
+            Err(trouble @ (Trouble::Ams { .. } | Trouble::NoAnswer(_)))
+                if self.task == Task::Geo =>
+            {
+                self.geo = Err(trouble);
+                Ok(None)
+            }
             Err(trouble) => Err(trouble),
         }
     }
