@@ -5,6 +5,7 @@ mod common;
 use std::io::{Read as _, Write as _};
 use std::process::{Command, Stdio};
 
+use common::fake::TestFile;
 use common::{Serve, connect};
 
 /// ReadState of the COM task, and its answer.
@@ -51,6 +52,31 @@ fn an_interrupt_ends_it_cleanly() {
             assert!(matches!(client.read(&mut [0; 1]), Ok(0) | Err(_)));
         }
     }
+}
+
+/// What streaming ran can be read back from another process too.
+#[cfg(unix)]
+#[test]
+fn what_was_run_is_written_in_the_end() {
+    let ran = TestFile::new(".nc", b"");
+    let program = TestFile::new(".nc", b"N10 X1\nN20 X2\nN30 $FOR P1=0,10,1\nN40 X4\n");
+    let allow = TestFile::allowing("[[stream]]\nchannel = 2\n");
+    let executed = format!("2={}", ran.path());
+    let options = ["--log", "info", "--pace", "fast", "--executed", &executed];
+    let mut serve = Serve::logging(&options);
+    let stream = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["stream", program.path(), "--force", "--channel", "2"])
+        .args(["--target", &serve.addr, "--net-id", &serve.net_id, "--allow-write", allow.path()])
+        .output();
+    assert_eq!(stream.unwrap().status.code(), Some(0));
+    let id = serve.process.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    assert_eq!(serve.process.wait().unwrap().code(), Some(0));
+    assert_eq!(std::fs::read(&ran.0).unwrap(), b"N10 X1\r\nN20 X2\r\n");
+    let mut log = String::new();
+    serve.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+    assert!(log.contains("streaming was aborted: streaming.nc:3:5: $FOR in a stream"), "{log}");
+    assert!(log.contains("channel=2 lines=2 bytes=16"), "{log}");
 }
 
 /// The log says why a connection ended, and of which client; other clients work on.
@@ -127,6 +153,9 @@ fn an_address_that_is_none_says_what_to_do() {
     let other = Serve::start(&[]);
     let (code, why) = serve(&["--listen", &other.addr]);
     assert!(code == Some(70) && why.contains("--listen 127.0.0.1:0"), "{why}");
+    for executed in ["9=x.nc", "x.nc", "1=", "1=/none/x.nc"] {
+        assert_eq!(serve(&["--listen", "127.0.0.1:0", "--executed", executed]).0, Some(2));
+    }
     // The default model is not the one of a file.
     assert_eq!(serve(&["--print-model", "--model", "mine.toml"]).0, Some(2));
 }

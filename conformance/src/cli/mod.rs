@@ -2,6 +2,7 @@
 
 mod browse;
 mod completions;
+mod executed;
 mod explain;
 mod get;
 mod interrupt;

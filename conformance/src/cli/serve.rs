@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use ads_cnc::ads::AmsNetId;
 
+use super::executed::{self, ExecutedTo};
 use super::interrupt::Interrupt;
 use super::model::ModelArgs;
 use super::{complain, find_defect, refuse};
@@ -26,6 +27,7 @@ Examples:
   ads-cnc serve --print-model > mine.toml
   ads-cnc serve --model mine.toml --listen 127.0.0.1:0 --log debug
   ads-cnc serve --edition de-1.051 --cnc-version V3.1.3131.0 --pace 20
+  ads-cnc serve --executed 1=executed.nc
 
 It speaks AMS/TCP, as a device does, and answers at the AMS ports 551 (GEO), 552 (SDA) and 553
 (COM). A client needs no route. Ctrl-C ends it.
@@ -74,6 +76,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "PACE")]
     pace: Option<Pace>,
 
+    /// Write what streaming ran in this channel to this file in the end, its last MiB if there is
+    /// more; for several channels more than once.
+    #[arg(long, value_name = "CHANNEL=FILE")]
+    executed: Vec<ExecutedTo>,
+
     /// Let an NC program of channel 1 ask the manual's service for square roots, again and again,
     /// instead of what the model has it ask.
     #[arg(long)]
@@ -109,11 +116,20 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     if let Err(why) = programs(&cnc, args) {
         return refuse(Exit::Internal, why);
     }
+    let executed: Result<Vec<_>, _> = args.executed.iter().map(|one| one.open(&cnc)).collect();
+    let executed = match executed {
+        Ok(executed) => executed,
+        Err(why) => return refuse(Exit::Usage, format_args!("--executed: {why}")),
+    };
     let interrupt = match Interrupt::catch() {
         Ok(interrupt) => interrupt,
         Err(why) => return refuse(why.exit(), why),
     };
-    let server = match start(args.listen, cnc, defect, args.options()) {
+    if let Some(defect) = &defect {
+        tracing::warn!("serving with a seeded defect: {defect}");
+    }
+    let cnc = Arc::new(cnc.with_defect(defect));
+    let server = match start(args.listen, Arc::clone(&cnc), args.options()) {
         Ok(server) => server,
         Err(why) => return refuse(Exit::Internal, why),
     };
@@ -130,7 +146,11 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     interrupt.wait();
     tracing::info!("interrupted, ending");
     drop(server);
-    ExitCode::SUCCESS
+    executed::log(&cnc);
+    match executed.into_iter().try_for_each(|one| one.write(&cnc)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => refuse(Exit::Internal, why),
+    }
 }
 
 impl Args {
@@ -162,15 +182,7 @@ impl Args {
     }
 }
 
-fn start(
-    addr: SocketAddr,
-    cnc: Cnc,
-    defect: Option<Defect>,
-    options: ServerOptions,
-) -> Result<Server, String> {
-    if let Some(defect) = &defect {
-        tracing::warn!("serving with a seeded defect: {defect}");
-    }
+fn start(addr: SocketAddr, cnc: Arc<Cnc>, options: ServerOptions) -> Result<Server, String> {
     let listener = net::listen(addr).map_err(|error| {
         let next = match error.kind() {
             io::ErrorKind::AddrInUse => {
@@ -181,7 +193,6 @@ fn start(
         };
         format!("cannot listen on {addr}: {error}{next}")
     })?;
-    let cnc = Arc::new(cnc.with_defect(defect));
     let server = Server::with_options(listener, cnc, options);
     server.map_err(|error| format!("cannot serve on {addr}: {error}"))
 }

@@ -1,0 +1,71 @@
+//! `ads-cnc serve --executed`: what streaming programs have run, for who has no part in the process.
+
+use std::fs::File;
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use crate::cnc::Cnc;
+use crate::cnc::program::State;
+
+/// A channel, and the file that gets its lines.
+#[derive(Clone, Debug)]
+pub(super) struct ExecutedTo {
+    channel: u8,
+    file: PathBuf,
+}
+
+impl FromStr for ExecutedTo {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let (channel, file) = text.split_once('=').ok_or(NEEDED)?;
+        match (channel.parse(), file) {
+            (Err(_), _) | (_, "") => Err(NEEDED),
+            (Ok(channel), file) => Ok(Self { channel, file: file.into() }),
+        }
+    }
+}
+
+const NEEDED: &str = "the number of a channel and a file are needed, as 1=executed.nc";
+
+/// A file that is open already: what is wrong with it is known before anything is run.
+#[derive(Debug)]
+pub(super) struct Opened<'a>(&'a ExecutedTo, File);
+
+impl ExecutedTo {
+    pub(super) fn open(&self, cnc: &Cnc) -> Result<Opened<'_>, String> {
+        cnc.with_program(self.channel, |_| ()).map_err(|error| error.to_string())?;
+        match File::create(&self.file) {
+            Ok(file) => Ok(Opened(self, file)),
+            Err(error) => Err(format!("{}: {error}", self.file.display())),
+        }
+    }
+}
+
+impl Opened<'_> {
+    /// Writes the lines, as they came.
+    pub(super) fn write(mut self, cnc: &Cnc) -> Result<(), String> {
+        let executed = cnc.with_program(self.0.channel, |program| program.executed().clone());
+        let executed = executed.map_err(|error| error.to_string())?;
+        let written = self.1.write_all(executed.kept()).and_then(|()| self.1.flush());
+        written.map_err(|error| format!("{}: {error}", self.0.file.display()))
+    }
+}
+
+/// Says of every channel that was streamed to what it has run.
+pub(super) fn log(cnc: &Cnc) {
+    for channel in cnc.model().channels() {
+        let ran =
+            cnc.with_program(channel, |program| (program.executed().clone(), program.state()));
+        let Ok((executed, state)) = ran else { continue };
+        let (lines, bytes) = (executed.line_count(), executed.byte_count());
+        match state {
+            State::Aborted(why) => {
+                tracing::warn!(channel, lines, bytes, "streaming was aborted: {why}");
+            }
+            _ if lines > 0 => tracing::info!(channel, lines, bytes, "NC lines were run"),
+            _ => {}
+        }
+    }
+}
