@@ -11,8 +11,8 @@ pub use encode::encode;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{
-    AmsHeader, AmsNetId, AmsTcpHeader, ReadReply, ReadRequest, ReadWriteReply, ReadWriteRequest,
-    WriteReply, WriteRequest,
+    AmsHeader, AmsNetId, AmsTcpHeader, DeviceInfoReply, DeviceStateReply, ReadReply, ReadRequest,
+    ReadWriteReply, ReadWriteRequest, WriteReply, WriteRequest,
 };
 use ads_cnc::streaming::ProgramStream;
 use ads_cnc::text::cp1252_to_char;
@@ -101,6 +101,22 @@ pub fn decode_stream(name: &str, context: &Context, bytes: &[u8]) -> Result<Deco
         }),
         "read-write-reply" => stream(bytes, |reply: &ReadWriteReply| {
             reply_data(reply.result.0, reply.data.as_deref())
+        }),
+        "device-info-reply" => stream(bytes, |reply: &DeviceInfoReply| {
+            vec![
+                ("result", uns32(reply.result.0)),
+                ("major", uns08(reply.major)),
+                ("minor", uns08(reply.minor)),
+                ("build", uns16(reply.build)),
+                ("name", padded(&reply.name)),
+            ]
+        }),
+        "device-state-reply" => stream(bytes, |reply: &DeviceStateReply| {
+            vec![
+                ("result", uns32(reply.result.0)),
+                ("ads_state", uns16(reply.ads_state.0)),
+                ("device_state", uns16(reply.device_state)),
+            ]
         }),
         "object-count" => stream(bytes, |count: &ObjectCount| vec![("count", uns32(count.0))]),
         "object-descriptor" => stream(bytes, |object: &Descriptor| descriptor(object.as_ref())),
@@ -199,6 +215,10 @@ fn one(kind: Type, value: impl ToString) -> Value {
     Value::One(tagged(kind, value))
 }
 
+fn uns08(number: u8) -> Value {
+    one(Type::Uns08, number)
+}
+
 fn uns16(number: u16) -> Value {
     one(Type::Uns16, number)
 }
@@ -236,7 +256,7 @@ fn text_tagged(text: TextRef<'_>) -> Tagged {
     }
 }
 
-/// A text in 32 bytes: its tail counts only if it is more than padding.
+/// A text in a field of fixed size: its tail counts only if it is more than padding.
 fn padded(bytes: &[u8]) -> Value {
     let nul = bytes.iter().position(|&byte| byte == 0);
     let (text, tail) = bytes.split_at(nul.unwrap_or(bytes.len()));

@@ -112,5 +112,9 @@ STREAMS = {
     "write-reply": fixed_stream([("result", "UNS32")]),
     "read-write-request": counted_data(ADDRESS + [("read_length", "UNS32")], "write_length", False),
     "read-write-reply": counted_data([("result", "UNS32")], "length", True),
+    "device-info-reply": fixed_stream([
+        ("result", "UNS32"), ("major", "UNS08"), ("minor", "UNS08"), ("build", "UNS16"), ("name", "TEXT16"),
+    ]),
+    "device-state-reply": fixed_stream([("result", "UNS32"), ("ads_state", "UNS16"), ("device_state", "UNS16")]),
     "ams-frame": (frame_write, frame_read),
 }

@@ -97,17 +97,18 @@ def text_bytes(tagged):
     return body + b"\0" + from_hex(tagged.get("tail", ""))
 
 
-def text32(data):
+def text_field(data):
+    """A text in a field of fixed size."""
     tagged = text(data)
     if not any(from_hex(tagged.get("tail", ""))):
         tagged.pop("tail", None)
     return tagged
 
 
-def text32_bytes(tagged):
-    data = text_bytes(tagged).ljust(32, b"\0")
-    if len(data) != 32:
-        raise Bad("%r takes %d bytes of 32" % (tagged["value"], len(data)))
+def text_field_bytes(tagged, size):
+    data = text_bytes(tagged).ljust(size, b"\0")
+    if len(data) != size:
+        raise Bad("%r takes %d bytes of %d" % (tagged["value"], len(data), size))
     return data
 
 
@@ -126,7 +127,8 @@ def request_text(data, at, field, may_be_absent=False):
     return text(data)
 
 
-SIZES = {"NETID": 6, "TEXT32": 32}
+TEXTS = {"TEXT16": 16, "TEXT32": 32}
+SIZES = {"NETID": 6, **TEXTS}
 
 
 def field_size(kind):
@@ -136,15 +138,15 @@ def field_size(kind):
 def read_field(kind, data):
     if kind == "NETID":
         return {"type": "NETID", "value": ".".join(str(byte) for byte in data)}
-    return text32(data) if kind == "TEXT32" else number(kind, data)
+    return text_field(data) if kind in TEXTS else number(kind, data)
 
 
 def write_field(kind, tagged):
-    if tagged["type"] != {"TEXT32": "STRING"}.get(kind, kind):
+    if tagged["type"] != ("STRING" if kind in TEXTS else kind):
         raise Bad("type %s where %s stands" % (tagged["type"], kind))
     if kind == "NETID":
         return bytes(int(part) for part in tagged["value"].split("."))
-    return text32_bytes(tagged) if kind == "TEXT32" else number_bytes(tagged)
+    return text_field_bytes(tagged, TEXTS[kind]) if kind in TEXTS else number_bytes(tagged)
 
 
 def read_fields(layout, data, at=0):

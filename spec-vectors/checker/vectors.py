@@ -4,7 +4,7 @@ import struct
 
 from . import addresses, ads, com, sda, streaming, variables
 from .pieces import EDIT_MAX, edit
-from .scalars import Bad, Refuse, from_hex, join, number_bytes, text32_bytes, text_bytes, to_hex, write_field
+from .scalars import Bad, Refuse, from_hex, join, number_bytes, text_bytes, text_field_bytes, to_hex, write_field
 
 STREAMS = {}
 for area in (ads, addresses, com, sda, streaming, variables):
@@ -45,9 +45,9 @@ def segment_bytes(segment, width):
         return b"".join(number_bytes(item) for item in value)
     kind = value["type"]
     if kind == "STRING":
-        # in the 32-byte fields the zeros behind the text are left out of the value
-        is_field = segment["field"].split(".")[-1] in ("name", "type") and width == 32 and "tail" not in value
-        return text32_bytes(value) if is_field else text_bytes(value)
+        # in fields of fixed size the zeros behind the text are left out of the value
+        is_field = segment["field"].split(".")[-1] in ("name", "type") and width in (16, 32) and "tail" not in value
+        return text_field_bytes(value, width) if is_field else text_bytes(value)
     if kind == "BYTES":
         return from_hex(value["hex"])
     return write_field(kind, value)

@@ -207,6 +207,7 @@ const VECTORS: &[(&str, &str)] = &[
     embedded!("data/vectors/com.json"),
     embedded!("data/vectors/content.json"),
     embedded!("data/vectors/described-by-name.json"),
+    embedded!("data/vectors/device.json"),
     embedded!("data/vectors/dynamic.json"),
     embedded!("data/vectors/frame-examples.json"),
     embedded!("data/vectors/frame-limits.json"),

@@ -87,7 +87,16 @@ impl Encode for DeviceInfoReply {
     }
 }
 
-/// The state of an ADS device; unknown numbers stay what they are.
+/// The state of an ADS device; unknown numbers stay what they are (ADS-9).
+///
+/// Source: the vendors' public help pages; the five manuals do not describe it.
+///
+/// ```
+/// use ads_cnc::ads::AdsState;
+///
+/// assert_eq!(AdsState(5), AdsState::RUN);
+/// assert_ne!(AdsState(16), AdsState::CONFIG);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct AdsState(pub u16);

@@ -133,18 +133,18 @@ layouts! {
         DATA "data" @ 8, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-3", "the data";
     }
     /// ADS ReadDeviceInfo, reply.
-    DeviceInfoReply, device_info_reply: "device-info-reply", "ADS ReadDeviceInfo, reply", "ADS-5", max 24 {
+    DeviceInfoReply, device_info_reply: "device-info-reply", "ADS ReadDeviceInfo, reply", "ADS-8", max 24 {
         RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
-        MAJOR "major" @ 4, Size::Fixed(1), Uns08, "ADS-5", "first number of the version";
-        MINOR "minor" @ 5, Size::Fixed(1), Uns08, "ADS-5", "second number of the version";
-        BUILD "build" @ 6, Size::Fixed(2), Uns16, "ADS-5", "third number of the version";
-        NAME "name" @ 8, Size::Padded(16), String, "ADS-5", "name of the device";
+        MAJOR "major" @ 4, Size::Fixed(1), Uns08, "ADS-8", "first number of the version";
+        MINOR "minor" @ 5, Size::Fixed(1), Uns08, "ADS-8", "second number of the version";
+        BUILD "build" @ 6, Size::Fixed(2), Uns16, "ADS-8", "third number of the version";
+        NAME "name" @ 8, Size::Padded(16), String, "ADS-8", "name of the device";
     }
     /// ADS ReadState, reply.
-    DeviceStateReply, device_state_reply: "device-state-reply", "ADS ReadState, reply", "ADS-5", max 8 {
+    DeviceStateReply, device_state_reply: "device-state-reply", "ADS ReadState, reply", "ADS-9", max 8 {
         RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
-        ADS_STATE "ads_state" @ 4, Size::Fixed(2), Uns16, "ADS-5", "5 RUN, 6 STOP, 15 CONFIG, …";
-        DEVICE_STATE "device_state" @ 6, Size::Fixed(2), Uns16, "ADS-5", "state of the device's own";
+        ADS_STATE "ads_state" @ 4, Size::Fixed(2), Uns16, "ADS-9", "5 RUN, 6 STOP, 15 CONFIG, …";
+        DEVICE_STATE "device_state" @ 6, Size::Fixed(2), Uns16, "ADS-9", "state of the device's own";
     }
     /// Number of objects of a COM list.
     ObjectCount, object_count: "object-count", "Number of objects, reply", "COM-1", max 4 {

@@ -1,8 +1,9 @@
 //! The other way round: fields in, bytes or a refusal out.
 
 use ads_cnc::ads::{
-    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, AmsTcpHeader, Command, FrameRef, ReadReply,
-    ReadRequest, ReadWriteReply, ReadWriteRequest, StateFlags, WriteReply, WriteRequest,
+    AdsError, AdsState, AmsAddr, AmsHeader, AmsNetId, AmsPort, AmsTcpHeader, Command,
+    DeviceInfoReply, DeviceStateReply, FrameRef, ReadReply, ReadRequest, ReadWriteReply,
+    ReadWriteRequest, StateFlags, WriteReply, WriteRequest,
 };
 use ads_cnc::dynamic::{DynamicCount, DynamicIndex, DynamicName, DynamicNameRequest, DynamicValue};
 use ads_cnc::sda::{
@@ -34,6 +35,18 @@ pub fn encode(stream: &str, context: &Context, fields: &Fields) -> Result<Vec<u8
         "read-request" | "read-reply" | "write-request" | "write-reply" | "read-write-request"
         | "read-write-reply" => service(stream, of),
         "ams-frame" => frame(of),
+        "device-info-reply" => bytes(DeviceInfoReply {
+            result: AdsError(of.number("result")?),
+            major: of.number("major")?,
+            minor: of.number("minor")?,
+            build: of.number("build")?,
+            name: of.fixed("name")?,
+        }),
+        "device-state-reply" => bytes(DeviceStateReply {
+            result: AdsError(of.number("result")?),
+            ads_state: AdsState(of.number("ads_state")?),
+            device_state: of.number("device_state")?,
+        }),
         "object-count" => bytes(ObjectCount(of.number("count")?)),
         "object-descriptor" => bytes(descriptor(of)?),
         "object-descriptors" => {

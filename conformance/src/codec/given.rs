@@ -78,6 +78,20 @@ impl<'f> Given<'f> {
         Ok(Text::from(text(self.one(name)?)?))
     }
 
+    /// All bytes of a text in a field of fixed size.
+    pub(super) fn fixed<const N: usize>(self, name: &str) -> Result<[u8; N], Refused> {
+        let text = text(self.one(name)?)?;
+        let mut bytes: Vec<u8> = text.text().bytes().collect();
+        if let Some(tail) = text.tail() {
+            bytes.push(0);
+            bytes.extend(tail);
+        }
+        let all = bytes.len();
+        let over = |_| unfit(format_args!("{name} has {all} bytes, more than its {N}"));
+        bytes.resize(all.max(N), 0);
+        <[u8; N]>::try_from(bytes).map_err(over)
+    }
+
     /// Characters alone: a text without its end.
     pub(super) fn characters(self, name: &str) -> Result<CncStr<'f>, Refused> {
         Ok(text(self.one(name)?)?.text())
