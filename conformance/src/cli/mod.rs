@@ -4,12 +4,15 @@ mod browse;
 mod completions;
 mod executed;
 mod explain;
+mod forms;
 mod get;
 mod interrupt;
+mod list;
 mod log;
 mod model;
 mod name;
 mod progress;
+mod report;
 mod requirements;
 mod run;
 mod serve;
@@ -45,6 +48,7 @@ enum Command {
     /// Start the simulated CNC and serve it over AMS/TCP until interrupted.
     Serve(serve::Args),
     Run(run::Run),
+    Report(report::ReportArgs),
     Explain(explain::Explain),
     Requirements(requirements::Requirements),
     Stream(stream::Stream),
@@ -87,6 +91,7 @@ impl Cli {
         }
         match self.command {
             Some(Command::Run(run)) => run.execute().into(),
+            Some(Command::Report(report)) => report.execute().into(),
             Some(Command::Explain(explain)) => explain.execute().into(),
             Some(Command::Requirements(requirements)) => requirements.execute().into(),
             Some(Command::Stream(stream)) => stream.execute().into(),

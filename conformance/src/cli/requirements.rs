@@ -4,6 +4,7 @@ use std::io::{self, Write as _};
 
 use super::complain;
 use crate::matrix::{self, Row};
+use crate::suite::names;
 use crate::verdict::Exit;
 
 /// Print the traceability matrix: from each requirement to its sources, errata, vectors, cases of
@@ -13,7 +14,7 @@ use crate::verdict::Exit;
     ads-cnc requirements --only VAR-11 --format json\n\n\
     Exit codes: 0 printed, 2 wrong usage, 3 no requirement matches, 70 internal error")]
 pub(super) struct Requirements {
-    /// An area such as VAR or a requirement such as VAR-11; more than one may be given
+    /// As for run: an area (VAR), a requirement (VAR-11), a case by its ID; repeatable
     #[arg(long, value_name = "AREA|ID")]
     only: Vec<String>,
 
@@ -58,9 +59,15 @@ impl Requirements {
     }
 
     fn matches(&self, row: &Row) -> bool {
-        let area = row.id.split_once('-').map_or("", |(area, _)| area);
-        let named =
-            |only: &String| only.eq_ignore_ascii_case(&row.id) || only.eq_ignore_ascii_case(area);
+        let has = |only: &str, ids: &[String], prefix: &str| {
+            ids.iter().any(|id| only.eq_ignore_ascii_case(&format!("{prefix}{id}")))
+        };
+        let named = |only: &String| {
+            names(only, &row.id)
+                || has(only, &row.cases, "")
+                || has(only, &row.accepted, "vec-")
+                || has(only, &row.rejected, "vec-")
+        };
         self.only.is_empty() || self.only.iter().any(named)
     }
 }

@@ -1,23 +1,27 @@
 //! `ads-cnc run`: the suite against a target.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use ads_cnc::edition::Edition;
 use ads_cnc::operation::{CountObjects, ObjectList};
 use clap::Args;
 
+use super::forms::{Forms, is_stdout, show, write};
+use super::list;
 use super::target::{REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect};
-use crate::cnc::Cnc;
+use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::Defect;
 use crate::gate::{Gate, Moment};
 use crate::profile::Profile;
 use crate::report::{self, About, Report, TargetReport};
 use crate::session::{self, Trouble};
-use crate::suite::{self, Needs, Session};
+use crate::suite::{self, Case, Needs, Plan, Selection, Session, Unmatched};
 use crate::verdict::Exit;
 use crate::waivers::Waivers;
+
+/// Under which these options stand in the help.
+const SELECTION: &str = "Selection";
 
 /// Runs the conformance suite against the embedded CNC, or against a device.
 ///
@@ -25,16 +29,43 @@ use crate::waivers::Waivers;
 /// A device is only read: nothing is sent to it but documented queries, to the ports they are
 /// documented for. Some ask for what is not there, by one beyond the last, to see it refused.
 #[derive(Args, Debug)]
-#[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
+#[command(
+    after_help = "Exit codes: 0 passed, 1 failed, 2 wrong usage, 3 nothing judged or inconclusive, \
+        4 refused for safety, 5 a waiver no longer holds, 70 internal error",
+    after_long_help = after_long_help()
+)]
 pub(super) struct Run {
     #[command(flatten)]
     target: TargetArgs,
 
-    /// Write the report as JSON
+    /// Run what is called this: an area (VAR), a requirement (VAR-11), a case by its ID; repeatable
+    #[arg(long, help_heading = SELECTION, value_name = "AREA|ID")]
+    only: Vec<String>,
+
+    /// Judge by this edition alone, en-1.05 or de-1.051; the embedded CNC follows it [default: both]
+    #[arg(long, help_heading = SELECTION, value_name = "EDITION", value_parser = cnc::edition)]
+    edition: Option<Edition>,
+
+    /// The order of the cases [default: a new one each time, which the report names]
+    #[arg(long, help_heading = SELECTION, value_name = "N")]
+    seed: Option<u32>,
+
+    /// List what would be run and run nothing; with --json as data
+    #[arg(long, help_heading = SELECTION)]
+    list: bool,
+
+    /// Known failures that the run puts up with
     #[arg(long, value_name = "FILE")]
+    waivers: Option<PathBuf>,
+
+    /// Write the report as JSON, from which `ads-cnc report` makes all others; - is stdout
+    #[arg(long, help_heading = super::forms::HEADING, value_name = "FILE")]
     json: Option<PathBuf>,
 
-    /// Show the cases of the codec one by one
+    #[command(flatten)]
+    forms: Forms,
+
+    /// Show the cases made of vectors one by one
     #[arg(long, short)]
     verbose: bool,
 
@@ -47,118 +78,201 @@ const EXAMPLES: &str = "\
 Examples:
   ads-cnc run
   ads-cnc run --target 192.0.2.10 --net-id 192.0.2.10.1.1 --source-net-id 192.0.2.20.1.1 \
-      --json report.json
-  ads-cnc run --defect variable-description.size.flip
+      --html report.html
+  ads-cnc run --only VAR --defect variable-description.size.flip";
 
-Exit codes: 0 passed, with warnings and differences or without; 1 a requirement is not met;
-2 wrong usage; 3 nothing could be judged, or something stayed inconclusive; 4 refused for safety;
-70 internal error.";
+fn after_long_help() -> String {
+    format!(
+        "{EXAMPLES}
+
+{REACHING_A_DEVICE}
+
+Known failures, a file for --waivers:
+  [[waiver]]
+  test = \"var-descriptions\"   # the ID of a case
+  requirement = \"VAR-8\"
+  verdict = \"fail\"            # or vacuous, inconclusive, warning, differs
+  reason = \"sizes are rounded up to 4 until firmware 2.1\"
+  expires = 2027-01-31        # the first day on which it holds no longer
+  One that does not hold - its day is over, nothing that ran is called that, or the verdict is
+  another one - makes the run end with 5 unless something fails.
+
+Exit codes, the first that holds:
+  70 internal error, 2 wrong usage, 4 refused for safety, 1 a fail or a vacuous verdict, 5 a waiver
+  that does not hold, 3 nothing judged or something inconclusive, 0. Warnings and differences leave 0."
+    )
+}
+
+/// Why there is no report.
+enum Stopped {
+    Target(Trouble),
+    Unmatched(Unmatched),
+}
+
+impl From<Trouble> for Stopped {
+    fn from(trouble: Trouble) -> Self {
+        Self::Target(trouble)
+    }
+}
+
+impl From<Unmatched> for Stopped {
+    fn from(unmatched: Unmatched) -> Self {
+        Self::Unmatched(unmatched)
+    }
+}
 
 impl Run {
     /// Runs the suite and writes its reports.
     pub(super) fn execute(&self) -> Exit {
-        let defect = match find_defect(self.defect.as_deref()) {
-            Ok(defect) => defect,
+        let checked = find_defect(self.defect.as_deref())
+            .and_then(|defect| Ok((defect, self.waivers()?)))
+            .and_then(|checked| self.forms.check(self.json.as_deref()).map(|()| checked));
+        let (defect, waivers) = match checked {
+            Ok(checked) => checked,
             Err(why) => {
                 complain(why);
                 return Exit::Usage;
             }
         };
-        let report = match self.target.is_device() || self.target.is_dry() {
-            false => embedded(defect),
-            true => self.device(),
+        let seed = self.seed.unwrap_or_else(suite::any_seed);
+        if self.list {
+            return self.list(seed);
+        }
+        let report = match self.is_embedded() {
+            true => self.embedded(seed, waivers, defect),
+            false => self.device(seed, waivers),
         };
         match report {
             Ok(report) => self.write(&report),
-            Err(trouble) => {
+            Err(Stopped::Target(trouble)) => {
                 complain(&trouble);
                 trouble.exit()
+            }
+            Err(Stopped::Unmatched(why)) => {
+                complain(why);
+                Exit::Nothing
             }
         }
     }
 
-    fn device(&self) -> Result<Report, Trouble> {
+    fn waivers(&self) -> Result<Waivers, String> {
+        let waivers = self.waivers.as_deref().map(Waivers::from_file).transpose();
+        waivers.map(Option::unwrap_or_default).map_err(|error| error.to_string())
+    }
+
+    const fn is_embedded(&self) -> bool {
+        !(self.target.is_device() || self.target.is_dry())
+    }
+
+    fn plan(&self, seed: u32) -> Result<Plan, Unmatched> {
+        let selection = Selection { edition: self.edition, only: self.only.clone() };
+        let fits = |case: &Case| self.is_embedded() || case.needs != Needs::Codec;
+        selection.plan(suite::cases().into_iter().filter(fits).collect(), seed)
+    }
+
+    fn list(&self, seed: u32) -> Exit {
+        let plan = match self.plan(seed) {
+            Ok(plan) => plan,
+            Err(why) => {
+                complain(why);
+                return Exit::Nothing;
+            }
+        };
+        let listed = list::of_plan(&plan, self.target.is_device());
+        let written = match &self.json {
+            Some(file) => write(file, |out| list::to_json(&listed, out)),
+            None => show(|out| list::to_text(&listed, out)),
+        };
+        written.map_or_else(super::forms::lost, |()| Exit::Success)
+    }
+
+    fn device(&self, seed: u32, waivers: Waivers) -> Result<Report, Stopped> {
+        let plan = self.plan(seed)?;
         let mut session = self.target.open()?;
         // Silence is judged case by case only of one that speaks at all: an error of ADS does.
         match session.call(&CountObjects::new(ObjectList::PLATFORM)) {
             Ok(_) | Err(Trouble::Ads { .. } | Trouble::Reply(_)) => {}
-            Err(trouble) => return Err(trouble),
+            Err(trouble) => return Err(trouble.into()),
         }
         let target = *session.target();
         let (client, _) = session.into_parts();
-        let mut session = Session::new(client, Profile::DEVICE);
-        let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
-        let outcomes = suite::run(cases, Some(&mut session), None, 0);
-        let name = "device".to_owned();
-        let (address, net_id) = (target.addr.to_string(), target.net_id.to_string());
+        let session = Session::new(client, Profile::DEVICE);
         let target = TargetReport {
-            name,
-            address: Some(address),
-            net_id: Some(net_id),
+            name: "device".to_owned(),
+            address: Some(target.addr.to_string()),
+            net_id: Some(target.net_id.to_string()),
             ..TargetReport::default()
         };
-        Ok(Report::new(about(target, &session), &outcomes, &[]))
+        Ok(self.judge(plan, session, None, self.about(target, seed, waivers)))
+    }
+
+    /// Starts the embedded CNC, runs everything against it and stops it.
+    fn embedded(
+        &self,
+        seed: u32,
+        waivers: Waivers,
+        defect: Option<Defect>,
+    ) -> Result<Report, Stopped> {
+        let plan = self.plan(seed)?;
+        let internal = |error| Trouble::Internal(format!("the default model: {error}"));
+        let settings = Settings { edition: self.edition, version: None };
+        let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
+        let cnc = Cnc::new(model.map_err(internal)?).with_defect(defect.clone());
+        let session = session::Session::embedded(cnc, Gate::with_malformed())?;
+        let target = *session.target();
+        // The CNC runs as long as it is held.
+        let (client, _running) = session.into_parts();
+        let session = Session::new(client, Profile::EMBEDDED);
+        let target = TargetReport {
+            name: match &defect {
+                None => "embedded CNC".to_owned(),
+                Some(defect) => format!("embedded CNC with the defect {}", defect.id),
+            },
+            version: Some(env!("CARGO_PKG_VERSION").to_owned()),
+            address: Some(target.addr.to_string()),
+            net_id: Some(target.net_id.to_string()),
+            ..TargetReport::default()
+        };
+        Ok(self.judge(plan, session, defect.as_ref(), self.about(target, seed, waivers)))
+    }
+
+    fn about(&self, target: TargetReport, seed: u32, waivers: Waivers) -> About {
+        About {
+            time: Moment::now(),
+            edition: self.edition,
+            seed,
+            only: self.only.clone(),
+            target,
+            profile: None,
+            waivers,
+            frames: 0,
+        }
+    }
+
+    fn judge(
+        &self,
+        plan: Plan,
+        mut session: Session,
+        defect: Option<&Defect>,
+        about: About,
+    ) -> Report {
+        let outcomes = suite::run(plan.cases.clone(), Some(&mut session), defect, about.seed);
+        let (outcomes, left_out) = plan.finish(outcomes);
+        let (frames, profile) = (session.frames, Some(session.profile));
+        Report::new(About { frames, profile, ..about }, &outcomes, &left_out)
     }
 
     fn write(&self, report: &Report) -> Exit {
-        // The file first: whoever reads the console may stop reading.
-        let written = self.json.as_ref().map_or(Ok(()), |file| write_json(report, file));
-        let mut out = BufWriter::new(io::stdout().lock());
-        let shown = report::print(report, self.verbose, &mut out).and_then(|()| out.flush());
-        // A reader that has seen enough is no failure of ours, nor a success of the target's.
-        let shown = shown.or_else(|error| match error.kind() {
-            io::ErrorKind::BrokenPipe => Ok(()),
-            _ => Err(error),
-        });
-        match written.and(shown) {
-            Ok(()) => report.exit(),
-            Err(error) => {
-                complain(format_args!("the report could not be written: {error}"));
-                Exit::Internal
-            }
-        }
-    }
-}
-
-fn write_json(report: &Report, file: &Path) -> io::Result<()> {
-    let mut out = BufWriter::new(File::create(file)?);
-    serde_json::to_writer_pretty(&mut out, report)?;
-    writeln!(out)?;
-    out.flush()
-}
-
-/// Starts the embedded CNC, runs everything against it and stops it.
-fn embedded(defect: Option<Defect>) -> Result<Report, Trouble> {
-    let internal = |error| Trouble::Internal(format!("the default model: {error}"));
-    let cnc = Cnc::with_default_model().map_err(internal)?.with_defect(defect.clone());
-    let session = session::Session::embedded(cnc, Gate::with_malformed())?;
-    let target = *session.target();
-    // The CNC runs as long as it is held.
-    let (client, _running) = session.into_parts();
-    let mut session = Session::new(client, Profile::EMBEDDED);
-    let outcomes = suite::run(suite::cases(), Some(&mut session), defect.as_ref(), 0);
-    let name = match &defect {
-        None => "embedded CNC".to_owned(),
-        Some(defect) => format!("embedded CNC with the defect {}", defect.id),
-    };
-    let target = TargetReport {
-        name,
-        address: Some(target.addr.to_string()),
-        net_id: Some(target.net_id.to_string()),
-        ..TargetReport::default()
-    };
-    Ok(Report::new(about(target, &session), &outcomes, &[]))
-}
-
-fn about(target: TargetReport, session: &Session) -> About {
-    About {
-        time: Moment::now(),
-        edition: "en-1.05".to_owned(),
-        seed: 0,
-        only: Vec::new(),
-        target,
-        profile: Some(session.profile.clone()),
-        waivers: Waivers::default(),
-        frames: session.frames,
+        // The files first: whoever reads the console may stop reading.
+        let json = self.json.as_deref();
+        let written = json.map_or(Ok(()), |file| write(file, |out| report::to_json(report, out)));
+        let written = written.and_then(|()| self.forms.write(report));
+        // What is piped into something else is alone on stdout.
+        let quiet = json.is_some_and(is_stdout) || self.forms.has_stdout();
+        let shown = match quiet {
+            true => Ok(()),
+            false => show(|out| report::print(report, self.verbose, out)),
+        };
+        written.and(shown).map_or_else(super::forms::lost, |()| report.exit())
     }
 }

@@ -48,6 +48,13 @@ pub fn edition(name: &str) -> Result<ads_cnc::edition::Edition, String> {
     model::edition(name)
 }
 
+/// The name of an edition, as [`edition`] takes it.
+pub fn edition_name(edition: ads_cnc::edition::Edition) -> String {
+    let document = edition.document();
+    let language = document.strip_prefix("ads-").unwrap_or(document);
+    format!("{language}-{}", edition.number())
+}
+
 /// The most bytes of a content: what a frame has room for beside a result and a length.
 const CONTENT_MAX: usize = 0xFFF8;
 

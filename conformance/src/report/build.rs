@@ -1,5 +1,6 @@
 //! From the outcomes of a run to its report.
 
+use ads_cnc::edition::Edition;
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
 use super::model::{
@@ -7,10 +8,11 @@ use super::model::{
     RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
 };
 use super::{BytesReport, hex};
+use crate::cnc;
 use crate::explain;
 use crate::gate::Moment;
 use crate::profile::Profile;
-use crate::suite::{Body, Evidence, Judgement, Outcome, Subject, gravest};
+use crate::suite::{Body, Evidence, Judgement, Outcome, Subject, gravest, names};
 use crate::verdict::{Tally, Verdict};
 use crate::waivers::Waivers;
 
@@ -19,8 +21,8 @@ use crate::waivers::Waivers;
 pub struct About {
     /// When it began.
     pub time: Moment,
-    /// The edition that is judged by.
-    pub edition: String,
+    /// The one edition that is judged by; without it both.
+    pub edition: Option<Edition>,
     /// From which the order of the cases comes.
     pub seed: u32,
     /// What was selected; all if it is empty.
@@ -35,7 +37,7 @@ pub struct About {
     pub frames: usize,
 }
 
-/// What was left out of a run on demand.
+/// What was left out of a run because something else was selected.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
     /// The case.
@@ -61,17 +63,21 @@ impl Report {
         tally.refused = outcomes.iter().any(|outcome| outcome.refused);
         tally.stale = waivers.iter().any(|waiver| waiver.state.is_stale());
         let is_whole = |left: &&LeftOut| !outcomes.iter().any(|one| one.case.id == left.id);
-        let subjects = Subject::ALL.into_iter().filter_map(|subject| {
-            let mine: Vec<_> = cases.iter().filter(|case| case.subject == subject).collect();
-            let left: Vec<_> = left_out.iter().filter(|left| left.subject == subject).collect();
-            (!mine.is_empty()).then(|| of_subject(subject, &mine, &left))
-        });
+        let subjects: Vec<SubjectReport> = Subject::ALL
+            .into_iter()
+            .filter_map(|subject| {
+                let mine: Vec<_> = cases.iter().filter(|case| case.subject == subject).collect();
+                (!mine.is_empty()).then(|| of_subject(subject, &mine, &only))
+            })
+            .collect();
         Self {
             format: FORMAT,
             suite: env!("CARGO_PKG_VERSION").to_owned(),
             vectors: ads_cnc_vectors::VERSION.to_owned(),
             time: time.to_string(),
-            edition,
+            editions: edition.map_or(Edition::ALL.map(cnc::edition_name).to_vec(), |one| {
+                vec![cnc::edition_name(one)]
+            }),
             seed,
             only,
             target,
@@ -81,7 +87,7 @@ impl Report {
             checks: outcomes.iter().map(|outcome| outcome.checks).sum(),
             frames,
             left_out: left_out.iter().filter(is_whole).count(),
-            subjects: subjects.collect(),
+            subjects,
             cases,
         }
     }
@@ -98,7 +104,7 @@ impl From<&Profile> for ProfileReport {
     }
 }
 
-fn of_subject(subject: Subject, cases: &[&CaseReport], left: &[&LeftOut]) -> SubjectReport {
+fn of_subject(subject: Subject, cases: &[&CaseReport], only: &[String]) -> SubjectReport {
     let mut areas: Vec<AreaReport> = Vec::new();
     for requirement in requirements() {
         if areas.last().is_none_or(|last| last.area != requirement.area) {
@@ -106,7 +112,7 @@ fn of_subject(subject: Subject, cases: &[&CaseReport], left: &[&LeftOut]) -> Sub
             areas.push(AreaReport { area, totals, requirements: Vec::new() });
         }
         if let Some(last) = areas.last_mut() {
-            last.requirements.push(of_requirement(&requirement.id, cases, left));
+            last.requirements.push(of_requirement(&requirement.id, cases, only));
         }
     }
     for area in &mut areas {
@@ -127,13 +133,13 @@ fn totals(requirements: &[RequirementReport]) -> Totals {
 }
 
 /// The verdict on a requirement by all cases: one that nothing touches is not observed, or not run
-/// if that was so wished.
-fn of_requirement(id: &str, cases: &[&CaseReport], left: &[&LeftOut]) -> RequirementReport {
+/// if something else was selected.
+fn of_requirement(id: &str, cases: &[&CaseReport], only: &[String]) -> RequirementReport {
     let all = cases.iter().flat_map(|case| &case.requirements);
     let mine: Vec<_> = all.filter(|one| one.requirement == id).collect();
-    let is_left = || left.iter().any(|left| left.requirements.contains(&id));
+    let wished = only.is_empty() || only.iter().any(|word| names(word, id));
     let (verdict, waived) = together(mine.iter().map(|one| (one.verdict, one.waived)))
-        .unwrap_or((if is_left() { Verdict::NotRun } else { Verdict::NotObserved }, false));
+        .unwrap_or((if wished { Verdict::NotObserved } else { Verdict::NotRun }, false));
     RequirementReport { requirement: id.to_owned(), verdict, waived }
 }
 

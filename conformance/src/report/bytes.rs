@@ -88,6 +88,40 @@ impl BytesReport {
     }
 }
 
+/// What is shown of bytes: a field, or how many are passed over for being like those around.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shown<'r> {
+    /// A field.
+    Field(&'r FieldReport),
+    /// So many items of the field above.
+    More(usize),
+}
+
+/// Items of one field that are shown before the rest is passed over.
+const ITEMS: usize = 6;
+
+impl BytesReport {
+    /// The fields, without most items of a long list; those that differ are always shown.
+    pub(super) fn shown(&self) -> Vec<Shown<'_>> {
+        let (mut shown, mut more) = (Vec::new(), 0_usize);
+        for list in self.fields.chunk_by(|one, next| one.field == next.field) {
+            let last = list.len().saturating_sub(1);
+            for (place, field) in list.iter().enumerate() {
+                let is_like =
+                    (ITEMS..last).contains(&place) && list.len() > ITEMS.saturating_add(2);
+                if is_like && field.differs.is_empty() {
+                    more = more.saturating_add(1);
+                    continue;
+                }
+                shown.extend((more > 0).then_some(Shown::More(more)));
+                more = 0;
+                shown.push(Shown::Field(field));
+            }
+        }
+        shown
+    }
+}
+
 impl FieldReport {
     fn bare(offset: usize, hex: String, field: &str) -> Self {
         let (value, meaning) = (String::new(), String::new());
@@ -136,6 +170,26 @@ mod tests {
         let short = BytesReport::new(None, &[1, 2], Some(&[1, 2, 3]), &values);
         assert_eq!(short.fields[0].differs, [0; 0]);
         assert_eq!(BytesReport::new(None, &[], None, &values).fields, []);
+    }
+
+    /// A long list is not shown whole, but what differs in it is.
+    #[test]
+    fn lists_are_shown_in_part() {
+        let mut bytes = [1_u32.to_le_bytes(), 40_u32.to_le_bytes()].concat();
+        bytes.extend([7; 160]);
+        let mut other = bytes.clone();
+        other[8 + 4 * 20] = 0;
+        let stream = Some("variable-handle-read");
+        let report = BytesReport::new(stream, &bytes, Some(&other), &Values::default());
+        let shown = report.shown();
+        let more: Vec<_> = shown.iter().filter(|one| matches!(one, Shown::More(_))).collect();
+        if report.faults.is_empty() {
+            assert_eq!(more, [&Shown::More(14), &Shown::More(18)]);
+            assert_eq!(shown.len(), 2 + 6 + 1 + 1 + 1 + 1);
+        }
+        assert!(
+            shown.iter().any(|one| matches!(one, Shown::Field(field) if !field.differs.is_empty()))
+        );
     }
 
     /// What is shown of a broken stream goes up to its fault and names it.

@@ -15,7 +15,7 @@ use crate::verdict::{Exit, Verdict};
 ///
 /// # Errors
 /// Those of `out`.
-pub fn print(report: &Report, verbose: bool, out: &mut impl Write) -> io::Result<()> {
+pub fn print(report: &Report, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     head(report, out)?;
     for subject in &report.subjects {
         cases(report, subject.subject, verbose, out)?;
@@ -28,9 +28,10 @@ pub fn print(report: &Report, verbose: bool, out: &mut impl Write) -> io::Result
     tail(report, out)
 }
 
-fn head(report: &Report, out: &mut impl Write) -> io::Result<()> {
-    let Report { suite, vectors, edition, seed, only, target, profile, .. } = report;
-    writeln!(out, "ads-cnc {suite}, vectors {vectors}, edition {edition}, seed {seed}")?;
+fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let Report { suite, vectors, editions, seed, only, target, profile, .. } = report;
+    let editions = editions.join(" and ");
+    writeln!(out, "ads-cnc {suite}, vectors {vectors}, by {editions}, seed {seed}")?;
     writeln!(out, "target   {}", describe(target))?;
     if let Some(profile) = profile {
         let channels = profile.claims.get("channels").and_then(|list| list.as_array());
@@ -65,7 +66,7 @@ pub(super) fn describe(target: &TargetReport) -> String {
     text
 }
 
-const fn heading(subject: Subject) -> &'static str {
+pub(super) const fn heading(subject: Subject) -> &'static str {
     match subject {
         Subject::Codec => "The codec against the golden vectors",
         Subject::Testee => "The testee against the golden vectors",
@@ -76,7 +77,7 @@ const fn heading(subject: Subject) -> &'static str {
 }
 
 /// The cases of one who was judged: of vectors one line for each stream.
-fn cases(report: &Report, who: Subject, verbose: bool, out: &mut impl Write) -> io::Result<()> {
+fn cases(report: &Report, who: Subject, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", heading(who))?;
     let mine = || report.cases.iter().filter(|case| case.subject == who);
     let mut streams: BTreeMap<&str, Vec<&CaseReport>> = BTreeMap::new();
@@ -101,7 +102,7 @@ fn cases(report: &Report, who: Subject, verbose: bool, out: &mut impl Write) -> 
     writeln!(out)
 }
 
-fn line(case: &CaseReport, out: &mut impl Write) -> io::Result<()> {
+fn line(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
     let requirements: Vec<&str> =
         case.requirements.iter().map(|one| one.requirement.as_str()).collect();
     let verdict = worded(case.verdict, case.waived);
@@ -118,28 +119,36 @@ pub(super) fn worded(verdict: Verdict, waived: bool) -> String {
 }
 
 /// Each check that was not passed, with its clauses and its bytes.
-fn failures(case: &CaseReport, out: &mut impl Write) -> io::Result<()> {
+fn failures(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
     for all in case.findings() {
-        let Some(failure) = all.first() else { continue };
-        let verdict = worded(failure.verdict, failure.waived).to_uppercase();
-        writeln!(out, "{verdict}  {}: {}", case.id, case.title)?;
-        for one in &all {
-            clause(one, out)?;
+        if let Some(failure) = all.first() {
+            let verdict = worded(failure.verdict, failure.waived).to_uppercase();
+            writeln!(out, "{verdict}  {}: {}", case.id, case.title)?;
+            finding(&all, out)?;
+            writeln!(out)?;
         }
-        writeln!(out, "  expected  {}", failure.expected)?;
-        writeln!(out, "  found     {}", failure.found)?;
-        if let Some(evidence) = &failure.evidence {
-            bytes(evidence, out)?;
-        }
-        if failure.more > 0 {
-            writeln!(out, "  and {} more like this in the same case", failure.more)?;
-        }
-        writeln!(out)?;
     }
     Ok(())
 }
 
-fn clause(failure: &FailureReport, out: &mut impl Write) -> io::Result<()> {
+/// A check that was not passed, and for which requirements.
+pub(super) fn finding(all: &[&FailureReport], out: &mut dyn Write) -> io::Result<()> {
+    let Some(failure) = all.first() else { return Ok(()) };
+    for one in all {
+        clause(one, out)?;
+    }
+    writeln!(out, "  expected  {}", failure.expected)?;
+    writeln!(out, "  found     {}", failure.found)?;
+    if let Some(evidence) = &failure.evidence {
+        bytes(evidence, out)?;
+    }
+    if failure.more > 0 {
+        writeln!(out, "  and {} more like this in the same case", failure.more)?;
+    }
+    Ok(())
+}
+
+fn clause(failure: &FailureReport, out: &mut dyn Write) -> io::Result<()> {
     let level = failure.level.map_or_else(String::new, |level| format!("{level:?}").to_lowercase());
     writeln!(out, "  {:<8}  {level}: {}", failure.requirement, failure.clause)?;
     match failure.sources.is_empty() {
@@ -148,7 +157,7 @@ fn clause(failure: &FailureReport, out: &mut impl Write) -> io::Result<()> {
     }
 }
 
-fn bytes(evidence: &EvidenceReport, out: &mut impl Write) -> io::Result<()> {
+fn bytes(evidence: &EvidenceReport, out: &mut dyn Write) -> io::Result<()> {
     let EvidenceReport { call, result, sent, received, expected, frame_sent, .. } = evidence;
     writeln!(out, "  sent      {call}")?;
     show(sent.as_ref().map(lines), out)?;
@@ -167,11 +176,11 @@ fn bytes(evidence: &EvidenceReport, out: &mut impl Write) -> io::Result<()> {
     show(expected, out)
 }
 
-fn show(lines: Option<Vec<String>>, out: &mut impl Write) -> io::Result<()> {
+fn show(lines: Option<Vec<String>>, out: &mut dyn Write) -> io::Result<()> {
     lines.unwrap_or_default().iter().try_for_each(|line| writeln!(out, "    {line}"))
 }
 
-fn areas(report: &Report, out: &mut impl Write) -> io::Result<()> {
+fn areas(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     for subject in &report.subjects {
         writeln!(out, "Requirements by area, the {}", subject.subject)?;
         for area in &subject.areas {
@@ -191,7 +200,7 @@ fn areas(report: &Report, out: &mut impl Write) -> io::Result<()> {
     Ok(())
 }
 
-fn waivers(waivers: &[WaiverReport], out: &mut impl Write) -> io::Result<()> {
+fn waivers(waivers: &[WaiverReport], out: &mut dyn Write) -> io::Result<()> {
     if waivers.is_empty() {
         return Ok(());
     }
@@ -205,7 +214,7 @@ fn waivers(waivers: &[WaiverReport], out: &mut impl Write) -> io::Result<()> {
     writeln!(out)
 }
 
-fn tail(report: &Report, out: &mut impl Write) -> io::Result<()> {
+fn tail(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let Report { checks, frames, left_out, .. } = report;
     let cases = report.cases.len();
     let left_out = if *left_out > 0 { format!(", {left_out} not selected") } else { String::new() };
@@ -220,7 +229,7 @@ fn tail(report: &Report, out: &mut impl Write) -> io::Result<()> {
 }
 
 /// What the verdicts mean that this report has and that do not say so themselves.
-fn explain(report: &Report, out: &mut impl Write) -> io::Result<()> {
+fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let known = |verdict: Verdict| {
         report.subjects.iter().any(|subject| subject.totals.contains_key(&verdict))
     };

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::bytes::Shown;
 use super::{BytesReport, FieldReport};
 use crate::explain::Values;
 
@@ -36,8 +37,14 @@ pub(super) fn lines(bytes: &BytesReport) -> Vec<String> {
 }
 
 fn all_lines(bytes: &BytesReport, fold: bool) -> Vec<String> {
-    let mut all: Vec<String> =
-        bytes.fields.iter().flat_map(|field| of_field(field, fold)).collect();
+    let of_shown = |shown| match shown {
+        Shown::Field(field) => of_field(field, fold),
+        Shown::More(more) => vec![format!("     …  {more} more")],
+    };
+    let mut all: Vec<String> = match fold {
+        true => bytes.shown().into_iter().flat_map(of_shown).collect(),
+        false => bytes.fields.iter().flat_map(|field| of_field(field, fold)).collect(),
+    };
     all.extend(bytes.faults.iter().map(|fault| format!("      ! {fault}")));
     all
 }

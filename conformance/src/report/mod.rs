@@ -1,15 +1,34 @@
 //! What a run found: one data structure, written as JSON, from which everything else is made.
 
+mod badge;
 mod build;
 mod bytes;
 mod console;
 pub(crate) mod hex;
+mod html;
+mod junit;
+mod markdown;
 mod model;
 
+use std::io::{self, Write};
+
+pub use badge::to_badge;
 pub use build::{About, LeftOut};
 pub use bytes::{BytesReport, FieldReport};
 pub use console::print;
+pub use html::to_html;
+pub use junit::to_junit;
+pub use markdown::to_markdown;
 pub use model::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
     RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
 };
+
+/// Writes the report as JSON.
+///
+/// # Errors
+/// Those of `out`.
+pub fn to_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, report)?;
+    writeln!(out)
+}

@@ -29,8 +29,8 @@ pub struct Report {
     pub vectors: String,
     /// When the run began, in UTC.
     pub time: String,
-    /// Edition of the manual that was judged by.
-    pub edition: String,
+    /// Editions of the manual that were judged by.
+    pub editions: Vec<String>,
     /// From which the order of the cases comes.
     pub seed: u32,
     /// What was selected; all if it is empty.

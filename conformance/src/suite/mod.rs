@@ -8,6 +8,7 @@ mod outcome;
 mod printed;
 mod probe;
 mod run;
+mod select;
 mod survey;
 mod values;
 mod variable;
@@ -20,6 +21,8 @@ pub use outcome::{Outcome, RequirementVerdict, gravest};
 pub(crate) use printed::typed;
 pub use probe::{Probe, Session};
 pub use run::run;
+pub use select::{Plan, Selection, Unmatched, any_seed};
+pub(crate) use select::{names, order};
 pub use vectors::siblings_of;
 
 /// Declares a case.
@@ -38,7 +41,7 @@ macro_rules! declare {
 
 pub(crate) use declare;
 
-/// Every case, in the order it is run.
+/// Every case. [`Selection::plan`] puts them in order.
 pub fn cases() -> Vec<Case> {
     let mut cases = vectors::cases();
     cases.extend(address::cases());

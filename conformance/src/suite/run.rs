@@ -15,7 +15,7 @@ pub fn run(
     cases: Vec<Case>,
     mut session: Option<&mut Session>,
     defect: Option<&Defect>,
-    seed: u64,
+    seed: u32,
 ) -> Vec<Outcome> {
     let (codec, target): (Vec<Case>, Vec<Case>) =
         cases.into_iter().partition(|case| case.needs == Needs::Codec);

@@ -22,7 +22,7 @@ const LOST_MAX: usize = 12;
 #[derive(Clone, Copy, Debug)]
 pub struct Terms<'t> {
     /// Seed of the order.
-    pub seed: u64,
+    pub seed: u32,
     /// As whom it is judged.
     pub subject: Subject,
     /// The edition it is judged by, if one was chosen.

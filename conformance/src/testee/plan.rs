@@ -1,10 +1,9 @@
 //! What a testee is asked, and in which order.
 
 use ads_cnc_vectors::{Expect, Given, Pieces, Vector};
-use fastrand::Rng;
 
 use super::message::{Capabilities, Known, Question};
-use crate::suite::{Body, Case};
+use crate::suite::{Body, Case, order};
 
 /// What a question is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,9 +37,8 @@ pub(super) fn plan(
     cases: &[Case],
     capabilities: &Capabilities,
     edition: &str,
-    seed: u64,
+    seed: u32,
 ) -> Vec<Asked> {
-    let mut order = Rng::with_seed(seed);
     let claimed = cases.iter().enumerate().flat_map(|(place, case)| {
         let questions = questions(case, edition).into_iter();
         let mine = questions.filter(|one| capabilities.claim(&one.op, &one.stream));
@@ -48,11 +46,17 @@ pub(super) fn plan(
     });
     let mut asked: Vec<Asked> = claimed.collect();
     let sanity = sanity(cases, &asked);
-    order.shuffle(&mut asked);
+    asked.sort_by_cached_key(|one| match one.purpose {
+        Purpose::Case(case) => {
+            let id = cases.get(case).map_or("", |case| case.id.as_str());
+            order(seed, &format!("{id} {}", one.question.op))
+        }
+        _ => 0,
+    });
     // One at a third of the way, one at two.
     for part in [2, 1] {
         let place = asked.len().saturating_mul(part).checked_div(3).unwrap_or_default();
-        asked.insert(place, made_up(&mut order, edition));
+        asked.insert(place, made_up(order(seed, &part.to_string()), edition));
     }
     let again = |first: bool| {
         sanity.iter().map(move |(case, question)| Asked {
@@ -87,10 +91,9 @@ fn sanity(cases: &[Case], asked: &[Asked]) -> Vec<(usize, Question)> {
 }
 
 /// An op that nobody has, for a stream that everybody may have.
-fn made_up(order: &mut Rng, edition: &str) -> Asked {
-    let letters: String = std::iter::repeat_with(|| order.lowercase()).take(8).collect();
+fn made_up(number: u64, edition: &str) -> Asked {
     let question = Question {
-        op: format!("{letters}-decode"),
+        op: format!("decode-{number:x}"),
         stream: "object-count".to_owned(),
         edition: edition.to_owned(),
         context: Known::default(),

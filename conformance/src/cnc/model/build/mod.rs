@@ -83,11 +83,7 @@ pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, Mod
 
 /// `en-1.05`, `de-1.051`: the document and its number.
 pub(in crate::cnc) fn edition(name: &str) -> Result<Edition, String> {
-    let of = |edition: Edition| {
-        let document = edition.document();
-        let language = document.strip_prefix("ads-").unwrap_or(document);
-        format!("{language}-{}", edition.number())
-    };
+    let of = crate::cnc::edition_name;
     Edition::ALL.into_iter().find(|edition| of(*edition) == name).ok_or_else(|| {
         format!("{name:?} is no edition; there are {}", Edition::ALL.map(of).join(" and "))
     })

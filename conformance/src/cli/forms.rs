@@ -1,0 +1,108 @@
+//! The forms of a report: options of `run` and `report`, and how they are written.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::complain;
+use crate::report::{self, Report};
+use crate::verdict::Exit;
+
+/// Under which these options stand in the help.
+pub(super) const HEADING: &str = "Reports";
+
+/// Forms that are made from the JSON.
+#[derive(Args, Clone, Debug)]
+pub(super) struct Forms {
+    /// Write the report as one HTML file that needs nothing else
+    #[arg(long, help_heading = HEADING, value_name = "FILE")]
+    html: Option<PathBuf>,
+
+    /// Write the report as JUnit XML, one test for each case
+    #[arg(long, help_heading = HEADING, value_name = "FILE")]
+    junit: Option<PathBuf>,
+
+    /// Write the report as Markdown, as for a pull request
+    #[arg(long, help_heading = HEADING, value_name = "FILE")]
+    markdown: Option<PathBuf>,
+
+    /// Write a badge as shields.io reads it from an endpoint
+    #[arg(long, help_heading = HEADING, value_name = "FILE")]
+    badge: Option<PathBuf>,
+}
+
+/// How a form is made.
+type Maker = fn(&Report, &mut dyn Write) -> io::Result<()>;
+
+impl Forms {
+    fn wanted(&self) -> impl Iterator<Item = (&Path, Maker)> {
+        let all: [(&Option<PathBuf>, Maker); 4] = [
+            (&self.html, report::to_html),
+            (&self.junit, report::to_junit),
+            (&self.markdown, report::to_markdown),
+            (&self.badge, report::to_badge),
+        ];
+        all.into_iter().filter_map(|(file, maker)| Some((file.as_deref()?, maker)))
+    }
+
+    /// Whether one goes to stdout.
+    pub(super) fn has_stdout(&self) -> bool {
+        self.wanted().any(|(file, _)| is_stdout(file))
+    }
+
+    /// Whether none is wanted.
+    pub(super) fn is_empty(&self) -> bool {
+        self.wanted().next().is_none()
+    }
+
+    /// Two on stdout would be neither.
+    pub(super) fn check(&self, json: Option<&Path>) -> Result<(), String> {
+        let files = json.into_iter().chain(self.wanted().map(|(file, _)| file));
+        match files.filter(|file| is_stdout(file)).count() {
+            0 | 1 => Ok(()),
+            _ => Err("one report at most can go to stdout".to_owned()),
+        }
+    }
+
+    /// Writes those that are wanted.
+    pub(super) fn write(&self, report: &Report) -> io::Result<()> {
+        self.wanted().try_for_each(|(file, maker)| write(file, |out| maker(report, out)))
+    }
+}
+
+/// Whether - is meant.
+pub(super) fn is_stdout(file: &Path) -> bool {
+    file.as_os_str() == "-"
+}
+
+/// Writes a file, or to stdout.
+pub(super) fn write(
+    file: &Path,
+    make: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    if is_stdout(file) {
+        return show(make);
+    }
+    let named =
+        |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", file.display()));
+    let mut out = BufWriter::new(File::create(file).map_err(named)?);
+    make(&mut out).and_then(|()| out.flush()).map_err(named)
+}
+
+/// Writes to stdout.
+pub(super) fn show(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    // A reader that has seen enough is no failure of ours, nor a success of the target's.
+    make(&mut out).and_then(|()| out.flush()).or_else(|error| match error.kind() {
+        io::ErrorKind::BrokenPipe => Ok(()),
+        _ => Err(error),
+    })
+}
+
+/// A report that cannot be written is no success.
+pub(super) fn lost(error: io::Error) -> Exit {
+    complain(format_args!("the report could not be written: {error}"));
+    Exit::Internal
+}

@@ -1,0 +1,59 @@
+//! What would be run.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use crate::suite::{Case, Needs, Plan, Subject};
+
+/// A case.
+#[derive(Debug, Serialize)]
+pub(super) struct Listed {
+    id: String,
+    title: String,
+    subject: Subject,
+    requirements: Vec<&'static str>,
+    /// Why it would not be run after all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_run: Option<String>,
+}
+
+impl Listed {
+    fn new(case: &Case, not_run: Option<String>) -> Self {
+        Self {
+            id: case.id.clone(),
+            title: case.title.clone(),
+            subject: case.subject,
+            requirements: case.requirements.clone(),
+            not_run,
+        }
+    }
+}
+
+/// The cases of a plan in their order.
+pub(super) fn of_plan(plan: &Plan, is_device: bool) -> Vec<Listed> {
+    let why = |case: &Case| {
+        let malformed = is_device && case.needs == Needs::Malformed;
+        malformed.then(|| "sends what no client should: not sent to a device".to_owned())
+    };
+    let run = plan.selected().map(|case| Listed::new(case, why(case)));
+    let foreign = plan.foreign.iter().map(|(case, why)| Listed::new(case, Some(why.clone())));
+    run.chain(foreign).collect()
+}
+
+pub(super) fn to_text(listed: &[Listed], out: &mut dyn Write) -> io::Result<()> {
+    for Listed { id, title, subject, requirements, not_run } in listed {
+        writeln!(out, "{subject:<7}  {id}  [{}]", requirements.join(" "))?;
+        writeln!(out, "         {title}")?;
+        if let Some(why) = not_run {
+            writeln!(out, "         not run: {why}")?;
+        }
+    }
+    let run = listed.iter().filter(|one| one.not_run.is_none()).count();
+    writeln!(out, "{run} cases")
+}
+
+pub(super) fn to_json(listed: &[Listed], out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, listed)?;
+    writeln!(out)
+}

@@ -1,0 +1,52 @@
+//! The report as a badge.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use super::model::Report;
+use crate::verdict::{Exit, Verdict};
+
+/// As shields.io reads it from an endpoint; it takes no other keys.
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Badge {
+    schema_version: u32,
+    label: String,
+    message: String,
+    color: &'static str,
+    is_error: bool,
+}
+
+/// Writes a badge as shields.io reads it from an endpoint: the suite's version, how the run ended,
+/// the editions and, if any, the waivers. There is no room for more.
+///
+/// # Errors
+/// Those of `out`.
+pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let (word, color) = match report.exit() {
+        Exit::Success => ("passed", "brightgreen"),
+        Exit::Failure => ("failed", "red"),
+        Exit::Stale => ("stale waiver", "orange"),
+        Exit::Nothing => ("inconclusive", "lightgrey"),
+        Exit::Refused => ("refused for safety", "orange"),
+        Exit::Usage | Exit::Internal => ("error", "red"),
+    };
+    let of = |verdict: Verdict| -> usize {
+        report.subjects.iter().filter_map(|subject| subject.totals.get(&verdict)).sum()
+    };
+    let numbers = [(of(Verdict::Fail), "fail"), (of(Verdict::Warning), "warning")];
+    let waived: usize = report.subjects.iter().map(|subject| subject.waived).sum();
+    let numbers = numbers.into_iter().chain([(waived, "waived")]).filter(|(number, _)| *number > 0);
+    let numbers = numbers.map(|(number, what)| format!(", {number} {what}"));
+    let numbers: String = numbers.collect();
+    let badge = Badge {
+        schema_version: 1,
+        label: format!("ads-cnc {}", report.suite),
+        message: format!("{word}{numbers} ({})", report.editions.join(", ")),
+        color,
+        is_error: report.exit() == Exit::Internal,
+    };
+    serde_json::to_writer_pretty(&mut *out, &badge)?;
+    writeln!(out)
+}

@@ -1,0 +1,215 @@
+//! The report as JUnit XML: a suite for each who was judged, a test for each case.
+
+use std::io::{self, Write};
+
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
+
+use super::console::{describe, finding};
+use super::model::{CaseReport, Report, WaiverReport};
+use crate::verdict::Verdict;
+
+/// Writes the report as JUnit XML.
+///
+/// A fail or a vacuous verdict is a failure, an inconclusive one or a harness error an error.
+/// What was not run or judged is skipped, and so is what a waiver puts up with. Warnings and
+/// differences pass, with what they are in `system-out`. A waiver that does not hold is a failure
+/// of a suite `waivers`.
+///
+/// # Errors
+/// Those of `out`.
+pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let mut xml: Xml<'_> = Writer::new_with_indent(&mut *out, b' ', 2);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let stale: Vec<&WaiverReport> =
+        report.waivers.iter().filter(|waiver| waiver.state.is_stale()).collect();
+    let of_case = |tests: &Tests, case: &CaseReport| tests.plus(kind(case));
+    let all = report.cases.iter().fold(Tests::default(), |tests, case| of_case(&tests, case));
+    let all = stale.iter().fold(all, |tests, _| tests.plus(Kind::Failure));
+    let mut root = BytesStart::new("testsuites");
+    root.push_attribute(("name", "ads-cnc"));
+    all.put(&mut root);
+    xml.write_event(Event::Start(root))?;
+    for subject in &report.subjects {
+        let cases = || report.cases.iter().filter(|case| case.subject == subject.subject);
+        let tests = cases().fold(Tests::default(), |tests, case| of_case(&tests, case));
+        begin_suite(&mut xml, report, subject.subject.name(), tests)?;
+        cases().try_for_each(|one| case(&mut xml, report, one))?;
+        end(&mut xml, "testsuite")?;
+    }
+    if !stale.is_empty() {
+        let tests = stale.iter().fold(Tests::default(), |tests, _| tests.plus(Kind::Failure));
+        begin_suite(&mut xml, report, "waivers", tests)?;
+        stale.iter().try_for_each(|waiver| stale_waiver(&mut xml, waiver))?;
+        end(&mut xml, "testsuite")?;
+    }
+    end(&mut xml, "testsuites")?;
+    writeln!(xml.get_mut())
+}
+
+type Xml<'w> = Writer<&'w mut dyn Write>;
+
+/// What JUnit makes of a verdict.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Passed,
+    Failure,
+    Error,
+    Skipped,
+}
+
+fn kind(case: &CaseReport) -> Kind {
+    match case.verdict {
+        _ if case.waived => Kind::Skipped,
+        Verdict::Pass | Verdict::Warning | Verdict::Differs => Kind::Passed,
+        Verdict::Fail | Verdict::Vacuous => Kind::Failure,
+        Verdict::Inconclusive | Verdict::HarnessError => Kind::Error,
+        Verdict::NotApplicable | Verdict::NotObserved | Verdict::NotRun => Kind::Skipped,
+    }
+}
+
+#[derive(Clone, Copy, Default)]
+struct Tests {
+    tests: usize,
+    failures: usize,
+    errors: usize,
+    skipped: usize,
+}
+
+impl Tests {
+    fn plus(self, kind: Kind) -> Self {
+        let one = |number: usize, of: Kind| number.saturating_add(usize::from(kind == of));
+        Self {
+            tests: self.tests.saturating_add(1),
+            failures: one(self.failures, Kind::Failure),
+            errors: one(self.errors, Kind::Error),
+            skipped: one(self.skipped, Kind::Skipped),
+        }
+    }
+
+    fn put(self, element: &mut BytesStart<'_>) {
+        let Self { tests, failures, errors, skipped } = self;
+        for (name, number) in
+            [("tests", tests), ("failures", failures), ("errors", errors), ("skipped", skipped)]
+        {
+            element.push_attribute((name, number.to_string().as_str()));
+        }
+    }
+}
+
+fn begin_suite(xml: &mut Xml<'_>, report: &Report, name: &str, tests: Tests) -> io::Result<()> {
+    let mut suite = BytesStart::new("testsuite");
+    suite.push_attribute(("name", name));
+    tests.put(&mut suite);
+    suite.push_attribute(("timestamp", report.time.trim_end_matches('Z')));
+    xml.write_event(Event::Start(suite))?;
+    xml.write_event(Event::Start(BytesStart::new("properties")))?;
+    for (name, value) in properties(report) {
+        let mut property = BytesStart::new("property");
+        property.push_attribute(("name", name));
+        property.push_attribute(("value", clean(&value).as_str()));
+        xml.write_event(Event::Empty(property))?;
+    }
+    end(xml, "properties")
+}
+
+fn properties(report: &Report) -> Vec<(&'static str, String)> {
+    let Report { suite, vectors, editions, seed, only, target, profile, waivers, .. } = report;
+    let mut all = vec![
+        ("suite", suite.clone()),
+        ("vectors", vectors.clone()),
+        ("editions", editions.join(" ")),
+        ("seed", seed.to_string()),
+        ("target", describe(target)),
+    ];
+    all.extend(profile.iter().map(|profile| ("profile", profile.name.clone())));
+    all.extend((!only.is_empty()).then(|| ("only", only.join(" "))));
+    all.extend(waivers.iter().map(|waiver| ("waiver", in_words(waiver))));
+    all.push(("exit_code", report.exit_code.to_string()));
+    all
+}
+
+/// A waiver in a line.
+fn in_words(waiver: &WaiverReport) -> String {
+    let WaiverReport { test, requirement, verdict, reason, expires, state, .. } = waiver;
+    format!("{test} {requirement} {verdict} until {expires}, {}: {reason}", state.name())
+}
+
+fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()> {
+    let group = case.stream.as_deref().or_else(|| case.id.split('-').next()).unwrap_or_default();
+    let mut test = BytesStart::new("testcase");
+    test.push_attribute(("name", clean(&case.id).as_str()));
+    test.push_attribute(("classname", clean(&format!("{}.{group}", case.subject)).as_str()));
+    test.push_attribute(("assertions", case.checks.to_string().as_str()));
+    let findings = text(case)?;
+    let message = match (&case.note, case.failures.first()) {
+        (_, Some(first)) => {
+            format!("{}: expected {}, found {}", case.title, first.expected, first.found)
+        }
+        (Some(note), None) => format!("{}: {note}", case.title),
+        (None, None) => case.title.clone(),
+    };
+    let element = match kind(case) {
+        Kind::Passed if findings.is_empty() => return xml.write_event(Event::Empty(test)),
+        Kind::Passed => "system-out",
+        Kind::Failure => "failure",
+        Kind::Error => "error",
+        Kind::Skipped => "skipped",
+    };
+    xml.write_event(Event::Start(test))?;
+    let message = match waiver(report, case) {
+        Some(waiver) => format!("waived until {}: {}", waiver.expires, waiver.reason),
+        None => message,
+    };
+    let mut inner = BytesStart::new(element);
+    if element != "system-out" {
+        inner.push_attribute(("message", clean(&message).as_str()));
+    }
+    if matches!(kind(case), Kind::Failure | Kind::Error) {
+        inner.push_attribute(("type", case.verdict.name()));
+    }
+    xml.write_event(Event::Start(inner))?;
+    xml.write_event(Event::Text(BytesText::new(&clean(&findings))))?;
+    end(xml, element)?;
+    end(xml, "testcase")
+}
+
+/// Why a case that is put up with is.
+fn waiver<'r>(report: &'r Report, case: &CaseReport) -> Option<&'r WaiverReport> {
+    let used = report.waivers.iter().filter(|waiver| !waiver.state.is_stale());
+    used.filter(|_| case.waived).find(|waiver| waiver.test == case.id)
+}
+
+fn stale_waiver(xml: &mut Xml<'_>, waiver: &WaiverReport) -> io::Result<()> {
+    let mut test = BytesStart::new("testcase");
+    let name = format!("{} {}", waiver.test, waiver.requirement);
+    test.push_attribute(("name", clean(&name).as_str()));
+    test.push_attribute(("classname", "waivers"));
+    xml.write_event(Event::Start(test))?;
+    let mut failure = BytesStart::new("failure");
+    failure.push_attribute(("message", clean(&in_words(waiver)).as_str()));
+    failure.push_attribute(("type", "stale"));
+    xml.write_event(Event::Empty(failure))?;
+    end(xml, "testcase")
+}
+
+/// What a case found, as the console shows it.
+fn text(case: &CaseReport) -> io::Result<String> {
+    let mut out = Vec::new();
+    for all in case.findings() {
+        finding(&all, &mut out)?;
+    }
+    Ok(String::from_utf8_lossy(&out).into_owned())
+}
+
+fn end(xml: &mut Xml<'_>, name: &str) -> io::Result<()> {
+    xml.write_event(Event::End(BytesEnd::new(name)))
+}
+
+/// Without the characters that XML cannot have, even escaped.
+fn clean(text: &str) -> String {
+    let allowed = |c: char| {
+        matches!(c, '\t' | '\n' | '\r') || c >= ' ' && !matches!(c, '\u{fffe}' | '\u{ffff}')
+    };
+    text.chars().map(|c| if allowed(c) { c } else { '\u{fffd}' }).collect()
+}

@@ -1,0 +1,129 @@
+//! The report as Markdown, for a pull request.
+
+use std::io::{self, Write};
+
+use super::console::{counts, describe, finding, worded};
+use super::model::{Report, WaiverReport};
+use crate::verdict::{Exit, Verdict};
+
+/// The most characters of failures: a comment at GitHub has at most 65 536.
+const FAILURES_MAX: usize = 48_000;
+
+/// Writes the report as Markdown.
+///
+/// # Errors
+/// Those of `out`.
+pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let Report { suite, vectors, time, editions, seed, only, target, profile, .. } = report;
+    let verdict = if report.exit() == Exit::Success { "passed" } else { "not passed" };
+    writeln!(out, "## ads-cnc: {} {verdict}\n", plain(&target.name))?;
+    writeln!(out, "| | |\n|---|---|")?;
+    let profile = profile.as_ref().map(|profile| profile.name.clone());
+    for (name, value) in [
+        ("suite", Some(format!("{suite}, vectors {vectors}"))),
+        ("editions", Some(editions.join(", "))),
+        ("target", Some(describe(target))),
+        ("profile", profile),
+        ("only", Some(only.join(", "))),
+        ("run", Some(format!("{time}, seed {seed}, exit code {}", report.exit_code))),
+    ] {
+        if let Some(value) = value.filter(|value| !value.is_empty()) {
+            writeln!(out, "| {name} | {} |", plain(&value))?;
+        }
+    }
+    totals(report, out)?;
+    failures(report, out)?;
+    waivers(&report.waivers, out)
+}
+
+fn totals(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    for subject in &report.subjects {
+        writeln!(out, "\n### Requirements, the {}\n", subject.subject)?;
+        writeln!(out, "**{}**\n", counts(&subject.totals, subject.waived))?;
+        writeln!(out, "| area | verdicts | not passed |\n|---|---|---|")?;
+        for area in &subject.areas {
+            let waived = area.requirements.iter().filter(|one| one.waived).count();
+            let quiet = |verdict: Verdict| {
+                !matches!(verdict, Verdict::Pass | Verdict::NotRun | Verdict::NotObserved)
+            };
+            let named = area.requirements.iter().filter(|one| quiet(one.verdict));
+            let named: Vec<String> = named
+                .map(|one| format!("{} {}", one.requirement, worded(one.verdict, one.waived)))
+                .collect();
+            let counts = counts(&area.totals, waived);
+            writeln!(out, "| {} | {counts} | {} |", area.area, named.join("; "))?;
+        }
+    }
+    Ok(())
+}
+
+fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    let failed: Vec<_> = report.cases.iter().filter(|case| !case.failures.is_empty()).collect();
+    if failed.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\n### Not passed\n")?;
+    let (mut length, mut shown) = (0_usize, 0_usize);
+    for case in &failed {
+        let mut text = Vec::new();
+        for all in case.findings() {
+            finding(&all, &mut text)?;
+        }
+        let text = String::from_utf8_lossy(&text);
+        length = length.saturating_add(text.len());
+        if length > FAILURES_MAX && shown > 0 {
+            break;
+        }
+        shown = shown.saturating_add(1);
+        let (verdict, title) = (worded(case.verdict, case.waived), plain(&case.title));
+        let fence = fence(&text);
+        writeln!(out, "<details><summary>{verdict}: <code>{}</code> {title}</summary>\n", case.id)?;
+        writeln!(out, "{fence}text\n{}{fence}\n\n</details>\n", end_line(&text))?;
+    }
+    match failed.len().saturating_sub(shown) {
+        0 => Ok(()),
+        more => writeln!(out, "And {more} more cases; the report as HTML or JSON has them all."),
+    }
+}
+
+fn waivers(waivers: &[WaiverReport], out: &mut dyn Write) -> io::Result<()> {
+    if waivers.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\n### Waivers\n\n| case | requirement | expected | state | until | reason |")?;
+    writeln!(out, "|---|---|---|---|---|---|")?;
+    for WaiverReport { test, requirement, verdict, reason, expires, state, .. } in waivers {
+        let (test, reason, state) = (plain(test), plain(reason), state.name());
+        writeln!(out, "| {test} | {requirement} | {verdict} | {state} | {expires} | {reason} |")?;
+    }
+    Ok(())
+}
+
+/// Text that is nothing but text.
+fn plain(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => plain.push_str("&amp;"),
+            '<' => plain.push_str("&lt;"),
+            '>' => plain.push_str("&gt;"),
+            '\\' | '`' | '*' | '_' | '[' | ']' | '|' | '#' | '~' | '@' => plain.extend(['\\', c]),
+            '\n' | '\r' => plain.push(' '),
+            c => plain.push(c),
+        }
+    }
+    plain
+}
+
+fn end_line(text: &str) -> String {
+    if text.ends_with('\n') { text.to_owned() } else { format!("{text}\n") }
+}
+
+/// A fence that is not in the text.
+fn fence(text: &str) -> String {
+    let mut fence = "```".to_owned();
+    while text.contains(&fence) {
+        fence.push('`');
+    }
+    fence
+}

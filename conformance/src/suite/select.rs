@@ -1,0 +1,273 @@
+//! Which cases are run, and in which order.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasher as _, RandomState};
+
+use ads_cnc::edition::Edition;
+use ads_cnc_vectors::{Source, requirement};
+
+use super::case::{Body, Case, Needs, Subject};
+use super::outcome::Outcome;
+use crate::report::LeftOut;
+use crate::verdict::Verdict;
+
+/// What is to be run.
+///
+/// ```
+/// use ads_cnc_conformance::suite::{self, Selection};
+///
+/// let only = vec!["VAR-11".to_owned(), "com-count".to_owned()];
+/// let plan = Selection { edition: None, only }.plan(suite::cases(), 1)?;
+/// assert!(plan.cases.iter().all(|case| {
+///     case.id == "com-count" || case.requirements.contains(&"VAR-11")
+/// }));
+///
+/// let only = vec!["VRA".to_owned()];
+/// let nothing = Selection { edition: None, only }.plan(suite::cases(), 1).unwrap_err();
+/// assert_eq!(nothing.to_string(), "no case is called VRA or judges it");
+/// # Ok::<(), suite::Unmatched>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Selection {
+    /// The one edition of the manual on ADS access that is judged by; without it both.
+    pub edition: Option<Edition>,
+    /// Areas such as VAR, requirements such as VAR-11, cases by their ID. Case does not matter;
+    /// none selects all.
+    pub only: Vec<String>,
+}
+
+/// Nothing is called that.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no case is called {0} or judges it")]
+pub struct Unmatched(String);
+
+/// What is run, in its order, and what is not.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The cases to run. Their outcomes go to [`finish`](Self::finish).
+    pub cases: Vec<Case>,
+    /// Those the edition does not have, each with the reason.
+    pub foreign: Vec<(Case, String)>,
+    /// Those that were not selected.
+    left_out: Vec<Case>,
+    /// What is judged of a case that is not judged whole.
+    judged: HashMap<String, Vec<&'static str>>,
+}
+
+/// A seed that nobody chose.
+pub fn any_seed() -> u32 {
+    let random = RandomState::new().hash_one(());
+    u32::try_from(random >> 32).unwrap_or(u32::MAX)
+}
+
+impl Selection {
+    /// Puts cases in an order that comes from the seed. Those of one selection keep their order in
+    /// another; what judges all the others comes last.
+    ///
+    /// # Errors
+    /// Something that is to be run is not there.
+    pub fn plan(&self, mut cases: Vec<Case>, seed: u32) -> Result<Plan, Unmatched> {
+        let unmatched = self.only.iter().find(|word| {
+            let judges = |case: &Case| case.requirements.iter().any(|id| names(word, id));
+            !cases.iter().any(|case| word.eq_ignore_ascii_case(&case.id) || judges(case))
+        });
+        if let Some(word) = unmatched {
+            return Err(Unmatched(word.clone()));
+        }
+        cases.sort_by_cached_key(|case| (case.needs == Needs::Frames, order(seed, &case.id)));
+        let mut plan = Plan {
+            cases: Vec::new(),
+            foreign: Vec::new(),
+            left_out: Vec::new(),
+            judged: HashMap::new(),
+        };
+        for case in cases {
+            let wanted = self.wanted(&case);
+            if wanted.is_empty() {
+                plan.left_out.push(case);
+                continue;
+            }
+            if let Some(why) = self.edition.and_then(|edition| foreign(&case, edition)) {
+                plan.foreign.push((case, why));
+                continue;
+            }
+            if wanted.len() < case.requirements.len() {
+                plan.judged.insert(case.id.clone(), wanted);
+            }
+            plan.cases.push(case);
+        }
+        plan.carry_frames();
+        Ok(plan)
+    }
+
+    /// What of a case is to be judged.
+    fn wanted(&self, case: &Case) -> Vec<&'static str> {
+        let whole = self.only.is_empty()
+            || self.only.iter().any(|word| word.eq_ignore_ascii_case(&case.id));
+        let selected = |id: &&str| whole || self.only.iter().any(|word| names(word, id));
+        let all: Vec<_> = case.requirements.iter().copied().filter(selected).collect();
+        let Some(edition) = self.edition else { return all };
+        let has = |id: &&str| {
+            requirement(id).is_none_or(|requirement| has(edition, &requirement.sources))
+        };
+        match all.iter().copied().filter(has).collect::<Vec<_>>() {
+            // Of what only the other edition has, the reason is told with the case.
+            none if none.is_empty() => all,
+            some => some,
+        }
+    }
+}
+
+impl Plan {
+    /// What judges frames needs some: if nothing else is selected that exchanges any, the other
+    /// queries are made for their sake.
+    fn carry_frames(&mut self) {
+        let of_target = |case: &&Case| case.subject == Subject::Target;
+        let frames = |case: &Case| case.needs == Needs::Frames;
+        if !self.cases.iter().any(frames)
+            || self.cases.iter().filter(of_target).any(|one| !frames(one))
+        {
+            return;
+        }
+        let queries = |case: &&Case| case.needs == Needs::Queries;
+        let carriers = self.left_out.iter().filter(of_target).filter(queries).cloned();
+        let carriers: Vec<Case> = carriers.collect();
+        self.judged.extend(carriers.iter().map(|case| (case.id.clone(), Vec::new())));
+        self.cases.splice(0..0, carriers);
+    }
+
+    /// The cases that are judged.
+    pub fn selected(&self) -> impl Iterator<Item = &Case> {
+        self.cases
+            .iter()
+            .filter(|case| self.judged.get(&case.id).is_none_or(|judged| !judged.is_empty()))
+    }
+
+    /// Keeps of the outcomes what was asked for, and says what was not run.
+    pub fn finish(self, outcomes: Vec<Outcome>) -> (Vec<Outcome>, Vec<LeftOut>) {
+        let Self { foreign, left_out, judged, .. } = self;
+        let mut left_out: Vec<LeftOut> = left_out.iter().map(|case| left(case, &[])).collect();
+        let mut kept = Vec::new();
+        for mut outcome in outcomes {
+            match judged.get(&outcome.case.id) {
+                Some(judged) if judged.is_empty() => continue,
+                Some(judged) => {
+                    left_out.push(left(&outcome.case, judged));
+                    outcome.verdicts.retain(|one| {
+                        judged.contains(&one.requirement) || one.verdict == Verdict::HarnessError
+                    });
+                }
+                None => {}
+            }
+            kept.push(outcome);
+        }
+        let untried = |(case, why)| Outcome::untried(case, Verdict::NotRun, why);
+        kept.extend(foreign.into_iter().map(untried));
+        (kept, left_out)
+    }
+}
+
+fn left(case: &Case, judged: &[&str]) -> LeftOut {
+    let requirements = case.requirements.iter().copied().filter(|id| !judged.contains(id));
+    LeftOut { id: case.id.clone(), subject: case.subject, requirements: requirements.collect() }
+}
+
+/// Whether a word means a requirement: by its area, or itself.
+pub(crate) fn names(word: &str, requirement: &str) -> bool {
+    let area = requirement.split_once('-').map_or("", |(area, _)| area);
+    word.eq_ignore_ascii_case(requirement) || word.eq_ignore_ascii_case(area)
+}
+
+/// Whether an edition has one of these places; what stands in neither is not of the editions.
+fn has(edition: Edition, sources: &[Source]) -> bool {
+    let stands =
+        |edition: Edition| sources.iter().any(|source| source.document == edition.document());
+    stands(edition) || !Edition::ALL.into_iter().any(stands)
+}
+
+/// Why a case is not judged by an edition: only the other one prints it, or requires it.
+fn foreign(case: &Case, edition: Edition) -> Option<String> {
+    let provenance = match case.body {
+        Body::Vector(vector) | Body::Printed(vector) => Some(&vector.provenance),
+        Body::Sequence(sequence) => Some(&sequence.provenance),
+        Body::Probe(_) | Body::Manners => None,
+    };
+    let printed = provenance.is_none_or(|provenance| has(edition, &provenance.sources));
+    let required = case
+        .requirements
+        .iter()
+        .any(|id| requirement(id).is_none_or(|requirement| has(edition, &requirement.sources)));
+    let why = match (printed, required) {
+        (true, true) => return None,
+        (false, _) => "does not print it",
+        (_, false) => "does not require it",
+    };
+    Some(format!("{edition} {why}"))
+}
+
+/// The place of a case among the others: FNV-1a over seed and ID, its bits mixed as splitmix64
+/// does. No library's hash or shuffle stays the same for good, and a seed in a report has to.
+pub(crate) fn order(seed: u32, id: &str) -> u64 {
+    let bytes = seed.to_le_bytes().into_iter().chain(id.bytes());
+    let hash = bytes.fold(0xCBF2_9CE4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
+    });
+    let hash = (hash ^ (hash >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let hash = (hash ^ (hash >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    hash ^ (hash >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::suite::cases;
+
+    fn plan(edition: Option<Edition>, only: &[&str], seed: u32) -> Plan {
+        let only = only.iter().map(|&word| word.to_owned()).collect();
+        Selection { edition, only }.plan(cases(), seed).unwrap()
+    }
+
+    fn ids(plan: &Plan) -> Vec<&str> {
+        plan.cases.iter().map(|case| case.id.as_str()).collect()
+    }
+
+    #[test]
+    fn a_seed_is_an_order() {
+        let (one, again, two) = (plan(None, &[], 1), plan(None, &[], 1), plan(None, &[], 2));
+        assert_eq!(ids(&one), ids(&again));
+        assert_ne!(ids(&one), ids(&two));
+        assert_eq!(one.cases.len(), cases().len());
+        assert_eq!(ids(&one).last(), Some(&"ads-every-frame"));
+        // A part keeps the order of the whole.
+        let part = plan(None, &["var"], 1);
+        let mut whole = ids(&one);
+        whole.retain(|id| ids(&part).contains(id));
+        assert_eq!(whole, ids(&part));
+        // For good: known from outside, so that a seed of an old report still means its order.
+        assert_eq!(order(0, ""), 0xACA6_D6B5_4BE3_ED05);
+    }
+
+    #[test]
+    fn an_edition_leaves_out_what_only_the_other_prints() {
+        let english = plan(Some(Edition::English), &["VAR-20"], 1);
+        let foreign: Vec<&str> = english.foreign.iter().map(|(case, _)| case.id.as_str()).collect();
+        assert!(foreign.contains(&"vec-path-trajektorie-x"), "{foreign:?}");
+        assert!(ids(&english).contains(&"vec-path-trajectory-x"));
+        let german = plan(Some(Edition::German), &["VAR-20"], 1);
+        assert!(ids(&german).contains(&"vec-path-trajektorie-x"));
+        assert!(!ids(&german).contains(&"vec-path-trajectory-x"));
+    }
+
+    #[test]
+    fn frames_are_carried() {
+        let frames = plan(None, &["ads-1"], 1);
+        assert!(ids(&frames).contains(&"ads-every-frame"));
+        let only = plan(None, &["ads-every-frame"], 1);
+        assert!(only.cases.len() > 10);
+        let outcomes = only.cases.iter().cloned();
+        let outcomes = outcomes.map(|case| Outcome::untried(case, Verdict::Pass, ""));
+        let (kept, left) = only.clone().finish(outcomes.collect());
+        assert_eq!(kept.len(), 1);
+        assert_eq!(left.len(), cases().len() - 1);
+    }
+}
