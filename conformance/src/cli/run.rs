@@ -221,8 +221,11 @@ impl Run {
         let session = session::Session::embedded(cnc, Gate::with_malformed())?;
         let target = *session.target();
         // The CNC runs as long as it is held.
-        let (client, _running) = session.into_parts();
-        let session = Session::new(client, Profile::EMBEDDED);
+        let (client, running) = session.into_parts();
+        let mut session = Session::new(client, Profile::EMBEDDED);
+        if let Some(server) = &running {
+            session = session.with_cnc(server.cnc());
+        }
         let target = TargetReport {
             name: match &defect {
                 None => "embedded CNC".to_owned(),

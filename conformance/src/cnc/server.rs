@@ -111,6 +111,11 @@ impl Server {
         self.addr
     }
 
+    /// The CNC it serves.
+    pub fn cnc(&self) -> Arc<Cnc> {
+        Arc::clone(&self.shared.cnc)
+    }
+
     /// The AMS NetId it answers for.
     pub fn net_id(&self) -> AmsNetId {
         self.shared.options.net_id

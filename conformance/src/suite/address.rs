@@ -61,13 +61,22 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 pub(super) fn frame_cases() -> Vec<Case> {
-    vec![declare!(
-        "ads-every-frame",
-        "Every frame of this run has the header and the length its request asks for",
-        ["ADS-1", "ADS-2", "ADS-3", "ADS-5"],
-        Frames,
-        every_frame
-    )]
+    vec![
+        declare!(
+            "ads-every-frame",
+            "Every frame of this run has the header and the length its request asks for",
+            ["ADS-1", "ADS-2", "ADS-3", "ADS-5"],
+            Frames,
+            every_frame
+        ),
+        declare!(
+            "ads-every-refusal",
+            "What was refused in this run was refused by an error number",
+            ["ADS-6", "ADS-7"],
+            Frames,
+            every_refusal
+        ),
+    ]
 }
 
 fn com_object_access(probe: &mut Probe<'_>) -> Step {
@@ -204,6 +213,21 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
             probe.show(Some(evidence.clone()));
             probe.check(requirement, false, "a frame as required", &violation.what);
         }
+    }
+    Ok(())
+}
+
+/// That it is not 0 is all that is required of an error number.
+fn every_refusal(probe: &mut Probe<'_>) -> Step {
+    let by_nothing = std::mem::take(&mut probe.session.refusals.by_nothing);
+    if probe.session.refusals.by_number > 0 {
+        // Whether a reply that is an error stops early or not, it was read as one.
+        probe.check("ADS-6", true, "", "");
+        probe.check("ADS-7", true, "", "");
+    }
+    for evidence in by_nothing {
+        probe.show(Some(evidence));
+        probe.check("ADS-7", false, "an error number", "a success that gives nothing");
     }
     Ok(())
 }

@@ -73,6 +73,8 @@ pub enum Needs {
     Queries,
     /// Requests that no client should send: only for a target that cannot move.
     Malformed,
+    /// A CNC in this process, to which something is done from within.
+    Embedded,
     /// A target that claims to answer the manuals' examples.
     PrintedExamples,
     /// The frames that all other cases exchanged.

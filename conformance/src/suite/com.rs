@@ -123,7 +123,13 @@ fn known_number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
 fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let list = ObjectList::from(channel);
-        let number = number(probe, list)?;
+        let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
+        let number = number.min(OBJECTS_MAX);
+        if number == 0 {
+            let first = ReadDescriptors::new(list, 1, 1).map_err(harness)?;
+            probe.refuses_alone("COM-2", "the first of no object", first)?;
+            continue;
+        }
         read(probe, "COM-2", list, number, 1)?;
         let (beyond, last) = (number.saturating_add(1), number);
         probe.refuses(

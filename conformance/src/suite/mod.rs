@@ -1,14 +1,23 @@
 //! The suite: what it tries, in which order, and what comes of it.
 
 mod address;
+mod axis;
 mod case;
 mod com;
+mod content;
+mod described;
+mod dynamic;
+mod elements;
+mod inventory;
 mod malformed;
+mod names;
 mod outcome;
 mod printed;
 mod probe;
 mod run;
+mod sda;
 mod select;
+mod still;
 mod survey;
 mod values;
 mod variable;
@@ -46,8 +55,15 @@ pub fn cases() -> Vec<Case> {
     let mut cases = vectors::cases();
     cases.extend(address::cases());
     cases.extend(com::cases());
+    cases.extend(content::cases());
+    cases.extend(sda::cases());
+    cases.extend(elements::cases());
+    cases.extend(dynamic::cases());
     cases.extend(variable::cases());
+    cases.extend(described::cases());
+    cases.extend(names::cases());
     cases.extend(values::cases());
+    cases.extend(axis::cases());
     cases.extend(malformed::cases());
     cases.extend(printed::cases());
     // Judges what all the others exchanged, so it comes last.

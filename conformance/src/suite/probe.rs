@@ -2,16 +2,19 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
+use std::sync::Arc;
 
 use ads_cnc::address::Channel;
-use ads_cnc::operation::{Call, Request, Service};
+use ads_cnc::operation::{Call, Function, Request, Service};
 use ads_cnc::{Decode, Description};
 use ads_cnc_vectors::Level;
 
 use super::case::{Evidence, Judgement, Rule, Step, Stop};
+use super::inventory::Inventory;
 use crate::client::Client;
+use crate::cnc::Cnc;
 use crate::exchange::{Exchange, Fault, Violation};
-use crate::profile::Profile;
+use crate::profile::{Claim, Profile};
 use crate::verdict::Verdict;
 
 /// The most failed checks a case keeps of one requirement.
@@ -29,6 +32,10 @@ pub struct Session {
     pub profile: Profile,
     /// Descriptions of the variables of each kind and channel.
     pub(super) variables: BTreeMap<(u32, &'static str), Vec<Description>>,
+    /// What is known of its objects and elements.
+    pub(super) inventory: Inventory,
+    /// The CNC itself, if it is in this process.
+    pub(super) cnc: Option<Arc<Cnc>>,
     /// Requests sent.
     pub frames: usize,
     /// Services that were answered.
@@ -39,6 +46,17 @@ pub struct Session {
     pub(super) gone: Option<String>,
     /// What frames themselves broke, each with its evidence.
     pub violations: Vec<(Violation, Evidence)>,
+    /// What came of requests that had to be refused.
+    pub(super) refusals: Refusals,
+}
+
+/// How a target refuses.
+#[derive(Debug, Default)]
+pub(super) struct Refusals {
+    /// By an error number, in whichever header.
+    pub(super) by_number: usize,
+    /// By a success without data: its evidence.
+    pub(super) by_nothing: Vec<Evidence>,
 }
 
 impl Session {
@@ -48,12 +66,22 @@ impl Session {
             client,
             profile,
             variables: BTreeMap::new(),
+            inventory: Inventory::default(),
+            cnc: None,
             frames: 0,
             answered: Vec::new(),
             silences: 0,
             gone: None,
             violations: Vec::new(),
+            refusals: Refusals::default(),
         }
+    }
+
+    /// With the CNC that is asked, as it is in this process: some cases do to it from within what
+    /// a machine or an NC program does.
+    #[must_use]
+    pub fn with_cnc(self, cnc: Arc<Cnc>) -> Self {
+        Self { cnc: Some(cnc), ..self }
     }
 }
 
@@ -78,7 +106,7 @@ impl<'s> Probe<'s> {
 
     /// The channels the target claims, by number.
     pub fn channels(&self) -> Step<Vec<Channel>> {
-        let numbers = self.session.profile.channels;
+        let numbers = &self.session.profile.channels;
         numbers.iter().map(|&number| Channel::new(number).map_err(harness)).collect()
     }
 
@@ -86,6 +114,17 @@ impl<'s> Probe<'s> {
     pub fn channel(&self) -> Step<Channel> {
         let first = self.channels()?.into_iter().next();
         first.ok_or(Stop::NotApplicable("the target claims no channel".into()))
+    }
+
+    /// The CNC itself, to do to it from within what nobody can ask for.
+    pub(super) fn cnc(&self) -> Step<Arc<Cnc>> {
+        let cnc = self.session.cnc.clone();
+        cnc.ok_or_else(|| Stop::NotApplicable("the CNC is not in this process".to_owned()))
+    }
+
+    /// Whether the target claims a function.
+    pub fn claims(&self, function: Function) -> Claim {
+        self.session.profile.claims(function)
     }
 
     /// Judges one check.
@@ -165,6 +204,11 @@ impl<'s> Probe<'s> {
     pub fn call(&mut self, call: &Call<'_>) -> Step<Exchange> {
         if let Some(why) = &self.session.gone {
             return Err(Stop::Inconclusive(format!("no target left: {why}")));
+        }
+        let function = call.dispatch().ok().map(|request| request.function());
+        if let Some(function) = function.filter(|one| self.claims(*one) == Claim::No) {
+            let why = format!("the profile does not claim {}", function.spec().name);
+            return Err(Stop::NotApplicable(why));
         }
         let exchange = self.session.client.call(call);
         if let Err(Fault::Refused(why)) = &exchange.outcome {
@@ -279,6 +323,12 @@ impl<'s> Probe<'s> {
                 self.record(rule, verdict, format!("{expected} only"), found);
             }
             Some(data) => {
+                if exchange.answer().is_some_and(|answer| answer.success().is_none()) {
+                    let refusals = &mut self.session.refusals;
+                    refusals.by_number = refusals.by_number.saturating_add(1);
+                } else if data.is_empty() && rule.level == Some(Level::Must) {
+                    self.session.refusals.by_nothing.extend(self.last.clone());
+                }
                 self.check(rule, data.is_empty(), expected, exchange.result());
             }
             None => {
@@ -307,6 +357,21 @@ impl<'s> Probe<'s> {
         let call = request.encode(&mut buf).map_err(harness)?;
         let sibling = sibling.encode(&mut sibling_buf).map_err(harness)?;
         self.refused(rule, what, &call, &sibling)
+    }
+
+    /// Sends a request for what cannot be there, as there is nothing at all: what is there for a
+    /// sibling to differ from nobody knows.
+    pub fn refuses_alone<'a>(
+        &mut self,
+        rule: impl Into<Rule>,
+        what: &str,
+        request: impl Into<Request<'a>>,
+    ) -> Step {
+        let exchange = self.send(request)?;
+        let data = exchange.answer().map(|answer| answer.success().unwrap_or_default());
+        let refused = data.is_some_and(<[u8]>::is_empty);
+        self.check(rule, refused, format!("an error number for {what}"), exchange.result());
+        Ok(())
     }
 
     /// Numbers from the first that is too many on; of those far beyond only what cannot move is

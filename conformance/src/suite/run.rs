@@ -48,6 +48,11 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
             let note = "sends what no client should: not sent to a device";
             return Outcome::untried(case, Verdict::NotRun, note);
         }
+        Needs::Embedded if session.cnc.is_none() => {
+            let note =
+                "takes something that is done to a CNC from within: to the embedded one only";
+            return Outcome::untried(case, Verdict::NotRun, note);
+        }
         Needs::PrintedExamples if !session.profile.printed_examples => {
             let note = "the target does not claim to answer the printed examples";
             return Outcome::untried(case, Verdict::NotApplicable, note);

@@ -20,7 +20,7 @@ impl Probe<'_> {
     /// one that cannot be read only means that nothing can be built on it.
     pub(super) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = Vec::new();
-        for (name, kind) in KINDS {
+        for (name, kind) in super::described::kinds(self) {
             let key = (u32::from(channel.number()), name);
             if !self.session.variables.contains_key(&key) {
                 let described = self.describe(channel, kind)?;

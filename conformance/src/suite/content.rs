@@ -1,0 +1,222 @@
+//! Cases of the contents of COM objects, and of the list of everything.
+
+use std::collections::HashSet;
+
+use ads_cnc::address::{Addressing, ComGroup, ComTable, Group};
+use ads_cnc::operation::{
+    CountObjects, ObjectList, ReadDescriptors, ReadElementName, ReadObject, Request,
+};
+use ads_cnc::{Descriptors, ErrorKind, ObjectCount};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Rule, Step, Stop, assumed};
+use super::declare;
+use super::inventory::{OBJECTS_MAX, Object};
+use super::probe::{Probe, harness};
+use super::still::Still;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "com-content",
+            "Every object is read where its descriptor says, in the size it says",
+            ["COM-2", "COM-5", "GEN-5"],
+            Queries,
+            content
+        ),
+        declare!(
+            "com-content-by-index",
+            "By number and by rank of the channel, an object has the same content",
+            ["ADR-1", "ADR-12"],
+            Queries,
+            content_by_index
+        ),
+        declare!(
+            "com-platform-content",
+            "The platform's objects hold the same, whichever list named them",
+            ["COM-4"],
+            Queries,
+            platform_content
+        ),
+        declare!(
+            "com-places",
+            "No two objects of a list are at one place",
+            ["COM-2", "COM-5"],
+            Queries,
+            places
+        ),
+        declare!(
+            "com-read-lengths",
+            "A read length that does not hold a content is answered by an error",
+            ["ADS-1"],
+            Malformed,
+            read_lengths
+        ),
+        declare!(
+            "obj-everything",
+            "Everything that is counted can be listed, each thing once",
+            ["OBJ-1"],
+            Queries,
+            everything
+        ),
+    ]
+}
+
+/// The read of an object's content; none of the program stream, of which no read is documented.
+pub(super) fn read_of(object: &Object) -> Option<ReadObject> {
+    ReadObject::new(object.group, object.offset, object.size).ok()
+}
+
+fn content(probe: &mut Probe<'_>) -> Step {
+    for object in probe.objects()? {
+        let rules = ["COM-5", "COM-2"].map(Rule::from);
+        let read = match ReadObject::new(object.group, object.offset, object.size) {
+            Ok(read) => read,
+            Err(error) => {
+                // Of the program stream no read is documented.
+                let stream = error.kind() == ErrorKind::Function;
+                let place = format!("{}, {}", object.group, object.offset);
+                let found = format!("{} bytes of {} at {place}: {error}", object.size, object.name);
+                probe.check("COM-2", stream, "a content that can be read", &found);
+                probe.check("COM-5", stream, "a content that can be read", found);
+                continue;
+            }
+        };
+        let content = probe.ask_for(&rules, read)?;
+        let found = format!("{} bytes of {}", content.len(), object.name);
+        let sized = u32::try_from(content.len()) == Ok(object.size);
+        let expected = format!("the {} bytes of its descriptor", object.size);
+        for rule in rules {
+            probe.check(rule, sized, &expected, &found);
+        }
+        if object.type_name.as_cnc_str() == "BOOL" {
+            let bit = matches!(*content, [0 | 1]);
+            let found = format!("{content:?} of {}", object.name);
+            probe.check(assumed("GEN-5"), bit, "a BOOL of 0 or 1", found);
+        }
+    }
+    Ok(())
+}
+
+/// The same place by the rank of its channel; none if it is not a channel's.
+fn by_index(probe: &Probe<'_>, object: &Object) -> Option<ReadObject> {
+    let Some(Group::Com(com)) = object.group.parts() else { return None };
+    let (ComTable::Channel, Addressing::Logical) = (com.table, com.addressing) else { return None };
+    let channels = &probe.session.profile.channels;
+    let rank =
+        (1_u8..).zip(channels.iter()).find(|(_, channel)| **channel == u32::from(com.instance));
+    let group = ComGroup { addressing: Addressing::Index, instance: rank?.0, ..com };
+    ReadObject::new(group.index_group(), object.offset, object.size).ok()
+}
+
+fn content_by_index(probe: &mut Probe<'_>) -> Step {
+    let mut still = Still::default();
+    let mut any = false;
+    for object in probe.objects()? {
+        let (Some(one), Some(other)) = (read_of(&object), by_index(probe, &object)) else {
+            continue;
+        };
+        any = true;
+        let rules = ["ADR-1", "ADR-12"].map(Rule::from);
+        still.same(probe, &rules, &object.name.to_string(), one, other.into())?;
+    }
+    match any {
+        true => still.finish(),
+        false => Err(Stop::NotApplicable("no object is in the group of a channel".to_owned())),
+    }
+}
+
+/// Channel 1 drives the platform: what both lists name has to be one thing.
+fn platform_content(probe: &mut Probe<'_>) -> Step {
+    let all = probe.objects()?;
+    let first = ObjectList::from(probe.channel_of(1)?);
+    let of = |list| all.iter().filter(move |one| one.list == list);
+    let mut still = Still::default();
+    let mut any = false;
+    for object in of(ObjectList::PLATFORM) {
+        let same = |one: &&Object| one.name == object.name && one.size == object.size;
+        let Some(other) = of(first).find(same) else { continue };
+        let (Some(one), Some(other)) = (read_of(object), read_of(other)) else { continue };
+        any = true;
+        let what = object.name.to_string();
+        still.same(probe, &["COM-4".into()], &what, one, other.into())?;
+        // And at the platform's own offset in the group of channel 1.
+        let group = first.parts();
+        let group = ComGroup { access: ads_cnc::address::Access::Element, ..group };
+        let of_channel = ReadObject::new(group.index_group(), object.offset, object.size);
+        let of_channel = of_channel.map_err(harness)?;
+        still.same(probe, &["COM-4".into()], &what, one, of_channel.into())?;
+    }
+    match any {
+        true => still.finish(),
+        false => Err(Stop::NotApplicable("the platform has no object".to_owned())),
+    }
+}
+
+fn places(probe: &mut Probe<'_>) -> Step {
+    let mut seen = HashSet::new();
+    for object in probe.objects()? {
+        let place = (object.list, object.group, object.offset);
+        let found = format!("{} at {}, {} again", object.name, object.group, object.offset);
+        let own = seen.insert(place);
+        for rule in ["COM-2", "COM-5"] {
+            probe.check(rule, own, "a place of its own", &found);
+        }
+    }
+    Ok(())
+}
+
+fn read_lengths(probe: &mut Probe<'_>) -> Step {
+    let all = probe.objects()?;
+    let read = all.iter().filter(|one| one.size > 1).find_map(read_of);
+    let read = read.ok_or(Stop::NotApplicable("no object has two bytes".to_owned()))?;
+    let request = Request::from(read);
+    let mut buf = [0; 0];
+    let good = request.encode(&mut buf).map_err(harness)?;
+    for read_length in [0, good.read_length.saturating_sub(1)] {
+        let what = format!("a read length of {read_length} for {} bytes", good.read_length);
+        let bad = ads_cnc::operation::Call { read_length, ..good };
+        probe.refused(assumed("ADS-1"), &what, &bad, &good)?;
+    }
+    Ok(())
+}
+
+/// As an object browser lists them: by numbers and descriptors of COM, by the elements of SDA.
+fn everything(probe: &mut Probe<'_>) -> Step {
+    for list in probe.lists()? {
+        // Lists of platform axes are assumed.
+        let rule = match list.parts().table {
+            ComTable::Axis => assumed("OBJ-1"),
+            ComTable::Channel => "OBJ-1".into(),
+        };
+        let ObjectCount(count) = probe.read(rule, CountObjects::new(list))?;
+        let count = count.min(OBJECTS_MAX);
+        let mut ids = HashSet::new();
+        for first in 1..=count {
+            let one = ReadDescriptors::new(list, first, 1).map_err(harness)?;
+            let one: Descriptors = probe.read(rule, one)?;
+            let id = one.as_ref().get(0).map(|object| object.id());
+            let found = format!("the object {id:?} again, as number {first} of {count}");
+            probe.check(rule, id.is_some_and(|id| ids.insert(id)), "another object", found);
+        }
+    }
+    let instances = match probe.instances() {
+        Ok(instances) => instances,
+        Err(Stop::NotApplicable(_)) => Vec::new(),
+        Err(stop) => return Err(stop),
+    };
+    for instance in instances {
+        let mut places = HashSet::new();
+        for element in instance.elements() {
+            let name = probe.ask("OBJ-1", ReadElementName::new(element))?;
+            let found = format!("{} of {instance}", Hex(name.clone()));
+            let named = name.first().is_some_and(|&byte| byte != 0);
+            probe.check("OBJ-1", named, "an element with a name", found);
+            places.insert(element);
+        }
+        let listed = u32::try_from(places.len()) == Ok(instance.count.min(OBJECTS_MAX));
+        let found = format!("{} of {instance}", places.len());
+        probe.check("OBJ-1", listed, format!("{} elements", instance.count), found);
+    }
+    Ok(())
+}

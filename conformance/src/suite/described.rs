@@ -1,0 +1,180 @@
+//! Cases of what else describes a variable: the extended description, and that by its name.
+
+use ads_cnc::address::Channel;
+use ads_cnc::edition::Feature;
+use ads_cnc::operation::{CountVariables, DescribeByName, DescribeExtended};
+use ads_cnc::{
+    Decode as _, Description, DescriptionByName, ExtendedReply, Kind, Synchronisation, TextRef,
+    Validity, VariableCount,
+};
+
+use super::case::{Case, Rule, Step, Stop, assumed, online};
+use super::declare;
+use super::probe::{Probe, harness};
+use super::survey::{KINDS, VARIABLES_MAX};
+use super::variable::name_of;
+use crate::profile::Claim;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "var-extended-descriptions",
+            "Every V.E has an extended description; V.G and V.A are answered by nothing",
+            ["VAR-15", "VAR-16"],
+            Queries,
+            extended
+        ),
+        declare!(
+            "var-extended-beyond-last",
+            "The index behind the last has no extended description",
+            ["VAR-3"],
+            Queries,
+            extended_beyond
+        ),
+        declare!(
+            "var-described-by-name",
+            "By its name a variable is described as by its index",
+            ["VAR-28"],
+            Queries,
+            described_by_name
+        ),
+        declare!(
+            "var-unknown-described",
+            "A name nobody has is described by an error",
+            ["VAR-28"],
+            Queries,
+            unknown_described
+        ),
+    ]
+}
+
+/// The kinds that the target lists.
+pub(super) fn kinds(probe: &Probe<'_>) -> Vec<(&'static str, Kind<'static>)> {
+    let profile = &probe.session.profile;
+    KINDS.into_iter().filter(|(_, kind)| profile.has_kind(*kind)).collect()
+}
+
+/// How many variables of a kind there are; that is judged elsewhere.
+fn count(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
+    let data = probe.try_ask(CountVariables::new(channel, kind))?;
+    let count = data.and_then(|data| VariableCount::decode(&data).ok());
+    Ok(count.map_or(0, |count| count.0.min(VARIABLES_MAX)))
+}
+
+fn extended(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        for (name, kind) in kinds(probe) {
+            for index in 0..count(probe, channel, kind)? {
+                let request = DescribeExtended::new(channel, index, kind);
+                let at = format!("index {index} of {name}");
+                if kind == Kind::V_E {
+                    let reply: ExtendedReply = probe.read("VAR-15", request)?;
+                    of_external(probe, &reply, &at);
+                } else {
+                    of_others(probe, request, &at)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn of_external(probe: &mut Probe<'_>, reply: &ExtendedReply, at: &str) {
+    let found = format!("nothing for {at}");
+    probe.check("VAR-15", reply.0.is_some(), "an extended description", found);
+    let Some(extended) = reply.0 else { return };
+    let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
+    let found = format!("{} for {at}", extended.synchronisation.0);
+    let kept = known.contains(&extended.synchronisation);
+    probe.check("VAR-15", kept, "a synchronisation of 1 or 2", found);
+    let known = [Validity::CHANNEL, Validity::GLOBAL];
+    let found = format!("{} for {at}", extended.validity.0);
+    probe.check("VAR-15", known.contains(&extended.validity), "a validity of 1 or 2", found);
+}
+
+/// Nothing comes back; that it does so with a success is assumed.
+fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> Step {
+    let exchange = probe.send(request)?;
+    let data = exchange.answer().and_then(|answer| answer.data.clone());
+    let empty = data.is_none_or(|data| data.is_empty());
+    let expected = format!("no data for {at}");
+    probe.check("VAR-16", empty && exchange.answer().is_some(), &expected, exchange.result());
+    let success = exchange.answer().is_some_and(|answer| answer.success().is_some());
+    probe.check(assumed("VAR-16"), success, "the result 0", exchange.result());
+    Ok(())
+}
+
+fn extended_beyond(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        for (name, kind) in kinds(probe) {
+            let count = count(probe, channel, kind)?;
+            let Some(last) = count.checked_sub(1) else { continue };
+            for beyond in probe.beyond(count) {
+                let what = format!("index {beyond} of {count} {name}");
+                let describe = |index| DescribeExtended::new(channel, index, kind);
+                if kind == Kind::V_E {
+                    probe.refuses("VAR-3", &what, describe(beyond), describe(last))?;
+                    continue;
+                }
+                // No more than nothing can be given of it.
+                let given = probe.try_ask(describe(beyond))?.unwrap_or_default();
+                let found = format!("{} bytes", given.len());
+                probe.check("VAR-3", given.is_empty(), format!("nothing for {what}"), found);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether there is a description by name; one that may be there is taken at its word.
+fn is_there(probe: &mut Probe<'_>, channel: Channel, known: &Description) -> Step {
+    if probe.session.profile.claims(ads_cnc::operation::Function::DescribeByName) == Claim::Yes {
+        return Ok(());
+    }
+    let request = DescribeByName { channel, name: name_of(known) };
+    if probe.try_ask(request)?.is_some() {
+        return Ok(());
+    }
+    let clause = Feature::DescriptionByName.clause();
+    let why =
+        format!("the target has no description by name, which comes with a version ({clause})");
+    Err(Stop::NotApplicable(why))
+}
+
+fn described_by_name(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        let variables = probe.variables(channel)?;
+        if let Some(first) = variables.first() {
+            is_there(probe, channel, first)?;
+        }
+        for variable in &variables {
+            let request = DescribeByName { channel, name: name_of(variable) };
+            let described: DescriptionByName = probe.read("VAR-28", request)?;
+            let name = &variable.name.text;
+            let kept = (described.var_type, described.access, described.size)
+                == (variable.var_type, variable.access, variable.size)
+                && described.dimensions == variable.dimensions;
+            let expected = format!("the description of {name} by its index");
+            probe.check("VAR-28", kept, expected, format!("{described:?}"));
+            let same = described.handle == variable.handle;
+            let expected = format!("{:?} of {name}", variable.handle);
+            probe.check(online("VAR-28"), same, expected, format!("{:?}", described.handle));
+        }
+    }
+    Ok(())
+}
+
+fn unknown_described(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let variables = probe.variables(channel)?;
+    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    is_there(probe, channel, known)?;
+    for name in ["V.E.no such variable", "V.E.", ""] {
+        let rule = Rule::from("VAR-28");
+        let unknown = TextRef::new(name).map_err(harness)?;
+        let good = DescribeByName { channel, name: name_of(known) };
+        let bad = DescribeByName { name: unknown, ..good };
+        probe.refuses(rule, &format!("the name {name:?}"), bad, good)?;
+    }
+    Ok(())
+}

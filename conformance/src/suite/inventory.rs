@@ -1,0 +1,201 @@
+//! What a target has, listed once: objects of the COM task, instances of SDA and GEO.
+
+use ads_cnc::address::{Channel, Class, ElementAddress, PlatformAxis};
+use ads_cnc::limits::DESCRIPTOR_LEN;
+use ads_cnc::operation::{
+    CountElements, CountObjects, FindInstance, Function, ObjectList, ReadDescriptors, Request,
+};
+use ads_cnc::sda::{ElementCount, ObjectAddress};
+use ads_cnc::{CncString, Decode, DescriptorsRef, ObjectCount};
+
+use super::case::{Step, Stop};
+use super::probe::{Probe, harness};
+use crate::profile::Claim;
+
+/// The most objects of a list that are looked at, and elements of an instance.
+pub(super) const OBJECTS_MAX: u32 = 10_000;
+/// The most axes and spindles that are looked for.
+pub(super) const INSTANCES_MAX: u32 = 255;
+
+/// Classes with an instance for each channel, and one for each place of it.
+pub(super) const OF_PLACES: [Class; 3] =
+    [Class::Interpolator, Class::Decoder, Class::PathPreparation];
+
+/// What is known of a target; nothing before a case asks.
+#[derive(Debug, Default)]
+pub(super) struct Inventory {
+    objects: Option<Vec<Object>>,
+    instances: Option<Vec<Instance>>,
+}
+
+/// An object of the COM task.
+#[derive(Clone, Debug)]
+pub(super) struct Object {
+    pub(super) list: ObjectList,
+    pub(super) name: CncString,
+    pub(super) type_name: CncString,
+    pub(super) size: u32,
+    pub(super) group: ads_cnc::address::IndexGroup,
+    pub(super) offset: ads_cnc::address::IndexOffset,
+}
+
+/// An instance of a class, by what it was asked for.
+#[derive(Clone, Debug)]
+pub(super) struct Instance {
+    pub(super) class: Class,
+    pub(super) channel: u32,
+    pub(super) axis: u32,
+    pub(super) first: ElementAddress,
+    pub(super) count: u32,
+}
+
+impl Instance {
+    /// Its elements, without that which says how many there are.
+    pub(super) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
+        (1..=self.count.min(OBJECTS_MAX)).map_while(|place| self.first.following(place).ok())
+    }
+}
+
+impl std::fmt::Display for Instance {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} ({}, {})", class_name(self.class), self.channel, self.axis)
+    }
+}
+
+/// A class as reports call it.
+pub(super) const fn class_name(class: Class) -> &'static str {
+    match class {
+        Class::PositionController => "position controller",
+        Class::Interpolator => "interpolator",
+        Class::Decoder => "decoder",
+        Class::Hld => "HLD",
+        Class::PathPreparation => "path preparation",
+        Class::Spindle => "spindle",
+    }
+}
+
+impl Probe<'_> {
+    /// The object lists of the platform, the channels and the platform axes that are claimed.
+    pub(super) fn lists(&self) -> Step<Vec<ObjectList>> {
+        let channels = self.channels()?.into_iter().map(ObjectList::from);
+        let axes = (1..=self.session.profile.platform_axes).map(PlatformAxis::new);
+        let axes: Result<Vec<_>, _> = axes.map(|axis| axis.map(ObjectList::from)).collect();
+        let platform = std::iter::once(ObjectList::PLATFORM);
+        Ok(platform.chain(channels).chain(axes.map_err(harness)?).collect())
+    }
+
+    /// Every object of all lists. What cannot be read is judged elsewhere, and left out here.
+    pub(super) fn objects(&mut self) -> Step<Vec<Object>> {
+        if self.session.inventory.objects.is_none() {
+            let mut all = Vec::new();
+            for list in self.lists()? {
+                let Some(data) = self.try_ask(CountObjects::new(list))? else { continue };
+                let count = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
+                for first in 1..=count {
+                    let one = ReadDescriptors::new(list, first, 1).map_err(harness)?;
+                    let data = self.try_ask(one)?.filter(|data| data.len() == DESCRIPTOR_LEN);
+                    let data = data.unwrap_or_default();
+                    let object = DescriptorsRef::decode(&data).ok();
+                    let Some(object) = object.as_ref().and_then(|list| list.get(0)) else {
+                        continue;
+                    };
+                    all.push(Object {
+                        list,
+                        name: object.name().into(),
+                        type_name: object.type_name().into(),
+                        size: object.size(),
+                        group: object.index_group(),
+                        offset: object.index_offset(),
+                    });
+                }
+            }
+            self.session.inventory.objects = Some(all);
+        }
+        match self.session.inventory.objects.as_deref() {
+            Some([]) | None => Err(Stop::NotApplicable("the target has no object".to_owned())),
+            Some(all) => Ok(all.to_vec()),
+        }
+    }
+
+    /// Every instance that the target says to have. Whether it says so rightly is judged
+    /// elsewhere.
+    pub(super) fn instances(&mut self) -> Step<Vec<Instance>> {
+        if self.claims(Function::FindInstance) == Claim::No {
+            let why = "the profile does not claim object addresses".to_owned();
+            return Err(Stop::NotApplicable(why));
+        }
+        if self.session.inventory.instances.is_none() {
+            let mut all = Vec::new();
+            let channels: Vec<u32> =
+                self.channels()?.into_iter().map(|channel| channel.number().into()).collect();
+            self.collect(Class::PositionController, 0, 1, &mut all)?;
+            for &channel in &channels {
+                for class in OF_PLACES {
+                    self.collect(class, channel, 0, &mut all)?;
+                }
+                self.collect(Class::Hld, channel, 0, &mut all)?;
+            }
+            self.collect(Class::Hld, 0, 1, &mut all)?;
+            for index in 0..INSTANCES_MAX {
+                if !self.found(Class::Spindle, index, 0, &mut all)? {
+                    break;
+                }
+            }
+            self.session.inventory.instances = Some(all);
+        }
+        match self.session.inventory.instances.as_deref() {
+            Some([]) | None => Err(Stop::NotApplicable("the target names no instance".to_owned())),
+            Some(all) => Ok(all.to_vec()),
+        }
+    }
+
+    /// The axes of a channel from this one on, up to the first that is not there.
+    fn collect(&mut self, class: Class, channel: u32, first: u32, all: &mut Vec<Instance>) -> Step {
+        for axis in first..=INSTANCES_MAX {
+            if !self.found(class, channel, axis, all)? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn found(
+        &mut self,
+        class: Class,
+        channel: u32,
+        axis: u32,
+        all: &mut Vec<Instance>,
+    ) -> Step<bool> {
+        let Some(address) = self.address_of(class, channel, axis)? else { return Ok(false) };
+        let Ok(Some(first)) = address.first_element() else { return Ok(false) };
+        // Who says the same place of every axis would have no end of them.
+        if all.iter().any(|known| known.class == class && known.first == first) {
+            return Ok(false);
+        }
+        let count = match CountElements::new(first) {
+            Ok(count) => self.try_ask(count)?,
+            Err(_) => None,
+        };
+        let count = count.and_then(|data| ElementCount::decode(&data).ok());
+        let count = count.map_or(0, |count| count.0);
+        all.push(Instance { class, channel, axis, first, count });
+        Ok(true)
+    }
+
+    /// What the target says of where an instance is; nothing if it refuses.
+    pub(super) fn address_of(
+        &mut self,
+        class: Class,
+        channel: u32,
+        axis: u32,
+    ) -> Step<Option<ObjectAddress>> {
+        let request = Request::from(FindInstance::new(class, channel, axis));
+        let data = self.try_ask(request)?;
+        Ok(data.and_then(|data| ObjectAddress::decode(&data).ok()))
+    }
+
+    /// The channel with this number.
+    pub(super) fn channel_of(&self, number: u32) -> Step<Channel> {
+        Channel::new(number).map_err(harness)
+    }
+}

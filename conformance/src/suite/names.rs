@@ -1,0 +1,172 @@
+//! Cases of names: what they are made of, and what is reached by name only.
+
+use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
+use ads_cnc::edition::{Edition, Feature};
+use ads_cnc::operation::{
+    CountDynamic, DynamicNameByIndex, DynamicValueByName, HandleByName, ReadByName,
+};
+use ads_cnc::{CncString, Decode as _, TextRef, VariablePath, VariableType};
+
+use super::case::{Case, Step, Stop, assumed};
+use super::declare;
+use super::probe::{Probe, harness};
+use super::still::Still;
+use super::variable::name_of;
+use crate::profile::Claim;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "var-names-are-paths",
+            "Each name is one of structures, indices and the variable in them",
+            ["VAR-20"],
+            Queries,
+            paths
+        ),
+        declare!(
+            "var-by-name-only",
+            "A variable that is by name only is read by its name and has no handle",
+            ["VAR-18"],
+            Queries,
+            by_name_only
+        ),
+        declare!(
+            "var-dynamic-by-name",
+            "V.P, V.L and V.S read the same among the variables as among the parameters",
+            ["VAR-18", "VAR-19"],
+            Queries,
+            dynamic_by_name
+        ),
+        declare!(
+            "var-texts",
+            "A text ends at its first NUL, or with what there is of it",
+            ["VAR-22"],
+            Queries,
+            texts
+        ),
+    ]
+}
+
+fn paths(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            let name = &variable.name.text;
+            let path = VariablePath::from_text(name.as_cnc_str());
+            let found = match &path {
+                Ok(_) => format!("{name}"),
+                Err(error) => format!("{name}: {error}"),
+            };
+            probe.check("VAR-20", path.is_ok(), "a name of structures and indices", &found);
+            let Ok(path) = path else { continue };
+            // An array at a leaf is one thing: its elements are not listed.
+            let whole = path.elements().is_empty();
+            probe.check("VAR-20", whole, "the name of the variable, not of an element", found);
+        }
+    }
+    Ok(())
+}
+
+/// A variable that has a handle, to hold others against.
+fn known(probe: &mut Probe<'_>) -> Step<CncString> {
+    let channel = probe.channel()?;
+    let variables = probe.variables(channel)?;
+    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    Ok(known.name.text.clone())
+}
+
+fn by_name_only(probe: &mut Probe<'_>) -> Step {
+    let names = probe.session.profile.by_name_only.clone();
+    if names.is_empty() {
+        let why = "no variable is known that is by name only; a profile can name one".to_owned();
+        return Err(Stop::NotApplicable(why));
+    }
+    let (channel, known) = (probe.channel()?, known(probe)?);
+    for name in names.iter() {
+        let name = TextRef::new(name).map_err(harness)?;
+        probe.ask("VAR-18", ReadByName { channel, name })?;
+        let good = HandleByName { channel, name: known.as_cnc_str().into() };
+        let what = format!("the handle of {}", name.text());
+        probe.refuses("VAR-18", &what, HandleByName { channel, name }, good)?;
+    }
+    Ok(())
+}
+
+/// The names of V.P, V.L and V.S that there are at the moment.
+fn dynamic(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
+    let channel = probe.channel()?;
+    let mut all = Vec::new();
+    for kind in DynamicKind::ALL.into_iter().filter(|kind| *kind != DynamicKind::P) {
+        let Some(data) = probe.try_ask(CountDynamic::new(channel, kind))? else { continue };
+        let count = DynamicCount::decode(&data).map_or(0, |count| count.0.min(64));
+        for index in 1..=count {
+            let request = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+            let data = probe.try_ask(request)?.unwrap_or_default();
+            all.extend(DynamicName::decode(&data).ok().map(|name| (kind, name.name.text)));
+        }
+    }
+    Ok(all)
+}
+
+fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
+    let profile = &probe.session.profile;
+    let lacks = |why: &str| Err(Stop::NotApplicable(why.to_owned()));
+    if profile.edition != Edition::German {
+        return lacks("the edition has V.P, V.L and V.S among the parameters only");
+    }
+    let claim = profile.has(Feature::DynamicVariables);
+    if claim == Claim::No {
+        return lacks("the version has V.P, V.L and V.S among the parameters only");
+    }
+    let (channel, known, all) = (probe.channel()?, known(probe)?, dynamic(probe)?);
+    if all.is_empty() {
+        return lacks("there is no V.P, V.L or V.S at the moment");
+    }
+    let mut still = Still::default();
+    for (kind, name) in &all {
+        let name = TextRef::from(name.as_cnc_str());
+        let by_name = ReadByName { channel, name };
+        if claim == Claim::Open && probe.try_ask(by_name)?.is_none() {
+            return lacks("the target has no V.P, V.L or V.S here, which come with a version");
+        }
+        let one = DynamicValueByName { channel, kind: *kind, name };
+        let what = name.text().to_string();
+        still.same_part(
+            probe,
+            &["VAR-19".into()],
+            &what,
+            one.into(),
+            by_name.into(),
+            <[u8]>::to_vec,
+        )?;
+        let good = HandleByName { channel, name: known.as_cnc_str().into() };
+        let what = format!("the handle of {}", name.text());
+        probe.refuses("VAR-18", &what, HandleByName { channel, name }, good)?;
+    }
+    still.finish()
+}
+
+fn texts(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            if variable.var_type != VariableType::STRING || !variable.dimensions.is_empty() {
+                continue;
+            }
+            any = true;
+            let value = probe.try_ask(ReadByName { channel, name: name_of(&variable) })?;
+            let Some(value) = value else { continue };
+            let found = format!("{} bytes of {}", value.len(), variable.name.text);
+            let fits = u32::try_from(value.len()).is_ok_and(|len| len <= variable.size);
+            let expected = format!("at most the {} bytes it is described with", variable.size);
+            probe.check(assumed("VAR-22"), fits, expected, found);
+            let text = value.split(|&byte| byte == 0).next().unwrap_or_default();
+            let readable = text.iter().all(|&byte| byte >= b' ' || byte == b'\t');
+            let found = format!("{text:02x?} of {}", variable.name.text);
+            probe.check(assumed("VAR-22"), readable, "characters up to the first NUL", found);
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("no variable is a STRING".to_owned())),
+    }
+}
