@@ -15,6 +15,7 @@ mod progress;
 mod report;
 mod requirements;
 mod run;
+mod run_testee;
 mod serve;
 mod service;
 mod set;

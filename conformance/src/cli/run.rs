@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::forms::{Forms, is_stdout, show, write};
 use super::list;
+use super::run_testee;
 use super::target::{REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect};
 use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, Settings};
@@ -16,7 +17,7 @@ use crate::gate::{Gate, Moment};
 use crate::profile::Profile;
 use crate::report::{self, About, Report, TargetReport};
 use crate::session::{self, Trouble};
-use crate::suite::{self, Case, Needs, Plan, Selection, Session, Unmatched};
+use crate::suite::{self, Case, Needs, Plan, Selection, Session, Subject, Unmatched};
 use crate::verdict::Exit;
 use crate::waivers::Waivers;
 
@@ -37,6 +38,19 @@ const SELECTION: &str = "Selection";
 pub(super) struct Run {
     #[command(flatten)]
     target: TargetArgs,
+
+    /// Judge a codec of any language: a command that answers on stdin and stdout, one line of JSON at
+    /// a time (see conformance/adapters)
+    #[arg(
+        long,
+        value_name = "COMMAND",
+        conflicts_with_all = ["target", "allow_write", "dry_run", "rate", "defect"]
+    )]
+    testee: Option<String>,
+
+    /// Go through the protocol with the testee step by step, for whoever writes an adapter
+    #[arg(long, requires = "testee", conflicts_with_all = ["only", "list", "json", "waivers"])]
+    check_protocol: bool,
 
     /// Run what is called this: an area (VAR), a requirement (VAR-11), a case by its ID; repeatable
     #[arg(long, help_heading = SELECTION, value_name = "AREA|ID")]
@@ -79,6 +93,7 @@ Examples:
   ads-cnc run
   ads-cnc run --target 192.0.2.10 --net-id 192.0.2.10.1.1 --source-net-id 192.0.2.20.1.1 \
       --html report.html
+  ads-cnc run --testee 'python3 conformance/adapters/python/testee.py'
   ads-cnc run --only VAR --defect variable-description.size.flip";
 
 fn after_long_help() -> String {
@@ -134,13 +149,22 @@ impl Run {
                 return Exit::Usage;
             }
         };
+        if let (Some(command), true) = (&self.testee, self.check_protocol) {
+            let mut exit = Exit::Success;
+            let checked = show(|out| {
+                exit = run_testee::check(command, self.target.timeout(), out)?;
+                Ok(())
+            });
+            return checked.map_or_else(super::forms::lost, |()| exit);
+        }
         let seed = self.seed.unwrap_or_else(suite::any_seed);
         if self.list {
             return self.list(seed);
         }
-        let report = match self.is_embedded() {
-            true => self.embedded(seed, waivers, defect),
-            false => self.device(seed, waivers),
+        let report = match &self.testee {
+            Some(command) => self.testee(command, seed, waivers),
+            None if self.is_embedded() => self.embedded(seed, waivers, defect),
+            None => self.device(seed, waivers),
         };
         match report {
             Ok(report) => self.write(&report),
@@ -166,8 +190,31 @@ impl Run {
 
     fn plan(&self, seed: u32) -> Result<Plan, Unmatched> {
         let selection = Selection { edition: self.edition, only: self.only.clone() };
-        let fits = |case: &Case| self.is_embedded() || case.needs != Needs::Codec;
-        selection.plan(suite::cases().into_iter().filter(fits).collect(), seed)
+        let fits = |case: &Case| match (&self.testee, case.needs) {
+            (Some(_), needs) => needs == Needs::Codec,
+            (None, Needs::Codec) => self.is_embedded(),
+            (None, _) => true,
+        };
+        let mut cases: Vec<Case> = suite::cases().into_iter().filter(fits).collect();
+        if self.testee.is_some() {
+            cases.iter_mut().for_each(|case| case.subject = Subject::Testee);
+        }
+        selection.plan(cases, seed)
+    }
+
+    fn testee(&self, command: &str, seed: u32, waivers: Waivers) -> Result<Report, Stopped> {
+        let plan = self.plan(seed)?;
+        let edition = self.edition.map(|edition| {
+            let document = edition.document();
+            let language = document.strip_prefix("ads-").unwrap_or(document);
+            format!("{language}-{}", edition.number())
+        });
+        let timeout = self.target.timeout();
+        let cases = plan.cases.clone();
+        let judged = run_testee::run(command, timeout, cases, seed, edition.as_deref());
+        let (outcomes, left_out) = plan.finish(judged.outcomes);
+        let about = self.about(judged.target, seed, waivers);
+        Ok(Report::new(about, &outcomes, &left_out))
     }
 
     fn list(&self, seed: u32) -> Exit {

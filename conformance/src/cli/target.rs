@@ -83,6 +83,11 @@ impl TargetArgs {
         self.target.is_some()
     }
 
+    /// How long to wait for an answer.
+    pub(super) const fn timeout(&self) -> Duration {
+        Duration::from_millis(self.timeout)
+    }
+
     /// Whether a file says what may be written.
     pub(super) const fn has_file(&self) -> bool {
         self.allow_write.is_some()

@@ -50,7 +50,7 @@ fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 
 /// Who was judged, in a line.
 pub(super) fn describe(target: &TargetReport) -> String {
-    let TargetReport { name, version, language, command, address, net_id, file } = target;
+    let TargetReport { name, version, language, command, address, net_id, file, .. } = target;
     let mut text = name.clone();
     let parts = [
         (" ", version),

@@ -77,6 +77,9 @@ pub struct TargetReport {
     /// Its AMS NetId.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub net_id: Option<String>,
+    /// The last of what it wrote to stderr; not judged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stderr: Option<String>,
     /// The file that was judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,

@@ -434,7 +434,7 @@ fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
     }
 }
 
-fn describe(reaction: &Reaction) -> String {
+pub(super) fn describe(reaction: &Reaction) -> String {
     match reaction {
         Reaction::Answer(Answer::Ok(output)) => match output {
             Output { value: Some(value), .. } => format!("accepted: {value}"),

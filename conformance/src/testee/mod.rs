@@ -4,6 +4,7 @@
 //! [`Process`] is whoever else does. [`judge`] asks either everything the golden vectors have.
 
 mod assumed;
+mod check;
 mod compare;
 mod judge;
 mod message;
@@ -14,6 +15,7 @@ mod process;
 
 use std::time::Duration;
 
+pub use check::{Finding, check_protocol};
 pub use judge::{Judged, TESTEE, Terms, judge};
 pub use message::{
     Answer, Capabilities, Command, Hello, Identity, Known, LINE_MAX, Output, PROTOCOL, Question,

@@ -26,6 +26,8 @@ pub struct Process {
     seq: u64,
     running: Option<Running>,
     stderr: Arc<Mutex<VecDeque<u8>>>,
+    sent: Option<String>,
+    received: Option<String>,
     /// How often it was started.
     pub starts: usize,
 }
@@ -46,6 +48,8 @@ impl Process {
             seq: 0,
             running: None,
             stderr: Arc::default(),
+            sent: None,
+            received: None,
             starts: 0,
         }
     }
@@ -54,6 +58,11 @@ impl Process {
     pub fn stderr(&self) -> String {
         let kept = self.stderr.lock().unwrap_or_else(PoisonError::into_inner);
         String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()).into_owned()
+    }
+
+    /// The lines sent and received last, each cut to what a person reads.
+    pub fn last(&self) -> (Option<String>, Option<String>) {
+        (self.sent.clone(), self.received.clone())
     }
 
     fn start(&mut self) -> Result<(), Reaction> {
@@ -91,6 +100,7 @@ impl Process {
     fn exchange(&mut self, command: &Command) -> Result<String, Reaction> {
         let mut line = serde_json::to_vec(command)
             .map_err(|error| Reaction::Broken(format!("the question: {error}")))?;
+        (self.sent, self.received) = (Some(front(&String::from_utf8_lossy(&line))), None);
         line.push(b'\n');
         let Some(running) = &mut self.running else {
             return Err(Reaction::Broken("it is not running".to_owned()));
@@ -98,7 +108,10 @@ impl Process {
         // Who has ended reads nothing: its end is seen when the answer is waited for.
         let _gone = running.to.send(line);
         match running.from.recv_timeout(self.timeout) {
-            Ok(Ok(line)) => Ok(line),
+            Ok(Ok(line)) => {
+                self.received = Some(front(&line));
+                Ok(line)
+            }
             Ok(Err(why)) => {
                 self.kill();
                 Err(Reaction::Garbled(why))
@@ -252,6 +265,12 @@ fn wait(child: &mut Child, limit: Duration) -> Option<std::process::ExitStatus> 
             _ => return None,
         }
     }
+}
+
+/// As much of a line as a person reads.
+fn front(line: &str) -> String {
+    let shown: String = line.chars().take(400).collect();
+    if shown.len() < line.len() { format!("{shown}…") } else { shown }
 }
 
 /// The front of a line, for a message.

@@ -1,0 +1,84 @@
+//! `ads-cnc run --testee`: a codec behind a pipe.
+
+use std::io::{self, Write};
+use std::time::Duration;
+
+use crate::report::TargetReport;
+use crate::suite::{Case, Outcome, Subject};
+use crate::testee::{Finding, Hello, Judged, Process, Terms, check_protocol, judge};
+use crate::verdict::Exit;
+
+/// The last of stderr that a report keeps.
+const STDERR_SHOWN: usize = 4000;
+
+/// What came of a testee.
+pub(super) struct OfTestee {
+    pub(super) target: TargetReport,
+    pub(super) outcomes: Vec<Outcome>,
+}
+
+/// Asks the testee that this command starts all of these cases.
+pub(super) fn run(
+    command: &str,
+    timeout: Duration,
+    cases: Vec<Case>,
+    seed: u32,
+    edition: Option<&str>,
+) -> OfTestee {
+    let mut process = Process::new(command, timeout);
+    let terms = Terms { seed, subject: Subject::Testee, edition, strict: false };
+    let Judged { hello, outcomes, .. } = judge(&mut process, cases, terms);
+    OfTestee { target: target(command, hello, &process.stderr()), outcomes }
+}
+
+fn target(command: &str, hello: Option<Hello>, stderr: &str) -> TargetReport {
+    let said = |text: String| Some(text).filter(|text| !text.is_empty());
+    let identity = hello.map(|hello| hello.testee);
+    let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
+    let last: String = stderr.chars().skip(skipped).collect();
+    TargetReport {
+        name: identity.as_ref().map_or_else(|| "testee".to_owned(), |one| one.name.clone()),
+        version: identity.as_ref().and_then(|one| said(one.version.clone())),
+        language: identity.and_then(|one| said(one.language)),
+        command: Some(command.to_owned()),
+        stderr: said(last),
+        ..TargetReport::default()
+    }
+}
+
+/// Goes through the protocol step by step, and says of each what is wrong and how it should be.
+pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io::Result<Exit> {
+    let mut process = Process::new(command, timeout);
+    let mut faults = 0_usize;
+    for Finding { what, sent, received, fault } in check_protocol(&mut process) {
+        match &fault {
+            None => writeln!(out, "ok     {what}")?,
+            Some(fault) => {
+                faults = faults.saturating_add(1);
+                writeln!(out, "WRONG  {what}: {fault}")?;
+                for (mark, line) in [("→", sent), ("←", received)] {
+                    if let Some(line) = line {
+                        writeln!(out, "       {mark} {line}")?;
+                    }
+                }
+            }
+        }
+    }
+    let stderr = process.stderr();
+    if !stderr.is_empty() {
+        writeln!(out, "stderr, which is not judged:")?;
+        for line in stderr.lines().rev().take(20).collect::<Vec<_>>().into_iter().rev() {
+            writeln!(out, "       {line}")?;
+        }
+    }
+    match faults {
+        0 => {
+            writeln!(out, "The protocol is kept; run without --check-protocol judges the codec.")?;
+            Ok(Exit::Success)
+        }
+        _ => {
+            writeln!(out, "{faults} wrong; the protocol is in conformance/adapters/README.md")?;
+            Ok(Exit::Failure)
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Going through the protocol one step at a time, for whoever writes an adapter.
+
+use ads_cnc_vectors::{Expect, Vector, vector};
+
+use super::message::{Answer, Capabilities, Known, Output, Question};
+use super::{Process, Reaction, Testee, compare};
+
+/// What a step of the protocol came to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// The step.
+    pub what: String,
+    /// The line sent.
+    pub sent: Option<String>,
+    /// The line received.
+    pub received: Option<String>,
+    /// What is wrong, and how it should be.
+    pub fault: Option<String>,
+}
+
+/// Vectors to try the protocol with: of each sort of field one, and the first that is claimed.
+const SAMPLES: [&str; 8] = [
+    "handle-printed",
+    "object-count",
+    "description-printed",
+    "name-printed-vartest",
+    "value-printed-handle-element",
+    "dynamic-value-printed",
+    "content-boolean-2",
+    "descriptor-printed",
+];
+
+/// Tries every step of the protocol.
+pub fn check_protocol(process: &mut Process) -> Vec<Finding> {
+    let mut steps = Steps { process, findings: Vec::new() };
+    let hello = steps.process.hello();
+    let capabilities = match hello {
+        Ok(hello) => {
+            steps.note("hello is answered", None);
+            hello.capabilities
+        }
+        Err(reaction) => {
+            let hint = r#"an answer such as {"protocol":1,"testee":{"name":"…"},"capabilities":{"ops":["decode"],"streams":["object-count"],"editions":["en-1.05"]}} is expected"#;
+            steps.note("hello is answered", Some(format!("{}; {hint}", tell(&reaction))));
+            return steps.findings;
+        }
+    };
+    steps.capabilities(&capabilities);
+    let claimed = SAMPLES.into_iter().filter_map(vector);
+    let claimed: Vec<&Vector> = claimed
+        .filter(|vector| capabilities.streams.iter().any(|name| *name == vector.stream))
+        .collect();
+    if claimed.is_empty() {
+        let streams: Vec<&str> =
+            SAMPLES.into_iter().filter_map(vector).map(|vector| vector.stream.as_str()).collect();
+        let fault = format!("none of {} is claimed: nothing to try it with", streams.join(", "));
+        steps.note("a stream to try", Some(fault));
+    }
+    for vector in &claimed {
+        steps.decode(vector, &capabilities);
+        steps.encode(vector, &capabilities);
+    }
+    if let Some(vector) = claimed.first() {
+        steps.cut(vector, &capabilities);
+    }
+    steps.unknown("an op that nobody has", "melt", "object-count");
+    steps.unknown("a stream that nobody has", "decode", "no-such-stream");
+    let end = steps.process.bye();
+    steps.note("bye ends it with exit code 0", end.err());
+    steps.findings
+}
+
+struct Steps<'p> {
+    process: &'p mut Process,
+    findings: Vec<Finding>,
+}
+
+impl Steps<'_> {
+    fn note(&mut self, what: impl Into<String>, fault: Option<String>) {
+        let (sent, received) = self.process.last();
+        self.findings.push(Finding { what: what.into(), sent, received, fault });
+    }
+
+    fn capabilities(&mut self, capabilities: &Capabilities) {
+        let known = ["decode", "encode", "packets", "check"];
+        let strange = capabilities.ops.iter().find(|op| !known.contains(&op.as_str()));
+        let fault = match strange {
+            _ if capabilities.ops.is_empty() => Some("no op is claimed".to_owned()),
+            Some(op) => Some(format!("{op} is no op; there are {}", known.join(", "))),
+            None => None,
+        };
+        self.note("ops are those of the protocol", fault);
+        let vectors = ads_cnc_vectors::vectors();
+        let is_known = |name: &str| {
+            name.starts_with("nc-") || vectors.iter().any(|vector| vector.stream == name)
+        };
+        let strange = capabilities.streams.iter().find(|name| !is_known(name));
+        let fault = strange.map(|name| {
+            format!("no vector has the stream {name}; spec-vectors/README.md lists all")
+        });
+        self.note("streams are those of the vectors", fault);
+    }
+
+    fn ask(&mut self, question: &Question) -> Result<Output, Reaction> {
+        match self.process.ask(question) {
+            Reaction::Answer(Answer::Ok(output)) => Ok(output),
+            other => Err(other),
+        }
+    }
+
+    fn decode(&mut self, vector: &Vector, capabilities: &Capabilities) {
+        let Expect::Accept(accept) = &vector.expect else { return };
+        if !capabilities.claim("decode", &vector.stream) {
+            return;
+        }
+        let question = question("decode", vector, Some(vector.bytes()));
+        let fault = match self.ask(&question) {
+            Ok(Output { value: Some(value), .. }) => {
+                match compare::compare(&accept.value, &value) {
+                    Some(compare::Difference::Other(what)) => Some(what),
+                    _ => None,
+                }
+            }
+            Ok(_) => Some("ok without value".to_owned()),
+            Err(reaction) => Some(tell(&reaction)),
+        };
+        self.note(format!("{} is decoded", vector.stream), fault);
+    }
+
+    fn encode(&mut self, vector: &Vector, capabilities: &Capabilities) {
+        let Expect::Accept(accept) = &vector.expect else { return };
+        if !capabilities.claim("encode", &vector.stream) {
+            return;
+        }
+        let value = Some(accept.value.clone());
+        let question = Question { value, ..question("encode", vector, None) };
+        let fault = match self.ask(&question) {
+            Ok(Output { hex: Some(hex), .. }) => {
+                let canonical = accept.canonical.as_ref().map(|hex| hex.to_vec());
+                let right = hex == vector.bytes() || canonical.as_ref() == Some(&hex);
+                (!right).then(|| {
+                    format!("{} is expected", super::message::compact::show(&vector.bytes()))
+                })
+            }
+            Ok(_) => Some("ok without hex".to_owned()),
+            Err(reaction) => Some(tell(&reaction)),
+        };
+        self.note(format!("{} is encoded", vector.stream), fault);
+    }
+
+    /// A stream that is too short by a byte.
+    fn cut(&mut self, vector: &Vector, capabilities: &Capabilities) {
+        if !capabilities.claim("decode", &vector.stream) {
+            return;
+        }
+        let mut bytes = vector.bytes();
+        bytes.pop();
+        let fault = match self.process.ask(&question("decode", vector, Some(bytes))) {
+            Reaction::Answer(Answer::Reject(_)) => None,
+            other => {
+                let hint = r#"{"seq":…,"reject":{"class":"truncated"}} is expected"#;
+                Some(format!("{}; {hint}", tell(&other)))
+            }
+        };
+        self.note(format!("{} without its last byte is refused", vector.stream), fault);
+    }
+
+    fn unknown(&mut self, what: &str, op: &str, stream: &str) {
+        let blank = Question {
+            op: op.to_owned(),
+            stream: stream.to_owned(),
+            edition: "en-1.05".to_owned(),
+            context: Known::default(),
+            hex: Some(vec![1, 0, 0, 0]),
+            value: None,
+            packets: None,
+        };
+        let fault = match self.process.ask(&blank) {
+            Reaction::Answer(Answer::Unsupported { .. }) => None,
+            other => {
+                let hint = r#"{"seq":…,"unsupported":{"what":"…"}} is expected"#;
+                Some(format!("{}; {hint}", tell(&other)))
+            }
+        };
+        self.note(format!("{what} is unsupported"), fault);
+    }
+}
+
+fn question(op: &str, vector: &Vector, hex: Option<Vec<u8>>) -> Question {
+    Question {
+        op: op.to_owned(),
+        stream: vector.stream.clone(),
+        edition: "en-1.05".to_owned(),
+        context: Known::from(&vector.context),
+        hex,
+        value: None,
+        packets: None,
+    }
+}
+
+fn tell(reaction: &Reaction) -> String {
+    super::judge::describe(reaction)
+}
