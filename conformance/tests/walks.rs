@@ -22,9 +22,9 @@ fn few_requests_find_everything() {
     let all = found(default_cnc(), &Options::default());
     // COM 29, position controller 38, interpolator 74, decoder 95, HLD 49, path preparation 47,
     // spindles 17
-    assert_eq!((all.objects.len(), all.lists, all.requests), (177, 60, 349));
+    assert_eq!((all.objects.len(), all.lists, all.requests), (179, 60, 349));
     let exact = found(default_cnc(), &Options { exact: true, ..Options::default() });
-    assert_eq!((exact.objects.len(), exact.requests), (177, 693));
+    assert_eq!((exact.objects.len(), exact.requests), (179, 693));
     // Ten for the channels, seven numbers for each of them, one for each variable.
     let variables = found(default_cnc(), &Options { variables: true, ..Options::default() });
     assert_eq!((variables.objects.len(), variables.requests), (164, 195));

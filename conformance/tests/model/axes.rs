@@ -103,8 +103,8 @@ fn a_channel_that_is_not_active() {
     assert_eq!(channel(0x02_2303), Err(0x702));
     assert_eq!(com.read(0x12_0101, 1, 1), Err(0x702));
     assert_eq!(com.read(0x12_0102, 0x251, 4), Ok(vec![0xE8, 3, 0, 0]));
-    // Two of its own, nine of its places, two of the platform.
-    assert_eq!(com.read(0x13_0102, 0, 4), Ok(vec![13, 0, 0, 0]));
-    assert_eq!(com.read(0x13_0106, 0, 4), Ok(vec![11, 0, 0, 0]));
+    // Three of its own, nine of its places, two of the platform.
+    assert_eq!(com.read(0x13_0102, 0, 4), Ok(vec![14, 0, 0, 0]));
+    assert_eq!(com.read(0x13_0106, 0, 4), Ok(vec![12, 0, 0, 0]));
     assert_eq!(sda.ask(0x12_3900, 0, &[1, 0, 0, 0, 0, 0, 0, 0]), Ok(vec![0; 8]));
 }

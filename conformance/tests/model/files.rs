@@ -154,8 +154,16 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("0x11, value = 0xB5", "0x11, values = [1]", "more than one"),
     ("0x11, value = 0xB5", "0x11, is = \"axis-number\"", "what each axis has"),
     ("id = 83", "id = 82, value = 0", "two objects have the ID 82"),
-    ("size = 4094", "size = 0", "a NUL at least"),
-    ("size = 4094", "size = 65536, value = \"\"", "at most 65528 fit"),
+    (
+        "size = 128, writable = true },\n  { name = \"example_L",
+        "size = 0 },\n  { name = \"example_L",
+        "a NUL at least",
+    ),
+    (
+        "size = 128, writable = true },\n  { name = \"example_L",
+        "size = 65536 },\n  { name = \"example_L",
+        "at most 65528 fit",
+    ),
     ("value = \"L\u{e4}nge 5\u{20ac}\"", "value = \"twenty-one characters\"", "do not fit into 21"),
     ("value = \"L\u{e4}nge 5\u{20ac}\"", "value = \"\u{3A9}\"", "not in CP1252"),
     ("offset = 3, is = \"axis-number\"", "offset = 3, is = \"axis\"", "axis-number"),

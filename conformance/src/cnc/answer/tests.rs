@@ -233,6 +233,19 @@ fn lengths_have_to_fit() {
     }
 }
 
+/// Who is told by the list where to stream to can do so in every channel (STM-1).
+#[test]
+fn every_channel_lists_the_object_it_streams_through() {
+    for channel in [1, 2, 6] {
+        let all = com(0x13_0100 + channel, 1, 84 * 40).unwrap();
+        let name = b"mc_program_stream_w\0";
+        let listed = all.chunks(84).filter(|object| object[20..].starts_with(name));
+        let places: Vec<&[u8]> = listed.map(|object| &object[12..20]).collect();
+        let group = 0x12_0100 + channel;
+        assert_eq!(places, [&[group.to_le_bytes(), 0x90_u32.to_le_bytes()].concat()[..]]);
+    }
+}
+
 #[test]
 fn object_lists() {
     let count = |group| com(group, 0, 4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap()));
@@ -240,7 +253,7 @@ fn object_lists() {
     assert_eq!(count(0x13_0101), Ok(30));
     assert_eq!(count(0x03_0101), Ok(30));
     assert_eq!(count(0x13_0100), Ok(2));
-    assert_eq!((count(0x13_0106), count(0x03_0103)), (Ok(11), Ok(11)));
+    assert_eq!((count(0x13_0106), count(0x03_0103)), (Ok(12), Ok(12)));
     assert_eq!((count(0x13_0201), count(0x13_0205)), (Ok(3), Ok(3)));
     for absent in [0x13_0105, 0x03_0104, 0x13_0200, 0x13_0206] {
         assert_eq!(count(absent), Err(AdsError::INVALID_GROUP), "{absent:#x}");
