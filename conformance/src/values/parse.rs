@@ -79,11 +79,17 @@ where
     })
 }
 
-fn real<T: FromStr>(text: &str, ty: DataType) -> Result<T, Unfit> {
+fn real<T: FromStr + Default + PartialEq>(text: &str, ty: DataType) -> Result<T, Unfit> {
     let no = || Unfit(format!("{text} is no {}, which is a number such as -1.5e3", ty.name()));
     // Nothing in words: nobody wants an axis to go to infinity.
     let in_digits = text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c));
-    if in_digits { text.parse().map_err(|_| no()) } else { Err(no()) }
+    let number = if in_digits { text.parse().map_err(|_| no())? } else { return Err(no()) };
+    let digits = text.split(['e', 'E']).next().unwrap_or(text);
+    let is_nothing = number == T::default() && digits.contains(|c: char| ('1'..='9').contains(&c));
+    match is_nothing {
+        true => Err(Unfit(format!("{text} is no {}, which would take it for 0", ty.name()))),
+        false => Ok(number),
+    }
 }
 
 fn within<T: std::fmt::Debug>(
@@ -238,6 +244,8 @@ mod tests {
                 "1e39",
                 "1e39 is no REAL32, which has -3.4028235e38 to 3.4028235e38",
             ),
+            (DataType::Real64, "-1e-400", "-1e-400 is no REAL64, which would take it for 0"),
+            (DataType::Real32, "0.1e-50", "0.1e-50 is no REAL32, which would take it for 0"),
             (DataType::Boolean, "2", "2 is no BOOLEAN, which has TRUE and FALSE, or 1 and 0"),
             (DataType::Uns08, "1,2", "UNS08 is one element, 2 are given"),
         ] {
@@ -269,6 +277,8 @@ mod tests {
         for (ty, text) in [
             (Type::known(DataType::Sgn16, vec![2, 2]), "1,-2,3,-4"),
             (Type::known(DataType::Real64, vec![]), "0.1"),
+            (Type::known(DataType::Real64, vec![]), "5e-324"),
+            (Type::known(DataType::Real32, vec![3]), "0.0,-0.0,1e-45"),
             (Type::known(DataType::Boolean, vec![2]), "TRUE,FALSE"),
         ] {
             assert_eq!(plain(&ty, &parse(&ty, text).unwrap()).unwrap(), text);
