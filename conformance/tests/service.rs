@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::CncStr;
 use ads_cnc::service::ServiceVariable::{RequestState, Uuid};
-use ads_cnc::service::{Call, CallStep, Interface, ServiceId, ServiceVariable, SysServiceWait};
+use ads_cnc::service::{Call, CallStep, Interface, ServiceId, SysServiceWait};
 #[cfg(unix)]
 use ads_cnc_conformance::cnc::program::{Script, ScriptConfig};
 use ads_cnc_conformance::cnc::{Cnc, Server};
@@ -359,7 +359,7 @@ fn a_late_answer_is_dropped() {
     let mut stderr = BufReader::new(tool.stderr.take().unwrap());
     bench.with(|interface| {
         interface.write(Uuid, ID.as_bytes()).unwrap();
-        interface.write(ServiceVariable::Request, b"1\0").unwrap();
+        interface.write(ads_cnc::service::ServiceVariable::Request, b"1\0").unwrap();
         interface.write(RequestState, &[1, 0, 0, 0]).unwrap();
     });
     wait_for("begun", &mut stderr);
