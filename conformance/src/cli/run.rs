@@ -278,7 +278,6 @@ impl Run {
                 None => "embedded CNC".to_owned(),
                 Some(defect) => format!("embedded CNC with the defect {}", defect.id),
             },
-            version: Some(env!("CARGO_PKG_VERSION").to_owned()),
             address: Some(target.addr.to_string()),
             net_id: Some(target.net_id.to_string()),
             ..TargetReport::default()

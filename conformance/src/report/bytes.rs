@@ -101,6 +101,11 @@ pub(super) enum Shown<'r> {
 const ITEMS: usize = 6;
 
 impl BytesReport {
+    /// All of them.
+    pub fn bytes(&self) -> Vec<u8> {
+        self.fields.iter().flat_map(FieldReport::bytes).collect()
+    }
+
     /// The fields, without most items of a long list; those that differ are always shown.
     pub(super) fn shown(&self) -> Vec<Shown<'_>> {
         let (mut shown, mut more) = (Vec::new(), 0_usize);

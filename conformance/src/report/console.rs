@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+use super::BytesReport;
 use super::hex::{lines, marked};
 use super::model::{
     CaseReport, EvidenceReport, FailureReport, Report, TargetReport, Totals, WaiverReport,
 };
-use super::{BytesReport, FieldReport};
 use crate::suite::Subject;
 use crate::verdict::{Exit, Verdict};
 
@@ -164,10 +164,8 @@ fn bytes(evidence: &EvidenceReport, out: &mut dyn Write) -> io::Result<()> {
     if received.is_some() || !frame_sent.is_empty() {
         writeln!(out, "  received  {result}")?;
     }
-    let hex = |bytes: &BytesReport| -> Vec<u8> {
-        bytes.fields.iter().flat_map(FieldReport::bytes).collect()
-    };
-    let is_same = sent.as_ref().map(hex) == received.as_ref().map(hex);
+    let is_same =
+        sent.as_ref().map(BytesReport::bytes) == received.as_ref().map(BytesReport::bytes);
     show(received.as_ref().map(if is_same { marked } else { lines }), out)?;
     let expected = expected.as_ref().map(marked).filter(|lines| !lines.is_empty());
     if expected.is_some() {

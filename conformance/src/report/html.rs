@@ -80,6 +80,7 @@ struct ReportView<'r> {
     areas: BTreeSet<&'r str>,
     subjects: Vec<SubjectView>,
     waivers: Vec<(&'static str, bool)>,
+    stale: usize,
 }
 
 impl<'r> ReportView<'r> {
@@ -99,6 +100,7 @@ impl<'r> ReportView<'r> {
             verdicts: Verdict::ALL.into_iter().filter(occurs).collect(),
             areas: cases.iter().flat_map(areas).collect(),
             subjects: report.subjects.iter().map(|one| subject(report, one.subject)).collect(),
+            stale: report.waivers.iter().filter(|one| one.state.is_stale()).count(),
             waivers: states.collect(),
         }
     }
@@ -116,7 +118,7 @@ struct SubjectView {
 #[derive(Serialize)]
 struct AreaView {
     area: String,
-    counts: Vec<(Verdict, usize)>,
+    counts: Vec<Chip>,
     total: usize,
     requirements: Vec<RequirementView>,
 }
@@ -133,7 +135,7 @@ struct RequirementView {
 #[derive(Serialize)]
 struct GroupView {
     title: String,
-    counts: Vec<(Verdict, usize)>,
+    counts: Vec<Chip>,
     /// Whether it is folded up at first.
     folded: bool,
     cases: Vec<CaseView>,
@@ -220,7 +222,7 @@ fn subject(report: &Report, who: Subject) -> SubjectView {
         listed.extend(subject.areas.iter().map(|area| {
             AreaView {
                 area: area.area.clone(),
-                counts: area.totals.iter().map(|(verdict, number)| (*verdict, *number)).collect(),
+                counts: chips(area.requirements.iter().map(|one| (one.verdict, one.waived))),
                 total: area.requirements.len(),
                 requirements: area
                     .requirements
@@ -242,7 +244,11 @@ fn subject(report: &Report, who: Subject) -> SubjectView {
         heading: heading(who),
         counts: counted,
         areas: listed,
-        groups: groups.into_iter().map(|((_, title), cases)| group(title, cases)).collect(),
+        groups: {
+            let groups = groups.into_iter().map(|((_, title), cases)| group(title, cases));
+            let (folded, open): (Vec<_>, Vec<_>) = groups.partition(|group| group.folded);
+            open.into_iter().chain(folded).collect()
+        },
     }
 }
 
@@ -253,14 +259,26 @@ fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
             |case: &CaseReport| (case.waived, u8::MAX.saturating_sub(case.verdict.gravity()));
         rank(one).cmp(&rank(other)).then_with(|| one.id.cmp(&other.id))
     });
-    let mut totals: BTreeMap<Verdict, usize> = BTreeMap::new();
-    for case in &cases {
-        let number = totals.entry(case.verdict).or_default();
-        *number = number.saturating_add(1);
-    }
+    let counts = chips(cases.iter().map(|case| (case.verdict, case.waived)));
     let folded = cases.iter().all(|case| case.waived || !case.verdict.is_trouble());
     let cases = cases.into_iter().map(case).collect();
-    GroupView { title, counts: totals.into_iter().collect(), folded, cases }
+    GroupView { title, counts, folded, cases }
+}
+
+/// Class and text of a number of verdicts.
+type Chip = (String, String);
+
+fn chips(verdicts: impl Iterator<Item = (Verdict, bool)>) -> Vec<Chip> {
+    let mut totals: BTreeMap<(Verdict, bool), usize> = BTreeMap::new();
+    for key in verdicts {
+        let number = totals.entry(key).or_default();
+        *number = number.saturating_add(1);
+    }
+    let chip = |((verdict, waived), number): ((Verdict, bool), usize)| {
+        let class = if waived { format!("{verdict} waived") } else { verdict.to_string() };
+        (class, format!("{number} {}", worded(verdict, waived)))
+    };
+    totals.into_iter().map(chip).collect()
 }
 
 fn areas(case: &CaseReport) -> BTreeSet<&str> {
@@ -308,11 +326,13 @@ fn evidence(evidence: &EvidenceReport) -> EvidenceView {
         };
         places(received) == places(expected)
     });
+    let is_same =
+        sent.as_ref().map(BytesReport::bytes) == received.as_ref().map(BytesReport::bytes);
     let below = expected.as_ref().filter(|_| fits);
     EvidenceView {
         call: call.clone(),
         result: result.clone(),
-        sent: sent.as_ref().map(|bytes| view(bytes, None)),
+        sent: sent.as_ref().filter(|_| !is_same).map(|bytes| view(bytes, None)),
         received: received.as_ref().map(|bytes| view(bytes, below)),
         expected: expected.as_ref().filter(|_| !fits).map(|bytes| view(bytes, None)),
         frame_sent: frame_sent.clone(),

@@ -1,0 +1,272 @@
+//! The forms of a report: made from the JSON alone, well-formed, and with the same facts.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::{env, fs, process};
+
+use ads_cnc_conformance::report::{self, Report};
+use quick_xml::events::Event;
+use quick_xml::{Reader, XmlVersion};
+use serde_json::{Value, json};
+
+/// A folder that goes away.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let folder = env::temp_dir().join(format!("ads-cnc-{name}-{}", process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.join(name).to_str().unwrap().to_owned()
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.0.join(name)).unwrap()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _gone = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+fn run(args: &[&str]) -> Value {
+    let output = ads_cnc(&[&["run", "--json", "-"], args].concat());
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+const FORMS: [&str; 4] = ["html", "junit", "markdown", "badge"];
+const DEFECT: &str = "variable-description.size.flip";
+
+/// A report with all that one can have: failures with bytes, waivers, a selection.
+fn everything(folder: &Folder) -> Value {
+    let waivers = folder.path("waivers.toml");
+    let entry = |test: &str, requirement: &str| {
+        format!(
+            "[[waiver]]\ntest = \"{test}\"\nrequirement = \"{requirement}\"\nverdict = \"fail\"\n\
+             reason = \"<known> | & \\\"so\\\"\"\nexpires = 9999-12-31\n"
+        )
+    };
+    let text = [entry("var-descriptions", "VAR-8"), entry("no-such-case", "VAR-8")].concat();
+    fs::write(&waivers, text).unwrap();
+    run(&["--defect", DEFECT, "--only", "VAR", "--waivers", &waivers, "--seed", "7"])
+}
+
+#[test]
+fn json_keeps_to_its_schema_and_is_read_back() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("schema/report.schema.json");
+    let schema: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
+    jsonschema::draft202012::meta::validate(&schema).unwrap();
+    let schema = jsonschema::validator_for(&schema).unwrap();
+    let folder = Folder::new("schema");
+    let reports = [
+        run(&[]),
+        everything(&folder),
+        run(&["--defect", "ams-header.invoke_id.flip"]),
+        run(&["--defect", "variable-value.value.invert", "--edition", "de-1.051"]),
+        run(&["--defect", "variable-handle-read.index_count.flip"]),
+        run(&["--edition", "en-1.05", "--only", "VAR-20"]),
+    ];
+    for document in reports {
+        let errors: Vec<String> =
+            schema.iter_errors(&document).map(|error| error.to_string()).collect();
+        assert!(errors.is_empty(), "{:?}", &errors[..errors.len().min(5)]);
+        let read = Report::from_json(&document.to_string()).unwrap();
+        assert_eq!(serde_json::to_value(&read).unwrap(), document);
+    }
+}
+
+#[test]
+fn forms_are_made_from_the_json_alone() {
+    let folder = Folder::new("forms");
+    let json = folder.path("report.json");
+    let mut args = vec!["run".to_owned(), "--defect".to_owned(), DEFECT.to_owned()];
+    args.extend(["--json".to_owned(), json.clone()]);
+    for form in FORMS {
+        args.extend([format!("--{form}"), folder.path(&format!("with-run.{form}"))]);
+    }
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let output = ads_cnc(&args);
+    assert_eq!(output.status.code(), Some(1));
+    for form in FORMS {
+        let option = format!("--{form}");
+        let later = ads_cnc(&["report", &json, &option, "-"]);
+        assert_eq!(later.status.code(), Some(0), "{form}");
+        assert_eq!(later.stdout, folder.read(&format!("with-run.{form}")).into_bytes(), "{form}");
+    }
+    // And so is what is shown.
+    assert_eq!(ads_cnc(&["report", &json]).stdout, output.stdout);
+}
+
+#[test]
+fn what_is_no_report_is_refused() {
+    let folder = Folder::new("odd");
+    let odd = folder.path("odd.json");
+    for (text, why) in [
+        ("", "EOF while parsing a value at line 1"),
+        ("{\"format\":2}", "a report of format 2; this version reads 1"),
+        ("{\"format\":1,\n\"suit\":1}", "line 2"),
+    ] {
+        fs::write(&odd, text).unwrap();
+        let output = ads_cnc(&["report", &odd]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(why) && said.contains("odd.json"), "{said}");
+    }
+    let both = ads_cnc(&["report", &odd, "--html", "-", "--junit", "-"]);
+    assert_eq!(both.status.code(), Some(2));
+    assert_eq!(ads_cnc(&["report", "/no/such/report.json"]).status.code(), Some(2));
+}
+
+/// Elements by their path, each with its attributes.
+fn elements(xml: &str) -> Vec<(String, Vec<(String, String)>)> {
+    let mut reader = Reader::from_str(xml);
+    let (mut path, mut all) = (Vec::new(), Vec::new());
+    loop {
+        let event = reader.read_event().unwrap();
+        if let Event::Start(element) | Event::Empty(element) = &event {
+            path.push(String::from_utf8(element.name().as_ref().to_vec()).unwrap());
+            let attributes = element.attributes().map(|attribute| {
+                let attribute = attribute.unwrap();
+                let key = String::from_utf8(attribute.key.as_ref().to_vec()).unwrap();
+                let value = attribute.normalized_value(XmlVersion::Implicit1_0).unwrap();
+                (key, value.into_owned())
+            });
+            all.push((path.join("/"), attributes.collect()));
+        }
+        match event {
+            Event::End(_) | Event::Empty(_) => drop(path.pop()),
+            Event::Eof => return all,
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn junit_has_a_test_for_each_case() {
+    let folder = Folder::new("junit");
+    let document = everything(&folder);
+    let report = Report::from_json(&document.to_string()).unwrap();
+    let mut xml = Vec::new();
+    report::to_junit(&report, &mut xml).unwrap();
+    let elements = elements(std::str::from_utf8(&xml).unwrap());
+    let at = |path: &str| -> Vec<&Vec<(String, String)>> {
+        elements.iter().filter(|(at, _)| at == path).map(|(_, attributes)| attributes).collect()
+    };
+    let value = |attributes: &[(String, String)], name: &str| {
+        attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.clone()).unwrap()
+    };
+    let test = "testsuites/testsuite/testcase";
+    let cases = document["cases"].as_array().unwrap();
+    // And one for the waiver that does not hold.
+    assert_eq!(at(test).len(), cases.len() + 1);
+    let root = at("testsuites")[0];
+    for (name, path) in [("tests", ""), ("failures", "/failure"), ("skipped", "/skipped")] {
+        let counted = at(&format!("{test}{path}")).len();
+        assert_eq!(value(root, name), counted.to_string(), "{name}");
+    }
+    assert_eq!(value(root, "errors"), "0");
+    let waived = at(&format!("{test}/skipped"))[0];
+    assert_eq!(value(waived, "message"), "waived until 9999-12-31: <known> | & \"so\"");
+    let property = "testsuites/testsuite/properties/property";
+    for (name, fact) in [("seed", "7"), ("vectors", &report.vectors), ("only", "VAR")] {
+        let found = at(property).into_iter().find(|one| value(one, "name") == name);
+        assert_eq!(value(found.unwrap(), "value"), fact);
+    }
+}
+
+/// What a device says of itself is text in every form, whatever it is.
+#[test]
+fn text_stays_text() {
+    let folder = Folder::new("text");
+    let mut document = everything(&folder);
+    let odd = "</script><script>alert(1)</script> | `x` ]]> & \u{1}\u{fffe}";
+    document["target"]["name"] = json!(odd);
+    let case = document["cases"].as_array_mut().unwrap();
+    let failed = case.iter_mut().find(|case| case.get("failures").is_some()).unwrap();
+    failed["failures"][0]["found"] = json!(format!("{odd}\n```\n# no heading"));
+    failed["title"] = json!(odd);
+    let report = Report::from_json(&document.to_string()).unwrap();
+    let made = |make: fn(&Report, &mut dyn std::io::Write) -> std::io::Result<()>| {
+        let mut text = Vec::new();
+        make(&report, &mut text).unwrap();
+        String::from_utf8(text).unwrap()
+    };
+    let html = made(report::to_html);
+    assert!(!html.contains("<script>alert"), "a script of the target's");
+    assert!(html.contains("&lt;script&gt;alert(1)"));
+    let xml = made(report::to_junit);
+    assert!(!elements(&xml).is_empty() && !xml.contains(['\u{1}', '\u{fffe}']));
+    let markdown = made(report::to_markdown);
+    assert!(
+        markdown.contains(
+            "## ads-cnc: &lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt; \\| \\`x\\`"
+        )
+    );
+    // A fence is longer than any in what it holds.
+    assert!(markdown.contains("````text\n"));
+    let badge: Value = serde_json::from_str(&made(report::to_badge)).unwrap();
+    assert_eq!(badge["schemaVersion"], 1);
+}
+
+/// It can be sent around: nothing is fetched, and what is judged can be read without a script.
+#[test]
+fn html_needs_nothing_else() {
+    let folder = Folder::new("html");
+    let report = Report::from_json(&everything(&folder).to_string()).unwrap();
+    let mut html = Vec::new();
+    report::to_html(&report, &mut html).unwrap();
+    let html = String::from_utf8(html).unwrap();
+    for outside in ["http://", "https://", "src=", "href=", "url(", "@import", "{{", "{%"] {
+        assert!(!html.contains(outside), "{outside}");
+    }
+    let (before, script) = html.split_once("<script>").unwrap();
+    assert!(script.contains("</script>\n</body>"));
+    for fact in [
+        "seed 7",
+        "variable-description.size.flip",
+        "1 stale",
+        "prefers-color-scheme",
+        "@media print",
+    ] {
+        assert!(before.contains(fact), "{fact}");
+    }
+    // The byte that differs and the one that should be there, with the clause in both editions.
+    for part in [
+        "<mark>03</mark> 00 00 00",
+        "<mark>02</mark> 00 00 00",
+        "ads-en 1.05 §4.3.2",
+        "ads-de 1.051 §4.3.2",
+    ] {
+        assert!(before.contains(part), "{part}");
+    }
+    for case in &report.cases {
+        assert!(before.contains(&case.id), "{}", case.id);
+    }
+}
+
+#[test]
+fn badges_say_how_it_ended() {
+    let badge = |args: &[&str]| -> Value {
+        let output = ads_cnc(&[&["run", "--badge", "-"], args].concat());
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let passed = badge(&["--edition", "en-1.05"]);
+    assert_eq!(
+        (&passed["message"], &passed["color"]),
+        (&json!("passed (en-1.05)"), &json!("brightgreen"))
+    );
+    let failed = badge(&["--defect", DEFECT]);
+    assert_eq!(failed["color"], "red");
+    // Nothing but what an endpoint may have.
+    let keys: Vec<&String> = failed.as_object().unwrap().keys().collect();
+    assert_eq!(keys, ["color", "isError", "label", "message", "schemaVersion"]);
+}

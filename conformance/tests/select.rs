@@ -1,0 +1,229 @@
+//! What is run, in which order, and which failures are put up with.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+use std::{env, fs, process};
+
+use serde_json::Value;
+
+fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+fn run(args: &[&str]) -> Value {
+    let output = ads_cnc(&[&["run", "--json", "-"], args].concat());
+    serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&output.stderr)))
+}
+
+fn ids(report: &Value) -> Vec<&str> {
+    let cases = report["cases"].as_array().unwrap();
+    cases.iter().map(|case| case["id"].as_str().unwrap()).collect()
+}
+
+/// Requirements with this verdict, of all who were judged.
+fn with<'r>(report: &'r Value, verdict: &str) -> BTreeSet<&'r str> {
+    let subjects = report["subjects"].as_array().unwrap().iter();
+    let areas = subjects.flat_map(|subject| subject["areas"].as_array().unwrap());
+    let all = areas.flat_map(|area| area["requirements"].as_array().unwrap());
+    all.filter(|one| one["verdict"] == verdict)
+        .map(|one| one["requirement"].as_str().unwrap())
+        .collect()
+}
+
+/// The order is of no matter, and a seed gives it again.
+#[test]
+fn any_order_gives_the_same_verdicts() {
+    let verdicts = |report: &Value| {
+        let cases = report["cases"].as_array().unwrap();
+        let mut all: Vec<_> = cases
+            .iter()
+            .map(|case| (case["id"].to_string(), case["requirements"].to_string()))
+            .collect();
+        all.sort();
+        all
+    };
+    let first = run(&["--seed", "1"]);
+    assert_eq!(ids(&first), ids(&run(&["--seed", "1"])));
+    for seed in ["2", "3", "4", "5", "6", "7", "8", "4294967295"] {
+        let other = run(&["--seed", seed]);
+        assert_ne!(ids(&first), ids(&other));
+        assert_eq!(verdicts(&first), verdicts(&other), "seed {seed}");
+    }
+    assert_ne!(run(&["--only", "GEN"])["seed"], run(&["--only", "GEN"])["seed"]);
+}
+
+#[test]
+fn what_is_not_selected_is_not_run() {
+    let one = run(&["--only", "var-11"]);
+    assert_eq!(with(&one, "pass"), BTreeSet::from(["VAR-11"]));
+    assert!(with(&one, "not-observed").is_empty());
+    assert!(one["left_out"].as_u64().unwrap() > 1000);
+
+    let area = run(&["--only", "VAR"]);
+    assert!(with(&area, "pass").iter().all(|id| id.starts_with("VAR-")));
+    assert!(with(&area, "not-observed").contains("VAR-27"));
+    assert!(with(&area, "not-run").contains("COM-1"));
+
+    let case = run(&["--only", "com-count", "--only", "VAR-25"]);
+    assert!(ids(&case).contains(&"com-count") && ids(&case).contains(&"val-string-size"));
+    assert!(with(&case, "pass").contains("COM-1"));
+
+    // What judges the frames of others has some.
+    let frames = run(&["--only", "ads-every-frame"]);
+    assert_eq!((ids(&frames), &frames["exit_code"]), (vec!["ads-every-frame"], &Value::from(0)));
+}
+
+#[test]
+fn what_is_nowhere_is_no_success() {
+    for args in [&["run", "--only", "VRA"][..], &["run", "--only", "VAR", "--only", "DYN-99"]] {
+        let output = ads_cnc(args);
+        assert_eq!(output.status.code(), Some(3), "{args:?}");
+        assert!(String::from_utf8(output.stderr).unwrap().contains("no case is called"));
+    }
+    let output = ads_cnc(&["run", "--edition", "fr-1.0"]);
+    assert_eq!(output.status.code(), Some(2));
+    // All that is selected the other edition alone prints.
+    let output = ads_cnc(&["run", "--edition", "en-1.05", "--only", "vec-path-trajektorie-x"]);
+    assert_eq!(output.status.code(), Some(3));
+}
+
+#[test]
+fn an_edition_is_judged_by_itself() {
+    for (edition, has, lacks) in [
+        ("en-1.05", "vec-path-trajectory-x", "vec-path-trajektorie-x"),
+        ("de-1.051", "vec-path-trajektorie-x", "vec-path-trajectory-x"),
+    ] {
+        let report = run(&["--edition", edition]);
+        assert_eq!(report["exit_code"], 0, "{edition}");
+        assert_eq!(report["editions"], serde_json::json!([edition]));
+        let verdict = |id: &str| {
+            let cases = report["cases"].as_array().unwrap();
+            cases.iter().find(|case| case["id"] == id).map(|case| case["verdict"].clone())
+        };
+        assert_eq!(verdict(has), Some("pass".into()));
+        assert_eq!(verdict(lacks), Some("not-run".into()));
+    }
+}
+
+#[test]
+fn what_would_be_run_is_listed() {
+    let args = ["--only", "VAR-11", "--seed", "5"];
+    let output = ads_cnc(&[&["run", "--list", "--json", "-"], &args[..]].concat());
+    assert_eq!(output.status.code(), Some(0));
+    let listed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let listed: Vec<&str> =
+        listed.as_array().unwrap().iter().map(|one| one["id"].as_str().unwrap()).collect();
+    assert_eq!(listed, ids(&run(&args)));
+    let text = ads_cnc(&[&["run", "--list"], &args[..]].concat());
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(text.contains("target   val-whole-by-handle  [VAR-8 VAR-11 VAR-14]\n"), "{text}");
+    assert!(text.ends_with(&format!("{} cases\n", listed.len())), "{text}");
+    // To a device nothing is sent to list what would be.
+    let device = ["run", "--list", "--target", "192.0.2.1", "--net-id", "1.2.3.4.1.1"];
+    let text = String::from_utf8(ads_cnc(&device).stdout).unwrap();
+    assert!(text.contains("not run: sends what no client should") && !text.contains("codec "));
+
+    let rows = ads_cnc(&["requirements", "--only", "val-whole-by-handle", "--format", "json"]);
+    let rows: Value = serde_json::from_slice(&rows.stdout).unwrap();
+    let rows: Vec<&str> =
+        rows.as_array().unwrap().iter().map(|row| row["id"].as_str().unwrap()).collect();
+    assert_eq!(rows, ["VAR-8", "VAR-11", "VAR-14"]);
+}
+
+/// A file of waivers that goes away.
+struct File(PathBuf);
+
+impl File {
+    fn new(name: &str, text: &str) -> Self {
+        let file = env::temp_dir().join(format!("ads-cnc-{name}-{}.toml", process::id()));
+        fs::write(&file, text).unwrap();
+        Self(file)
+    }
+}
+
+impl Drop for File {
+    fn drop(&mut self) {
+        let _gone = fs::remove_file(&self.0);
+    }
+}
+
+fn waiver(test: &str, requirement: &str, verdict: &str, expires: &str) -> String {
+    format!(
+        "[[waiver]]\ntest = \"{test}\"\nrequirement = \"{requirement}\"\nverdict = \"{verdict}\"\n\
+         reason = \"known\"\nexpires = {expires}\n"
+    )
+}
+
+#[test]
+fn known_failures_are_put_up_with_as_long_as_they_hold() {
+    let good = waiver("var-descriptions", "VAR-8", "fail", "9999-01-01");
+    let cases: [(&str, String, &[&str], i32, &str); 7] = [
+        ("used", good.clone(), &[], 0, "used: var-descriptions [VAR-8]"),
+        ("expired", good.replace("9999", "2020"), &[], 1, "stale: expired"),
+        ("over", waiver("var-descriptions", "VAR-3", "fail", "2020-01-01"), &[], 1, "stale: exp"),
+        ("other", good.replace("fail", "warning"), &[], 1, "stale: the verdict is another one"),
+        (
+            "unmatched",
+            format!("{good}{}", waiver("var-gone", "VAR-8", "fail", "9999-01-01")),
+            &[],
+            5,
+            "stale: nothing that ran is called that: var-gone",
+        ),
+        (
+            "passes",
+            format!("{good}{}", waiver("var-descriptions", "VAR-3", "fail", "9999-01-01")),
+            &[],
+            5,
+            "fail expected, found pass",
+        ),
+        // Of what was not selected nothing is known.
+        (
+            "unknown",
+            format!("{good}{}", waiver("com-count", "COM-1", "fail", "9999-01-01")),
+            &[],
+            0,
+            "not run: com-count",
+        ),
+    ];
+    for (name, text, more, code, shown) in cases {
+        let file = File::new(name, &text);
+        let args =
+            ["run", "--only", "var-descriptions", "--defect", "variable-description.size.flip"];
+        let args = [&args[..], &["--waivers", file.0.to_str().unwrap()], more].concat();
+        let output = ads_cnc(&args);
+        let out = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{name}: {out}");
+        assert!(out.contains(shown), "{name}: {out}");
+        assert_eq!(
+            out.contains("fail, waived"),
+            name != "expired" && name != "over" && name != "other"
+        );
+    }
+}
+
+#[test]
+fn a_bad_file_of_waivers_is_refused_with_its_line() {
+    let good = waiver("a", "VAR-8", "fail", "2030-01-01");
+    let cases = [
+        ("broken", "[[waiver]\n".to_owned(), "line 1"),
+        ("unknown-key", format!("{good}owner = \"me\"\n"), "line 7"),
+        ("no-requirement", good.replace("VAR-8", "VAR-99"), "there is no requirement VAR-99"),
+        ("pass", good.replace("\"fail\"", "\"pass\""), "line 4"),
+        ("no-reason", good.replace("known", " "), "a waiver needs a reason"),
+        ("no-day", good.replace("2030-01-01", "2030-01-01T00:00:00Z"), "a day alone"),
+        ("never", good.replace("2030-01-01", "2030-02-30"), "line 6"),
+        ("missing", good.replace("expires", "# expires"), "missing field `expires`"),
+        ("twice", format!("{good}{good}"), "line 7: a second waiver of VAR-8 in a"),
+    ];
+    for (name, text, why) in cases {
+        let file = File::new(name, &text);
+        let output = ads_cnc(&["run", "--waivers", file.0.to_str().unwrap()]);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{name}: {said}");
+        assert!(said.contains(why) && said.contains(".toml"), "{name}: {said}");
+        assert!(output.stdout.is_empty());
+    }
+    assert_eq!(ads_cnc(&["run", "--waivers", "/no/such/file"]).status.code(), Some(2));
+}
