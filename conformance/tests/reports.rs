@@ -70,7 +70,7 @@ fn json_keeps_to_its_schema_and_is_read_back() {
     let reports = [
         run(&[]),
         everything(&folder),
-        run(&["--defect", "ams-header.invoke_id.flip"]),
+        run(&["--defect", "object-descriptor.size.flip"]),
         run(&["--defect", "variable-value.value.invert", "--edition", "de-1.051"]),
         run(&["--defect", "variable-handle-read.index_count.flip"]),
         run(&["--edition", "en-1.05", "--only", "VAR-20"]),
