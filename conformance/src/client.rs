@@ -1,12 +1,14 @@
 //! An AMS/TCP client that keeps every byte it sends and receives, and judges each frame.
 
+mod inquiry;
+
 use std::io;
 use std::net::{IpAddr, SocketAddr};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use ads_cnc::ads::{
-    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReply, ReadRequest,
+    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, ReadReply, ReadRequest,
     ReadWriteReply, ReadWriteRequestRef, StateFlags, WriteReply, WriteRequestRef,
 };
 use ads_cnc::layout::Stream;
@@ -17,6 +19,8 @@ use ads_cnc::{Decode, Encode};
 use crate::exchange::{Answer, Exchange, Fault, Violation};
 use crate::gate::{Gate, Moment, Permit};
 use crate::net::Wire;
+
+pub use inquiry::{Inquired, Inquiry, Said};
 
 /// The AMS port to ask as; nobody has to listen there.
 const SOURCE_PORT: AmsPort = AmsPort(0x8000);
@@ -138,7 +142,7 @@ impl Client {
     /// # Errors
     /// [`Fault::Refused`], [`Fault::Unsendable`].
     pub fn check(&self, call: &Call<'_>) -> Result<(), Fault> {
-        let bytes = frame(self.header(call), call)?;
+        let bytes = frame(self.header(call.port, call.service.command()), call)?;
         let permit = self.gate.check(&bytes, (self.clock)());
         permit.map(drop).map_err(|refusal| Fault::Refused(Box::new(refusal)))
     }
@@ -158,23 +162,14 @@ impl Client {
 
     /// Sends a call if it may be, and keeps what comes of it; the header it went out with.
     fn sent(&mut self, call: &Call<'_>, exchange: &mut Exchange) -> Result<AmsHeader, Fault> {
-        self.invoke_id = self.invoke_id.wrapping_add(1);
-        let header = self.header(call);
+        let header = self.next_header(call.port, call.service.command());
         let bytes = frame(header, call)?;
-        let permit = self.gate.check(&bytes, (self.clock)());
-        let permit = permit.map_err(|refusal| Fault::Refused(Box::new(refusal)))?;
-        if self.dry {
-            return Err(Fault::NotSent);
-        }
-        exchange.outcome = self.exchange(permit, header, exchange);
-        let lost = matches!(exchange.outcome, Err(Fault::Closed | Fault::Io(_)));
-        if lost && permit.is_repeatable() {
-            // A connection may have been closed for being idle. Whether a write was done before
-            // that nobody knows: it is not sent twice.
-            exchange.received.clear();
-            self.disconnect();
-            exchange.outcome = self.exchange(permit, header, exchange);
-        }
+        let Exchange { received, violations, .. } = exchange;
+        let came = self.deliver(&bytes, header, received, violations)?;
+        exchange.outcome = came.and_then(|got| {
+            let data = exchange.received.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
+            answer(header, got, data).map(|answer| (answer, got))
+        });
         exchange.sent = bytes;
         if let Some(data) = exchange.answer().and_then(Answer::success) {
             self.gate.learn(call, data);
@@ -182,11 +177,43 @@ impl Client {
         Ok(header)
     }
 
-    fn header(&self, call: &Call<'_>) -> AmsHeader {
+    /// Sends a frame if it may be sent, and waits for the one that answers it, which is then all
+    /// that was received. The outer error is why nothing was sent.
+    fn deliver(
+        &mut self,
+        bytes: &[u8],
+        header: AmsHeader,
+        received: &mut Vec<u8>,
+        violations: &mut Vec<Violation>,
+    ) -> Result<Result<AmsHeader, Fault>, Fault> {
+        let permit = self.gate.check(bytes, (self.clock)());
+        let permit = permit.map_err(|refusal| Fault::Refused(Box::new(refusal)))?;
+        if self.dry {
+            return Err(Fault::NotSent);
+        }
+        let mut came = self.exchange(permit, header, received, violations);
+        let lost = matches!(came, Err(Fault::Closed | Fault::Io(_)));
+        if lost && permit.is_repeatable() {
+            // A connection may have been closed for being idle. Whether a write was done before
+            // that nobody knows: it is not sent twice.
+            received.clear();
+            self.disconnect();
+            came = self.exchange(permit, header, received, violations);
+        }
+        Ok(came)
+    }
+
+    /// With an invoke ID that the request before did not have.
+    fn next_header(&mut self, port: AmsPort, command: Command) -> AmsHeader {
+        self.invoke_id = self.invoke_id.wrapping_add(1);
+        self.header(port, command)
+    }
+
+    fn header(&self, port: AmsPort, command: Command) -> AmsHeader {
         AmsHeader {
-            target: AmsAddr { net_id: self.target.net_id, port: call.port },
+            target: AmsAddr { net_id: self.target.net_id, port },
             source: AmsAddr { net_id: self.source, port: SOURCE_PORT },
-            command: call.service.command(),
+            command,
             state_flags: StateFlags::REQUEST,
             data_length: 0,
             error: AdsError::NONE,
@@ -246,8 +273,9 @@ impl Client {
         &mut self,
         permit: Permit<'_>,
         sent: AmsHeader,
-        exchange: &mut Exchange,
-    ) -> Result<(Answer, AmsHeader), Fault> {
+        received: &mut Vec<u8>,
+        violations: &mut Vec<Violation>,
+    ) -> Result<AmsHeader, Fault> {
         self.keep_pace();
         let wire = match self.wire.take() {
             Some(wire) => wire,
@@ -255,7 +283,6 @@ impl Client {
         };
         let wire = self.wire.insert(wire);
         wire.send(permit).map_err(Fault::io)?;
-        let received = &mut exchange.received;
         let asked = Instant::now();
         let mut chunk = [0; 4096];
         loop {
@@ -263,19 +290,18 @@ impl Client {
             if let Some((frame, len)) = FrameRef::split(received, max).map_err(Fault::Malformed)? {
                 let header = frame.header();
                 if header.invoke_id == sent.invoke_id {
-                    let answer = answer(sent, &frame);
                     if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
                         let what = format!("{more} bytes behind the answer that nobody asked for");
-                        exchange.violations.push(Violation { requirement: "ADS-5", what });
+                        violations.push(Violation { requirement: "ADS-5", what });
                         self.wire = None;
                         self.gate.forget();
                     }
                     received.truncate(len);
-                    return answer.map(|answer| (answer, header));
+                    return Ok(header);
                 }
                 let (id, asked) = (header.invoke_id, sent.invoke_id);
                 let what = format!("an answer to invoke ID {id:#x}, asked was {asked:#x}");
-                exchange.violations.push(Violation { requirement: "ADS-5", what });
+                violations.push(Violation { requirement: "ADS-5", what });
                 received.drain(..len);
                 continue;
             }
@@ -312,26 +338,29 @@ fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, Fault> {
         }
     };
     let payload = payload.map_err(Fault::Unsendable)?;
-    let frame = FrameRef::new(header, &payload).map_err(Fault::Unsendable)?;
+    whole(header, &payload)
+}
+
+fn whole(header: AmsHeader, payload: &[u8]) -> Result<Vec<u8>, Fault> {
+    let frame = FrameRef::new(header, payload).map_err(Fault::Unsendable)?;
     let mut bytes = vec![0; frame.encoded_len()];
     frame.encode(&mut bytes).map_err(Fault::Unsendable)?;
     Ok(bytes)
 }
 
-/// What the frame answers.
-fn answer(sent: AmsHeader, frame: &FrameRef<'_>) -> Result<Answer, Fault> {
-    let header = frame.header();
-    if !header.error.is_none() && frame.data().is_empty() {
+/// What a frame with this header and data answers.
+fn answer(sent: AmsHeader, header: AmsHeader, payload: &[u8]) -> Result<Answer, Fault> {
+    if !header.error.is_none() && payload.is_empty() {
         return Ok(Answer { ams_error: header.error, result: AdsError::NONE, data: None });
     }
     let (result, data) = match sent.command {
         command if command == Service::Read.command() => {
-            ReadReply::decode(frame.data()).map(|reply| (reply.result, reply.data))
+            ReadReply::decode(payload).map(|reply| (reply.result, reply.data))
         }
         command if command == Service::ReadWrite.command() => {
-            ReadWriteReply::decode(frame.data()).map(|reply| (reply.result, reply.data))
+            ReadWriteReply::decode(payload).map(|reply| (reply.result, reply.data))
         }
-        _ => WriteReply::decode(frame.data()).map(|reply| (reply.result, None)),
+        _ => WriteReply::decode(payload).map(|reply| (reply.result, None)),
     }
     .map_err(Fault::Malformed)?;
     Ok(Answer { ams_error: header.error, result, data })

@@ -30,6 +30,9 @@ fn no_command_runs_the_suite() {
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{shown}");
     assert!(shown.contains("\nPASSED  codec: "), "{shown}");
+    let version = env!("CARGO_PKG_VERSION");
+    let device = format!("\ndevice   \"ads-cnc serve\" {version}, state RUN\n");
+    assert!(shown.contains(&device), "{shown}");
     assert!(!shown.contains("FAIL") && !shown.contains("differs"), "{shown}");
     assert_eq!(text(&output.stderr), "");
 }
@@ -66,6 +69,8 @@ fn the_report_is_written_as_json() {
     std::fs::remove_file(&file).unwrap();
     assert_eq!(report["format"], 1);
     assert_eq!(report["exit_code"], 0);
+    let device = &report["target"]["device"];
+    assert_eq!((&device["name"], &device["state"]), (&"ads-cnc serve".into(), &"RUN".into()));
     let cases = report["cases"].as_array().unwrap();
     let of_target = cases.iter().filter(|case| case["subject"] == "target");
     assert!(of_target.count() > 40);
@@ -84,7 +89,7 @@ fn the_report_is_written_as_json() {
         "ADR-1", "ADR-3", "ADR-4", "ADR-5", "ADR-10", "ADR-11", "ADR-12", "COM-1", "COM-2",
         "COM-3", "COM-4", "COM-5", "COM-6", "COM-7", "VAR-1", "VAR-2", "VAR-3", "VAR-4", "VAR-5",
         "VAR-6", "VAR-7", "VAR-8", "VAR-9", "VAR-10", "VAR-11", "VAR-14", "VAR-20", "VAR-21",
-        "VAR-24",
+        "VAR-24", "ADS-8", "ADS-9",
     ] {
         assert!(judged.contains(&id), "{id} is not judged");
     }
@@ -98,6 +103,22 @@ fn a_device_is_only_read() {
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{shown}");
     assert!(shown.contains("not sent to a device"), "{shown}");
+}
+
+/// A device that says nothing of itself is judged all the same, and not as failed.
+#[test]
+fn a_device_need_not_say_what_it_is() {
+    for defect in ["device-info-reply.result.flip", "device-state-reply.result.flip"] {
+        let serve = Serve::start(&["--defect", defect]);
+        let output = ads_cnc(&["run", "--target", &serve.addr, "--net-id", &serve.net_id]);
+        let shown = text(&output.stdout);
+        assert_eq!(output.status.code(), Some(0), "{shown}");
+        let info = defect.contains("info");
+        assert_eq!(shown.contains("\ndevice   "), !info, "{shown}");
+        assert!(!shown.contains(", state "), "{shown}");
+        let (case, clause) = if info { ("info", "ADS-8") } else { ("state", "ADS-9") };
+        assert!(shown.contains(&format!("ads-device-{case}")) && shown.contains(clause), "{shown}");
+    }
 }
 
 /// A CNC that gets a field wrong fails over the wire too.

@@ -8,9 +8,9 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ads_cnc::address::Channel;
-use ads_cnc::ads::{AdsError, AmsNetId};
+use ads_cnc::ads::{AdsError, AdsState, AmsNetId};
 use ads_cnc::operation::{
-    CountObjects, HandleByName, ReadByName, ReadDescriptors, WriteByHandle, WriteByName,
+    CountObjects, HandleByName, ReadByName, ReadDescriptors, Task, WriteByHandle, WriteByName,
     WriteObject,
 };
 use ads_cnc::{Descriptors, Numbers};
@@ -201,4 +201,64 @@ fn requests_keep_their_pace() {
         session.call(&CountObjects::new(channel())).unwrap();
     }
     assert!(begun.elapsed() >= 5 * pace);
+}
+
+/// What a device says of itself, as bytes: to each request the same data, or an AMS error.
+fn saying(error: u8, data: &'static [u8]) -> Session {
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let target = Target::local(listener.local_addr().unwrap(), NET_ID);
+    thread::spawn(move || {
+        for mut stream in listener.incoming().flatten() {
+            let mut frame = [0; 38];
+            while stream.read_exact(&mut frame).is_ok() {
+                let (target, source) = (frame[6..14].to_vec(), frame[14..22].to_vec());
+                frame[2] = u8::try_from(32 + data.len()).unwrap();
+                frame[6..14].copy_from_slice(&source);
+                frame[14..22].copy_from_slice(&target);
+                (frame[24], frame[26], frame[30]) = (5, u8::try_from(data.len()).unwrap(), error);
+                let _gone = stream.write_all(&[&frame[..], data].concat());
+            }
+        }
+    });
+    Session::connect(target, Gate::queries()).unwrap()
+}
+
+#[test]
+fn a_device_says_what_it_is() {
+    let info = b"\0\0\0\0\x03\x01\xF1\x0BFr\xE4se 1\0\0\0\0\0\0\0\0\0";
+    let info = saying(0, info).device_info(Task::Geo).unwrap();
+    assert_eq!((info.major, info.minor, info.build), (3, 1, 3057));
+    assert_eq!(info.name().to_string(), "Fr\u{e4}se 1");
+    let state = saying(0, &[0, 0, 0, 0, 15, 0, 1, 0]).device_state(Task::Com).unwrap();
+    assert_eq!((state.ads_state, state.device_state), (AdsState::CONFIG, 1));
+
+    // Each task of the embedded CNC says the same.
+    let mut session = embedded(Gate::queries());
+    for task in [Task::Geo, Task::Sda, Task::Com] {
+        assert_eq!(session.device_info(task).unwrap().name(), "ads-cnc serve");
+        assert_eq!(session.device_state(task).unwrap().ads_state, AdsState::RUN);
+    }
+}
+
+/// A refusal, with all fields or without (ADS-6), an AMS error, and what is no reply.
+#[test]
+fn a_device_need_not_say_what_it_is() {
+    for data in [&[1, 7, 0, 0][..], &[1, 7, 0, 0, 0, 0, 0, 0]] {
+        let trouble = saying(0, data).device_state(Task::Com).unwrap_err();
+        assert_eq!(trouble.ads_error(), Some(AdsError::SERVICE_NOT_SUPPORTED));
+        assert_eq!(trouble.exit(), Exit::Failure);
+        assert_eq!(trouble.to_string(), "the device refuses ReadState with 0x701");
+    }
+    let trouble = saying(6, &[]).device_info(Task::Com).unwrap_err();
+    assert_eq!(trouble.exit(), Exit::Nothing);
+    assert!(trouble.to_string().contains("AMS port 553"), "{trouble}");
+    // Success without its fields, and the other command's reply.
+    for data in [&[0; 4][..], &[0, 0, 0, 0, 5, 0, 0, 0]] {
+        let trouble = saying(0, data).device_info(Task::Com).unwrap_err();
+        assert!(trouble.to_string().contains("device-info-reply: "), "{trouble}");
+    }
+    // Nothing is sent in a dry run.
+    let nobody = Target::local(SocketAddr::from(([127, 0, 0, 1], 1)), NET_ID);
+    let mut session = Session::dry(nobody, Gate::queries()).unwrap();
+    assert!(matches!(session.device_info(Task::Com), Err(Trouble::NotSent)));
 }

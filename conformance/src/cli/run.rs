@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use ads_cnc::edition::Edition;
-use ads_cnc::operation::{CountObjects, ObjectList};
+use ads_cnc::operation::{CountObjects, ObjectList, Task};
 use clap::Args;
 
 use super::forms::{Forms, is_stdout, show, write};
@@ -15,7 +15,7 @@ use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::Defect;
 use crate::gate::{Gate, Moment};
 use crate::profile::Profile;
-use crate::report::{self, About, Report, TargetReport};
+use crate::report::{self, About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
 use crate::suite::{self, Case, Needs, Plan, Selection, Session, Subject, Unmatched};
 use crate::verdict::Exit;
@@ -241,13 +241,14 @@ impl Run {
             Ok(_) | Err(Trouble::Ads { .. } | Trouble::Reply(_)) => {}
             Err(trouble) => return Err(trouble.into()),
         }
-        let target = *session.target();
+        let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
         let session = Session::new(client, Profile::DEVICE);
         let target = TargetReport {
             name: "device".to_owned(),
             address: Some(target.addr.to_string()),
             net_id: Some(target.net_id.to_string()),
+            device,
             ..TargetReport::default()
         };
         Ok(self.judge(plan, session, None, self.about(target, seed, waivers)))
@@ -265,8 +266,8 @@ impl Run {
         let settings = Settings { edition: self.edition, version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
         let cnc = Cnc::new(model.map_err(internal)?).with_defect(defect.clone());
-        let session = session::Session::embedded(cnc, Gate::with_malformed())?;
-        let target = *session.target();
+        let mut session = session::Session::embedded(cnc, Gate::with_malformed())?;
+        let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs as long as it is held.
         let (client, running) = session.into_parts();
         let mut session = Session::new(client, Profile::EMBEDDED);
@@ -280,6 +281,7 @@ impl Run {
             },
             address: Some(target.addr.to_string()),
             net_id: Some(target.net_id.to_string()),
+            device,
             ..TargetReport::default()
         };
         Ok(self.judge(plan, session, defect.as_ref(), self.about(target, seed, waivers)))
@@ -324,4 +326,11 @@ impl Run {
         };
         written.and(shown).map_or_else(super::forms::lost, |()| report.exit())
     }
+}
+
+/// What the target says of itself; it need not.
+fn of_itself(session: &mut session::Session) -> Option<DeviceReport> {
+    let info = session.device_info(Task::Com).ok()?;
+    let state = session.device_state(Task::Com).ok();
+    Some(DeviceReport::new(&info, state.map(|state| state.ads_state)))
 }

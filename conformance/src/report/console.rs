@@ -33,6 +33,9 @@ fn head(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let editions = editions.join(" and ");
     writeln!(out, "ads-cnc {suite}, vectors {vectors}, by {editions}, seed {seed}")?;
     writeln!(out, "target   {}", describe(target))?;
+    if let Some(device) = &target.device {
+        writeln!(out, "device   {device}")?;
+    }
     if let Some(profile) = profile {
         let channels = profile.claims.get("channels").and_then(|list| list.as_array());
         let channels = channels.into_iter().flatten().map(ToString::to_string);

@@ -7,7 +7,7 @@ use ads_cnc_vectors::Level;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::BytesReport;
+use super::{BytesReport, DeviceReport};
 use crate::suite::Subject;
 use crate::verdict::{Exit, Verdict};
 
@@ -77,6 +77,9 @@ pub struct TargetReport {
     /// Its AMS NetId.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub net_id: Option<String>,
+    /// What its COM task says of itself, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub device: Option<DeviceReport>,
     /// The last of what it wrote to stderr; not judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stderr: Option<String>,

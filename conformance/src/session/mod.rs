@@ -8,10 +8,11 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
+use ads_cnc::ads::{DeviceInfoReply, DeviceStateReply};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Operation, Task};
 
-use crate::client::{Client, Target};
+use crate::client::{Client, Inquiry, Said, Target};
 use crate::cnc::{Cnc, NET_ID, Server};
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Gate;
@@ -153,6 +154,66 @@ impl Session {
             Err(fault) => return Err(Trouble::fault(&self.client, fault, self.answered)),
         }
         operation.decode_reply(&self.reply).map_err(Trouble::Reply)
+    }
+
+    /// Name and version of the device, as a task of it says.
+    ///
+    /// ```
+    /// use ads_cnc::operation::Task;
+    /// use ads_cnc_conformance::cnc::Cnc;
+    /// use ads_cnc_conformance::gate::Gate;
+    /// use ads_cnc_conformance::session::Session;
+    ///
+    /// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+    /// assert_eq!(session.device_info(Task::Com)?.name(), "ads-cnc serve");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// What came instead: a device need not say it.
+    pub fn device_info(&mut self, task: Task) -> Result<DeviceInfoReply, Trouble> {
+        self.inquire(task)
+    }
+
+    /// The state that a task of the device is in.
+    ///
+    /// ```
+    /// use ads_cnc::ads::AdsState;
+    /// use ads_cnc::operation::Task;
+    /// use ads_cnc_conformance::cnc::Cnc;
+    /// use ads_cnc_conformance::gate::Gate;
+    /// use ads_cnc_conformance::session::Session;
+    ///
+    /// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+    /// assert_eq!(session.device_state(Task::Sda)?.ads_state, AdsState::RUN);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// What came instead: a device need not say it.
+    pub fn device_state(&mut self, task: Task) -> Result<DeviceStateReply, Trouble> {
+        self.inquire(task)
+    }
+
+    fn inquire<R: Inquiry>(&mut self, task: Task) -> Result<R, Trouble> {
+        let inquired = self.client.inquire::<R>(task.port());
+        if self.client.is_dry() {
+            // Who does not read it does not want to know it.
+            let _unread = writeln!(io::stdout(), "would be sent\n  {} ({})", inquired, R::CLAUSE);
+        }
+        match inquired.outcome {
+            Ok(said) => {
+                self.answered = true;
+                match said {
+                    Said::Reply(reply) => Ok(reply),
+                    Said::Refused(error) => Err(Trouble::Device { command: R::NAME, error }),
+                    Said::Ams(error) => {
+                        Err(Trouble::ams(self.client.target(), inquired.port, error))
+                    }
+                }
+            }
+            Err(fault) => Err(Trouble::fault(&self.client, fault, self.answered)),
+        }
     }
 
     /// Whether the gate would let a call pass now: what a tool asks before it begins something that

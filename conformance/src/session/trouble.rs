@@ -44,6 +44,13 @@ pub enum Trouble {
         /// The error number.
         error: AdsError,
     },
+    /// The device says nothing of itself.
+    Device {
+        /// The command's name: ReadDeviceInfo or ReadState.
+        command: &'static str,
+        /// The error number.
+        error: AdsError,
+    },
     /// The reply does not hold together.
     Reply(Error),
 }
@@ -53,7 +60,9 @@ impl Trouble {
     pub const fn exit(&self) -> Exit {
         match self {
             Self::NotSent => Exit::Success,
-            Self::Ads { .. } | Self::Reply(_) | Self::Unable(_) => Exit::Failure,
+            Self::Ads { .. } | Self::Device { .. } | Self::Reply(_) | Self::Unable(_) => {
+                Exit::Failure
+            }
             Self::Usage(_) | Self::Unsendable(_) => Exit::Usage,
             Self::NoAnswer(_) | Self::Ams { .. } => Exit::Nothing,
             Self::Refused(_) => Exit::Refused,
@@ -64,7 +73,7 @@ impl Trouble {
     /// The error number, if the CNC gave one.
     pub const fn ads_error(&self) -> Option<AdsError> {
         match self {
-            Self::Ads { error, .. } => Some(*error),
+            Self::Ads { error, .. } | Self::Device { error, .. } => Some(*error),
             _ => None,
         }
     }
@@ -167,6 +176,9 @@ impl fmt::Display for Trouble {
                     Some(meaning) => write!(f, ": {meaning}"),
                     None => Ok(()),
                 }
+            }
+            Self::Device { command, error } => {
+                write!(f, "the device refuses {command} with {error}")
             }
             Self::Reply(error) => write!(
                 f,

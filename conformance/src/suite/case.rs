@@ -2,10 +2,12 @@
 
 use std::fmt;
 
+use ads_cnc::ads::FrameRef;
 use ads_cnc_vectors::{Level, Sequence, Vector, requirement};
 use serde::{Deserialize, Serialize};
 
 use super::Probe;
+use crate::client::{Inquired, Inquiry};
 use crate::exchange::Exchange;
 use crate::explain::Values;
 use crate::verdict::Verdict;
@@ -183,6 +185,20 @@ pub struct Evidence {
     pub frame_sent: Vec<u8>,
     /// The whole frame received, or as much as came.
     pub frame_received: Vec<u8>,
+}
+
+impl<R: Inquiry> From<&Inquired<R>> for Evidence {
+    fn from(inquired: &Inquired<R>) -> Self {
+        Self {
+            call: inquired.to_string(),
+            reply_stream: Some(R::STREAM.layout().name),
+            received: inquired.received.get(FrameRef::HEADERS_LEN..).map(<[u8]>::to_vec),
+            result: inquired.result(),
+            frame_sent: inquired.sent.clone(),
+            frame_received: inquired.received.clone(),
+            ..Self::default()
+        }
+    }
 }
 
 impl From<&Exchange> for Evidence {

@@ -6,6 +6,7 @@ mod case;
 mod com;
 mod content;
 mod described;
+mod device;
 mod dynamic;
 mod elements;
 mod inventory;
@@ -54,6 +55,7 @@ pub(crate) use declare;
 pub fn cases() -> Vec<Case> {
     let mut cases = vectors::cases();
     cases.extend(address::cases());
+    cases.extend(device::cases());
     cases.extend(com::cases());
     cases.extend(content::cases());
     cases.extend(sda::cases());

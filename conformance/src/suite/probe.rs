@@ -202,42 +202,56 @@ impl<'s> Probe<'s> {
 
     /// Sends a call and keeps it as the evidence of the checks that follow.
     pub fn call(&mut self, call: &Call<'_>) -> Step<Exchange> {
-        if let Some(why) = &self.session.gone {
-            return Err(Stop::Inconclusive(format!("no target left: {why}")));
-        }
+        self.target()?;
         let function = call.dispatch().ok().map(|request| request.function());
         if let Some(function) = function.filter(|one| self.claims(*one) == Claim::No) {
             let why = format!("the profile does not claim {}", function.spec().name);
             return Err(Stop::NotApplicable(why));
         }
         let exchange = self.session.client.call(call);
-        if let Err(Fault::Refused(why)) = &exchange.outcome {
-            return Err(Stop::Refused(format!("{exchange}: {why}")));
+        let fault = exchange.outcome.as_ref().err();
+        self.came(fault, &exchange.violations, &exchange, Evidence::from(&exchange))?;
+        if fault.is_none() && !self.session.answered.contains(&call.service) {
+            self.session.answered.push(call.service);
         }
-        if let Err(Fault::Gone(why)) = &exchange.outcome {
-            self.session.gone = Some(why.clone());
-            return Err(Stop::Inconclusive(format!("the target is gone: {why}")));
+        Ok(exchange)
+    }
+
+    /// Whether there is a target left.
+    pub(super) fn target(&self) -> Step {
+        match &self.session.gone {
+            Some(why) => Err(Stop::Inconclusive(format!("no target left: {why}"))),
+            None => Ok(()),
         }
+    }
+
+    /// What came of a request.
+    pub(super) fn came(
+        &mut self,
+        fault: Option<&Fault>,
+        violations: &[Violation],
+        what: &impl Display,
+        evidence: Evidence,
+    ) -> Step {
         let session = &mut *self.session;
-        session.frames = session.frames.saturating_add(1);
-        match &exchange.outcome {
-            Ok(_) => {
-                if !session.answered.contains(&call.service) {
-                    session.answered.push(call.service);
-                }
-                session.silences = 0;
+        match fault {
+            Some(Fault::Refused(why)) => return Err(Stop::Refused(format!("{what}: {why}"))),
+            Some(Fault::Gone(why)) => {
+                session.gone = Some(why.clone());
+                return Err(Stop::Inconclusive(format!("the target is gone: {why}")));
             }
-            Err(_) => session.silences = session.silences.saturating_add(1),
+            Some(_) => session.silences = session.silences.saturating_add(1),
+            None => session.silences = 0,
         }
+        session.frames = session.frames.saturating_add(1);
         if session.silences >= SILENCES_MAX {
             session.gone = Some(format!("{SILENCES_MAX} requests in a row without an answer"));
         }
-        let evidence = Evidence::from(&exchange);
-        for violation in &exchange.violations {
+        for violation in violations {
             session.violations.push((violation.clone(), evidence.clone()));
         }
         self.last = Some(evidence);
-        Ok(exchange)
+        Ok(())
     }
 
     /// Sends an operation.

@@ -1,0 +1,138 @@
+//! What a device says of itself: ReadDeviceInfo and ReadState, through the gate.
+
+use std::fmt;
+
+use ads_cnc::Decode;
+use ads_cnc::ads::{
+    AdsError, AmsHeader, AmsPort, Command, DeviceInfoReply, DeviceStateReply, FrameRef, WriteReply,
+};
+
+use super::{Client, violations};
+use crate::exchange::{Fault, Violation};
+
+/// A command without data, by its reply.
+pub trait Inquiry: for<'a> Decode<'a> {
+    /// The command.
+    const COMMAND: Command;
+    /// Its name.
+    const NAME: &'static str;
+    /// The requirement on its reply.
+    const CLAUSE: &'static str;
+
+    /// The ADS error number.
+    fn result(&self) -> AdsError;
+}
+
+impl Inquiry for DeviceInfoReply {
+    const COMMAND: Command = Command::READ_DEVICE_INFO;
+    const NAME: &'static str = "ReadDeviceInfo";
+    const CLAUSE: &'static str = "ADS-8";
+
+    fn result(&self) -> AdsError {
+        self.result
+    }
+}
+
+impl Inquiry for DeviceStateReply {
+    const COMMAND: Command = Command::READ_STATE;
+    const NAME: &'static str = "ReadState";
+    const CLAUSE: &'static str = "ADS-9";
+
+    fn result(&self) -> AdsError {
+        self.result
+    }
+}
+
+/// What came back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Said<R> {
+    /// A success.
+    Reply(R),
+    /// The device refuses.
+    Refused(AdsError),
+    /// An AMS error: there is no such device.
+    Ams(AdsError),
+}
+
+/// One inquiry and what came of it.
+#[derive(Debug)]
+pub struct Inquired<R> {
+    /// Port it went to.
+    pub port: AmsPort,
+    /// The whole frame sent; empty if none was.
+    pub sent: Vec<u8>,
+    /// The whole frame received, or as much as came.
+    pub received: Vec<u8>,
+    /// What was said, or why nothing.
+    pub outcome: Result<Said<R>, Fault>,
+    /// What is wrong with the frame itself.
+    pub violations: Vec<Violation>,
+}
+
+impl<R: Inquiry> Inquired<R> {
+    /// What came of it, in a few words.
+    pub fn result(&self) -> String {
+        match &self.outcome {
+            Ok(Said::Reply(_)) => "success".to_owned(),
+            Ok(Said::Refused(error)) => format!("ADS error {error}"),
+            Ok(Said::Ams(error)) => format!("AMS error {error}"),
+            Err(fault) => fault.to_string(),
+        }
+    }
+}
+
+impl<R: Inquiry> fmt::Display for Inquired<R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} at port {}", R::NAME, self.port)
+    }
+}
+
+impl Client {
+    /// Asks a device what it says of itself.
+    pub fn inquire<R: Inquiry>(&mut self, port: AmsPort) -> Inquired<R> {
+        let (sent, received, violations) = (Vec::new(), Vec::new(), Vec::new());
+        let mut inquired =
+            Inquired { port, sent, received, outcome: Err(Fault::NotSent), violations };
+        inquired.outcome = self.said(&mut inquired);
+        inquired
+    }
+
+    fn said<R: Inquiry>(&mut self, inquired: &mut Inquired<R>) -> Result<Said<R>, Fault> {
+        let header = self.next_header(inquired.port, R::COMMAND);
+        let bytes = super::whole(header, &[])?;
+        let Inquired { received, violations: broken, .. } = inquired;
+        let came = self.deliver(&bytes, header, received, broken)?;
+        inquired.sent = bytes;
+        let said = came.and_then(|got| {
+            inquired.violations.extend(violations(&header, &got));
+            said(&got, &inquired.received)
+        });
+        if let Err(fault) = &said {
+            if let Fault::Malformed(error) = fault {
+                // Of the headers, or of what is behind them.
+                let own = error.field().stream() == R::STREAM;
+                let requirement = if own { R::CLAUSE } else { "ADS-5" };
+                inquired.violations.push(Violation { requirement, what: error.to_string() });
+            }
+            self.disconnect();
+        }
+        said
+    }
+}
+
+/// What the one frame that was received says.
+fn said<R: Inquiry>(header: &AmsHeader, received: &[u8]) -> Result<Said<R>, Fault> {
+    let data = received.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
+    if !header.error.is_none() {
+        return Ok(Said::Ams(header.error));
+    }
+    match R::decode(data) {
+        Ok(reply) if reply.result().is_none() => Ok(Said::Reply(reply)),
+        Ok(reply) => Ok(Said::Refused(reply.result())),
+        // It may end behind a result that is not 0 (ADS-6).
+        Err(error) => match WriteReply::decode(data) {
+            Ok(short) if !short.result.is_none() => Ok(Said::Refused(short.result)),
+            _ => Err(Fault::Malformed(error)),
+        },
+    }
+}
