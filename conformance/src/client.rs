@@ -99,6 +99,10 @@ impl Client {
             let why = "malformed requests are sent to a CNC on this machine only";
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
         }
+        if gate.embedded().is_some_and(|only| only != target.addr) {
+            let why = "writes of all kinds are sent to the embedded CNC only";
+            return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
+        }
         Ok(Self {
             target,
             source: target.source.unwrap_or(net_id_of(target.addr.ip())),

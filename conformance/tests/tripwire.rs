@@ -152,16 +152,68 @@ fn nobody() -> SocketAddr {
 /// That something may be written is no reason to write it.
 #[test]
 fn a_file_alone_changes_nothing() {
-    let file = std::env::temp_dir().join(format!("ads-cnc-tripwire-{}.toml", std::process::id()));
-    let allowed = "target = \"127.0.0.1.1.1\"\nexpires = 9999-12-31T23:59:59Z\n\
-                   [[stream]]\nchannel = 1\n[[variable]]\nchannel = 1\nname = \"V.E.Testvar\"\n";
-    fs::write(&file, allowed).unwrap();
+    let file = AllowFile::new(
+        "alone",
+        "[[stream]]\nchannel = 1\n[[variable]]\nchannel = 1\nname = \"V.E.Testvar\"\n",
+    );
+    for tool in [&["browse"][..], &["get", "V.E.Testvar"]] {
+        let tripwire = Tripwire::start();
+        let output = tripwire.call(&[tool, &["--allow-write", file.name()]].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let connections = tripwire.connections();
+        assert!(connections.iter().flat_map(|bytes| frames(bytes)).all(is_harmless), "{tool:?}");
+    }
+}
+
+/// The suite writes what the file names, by its name or by its handle, and nothing else; then
+/// everything is as it was.
+#[test]
+fn a_run_writes_what_the_file_names_and_puts_it_back() {
+    let file = AllowFile::new("run", "[[variable]]\nchannel = 1\nname = \"V.E.test\"\n");
     let tripwire = Tripwire::start();
-    let output = tripwire.call(&["run", "--allow-write", file.to_str().unwrap()]);
-    fs::remove_file(&file).unwrap();
+    let before = tripwire.call(&["browse", "--variables", "--content"]).stdout;
+    let output = tripwire.call(&["run", "--allow-write", file.name()]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let after = tripwire.call(&["browse", "--variables", "--content"]).stdout;
+    assert!(before == after);
     let connections = tripwire.connections();
-    assert!(connections.iter().flat_map(|bytes| frames(bytes)).all(is_harmless));
+    let all = connections.iter().flat_map(|bytes| frames(bytes));
+    let writes: Vec<&[u8]> = all.filter(|frame| !is_harmless(frame)).collect();
+    for frame in &writes {
+        // Write, behind the headers: group, offset, length, data.
+        assert_eq!((frame[22], number(frame, 38)), (3, 0x12_2301), "{frame:02x?}");
+        let data = &frame[50..];
+        match number(frame, 42) {
+            0x49 => assert_eq!(number(data, 0), 0x0200_1234, "{frame:02x?}"),
+            0x4A => assert!(data.starts_with(b"V.E.test\0") || data.starts_with(b"V.E.test[")),
+            offset => panic!("{offset:#x}: {frame:02x?}"),
+        }
+    }
+    // By handle and by name, whole and two elements: the same, another, the same.
+    assert_eq!(writes.len(), 18);
+}
+
+/// A file for `--allow-write` that is gone with the test.
+struct AllowFile(std::path::PathBuf);
+
+impl AllowFile {
+    fn new(name: &str, entries: &str) -> Self {
+        let file = format!("ads-cnc-tripwire-{name}-{}.toml", std::process::id());
+        let file = std::env::temp_dir().join(file);
+        let head = "target = \"127.0.0.1.1.1\"\nexpires = 9999-12-31T23:59:59Z\n";
+        fs::write(&file, format!("{head}{entries}")).unwrap();
+        Self(file)
+    }
+
+    fn name(&self) -> &str {
+        self.0.to_str().unwrap()
+    }
+}
+
+impl Drop for AllowFile {
+    fn drop(&mut self) {
+        let _gone = fs::remove_file(&self.0);
+    }
 }
 
 /// A dry run shows what it would send, and does not even connect.

@@ -13,7 +13,7 @@ use super::target::{REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect};
 use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::Defect;
-use crate::gate::{Gate, Moment};
+use crate::gate::Moment;
 use crate::profile::Profile;
 use crate::report::{self, About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
@@ -266,11 +266,12 @@ impl Run {
         let settings = Settings { edition: self.edition, version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
         let cnc = Cnc::new(model.map_err(internal)?).with_defect(defect.clone());
-        let mut session = session::Session::embedded(cnc, Gate::with_malformed())?;
+        let mut session = session::Session::embedded_to_try(cnc)?;
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs as long as it is held.
         let (client, running) = session.into_parts();
-        let mut session = Session::new(client, Profile::EMBEDDED);
+        let edition = self.edition.unwrap_or(Profile::EMBEDDED.edition);
+        let mut session = Session::new(client, Profile { edition, ..Profile::EMBEDDED });
         if let Some(server) = &running {
             session = session.with_cnc(server.cnc());
         }

@@ -27,7 +27,7 @@ use super::{Refused, address};
 /// The codec's refusal, or what keeps these fields from being a value of the stream.
 pub fn encode(stream: &str, context: &Context, fields: &Fields) -> Result<Vec<u8>, Refused> {
     let of = Given(fields);
-    Ok(match stream {
+    match stream {
         "ams-tcp-header" => {
             bytes(AmsTcpHeader { reserved: of.number("reserved")?, length: of.number("length")? })
         }
@@ -74,7 +74,7 @@ pub fn encode(stream: &str, context: &Context, fields: &Fields) -> Result<Vec<u8
         "index-offset" => address::encode_offset(of, context),
         "program-stream" => bytes(ProgramStream { bytes: of.bytes("data")? }),
         other => variable(other, of, context),
-    }?)
+    }
 }
 
 fn variable(stream: &str, of: Given<'_>, context: &Context) -> Result<Vec<u8>, Refused> {

@@ -30,6 +30,7 @@ pub use file::AllowFileError;
 pub use moment::Moment;
 pub use refusal::{Reason, Refusal};
 
+use std::net::SocketAddr;
 use std::ops::RangeInclusive;
 
 use ads_cnc::address::{Access, ComTable, Group};
@@ -38,6 +39,7 @@ use ads_cnc::limits::ADS_DATA_MAX;
 use ads_cnc::operation::{Call, Effect, Function, Request, Service, Task};
 use ads_cnc::streaming;
 
+use crate::cnc::Server;
 use crate::exchange::call_of;
 use learnt::Learnt;
 
@@ -45,6 +47,8 @@ use learnt::Learnt;
 #[derive(Clone, Debug, Default)]
 pub struct Gate {
     malformed: bool,
+    /// Of a CNC in this process, which is thrown away.
+    embedded: Option<SocketAddr>,
     allowed: Option<Allowed>,
     learnt: Learnt,
 }
@@ -87,6 +91,27 @@ impl Gate {
     /// cannot move. [`Client`](crate::client::Client) takes no other target with it.
     pub fn with_malformed() -> Self {
         Self { malformed: true, ..Self::default() }
+    }
+
+    /// And every documented write besides: for the CNC that this server of this process has, which
+    /// moves nothing. [`Client`](crate::client::Client) takes no other address with it.
+    pub fn of_embedded(server: &Server) -> Self {
+        Self { embedded: Some(server.addr()), ..Self::with_malformed() }
+    }
+
+    /// The only address that it may stand in front of, if there is but one.
+    pub const fn embedded(&self) -> Option<SocketAddr> {
+        self.embedded
+    }
+
+    /// Whether any write may pass at all.
+    pub const fn may_let_writes_pass(&self) -> bool {
+        self.embedded.is_some() || self.allowed.is_some()
+    }
+
+    /// What a file allows.
+    pub const fn allowed(&self) -> Option<&Allowed> {
+        self.allowed.as_ref()
     }
 
     /// And the writes that a file allows.
@@ -170,6 +195,7 @@ impl Gate {
             _ if call.port != spec.task.port() => {
                 Err(Reason::Port(call.port, request.function()).into())
             }
+            _ if self.embedded.is_some() => Ok(false),
             _ => self.check_change(&request, to, now).map(|()| false),
         }
     }

@@ -86,6 +86,19 @@ impl Session {
         Ok(Self::over(client, Some(server)))
     }
 
+    /// Starts a CNC in this process that anything may be sent to which is ever sent: it is thrown
+    /// away.
+    ///
+    /// # Errors
+    /// Those of [`embedded`](Self::embedded).
+    pub fn embedded_to_try(cnc: Cnc) -> Result<Self, Trouble> {
+        let session = Self::embedded(cnc, Gate::with_malformed())?;
+        match session.embedded.as_ref().map(Gate::of_embedded) {
+            Some(gate) => session.behind(gate),
+            None => Ok(session),
+        }
+    }
+
     /// [`dry`](Self::dry) to the CNC that would have been embedded.
     ///
     /// # Errors

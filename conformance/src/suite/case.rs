@@ -75,6 +75,10 @@ pub enum Needs {
     Queries,
     /// Requests that no client should send: only for a target that cannot move.
     Malformed,
+    /// Writes, which are undone: only what may be written.
+    Writes,
+    /// Writes that no client should send: only to a target that cannot move.
+    MalformedWrites,
     /// A CNC in this process, to which something is done from within.
     Embedded,
     /// A target that claims to answer the manuals' examples.

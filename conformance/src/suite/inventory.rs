@@ -35,6 +35,7 @@ pub(super) struct Object {
     pub(super) name: CncString,
     pub(super) type_name: CncString,
     pub(super) size: u32,
+    pub(super) writable: bool,
     pub(super) group: ads_cnc::address::IndexGroup,
     pub(super) offset: ads_cnc::address::IndexOffset,
 }
@@ -104,6 +105,7 @@ impl Probe<'_> {
                         name: object.name().into(),
                         type_name: object.type_name().into(),
                         size: object.size(),
+                        writable: object.write_access().0 != 0,
                         group: object.index_group(),
                         offset: object.index_offset(),
                     });

@@ -13,6 +13,7 @@ mod inventory;
 mod malformed;
 mod names;
 mod outcome;
+mod place;
 mod printed;
 mod probe;
 mod run;
@@ -23,6 +24,8 @@ mod survey;
 mod values;
 mod variable;
 mod vectors;
+mod write;
+mod write_content;
 
 pub use case::{
     Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, Subject, assumed, online,
@@ -66,6 +69,8 @@ pub fn cases() -> Vec<Case> {
     cases.extend(names::cases());
     cases.extend(values::cases());
     cases.extend(axis::cases());
+    cases.extend(write::cases());
+    cases.extend(write_content::cases());
     cases.extend(malformed::cases());
     cases.extend(printed::cases());
     // Judges what all the others exchanged, so it comes last.

@@ -107,7 +107,10 @@ fn dynamic(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     Ok(all)
 }
 
-fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
+/// The V.P, V.L and V.S that are among the variables too, by edition and version.
+pub(super) fn dynamic_among_variables(
+    probe: &mut Probe<'_>,
+) -> Step<Vec<(DynamicKind, CncString)>> {
     let profile = &probe.session.profile;
     let lacks = |why: &str| Err(Stop::NotApplicable(why.to_owned()));
     if profile.edition != Edition::German {
@@ -117,17 +120,24 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
     if claim == Claim::No {
         return lacks("the version has V.P, V.L and V.S among the parameters only");
     }
-    let (channel, known, all) = (probe.channel()?, known(probe)?, dynamic(probe)?);
-    if all.is_empty() {
+    let (channel, all) = (probe.channel()?, dynamic(probe)?);
+    let Some((_, name)) = all.first() else {
         return lacks("there is no V.P, V.L or V.S at the moment");
+    };
+    let by_name = ReadByName { channel, name: name.as_cnc_str().into() };
+    if claim == Claim::Open && probe.try_ask(by_name)?.is_none() {
+        return lacks("the target has no V.P, V.L or V.S here, which come with a version");
     }
+    Ok(all)
+}
+
+fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
+    let all = dynamic_among_variables(probe)?;
+    let (channel, known) = (probe.channel()?, known(probe)?);
     let mut still = Still::default();
     for (kind, name) in &all {
         let name = TextRef::from(name.as_cnc_str());
         let by_name = ReadByName { channel, name };
-        if claim == Claim::Open && probe.try_ask(by_name)?.is_none() {
-            return lacks("the target has no V.P, V.L or V.S here, which come with a version");
-        }
         let one = DynamicValueByName { channel, kind: *kind, name };
         let what = name.text().to_string();
         still.same_part(

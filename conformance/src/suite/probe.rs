@@ -116,6 +116,15 @@ impl<'s> Probe<'s> {
         first.ok_or(Stop::NotApplicable("the target claims no channel".into()))
     }
 
+    /// Whether a request may be sent; nothing is.
+    pub(super) fn may<'a>(&self, request: impl Into<Request<'a>>) -> Step<bool> {
+        let request = request.into();
+        let mut buf = vec![0; request.encoded_len()];
+        let call = request.encode(&mut buf).map_err(harness)?;
+        let claimed = self.claims(request.function()) != Claim::No;
+        Ok(claimed && self.session.client.check(&call).is_ok())
+    }
+
     /// The CNC itself, to do to it from within what nobody can ask for.
     pub(super) fn cnc(&self) -> Step<Arc<Cnc>> {
         let cnc = self.session.cnc.clone();

@@ -48,6 +48,14 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
             let note = "sends what no client should: not sent to a device";
             return Outcome::untried(case, Verdict::NotRun, note);
         }
+        Needs::Writes if !session.client.gate().may_let_writes_pass() => {
+            let note = "writes: only what a file for --allow-write names";
+            return Outcome::untried(case, Verdict::NotRun, note);
+        }
+        Needs::MalformedWrites if session.client.gate().embedded().is_none() => {
+            let note = "writes what no client should: to the embedded CNC only";
+            return Outcome::untried(case, Verdict::NotRun, note);
+        }
         Needs::Embedded if session.cnc.is_none() => {
             let note =
                 "takes something that is done to a CNC from within: to the embedded one only";

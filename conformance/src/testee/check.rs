@@ -47,9 +47,8 @@ pub fn check_protocol(process: &mut Process) -> Vec<Finding> {
     };
     steps.capabilities(&capabilities);
     let claimed = SAMPLES.into_iter().filter_map(vector);
-    let claimed: Vec<&Vector> = claimed
-        .filter(|vector| capabilities.streams.iter().any(|name| *name == vector.stream))
-        .collect();
+    let claimed: Vec<&Vector> =
+        claimed.filter(|vector| capabilities.streams.contains(&vector.stream)).collect();
     if claimed.is_empty() {
         let streams: Vec<&str> =
             SAMPLES.into_iter().filter_map(vector).map(|vector| vector.stream.as_str()).collect();

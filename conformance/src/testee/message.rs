@@ -25,7 +25,7 @@ pub enum Command {
         seq: u64,
         /// What is asked.
         #[serde(flatten)]
-        question: Question,
+        question: Box<Question>,
     },
     /// The last line.
     Bye,
@@ -223,11 +223,11 @@ pub(super) mod compact {
             .map(|character| character.to_digit(16).and_then(|digit| u8::try_from(digit).ok()))
             .collect();
         let digits = digits.ok_or_else(|| format!("{} is no hex", cut(text)))?;
-        let (pairs, rest) = digits.as_chunks::<2>();
-        match rest.is_empty() {
-            true => Ok(pairs.iter().map(|&[high, low]| high << 4 | low).collect()),
-            false => Err(format!("{} has an odd number of digits", cut(text))),
-        }
+        let pairs = digits.chunks(2).map(|pair| match pair {
+            [high, low] => Ok(high << 4 | low),
+            _ => Err(format!("{} has an odd number of digits", cut(text))),
+        });
+        pairs.collect()
     }
 
     fn cut(text: &str) -> String {

@@ -167,7 +167,7 @@ impl Testee for Process {
             return reaction;
         }
         self.seq = self.seq.saturating_add(1);
-        let command = Command::Case { seq: self.seq, question: question.clone() };
+        let command = Command::Case { seq: self.seq, question: Box::new(question.clone()) };
         let line = match self.exchange(&command) {
             Ok(line) => line,
             Err(reaction) => return reaction,

@@ -1,0 +1,212 @@
+//! What can be read and written, and how it is put back afterwards.
+
+use ads_cnc::address::{Channel, ChannelAxis, ElementAddress, IndexGroup, IndexOffset};
+use ads_cnc::operation::{
+    AxisReadByName, AxisWriteByName, ReadByHandle, ReadByName, ReadElement, ReadObject, Request,
+    WriteByHandle, WriteByName, WriteElement, WriteObject,
+};
+use ads_cnc::{CncString, Error, Handle};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Rule, Step, Stop};
+use super::probe::{Probe, harness};
+
+/// A value by one way to it.
+#[derive(Clone, Debug)]
+pub(super) enum Place {
+    Handle { channel: Channel, handle: Handle, indices: Vec<u32> },
+    Name { channel: Channel, name: CncString },
+    Axis { channel: Channel, axis: ChannelAxis, name: CncString },
+    Object { group: IndexGroup, offset: IndexOffset, size: u32 },
+    Element { element: ElementAddress, length: u32 },
+}
+
+impl Place {
+    pub(super) fn read(&self) -> Result<Request<'_>, Error> {
+        Ok(match self {
+            Self::Handle { channel, handle, indices } => {
+                ReadByHandle::new(*channel, *handle, indices.as_slice().into()).into()
+            }
+            Self::Name { channel, name } => {
+                ReadByName { channel: *channel, name: name.as_cnc_str().into() }.into()
+            }
+            Self::Axis { channel, axis, name } => {
+                let name = name.as_cnc_str().into();
+                AxisReadByName { channel: *channel, axis: *axis, name }.into()
+            }
+            Self::Object { group, offset, size } => ReadObject::new(*group, *offset, *size)?.into(),
+            Self::Element { element, length } => ReadElement::new(*element, *length)?.into(),
+        })
+    }
+
+    pub(super) fn write<'v>(&'v self, value: &'v [u8]) -> Result<Request<'v>, Error> {
+        Ok(match self {
+            Self::Handle { channel, handle, indices } => {
+                WriteByHandle::new(*channel, *handle, indices.as_slice().into(), value).into()
+            }
+            Self::Name { channel, name } => {
+                WriteByName { channel: *channel, name: name.as_cnc_str(), value }.into()
+            }
+            Self::Axis { channel, axis, name } => {
+                let name = name.as_cnc_str();
+                AxisWriteByName { channel: *channel, axis: *axis, name, value }.into()
+            }
+            Self::Object { group, offset, .. } => WriteObject::new(*group, *offset, value)?.into(),
+            Self::Element { element, .. } => WriteElement::new(*element, value)?.into(),
+        })
+    }
+}
+
+/// Whether a request has a form on the wire: a long value beside a long name has none.
+fn is_sendable(request: &Request<'_>) -> bool {
+    let mut buf = vec![0; request.encoded_len()];
+    request.encode(&mut buf).is_ok()
+}
+
+/// The nearest other value: one bit of the first byte. A text gets another first character.
+pub(super) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
+    let mut other = value.to_vec();
+    if let Some(first) = other.first_mut() {
+        *first = match (is_text, *first) {
+            (true, b'a') => b'b',
+            (true, _) => b'a',
+            (false, byte) => byte ^ 1,
+        };
+    }
+    // What was empty ends behind its one character.
+    if is_text && value.first() == Some(&0) {
+        other.iter_mut().skip(1).for_each(|byte| *byte = 0);
+    }
+    other
+}
+
+/// Texts are the same up to their first NUL.
+fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
+    let text = |bytes: &[u8]| bytes.split(|&byte| byte == 0).next().map(<[u8]>::to_vec);
+    one == other || is_text && text(one) == text(other)
+}
+
+/// What a write is judged by, and what it is about.
+pub(super) struct Trial<'t> {
+    pub(super) what: &'t str,
+    pub(super) rules: &'t [Rule],
+    pub(super) is_text: bool,
+}
+
+impl Probe<'_> {
+    /// What is there now; an answer is judged elsewhere.
+    pub(super) fn value_at(&mut self, place: &Place) -> Step<Option<Vec<u8>>> {
+        match place.read() {
+            Ok(read) => self.try_ask(read),
+            Err(_) => Ok(None),
+        }
+    }
+
+    /// Whether this place may be written, and is not to be left alone.
+    pub(super) fn may_write(&self, place: &Place, name: &str) -> Step<bool> {
+        let left = self.session.profile.leaves(name);
+        match place.write(&[]) {
+            Ok(write) if !left => self.may(write),
+            _ => Ok(false),
+        }
+    }
+
+    /// Writes a value that must be taken.
+    pub(super) fn put(&mut self, trial: &Trial<'_>, place: &Place, value: &[u8]) -> Step<bool> {
+        let exchange = self.send(place.write(value).map_err(harness)?)?;
+        let kept = exchange.answer().is_some_and(|answer| answer.success().is_some());
+        for &rule in trial.rules {
+            let expected = format!("{} takes {}", trial.what, Hex(value.to_vec()));
+            self.check(rule, kept, expected, exchange.result());
+        }
+        Ok(kept)
+    }
+
+    /// Writes another value, reads it back and puts the old one back, whatever came of it. While
+    /// the other is there, `then` looks at it; it gets the old and the new.
+    pub(super) fn try_write(
+        &mut self,
+        trial: &Trial<'_>,
+        place: &Place,
+        then: impl FnOnce(&mut Self, &[u8], &[u8]) -> Step,
+    ) -> Step {
+        let Some(before) = self.value_at(place)?.filter(|value| !value.is_empty()) else {
+            return Ok(());
+        };
+        if !place.write(&before).is_ok_and(|write| is_sendable(&write)) {
+            return Ok(());
+        }
+        let other = another(&before, trial.is_text);
+        // What it holds it takes first: nothing is changed by that.
+        if !self.put(trial, place, &before)? {
+            return Ok(());
+        }
+        let tried = self.change(trial, place, &before, &other, then);
+        let restored = self.restore(trial, place, &before);
+        tried.and(restored)
+    }
+
+    fn change(
+        &mut self,
+        trial: &Trial<'_>,
+        place: &Place,
+        before: &[u8],
+        other: &[u8],
+        then: impl FnOnce(&mut Self, &[u8], &[u8]) -> Step,
+    ) -> Step {
+        if !self.put(trial, place, other)? {
+            return Ok(());
+        }
+        let after = self.value_at(place)?.unwrap_or_default();
+        let kept = same(&after, other, trial.is_text);
+        for &rule in trial.rules {
+            let expected = format!("{} of {}, as written", Hex(other.to_vec()), trial.what);
+            self.check(rule, kept, expected, Hex(after.clone()));
+        }
+        then(self, before, other)
+    }
+
+    fn restore(&mut self, trial: &Trial<'_>, place: &Place, before: &[u8]) -> Step {
+        self.put(trial, place, before)?;
+        let after = self.value_at(place)?.unwrap_or_default();
+        let kept = same(&after, before, trial.is_text);
+        for &rule in trial.rules {
+            let expected = format!("{} of {} again", Hex(before.to_vec()), trial.what);
+            self.check(rule, kept, expected, Hex(after.clone()));
+        }
+        Ok(())
+    }
+
+    /// Writes to what must refuse it the value that is there already; `sibling`, if there is one,
+    /// takes what it holds.
+    pub(super) fn write_refused(
+        &mut self,
+        trial: &Trial<'_>,
+        place: &Place,
+        sibling: Option<&Place>,
+    ) -> Step {
+        if let Some(sibling) = sibling {
+            let Some(taken) = self.value_at(sibling)? else { return Ok(()) };
+            let exchange = self.send(sibling.write(&taken).map_err(harness)?)?;
+            if exchange.answer().is_none_or(|answer| answer.success().is_none()) {
+                // Whether writable things take a value is judged by those cases.
+                let why = format!("nothing to hold it against is written: {}", exchange.result());
+                return Err(Stop::Inconclusive(why));
+            }
+        }
+        let Some(before) = self.value_at(place)?.filter(|value| !value.is_empty()) else {
+            return Ok(());
+        };
+        let Ok(write) = place.write(&before) else { return Ok(()) };
+        if !is_sendable(&write) {
+            return Ok(());
+        }
+        let exchange = self.send(write)?;
+        let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
+        for &rule in trial.rules {
+            let expected = format!("an error number for a write of {}", trial.what);
+            self.check(rule, refused, expected, exchange.result());
+        }
+        Ok(())
+    }
+}

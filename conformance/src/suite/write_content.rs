@@ -1,0 +1,211 @@
+//! Cases that write COM objects and elements of SDA and GEO, and undo it.
+
+use ads_cnc::Decode as _;
+use ads_cnc::address::{AxisStride, ElementAddress, IndexOffset};
+use ads_cnc::operation::{
+    CountElements, ReadElementName, ReadElementType, ReadElementWriteFlag, Request,
+};
+use ads_cnc::sda::{ElementText, ElementWriteFlag};
+
+use super::case::{Case, Rule, Step, Stop};
+use super::declare;
+use super::inventory::{Instance, OF_PLACES, Object};
+use super::place::{Place, Trial};
+use super::probe::{Probe, harness};
+use super::sda::length_of;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "write-objects",
+            "What is written to an object with write access is read back",
+            ["COM-2", "COM-5"],
+            Writes,
+            objects
+        ),
+        declare!(
+            "write-read-only-objects",
+            "An object without write access takes no value",
+            ["COM-2"],
+            Writes,
+            read_only_objects
+        ),
+        declare!(
+            "write-elements",
+            "What is written to an element with its write flag set is read back",
+            ["SDA-9"],
+            Writes,
+            elements
+        ),
+        declare!(
+            "write-read-only-elements",
+            "An element without its write flag set takes no value",
+            ["SDA-9"],
+            Writes,
+            read_only_elements
+        ),
+        declare!(
+            "write-number-of-elements",
+            "The number of elements of an instance takes no value",
+            ["SDA-4"],
+            MalformedWrites,
+            number_of_elements
+        ),
+    ]
+}
+
+fn nothing(any: bool) -> Step {
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
+    }
+}
+
+fn place_of(object: &Object) -> Place {
+    Place::Object { group: object.group, offset: object.offset, size: object.size }
+}
+
+/// Whether an object is at a place where no axis is: what is written there nobody has.
+fn is_blank(probe: &Probe<'_>, object: &Object) -> bool {
+    let parts = object.list.parts();
+    let at = |offset: IndexOffset, place: u32| {
+        let strides = [AxisStride::X1000, AxisStride::X10000];
+        let mut split = strides.iter().filter_map(|&stride| offset.axis_and_element(stride).ok());
+        split.any(|(axis, element)| axis == place && element > 0)
+    };
+    let empty = probe.session.profile.empty_places.iter();
+    let mut own = empty.filter(|(channel, _)| *channel == u32::from(parts.instance));
+    own.any(|&(_, place)| at(object.offset, place))
+}
+
+/// Objects that may be written, by what their descriptors say of that.
+fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Object>> {
+    let mut all = Vec::new();
+    for object in probe.objects()? {
+        let place = place_of(&object);
+        if object.writable == is_writable
+            && !is_blank(probe, &object)
+            && place.read().is_ok()
+            && probe.may_write(&place, &object.name.to_string())?
+        {
+            all.push(object);
+        }
+    }
+    Ok(all)
+}
+
+fn objects(probe: &mut Probe<'_>) -> Step {
+    let all = writable(probe, true)?;
+    for object in &all {
+        let what = object.name.to_string();
+        let is_text = object.type_name.as_cnc_str() == "STRING";
+        let rules = ["COM-5", "COM-2"].map(Rule::from);
+        let trial = Trial { what: &what, rules: &rules, is_text };
+        probe.try_write(&trial, &place_of(object), |_, _, _| Ok(()))?;
+    }
+    nothing(!all.is_empty())
+}
+
+fn read_only_objects(probe: &mut Probe<'_>) -> Step {
+    let known =
+        writable(probe, true)?.into_iter().find(|one| one.type_name.as_cnc_str() != "STRING");
+    let known = known.as_ref().map(place_of);
+    let all = writable(probe, false)?;
+    for object in &all {
+        let what = object.name.to_string();
+        let rules = ["COM-2".into()];
+        let trial = Trial { what: &what, rules: &rules, is_text: false };
+        probe.write_refused(&trial, &place_of(object), known.as_ref())?;
+    }
+    nothing(!all.is_empty())
+}
+
+/// An element with its name and whether it is a text.
+struct Named {
+    place: Place,
+    what: String,
+    is_text: bool,
+}
+
+/// Elements that may be written, by what their flags say of that.
+fn flagged(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Named>> {
+    let mut all = Vec::new();
+    for instance in probe.instances()? {
+        if is_empty_place(probe, &instance) {
+            continue;
+        }
+        for element in instance.elements() {
+            all.extend(named(probe, &instance, element, is_writable)?);
+        }
+    }
+    Ok(all)
+}
+
+fn is_empty_place(probe: &Probe<'_>, instance: &Instance) -> bool {
+    let at = (instance.channel, instance.axis);
+    OF_PLACES.contains(&instance.class) && probe.session.profile.empty_places.contains(&at)
+}
+
+fn named(
+    probe: &mut Probe<'_>,
+    instance: &Instance,
+    element: ElementAddress,
+    is_writable: bool,
+) -> Step<Option<Named>> {
+    let text = |probe: &mut Probe<'_>, request: Request<'static>| -> Step<String> {
+        let data = probe.try_ask(request)?.unwrap_or_default();
+        Ok(ElementText::decode(&data).map(|text| text.text.text.to_string()).unwrap_or_default())
+    };
+    let flag = probe.try_ask(ReadElementWriteFlag::new(element))?.unwrap_or_default();
+    let flag = ElementWriteFlag::decode(&flag).map(ElementWriteFlag::is_writable);
+    if flag != Ok(is_writable) {
+        return Ok(None);
+    }
+    let Some(length) = length_of(probe, element)? else { return Ok(None) };
+    let place = Place::Element { element, length };
+    let name = text(probe, ReadElementName::new(element).into())?;
+    if place.read().is_err() || !probe.may_write(&place, &name)? {
+        return Ok(None);
+    }
+    let is_text = text(probe, ReadElementType::new(element).into())? == "STRING";
+    Ok(Some(Named { place, what: format!("{name} of {instance}"), is_text }))
+}
+
+fn elements(probe: &mut Probe<'_>) -> Step {
+    let all = flagged(probe, true)?;
+    for Named { place, what, is_text } in &all {
+        let rules = ["SDA-9".into()];
+        let trial = Trial { what, rules: &rules, is_text: *is_text };
+        probe.try_write(&trial, place, |_, _, _| Ok(()))?;
+    }
+    nothing(!all.is_empty())
+}
+
+fn read_only_elements(probe: &mut Probe<'_>) -> Step {
+    let known = flagged(probe, true)?.into_iter().find(|one| !one.is_text);
+    let known = known.map(|known| known.place);
+    let all = flagged(probe, false)?;
+    for Named { place, what, .. } in &all {
+        let rules = ["SDA-9".into()];
+        let trial = Trial { what, rules: &rules, is_text: false };
+        probe.write_refused(&trial, place, known.as_ref())?;
+    }
+    nothing(!all.is_empty())
+}
+
+/// Written as content of the first element, which it shares its address with.
+fn number_of_elements(probe: &mut Probe<'_>) -> Step {
+    for instance in probe.instances()? {
+        let request = Request::from(CountElements::new(instance.first).map_err(harness)?);
+        let mut buf = [0; 0];
+        let count = request.encode(&mut buf).map_err(harness)?;
+        let data = instance.count.to_le_bytes();
+        let service = ads_cnc::operation::Service::Write;
+        let call = ads_cnc::operation::Call { service, read_length: 0, data: &data, ..count };
+        let exchange = probe.call(&call)?;
+        let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
+        let expected = format!("an error number for a write of the number of {instance}");
+        probe.check("SDA-4", refused, expected, exchange.result());
+    }
+    Ok(())
+}
