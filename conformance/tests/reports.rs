@@ -174,8 +174,9 @@ fn junit_has_a_test_for_each_case() {
         assert_eq!(value(root, name), counted.to_string(), "{name}");
     }
     assert_eq!(value(root, "errors"), "0");
-    let waived = at(&format!("{test}/skipped"))[0];
-    assert_eq!(value(waived, "message"), "waived until 9999-12-31: <known> | & \"so\"");
+    let skipped = at(&format!("{test}/skipped"));
+    let waived = "waived until 9999-12-31: <known> | & \"so\"";
+    assert!(skipped.iter().any(|one| value(one, "message") == waived), "{skipped:?}");
     let property = "testsuites/testsuite/properties/property";
     for (name, fact) in [("seed", "7"), ("vectors", &report.vectors), ("only", "VAR")] {
         let found = at(property).into_iter().find(|one| value(one, "name") == name);

@@ -201,7 +201,10 @@ fn failure(judgement: &Judgement, waived: bool) -> FailureReport {
     FailureReport {
         requirement: judgement.requirement.to_owned(),
         level: judgement.level,
-        clause: clause.map(|clause| text(clause, judgement.level)).unwrap_or_default(),
+        clause: match clause {
+            Some(clause) => text(clause, judgement.level),
+            None => "The testee protocol, conformance/adapters/README.md.".to_owned(),
+        },
         sources: clause.map(|clause| sources(clause, judgement.level)).unwrap_or_default(),
         verdict: judgement.verdict,
         waived,
