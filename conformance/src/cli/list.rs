@@ -32,9 +32,14 @@ impl Listed {
 
 /// The cases of a plan in their order.
 pub(super) fn of_plan(plan: &Plan, is_device: bool) -> Vec<Listed> {
-    let why = |case: &Case| {
-        let malformed = is_device && case.needs == Needs::Malformed;
-        malformed.then(|| "sends what no client should: not sent to a device".to_owned())
+    let why = |case: &Case| match case.needs {
+        Needs::Malformed if is_device => {
+            Some("sends what no client should: not sent to a device".to_owned())
+        }
+        Needs::Embedded if is_device => {
+            Some("takes something that is done to a CNC from within".to_owned())
+        }
+        _ => None,
     };
     let run = plan.selected().map(|case| Listed::new(case, why(case)));
     let foreign = plan.foreign.iter().map(|(case, why)| Listed::new(case, Some(why.clone())));

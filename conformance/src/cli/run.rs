@@ -243,7 +243,7 @@ impl Run {
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
-        let session = Session::new(client, Profile::DEVICE);
+        let session = Session::new(client, self.follow(Profile::DEVICE));
         let target = TargetReport {
             name: "device".to_owned(),
             address: Some(target.addr.to_string()),
@@ -270,8 +270,7 @@ impl Run {
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs as long as it is held.
         let (client, running) = session.into_parts();
-        let edition = self.edition.unwrap_or(Profile::EMBEDDED.edition);
-        let mut session = Session::new(client, Profile { edition, ..Profile::EMBEDDED });
+        let mut session = Session::new(client, self.follow(Profile::EMBEDDED));
         if let Some(server) = &running {
             session = session.with_cnc(server.cnc());
         }
@@ -286,6 +285,11 @@ impl Run {
             ..TargetReport::default()
         };
         Ok(self.judge(plan, session, defect.as_ref(), self.about(target, seed, waivers)))
+    }
+
+    /// Who is judged by one edition is taken to follow it.
+    fn follow(&self, profile: Profile) -> Profile {
+        Profile { edition: self.edition.unwrap_or(profile.edition), ..profile }
     }
 
     fn about(&self, target: TargetReport, seed: u32, waivers: Waivers) -> About {
