@@ -1,10 +1,13 @@
 //! The forms of a report: made from the JSON alone, well-formed, and with the same facts.
 
+mod common;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::{env, fs, process};
 
 use ads_cnc_conformance::report::{self, Report};
+use common::Serve;
 use quick_xml::events::Event;
 use quick_xml::{Reader, XmlVersion};
 use serde_json::{Value, json};
@@ -67,8 +70,15 @@ fn json_keeps_to_its_schema_and_is_read_back() {
     jsonschema::draft202012::meta::validate(&schema).unwrap();
     let schema = jsonschema::validator_for(&schema).unwrap();
     let folder = Folder::new("schema");
+    let testee = format!("\"{}\" testee", env!("CARGO_BIN_EXE_ads-cnc"));
+    let noisy = format!("{testee} --miniature noisy");
+    let refusing = format!("{testee} --miniature refuses-all");
+    let serve = Serve::start(&[]);
     let reports = [
         run(&[]),
+        run(&["--testee", &noisy, "--only", "VAR-11"]),
+        run(&["--testee", &refusing, "--only", "VAR-11"]),
+        run(&["--target", &serve.addr, "--net-id", &serve.net_id]),
         everything(&folder),
         run(&["--defect", "object-descriptor.size.flip"]),
         run(&["--defect", "variable-value.value.invert", "--edition", "de-1.051"]),

@@ -122,6 +122,7 @@ fn properties(report: &Report) -> Vec<(&'static str, String)> {
         ("seed", seed.to_string()),
         ("target", describe(target)),
     ];
+    all.extend(target.device.iter().map(|device| ("device", device.to_string())));
     all.extend(profile.iter().map(|profile| ("profile", profile.name.clone())));
     all.extend((!only.is_empty()).then(|| ("only", only.join(" "))));
     all.extend(waivers.iter().map(|waiver| ("waiver", in_words(waiver))));

@@ -23,6 +23,7 @@ pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         ("suite", Some(format!("{suite}, vectors {vectors}"))),
         ("editions", Some(editions.join(", "))),
         ("target", Some(describe(target))),
+        ("device", target.device.as_ref().map(ToString::to_string)),
         ("profile", profile),
         ("only", Some(only.join(", "))),
         ("run", Some(format!("{time}, seed {seed}, exit code {}", report.exit_code))),
