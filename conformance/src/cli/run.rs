@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use ads_cnc::Kind;
+use ads_cnc::address::Channel;
 use ads_cnc::edition::Edition;
-use ads_cnc::operation::{CountObjects, ObjectList, Task};
+use ads_cnc::operation::{CountObjects, CountVariables, Function, ObjectList, Task};
 use clap::Args;
 
 use super::forms::{Forms, is_stdout, show, write};
@@ -14,7 +16,7 @@ use super::{complain, find_defect};
 use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::Defect;
 use crate::gate::Moment;
-use crate::profile::Profile;
+use crate::profile::{self, Claim, Profile};
 use crate::report::{self, About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
 use crate::suite::{self, Case, Needs, Plan, Selection, Session, Subject, Unmatched};
@@ -44,7 +46,7 @@ pub(super) struct Run {
     #[arg(
         long,
         value_name = "COMMAND",
-        conflicts_with_all = ["target", "allow_write", "dry_run", "rate", "defect"]
+        conflicts_with_all = ["target", "allow_write", "dry_run", "rate", "profile", "defect"]
     )]
     testee: Option<String>,
 
@@ -67,6 +69,14 @@ pub(super) struct Run {
     /// List what would be run and run nothing; with --json as data
     #[arg(long, help_heading = SELECTION)]
     list: bool,
+
+    /// What the target claims: what it does not is not asked for (see --print-profile)
+    #[arg(long, value_name = "FILE")]
+    profile: Option<PathBuf>,
+
+    /// Write a profile to be filled in, with a comment on everything in it
+    #[arg(long, exclusive = true)]
+    print_profile: bool,
 
     /// Known failures that the run puts up with
     #[arg(long, value_name = "FILE")]
@@ -139,10 +149,14 @@ impl From<Unmatched> for Stopped {
 impl Run {
     /// Runs the suite and writes its reports.
     pub(super) fn execute(&self) -> Exit {
+        if self.print_profile {
+            let printed = show(|out| out.write_all(profile::EXAMPLE.as_bytes()));
+            return printed.map_or_else(super::forms::lost, |()| Exit::Success);
+        }
         let checked = find_defect(self.defect.as_deref())
-            .and_then(|defect| Ok((defect, self.waivers()?)))
+            .and_then(|defect| Ok((defect, self.waivers()?, self.profile()?)))
             .and_then(|checked| self.forms.check(self.json.as_deref()).map(|()| checked));
-        let (defect, waivers) = match checked {
+        let (defect, waivers, profile) = match checked {
             Ok(checked) => checked,
             Err(why) => {
                 complain(why);
@@ -163,8 +177,8 @@ impl Run {
         }
         let report = match &self.testee {
             Some(command) => self.testee(command, seed, waivers),
-            None if self.is_embedded() => self.embedded(seed, waivers, defect),
-            None => self.device(seed, waivers),
+            None if self.is_embedded() => self.embedded(seed, waivers, profile, defect),
+            None => self.device(seed, waivers, profile),
         };
         match report {
             Ok(report) => self.write(&report),
@@ -182,6 +196,15 @@ impl Run {
     fn waivers(&self) -> Result<Waivers, String> {
         let waivers = self.waivers.as_deref().map(Waivers::from_file).transpose();
         waivers.map(Option::unwrap_or_default).map_err(|error| error.to_string())
+    }
+
+    /// What the file says, or what holds without one; --edition is about both.
+    fn profile(&self) -> Result<Profile, String> {
+        let read = self.profile.as_deref().map(Profile::from_file).transpose();
+        let without = if self.is_embedded() { Profile::EMBEDDED } else { Profile::DEVICE };
+        let profile = read.map_err(|error| error.to_string())?.unwrap_or(without);
+        let edition = self.edition.unwrap_or(profile.edition);
+        Ok(Profile { edition, ..profile })
     }
 
     const fn is_embedded(&self) -> bool {
@@ -233,17 +256,26 @@ impl Run {
         written.map_or_else(super::forms::lost, |()| Exit::Success)
     }
 
-    fn device(&self, seed: u32, waivers: Waivers) -> Result<Report, Stopped> {
+    fn device(&self, seed: u32, waivers: Waivers, profile: Profile) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let mut session = self.target.open()?;
+        let mut session = self.target.clone().with_timeout(profile.timeout).open()?;
         // Silence is judged case by case only of one that speaks at all: an error of ADS does.
-        match session.call(&CountObjects::new(ObjectList::PLATFORM)) {
-            Ok(_) | Err(Trouble::Ads { .. } | Trouble::Reply(_)) => {}
+        let greeted = match profile.claims(Function::CountObjects) {
+            Claim::No => {
+                let first = profile.channels.first().copied().unwrap_or(1);
+                let channel =
+                    Channel::new(first).map_err(|error| Trouble::Internal(error.to_string()))?;
+                session.call(&CountVariables::new(channel, Kind::V_E)).map(drop)
+            }
+            _ => session.call(&CountObjects::new(ObjectList::PLATFORM)).map(drop),
+        };
+        match greeted {
+            Ok(()) | Err(Trouble::Ads { .. } | Trouble::Reply(_)) => {}
             Err(trouble) => return Err(trouble.into()),
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
-        let session = Session::new(client, self.follow(Profile::DEVICE));
+        let session = Session::new(client, profile);
         let target = TargetReport {
             name: "device".to_owned(),
             address: Some(target.addr.to_string()),
@@ -259,18 +291,19 @@ impl Run {
         &self,
         seed: u32,
         waivers: Waivers,
+        profile: Profile,
         defect: Option<Defect>,
     ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
         let internal = |error| Trouble::Internal(format!("the default model: {error}"));
-        let settings = Settings { edition: self.edition, version: None };
+        let settings = Settings { edition: Some(profile.edition), version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
         let cnc = Cnc::new(model.map_err(internal)?).with_defect(defect.clone());
         let mut session = session::Session::embedded_to_try(cnc)?;
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs as long as it is held.
         let (client, running) = session.into_parts();
-        let mut session = Session::new(client, self.follow(Profile::EMBEDDED));
+        let mut session = Session::new(client, profile);
         if let Some(server) = &running {
             session = session.with_cnc(server.cnc());
         }
@@ -285,11 +318,6 @@ impl Run {
             ..TargetReport::default()
         };
         Ok(self.judge(plan, session, defect.as_ref(), self.about(target, seed, waivers)))
-    }
-
-    /// Who is judged by one edition is taken to follow it.
-    fn follow(&self, profile: Profile) -> Profile {
-        Profile { edition: self.edition.unwrap_or(profile.edition), ..profile }
     }
 
     fn about(&self, target: TargetReport, seed: u32, waivers: Waivers) -> About {

@@ -53,8 +53,9 @@ pub(super) struct TargetArgs {
     source_net_id: Option<AmsNetId>,
 
     /// How long to wait for a connection and for an answer, in milliseconds
-    #[arg(long, help_heading = TARGET, value_name = "MS", default_value_t = TIMEOUT.as_millis().try_into().unwrap_or(u64::MAX))]
-    timeout: u64,
+    /// [default: 2000]
+    #[arg(long, help_heading = TARGET, value_name = "MS")]
+    timeout: Option<u64>,
 
     /// The most requests in a second [default: as fast as they are answered]
     #[arg(long, help_heading = TARGET, value_name = "PER_SECOND", value_parser = pace)]
@@ -84,8 +85,8 @@ impl TargetArgs {
     }
 
     /// How long to wait for an answer.
-    pub(super) const fn timeout(&self) -> Duration {
-        Duration::from_millis(self.timeout)
+    pub(super) fn timeout(&self) -> Duration {
+        self.timeout.map_or(TIMEOUT, Duration::from_millis)
     }
 
     /// Whether a file says what may be written.
@@ -96,6 +97,13 @@ impl TargetArgs {
     /// Whether nothing is to be sent.
     pub(super) const fn is_dry(&self) -> bool {
         self.dry_run
+    }
+
+    /// Waits so long for an answer, unless an option says how long.
+    pub(super) fn with_timeout(mut self, timeout: Option<Duration>) -> Self {
+        let milliseconds = timeout.and_then(|time| u64::try_from(time.as_millis()).ok());
+        self.timeout = self.timeout.or(milliseconds);
+        self
     }
 
     /// Connects to the device, or to a CNC that is started here.
@@ -157,7 +165,7 @@ impl TargetArgs {
             addr: resolve(host).map_err(|error| usage(format!("{host}: {error}")))?,
             net_id,
             source: self.source_net_id,
-            timeout: Duration::from_millis(self.timeout.max(1)),
+            timeout: self.timeout.map_or(TIMEOUT, |timeout| Duration::from_millis(timeout.max(1))),
             pace: self.rate.unwrap_or_default(),
         }))
     }

@@ -1,12 +1,17 @@
 //! What a target claims. What it does not claim is not applicable; what it claims must work.
 
+mod file;
+
 use std::borrow::Cow;
+use std::time::Duration;
 
 use ads_cnc::Kind;
 use ads_cnc::ads::AmsPort;
 use ads_cnc::edition::{CncVersion, Edition, Feature};
 use ads_cnc::operation::{Function, Task};
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
+
+pub use file::{EXAMPLE, ProfileFileError};
 
 /// The claims of a target.
 #[derive(Clone, Debug, Serialize)]
@@ -37,11 +42,59 @@ pub struct Profile {
     pub by_name_only: Cow<'static, [Cow<'static, str>]>,
     /// What is never written, whatever may be: names of objects, elements and variables.
     pub unwritten: Cow<'static, [Cow<'static, str>]>,
-    /// The functions it has, by their names in the function table; those of the manuals if nobody
+    /// What of the manuals it claims.
+    pub sections: Cow<'static, [Section]>,
+    /// Of these sections only these functions, by their names in the function table; all if nobody
     /// says.
     pub functions: Option<Cow<'static, [Cow<'static, str>]>>,
     /// Answers the examples the manuals print, with the values they print.
     pub printed_examples: bool,
+    /// How long to wait for its answers, in milliseconds in a report.
+    #[serde(serialize_with = "milliseconds", skip_serializing_if = "Option::is_none")]
+    pub timeout: Option<Duration>,
+}
+
+/// A part of the manuals that a target may have or not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Section {
+    /// Objects of the COM task: `ads-*`, section 2.1.
+    Objects,
+    /// Elements of the classes of SDA and GEO: `ads-*`, section 2.2.
+    Elements,
+    /// Dynamic parameters: `ads-*`, section 3.
+    Parameters,
+    /// Variables with flexible data type: `ads-*`, section 4.
+    Variables,
+    /// Data streaming.
+    Streaming,
+    /// The Service Interface, which is made of variables.
+    Service,
+}
+
+impl Section {
+    /// All of them.
+    pub const ALL: &'static [Self] = &[
+        Self::Objects,
+        Self::Elements,
+        Self::Parameters,
+        Self::Variables,
+        Self::Streaming,
+        Self::Service,
+    ];
+
+    /// Where a function is.
+    pub fn of(function: Function) -> Self {
+        let section = function.spec().section;
+        match section.get(..3) {
+            Some("2.1") => Self::Objects,
+            Some("2.2") => Self::Elements,
+            Some("str") => Self::Streaming,
+            Some(section) if section.starts_with('3') => Self::Parameters,
+            // What is online only is about variables.
+            _ => Self::Variables,
+        }
+    }
 }
 
 /// Whether a target claims something.
@@ -79,8 +132,10 @@ impl Profile {
             Cow::Borrowed("example_axis_number_w"),
             Cow::Borrowed("example.axis_number"),
         ]),
+        sections: Cow::Borrowed(Section::ALL),
         functions: None,
         printed_examples: true,
+        timeout: None,
     };
 
     /// A device of which nothing is known but that it has a first channel.
@@ -97,8 +152,10 @@ impl Profile {
         kinds: Cow::Borrowed(LISTED),
         by_name_only: Cow::Borrowed(&[]),
         unwritten: Cow::Borrowed(&[]),
+        sections: Cow::Borrowed(Section::ALL),
         functions: None,
         printed_examples: false,
+        timeout: None,
     };
 
     /// Whether it claims to have a function.
@@ -114,15 +171,21 @@ impl Profile {
     /// ```
     pub fn claims(&self, function: Function) -> Claim {
         let spec = function.spec();
-        if !self.has_port(spec.task.port()) {
+        if !self.has_task(spec.task) || !self.has_section(Section::of(function)) {
             return Claim::No;
         }
         match &self.functions {
-            Some(functions) if functions.iter().any(|name| name == spec.name) => Claim::Yes,
+            Some(_) if self.names(function) => Claim::Yes,
             Some(_) => Claim::No,
             None if function == Function::DescribeByName => self.has(Feature::DescriptionByName),
             None => Claim::Yes,
         }
+    }
+
+    /// Whether it claims a function by its name.
+    pub fn names(&self, function: Function) -> bool {
+        let functions = self.functions.as_deref().unwrap_or_default();
+        functions.iter().any(|name| name == function.spec().name)
     }
 
     /// Whether it claims what comes with a version.
@@ -132,6 +195,11 @@ impl Profile {
             Some(answer) if !answer.yes && !answer.assumed => Claim::No,
             _ => Claim::Open,
         }
+    }
+
+    /// Whether it claims a part of the manuals.
+    pub fn has_section(&self, section: Section) -> bool {
+        self.sections.contains(&section)
     }
 
     /// Whether a port answers.
@@ -172,4 +240,9 @@ fn version<S: Serializer>(version: &Option<CncVersion>, serializer: S) -> Result
         Some(version) => serializer.collect_str(version),
         None => serializer.serialize_none(),
     }
+}
+
+fn milliseconds<S: Serializer>(time: &Option<Duration>, serializer: S) -> Result<S::Ok, S::Error> {
+    let time = time.unwrap_or_default().as_millis();
+    serializer.serialize_u64(u64::try_from(time).unwrap_or(u64::MAX))
 }

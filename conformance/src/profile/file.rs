@@ -1,0 +1,317 @@
+//! The file of `--profile`.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use ads_cnc::address::{Channel, ChannelAxis, PlatformAxis, Spindle};
+use ads_cnc::ads::AmsPort;
+use ads_cnc::edition::{CncVersion, Edition};
+use ads_cnc::limits::TEXT_MAX;
+use ads_cnc::operation::{Function, Task};
+use ads_cnc::{CncString, VariablePath};
+use serde::Deserialize;
+use serde::de::{Deserializer, Error as _};
+
+use super::{LISTED, Profile, Section};
+
+/// A profile with a comment on everything in it: what is taken of a device without one.
+pub const EXAMPLE: &str = include_str!("device.toml");
+
+/// Why a file is no profile.
+#[derive(Clone, Debug)]
+pub struct ProfileFileError {
+    file: Option<PathBuf>,
+    why: String,
+}
+
+impl fmt::Display for ProfileFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.file {
+            Some(file) => write!(f, "{}: {}", file.display(), self.why),
+            None => f.write_str(&self.why),
+        }
+    }
+}
+
+impl std::error::Error for ProfileFileError {}
+
+impl Profile {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and those of [`from_toml`](Self::from_toml).
+    pub fn from_file(file: &Path) -> Result<Self, ProfileFileError> {
+        let failed = |why: String| ProfileFileError { file: Some(file.to_owned()), why };
+        let text = fs::read_to_string(file).map_err(|error| failed(error.to_string()))?;
+        Self::from_toml(&text).map_err(|error| failed(error.why))
+    }
+
+    /// Reads the text of a file; what it does not say is as of [`DEVICE`](Self::DEVICE).
+    ///
+    /// ```
+    /// use ads_cnc_conformance::profile::Profile;
+    ///
+    /// let profile = Profile::from_toml("channels = [1, 6]\nsections = [\"variables\"]")?;
+    /// assert_eq!(profile.channels[..], [1, 6]);
+    /// let error = Profile::from_toml("channels = [1]\nkinds = [\"V.X\"]").unwrap_err();
+    /// assert!(error.to_string().contains("line 2"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The line and what is wrong in it: keys that are unknown, values that nothing can have.
+    pub fn from_toml(text: &str) -> Result<Self, ProfileFileError> {
+        let file: File = toml::from_str(text).map_err(|error| {
+            // As it shows itself it draws the line; the message alone does not say which.
+            ProfileFileError { file: None, why: error.to_string().trim_end().to_owned() }
+        })?;
+        Ok(file.into())
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+struct File {
+    name: Option<String>,
+    #[serde(default, deserialize_with = "edition")]
+    edition: Option<Edition>,
+    #[serde(default, deserialize_with = "version")]
+    cnc_version: Option<CncVersion>,
+    #[serde(default, deserialize_with = "ports")]
+    ports: Option<Vec<u16>>,
+    #[serde(default, deserialize_with = "channels")]
+    channels: Option<Vec<u32>>,
+    #[serde(default, deserialize_with = "channel")]
+    absent_channel: Option<u32>,
+    #[serde(default, deserialize_with = "axes")]
+    platform_axes: Option<u32>,
+    #[serde(default, deserialize_with = "spindles")]
+    spindles: Option<u32>,
+    #[serde(default, deserialize_with = "places")]
+    empty_places: Option<Vec<(u32, u32)>>,
+    #[serde(default, deserialize_with = "kinds")]
+    kinds: Option<Vec<String>>,
+    #[serde(default, deserialize_with = "names")]
+    by_name_only: Option<Vec<String>>,
+    #[serde(default, deserialize_with = "texts")]
+    unwritten: Option<Vec<String>>,
+    sections: Option<Vec<Section>>,
+    #[serde(default, deserialize_with = "functions")]
+    functions: Option<Vec<String>>,
+    printed_examples: Option<bool>,
+    #[serde(default, deserialize_with = "timeout")]
+    timeout: Option<Duration>,
+}
+
+impl From<File> for Profile {
+    fn from(file: File) -> Self {
+        let all = |texts: Vec<String>| texts.into_iter().map(Cow::Owned).collect::<Vec<_>>();
+        let device = Self::DEVICE;
+        Self {
+            name: file.name.map_or(device.name, Cow::Owned),
+            edition: file.edition.unwrap_or(device.edition),
+            cnc_version: file.cnc_version,
+            ports: file.ports.map_or(device.ports, Cow::Owned),
+            channels: file.channels.map_or(device.channels, Cow::Owned),
+            absent_channel: file.absent_channel,
+            platform_axes: file.platform_axes.unwrap_or(device.platform_axes),
+            spindles: file.spindles,
+            empty_places: file.empty_places.map_or(device.empty_places, Cow::Owned),
+            kinds: file.kinds.map_or(device.kinds, |kinds| Cow::Owned(all(kinds))),
+            by_name_only: Cow::Owned(all(file.by_name_only.unwrap_or_default())),
+            unwritten: Cow::Owned(all(file.unwritten.unwrap_or_default())),
+            sections: file.sections.map_or(device.sections, Cow::Owned),
+            functions: file.functions.map(|functions| Cow::Owned(all(functions))),
+            printed_examples: file.printed_examples.unwrap_or(device.printed_examples),
+            timeout: file.timeout,
+        }
+    }
+}
+
+/// Reads a value and checks it: what is wrong is said with its line.
+fn checked<'de, D, T, U>(
+    value: D,
+    check: impl FnOnce(T) -> Result<U, String>,
+) -> Result<Option<U>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de>,
+{
+    check(T::deserialize(value)?).map(Some).map_err(D::Error::custom)
+}
+
+fn edition<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Edition>, D::Error> {
+    checked(value, |name: String| crate::cnc::edition(&name))
+}
+
+fn version<'de, D: Deserializer<'de>>(value: D) -> Result<Option<CncVersion>, D::Error> {
+    checked(value, |text: String| {
+        CncVersion::new(&text).map_err(|_| format!("{text:?} is no version, as V4.29.0 is one"))
+    })
+}
+
+fn ports<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<u16>>, D::Error> {
+    checked(value, |ports: Vec<u16>| {
+        each(ports, |&port| match Task::from_port(AmsPort(port)) {
+            Some(_) => Ok(()),
+            None => Err(format!("{port} is no port of a CNC; there are 551, 552 and 553")),
+        })
+    })
+}
+
+fn is_channel(number: u32) -> Result<(), String> {
+    let odd = |_| format!("{number} is no channel; they are numbered from 1 to 255");
+    Channel::new(number).map(drop).map_err(odd)
+}
+
+fn channels<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<u32>>, D::Error> {
+    checked(value, |numbers: Vec<u32>| each(numbers, |&number| is_channel(number)))
+}
+
+fn channel<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u32>, D::Error> {
+    checked(value, |number| is_channel(number).map(|()| number))
+}
+
+fn axes<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u32>, D::Error> {
+    checked(value, |axes: u32| match axes {
+        0 => Ok(0),
+        _ => PlatformAxis::new(axes)
+            .map(|_| axes)
+            .map_err(|_| "at most 255 axes have a place".to_owned()),
+    })
+}
+
+fn spindles<'de, D: Deserializer<'de>>(value: D) -> Result<Option<u32>, D::Error> {
+    checked(value, |spindles: u32| match spindles.checked_sub(1).map(Spindle::new) {
+        Some(Err(_)) => Err("at most 256 spindles have an index".to_owned()),
+        _ => Ok(spindles),
+    })
+}
+
+fn places<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<(u32, u32)>>, D::Error> {
+    checked(value, |places: Vec<(u32, u32)>| {
+        each(places, |&(channel, place)| {
+            is_channel(channel)?;
+            let odd = |_| format!("{place} is no place of an axis; they are counted from 1");
+            ChannelAxis::new(place).map(drop).map_err(odd)
+        })
+    })
+}
+
+fn kinds<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::Error> {
+    checked(value, |kinds: Vec<String>| {
+        each(kinds, |kind| match LISTED.iter().any(|known| known == kind) {
+            true => Ok(()),
+            false => Err(format!("{kind:?} cannot be listed; V.G, V.E and V.A can")),
+        })
+    })
+}
+
+fn names<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::Error> {
+    checked(value, |names: Vec<String>| {
+        each(names, |name| match VariablePath::new(name) {
+            Ok(_) if name.chars().count() < TEXT_MAX => Ok(()),
+            Ok(_) => Err(format!("a name has at most {} characters", TEXT_MAX.saturating_sub(1))),
+            Err(error) => Err(format!("{name:?}: {error}")),
+        })
+    })
+}
+
+fn texts<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::Error> {
+    checked(value, |names: Vec<String>| {
+        each(names, |name| {
+            name.parse::<CncString>().map(drop).map_err(|error| format!("{name:?}: {error}"))
+        })
+    })
+}
+
+fn functions<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vec<String>>, D::Error> {
+    checked(value, |names: Vec<String>| {
+        each(names, |name| {
+            let all = || Function::ALL.iter().map(|function| function.spec().name);
+            match all().any(|known| known == name) {
+                true => Ok(()),
+                false => {
+                    let all: Vec<&str> = all().collect();
+                    Err(format!("{name:?} is no function; there are {}", all.join(", ")))
+                }
+            }
+        })
+    })
+}
+
+fn timeout<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Duration>, D::Error> {
+    checked(value, |milliseconds: u64| match milliseconds {
+        0 => Err("a time over 0 is needed".to_owned()),
+        _ => Ok(Duration::from_millis(milliseconds)),
+    })
+}
+
+/// Everything in a list, if each of it is right and there once.
+fn each<T: Ord>(list: Vec<T>, check: impl Fn(&T) -> Result<(), String>) -> Result<Vec<T>, String> {
+    list.iter().try_for_each(check)?;
+    let different = list.iter().collect::<BTreeSet<&T>>().len();
+    match different == list.len() {
+        true => Ok(list),
+        false => Err("something is there twice".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is printed to be filled in says nothing else than what holds without it.
+    #[test]
+    fn the_example_is_the_device() {
+        let profile = Profile::from_toml(EXAMPLE).unwrap();
+        assert_eq!(format!("{profile:?}"), format!("{:?}", Profile::DEVICE));
+        // And so does every line in it that is left out.
+        let is_key = |rest: &str| rest.contains(" = ") || rest.starts_with(['\"', ']']);
+        let shown = |line: &'static str| {
+            let rest = line.strip_prefix('#').map(str::trim_start);
+            rest.filter(|rest| is_key(rest)).unwrap_or(line)
+        };
+        let all = EXAMPLE.lines().map(shown).collect::<Vec<_>>().join("\n");
+        let profile = Profile::from_toml(&all).unwrap();
+        assert_eq!((profile.absent_channel, profile.platform_axes), (Some(5), 5));
+        assert_eq!(profile.spindles, Some(2));
+        assert_eq!(profile.functions.map(|all| all.len()), Some(Function::ALL.len()));
+        assert_eq!(profile.timeout, Some(Duration::from_secs(2)));
+    }
+
+    /// Everything that nothing can have is refused with its line and a reason.
+    #[test]
+    fn what_is_wrong_is_said_with_its_line() {
+        for (line, why) in [
+            ("edition = \"fr-1.0\"", "en-1.05 and de-1.051"),
+            ("cnc-version = \"4\"", "V4.29.0"),
+            ("ports = [552, 851]", "551, 552 and 553"),
+            ("ports = [552, 552]", "twice"),
+            ("channels = [0]", "channel"),
+            ("channels = [1, 256]", "channel"),
+            ("absent-channel = 0", "channel"),
+            ("platform-axes = 256", "255 axes"),
+            ("spindles = 257", "256 spindles"),
+            ("empty-places = [[1, 0]]", "axis"),
+            ("empty-places = [[1]]", "invalid length"),
+            ("kinds = [\"V.CYC\"]", "cannot be listed"),
+            ("by-name-only = [\"V.CYC.\"]", "V.CYC."),
+            ("unwritten = [\"\u{3A9}\"]", "\u{3A9}"),
+            ("sections = [\"everything\"]", "objects"),
+            ("functions = [\"read\"]", "read variable value by name"),
+            ("timeout = 0", "over 0"),
+            ("timeout = \"2 s\"", "invalid type"),
+            ("colour = \"red\"", "unknown field"),
+            ("printed-examples = maybe", "line 2"),
+        ] {
+            let error = Profile::from_toml(&format!("name = \"x\"\n{line}\n")).unwrap_err();
+            let shown = error.to_string();
+            assert!(shown.contains("line 2") && shown.contains(why), "{line}: {shown}");
+        }
+    }
+}

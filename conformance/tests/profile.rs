@@ -1,0 +1,110 @@
+//! What a profile claims decides over what is asked of a device, and what must be there.
+
+mod common;
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use common::Serve;
+
+/// A file that is gone with the test.
+struct File(PathBuf);
+
+impl File {
+    fn new(name: &str, text: &str) -> Self {
+        let name = format!("ads-cnc-profile-{name}-{}.toml", std::process::id());
+        let file = Self(std::env::temp_dir().join(name));
+        fs::write(&file.0, text).unwrap();
+        file
+    }
+}
+
+impl Drop for File {
+    fn drop(&mut self) {
+        let _gone = fs::remove_file(&self.0);
+    }
+}
+
+/// The suite against a simulated CNC as a device, and its report.
+fn run(serve: &[&str], profile: &File) -> (Output, serde_json::Value) {
+    let serve = Serve::start(serve);
+    let json = profile.0.with_extension("json");
+    let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["run", "--target", &serve.addr, "--net-id", &serve.net_id, "--profile"])
+        .args([&profile.0, &PathBuf::from("--json"), &json])
+        .output()
+        .unwrap();
+    let report = fs::read(&json)
+        .map_or_else(|_| serde_json::Value::Null, |text| serde_json::from_slice(&text).unwrap());
+    let _gone = fs::remove_file(&json);
+    (output, report)
+}
+
+fn verdict<'r>(report: &'r serde_json::Value, case: &str) -> &'r str {
+    let cases = report["cases"].as_array().unwrap();
+    let one = cases.iter().find(|one| one["id"] == case);
+    one.unwrap_or_else(|| panic!("no case {case}"))["verdict"].as_str().unwrap()
+}
+
+#[test]
+fn what_is_not_claimed_is_not_applicable() {
+    let profile =
+        File::new("variables", "name = \"panel\"\nsections = [\"variables\"]\nports = [552]\n");
+    let (output, report) = run(&[], &profile);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    for case in ["com-count", "com-content", "sda-elements", "dyn-names"] {
+        assert_eq!(verdict(&report, case), "not-applicable", "{case}");
+    }
+    for case in ["var-descriptions", "val-whole-by-name"] {
+        assert_eq!(verdict(&report, case), "pass", "{case}");
+    }
+    assert_eq!(report["profile"]["name"], "panel");
+}
+
+#[test]
+fn what_is_claimed_must_work() {
+    // One channel, one spindle and one axis more than there are.
+    let profile = File::new("more", "channels = [1, 2, 6, 7]\nspindles = 3\nplatform-axes = 6\n");
+    let (output, report) = run(&[], &profile);
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    for case in ["adr-com-object-access", "adr-decoder-group", "sda-configured-instances"] {
+        assert_eq!(verdict(&report, case), "fail", "{case}");
+    }
+}
+
+#[test]
+fn a_function_claimed_by_name_must_work() {
+    let text = "functions = [\"variable description by name\", \"number of variable elements\", \
+                \"variable description by index\"]\n";
+    let profile = File::new("function", text);
+    let (output, report) = run(&["--cnc-version", "V4.20.0"], &profile);
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    assert_eq!(verdict(&report, "var-described-by-name"), "fail");
+    let (output, report) = run(&[], &profile);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert_eq!(verdict(&report, "var-described-by-name"), "pass");
+    // Claimed or not, what comes with a version is judged if it is there.
+    let profile = File::new("open", "");
+    let (_, report) = run(&["--cnc-version", "V4.20.0"], &profile);
+    assert_eq!(verdict(&report, "var-described-by-name"), "not-applicable");
+}
+
+#[test]
+fn a_bad_profile_is_wrong_usage() {
+    let profile = File::new("bad", "name = \"x\"\nports = [851]\n");
+    let (output, _) = run(&[], &profile);
+    assert_eq!(output.status.code(), Some(2));
+    let why = String::from_utf8(output.stderr).unwrap();
+    assert!(why.contains("line 2") && why.contains("551, 552 and 553"), "{why}");
+}
+
+#[test]
+fn a_profile_is_printed_to_be_filled_in() {
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(["run", "--print-profile"]).output();
+    let output = output.unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text, ads_cnc_conformance::profile::EXAMPLE);
+}
