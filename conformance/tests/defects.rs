@@ -7,7 +7,7 @@ use ads_cnc::edition::Edition;
 use ads_cnc::layout::{Field, Stream};
 use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::cnc::{Cnc, DEFAULT_MODEL, Model, Server, Settings};
-use ads_cnc_conformance::defect::{Change, Defect};
+use ads_cnc_conformance::defect::{Change, Defect, Seed};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
@@ -26,14 +26,15 @@ fn run_against(
     wanted: impl Fn(&Case) -> bool,
 ) -> Vec<Outcome> {
     let cases = suite::cases().into_iter().filter(wanted).collect();
-    let cnc = cnc.with_defect(defect.cloned());
+    let seed = defect.cloned().map(Seed::from);
+    let cnc = cnc.with_defect(seed.clone());
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let cnc = Arc::new(cnc);
     let server = Server::start(listener, Arc::clone(&cnc)).unwrap();
     let target = Target::local(server.addr(), server.net_id());
     let client = Client::connect(target, Gate::of_embedded(&server)).unwrap();
     let mut session = Session::new(client, profile).with_cnc(cnc);
-    suite::run(cases, Some(&mut session), defect, 0)
+    suite::run(cases, Some(&mut session), seed.as_ref(), 0)
 }
 
 fn failed(outcomes: &[Outcome]) -> Vec<&str> {

@@ -55,7 +55,7 @@ fn wrong_answers_end() {
         }
         tried += 1;
         for variables in [false, true] {
-            let cnc = default_cnc().with_defect(Some(defect.clone()));
+            let cnc = default_cnc().with_defect(Some(defect.clone().into()));
             let found = found(cnc, &Options { variables, ..Options::default() });
             assert!(found.requests < 4000, "{}: {} requests", defect.id, found.requests);
         }

@@ -28,7 +28,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::defect::Defect;
+use crate::defect::{self, Seed};
 use crate::verdict::Exit;
 
 /// Reads, judges and simulates the ADS interface of ISG and TwinCAT CNCs.
@@ -132,14 +132,13 @@ fn number(text: &str) -> Result<u32, String> {
 }
 
 /// The defect with this ID, if one is asked for.
-fn find_defect(id: Option<&str>) -> Result<Option<Defect>, String> {
+fn find_defect(id: Option<&str>) -> Result<Option<Seed>, String> {
     let Some(id) = id else { return Ok(None) };
-    Defect::by_id(id).map(Some).ok_or_else(|| {
-        let all = Defect::all();
-        // One of each stream is enough to show what IDs look like.
-        let mut some: Vec<&Defect> = all.iter().collect();
-        some.dedup_by_key(|defect| defect.stream);
-        let some: Vec<&str> = some.iter().map(|defect| defect.id.as_str()).collect();
+    defect::by_id(id).cloned().map(Some).ok_or_else(|| {
+        let all = defect::all();
+        // One of each stream or area is enough to show what IDs look like.
+        let mut some: Vec<&str> = all.iter().map(|seed| seed.id.as_str()).collect();
+        some.dedup_by_key(|id| id.split('.').next().unwrap_or_default());
         let (some, all) = (some.join("\n  "), all.len());
         format!("no defect has the ID {id}; some that there are:\n  {some}\nserve --list-defects shows all {all}")
     })

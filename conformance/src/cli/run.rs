@@ -14,7 +14,7 @@ use super::run_testee;
 use super::target::{REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect};
 use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::defect::Defect;
+use crate::defect::Seed;
 use crate::gate::Moment;
 use crate::profile::{self, Claim, Profile};
 use crate::report::{self, About, DeviceReport, Report, TargetReport};
@@ -292,7 +292,7 @@ impl Run {
         seed: u32,
         waivers: Waivers,
         profile: Profile,
-        defect: Option<Defect>,
+        defect: Option<Seed>,
     ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
         let internal = |error| Trouble::Internal(format!("the default model: {error}"));
@@ -337,7 +337,7 @@ impl Run {
         &self,
         plan: Plan,
         mut session: Session,
-        defect: Option<&Defect>,
+        defect: Option<&Seed>,
         about: About,
     ) -> Report {
         let outcomes = suite::run(plan.cases.clone(), Some(&mut session), defect, about.seed);

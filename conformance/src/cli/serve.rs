@@ -16,7 +16,7 @@ use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
 use crate::cnc::{
     CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
 };
-use crate::defect::Defect;
+use crate::defect;
 use crate::net;
 use crate::verdict::Exit;
 
@@ -90,7 +90,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "ID")]
     defect: Option<String>,
 
-    /// List the IDs of all defects and end.
+    /// List all defects and end: ID, the requirements it breaks, and what it does; separated by tabs.
     #[arg(long)]
     list_defects: bool,
 }
@@ -228,8 +228,9 @@ fn print_model() -> ExitCode {
 
 fn list_defects() -> ExitCode {
     let mut out = io::stdout().lock();
-    for defect in Defect::all() {
-        if writeln!(out, "{}", defect.id).is_err() {
+    for seed in defect::all() {
+        let broken = seed.requirements.join(" ");
+        if writeln!(out, "{}\t{broken}\t{seed}", seed.id).is_err() {
             // Whoever reads has seen enough.
             break;
         }

@@ -4,7 +4,7 @@ use super::case::{Body, Case, Needs, Stop, Subject};
 use super::outcome::Outcome;
 use super::printed;
 use super::probe::{Probe, Session};
-use crate::defect::Defect;
+use crate::defect::Seed;
 use crate::testee::{self, Terms};
 use crate::verdict::Verdict;
 
@@ -14,7 +14,7 @@ use crate::verdict::Verdict;
 pub fn run(
     cases: Vec<Case>,
     mut session: Option<&mut Session>,
-    defect: Option<&Defect>,
+    defect: Option<&Seed>,
     seed: u32,
 ) -> Vec<Outcome> {
     let (codec, target): (Vec<Case>, Vec<Case>) =

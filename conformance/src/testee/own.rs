@@ -8,13 +8,13 @@ use super::message::{
     Answer, Capabilities, Hello, Identity, Output, PROTOCOL, Question, Rejection,
 };
 use crate::codec::{self, Refused};
-use crate::defect::Defect;
+use crate::defect::{Defect, Seed};
 
 /// The codec's answers, with a defect if that is asked for.
 #[derive(Clone, Debug, Default)]
 pub struct Own {
-    /// Changes bytes before they are decoded and after they are encoded.
-    pub defect: Option<Defect>,
+    /// What it does wrong.
+    pub defect: Option<Seed>,
 }
 
 impl Own {
@@ -77,7 +77,7 @@ impl Own {
     fn changed(&self, stream: &str, bytes: &[u8]) -> Vec<u8> {
         let stream = ads_cnc::layout::Stream::by_name(stream);
         let touches = |defect: &&Defect| stream.is_some_and(|stream| defect.touches(stream));
-        match self.defect.as_ref().filter(touches) {
+        match self.defect.as_ref().and_then(Seed::field).filter(touches) {
             None => bytes.to_vec(),
             Some(defect) => defect.apply(bytes),
         }

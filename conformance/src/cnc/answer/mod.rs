@@ -17,7 +17,7 @@ use ads_cnc::{Encode, NoData};
 use super::clock::Clock;
 use super::state::State;
 use super::{Model, ModelError, program, to_u32};
-use crate::defect::Defect;
+use crate::defect::Seed;
 
 /// The simulated CNC: a model, and its state behind one lock.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ pub struct Cnc {
     model: Model,
     state: Mutex<State>,
     clock: Clock,
-    defect: Option<Defect>,
+    defect: Option<Seed>,
 }
 
 /// Data, or the error number.
@@ -49,7 +49,7 @@ impl Cnc {
     /// With a seeded defect: streams of the requests are changed before they are read, streams
     /// of the replies after they are encoded.
     #[must_use]
-    pub fn with_defect(mut self, defect: Option<Defect>) -> Self {
+    pub fn with_defect(mut self, defect: Option<Seed>) -> Self {
         self.defect = defect;
         self
     }
@@ -146,7 +146,8 @@ impl Cnc {
 
     /// The bytes of a stream with the defect, if it is about that stream.
     pub(super) fn change(&self, stream: Stream, bytes: &[u8]) -> Option<Vec<u8>> {
-        let defect = self.defect.as_ref().filter(|defect| defect.touches(stream))?;
+        let field = self.defect.as_ref().and_then(Seed::field);
+        let defect = field.filter(|defect| defect.touches(stream))?;
         Some(defect.apply(bytes))
     }
 

@@ -310,7 +310,7 @@ fn every_object_is_where_its_descriptor_says() {
 #[test]
 fn a_defect_shows_in_its_stream_only() {
     let with = |id: &str, offset, data: &[u8]| {
-        let cnc = cnc().with_defect(Some(Defect::by_id(id).unwrap()));
+        let cnc = cnc().with_defect(crate::defect::by_id(id).cloned());
         cnc.answer(&call(0x12_2301, offset, 2048, data))
     };
     let read = b"\x41\x23\x01\x20\x01\0\0\0\x04\0\0\0";
@@ -351,7 +351,7 @@ fn many_platform_axes() {
 /// Defects reach what elements and writes are made of too.
 #[test]
 fn a_defect_shows_in_elements_and_writes() {
-    let with = |id: &str| cnc().with_defect(Some(Defect::by_id(id).unwrap()));
+    let with = |id: &str| cnc().with_defect(crate::defect::by_id(id).cloned());
     let read = |group| Call { service: Service::Read, ..call(group, 1, 256, &[]) };
     let length = with("element-length.length.flip").answer(&read(0x12_3601));
     assert_eq!(length, Ok(vec![0, 0, 0, 0]));

@@ -1,7 +1,6 @@
 use ads_cnc::ads::AmsAddr;
 
 use super::*;
-use crate::defect::Defect;
 
 const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };
 
@@ -119,8 +118,9 @@ fn a_response_is_not_answered() {
 
 #[test]
 fn defects_reach_the_headers_too() {
-    let cnc =
-        |id: &str| Cnc::with_default_model().unwrap().with_defect(Some(Defect::by_id(id).unwrap()));
+    let cnc = |id: &str| {
+        Cnc::with_default_model().unwrap().with_defect(crate::defect::by_id(id).cloned())
+    };
     let ask =
         |id: &str| respond(&cnc(id), request(Command::READ_WRITE, 552, COUNT), COUNT).unwrap();
     assert_eq!(ask("ams-header.invoke_id.flip").0.invoke_id, 0x0102_0305);

@@ -1,7 +1,6 @@
-//! Seeded defects: bytes of one field changed on their way into or out of the codec.
+//! Bytes of one field changed on their way into or out of the codec.
 //!
-//! They are generated from the codec's field tables, so every field has its own. The codec knows
-//! nothing of them.
+//! They are generated from the codec's field tables, so every field has its own.
 //!
 //! ```
 //! use ads_cnc_conformance::defect::Defect;

@@ -1,0 +1,125 @@
+//! Seeded defects: what a codec or a CNC can get wrong, and what it may do otherwise.
+//!
+//! They change bytes or state around the codec and the simulated CNC; neither knows of them. The
+//! suite is tried with them: who has a defect has to fail by a requirement that it breaks, who only
+//! does things in another way may not.
+//!
+//! ```
+//! use ads_cnc_conformance::defect::{self, Kind};
+//!
+//! let seed = defect::by_id("variable-description.size.flip").unwrap();
+//! assert_eq!((seed.kind, &seed.requirements[..]), (Kind::Codec, &["VAR-4"][..]));
+//! ```
+
+mod field;
+
+use std::fmt;
+use std::sync::OnceLock;
+
+use ads_cnc::edition::Edition;
+
+pub use field::{Change, Defect};
+
+/// One thing done wrong, or otherwise.
+#[derive(Clone, Debug)]
+pub struct Seed {
+    /// Unlike that of any other.
+    pub id: String,
+    /// What it breaks: one of them has to fail. None if nothing is wrong with it.
+    pub requirements: Vec<&'static str>,
+    /// What is done.
+    pub what: String,
+    /// By whom.
+    pub kind: Kind,
+    /// The edition it shows in, if it does not in any.
+    pub edition: Option<Edition>,
+    /// Whether the examples that the manuals print are still answered literally, as far as it is
+    /// about. Who does things otherwise need not.
+    pub printed: bool,
+    twist: Twist,
+}
+
+/// Who does something wrong, or otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Kind {
+    /// A codec. A wrong field is wrong in a CNC too.
+    Codec,
+    /// A CNC.
+    Cnc,
+    /// A CNC that does things otherwise, and none of them wrong.
+    Different,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Codec, Self::Cnc, Self::Different];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Codec => "codec",
+            Self::Cnc => "cnc",
+            Self::Different => "different",
+        }
+    }
+}
+
+/// How it is done.
+#[derive(Clone, Debug)]
+enum Twist {
+    Field(Defect),
+}
+
+/// All of them.
+pub fn all() -> &'static [Seed] {
+    static ALL: OnceLock<Vec<Seed>> = OnceLock::new();
+    ALL.get_or_init(|| Defect::all().into_iter().map(Seed::from).collect())
+}
+
+/// The one with this ID.
+pub fn by_id(id: &str) -> Option<&'static Seed> {
+    all().iter().find(|seed| seed.id == id)
+}
+
+impl From<Defect> for Seed {
+    fn from(defect: Defect) -> Self {
+        let clause = defect.field.spec().map(|field| field.clause);
+        let layout = defect.stream.layout();
+        Self {
+            id: defect.id.clone(),
+            requirements: vec![clause.unwrap_or(layout.clause)],
+            what: defect.to_string(),
+            kind: Kind::Codec,
+            edition: None,
+            printed: true,
+            twist: Twist::Field(defect),
+        }
+    }
+}
+
+impl Seed {
+    /// The wrong field, if that is all.
+    pub fn field(&self) -> Option<&Defect> {
+        match &self.twist {
+            Twist::Field(defect) => Some(defect),
+        }
+    }
+
+    /// Whether a simulated CNC can have it.
+    pub const fn is_for_cnc(&self) -> bool {
+        match self.twist {
+            Twist::Field(_) => true,
+        }
+    }
+
+    /// Whether a codec can have it.
+    pub const fn is_for_codec(&self) -> bool {
+        matches!(self.kind, Kind::Codec)
+    }
+}
+
+impl fmt::Display for Seed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.what)
+    }
+}
