@@ -6,6 +6,7 @@
 //! | [`cnc`] | the simulated CNC: data model, answers, AMS/TCP server |
 //! | [`defect`] | seeded defects: changed bytes around the codec |
 //! | [`suite`] | what is tried, and what comes of it |
+//! | [`selftest`] | the suite tried on itself |
 //! | [`testee`] | codecs of others, asked over stdin and stdout |
 //! | [`child`] | commands that a user names |
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
@@ -57,6 +58,7 @@ pub mod net;
 pub mod objects;
 pub mod profile;
 pub mod report;
+pub mod selftest;
 pub mod session;
 pub mod show;
 pub mod suite;

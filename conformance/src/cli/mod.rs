@@ -16,6 +16,7 @@ mod report;
 mod requirements;
 mod run;
 mod run_testee;
+mod selftest;
 mod serve;
 mod service;
 mod set;
@@ -59,6 +60,7 @@ enum Command {
     Get(get::Get),
     Set(set::Set),
     Testee(testee::Testee),
+    Selftest(selftest::SelfTest),
 }
 
 impl Command {
@@ -102,6 +104,7 @@ impl Cli {
             Some(Command::Get(get)) => get.execute().into(),
             Some(Command::Set(set)) => set.execute().into(),
             Some(Command::Testee(testee)) => testee.execute().into(),
+            Some(Command::Selftest(selftest)) => selftest.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
             // The suite against the embedded CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),

@@ -4,12 +4,13 @@ use ads_cnc_vectors::{ProvenanceKind, Vector};
 
 /// Assumptions that set the scene, or without which nothing could be said of a stream at all. Whoever
 /// does it otherwise is judged nonetheless. All others are left to the testee: it may differ.
-const SETTING: [&str; 38] = [
+const SETTING: [&str; 39] = [
     "0x4C is reserved in the manuals",
     "0x703 for a wrong offset",
     "0x704 for an object that must not be written",
     "0x710 for an unknown name",
     "NetIds, the client's port and the invoke ID are made up",
+    "TRUE is written as 1",
     "a STRING of 21 bytes",
     "both numbers are UNS32",
     "both numbers are UNS32, so both lengths are 8",

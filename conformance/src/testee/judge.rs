@@ -102,7 +102,10 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     }
     let view = View { cases: &cases, reactions: &reactions, hello: &hello, edition, terms, gone };
     let mut outcomes: Vec<Outcome> = (0..wanted).filter_map(|place| view.outcome(place)).collect();
-    outcomes.push(manners.outcome(terms.subject));
+    // Our own codec is asked without a protocol in between.
+    if terms.subject != Subject::Codec {
+        outcomes.push(manners.outcome(terms.subject));
+    }
     Judged { hello: Some(hello), outcomes, asked, restarts }
 }
 

@@ -1,0 +1,67 @@
+//! `ads-cnc selftest`: the suite tried on itself.
+
+use std::io::{self, IsTerminal as _, Write as _};
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use clap::Args;
+
+use super::forms::{is_stdout, lost, show, write};
+use crate::selftest;
+use crate::verdict::Exit;
+
+/// Tries the suite on itself: every seeded defect has to be caught, everybody right left in peace.
+///
+/// Codecs with a defect are put to the vectors, CNCs with a defect to the cases over the wire,
+/// clients with a defect to the scenarios. A defect counts as caught when a requirement that it
+/// breaks is among those that fail. `serve --list-defects` lists them.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Exit codes: 0 all caught but for what has a written reason, and no false alarm; \
+    1 something else; 3 nothing tried.\n\nExamples:\n  ads-cnc selftest\n  ads-cnc selftest --only VAR-11 \
+    --verbose\n  ads-cnc selftest --only cnc --json selftest.json"
+)]
+pub(super) struct SelfTest {
+    /// Only what is called this: a group (codec, cnc, client, miniature, different), an area or a
+    /// requirement, or the beginning of an ID; repeatable
+    #[arg(long, value_name = "WORD")]
+    only: Vec<String>,
+
+    /// Show each that was tried
+    #[arg(long, short)]
+    verbose: bool,
+
+    /// Write what came of each as JSON; - is stdout
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+impl SelfTest {
+    /// Tries them all.
+    pub(super) fn execute(&self) -> Exit {
+        let terminal = io::stderr().is_terminal();
+        let last = Mutex::new(0_usize);
+        let tell = |done: usize, all: usize| {
+            let mut last = last.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            if terminal && (done == all || done >= usize::saturating_add(*last, 10)) {
+                *last = done;
+                let end = if done == all { "\n" } else { "" };
+                let _unseen = write!(io::stderr(), "\r{done} of {all}{end}");
+            }
+        };
+        let test = selftest::run(&self.only, tell);
+        let json = |file: &PathBuf| {
+            write(file, |out| {
+                serde_json::to_writer_pretty(&mut *out, &test)?;
+                writeln!(out)
+            })
+        };
+        let written = self.json.as_ref().map_or(Ok(()), json);
+        let quiet = self.json.as_deref().is_some_and(is_stdout);
+        let shown = match quiet {
+            true => Ok(()),
+            false => show(|out| selftest::print(&test, self.verbose, out)),
+        };
+        written.and(shown).map_or_else(lost, |()| test.exit())
+    }
+}

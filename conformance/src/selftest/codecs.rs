@@ -1,0 +1,87 @@
+//! Codecs with a defect, and testees that misbehave as a whole.
+
+use std::time::Duration;
+
+use ads_cnc::layout::Stream;
+
+use super::{Candidate, Group};
+use crate::defect::{self, Seed};
+use crate::session::Trouble;
+use crate::suite::{self, Body, Case, Needs, Outcome, Subject};
+use crate::testee::{Miniature, Own, Process, TESTEE, Terms, judge};
+
+/// How long a miniature may take. Those that say nothing cost this much a case.
+const TIMEOUT: Duration = Duration::from_millis(1000);
+
+/// Every how many cases one is put to a miniature: what it does, it does everywhere.
+const SHARE: usize = 25;
+
+const TERMS: Terms<'static> =
+    Terms { seed: 1, subject: Subject::Testee, edition: None, strict: false };
+
+pub(super) fn candidates() -> Vec<Candidate> {
+    let seeds = defect::all().iter().filter(|seed| seed.is_for_codec()).map(of_seed);
+    seeds.chain(Miniature::ALL.map(of_miniature)).collect()
+}
+
+fn of_seed(seed: &'static Seed) -> Candidate {
+    Candidate {
+        id: seed.id.clone(),
+        group: Group::Codec,
+        what: seed.what.clone(),
+        targets: seed.requirements.clone(),
+        run: Box::new(move || {
+            // A wrong field is in no other stream: the others come out as they always do.
+            let field = seed.field();
+            let touched = |case: &Case| match (&case.body, field) {
+                (Body::Vector(vector), Some(field)) => {
+                    Stream::by_name(&vector.stream).is_some_and(|stream| field.touches(stream))
+                }
+                (_, field) => field.is_none(),
+            };
+            let mut own = Own { defect: Some(seed.clone()) };
+            Ok(judge(&mut own, cases().filter(touched).collect(), TERMS).outcomes)
+        }),
+    }
+}
+
+fn of_miniature(miniature: Miniature) -> Candidate {
+    let is_right = miniature.is_right();
+    let name = miniature.name();
+    Candidate {
+        id: format!("miniature.{name}"),
+        group: if is_right { Group::Different } else { Group::Miniature },
+        what: format!("a testee that {}", name.replace('-', " ")),
+        targets: if is_right { Vec::new() } else { targets(miniature) },
+        run: Box::new(move || over_pipes(miniature)),
+    }
+}
+
+/// What a miniature breaks: the protocol, or whatever it is asked.
+fn targets(miniature: Miniature) -> Vec<&'static str> {
+    match miniature {
+        Miniature::KnowsAll | Miniature::Tires | Miniature::Stays => vec![TESTEE],
+        _ => {
+            let mut all: Vec<&str> = some().flat_map(|case| case.requirements).collect();
+            all.sort_unstable();
+            all.dedup();
+            all
+        }
+    }
+}
+
+fn over_pipes(miniature: Miniature) -> Result<Vec<Outcome>, Trouble> {
+    let program = std::env::current_exe()
+        .map_err(|error| Trouble::Internal(format!("this program is not found: {error}")))?;
+    let command = format!("\"{}\" testee --miniature {}", program.display(), miniature.name());
+    let mut process = Process::new(command, TIMEOUT);
+    Ok(judge(&mut process, some().collect(), TERMS).outcomes)
+}
+
+fn some() -> impl Iterator<Item = Case> {
+    cases().enumerate().filter(|(place, _)| place % SHARE == 0).map(|(_, case)| case)
+}
+
+fn cases() -> impl Iterator<Item = Case> {
+    suite::cases().into_iter().filter(|case| case.needs == Needs::Codec)
+}

@@ -1,0 +1,229 @@
+//! The suite tried on itself: whoever has a seeded defect has to fail by a requirement that it
+//! breaks, and whoever merely does things otherwise by none.
+//!
+//! A defect counts as caught when a requirement that it targets is among those that fail, or, if it
+//! targets no more than a should, among those that are warned of. What survives has a written
+//! reason, or the self-test fails.
+
+mod clients;
+mod codecs;
+mod reasons;
+mod show;
+mod targets;
+
+use std::sync::Mutex;
+use std::thread;
+
+use serde::Serialize;
+
+use crate::session::Trouble;
+use crate::suite::Outcome;
+use crate::verdict::{Exit, Verdict};
+
+pub use show::print;
+
+/// Who is tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Group {
+    /// Codecs with a defect, by the vectors.
+    Codec,
+    /// CNCs with a defect, by the cases over the wire.
+    Cnc,
+    /// Clients with a defect, by the scenarios.
+    Client,
+    /// Testees that misbehave as a whole.
+    Miniature,
+    /// Who does things otherwise, and nothing wrong.
+    Different,
+}
+
+impl Group {
+    /// All of them, in the order of reports.
+    pub const ALL: [Self; 5] =
+        [Self::Codec, Self::Cnc, Self::Client, Self::Miniature, Self::Different];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Codec => "codec",
+            Self::Cnc => "cnc",
+            Self::Client => "client",
+            Self::Miniature => "miniature",
+            Self::Different => "different",
+        }
+    }
+}
+
+/// One that is tried.
+#[derive(Clone, Debug, Serialize)]
+pub struct Tried {
+    /// The defect, the miniature or the difference.
+    pub id: String,
+    /// As what it was tried.
+    pub group: Group,
+    /// What it does.
+    pub what: String,
+    /// What it breaks; nothing if it does nothing wrong.
+    pub targets: Vec<String>,
+    /// Requirements that failed.
+    pub failed: Vec<String>,
+    /// What came of it.
+    pub result: Outcomes,
+    /// Of one that survives: why it may.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// What came of one that was tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcomes {
+    /// A requirement that it breaks has failed.
+    Caught,
+    /// Others have failed, and none that it breaks.
+    Elsewhere,
+    /// Nothing has failed.
+    Survived,
+    /// Nothing is wrong, and nothing has failed.
+    Quiet,
+    /// Nothing is wrong, and something has failed.
+    FalseAlarm,
+    /// It could not be tried.
+    Broken,
+}
+
+/// A self-test.
+#[derive(Clone, Debug, Serialize)]
+pub struct SelfTest {
+    /// Each that was tried, in the order of groups and IDs.
+    pub tried: Vec<Tried>,
+    /// Reasons for survivors that are none.
+    pub stale: Vec<String>,
+}
+
+impl SelfTest {
+    /// How many of a group did what they should, and how many there are.
+    pub fn rate(&self, group: Group) -> (usize, usize) {
+        let mine = || self.tried.iter().filter(|one| one.group == group);
+        let right = |one: &&Tried| matches!(one.result, Outcomes::Caught | Outcomes::Quiet);
+        (mine().filter(right).count(), mine().count())
+    }
+
+    /// How the process ends: a survivor without a reason, a false alarm and a reason for none fail.
+    pub fn exit(&self) -> Exit {
+        let wrong = |one: &Tried| match one.result {
+            Outcomes::Caught | Outcomes::Quiet => false,
+            Outcomes::Survived | Outcomes::Elsewhere => one.reason.is_none(),
+            Outcomes::FalseAlarm | Outcomes::Broken => true,
+        };
+        match self.tried.iter().any(wrong) || !self.stale.is_empty() {
+            _ if self.tried.is_empty() => Exit::Nothing,
+            true => Exit::Failure,
+            false => Exit::Success,
+        }
+    }
+}
+
+/// One that can be tried.
+struct Candidate {
+    id: String,
+    group: Group,
+    what: String,
+    targets: Vec<&'static str>,
+    run: Box<dyn Fn() -> Result<Vec<Outcome>, Trouble> + Send + Sync>,
+}
+
+/// Tries all whose ID, group or target begins with one of these words; all if there is none.
+/// `tell` hears of each when it is done: how many are, of how many.
+pub fn run(only: &[String], tell: impl Fn(usize, usize) + Sync) -> SelfTest {
+    let wanted = |one: &Candidate| {
+        only.is_empty()
+            || only.iter().any(|word| {
+                one.id.starts_with(word.as_str())
+                    || one.group.name() == word
+                    || one.targets.iter().any(|id| crate::suite::names(word, id))
+            })
+    };
+    let mut candidates = codecs::candidates();
+    candidates.extend(targets::candidates());
+    candidates.extend(clients::candidates());
+    candidates.retain(wanted);
+    let all = candidates.len();
+    let left = Mutex::new((candidates.into_iter().enumerate(), Vec::with_capacity(all)));
+    let workers = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(|| {
+                loop {
+                    let next = lock(&left).0.next();
+                    let Some((place, candidate)) = next else { return };
+                    let tried = attempt(&candidate);
+                    let mut left = lock(&left);
+                    left.1.push((place, tried));
+                    tell(left.1.len(), all);
+                }
+            });
+        }
+    });
+    let (_, mut tried) = left.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    tried.sort_by_key(|(place, _)| *place);
+    let tried: Vec<Tried> = tried.into_iter().map(|(_, tried)| tried).collect();
+    let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
+    SelfTest { tried, stale }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+fn attempt(candidate: &Candidate) -> Tried {
+    let Candidate { id, group, what, targets, run } = candidate;
+    let (failed, result) = match run() {
+        Ok(outcomes) => judge(targets, &outcomes),
+        Err(trouble) => (vec![trouble.to_string()], Outcomes::Broken),
+    };
+    let survives = matches!(result, Outcomes::Survived | Outcomes::Elsewhere);
+    Tried {
+        id: id.clone(),
+        group: *group,
+        what: what.clone(),
+        targets: targets.iter().map(|&id| id.to_owned()).collect(),
+        failed,
+        result,
+        reason: reasons::of(*group, id).filter(|_| survives).map(str::to_owned),
+    }
+}
+
+/// What has failed, and whether that is right.
+fn judge(targets: &[&str], outcomes: &[Outcome]) -> (Vec<String>, Outcomes) {
+    let with = |verdicts: &[Verdict]| -> Vec<&'static str> {
+        let judged = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
+        let mut found: Vec<&'static str> = judged
+            .filter(|one| verdicts.contains(&one.verdict))
+            .map(|one| one.requirement)
+            .collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    };
+    let failed = with(&[Verdict::Fail, Verdict::Vacuous]);
+    // A should is warned of, and what is assumed differs: by their levels these are caught too.
+    let noticed = with(&[Verdict::Warning, Verdict::Differs]);
+    let level = |id: &str| ads_cnc_vectors::requirement(id).map(|requirement| requirement.level);
+    let hit = |id: &&str| {
+        failed.contains(id)
+            || level(id) != Some(ads_cnc_vectors::Level::Must) && noticed.contains(id)
+    };
+    let broken = with(&[Verdict::HarnessError]);
+    let result = match (targets.is_empty(), targets.iter().any(hit)) {
+        _ if !broken.is_empty() => Outcomes::Broken,
+        (true, _) if failed.is_empty() => Outcomes::Quiet,
+        (true, _) => Outcomes::FalseAlarm,
+        (false, true) => Outcomes::Caught,
+        (false, false) if failed.is_empty() => Outcomes::Survived,
+        (false, false) => Outcomes::Elsewhere,
+    };
+    let shown = if broken.is_empty() { failed } else { broken };
+    (shown.into_iter().map(str::to_owned).collect(), result)
+}

@@ -1,0 +1,25 @@
+//! Why some defects may survive.
+
+use super::{Group, Outcomes, Tried};
+
+/// Group, beginning of the ID, and why nothing can tell.
+const REASONS: &[(Group, &str, &str)] = &[];
+
+/// The reason for a survivor, if there is one.
+pub(super) fn of(group: Group, id: &str) -> Option<&'static str> {
+    let mine = REASONS.iter().find(|(of, start, _)| *of == group && id.starts_with(start));
+    mine.map(|(_, _, reason)| *reason)
+}
+
+/// Reasons that no survivor needs.
+pub(super) fn stale(tried: &[Tried]) -> Vec<String> {
+    let needed = |(group, start, _): &&(Group, &str, &str)| {
+        tried.iter().any(|one| {
+            one.group == *group
+                && one.id.starts_with(start)
+                && matches!(one.result, Outcomes::Survived | Outcomes::Elsewhere)
+        })
+    };
+    let stale = REASONS.iter().filter(|reason| !needed(reason));
+    stale.map(|(group, start, _)| format!("{} {start}", group.name())).collect()
+}

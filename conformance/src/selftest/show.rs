@@ -1,0 +1,74 @@
+//! The self-test for people.
+
+use std::io::{self, Write};
+
+use super::{Group, Outcomes, SelfTest, Tried};
+use crate::verdict::Exit;
+
+/// The most targets on a line.
+const TARGETS_SHOWN: usize = 6;
+
+/// Writes what came of a self-test; with `verbose` of each that was tried.
+///
+/// # Errors
+/// Those of `out`.
+pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
+    for one in &test.tried {
+        let fine = matches!(one.result, Outcomes::Caught | Outcomes::Quiet);
+        if verbose || !fine {
+            entry(one, out)?;
+        }
+    }
+    for id in &test.stale {
+        writeln!(out, "stale reason: no survivor is called {id}")?;
+    }
+    if test.tried.is_empty() {
+        return writeln!(out, "Nothing was tried.");
+    }
+    for group in Group::ALL {
+        let (right, all) = test.rate(group);
+        if all == 0 {
+            continue;
+        }
+        match group {
+            Group::Different => {
+                let alarms = all.saturating_sub(right);
+                writeln!(out, "{:<10}  {alarms} false alarms of {all}", group.name())?;
+            }
+            _ => {
+                let percent = percent(right, all);
+                writeln!(out, "{:<10}  {right} caught of {all} ({percent} %)", group.name())?;
+            }
+        }
+    }
+    let verdict = if test.exit() == Exit::Success { "PASSED" } else { "NOT PASSED" };
+    writeln!(out, "{verdict}  exit code {}", test.exit().code())
+}
+
+fn percent(part: usize, all: usize) -> String {
+    let tenths = part.saturating_mul(1000).checked_div(all).unwrap_or_default();
+    format!("{}.{}", tenths / 10, tenths % 10)
+}
+
+fn entry(one: &Tried, out: &mut dyn Write) -> io::Result<()> {
+    let result = match one.result {
+        Outcomes::Caught => "caught",
+        Outcomes::Elsewhere => "ELSEWHERE",
+        Outcomes::Survived => "SURVIVED",
+        Outcomes::Quiet => "quiet",
+        Outcomes::FalseAlarm => "FALSE ALARM",
+        Outcomes::Broken => "BROKEN",
+    };
+    let targets: Vec<&str> = one.targets.iter().take(TARGETS_SHOWN).map(String::as_str).collect();
+    let more = if one.targets.len() > TARGETS_SHOWN { " …" } else { "" };
+    let (group, id, targets) = (one.group.name(), &one.id, targets.join(" "));
+    writeln!(out, "{result:<11}  {group:<9}  {id}  [{targets}{more}]")?;
+    writeln!(out, "             {}", one.what)?;
+    if !one.failed.is_empty() {
+        writeln!(out, "             failed: {}", one.failed.join(" "))?;
+    }
+    match &one.reason {
+        Some(reason) => writeln!(out, "             may survive: {reason}"),
+        None => Ok(()),
+    }
+}

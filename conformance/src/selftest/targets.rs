@@ -1,0 +1,62 @@
+//! CNCs with a defect, and CNCs that do things otherwise.
+
+use ads_cnc::edition::Edition;
+
+use super::{Candidate, Group};
+use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
+use crate::defect::{self, Kind, Seed};
+use crate::profile::Profile;
+use crate::session::{self, Trouble};
+use crate::suite::{self, Case, Needs, Outcome, Session};
+
+/// A version that has 0x4C and all kinds.
+const NEWEST: &str = "V4.29.0";
+
+pub(super) fn candidates() -> Vec<Candidate> {
+    defect::all().iter().filter(|seed| seed.is_for_cnc()).map(of_seed).collect()
+}
+
+fn of_seed(seed: &'static Seed) -> Candidate {
+    let is_right = seed.kind == Kind::Different;
+    Candidate {
+        id: seed.id.clone(),
+        group: if is_right { Group::Different } else { Group::Cnc },
+        what: seed.what.clone(),
+        targets: seed.requirements.clone(),
+        run: Box::new(move || against(seed)),
+    }
+}
+
+/// Runs the cases of a target against an embedded CNC that has it: as it is by default, and one
+/// new enough for whatever there is.
+fn against(seed: &Seed) -> Result<Vec<Outcome>, Trouble> {
+    let by_default = Settings { edition: seed.edition, version: None };
+    let newest = Settings { edition: Some(Edition::German), version: NEWEST.parse().ok() };
+    let mut outcomes = run(seed, by_default)?;
+    if seed.edition.is_none() {
+        outcomes.extend(run(seed, newest)?);
+    }
+    Ok(outcomes)
+}
+
+fn run(seed: &Seed, settings: Settings) -> Result<Vec<Outcome>, Trouble> {
+    let internal = |error| Trouble::Internal(format!("the default model: {error}"));
+    let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
+    let cnc = Cnc::new(model.map_err(internal)?).with_defect(Some(seed.clone()));
+    let session = session::Session::embedded_to_try(cnc)?;
+    // The CNC runs as long as it is held.
+    let (client, running) = session.into_parts();
+    let embedded = Profile::EMBEDDED;
+    let profile = Profile {
+        edition: settings.edition.unwrap_or(embedded.edition),
+        printed_examples: seed.printed,
+        ..embedded
+    };
+    let mut session = Session::new(client, profile);
+    if let Some(server) = &running {
+        session = session.with_cnc(server.cnc());
+    }
+    let of_target = |case: &Case| case.needs != Needs::Codec;
+    let cases = suite::cases().into_iter().filter(of_target).collect();
+    Ok(suite::run(cases, Some(&mut session), None, 1))
+}
