@@ -136,6 +136,11 @@ fn every_field_of_writes_is_seen() {
     every_field_is_seen(Stream::WriteReply, &[]);
 }
 
+#[test]
+fn every_field_of_the_program_stream_is_seen() {
+    every_field_is_seen(Stream::ProgramStream, &[]);
+}
+
 /// A should: what is done otherwise is a warning.
 #[test]
 fn every_field_of_the_description_by_name_is_seen() {

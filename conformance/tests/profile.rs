@@ -53,7 +53,7 @@ fn what_is_not_claimed_is_not_applicable() {
         File::new("variables", "name = \"panel\"\nsections = [\"variables\"]\nports = [552]\n");
     let (output, report) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
-    for case in ["com-count", "com-content", "sda-elements", "dyn-names"] {
+    for case in ["com-count", "com-content", "sda-elements", "dyn-names", "service-variables"] {
         assert_eq!(verdict(&report, case), "not-applicable", "{case}");
     }
     for case in ["var-descriptions", "val-whole-by-name"] {

@@ -193,6 +193,39 @@ fn a_run_writes_what_the_file_names_and_puts_it_back() {
     assert_eq!(writes.len(), 18);
 }
 
+/// What is streamed to a device are comments, and a service answers nobody: nothing moves.
+#[test]
+fn a_run_streams_comments_and_answers_nobody() {
+    let entries = "[[stream]]\nchannel = 1\n[[stream]]\nrank = 1\n[[service]]\nchannel = 1\n";
+    let file = AllowFile::new("stream", entries);
+    let tripwire = Tripwire::start();
+    let output = tripwire.call(&["run", "--allow-write", file.name()]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let connections = tripwire.connections();
+    let all = connections.iter().flat_map(|bytes| frames(bytes));
+    let (mut streamed, mut answered) = (0, 0);
+    for frame in all.filter(|frame| !is_harmless(frame)) {
+        assert_eq!(frame[22], 3, "{frame:02x?}");
+        let data = &frame[50..];
+        if number(frame, 42) == 0x90 {
+            assert!([0x12_0101, 0x2_0101].contains(&number(frame, 38)), "{frame:02x?}");
+            assert!(data.len() <= 992 && data.ends_with(b"\r\n"));
+            let lines = data.split(|&byte| byte == b'\n');
+            let mut lines = lines.map(|line| line.strip_suffix(b"\r").unwrap_or(line));
+            let is_comment = |line: &[u8]| {
+                line.is_empty() || line[0] == b';' || line[0] == b'(' && line.ends_with(b")")
+            };
+            assert!(lines.all(is_comment), "{data:?}");
+            streamed += 1;
+        } else {
+            assert_eq!((number(frame, 38), number(frame, 42)), (0x12_2301, 0x4A), "{frame:02x?}");
+            assert!(data.starts_with(b"V.G.SERVICE.RE"), "{data:?}");
+            answered += 1;
+        }
+    }
+    assert!(streamed > 2 && answered > 3, "{streamed} packets, {answered} answers");
+}
+
 /// A file for `--allow-write` that is gone with the test.
 struct AllowFile(std::path::PathBuf);
 

@@ -16,10 +16,13 @@ mod outcome;
 mod place;
 mod printed;
 mod probe;
+mod replay;
 mod run;
 mod sda;
 mod select;
+mod service;
 mod still;
+mod stream;
 mod survey;
 mod values;
 mod variable;
@@ -71,6 +74,9 @@ pub fn cases() -> Vec<Case> {
     cases.extend(axis::cases());
     cases.extend(write::cases());
     cases.extend(write_content::cases());
+    cases.extend(stream::cases());
+    cases.extend(service::cases());
+    cases.extend(replay::cases());
     cases.extend(malformed::cases());
     cases.extend(printed::cases());
     // Judges what all the others exchanged, so it comes last.

@@ -2,8 +2,8 @@
 
 use super::case::{Body, Case, Needs, Stop, Subject};
 use super::outcome::Outcome;
-use super::printed;
 use super::probe::{Probe, Session};
+use super::{printed, replay};
 use crate::defect::Seed;
 use crate::testee::{self, Terms};
 use crate::verdict::Verdict;
@@ -71,7 +71,8 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
     let step = match case.body {
         Body::Probe(body) => body(&mut probe),
         Body::Printed(vector) => printed::ask(&mut probe, vector),
-        Body::Vector(_) | Body::Sequence(_) | Body::Manners => {
+        Body::Sequence(sequence) => replay::run(&mut probe, sequence),
+        Body::Vector(_) | Body::Manners => {
             Err(Stop::Harness("a case of a codec needs no target".to_owned()))
         }
     };

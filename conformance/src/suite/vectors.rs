@@ -34,7 +34,7 @@ fn of_text(sequence: &'static Sequence) -> Case {
 pub fn siblings_of(cases: &[Case]) -> Vec<Case> {
     let mut known: HashSet<&str> = HashSet::new();
     let mut wanted: Vec<&str> = Vec::new();
-    for case in cases {
+    for case in cases.iter().filter(|case| case.needs == Needs::Codec) {
         let (id, sibling) = match &case.body {
             Body::Vector(vector) => (&vector.id, vector.sibling.as_deref()),
             Body::Sequence(sequence) => (&sequence.id, sequence.sibling.as_deref()),

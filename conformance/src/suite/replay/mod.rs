@@ -1,0 +1,102 @@
+//! The golden sequences of data streaming and of the Service Interface, over the wire: the suite is
+//! the client or the service, and lets the CNC's own part happen from within.
+
+mod service;
+mod streaming;
+
+pub(super) use streaming::send;
+
+use ads_cnc_vectors::{Given, Sequence, SequenceExpect, requirement, sequences};
+
+use crate::suite::case::{Body, Case, Needs, Step, Stop, Subject};
+use crate::suite::probe::{Probe, harness};
+
+/// What a client or a service does, which the suite itself is here.
+const NOT_THE_TARGETS: [&str; 4] = ["STM-17", "SVC-2", "SVC-5", "SVC-7"];
+
+/// The channel that sequences are about, unless they say which.
+const CHANNEL: u8 = 1;
+
+/// One case for each sequence that says something of the CNC.
+pub(super) fn cases() -> Vec<Case> {
+    let all = sequences().iter();
+    let steps = all.filter(|one| matches!(one.given, Given::Streaming(_) | Given::Service(_)));
+    let cases = steps.map(|sequence| {
+        let ids = sequence.requirements.iter().map(String::as_str);
+        let of_target = ids.filter(|id| !NOT_THE_TARGETS.contains(id));
+        Case {
+            id: format!("seq-{}", sequence.id),
+            title: sequence.title.clone(),
+            subject: Subject::Target,
+            requirements: of_target.filter_map(requirement).map(|one| one.id.as_str()).collect(),
+            needs: Needs::Embedded,
+            body: Body::Sequence(sequence),
+        }
+    });
+    cases.filter(|case| !case.requirements.is_empty()).collect()
+}
+
+/// What is at fault: its class, and the step.
+type Fault<'c> = Option<(&'static str, &'c str)>;
+
+/// How a step ends that does not go as stated, or cannot be done.
+enum Otherwise {
+    /// What was expected, and what was there.
+    Differs(String, String),
+    Stop(Stop),
+}
+
+impl From<Stop> for Otherwise {
+    fn from(stop: Stop) -> Self {
+        Self::Stop(stop)
+    }
+}
+
+type Done<T> = Result<T, Otherwise>;
+
+fn differs<T>(expected: impl ToString, found: impl ToString) -> Done<T> {
+    Err(Otherwise::Differs(expected.to_string(), found.to_string()))
+}
+
+/// That a sequence lacks what its kind has.
+fn lacks(what: &str) -> Otherwise {
+    Otherwise::Stop(Stop::Harness(format!("a step lacks its {what}")))
+}
+
+/// Goes through a sequence.
+pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
+    let done = match &sequence.given {
+        Given::Streaming(given) => streaming::run(probe, given),
+        Given::Service(given) => service::run(probe, given),
+        _ => return Err(Stop::Harness("a text has no steps".to_owned())),
+    };
+    let stated = match &sequence.expect {
+        SequenceExpect::Accept(_) => None,
+        SequenceExpect::Reject(reject) => {
+            Some((reject.class.as_str(), reject.step.as_deref().unwrap_or_default()))
+        }
+    };
+    let (kept, expected, found) = match done {
+        Ok(fault) => (fault == stated, show(stated), show(fault)),
+        Err(Otherwise::Differs(expected, found)) => (false, expected, found),
+        Err(Otherwise::Stop(stop)) => return Err(stop),
+    };
+    let ids = sequence.requirements.iter().filter_map(|id| requirement(id));
+    for id in ids.map(|one| one.id.as_str()).filter(|id| !NOT_THE_TARGETS.contains(id)) {
+        // The embedded CNC does what is assumed too.
+        probe.check(id, kept, &expected, &found);
+    }
+    Ok(())
+}
+
+fn show(fault: Option<(&str, &str)>) -> String {
+    match fault {
+        None => "every step as stated".to_owned(),
+        Some((class, step)) => format!("{class} in the step {step}"),
+    }
+}
+
+/// What the embedded CNC refuses to have done to it is a mistake of the suite.
+fn within<T>(done: Result<T, crate::cnc::ControlError>) -> Done<T> {
+    done.map_err(|error| harness(error).into())
+}
