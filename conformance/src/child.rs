@@ -1,6 +1,10 @@
 //! Commands that a user names: started apart from this process, and ended with all they started.
 
+mod spoken;
+
 use std::process::{Child, Command};
+
+pub use spoken::{LINE_MAX, Spoken, Stderr, Unheard, cut};
 
 /// A command line as the user's shell understands it.
 pub fn shell(line: &str) -> Command {

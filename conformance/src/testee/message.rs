@@ -7,8 +7,7 @@ use serde_json::Value;
 /// Version of the protocol.
 pub const PROTOCOL: u32 = 1;
 
-/// The longest line, its end not counted.
-pub const LINE_MAX: usize = 32 << 20;
+pub use crate::child::LINE_MAX;
 
 /// A line to the testee.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,0 +1,178 @@
+//! A command that is spoken with over stdin and stdout, a line at a time.
+
+use std::collections::VecDeque;
+use std::io::{self, BufRead, BufReader, Read, Write as _};
+use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::{apart, end};
+
+/// The longest line that is taken.
+pub const LINE_MAX: usize = 32 << 20;
+
+/// The last of what a command wrote to stderr that is kept.
+const STDERR_KEPT: usize = 64 << 10;
+
+/// What a command says to stderr: the last of it.
+#[derive(Clone, Debug, Default)]
+pub struct Stderr(Arc<Mutex<VecDeque<u8>>>);
+
+impl Stderr {
+    /// It as text.
+    pub fn text(&self) -> String {
+        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()).into_owned()
+    }
+
+    fn keep(&self, mut from: impl Read) {
+        let mut chunk = [0; 4096];
+        while let Ok(len @ 1..) = from.read(&mut chunk) {
+            let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            kept.extend(chunk.iter().take(len));
+            let over = kept.len().saturating_sub(STDERR_KEPT);
+            kept.drain(..over);
+        }
+    }
+}
+
+/// Why there is no line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unheard {
+    /// None came in time.
+    Silence,
+    /// It has closed its stdout.
+    Closed,
+    /// What came is no line.
+    Garbled(String),
+}
+
+/// A command that runs; ended with all that it has started when it is dropped.
+#[derive(Debug)]
+pub struct Spoken {
+    child: Child,
+    to: Sender<Vec<u8>>,
+    from: Receiver<Result<String, String>>,
+    /// Its end has been seen: its number is nobody's or another's.
+    is_over: bool,
+}
+
+impl Spoken {
+    /// Starts a command, apart from this process.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub fn start(mut command: Command, stderr: &Stderr) -> io::Result<Self> {
+        command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        apart(&mut command);
+        let mut child = command.spawn()?;
+        let (to, lines) = mpsc::channel();
+        let (tell, from) = mpsc::sync_channel(4);
+        if let Some(stdin) = child.stdin.take() {
+            spawn("to command", move || write(stdin, &lines))?;
+        }
+        if let Some(stdout) = child.stdout.take() {
+            let tell = move || {
+                let mut stdout = BufReader::new(stdout);
+                while let Some(line) = line(&mut stdout) {
+                    let over = line.is_err();
+                    if tell.send(line).is_err() || over {
+                        break;
+                    }
+                }
+            };
+            spawn("from command", tell)?;
+        }
+        if let Some(from) = child.stderr.take() {
+            let kept = stderr.clone();
+            spawn("command's stderr", move || kept.keep(from))?;
+        }
+        Ok(Self { child, to, from, is_over: false })
+    }
+
+    /// Says a line. Who has ended reads nothing: its end is seen when the answer is waited for.
+    pub fn say(&self, mut line: Vec<u8>) {
+        line.push(b'\n');
+        let _gone = self.to.send(line);
+    }
+
+    /// Waits for a line.
+    ///
+    /// # Errors
+    /// What came instead.
+    pub fn hear(&self, timeout: Duration) -> Result<String, Unheard> {
+        match self.from.recv_timeout(timeout) {
+            Ok(Ok(line)) => Ok(line),
+            Ok(Err(why)) => Err(Unheard::Garbled(why)),
+            Err(RecvTimeoutError::Timeout) => Err(Unheard::Silence),
+            Err(RecvTimeoutError::Disconnected) => Err(Unheard::Closed),
+        }
+    }
+
+    /// Closes its stdin and waits for its end; none if it does not end in time, and is ended then.
+    pub fn ended(mut self, limit: Duration) -> Option<ExitStatus> {
+        self.to = mpsc::channel().0;
+        let status = wait(&mut self.child, limit);
+        self.is_over = status.is_some();
+        status
+    }
+}
+
+impl Drop for Spoken {
+    fn drop(&mut self) {
+        if !self.is_over {
+            end(&mut self.child);
+        }
+    }
+}
+
+fn spawn(name: &str, run: impl FnOnce() + Send + 'static) -> io::Result<()> {
+    thread::Builder::new().name(name.to_owned()).spawn(run).map(drop)
+}
+
+/// A command that does not read must not keep this process from waiting for its answer.
+fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
+    while let Ok(line) = lines.recv() {
+        if stdin.write_all(&line).and_then(|()| stdin.flush()).is_err() {
+            return;
+        }
+    }
+}
+
+/// The next line without its end; none at the end of the stream.
+fn line(from: &mut impl BufRead) -> Option<Result<String, String>> {
+    let limit = u64::try_from(LINE_MAX).unwrap_or(u64::MAX).saturating_add(2);
+    let mut line = Vec::new();
+    match from.take(limit).read_until(b'\n', &mut line) {
+        Err(_) | Ok(0) => return None,
+        Ok(_) => {}
+    }
+    if line.last() == Some(&b'\n') {
+        line.pop();
+    } else if line.len() > LINE_MAX {
+        return Some(Err(format!("a line of more than {LINE_MAX} bytes")));
+    }
+    if line.last() == Some(&b'\r') {
+        line.pop();
+    }
+    Some(Ok(String::from_utf8_lossy(&line).into_owned()))
+}
+
+fn wait(child: &mut Child, limit: Duration) -> Option<ExitStatus> {
+    let until = Instant::now().checked_add(limit)?;
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) => return Some(status),
+            Ok(None) if Instant::now() < until => thread::sleep(Duration::from_millis(2)),
+            _ => return None,
+        }
+    }
+}
+
+/// The front of a line, for a message.
+pub fn cut(line: &str) -> String {
+    let shown: String = line.chars().take(120).collect();
+    if shown.len() < line.len() { format!("{shown:?}…") } else { format!("{shown:?}") }
+}
