@@ -8,7 +8,7 @@
 //! use ads_cnc_conformance::defect::{self, Kind};
 //!
 //! let seed = defect::by_id("variable-description.size.flip").unwrap();
-//! assert_eq!((seed.kind, &seed.requirements[..]), (Kind::Codec, &["VAR-4"][..]));
+//! assert_eq!((seed.kind, &seed.requirements[..]), (Kind::Codec, &["VAR-4", "VAR-8"][..]));
 //! ```
 
 mod field;
@@ -83,11 +83,14 @@ pub fn by_id(id: &str) -> Option<&'static Seed> {
 
 impl From<Defect> for Seed {
     fn from(defect: Defect) -> Self {
-        let clause = defect.field.spec().map(|field| field.clause);
+        // The field's own clause, and the one that says where in the stream it stands.
         let layout = defect.stream.layout();
+        let mut requirements = vec![layout.clause];
+        requirements.extend(defect.field.spec().map(|field| field.clause));
+        requirements.dedup();
         Self {
             id: defect.id.clone(),
-            requirements: vec![clause.unwrap_or(layout.clause)],
+            requirements,
             what: defect.to_string(),
             kind: Kind::Codec,
             edition: None,
