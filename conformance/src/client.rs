@@ -16,6 +16,7 @@ use ads_cnc::limits::ADS_DATA_MAX;
 use ads_cnc::operation::{Call, Service};
 use ads_cnc::{Decode, Encode};
 
+use crate::capture::Capture;
 use crate::exchange::{Answer, Exchange, Fault, Violation};
 use crate::gate::{Gate, Moment, Permit};
 use crate::net::Wire;
@@ -68,6 +69,7 @@ pub struct Client {
     gate: Gate,
     clock: fn() -> Moment,
     wire: Option<Wire>,
+    capture: Option<Capture>,
     dry: bool,
     last: Option<Instant>,
     invoke_id: u32,
@@ -109,6 +111,7 @@ impl Client {
             gate,
             clock: Moment::now,
             wire: None,
+            capture: None,
             dry: false,
             last: None,
             invoke_id: 0,
@@ -119,6 +122,24 @@ impl Client {
     #[must_use]
     pub fn with_clock(self, clock: fn() -> Moment) -> Self {
         Self { clock, ..self }
+    }
+
+    /// With a capture of all that is sent and received from now on.
+    #[must_use]
+    pub fn with_capture(mut self, mut capture: Capture) -> Self {
+        if let Some(wire) = &self.wire {
+            capture.opened(wire.local(), self.target.addr);
+        }
+        self.capture = Some(capture);
+        self
+    }
+
+    /// Ends the capture, if there is one.
+    ///
+    /// # Errors
+    /// What of it could not be written.
+    pub fn end_capture(&mut self) -> io::Result<()> {
+        self.capture.take().map_or(Ok(()), Capture::finish)
     }
 
     /// The gate in front of the target.
@@ -262,6 +283,9 @@ impl Client {
     /// Ends the connection. Who answers on the next may be another, or have restarted.
     fn disconnect(&mut self) {
         self.wire = None;
+        if let Some(capture) = &mut self.capture {
+            capture.closed();
+        }
         self.gate.forget();
     }
 
@@ -283,10 +307,20 @@ impl Client {
         self.keep_pace();
         let wire = match self.wire.take() {
             Some(wire) => wire,
-            None => Wire::connect(self.target.addr, self.target.timeout).map_err(Fault::gone)?,
+            None => {
+                let wire = Wire::connect(self.target.addr, self.target.timeout);
+                let wire = wire.map_err(Fault::gone)?;
+                if let Some(capture) = &mut self.capture {
+                    capture.opened(wire.local(), self.target.addr);
+                }
+                wire
+            }
         };
         let wire = self.wire.insert(wire);
         wire.send(permit).map_err(Fault::io)?;
+        if let Some(capture) = &mut self.capture {
+            capture.sent(permit.frame());
+        }
         let asked = Instant::now();
         let mut chunk = [0; 4096];
         loop {
@@ -297,8 +331,7 @@ impl Client {
                     if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {
                         let what = format!("{more} bytes behind the answer that nobody asked for");
                         violations.push(Violation { requirement: "ADS-5", what });
-                        self.wire = None;
-                        self.gate.forget();
+                        self.disconnect();
                     }
                     received.truncate(len);
                     return Ok(header);
@@ -315,7 +348,13 @@ impl Client {
             }
             match wire.receive(&mut chunk, left) {
                 Ok(0) => return Err(Fault::Closed),
-                Ok(len) => received.extend(chunk.iter().take(len)),
+                Ok(len) => {
+                    let came = chunk.get(..len).unwrap_or_default();
+                    received.extend(came);
+                    if let Some(capture) = &mut self.capture {
+                        capture.received(came);
+                    }
+                }
                 Err(error)
                     if matches!(
                         error.kind(),

@@ -10,6 +10,7 @@
 //! | [`testee`] | codecs of others, asked over stdin and stdout |
 //! | [`child`] | commands that a user names |
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
+//! | [`capture`] | what went over a connection, as Wireshark reads it |
 //! | [`gate`] | what may be sent to a target |
 //! | [`session`] | a CNC to ask, typed: what tools work with |
 //! | [`objects`], [`named`] | what a CNC has, all of it or one thing by its name |
@@ -42,6 +43,7 @@
     )
 )]
 
+pub mod capture;
 pub mod child;
 pub mod cli;
 pub mod client;

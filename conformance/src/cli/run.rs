@@ -1,6 +1,6 @@
 //! `ads-cnc run`: the suite against a target.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use ads_cnc::Kind;
 use ads_cnc::address::Channel;
@@ -13,6 +13,7 @@ use super::list;
 use super::run_testee;
 use super::target::{REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect};
+use crate::capture::Capture;
 use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::Seed;
 use crate::gate::Moment;
@@ -77,6 +78,10 @@ pub(super) struct Run {
     /// Write a profile to be filled in, with a comment on everything in it
     #[arg(long, exclusive = true)]
     print_profile: bool,
+
+    /// Write everything sent and received as pcapng, which Wireshark reads
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["testee", "dry_run"])]
+    capture: Option<PathBuf>,
 
     /// Known failures that the run puts up with
     #[arg(long, value_name = "FILE")]
@@ -258,7 +263,8 @@ impl Run {
 
     fn device(&self, seed: u32, waivers: Waivers, profile: Profile) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let mut session = self.target.clone().with_timeout(profile.timeout).open()?;
+        let session = self.target.clone().with_timeout(profile.timeout).open()?;
+        let mut session = self.captured(session)?;
         // Silence is judged case by case only of one that speaks at all: an error of ADS does.
         let greeted = match profile.claims(Function::CountObjects) {
             Claim::No => {
@@ -283,7 +289,7 @@ impl Run {
             device,
             ..TargetReport::default()
         };
-        Ok(self.judge(plan, session, None, self.about(target, seed, waivers)))
+        self.judge(plan, session, None, self.about(target, seed, waivers))
     }
 
     /// Starts the embedded CNC, runs everything against it and stops it.
@@ -299,7 +305,7 @@ impl Run {
         let settings = Settings { edition: Some(profile.edition), version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
         let cnc = Cnc::new(model.map_err(internal)?).with_defect(defect.clone());
-        let mut session = session::Session::embedded_to_try(cnc)?;
+        let mut session = self.captured(session::Session::embedded_to_try(cnc)?)?;
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs as long as it is held.
         let (client, running) = session.into_parts();
@@ -317,7 +323,7 @@ impl Run {
             device,
             ..TargetReport::default()
         };
-        Ok(self.judge(plan, session, defect.as_ref(), self.about(target, seed, waivers)))
+        self.judge(plan, session, defect.as_ref(), self.about(target, seed, waivers))
     }
 
     fn about(&self, target: TargetReport, seed: u32, waivers: Waivers) -> About {
@@ -339,11 +345,24 @@ impl Run {
         mut session: Session,
         defect: Option<&Seed>,
         about: About,
-    ) -> Report {
+    ) -> Result<Report, Stopped> {
         let outcomes = suite::run(plan.cases.clone(), Some(&mut session), defect, about.seed);
+        session.client.end_capture().map_err(|error| self.lost_capture(&error))?;
         let (outcomes, left_out) = plan.finish(outcomes);
         let (frames, profile) = (session.frames, Some(session.profile));
-        Report::new(About { frames, profile, ..about }, &outcomes, &left_out)
+        Ok(Report::new(About { frames, profile, ..about }, &outcomes, &left_out))
+    }
+
+    /// The session with a capture of it, if one is wished for.
+    fn captured(&self, session: session::Session) -> Result<session::Session, Trouble> {
+        let Some(file) = &self.capture else { return Ok(session) };
+        let capture = Capture::create(file).map_err(|error| self.lost_capture(&error))?;
+        Ok(session.with_capture(capture))
+    }
+
+    fn lost_capture(&self, error: &std::io::Error) -> Trouble {
+        let file = self.capture.as_deref().unwrap_or(Path::new("the capture"));
+        Trouble::Internal(format!("{}: {error}", file.display()))
     }
 
     fn write(&self, report: &Report) -> Exit {

@@ -12,6 +12,7 @@ use ads_cnc::ads::{DeviceInfoReply, DeviceStateReply};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Operation, Task};
 
+use crate::capture::Capture;
 use crate::client::{Client, Inquiry, Said, Target};
 use crate::cnc::{Cnc, NET_ID, Server};
 use crate::exchange::{Exchange, Fault};
@@ -125,6 +126,12 @@ impl Session {
 
     fn over(client: Client, embedded: Option<Server>) -> Self {
         Self { client, embedded, request: Vec::new(), reply: Vec::new(), answered: false }
+    }
+
+    /// With a capture of all that is sent and received from now on.
+    #[must_use]
+    pub fn with_capture(self, capture: Capture) -> Self {
+        Self { client: self.client.with_capture(capture), ..self }
     }
 
     /// Calls a function and reads its reply.

@@ -1,0 +1,181 @@
+//! A capture has what went over the connection, byte for byte. It is read back by another crate.
+
+use std::fs;
+use std::net::SocketAddr;
+use std::process::Command;
+use std::sync::Arc;
+
+use ads_cnc::Kind;
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{CountVariables, ReadByName, Request};
+use ads_cnc_conformance::capture::Capture;
+use ads_cnc_conformance::client::{Client, Target};
+use ads_cnc_conformance::cnc::{Cnc, Server};
+use ads_cnc_conformance::gate::Gate;
+use ads_cnc_conformance::net;
+use pcap_file::DataLink;
+use pcap_file::pcapng::{Block, PcapNgReader};
+
+/// The bytes of a connection, each way, with the ports of its two ends.
+#[derive(Debug, Default)]
+struct Flow {
+    ports: (u16, u16),
+    sent: Vec<u8>,
+    received: Vec<u8>,
+}
+
+fn word(bytes: &[u8], at: usize) -> u16 {
+    u16::from_be_bytes([bytes[at], bytes[at + 1]])
+}
+
+fn long(bytes: &[u8], at: usize) -> u32 {
+    u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap())
+}
+
+/// The sum of all words, which with a right checksum is all ones.
+fn sum(parts: &[&[u8]]) -> u16 {
+    let bytes = parts.concat();
+    let words = bytes.chunks(2).map(|two| [two[0], *two.get(1).unwrap_or(&0)]);
+    let mut sum: u32 = words.map(|two| u32::from(u16::from_be_bytes(two))).sum();
+    while sum > 0xFFFF {
+        sum = (sum & 0xFFFF) + (sum >> 16);
+    }
+    sum as u16
+}
+
+/// Puts the connections of a capture together, and checks every header on the way.
+fn flows(capture: &[u8]) -> Vec<Flow> {
+    let mut reader = PcapNgReader::new(capture).unwrap();
+    let (mut flows, mut numbers): (Vec<Flow>, (u32, u32)) = (Vec::new(), (0, 0));
+    let mut last = std::time::Duration::ZERO;
+    while let Some(block) = reader.next_block() {
+        let block = match block.unwrap() {
+            Block::InterfaceDescription(one) => {
+                assert_eq!(one.linktype, DataLink::ETHERNET);
+                continue;
+            }
+            Block::EnhancedPacket(packet) => packet,
+            other => panic!("{other:?}"),
+        };
+        assert!(block.timestamp >= last && block.original_len as usize == block.data.len());
+        last = block.timestamp;
+        let (ethernet, ip) = block.data.split_at(14);
+        let tcp = match (word(ethernet, 12), ip[0] >> 4) {
+            (0x0800, 4) => {
+                assert_eq!((usize::from(word(ip, 2)), ip[9]), (ip.len(), 6));
+                assert_eq!(sum(&[&ip[..20]]), 0xFFFF);
+                let length = (word(ip, 2) - 20).to_be_bytes();
+                assert_eq!(sum(&[&ip[12..20], &[0, 6], &length, &ip[20..]]), 0xFFFF);
+                &ip[20..]
+            }
+            (0x86DD, 6) => {
+                assert_eq!((usize::from(word(ip, 4)) + 40, ip[6]), (ip.len(), 6));
+                let length = word(ip, 4).to_be_bytes();
+                let pseudo = [&[0, 0], &length[..], &[0, 0, 0, 6]].concat();
+                assert_eq!(sum(&[&ip[8..40], &pseudo, &ip[40..]]), 0xFFFF);
+                &ip[40..]
+            }
+            other => panic!("{other:?}"),
+        };
+        let (ports, flags, data) = ((word(tcp, 0), word(tcp, 2)), tcp[13], &tcp[20..]);
+        if flags == 2 {
+            flows.push(Flow { ports, ..Flow::default() });
+            numbers = (long(tcp, 4), 0);
+        }
+        let flow = flows.last_mut().unwrap();
+        let outgoing = ports == flow.ports;
+        assert!(outgoing || ports == (flow.ports.1, flow.ports.0));
+        let (own, other) = match outgoing {
+            true => (&mut numbers.0, numbers.1),
+            false => (&mut numbers.1, numbers.0),
+        };
+        assert_eq!(long(tcp, 4), *own);
+        assert!(flags & 0x10 == 0 || long(tcp, 8) == other);
+        *own += data.len() as u32 + u32::from(flags & 3 != 0);
+        let bytes = if outgoing { &mut flow.sent } else { &mut flow.received };
+        bytes.extend(data);
+    }
+    flows
+}
+
+/// A client's own record of what it exchanged is in the capture, nothing else, in each connection.
+fn conversation(listen: SocketAddr) {
+    let cnc = Arc::new(Cnc::with_default_model().unwrap());
+    let server = Server::start(net::listen(listen).unwrap(), cnc).unwrap();
+    let file = std::env::temp_dir().join(format!(
+        "ads-cnc-capture-{}-{}.pcapng",
+        std::process::id(),
+        u8::from(listen.is_ipv6())
+    ));
+    let target = Target::local(server.addr(), server.net_id());
+    let client = Client::connect(target, Gate::queries()).unwrap();
+    let mut client = client.with_capture(Capture::create(&file).unwrap());
+    let channel = Channel::new(1).unwrap();
+    let (mut sent, mut received) = (Vec::new(), Vec::new());
+    let requests: [Request<'_>; 3] = [
+        CountVariables::new(channel, Kind::V_E).into(),
+        // More than a segment has room for.
+        ReadByName::new(channel, "V.E.largest").unwrap().into(),
+        ReadByName::new(channel, "V.E.no such variable").unwrap().into(),
+    ];
+    for request in requests {
+        let mut buf = [0; 256];
+        let exchange = client.call(&request.encode(&mut buf).unwrap());
+        sent.extend(&exchange.sent);
+        received.extend(&exchange.received);
+    }
+    client.end_capture().unwrap();
+    let flows = flows(&fs::read(&file).unwrap());
+    fs::remove_file(&file).unwrap();
+    assert_eq!(flows.len(), 1);
+    assert_eq!(flows[0].ports.1, server.addr().port());
+    assert!(received.len() > 2048);
+    assert_eq!((&flows[0].sent, &flows[0].received), (&sent, &received));
+}
+
+#[test]
+fn a_capture_has_what_a_client_exchanged() {
+    conversation(SocketAddr::from(([127, 0, 0, 1], 0)));
+    conversation(SocketAddr::from(([0, 0, 0, 0, 0, 0, 0, 1], 0)));
+}
+
+/// Every frame of a run is in it, with what the CNC was asked before the first case.
+#[test]
+fn a_run_is_captured_whole() {
+    let stem = std::env::temp_dir().join(format!("ads-cnc-capture-run-{}", std::process::id()));
+    let (capture, json) = (stem.with_extension("pcapng"), stem.with_extension("json"));
+    let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["run", "--only", "COM", "--capture"])
+        .args([&capture, &std::path::PathBuf::from("--json"), &json])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let report: serde_json::Value = serde_json::from_slice(&fs::read(&json).unwrap()).unwrap();
+    let flows = flows(&fs::read(&capture).unwrap());
+    fs::remove_file(&capture).and(fs::remove_file(&json)).unwrap();
+    let frames = |bytes: &[u8]| {
+        let (mut rest, mut count) = (bytes, 0);
+        while !rest.is_empty() {
+            assert_eq!(rest[..2], [0, 0]);
+            let length = u32::from_le_bytes(rest[2..6].try_into().unwrap()) as usize;
+            rest = &rest[6 + length..];
+            count += 1;
+        }
+        count
+    };
+    let sent: u64 = flows.iter().map(|flow| frames(&flow.sent)).sum();
+    let received: u64 = flows.iter().map(|flow| frames(&flow.received)).sum();
+    assert!(sent >= report["frames"].as_u64().unwrap(), "{sent}");
+    assert_eq!(sent, received);
+}
+
+#[test]
+fn a_capture_that_cannot_be_written_is_told() {
+    let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["run", "--only", "COM-1", "--capture", "/no/such/folder/run.pcapng"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(70));
+    let why = String::from_utf8(output.stderr).unwrap();
+    assert!(why.contains("/no/such/folder/run.pcapng"), "{why}");
+}
