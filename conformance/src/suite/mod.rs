@@ -21,6 +21,7 @@ mod run;
 mod sda;
 mod select;
 mod service;
+mod session;
 mod still;
 mod stream;
 mod survey;
@@ -35,10 +36,11 @@ pub use case::{
 };
 pub use outcome::{Outcome, RequirementVerdict, gravest};
 pub(crate) use printed::typed;
-pub use probe::{Probe, Session};
+pub use probe::Probe;
 pub use run::run;
 pub use select::{Plan, Selection, Unmatched, any_seed};
 pub(crate) use select::{names, order};
+pub use session::Session;
 pub use vectors::siblings_of;
 
 /// Declares a case.

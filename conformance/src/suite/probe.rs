@@ -1,20 +1,18 @@
 //! What a case works with: it asks the target and judges the answers.
 
-use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::sync::Arc;
 
+use ads_cnc::Decode;
 use ads_cnc::address::Channel;
-use ads_cnc::operation::{Call, Function, Request, Service};
-use ads_cnc::{Decode, Description};
+use ads_cnc::operation::{Call, Function, Request};
 use ads_cnc_vectors::Level;
 
 use super::case::{Evidence, Judgement, Rule, Step, Stop};
-use super::inventory::Inventory;
-use crate::client::Client;
+use super::session::Session;
 use crate::cnc::Cnc;
 use crate::exchange::{Exchange, Fault, Violation};
-use crate::profile::{Claim, Profile};
+use crate::profile::Claim;
 use crate::verdict::Verdict;
 
 /// The most failed checks a case keeps of one requirement.
@@ -22,68 +20,6 @@ const KEPT: usize = 3;
 
 /// Requests in a row without an answer after which no more are sent.
 const SILENCES_MAX: usize = 8;
-
-/// The connection, and what has been learnt of the target so far.
-#[derive(Debug)]
-pub struct Session {
-    /// The connection.
-    pub client: Client,
-    /// What the target claims.
-    pub profile: Profile,
-    /// Descriptions of the variables of each kind and channel.
-    pub(super) variables: BTreeMap<(u32, &'static str), Vec<Description>>,
-    /// What is known of its objects and elements.
-    pub(super) inventory: Inventory,
-    /// The CNC itself, if it is in this process.
-    pub(super) cnc: Option<Arc<Cnc>>,
-    /// Requests sent.
-    pub frames: usize,
-    /// Services that were answered.
-    pub(super) answered: Vec<Service>,
-    /// Requests in a row that were not.
-    pub(super) silences: usize,
-    /// Why nothing more is to be had of the target.
-    pub(super) gone: Option<String>,
-    /// What frames themselves broke, each with its evidence.
-    pub violations: Vec<(Violation, Evidence)>,
-    /// What came of requests that had to be refused.
-    pub(super) refusals: Refusals,
-}
-
-/// How a target refuses.
-#[derive(Debug, Default)]
-pub(super) struct Refusals {
-    /// By an error number, in whichever header.
-    pub(super) by_number: usize,
-    /// By a success without data: its evidence.
-    pub(super) by_nothing: Vec<Evidence>,
-}
-
-impl Session {
-    /// A session over a connection.
-    pub fn new(client: Client, profile: Profile) -> Self {
-        Self {
-            client,
-            profile,
-            variables: BTreeMap::new(),
-            inventory: Inventory::default(),
-            cnc: None,
-            frames: 0,
-            answered: Vec::new(),
-            silences: 0,
-            gone: None,
-            violations: Vec::new(),
-            refusals: Refusals::default(),
-        }
-    }
-
-    /// With the CNC that is asked, as it is in this process: some cases do to it from within what
-    /// a machine or an NC program does.
-    #[must_use]
-    pub fn with_cnc(self, cnc: Arc<Cnc>) -> Self {
-        Self { cnc: Some(cnc), ..self }
-    }
-}
 
 /// One case's view of the session.
 #[derive(Debug)]

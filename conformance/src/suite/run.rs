@@ -2,7 +2,8 @@
 
 use super::case::{Body, Case, Needs, Stop, Subject};
 use super::outcome::Outcome;
-use super::probe::{Probe, Session};
+use super::probe::Probe;
+use super::session::Session;
 use super::{printed, replay};
 use crate::defect::Seed;
 use crate::testee::{self, Terms};

@@ -1,0 +1,76 @@
+//! What all cases of a run share.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use ads_cnc::Description;
+use ads_cnc::operation::Service;
+
+use super::case::Evidence;
+use super::inventory::Inventory;
+use crate::client::Client;
+use crate::cnc::Cnc;
+use crate::exchange::Violation;
+use crate::profile::Profile;
+
+/// The connection, and what has been learnt of the target so far.
+#[derive(Debug)]
+pub struct Session {
+    /// The connection.
+    pub client: Client,
+    /// What the target claims.
+    pub profile: Profile,
+    /// Descriptions of the variables of each kind and channel.
+    pub(super) variables: BTreeMap<(u32, &'static str), Vec<Description>>,
+    /// What is known of its objects and elements.
+    pub(super) inventory: Inventory,
+    /// The CNC itself, if it is in this process.
+    pub(super) cnc: Option<Arc<Cnc>>,
+    /// Requests sent.
+    pub frames: usize,
+    /// Services that were answered.
+    pub(super) answered: Vec<Service>,
+    /// Requests in a row that were not.
+    pub(super) silences: usize,
+    /// Why nothing more is to be had of the target.
+    pub(super) gone: Option<String>,
+    /// What frames themselves broke, each with its evidence.
+    pub violations: Vec<(Violation, Evidence)>,
+    /// What came of requests that had to be refused.
+    pub(super) refusals: Refusals,
+}
+
+/// How a target refuses.
+#[derive(Debug, Default)]
+pub(super) struct Refusals {
+    /// By an error number, in whichever header.
+    pub(super) by_number: usize,
+    /// By a success without data: its evidence.
+    pub(super) by_nothing: Vec<Evidence>,
+}
+
+impl Session {
+    /// A session over a connection.
+    pub fn new(client: Client, profile: Profile) -> Self {
+        Self {
+            client,
+            profile,
+            variables: BTreeMap::new(),
+            inventory: Inventory::default(),
+            cnc: None,
+            frames: 0,
+            answered: Vec::new(),
+            silences: 0,
+            gone: None,
+            violations: Vec::new(),
+            refusals: Refusals::default(),
+        }
+    }
+
+    /// With the CNC that is asked, as it is in this process: some cases do to it from within what
+    /// a machine or an NC program does.
+    #[must_use]
+    pub fn with_cnc(self, cnc: Arc<Cnc>) -> Self {
+        Self { cnc: Some(cnc), ..self }
+    }
+}
