@@ -24,7 +24,7 @@ use crate::net::Wire;
 pub use inquiry::{Inquired, Inquiry, Said};
 
 /// The AMS port to ask as; nobody has to listen there.
-const SOURCE_PORT: AmsPort = AmsPort(0x8000);
+pub(crate) const SOURCE_PORT: AmsPort = AmsPort(0x8000);
 
 /// Whom to ask, and as whom.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +51,7 @@ impl Target {
 }
 
 /// The NetId that goes with an address; on this machine itself another than the simulated CNC's.
-const fn net_id_of(ip: IpAddr) -> AmsNetId {
+pub(crate) const fn net_id_of(ip: IpAddr) -> AmsNetId {
     match ip {
         IpAddr::V4(ip) if !ip.is_loopback() => {
             let [a, b, c, d] = ip.octets();
@@ -371,7 +371,7 @@ impl Client {
 }
 
 /// The whole frame of a call.
-fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, Fault> {
+pub(crate) fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, Fault> {
     let Call { index_group, index_offset, read_length, data, .. } = *call;
     let payload = match call.service {
         Service::Read => ReadRequest { index_group, index_offset, length: read_length }.to_vec(),
@@ -392,7 +392,7 @@ fn whole(header: AmsHeader, payload: &[u8]) -> Result<Vec<u8>, Fault> {
 }
 
 /// What a frame with this header and data answers.
-fn answer(sent: AmsHeader, header: AmsHeader, payload: &[u8]) -> Result<Answer, Fault> {
+pub(crate) fn answer(sent: AmsHeader, header: AmsHeader, payload: &[u8]) -> Result<Answer, Fault> {
     if !header.error.is_none() && payload.is_empty() {
         return Ok(Answer { ams_error: header.error, result: AdsError::NONE, data: None });
     }

@@ -8,6 +8,7 @@
 //! | [`suite`] | what is tried, and what comes of it |
 //! | [`selftest`] | the suite tried on itself |
 //! | [`testee`] | codecs of others, asked over stdin and stdout |
+//! | [`clients`] | clients of others, which talk to a CNC that can do wrong |
 //! | [`child`] | commands that a user names |
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
 //! | [`capture`] | what went over a connection, as Wireshark reads it |
@@ -47,6 +48,7 @@ pub mod capture;
 pub mod child;
 pub mod cli;
 pub mod client;
+pub mod clients;
 pub mod cnc;
 pub mod codec;
 pub mod defect;

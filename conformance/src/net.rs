@@ -27,6 +27,22 @@ pub(crate) fn knock(listener: SocketAddr, timeout: Duration) -> io::Result<()> {
     TcpStream::connect_timeout(&SocketAddr::new(ip, listener.port()), timeout).map(drop)
 }
 
+/// Connects to a listener on this machine for what may send anything: a client that is wrong on
+/// purpose, and the simulated CNC it is wrong to.
+///
+/// # Errors
+/// Those of the system, and [`io::ErrorKind::PermissionDenied`] for any other machine.
+pub(crate) fn rehearse(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStream> {
+    if !addr.ip().is_loopback() {
+        let why = "a client that is wrong on purpose goes to this machine only";
+        return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
+    }
+    let stream = TcpStream::connect_timeout(&addr, timeout)?;
+    stream.set_nodelay(true)?;
+    stream.set_read_timeout(Some(timeout))?;
+    Ok(stream)
+}
+
 /// A connection to a target. What leaves on it has passed the gate.
 #[derive(Debug)]
 pub struct Wire {

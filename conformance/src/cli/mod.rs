@@ -1,6 +1,7 @@
 //! The command line of `ads-cnc`.
 
 mod browse;
+mod client;
 mod completions;
 mod executed;
 mod explain;
@@ -15,6 +16,7 @@ mod progress;
 mod report;
 mod requirements;
 mod run;
+mod run_client;
 mod run_testee;
 mod selftest;
 mod serve;
@@ -61,6 +63,7 @@ enum Command {
     Set(set::Set),
     Testee(testee::Testee),
     Selftest(selftest::SelfTest),
+    Client(client::Client),
 }
 
 impl Command {
@@ -105,6 +108,7 @@ impl Cli {
             Some(Command::Set(set)) => set.execute().into(),
             Some(Command::Testee(testee)) => testee.execute().into(),
             Some(Command::Selftest(selftest)) => selftest.execute().into(),
+            Some(Command::Client(client)) => client.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
             // The suite against the embedded CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),

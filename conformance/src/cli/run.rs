@@ -10,6 +10,7 @@ use clap::Args;
 
 use super::forms::{Forms, is_stdout, show, write};
 use super::list;
+use super::run_client::ClientArgs;
 use super::run_testee;
 use super::target::{REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect};
@@ -27,7 +28,7 @@ use crate::waivers::Waivers;
 /// Under which these options stand in the help.
 const SELECTION: &str = "Selection";
 
-/// Runs the conformance suite against the embedded CNC, or against a device.
+/// Runs the conformance suite against the embedded CNC, against a device, or against a client.
 ///
 /// Without --target a simulated CNC is started on this machine and judged together with the codec.
 /// A device is only read: nothing is sent to it but documented queries, to the ports they are
@@ -41,6 +42,9 @@ const SELECTION: &str = "Selection";
 pub(super) struct Run {
     #[command(flatten)]
     target: TargetArgs,
+
+    #[command(flatten)]
+    client: ClientArgs,
 
     /// Judge a codec of any language: a command that answers on stdin and stdout, one line of JSON at
     /// a time (see conformance/adapters)
@@ -109,6 +113,7 @@ Examples:
   ads-cnc run --target 192.0.2.10 --net-id 192.0.2.10.1.1 --source-net-id 192.0.2.20.1.1 \
       --html report.html
   ads-cnc run --testee 'python3 conformance/adapters/python/testee.py'
+  ads-cnc run --client \"./my-client --suite\"
   ads-cnc run --only VAR --defect variable-description.size.flip";
 
 fn after_long_help() -> String {
@@ -135,6 +140,7 @@ Exit codes, the first that holds:
 
 /// Why there is no report.
 enum Stopped {
+    Usage(String),
     Target(Trouble),
     Unmatched(Unmatched),
 }
@@ -181,12 +187,17 @@ impl Run {
             return self.list(seed);
         }
         let report = match &self.testee {
+            _ if self.client.is_wanted() => self.of_client(seed, waivers),
             Some(command) => self.testee(command, seed, waivers),
             None if self.is_embedded() => self.embedded(seed, waivers, profile, defect),
             None => self.device(seed, waivers, profile),
         };
         match report {
             Ok(report) => self.write(&report),
+            Err(Stopped::Usage(why)) => {
+                complain(why);
+                Exit::Usage
+            }
             Err(Stopped::Target(trouble)) => {
                 complain(&trouble);
                 trouble.exit()
@@ -218,6 +229,9 @@ impl Run {
 
     fn plan(&self, seed: u32) -> Result<Plan, Unmatched> {
         let selection = Selection { edition: self.edition, only: self.only.clone() };
+        if self.client.is_wanted() {
+            return selection.plan(self.client.cases(), seed);
+        }
         let fits = |case: &Case| match (&self.testee, case.needs) {
             (Some(_), needs) => needs == Needs::Codec,
             (None, Needs::Codec) => self.is_embedded(),
@@ -259,6 +273,14 @@ impl Run {
             None => show(|out| list::to_text(&listed, out)),
         };
         written.map_or_else(super::forms::lost, |()| Exit::Success)
+    }
+
+    fn of_client(&self, seed: u32, waivers: Waivers) -> Result<Report, Stopped> {
+        let plan = self.plan(seed)?;
+        let judged = self.client.judge(&plan).map_err(Stopped::Usage)?;
+        let (outcomes, left_out) = plan.finish(judged.outcomes);
+        let about = self.about(judged.target, seed, waivers);
+        Ok(Report::new(About { frames: judged.frames, ..about }, &outcomes, &left_out))
     }
 
     fn device(&self, seed: u32, waivers: Waivers, profile: Profile) -> Result<Report, Stopped> {

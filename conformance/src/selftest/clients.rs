@@ -1,7 +1,26 @@
-//! Clients with a defect.
+//! Clients with a defect, and clients that do things otherwise.
 
-use super::Candidate;
+use std::net::SocketAddr;
+
+use super::{Candidate, Group};
+use crate::clients::{Defect, Stage, defects, habits, trial};
+use crate::session::Trouble;
+use crate::suite::Outcome;
 
 pub(super) fn candidates() -> Vec<Candidate> {
-    Vec::new()
+    let one = |defect: &'static Defect, group| Candidate {
+        id: defect.id.to_owned(),
+        group,
+        what: defect.to_string(),
+        targets: Some(defect.requirement).into_iter().filter(|id| !id.is_empty()).collect(),
+        run: Box::new(move || run(defect)),
+    };
+    let wrong = defects().iter().map(|defect| one(defect, Group::Client));
+    wrong.chain(habits().iter().map(|habit| one(habit, Group::Different))).collect()
+}
+
+fn run(defect: &Defect) -> Result<Vec<Outcome>, Trouble> {
+    let stage = Stage::new(SocketAddr::from(([127, 0, 0, 1], 0)))
+        .map_err(|error| Trouble::Internal(format!("nobody can be waited for: {error}")))?;
+    Ok(trial(defect, &stage))
 }

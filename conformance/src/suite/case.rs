@@ -102,6 +102,8 @@ pub enum Body {
     Sequence(&'static Sequence),
     /// By watching how a testee answers all the others.
     Manners,
+    /// By watching what a client sends and says.
+    Client,
 }
 
 /// How a step of a case goes on.

@@ -1,0 +1,262 @@
+"""A client of a CNC, made from the manuals with the standard library alone: somebody's, to be judged."""
+import re
+import socket
+import struct
+import time
+
+TYPES = {"BOOLEAN": "?", "BOOL": "?", "SGN08": "b", "SINT": "b", "UNS08": "B", "BYTE": "B", "SGN16": "h",
+         "INT": "h", "UNS16": "H", "WORD": "H", "SGN32": "i", "DINT": "i", "UNS32": "I", "DWORD": "I",
+         "LINT": "q", "LWORD": "Q", "REAL32": "f", "REAL": "f", "REAL64": "d", "LREAL": "d"}
+CLASSES = ["position-controller", "interpolator", "decoder", "hld", "path-preparation", "spindle"]
+ATTRIBUTES = {"name": 0x100, "type": 0x200, "length": 0x300, "unit": 0x400, "writable": 0x500}
+KINDS = {"P": 0, "V.L": 1, "V.P": 2, "V.S": 3}
+READ, WRITE, BOTH = 2, 3, 9
+SDA, COM = 552, 553
+
+
+class Refused(Exception):
+    """The CNC's answer is an error number."""
+
+
+class Wrong(Exception):
+    """What came is no answer, or the action cannot be done."""
+
+
+def check(kept, why):
+    if not kept:
+        raise Wrong(why)
+
+
+def take(layout, data):
+    check(len(data) == struct.calcsize(layout), f"{len(data)} bytes where {struct.calcsize(layout)} are expected")
+    return struct.unpack(layout, data)
+
+
+def number(data):
+    return take("<I", data)[0]
+
+
+def text(data):
+    return data.split(b"\0")[0].decode("cp1252")
+
+
+def nul(name):
+    return name.encode("cp1252") + b"\0"
+
+
+class Cnc:
+    def __init__(self, where):
+        self.socket = socket.create_connection((where["host"], int(where["tcp_port"])), 1.0)
+        self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self.target = bytes(int(part) for part in where["net_id"].split("."))
+        self.invoke = 0
+
+    def receive(self, count):
+        data = b""
+        while len(data) < count:
+            piece = self.socket.recv(count - len(data))
+            check(piece, "the connection was closed")
+            data += piece
+        return data
+
+    def ask(self, command, port, group, offset, data=b"", length=0):
+        self.invoke += 1
+        body = struct.pack("<II", group, offset)
+        body += struct.pack("<I", length) if command != WRITE else b""
+        body += struct.pack("<I", len(data)) + data if command != READ else b""
+        ams = self.target + struct.pack("<H", port) + bytes([127, 0, 0, 1, 1, 2]) + struct.pack("<H", 0x8000)
+        ams += struct.pack("<HHIII", command, 4, len(body), 0, self.invoke)
+        self.socket.sendall(struct.pack("<HI", 0, len(ams + body)) + ams + body)
+        while True:
+            reserved, total = struct.unpack("<HI", self.receive(6))
+            check(reserved == 0 and 32 <= total <= 0x10000, "no AMS/TCP header")
+            frame = self.receive(total)
+            got, flags, size, error, invoke = struct.unpack("<HHIII", frame[16:32])
+            check(size == total - 32, "the lengths of the headers differ")
+            if invoke == self.invoke:
+                break
+        check((got, flags) == (command, 5), "no answer to this command")
+        if error:
+            raise Refused(error)
+        result = number(frame[32:36])
+        if result:
+            raise Refused(result)
+        if command == WRITE:
+            check(total == 36, "a Write gives no data")
+            return b""
+        check(len(frame) >= 40 and number(frame[36:40]) == len(frame) - 40 <= length, "a wrong length before the data")
+        return frame[40:]
+
+    def variable(self, channel, offset, data, length):
+        return self.ask(BOTH, SDA, 0x122300 + int(channel), offset, data, length)
+
+    def count_objects(self, channel):
+        return number(self.ask(READ, COM, 0x130100 + int(channel), 0, length=4))
+
+    def objects(self, channel):
+        found, count = [], self.count_objects(channel)
+        while len(found) < count:
+            wanted = min(count - len(found), 64) * 84
+            data = self.ask(READ, COM, 0x130100 + int(channel), len(found) + 1, length=wanted)
+            check(data and len(data) % 84 == 0, "no whole descriptors")
+            for _, size, access, _, group, offset, name, kind in struct.iter_unpack("<IIHHII32s32s", data):
+                found.append({"name": text(name), "type": text(kind), "size": size, "writable": access != 0,
+                              "group": group, "offset": offset})
+        return found
+
+
+def kind_of(name):
+    """`SGN16[2,3]`: the type, and how many there are."""
+    name, inside = re.fullmatch(r"(\w+)(?:\[(.*)\])?", name).groups()
+    count = 1
+    for size in (inside or "1").split(","):
+        count *= int(size)
+    return name, count
+
+
+def decode(kind, data):
+    name, count = kind_of(kind)
+    return text(data) if name == "STRING" else list(take(f"<{count}{TYPES[name]}", data))
+
+
+def encode(kind, value):
+    name, count = kind_of(kind)
+    if name == "STRING":
+        return nul(value)
+    parse = {"?": lambda one: one == "TRUE", "f": float, "d": float}.get(TYPES[name], int)
+    values = [parse(one) for one in value.split(",")]
+    return struct.pack(f"<{count}{TYPES[name]}", *values)
+
+
+def element(cnc, word, kind, channel, axis, place=0):
+    attribute, place = ATTRIBUTES.get(word, 0), int(place)
+    index, axis = CLASSES.index(kind), int(axis)
+    group = (0x020300 if kind == "spindle" else 0x120300) + index * 0x1000 + attribute + int(channel)
+    offset = axis * 0x10000 + place
+    if kind == "hld" and axis or kind == "position-controller":
+        group, first = struct.unpack("<II", find(cnc, kind, channel, axis))
+        group, offset = group + attribute, first + place
+    return lambda length: cnc.ask(READ, SDA, group, offset, length=length), group, offset
+
+
+def find(cnc, kind, channel, axis):
+    base = 0x020900 if kind == "spindle" else 0x120900
+    return cnc.ask(BOTH, SDA, base + CLASSES.index(kind) * 0x1000, 0, struct.pack("<II", int(channel), int(axis)), 8)
+
+
+def describe(cnc, channel, index, kind):
+    data = cnc.variable(channel, 0x45, struct.pack("<I", int(index)) + nul(kind), 2048)
+    handle, ty, access, size, count = take("<5I", data[:20])
+    check(20 + 4 * count <= len(data), "dimensions that are not there")
+    dimensions = list(struct.unpack_from(f"<{count}I", data, 20))
+    return {"name": text(data[20 + 4 * count:]), "handle": handle, "type": ty, "access": access, "size": size,
+            "dimensions": dimensions}
+
+
+def handled(handle, indices):
+    places = [] if indices == "-" else [int(one) for one in indices.split(",")]
+    return struct.pack(f"<II{len(places)}I", int(handle), len(places), *places)
+
+
+def stream(cnc, channel, file):
+    lines = open(file, "rb").read().replace(b"\r\n", b"\n").removesuffix(b"\n").split(b"\n")
+    check(all(len(line) <= 990 and line.isascii() and b"\0" not in line for line in lines), "no line for streaming")
+    loops = rb"\$(FOR|ENDFOR|DO|ENDDO|REPEAT|UNTIL|WHILE|ENDWHILE)\b"
+    check(not any(re.match(loops, line.strip()) for line in lines), "a loop")
+    packets = [b""]
+    for line in lines:
+        if len(packets[-1] + line) + 2 > 992:
+            packets.append(b"")
+        packets[-1] += line + b"\r\n"
+    for packet in packets:
+        for tries in range(100):
+            try:
+                cnc.ask(WRITE, COM, 0x120100 + int(channel), 0x90, packet)
+                break
+            except Refused as refused:
+                # Full or busy is for the time being; the others never change.
+                if refused.args[0] in (0x701, 0x702, 0x703, 0x704, 0x705) or tries == 99:
+                    raise
+                time.sleep(0.02)
+
+
+def service(cnc, channel, name, value=None):
+    name = nul("V.G.SERVICE." + name)
+    if value is None:
+        return cnc.variable(channel, 0x48, name, 2048)
+    return cnc.ask(WRITE, SDA, 0x122300 + int(channel), 0x4A, name + value)
+
+
+def serve(cnc, channel, uuid, requests, seconds):
+    answered, end = 0, time.monotonic() + float(seconds)
+    while answered < int(requests) and time.monotonic() < end:
+        asked = number(service(cnc, channel, "REQUEST_STATE")) != 0
+        if not asked or text(service(cnc, channel, "UUID")).lower() != uuid.lower():
+            time.sleep(0.02)
+            continue
+        response = nul(text(service(cnc, channel, "REQUEST")))
+        service(cnc, channel, "RESPONSE", response)
+        service(cnc, channel, "REQUEST_STATE", struct.pack("<I", 0))
+        service(cnc, channel, "RESPONSE_STATE", struct.pack("<I", 1))
+        answered += 1
+    return answered
+
+
+def ask_service(cnc, channel, uuid, request):
+    service(cnc, channel, "UUID", nul(uuid))
+    service(cnc, channel, "REQUEST", nul(request))
+    service(cnc, channel, "REQUEST_STATE", struct.pack("<I", 1))
+    end = time.monotonic() + 3
+    while number(service(cnc, channel, "RESPONSE_STATE")) == 0:
+        check(time.monotonic() < end, "no response in time")
+        time.sleep(0.02)
+    return text(service(cnc, channel, "RESPONSE"))
+
+
+def element_content(cnc, *where, kind):
+    name, count = kind_of(kind)
+    read, _, _ = element(cnc, "", *where)
+    return decode(kind, read(struct.calcsize(f"<{count}{TYPES[name]}")))
+
+
+def write_element(cnc, kind, channel, axis, place, ty, value):
+    _, group, offset = element(cnc, "", kind, channel, axis, place)
+    cnc.ask(WRITE, SDA, group, offset, encode(ty, value))
+
+
+def named(cnc, channel, name):
+    found = [one for one in cnc.objects(channel) if one["name"] == name]
+    check(found, "there is no such object")
+    return found[0]
+
+
+def read_object(cnc, channel, name):
+    one = named(cnc, channel, name)
+    return decode(one["type"], cnc.ask(READ, COM, one["group"], one["offset"], length=one["size"]))
+
+
+def write_object(cnc, channel, name, value):
+    one = named(cnc, channel, name)
+    cnc.ask(WRITE, COM, one["group"], one["offset"], encode(one["type"], value))
+
+
+def extended(cnc, channel, index, kind):
+    data = cnc.variable(channel, 0x4B, struct.pack("<I", int(index)) + nul(kind), 8)
+    return dict(zip(("synchronisation", "validity"), take("<II", data))) if data else None
+
+
+def instance(cnc, *where):
+    group, offset = take("<II", find(cnc, *where))
+    return [group, offset] if group or offset else None
+
+
+def write_variable(cnc, channel, offset, data):
+    cnc.ask(WRITE, SDA, 0x122300 + int(channel), offset, data)
+
+
+def parameter(cnc, channel, kind, offset, data, length):
+    return cnc.variable(channel, offset + 3 * KINDS[kind], data, length)
+
+
+def index(number):
+    return struct.pack("<I", int(number))

@@ -1,0 +1,122 @@
+//! `ads-cnc run --client`: the suite is the CNC, and judges who talks to it.
+
+use std::net::SocketAddr;
+use std::time::Duration;
+
+use clap::Args;
+
+use super::complain;
+use super::interrupt::Interrupt;
+use crate::clients::{self, Judged, Process, Scenario, Stage};
+use crate::report::TargetReport;
+use crate::suite::{Case, Outcome, Plan};
+
+/// Under which these options stand in the help.
+const CLIENT: &str = "Client under test";
+
+/// The last of stderr that a report keeps.
+const STDERR_SHOWN: usize = 4000;
+
+/// A client instead of a target.
+#[derive(Args, Clone, Debug, Default)]
+pub(super) struct ClientArgs {
+    /// Judge a client: this command is told what to do (see conformance/adapters/CLIENTS.md)
+    #[arg(long, help_heading = CLIENT, value_name = "COMMAND", conflicts_with_all = ["target", "testee", "defect", "dry_run", "allow_write", "rate", "profile"])]
+    client: Option<String>,
+
+    /// Wait for a client on this address and judge what it asks, until it has closed; with --client,
+    /// where the CNC is [default for --client: a free port of loopback]
+    #[arg(long, help_heading = CLIENT, value_name = "ADDRESS", conflicts_with_all = ["target", "testee", "defect", "dry_run", "allow_write", "rate", "profile"])]
+    client_listen: Option<SocketAddr>,
+
+    /// How long a client has for each action, in milliseconds
+    #[arg(long, help_heading = CLIENT, value_name = "MS", default_value_t = 10_000)]
+    client_timeout: u64,
+}
+
+/// What came of a client.
+pub(super) struct OfClient {
+    pub(super) target: TargetReport,
+    pub(super) outcomes: Vec<Outcome>,
+    pub(super) frames: usize,
+}
+
+impl ClientArgs {
+    /// Whether a client is judged.
+    pub(super) const fn is_wanted(&self) -> bool {
+        self.client.is_some() || self.client_listen.is_some()
+    }
+
+    /// The cases to choose from.
+    pub(super) fn cases(&self) -> Vec<Case> {
+        match &self.client {
+            Some(_) => clients::scenarios().iter().map(Scenario::case).collect(),
+            None => vec![clients::requests_case()],
+        }
+    }
+
+    /// Judges the client by the cases of a plan.
+    ///
+    /// # Errors
+    /// Why nobody can be waited for.
+    pub(super) fn judge(&self, plan: &Plan) -> Result<OfClient, String> {
+        let addr = self.client_listen.unwrap_or(SocketAddr::from(([127, 0, 0, 1], 0)));
+        let stage = Stage::new(addr).map_err(|error| format!("{addr}: {error}"))?;
+        match &self.client {
+            Some(command) => Ok(self.told(command, &stage, plan)),
+            None => waited(&stage),
+        }
+    }
+
+    fn told(&self, command: &str, stage: &Stage, plan: &Plan) -> OfClient {
+        let mut all = clients::scenarios();
+        let mut wanted = Vec::new();
+        for case in &plan.cases {
+            if let Some(at) = all.iter().position(|one| one.id == case.id) {
+                wanted.push(all.swap_remove(at));
+            }
+        }
+        let timeout = Duration::from_millis(self.client_timeout);
+        let mut process = Process::new(command, timeout);
+        let Judged { hello, outcomes, requests } = clients::judge(&mut process, stage, &wanted);
+        let stderr = clients::Actor::stderr(&process);
+        let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
+        let stderr: String = stderr.chars().skip(skipped).collect();
+        let said = |text: &str| (!text.is_empty()).then(|| text.to_owned());
+        let identity = hello.map(|hello| hello.client).unwrap_or_default();
+        let target = TargetReport {
+            name: said(&identity.name).unwrap_or_else(|| "client".to_owned()),
+            version: said(&identity.version),
+            language: said(&identity.language),
+            command: Some(command.to_owned()),
+            stderr: said(&stderr),
+            ..TargetReport::default()
+        };
+        OfClient { target, outcomes, frames: requests }
+    }
+}
+
+/// Serves who comes of itself.
+fn waited(stage: &Stage) -> Result<OfClient, String> {
+    let interrupt = Interrupt::catch().map_err(|trouble| trouble.to_string())?;
+    let (addr, net_id) = (stage.addr(), stage.net_id());
+    let mut told = false;
+    // Asked for the first time when somebody can come.
+    let go_on = || {
+        if !told {
+            complain(format_args!(
+                "waiting for a client on {addr}, AMS NetId {net_id}, until it has closed or Ctrl-C"
+            ));
+            told = true;
+        }
+        !interrupt.came()
+    };
+    let (outcome, frames) = clients::listen(stage, go_on).map_err(|error| error.to_string())?;
+    let target = TargetReport {
+        name: "client".to_owned(),
+        address: Some(addr.to_string()),
+        net_id: Some(net_id.to_string()),
+        ..TargetReport::default()
+    };
+    Ok(OfClient { target, outcomes: vec![outcome], frames })
+}

@@ -1,0 +1,96 @@
+//! What a client is told to do: a small vocabulary that keeps its meaning.
+
+use std::fmt;
+
+use serde::Serialize;
+
+/// A word of the vocabulary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Word {
+    /// The word.
+    pub name: &'static str,
+    /// What stands behind it. The last may contain blanks.
+    pub arguments: &'static [&'static str],
+    /// What the client does, and what its result is.
+    pub gives: &'static str,
+}
+
+macro_rules! words {
+    ($( $name:literal [$($argument:literal)*] $gives:literal; )+) => {
+        &[$( Word { name: $name, arguments: &[$($argument),*], gives: $gives } ),+]
+    };
+}
+
+/// Everything a client can be told.
+pub const VOCABULARY: &[Word] = words! {
+    "count-objects" ["CHANNEL"] "the number of COM objects";
+    "list-objects" ["CHANNEL"] "their descriptors: name, type, size, writable, group, offset";
+    "read-object" ["CHANNEL" "NAME"] "the content of an object, found by its name and read by its type";
+    "write-object" ["CHANNEL" "NAME" "VALUE"] "nothing";
+    "count-variables" ["CHANNEL" "KIND"] "the number of variables; KIND is V.E, V.G, V.A, or all";
+    "describe" ["CHANNEL" "INDEX" "KIND"] "a description: name, handle, type, access, size, dimensions, numbers as they are";
+    "describe-extended" ["CHANNEL" "INDEX" "KIND"] "synchronisation and validity, or null";
+    "handle" ["CHANNEL" "NAME"] "the handle of a variable";
+    "read-by-name" ["CHANNEL" "NAME" "TYPE"] "its value";
+    "write-by-name" ["CHANNEL" "NAME" "TYPE" "VALUE"] "nothing";
+    "read-by-handle" ["CHANNEL" "HANDLE" "INDICES" "TYPE"] "its value; INDICES are 4 or 1,2, and - is none";
+    "write-by-handle" ["CHANNEL" "HANDLE" "INDICES" "TYPE" "VALUE"] "nothing";
+    "axis-handle" ["CHANNEL" "AXIS" "NAME"] "the handle of an axis variable";
+    "read-axis" ["CHANNEL" "AXIS" "NAME" "TYPE"] "its value";
+    "write-axis" ["CHANNEL" "AXIS" "NAME" "TYPE" "VALUE"] "nothing";
+    "count-parameters" ["CHANNEL" "KIND"] "the number of parameters; KIND is P, V.L, V.P or V.S";
+    "parameter-name" ["CHANNEL" "KIND" "INDEX"] "its name";
+    "parameter-by-name" ["CHANNEL" "KIND" "NAME"] "its value";
+    "parameter-by-index" ["CHANNEL" "KIND" "INDEX"] "its value";
+    "find-instance" ["CLASS" "CHANNEL" "AXIS"] "index group and index offset, or null; CLASS is position-controller, interpolator, decoder, hld, path-preparation or spindle";
+    "count-elements" ["CLASS" "CHANNEL" "AXIS"] "the number of elements";
+    "element-name" ["CLASS" "CHANNEL" "AXIS" "ELEMENT"] "its name";
+    "element-type" ["CLASS" "CHANNEL" "AXIS" "ELEMENT"] "the name of its type";
+    "element-length" ["CLASS" "CHANNEL" "AXIS" "ELEMENT"] "its number of bytes";
+    "element-unit" ["CLASS" "CHANNEL" "AXIS" "ELEMENT"] "its unit";
+    "element-writable" ["CLASS" "CHANNEL" "AXIS" "ELEMENT"] "whether it may be written";
+    "read-element" ["CLASS" "CHANNEL" "AXIS" "ELEMENT" "TYPE"] "its content";
+    "write-element" ["CLASS" "CHANNEL" "AXIS" "ELEMENT" "TYPE" "VALUE"] "nothing";
+    "stream" ["CHANNEL" "FILE"] "nothing: the NC program is written, to its end";
+    "serve-echo" ["CHANNEL" "UUID" "REQUESTS" "SECONDS"] "how many requests were answered: each by its own text, response state 1, until so many are or so long has passed";
+    "ask-service" ["CHANNEL" "UUID" "REQUEST"] "the response";
+};
+
+/// A word and what stands behind it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Action {
+    /// The word.
+    pub action: String,
+    /// What stands behind it.
+    pub args: Vec<String>,
+}
+
+impl Action {
+    /// The action of a line such as `read-by-name 1 V.E.Testvar SGN32[5]`.
+    ///
+    /// ```
+    /// use ads_cnc_conformance::clients::Action;
+    ///
+    /// let action = Action::parse("stream 1 /tmp/a program.nc").unwrap();
+    /// assert_eq!(action.args, ["1", "/tmp/a program.nc"]);
+    /// assert!(Action::parse("melt 1").is_none() && Action::parse("stream 1").is_none());
+    /// ```
+    pub fn parse(line: &str) -> Option<Self> {
+        let (name, rest) = line.split_once(' ').unwrap_or((line, ""));
+        let word = VOCABULARY.iter().find(|word| word.name == name)?;
+        let count = word.arguments.len();
+        let args: Vec<String> = match count {
+            0 => Vec::new(),
+            _ => rest.splitn(count, ' ').map(str::to_owned).collect(),
+        };
+        let whole = args.len() == count && args.iter().all(|one| !one.is_empty());
+        whole.then(|| Self { action: name.to_owned(), args })
+    }
+}
+
+impl fmt::Display for Action {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.action)?;
+        self.args.iter().try_for_each(|one| write!(f, " {one}"))
+    }
+}

@@ -1,0 +1,169 @@
+//! Whether a client has sent what it was told to.
+
+use ads_cnc::ads::FrameRef;
+use ads_cnc_vectors::Hex;
+
+use super::findings::Findings;
+use super::requests::writes;
+use super::scenario::{Ask, Length};
+use super::stage::Turn;
+use crate::suite::assumed;
+
+/// A request as its bytes say it: nothing of it is read by the codec but where its frame ends.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Sent {
+    command: u16,
+    port: u16,
+    group: u32,
+    offset: u32,
+    length: u32,
+    data: Vec<u8>,
+}
+
+impl Sent {
+    fn of(turn: &Turn) -> Option<Self> {
+        let frame = turn.request.as_slice();
+        let word = |at: usize| {
+            let bytes: [u8; 4] = frame.get(at..at.checked_add(4)?)?.try_into().ok()?;
+            Some(u32::from_le_bytes(bytes))
+        };
+        let half = |at: usize| {
+            let bytes: [u8; 2] = frame.get(at..at.checked_add(2)?)?.try_into().ok()?;
+            Some(u16::from_le_bytes(bytes))
+        };
+        let command = half(22)?;
+        let (length, data) = match command {
+            2 => (word(46)?, &[][..]),
+            3 => (0, frame.get(50..)?),
+            9 => (word(46)?, frame.get(54..)?),
+            _ => return None,
+        };
+        let (group, offset) = (logical(word(38)?), word(42)?);
+        Some(Self { command, port: half(12)?, group, offset, length, data: data.to_vec() })
+    }
+}
+
+/// A group by index as the logical one of the same channel: 1, 2 and 6 have the ranks 1, 2 and 3.
+pub(super) const fn logical(group: u32) -> u32 {
+    let spindle = group & 0xF000 == 0x5000;
+    let known = group & 0xF0_0000 == 0 && group & 0x0F_0000 >= 0x02_0000;
+    match (known && !spindle, group & 0xFF) {
+        (false, _) => group,
+        (true, 3) => (group & !0xFF) | 0x10_0006,
+        (true, _) => group | 0x10_0000,
+    }
+}
+
+/// Judges whether all that has to be asked is, and nothing is written beside it.
+pub(super) fn judge(asks: &[Ask], turns: &[Turn], may_write: bool, findings: &mut Findings) {
+    let sent: Vec<(Sent, &Turn)> =
+        turns.iter().filter_map(|turn| Some((Sent::of(turn)?, turn))).collect();
+    for ask in asks {
+        one(ask, &sent, turns, findings);
+    }
+    if may_write {
+        return;
+    }
+    for turn in turns {
+        let Some(clause) = writes(turn) else { continue };
+        let told = Sent::of(turn).is_some_and(|sent| {
+            asks.iter().any(|ask| (ask.group, ask.offset) == (sent.group, sent.offset))
+        });
+        findings.check(clause, told, Some(turn), "nothing else to be written", "a write");
+    }
+}
+
+fn one(ask: &Ask, sent: &[(Sent, &Turn)], turns: &[Turn], findings: &mut Findings) {
+    let place = |one: &Sent| (one.group, one.offset) == (ask.group, ask.offset);
+    let is_data = |one: &Sent| one.data == ask.data || ask.also.contains(&one.data);
+    let service = |one: &Sent| one.command == ask.command;
+    // The one it was meant to be: where it belongs, or else what it carries.
+    let nearest = sent.iter().max_by_key(|(one, _)| {
+        let alike = [
+            place(one) && is_data(one) && service(one) && one.port == ask.port,
+            place(one) && is_data(one) && service(one),
+            place(one) && service(one),
+            is_data(one) && service(one) && one.group == ask.group,
+            is_data(one) && service(one) && one.offset == ask.offset,
+            place(one),
+            is_data(one) && !ask.data.is_empty(),
+            service(one),
+        ];
+        alike.iter().position(|alike| *alike).map_or(0, |at| alike.len().saturating_sub(at))
+    });
+    let Some((one, turn)) = nearest else {
+        let found = match turns.last() {
+            None => "no request at all".to_owned(),
+            Some(_) => "nothing that could be it".to_owned(),
+        };
+        findings.check(ask.place, false, turns.last(), describe(ask), found);
+        return;
+    };
+    let turn = Some(*turn);
+    let named = describe(ask);
+    let hex = |number: u32| format!("{number:#x}");
+    findings.check(
+        ask.service_rule(),
+        service(one),
+        turn,
+        format!("command {}: {named}", ask.command),
+        format!("command {}", one.command),
+    );
+    if !service(one) {
+        findings.check(ask.place, false, turn, &named, format!("command {}", one.command));
+        return;
+    }
+    // Which of SDA and GEO serves a class is not said but of the decoder.
+    let is_decoder = ask.group & 0xF000 == 0x2000;
+    let port = one.port == ask.port || (ask.port, one.port) == (552, 551) && !is_decoder;
+    findings.check("GEN-4", port, turn, format!("port {}", ask.port), one.port);
+    let group = one.group == ask.group;
+    findings.check(ask.group_rule(), group, turn, hex(ask.group), hex(one.group));
+    let offset = one.offset == ask.offset;
+    findings.check(
+        ask.place,
+        group && offset,
+        turn,
+        format!("index group {:#x}, index offset {:#x}", ask.group, ask.offset),
+        format!("{:#x}, {:#x}", one.group, one.offset),
+    );
+    if ask.tolerated.contains(&one.data) {
+        findings.check(
+            assumed(ask.stream),
+            false,
+            turn,
+            Hex(ask.data.clone()),
+            Hex(one.data.clone()),
+        );
+    } else if !ask.data.is_empty() || !one.data.is_empty() {
+        let kept = is_data(one);
+        findings.check(ask.stream, kept, turn, Hex(ask.data.clone()), Hex(one.data.clone()));
+    }
+    let (enough, wanted) = match ask.length {
+        Length::AtLeast(least) => (one.length >= least, format!("at least {least} bytes read")),
+        Length::Times(size) => (
+            one.length > 0 && one.length.checked_rem(size) == Some(0),
+            format!("a read length of {size} or a multiple"),
+        ),
+    };
+    let rule = if matches!(ask.length, Length::Times(_)) { "COM-3" } else { ask.service_rule() };
+    findings.check(rule, enough, turn, wanted, format!("a read length of {}", one.length));
+}
+
+fn describe(ask: &Ask) -> String {
+    let service = match ask.command {
+        2 => "Read",
+        3 => "Write",
+        _ => "ReadWrite",
+    };
+    let Ask { group, offset, port, data, .. } = ask;
+    let data = if data.is_empty() { String::new() } else { format!(" of {}", Hex(data.clone())) };
+    format!("{service} {group:#x}, {offset:#x} at port {port}{data}")
+}
+
+/// What the frames of a Write say its result was.
+pub(super) fn result_of(turn: &Turn) -> Option<u32> {
+    let (frame, _) = FrameRef::split(&turn.sent, u32::MAX).ok()??;
+    let bytes: [u8; 4] = frame.data().get(..4)?.try_into().ok()?;
+    Some(u32::from_le_bytes(bytes))
+}

@@ -1,0 +1,107 @@
+//! What is found of a client in one scenario.
+
+use std::fmt::Display;
+
+use ads_cnc::Decode as _;
+use ads_cnc::ads::{Command, FrameRef, ReadReplyRef, ReadWriteReplyRef};
+
+use super::CLIENT;
+use super::stage::Turn;
+use crate::exchange::call_of;
+use crate::suite::{Evidence, Judgement, Rule};
+use crate::verdict::Verdict;
+use ads_cnc_vectors::Level;
+
+/// The most failed checks that are kept of one requirement.
+const KEPT: usize = 3;
+
+/// Checks made, and what came of them.
+#[derive(Debug, Default)]
+pub(super) struct Findings {
+    pub(super) judgements: Vec<Judgement>,
+    pub(super) checks: usize,
+}
+
+impl Findings {
+    /// Judges one check; the turn is its evidence.
+    pub(super) fn check(
+        &mut self,
+        rule: impl Into<Rule>,
+        kept: bool,
+        turn: Option<&Turn>,
+        expected: impl Display,
+        found: impl Display,
+    ) -> bool {
+        let mut rule = rule.into();
+        if rule.id == CLIENT {
+            // Not of the catalogue.
+            rule.level = Some(Level::Must);
+        }
+        let verdict = match (kept, rule.level) {
+            (true, _) => Verdict::Pass,
+            (false, Some(level)) => Verdict::missed(level),
+            (false, None) => Verdict::HarnessError,
+        };
+        self.checks = self.checks.saturating_add(1);
+        let same = self
+            .judgements
+            .iter_mut()
+            .filter(|judgement| judgement.requirement == rule.id && judgement.verdict == verdict);
+        let mut same: Vec<_> = same.collect();
+        if same.len() >= if kept { 1 } else { KEPT } {
+            if let Some(last) = same.last_mut() {
+                last.more = last.more.saturating_add(1);
+            }
+            return kept;
+        }
+        let (expected, found) = match kept {
+            true => (String::new(), String::new()),
+            false => (expected.to_string(), found.to_string()),
+        };
+        let evidence = turn.filter(|_| !kept).map(evidence);
+        let (requirement, level) = (rule.id, rule.level);
+        let judgement =
+            Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
+        self.judgements.push(judgement);
+        kept
+    }
+}
+
+/// What a client sent and got, as a report shows it.
+pub(super) fn evidence(turn: &Turn) -> Evidence {
+    let mut evidence = Evidence {
+        call: "bytes that are no request".to_owned(),
+        result: turn.fault.clone().unwrap_or_else(|| format!("{} bytes", turn.sent.len())),
+        frame_sent: turn.request.clone(),
+        frame_received: turn.sent.clone(),
+        ..Evidence::default()
+    };
+    let Ok(Some((frame, _))) = FrameRef::split(&turn.request, u32::MAX) else { return evidence };
+    evidence.call =
+        format!("command {} to port {}", frame.header().command.0, frame.header().target.port);
+    if let Ok(Some(call)) = call_of(&frame) {
+        evidence.call = format!(
+            "{} {}, {} at port {}",
+            call.service, call.index_group, call.index_offset, call.port
+        );
+        evidence.sent = call.data.to_vec();
+        let function = call.dispatch().ok().map(|request| request.function().spec());
+        evidence.request_stream =
+            function.and_then(|spec| spec.request).map(|stream| stream.layout().name);
+        evidence.reply_stream =
+            function.and_then(|spec| spec.reply).map(|stream| stream.layout().name);
+    }
+    if let Ok(Some((reply, len))) = FrameRef::split(&turn.sent, u32::MAX)
+        && len == turn.sent.len()
+    {
+        let data = match reply.header().command {
+            Command::READ => ReadReplyRef::decode(reply.data()).ok().and_then(|one| one.data),
+            Command::READ_WRITE => {
+                ReadWriteReplyRef::decode(reply.data()).ok().and_then(|one| one.data)
+            }
+            _ => None,
+        };
+        evidence.received = data.map(<[u8]>::to_vec);
+    }
+    evidence
+}

@@ -1,0 +1,279 @@
+//! Putting a client through its scenarios, and what comes of it.
+
+use std::fs;
+use std::io;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use ads_cnc_vectors::Level;
+use serde_json::Value;
+
+use super::findings::Findings;
+use super::message::{Answer, Hello, Place, Reaction};
+use super::result::same;
+use super::scenario::{Expect, Scenario};
+use super::script::Script;
+use super::stage::{Stage, Turn};
+use super::{Actor, CLIENT, Defect, Own, asked, requests, scenarios, watch};
+use crate::cnc::Cnc;
+use crate::suite::{Body, Case, Needs, Outcome, Rule, Stop, Subject};
+use crate::verdict::Verdict;
+
+/// Deaths and silences in a row after which no more is tried.
+const LOST_MAX: usize = 12;
+
+/// What came of a client.
+#[derive(Debug)]
+pub struct Judged {
+    /// What it says of itself.
+    pub hello: Option<Hello>,
+    /// Of each scenario, and of the protocol.
+    pub outcomes: Vec<Outcome>,
+    /// Requests it sent.
+    pub requests: usize,
+}
+
+/// Puts a client through scenarios, in their order.
+pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Judged {
+    let mut manners = Findings::default();
+    let mut requests = 0_usize;
+    let place = |port| Place { addr: stage.addr(), net_id: stage.net_id(), port };
+    let hello = match actor.hello(&place(552)) {
+        Ok(hello) => hello,
+        Err(reaction) => {
+            manners.check(CLIENT, false, None, "an answer to hello", reaction);
+            let why = "there was no answer to hello";
+            let untried =
+                |one: &Scenario| Outcome::untried(one.case(), Verdict::NotRun, why.to_owned());
+            let mut outcomes: Vec<Outcome> = scenarios.iter().map(untried).collect();
+            outcomes.push(of_manners(manners));
+            return Judged { hello: None, outcomes, requests };
+        }
+    };
+    manners.check(CLIENT, true, None, "", "");
+    let mut outcomes = Vec::new();
+    let mut lost = 0_usize;
+    for scenario in scenarios {
+        let case = scenario.case();
+        let word = scenario.action.split(' ').next().unwrap_or_default();
+        if !hello.actions.iter().any(|one| one == word) {
+            let note = format!("the client has no {word}");
+            outcomes.push(Outcome::untried(case, Verdict::NotApplicable, note));
+            continue;
+        }
+        if lost >= LOST_MAX {
+            let note = format!("the client is gone: {LOST_MAX} times in a row without an answer");
+            outcomes.push(Outcome::untried(case, Verdict::Inconclusive, note));
+            continue;
+        }
+        let port = match scenario.asks.first() {
+            Some(ask) => ask.port,
+            None if word.ends_with("-objects") || word == "stream" => 553,
+            None => 552,
+        };
+        let played = play(actor, stage, scenario, &place(port));
+        let (outcome, is_lost, count) = match played {
+            Ok(played) => played,
+            Err(error) => {
+                let stop = Stop::Harness(error);
+                outcomes.push(Outcome::tried(case, Vec::new(), 0, Some(stop)));
+                continue;
+            }
+        };
+        lost = if is_lost { lost.saturating_add(1) } else { 0 };
+        requests = requests.saturating_add(count);
+        outcomes.push(outcome);
+    }
+    if lost < LOST_MAX {
+        let bye = actor.bye();
+        let found = bye.clone().err().unwrap_or_default();
+        manners.check(CLIENT, bye.is_ok(), None, "its end with exit code 0 after bye", found);
+    }
+    outcomes.push(of_manners(manners));
+    Judged { hello: Some(hello), outcomes, requests }
+}
+
+/// Puts this project's client with a defect through the scenarios that can judge what it is about,
+/// until that fails; with a habit through all of them.
+pub fn trial(defect: &Defect, stage: &Stage) -> Vec<Outcome> {
+    let mut own = Own { flaw: Some(defect.flaw) };
+    let wanted = defect.requirement;
+    let judges = |scenario: &Scenario| {
+        let whole = wanted.is_empty() || wanted == CLIENT;
+        whole || scenario.case().requirements.contains(&wanted)
+    };
+    let mut outcomes: Vec<Outcome> = Vec::new();
+    for scenario in scenarios().into_iter().filter(judges) {
+        outcomes.extend(judge(&mut own, stage, std::slice::from_ref(&scenario)).outcomes);
+        let mut verdicts = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
+        if verdicts.any(|one| one.requirement == wanted && one.verdict == Verdict::Fail) {
+            break;
+        }
+    }
+    outcomes
+}
+
+/// What comes of one scenario, whether the client was lost, and how many requests it sent.
+fn play(
+    actor: &mut dyn Actor,
+    stage: &Stage,
+    scenario: &Scenario,
+    place: &Place,
+) -> Result<(Outcome, bool, usize), String> {
+    let file = scenario.program.as_deref().map(Program::new).transpose();
+    let file = file.map_err(|error| format!("the NC program: {error}"))?;
+    let name = file.as_ref().and_then(|file| file.0.to_str());
+    let action = scenario.told(name).ok_or("no word of the vocabulary")?;
+    let cnc = Cnc::with_default_model().map_err(|error| error.to_string())?;
+    let mut script = Script::new(cnc);
+    script.knob = scenario.knob;
+    script.refused.clone_from(&scenario.refused);
+    script.literal.clone_from(&scenario.literal);
+    script.response = scenario.response;
+    if let Some(prepare) = scenario.prepare {
+        prepare(&script);
+    }
+    stage.begin(script);
+    let reaction = actor.act(place, &scenario.id, &action);
+    let (turns, script) = stage.end();
+    let script = script.ok_or("the CNC of the scenario is still in use")?;
+    let mut findings = Findings::default();
+    requests::judge(&turns, &mut findings);
+    // Who sees a loop word or a lie need not ask at all.
+    asked::judge(&scenario.asks, &turns, may_write(scenario), &mut findings);
+    if let Some(watch) = scenario.watch {
+        watch::judge(watch, scenario, &script, &turns, &mut findings);
+    }
+    let stop = said(scenario, &script, &reaction, turns.last(), &mut findings);
+    let is_lost = matches!(reaction, Reaction::Died(_) | Reaction::Hung(_) | Reaction::Broken(_));
+    let mut case = scenario.case();
+    // A client may ask more than it has to; that is judged too.
+    for judgement in &findings.judgements {
+        if !case.requirements.contains(&judgement.requirement) {
+            case.requirements.push(judgement.requirement);
+        }
+    }
+    let Findings { judgements, checks } = findings;
+    Ok((Outcome::tried(case, judgements, checks, stop), is_lost, turns.len()))
+}
+
+fn may_write(scenario: &Scenario) -> bool {
+    let word = scenario.action.split(' ').next().unwrap_or_default();
+    word.starts_with("write") || ["stream", "serve-echo", "ask-service"].contains(&word)
+}
+
+/// Judges what the client says.
+fn said(
+    scenario: &Scenario,
+    script: &Script,
+    reaction: &Reaction,
+    last: Option<&Turn>,
+    findings: &mut Findings,
+) -> Option<Stop> {
+    let expected = match &scenario.expect {
+        Expect::Result(value) => Expected::result(value.clone()),
+        Expect::Asked(ask) => Expected::result(ask(script)?),
+        Expect::ResultOrError(value) => Expected { error: true, ..Expected::result(value.clone()) },
+        Expect::AskedOrError(ask) => Expected { error: true, ..Expected::result(ask(script)?) },
+        Expect::Done => Expected { result: None, any: true, error: false },
+        Expect::DoneOrError => Expected { result: None, any: true, error: true },
+        Expect::Error => Expected { result: None, any: false, error: true },
+    };
+    let rules = scenario.rules();
+    let kept = match reaction {
+        Reaction::Answer(Answer::Unsupported(what)) => {
+            // What it knows is in its hello; this it claimed.
+            let found = format!("unsupported: {what}");
+            findings.check(CLIENT, false, last, "what its hello claims", found);
+            return Some(Stop::NotApplicable(format!("the client has no {what}")));
+        }
+        Reaction::Answer(Answer::Result(value)) => {
+            let value = match scenario.action.starts_with("find-instance") {
+                true => logical(value),
+                false => value.clone(),
+            };
+            expected.any || expected.result.as_ref().is_some_and(|right| same(right, &value))
+        }
+        Reaction::Answer(Answer::Error(_)) => expected.error,
+        _ => false,
+    };
+    let rules: Vec<Rule> = match reaction {
+        Reaction::Answer(_) => rules,
+        // Whatever is assumed of what it was to do: this is nothing that can be meant.
+        Reaction::Died(_) | Reaction::Hung(_) | Reaction::Garbled(_) => {
+            let must = |rule: Rule| Rule { level: Some(Level::Must), ..rule };
+            rules.into_iter().map(must).chain([CLIENT.into()]).collect()
+        }
+        Reaction::Broken(why) => return Some(Stop::Inconclusive(why.clone())),
+    };
+    for rule in rules {
+        findings.check(rule, kept, last, &expected, reaction);
+    }
+    None
+}
+
+/// A place as who asks logically has it.
+fn logical(place: &Value) -> Value {
+    let parts = place.as_array().map(Vec::as_slice).unwrap_or_default();
+    match (parts, parts.first().and_then(Value::as_u64).and_then(|group| group.try_into().ok())) {
+        ([_, offset], Some(group)) => vec![asked::logical(group).into(), offset.clone()].into(),
+        _ => place.clone(),
+    }
+}
+
+/// What a client has to say.
+struct Expected {
+    result: Option<Value>,
+    any: bool,
+    error: bool,
+}
+
+impl Expected {
+    const fn result(value: Value) -> Self {
+        Self { result: Some(value), any: false, error: false }
+    }
+}
+
+impl std::fmt::Display for Expected {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (&self.result, self.any, self.error) {
+            (Some(value), _, true) => write!(f, "the result {value}, or an error"),
+            (Some(value), ..) => write!(f, "the result {value}"),
+            (None, true, true) => f.write_str("a result, or an error"),
+            (None, true, _) => f.write_str("a result"),
+            (None, ..) => f.write_str("an error"),
+        }
+    }
+}
+
+/// How the client keeps to the protocol.
+fn of_manners(findings: Findings) -> Outcome {
+    let case = Case {
+        id: "client-manners".to_owned(),
+        title: "It says who it is, and ends when it is told to".to_owned(),
+        subject: Subject::Client,
+        requirements: vec![CLIENT],
+        needs: Needs::Queries,
+        body: Body::Client,
+    };
+    Outcome::tried(case, findings.judgements, findings.checks.max(1), None)
+}
+
+/// An NC program in a file of its own, removed in the end.
+struct Program(PathBuf);
+
+impl Program {
+    fn new(text: &[u8]) -> io::Result<Self> {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let (process, count) = (std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let path = std::env::temp_dir().join(format!("ads-cnc-client-{process}-{count}.nc"));
+        fs::write(&path, text)?;
+        Ok(Self(path))
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        let _gone = fs::remove_file(&self.0);
+    }
+}

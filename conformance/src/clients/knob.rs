@@ -1,0 +1,329 @@
+//! What is done to a reply on its way: bytes are changed around the codec, or sent otherwise.
+
+use std::time::Duration;
+
+use ads_cnc::ads::{
+    AdsError, AmsHeader, Command, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags, WriteReply,
+};
+use ads_cnc::limits::{DESCRIPTOR_LEN, TEXT_MAX};
+use ads_cnc::{Decode as _, Encode};
+
+/// What is done to a reply.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Knob {
+    /// One byte at a time.
+    Bytewise,
+    /// In two pieces, the first of so many bytes, with some time between them.
+    Pieces(usize),
+    /// Behind a reply to another invoke ID with other data, in one piece with it.
+    Foreign,
+    /// The same reply is there twice, in one piece.
+    Twice,
+    /// Behind the reply to the request before, in one piece with it.
+    Late,
+    /// Only to another invoke ID; the connection is closed some time later.
+    OtherInvokeId,
+    /// With another number in a header or before the data, as it lies at this offset of the frame;
+    /// the connection is closed some time later.
+    Lie(Place, Lie),
+    /// As the answer to another command.
+    OtherCommand,
+    /// Marked as a request.
+    Request,
+    /// An error in the AMS header and nothing behind it.
+    AmsError,
+    /// A result that is an error, and nothing behind it.
+    BareResult,
+    /// A result that is an error, length 0.
+    EmptyResult,
+    /// A result that is an error, before the data of a success.
+    ResultWithData,
+    /// Nothing, and the connection is closed behind so many bytes of it.
+    CutAt(usize),
+    /// All but its last byte, and the connection is closed.
+    CutEnd,
+    /// Nothing ever.
+    Silence,
+    /// So many bytes more of data, with all lengths right.
+    More(usize),
+    /// So many bytes less of data, with all lengths right.
+    Less(usize),
+    /// Just so many bytes of data.
+    Only(usize),
+    /// The name at the end padded with NULs to its 256 bytes; its start is at this offset.
+    Padded(usize),
+    /// Without the NUL at the end.
+    Open,
+    /// Other bytes in the data, from this offset on.
+    Patch(usize, [u8; 4]),
+    /// Not more than so many descriptors.
+    Descriptors(usize),
+}
+
+/// A number of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// The length of the AMS/TCP header.
+    AmsTcp,
+    /// The data length of the AMS header.
+    Ams,
+    /// The length before the data of a reply.
+    Data,
+}
+
+/// Another number than the right one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lie {
+    /// One more.
+    Longer,
+    /// One less.
+    Shorter,
+    /// 0.
+    Zero,
+    /// All bits set.
+    Huge,
+}
+
+/// What the sending side does.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Deed {
+    Send(Vec<u8>),
+    Pause(Duration),
+    Close,
+}
+
+/// Long enough for a client to have read what was sent, short enough to wait for.
+const MOMENT: Duration = Duration::from_millis(40);
+
+/// An error of the AMS header: what a router says of a port that nobody has.
+const AMS_ERROR: AdsError = AdsError::TARGET_PORT_NOT_FOUND;
+
+impl Knob {
+    /// What is done with a reply; `before` is the last one to another request.
+    pub(super) fn deeds(self, reply: &[u8], before: Option<&[u8]>) -> Vec<Deed> {
+        let send = |bytes: Vec<u8>| vec![Deed::Send(bytes)];
+        let then_close = |bytes: Vec<u8>| vec![Deed::Send(bytes), Deed::Pause(MOMENT), Deed::Close];
+        let all = || reply.to_vec();
+        match self {
+            Self::Bytewise => reply.iter().map(|&byte| Deed::Send(vec![byte])).collect(),
+            Self::Pieces(at) => {
+                let (front, rest) = reply.split_at(at.min(reply.len()));
+                vec![Deed::Send(front.to_vec()), Deed::Pause(MOMENT), Deed::Send(rest.to_vec())]
+            }
+            Self::Foreign => send([foreign(reply), all()].concat()),
+            Self::Twice => send([all(), all()].concat()),
+            Self::Late => send([before.unwrap_or_default().to_vec(), all()].concat()),
+            Self::OtherInvokeId => then_close(foreign(reply)),
+            Self::Lie(place, lie) => then_close(lying(reply, place, lie)),
+            Self::OtherCommand => then_close(with_header(reply, |header| {
+                header.command = match header.command {
+                    Command::READ => Command::READ_WRITE,
+                    _ => Command::READ,
+                };
+            })),
+            Self::Request => {
+                then_close(with_header(reply, |header| header.state_flags = StateFlags::REQUEST))
+            }
+            Self::AmsError => send(rebuilt(reply, |parts| {
+                parts.header.error = AMS_ERROR;
+                parts.body = Body::None;
+            })),
+            Self::BareResult => send(rebuilt(reply, |parts| {
+                parts.body = Body::Result(AdsError::INVALID_DATA, None);
+            })),
+            Self::EmptyResult => send(rebuilt(reply, |parts| {
+                parts.body = Body::Result(AdsError::INVALID_DATA, Some(Vec::new()));
+            })),
+            Self::ResultWithData => send(rebuilt(reply, |parts| {
+                if let Body::Result(result, _) = &mut parts.body {
+                    *result = AdsError::INVALID_DATA;
+                }
+            })),
+            Self::CutAt(len) => {
+                vec![Deed::Send(reply.iter().take(len).copied().collect()), Deed::Close]
+            }
+            Self::CutEnd => {
+                let len = reply.len().saturating_sub(1);
+                vec![Deed::Send(reply.iter().take(len).copied().collect()), Deed::Close]
+            }
+            Self::Silence => Vec::new(),
+            Self::More(count) => send(with_data(reply, |data| {
+                data.resize(data.len().saturating_add(count), 0x2A);
+            })),
+            Self::Less(count) => {
+                send(with_data(reply, |data| data.truncate(data.len().saturating_sub(count))))
+            }
+            Self::Only(len) => send(with_data(reply, |data| data.truncate(len))),
+            Self::Padded(name) => {
+                send(with_data(reply, |data| data.resize(name.saturating_add(TEXT_MAX), 0)))
+            }
+            Self::Open => send(with_data(reply, |data| {
+                if data.last() == Some(&0) {
+                    data.pop();
+                }
+            })),
+            Self::Patch(at, bytes) => send(with_data(reply, |data| {
+                data.iter_mut().skip(at).zip(bytes).for_each(|(byte, new)| *byte = new);
+            })),
+            Self::Descriptors(count) => {
+                send(with_data(reply, |data| data.truncate(count.saturating_mul(DESCRIPTOR_LEN))))
+            }
+        }
+    }
+}
+
+/// A reply taken apart by the codec, to be put together again by it.
+struct Parts {
+    header: AmsHeader,
+    body: Body,
+}
+
+enum Body {
+    None,
+    /// Of a Write there is never any data.
+    Result(AdsError, Option<Vec<u8>>),
+}
+
+/// The reply with something in it changed, and all lengths right. One that is not understood stays
+/// as it is.
+fn rebuilt(reply: &[u8], change: impl FnOnce(&mut Parts)) -> Vec<u8> {
+    let rebuilt = || {
+        let (frame, _) = FrameRef::split(reply, u32::MAX).ok().flatten()?;
+        let header = frame.header();
+        let body = match header.command {
+            Command::READ => {
+                let reply = ReadReplyRef::decode(frame.data()).ok()?;
+                Body::Result(reply.result, reply.data.map(<[u8]>::to_vec))
+            }
+            Command::READ_WRITE => {
+                let reply = ReadWriteReplyRef::decode(frame.data()).ok()?;
+                Body::Result(reply.result, reply.data.map(<[u8]>::to_vec))
+            }
+            _ => Body::Result(WriteReply::decode(frame.data()).ok()?.result, None),
+        };
+        let mut parts = Parts { header, body };
+        change(&mut parts);
+        let body = match &parts.body {
+            Body::None => Vec::new(),
+            Body::Result(result, data) if header.command == Command::READ => {
+                ReadReplyRef { result: *result, data: data.as_deref() }.to_vec().ok()?
+            }
+            Body::Result(result, data) if header.command == Command::READ_WRITE => {
+                ReadWriteReplyRef { result: *result, data: data.as_deref() }.to_vec().ok()?
+            }
+            Body::Result(result, _) => WriteReply { result: *result }.to_vec().ok()?,
+        };
+        encoded(parts.header, &body)
+    };
+    rebuilt().unwrap_or_else(|| reply.to_vec())
+}
+
+fn encoded(header: AmsHeader, body: &[u8]) -> Option<Vec<u8>> {
+    let frame = FrameRef::new(header, body).ok()?;
+    let mut bytes = vec![0; frame.encoded_len()];
+    frame.encode(&mut bytes).ok()?;
+    Some(bytes)
+}
+
+fn with_header(reply: &[u8], change: impl FnOnce(&mut AmsHeader)) -> Vec<u8> {
+    rebuilt(reply, |parts| change(&mut parts.header))
+}
+
+fn with_data(reply: &[u8], change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
+    rebuilt(reply, |parts| {
+        if let Body::Result(_, Some(data)) = &mut parts.body {
+            change(data);
+        }
+    })
+}
+
+/// A reply to a request that nobody has made, with data of the same length that is not the same.
+fn foreign(reply: &[u8]) -> Vec<u8> {
+    let other = with_data(reply, |data| {
+        for byte in data.iter_mut() {
+            *byte ^= 0x15;
+        }
+    });
+    with_header(&other, |header| header.invoke_id = header.invoke_id.wrapping_add(0x0100_0000))
+}
+
+/// The reply with one number overwritten, whatever it makes of the rest.
+fn lying(reply: &[u8], place: Place, lie: Lie) -> Vec<u8> {
+    // Offsets of the frame: 6 bytes of AMS/TCP header, 32 of AMS header, 4 of result.
+    let at = match place {
+        Place::AmsTcp => 2,
+        Place::Ams => 26,
+        Place::Data => 42,
+    };
+    let mut bytes = reply.to_vec();
+    if let Some(Ok(field)) = bytes.get_mut(at..).map(|rest| {
+        let field: Result<&mut [u8; 4], _> = rest.get_mut(..4).unwrap_or_default().try_into();
+        field
+    }) {
+        let number = u32::from_le_bytes(*field);
+        let other = match lie {
+            Lie::Longer => number.wrapping_add(1),
+            Lie::Shorter => number.wrapping_sub(1),
+            Lie::Zero => 0,
+            Lie::Huge => u32::MAX,
+        };
+        *field = other.to_le_bytes();
+    }
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The reply to a count of 123: headers, result 0, length 4, data.
+    fn reply() -> Vec<u8> {
+        let mut bytes = vec![0, 0, 44, 0, 0, 0];
+        bytes.extend([127, 0, 0, 1, 1, 2, 0, 0x80, 127, 0, 0, 1, 1, 1, 0x28, 2]);
+        bytes.extend([9, 0, 5, 0, 12, 0, 0, 0, 0, 0, 0, 0, 7, 0, 0, 0]);
+        bytes.extend([0, 0, 0, 0, 4, 0, 0, 0, 123, 0, 0, 0]);
+        bytes
+    }
+
+    fn sent(knob: Knob) -> Vec<u8> {
+        let deeds = knob.deeds(&reply(), None);
+        let sent = deeds.into_iter().filter_map(|deed| match deed {
+            Deed::Send(bytes) => Some(bytes),
+            _ => None,
+        });
+        sent.flatten().collect()
+    }
+
+    #[test]
+    fn lengths_lie_where_they_should() {
+        let at = |knob, place: usize| sent(knob)[place..place + 4].to_vec();
+        assert_eq!(at(Knob::Lie(Place::AmsTcp, Lie::Longer), 2), [45, 0, 0, 0]);
+        assert_eq!(at(Knob::Lie(Place::Ams, Lie::Shorter), 26), [11, 0, 0, 0]);
+        assert_eq!(at(Knob::Lie(Place::Data, Lie::Huge), 42), [0xFF; 4]);
+        for lie in [Lie::Longer, Lie::Shorter, Lie::Zero, Lie::Huge] {
+            for place in [Place::AmsTcp, Place::Ams, Place::Data] {
+                let lying = sent(Knob::Lie(place, lie));
+                let differing = lying.iter().zip(reply()).filter(|(new, old)| **new != *old);
+                assert!(lying.len() == 50 && differing.count() >= 1);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_put_together_again_is_right_but_for_what_was_meant() {
+        assert_eq!(sent(Knob::Bytewise), reply());
+        assert_eq!(sent(Knob::Pieces(7)), reply());
+        assert_eq!(sent(Knob::Less(1)).len(), 49);
+        assert_eq!(sent(Knob::Less(1))[2..6], [43, 0, 0, 0]);
+        assert_eq!(sent(Knob::More(1))[42..46], [5, 0, 0, 0]);
+        assert_eq!(sent(Knob::AmsError).len(), 38);
+        assert_eq!(sent(Knob::AmsError)[30..34], [6, 0, 0, 0]);
+        assert_eq!(sent(Knob::BareResult)[38..], [6, 7, 0, 0]);
+        assert_eq!(sent(Knob::EmptyResult)[38..], [6, 7, 0, 0, 0, 0, 0, 0]);
+        let with_data = sent(Knob::ResultWithData);
+        assert_eq!(with_data[38..], [6, 7, 0, 0, 4, 0, 0, 0, 123, 0, 0, 0]);
+        assert_eq!(sent(Knob::Foreign)[50..], reply());
+        assert_eq!(sent(Knob::Foreign)[34..38], [7, 0, 0, 1]);
+        assert_eq!(sent(Knob::CutEnd), reply()[..49]);
+    }
+}

@@ -1,0 +1,102 @@
+//! Frames that no codec has had in its hands: printed bytes behind headers put together by hand.
+//! A mistake that client and CNC share through one codec shows here.
+
+/// One printed example: what has to be sent, and what comes back.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Literal {
+    /// Service, by the number of its command.
+    pub(super) command: u8,
+    /// The AMS port.
+    pub(super) port: u16,
+    /// Index group.
+    pub(super) group: u32,
+    /// Index offset.
+    pub(super) offset: u32,
+    /// Data of the request.
+    pub(super) data: Vec<u8>,
+    /// The most bytes that a name as data may be filled up to with NULs; 0 for other data.
+    pub(super) padded: usize,
+    /// Data of the reply; nothing for a Write.
+    pub(super) reply: Vec<u8>,
+}
+
+/// The two headers.
+const HEADERS: usize = 38;
+
+impl Literal {
+    /// The forms that are as good: channels by index, and names filled up.
+    fn forms(&self) -> Vec<Self> {
+        let by_index = Self { group: self.group & !0x10_0000, ..self.clone() };
+        let mut forms = vec![self.clone(), by_index];
+        if self.padded > 0 {
+            let filled = |one: &Self| {
+                let mut data = one.data.clone();
+                data.resize(self.padded, 0);
+                Self { data, ..one.clone() }
+            };
+            let all: Vec<Self> = forms.iter().map(filled).collect();
+            forms.extend(all);
+        }
+        forms
+    }
+
+    /// The service's part of the request but for how much is to be read, which is the client's
+    /// affair: in front of it and behind it.
+    fn request(&self) -> (Vec<u8>, Vec<u8>) {
+        let mut front = self.group.to_le_bytes().to_vec();
+        front.extend(self.offset.to_le_bytes());
+        let mut behind = Vec::new();
+        if self.command != 2 {
+            let length = u32::try_from(self.data.len()).unwrap_or(u32::MAX);
+            behind.extend(length.to_le_bytes());
+            behind.extend(&self.data);
+        }
+        (front, behind)
+    }
+
+    /// Whether this is the frame, byte for byte, but for whose it is, its number and how much is
+    /// to be read.
+    fn is(&self, frame: &[u8]) -> bool {
+        let (front, behind) = self.request();
+        let between = if self.command == 3 { 0_usize } else { 4 };
+        let len = front.len().saturating_add(between).saturating_add(behind.len());
+        let at = |start: usize, bytes: &[u8]| {
+            frame.get(start..start.saturating_add(bytes.len())) == Some(bytes)
+        };
+        let word = |number: usize| u32::try_from(number).unwrap_or(u32::MAX).to_le_bytes();
+        let behind_at = frame.len().saturating_sub(behind.len());
+        frame.len() == HEADERS.saturating_add(len)
+            && at(0, &[0, 0])
+            && at(2, &word(len.saturating_add(32)))
+            && at(12, &self.port.to_le_bytes())
+            && at(22, &[self.command, 0, 4, 0])
+            && at(26, &word(len))
+            && at(30, &[0; 4])
+            && at(HEADERS, &front)
+            && at(behind_at, &behind)
+    }
+
+    /// The whole reply to the frame, if it is the printed one.
+    pub(super) fn reply(&self, frame: &[u8]) -> Option<Vec<u8>> {
+        if !self.forms().iter().any(|form| form.is(frame)) {
+            return None;
+        }
+        let mut body = vec![0; 4];
+        if self.command != 3 {
+            body.extend(u32::try_from(self.reply.len()).ok()?.to_le_bytes());
+            body.extend(&self.reply);
+        }
+        let length = u32::try_from(body.len()).ok()?;
+        let mut reply = vec![0, 0];
+        reply.extend(length.checked_add(32)?.to_le_bytes());
+        // Back to whom it came from.
+        reply.extend(frame.get(14..22)?);
+        reply.extend(frame.get(6..14)?);
+        reply.extend([self.command, 0, 5, 0]);
+        reply.extend(length.to_le_bytes());
+        reply.extend([0; 4]);
+        reply.extend(frame.get(34..38)?);
+        reply.extend(body);
+        Some(reply)
+    }
+}

@@ -1,0 +1,130 @@
+//! The lines that go to a client and come from it.
+
+use std::net::SocketAddr;
+
+use ads_cnc::ads::AmsNetId;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use super::Action;
+
+/// Version of the protocol.
+pub const PROTOCOL: u32 = 1;
+
+/// What a client says of itself.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Hello {
+    /// Version of the protocol it speaks.
+    pub protocol: u32,
+    /// Who it is.
+    pub client: Identity,
+    /// The words of the vocabulary that it knows.
+    pub actions: Vec<String>,
+    /// Whether it stays and is spoken with, or is started for each action.
+    #[serde(default)]
+    pub stays: bool,
+}
+
+/// Who a client is.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Identity {
+    /// Its name.
+    pub name: String,
+    /// Its version.
+    pub version: String,
+    /// The language it is written in.
+    pub language: String,
+}
+
+/// Where the CNC is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Its TCP address.
+    pub addr: SocketAddr,
+    /// Its AMS NetId.
+    pub net_id: AmsNetId,
+    /// The AMS port of the task that serves the action.
+    pub port: u16,
+}
+
+/// What a client is told.
+pub(super) fn told(place: &Place, scenario: &str, action: &Action) -> Value {
+    json!({
+        "cmd": "do",
+        "scenario": scenario,
+        "action": action.action,
+        "args": action.args,
+        "address": place.addr.to_string(),
+        "host": place.addr.ip().to_string(),
+        "tcp_port": place.addr.port(),
+        "net_id": place.net_id.to_string(),
+        "port": place.port,
+    })
+}
+
+/// The same for one that is started for each action.
+pub(super) fn environment(
+    place: &Place,
+    scenario: &str,
+    action: &str,
+) -> [(&'static str, String); 8] {
+    [
+        ("ADS_CNC_PROTOCOL", PROTOCOL.to_string()),
+        ("ADS_CNC_ADDRESS", place.addr.to_string()),
+        ("ADS_CNC_HOST", place.addr.ip().to_string()),
+        ("ADS_CNC_TCP_PORT", place.addr.port().to_string()),
+        ("ADS_CNC_NET_ID", place.net_id.to_string()),
+        ("ADS_CNC_PORT", place.port.to_string()),
+        ("ADS_CNC_SCENARIO", scenario.to_owned()),
+        ("ADS_CNC_DO", action.to_owned()),
+    ]
+}
+
+/// What comes of an action.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Answer {
+    /// It was done, and this is the result.
+    Result(Value),
+    /// It was not: the CNC refused, or what came from it was wrong.
+    Error(String),
+    /// The client has no such thing.
+    Unsupported(String),
+}
+
+/// What a client does when it is told to do something.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reaction {
+    /// It says what came of it.
+    Answer(Answer),
+    /// It says something else.
+    Garbled(String),
+    /// It ends without a word.
+    Died(String),
+    /// It neither ends nor says anything for so long.
+    Hung(std::time::Duration),
+    /// It could not be told.
+    Broken(String),
+}
+
+impl std::fmt::Display for Reaction {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Answer(Answer::Result(value)) => {
+                write!(f, "the result {}", cut(&value.to_string()))
+            }
+            Self::Answer(Answer::Error(why)) => write!(f, "the error {:?}", cut(why)),
+            Self::Answer(Answer::Unsupported(what)) => write!(f, "unsupported: {}", cut(what)),
+            Self::Garbled(what) => write!(f, "no answer of the protocol: {what}"),
+            Self::Died(how) => write!(f, "it died: {how}"),
+            Self::Hung(time) => write!(f, "it hung: no word within {} ms", time.as_millis()),
+            Self::Broken(why) => f.write_str(why),
+        }
+    }
+}
+
+fn cut(text: &str) -> String {
+    let shown: String = text.chars().take(200).collect();
+    if shown.len() < text.len() { shown + "…" } else { shown }
+}

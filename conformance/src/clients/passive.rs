@@ -1,0 +1,52 @@
+//! A client that nobody tells anything: it connects, and its requests are judged.
+
+use ads_cnc::operation::Function;
+
+use super::findings::Findings;
+use super::script::Script;
+use super::stage::Stage;
+use super::{CLIENT, requests};
+use crate::cnc::{Cnc, ModelError};
+use crate::suite::{Body, Case, Needs, Outcome, Stop, Subject};
+
+/// The case that all requests are judged in: by whatever requirement each of them touches.
+pub fn requests_case() -> Case {
+    let functions = Function::ALL.iter().map(|function| function.spec().clause);
+    let mut requirements: Vec<&'static str> =
+        ["ADS-1", "ADS-2", "ADS-3", "ADS-5", "GEN-4"].into_iter().chain(functions).collect();
+    requirements.sort_unstable();
+    requirements.dedup();
+    Case {
+        id: "client-requests".to_owned(),
+        title: "Every request is one that a CNC knows".to_owned(),
+        subject: Subject::Client,
+        requirements,
+        needs: Needs::Queries,
+        body: Body::Client,
+    }
+}
+
+/// Serves the default model to whoever connects, until all connections are closed again or
+/// `go_on` says no, and judges every request. The number of requests comes along.
+///
+/// # Errors
+/// None: a test builds the model.
+pub fn listen(stage: &Stage, go_on: impl FnMut() -> bool) -> Result<(Outcome, usize), ModelError> {
+    stage.begin(Script::new(Cnc::with_default_model()?));
+    stage.watch(go_on);
+    let (turns, _) = stage.end();
+    let mut findings = Findings::default();
+    requests::judge(&turns, &mut findings);
+    let mut requirements = Vec::new();
+    for judgement in &findings.judgements {
+        if !requirements.contains(&judgement.requirement) {
+            requirements.push(judgement.requirement);
+        }
+    }
+    let stop = requirements.is_empty().then(|| {
+        requirements.push(CLIENT);
+        Stop::Inconclusive("nobody has sent anything".to_owned())
+    });
+    let case = Case { requirements, ..requests_case() };
+    Ok((Outcome::tried(case, findings.judgements, findings.checks, stop), turns.len()))
+}

@@ -1,0 +1,120 @@
+//! A client that is a process of its own: started for each action, or spoken with.
+
+use std::time::Duration;
+
+use super::message::{Answer, Hello, PROTOCOL, Place, Reaction, environment, told};
+use super::{Action, Actor};
+use crate::child::{self, Spoken, Stderr, Unheard, cut};
+
+/// How long it has for ending when all is said.
+const GRACE: Duration = Duration::from_secs(2);
+
+/// The scenario in which a client says who it is.
+const HELLO: &str = "hello";
+
+/// A client that is started by a command line.
+#[derive(Debug)]
+pub struct Process {
+    line: String,
+    timeout: Duration,
+    /// One that stays.
+    running: Option<Spoken>,
+    stays: bool,
+    stderr: Stderr,
+}
+
+impl Process {
+    /// A client with so much time for each action.
+    pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
+        let stderr = Stderr::default();
+        Self { line: line.into(), timeout, running: None, stays: false, stderr }
+    }
+
+    fn start(&self, place: &Place, scenario: &str, action: &str) -> Result<Spoken, Reaction> {
+        let mut command = child::shell(&self.line);
+        command.envs(environment(place, scenario, action));
+        Spoken::start(command, &self.stderr)
+            .map_err(|error| Reaction::Broken(format!("it cannot be started: {error}")))
+    }
+
+    /// The line it answers with; ended if there is none.
+    fn hear(&self, running: Spoken) -> Result<(String, Spoken), Reaction> {
+        match running.hear(self.timeout) {
+            Ok(line) => Ok((line, running)),
+            Err(Unheard::Garbled(why)) => Err(Reaction::Garbled(why)),
+            Err(Unheard::Silence) => Err(Reaction::Hung(self.timeout)),
+            Err(Unheard::Closed) => Err(Reaction::Died(match running.ended(GRACE) {
+                Some(status) => status.to_string(),
+                None => "it closed its stdout".to_owned(),
+            })),
+        }
+    }
+}
+
+impl Actor for Process {
+    fn hello(&mut self, place: &Place) -> Result<Hello, Reaction> {
+        let running = self.start(place, HELLO, HELLO)?;
+        let (line, running) = self.hear(running)?;
+        let hello: Hello = serde_json::from_str(&line)
+            .map_err(|error| Reaction::Garbled(format!("{error} in the hello {}", cut(&line))))?;
+        if hello.protocol != PROTOCOL {
+            let other = hello.protocol;
+            return Err(Reaction::Garbled(format!("it speaks protocol {other}, not {PROTOCOL}")));
+        }
+        self.stays = hello.stays;
+        if hello.stays {
+            self.running = Some(running);
+        } else {
+            running.ended(GRACE);
+        }
+        Ok(hello)
+    }
+
+    fn act(&mut self, place: &Place, scenario: &str, action: &Action) -> Reaction {
+        let started = match self.running.take() {
+            Some(running) => Ok(running),
+            None if self.stays => match self.hello(place) {
+                Ok(_) => match self.running.take() {
+                    Some(running) => Ok(running),
+                    None => Err(Reaction::Garbled("it stays no longer".to_owned())),
+                },
+                Err(reaction) => Err(reaction),
+            },
+            None => self.start(place, scenario, &action.to_string()),
+        };
+        let heard = started.and_then(|running| {
+            if self.stays {
+                running.say(told(place, scenario, action).to_string().into_bytes());
+            }
+            self.hear(running)
+        });
+        let (line, running) = match heard {
+            Ok(heard) => heard,
+            Err(reaction) => return reaction,
+        };
+        let answer = serde_json::from_str::<Answer>(&line);
+        if self.stays {
+            self.running = Some(running);
+        } else if running.ended(GRACE).is_none() {
+            return Reaction::Hung(GRACE);
+        }
+        match answer {
+            Ok(answer) => Reaction::Answer(answer),
+            Err(error) => Reaction::Garbled(format!("{error}: {}", cut(&line))),
+        }
+    }
+
+    fn bye(&mut self) -> Result<(), String> {
+        let Some(running) = self.running.take() else { return Ok(()) };
+        running.say(b"{\"cmd\":\"bye\"}".to_vec());
+        match running.ended(GRACE.max(self.timeout)) {
+            Some(status) if status.success() => Ok(()),
+            Some(status) => Err(format!("it ended with {status} after bye")),
+            None => Err("it did not end after bye".to_owned()),
+        }
+    }
+
+    fn stderr(&self) -> String {
+        self.stderr.text()
+    }
+}

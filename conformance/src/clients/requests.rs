@@ -1,0 +1,170 @@
+//! What a client sends, request by request: whether it is one that a CNC knows.
+
+use ads_cnc::Error;
+use ads_cnc::ads::{AdsError, AmsPort, Command, FrameRef, StateFlags};
+use ads_cnc::operation::{Call, Effect, Function, Refusal, Request, Task};
+
+use super::CLIENT;
+use super::findings::Findings;
+use super::stage::Turn;
+use crate::cnc::NET_ID;
+use crate::exchange::call_of;
+use crate::suite::assumed;
+
+/// The longest frame.
+const DATA_MAX: u32 = 0x1_0000;
+
+/// Judges each request by itself.
+pub(super) fn judge(turns: &[Turn], findings: &mut Findings) {
+    for turn in turns {
+        one(turn, findings);
+    }
+    let id = |turn: &Turn| turn.request.get(34..38).map(<[u8]>::to_vec);
+    for pair in turns.windows(2) {
+        if let [first, second] = pair
+            && first.connection == second.connection
+        {
+            // Who never changes it cannot tell a late reply from its own.
+            let kept = id(first).is_none() || id(first) != id(second);
+            let expected = "another invoke ID than that of the request before";
+            findings.check(assumed("ADS-5"), kept, Some(second), expected, "the same");
+        }
+    }
+}
+
+fn one(turn: &Turn, findings: &mut Findings) {
+    let frame = match FrameRef::split(&turn.request, DATA_MAX) {
+        Ok(Some((frame, _))) => frame,
+        Ok(None) => {
+            let found = format!("{} bytes of a frame, and no more", turn.request.len());
+            findings.check("ADS-5", false, Some(turn), "a whole frame", found);
+            return;
+        }
+        Err(error) => {
+            findings.check("ADS-5", false, Some(turn), "a frame", error);
+            return;
+        }
+    };
+    let header = frame.header();
+    let checks = [
+        (
+            header.state_flags == StateFlags::REQUEST,
+            "state flags 0x0004",
+            format!("{:#06x}", header.state_flags.0),
+        ),
+        (header.error == AdsError::NONE, "error 0", header.error.to_string()),
+        (header.target.net_id == NET_ID, "the NetId it was told", header.target.net_id.to_string()),
+        (
+            (1..=9).contains(&header.command.0),
+            "a command from 1 to 9",
+            header.command.0.to_string(),
+        ),
+    ];
+    for (kept, expected, found) in checks {
+        findings.check("ADS-5", kept, Some(turn), expected, found);
+    }
+    let port = header.target.port;
+    let has_task = Task::from_port(port).is_some();
+    findings.check("GEN-4", has_task, Some(turn), "port 551, 552 or 553", port);
+    let service = service_rule(header.command);
+    match call_of(&frame) {
+        Err(error) => {
+            let expected = format!("a request of {}", name(header.command));
+            findings.check(service.unwrap_or(CLIENT), false, Some(turn), expected, error);
+        }
+        Ok(None) => {
+            let harmless = [Command::READ_DEVICE_INFO, Command::READ_STATE];
+            let expected = "Read, Write, ReadWrite, ReadDeviceInfo or ReadState";
+            let kept = harmless.contains(&header.command);
+            findings.check(CLIENT, kept, Some(turn), expected, name(header.command));
+        }
+        Ok(Some(call)) => {
+            findings.check(service.unwrap_or(CLIENT), true, Some(turn), "", "");
+            if !has_task {
+                return;
+            }
+            match call.dispatch() {
+                Ok(request) => {
+                    findings.check(request.function().spec().clause, true, Some(turn), "", "");
+                }
+                Err(refusal) => {
+                    let rule = clause(&call, refusal);
+                    findings.check(rule, false, Some(turn), "a request that a CNC knows", refusal);
+                }
+            }
+        }
+    }
+}
+
+const fn service_rule(command: Command) -> Option<&'static str> {
+    match command {
+        Command::READ => Some("ADS-1"),
+        Command::WRITE => Some("ADS-2"),
+        Command::READ_WRITE => Some("ADS-3"),
+        _ => None,
+    }
+}
+
+fn name(command: Command) -> String {
+    match command {
+        Command::READ => "Read".to_owned(),
+        Command::WRITE => "Write".to_owned(),
+        Command::READ_WRITE => "ReadWrite".to_owned(),
+        Command(number) => format!("command {number}"),
+    }
+}
+
+/// The requirement that a request breaks which no function takes.
+pub(super) fn clause(call: &Call<'_>, refusal: Refusal) -> &'static str {
+    match refusal {
+        Refusal::Port(_) => "GEN-4",
+        Refusal::Group(_) => {
+            let other = match call.port {
+                AmsPort::COM => AmsPort::SDA,
+                _ => AmsPort::COM,
+            };
+            let elsewhere = Call { port: other, ..*call }.dispatch();
+            match (elsewhere, call.port) {
+                // It would be right for another task.
+                (Ok(_) | Err(Refusal::Stream(_) | Refusal::Service { .. }), _) => "GEN-4",
+                (_, AmsPort::COM) => "ADR-3",
+                _ => "ADR-5",
+            }
+        }
+        Refusal::Offset(_) => match call.port {
+            AmsPort::COM => "COM-5",
+            _ => "SDA-4",
+        },
+        Refusal::Service { .. } => at(call).unwrap_or("ADS-4"),
+        Refusal::Stream(error) => of_field(&error).or_else(|| at(call)).unwrap_or("ADS-4"),
+        _ => CLIENT,
+    }
+}
+
+fn of_field(error: &Error) -> Option<&'static str> {
+    error.field().spec().map(|spec| spec.clause)
+}
+
+/// The clause of the function at an address.
+fn at(call: &Call<'_>) -> Option<&'static str> {
+    let group = call.index_group.parts()?;
+    let here = Function::ALL.iter().map(|function| function.spec()).find(|spec| {
+        !spec.is_content() && spec.group.holds(group) && spec.offset.holds(call.index_offset)
+    });
+    here.map(|spec| spec.clause)
+}
+
+/// The request of a turn, if it is one that a CNC knows.
+pub(super) fn with_request<T>(turn: &Turn, then: impl FnOnce(&Request<'_>) -> T) -> Option<T> {
+    let (frame, _) = FrameRef::split(&turn.request, DATA_MAX).ok()??;
+    let request = call_of(&frame).ok()??.dispatch().ok()?;
+    Some(then(&request))
+}
+
+/// Whether a turn changes anything in a CNC.
+pub(super) fn writes(turn: &Turn) -> Option<&'static str> {
+    with_request(turn, |request| {
+        let spec = request.function().spec();
+        (spec.effect != Effect::Query).then_some(spec.clause)
+    })?
+}

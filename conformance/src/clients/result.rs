@@ -1,0 +1,123 @@
+//! Whether a client says what it should: the same value, however it writes it.
+
+use serde_json::Value;
+
+/// Whether a result is the expected one. An array of one is its element, nested arrays are one,
+/// a number may be a text, and of an object everything that is said has to be right.
+pub(super) fn same(expected: &Value, found: &Value) -> bool {
+    match (expected, found) {
+        (Value::Object(expected), Value::Object(found)) => {
+            let mut both =
+                expected.iter().filter_map(|(key, value)| Some((value, found.get(key)?)));
+            let any = expected.keys().any(|key| found.contains_key(key));
+            any && both.all(|(expected, found)| same(expected, found))
+        }
+        (Value::Null, found) => match found {
+            Value::Null => true,
+            Value::Array(items) => items.is_empty(),
+            Value::Object(fields) => fields.is_empty(),
+            _ => false,
+        },
+        (Value::Array(_), _) | (_, Value::Array(_)) => {
+            let (expected, found) = (flat(expected), flat(found));
+            expected.len() == found.len()
+                && expected.iter().zip(&found).all(|(expected, found)| same(expected, found))
+        }
+        _ => scalar(expected, found),
+    }
+}
+
+fn flat(value: &Value) -> Vec<&Value> {
+    match value {
+        Value::Array(items) => items.iter().flat_map(flat).collect(),
+        one => vec![one],
+    }
+}
+
+fn scalar(expected: &Value, found: &Value) -> bool {
+    match expected {
+        Value::Bool(expected) => match found {
+            Value::Bool(found) => expected == found,
+            found => number(found) == Some(Number::Whole(i128::from(*expected))),
+        },
+        Value::Number(_) => match (number(expected), number(found)) {
+            (Some(Number::Whole(expected)), Some(Number::Whole(found))) => expected == found,
+            (Some(expected), Some(found)) => near(expected.real(), found.real()),
+            _ => false,
+        },
+        Value::String(expected) => found.as_str() == Some(expected),
+        _ => false,
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Number {
+    Whole(i128),
+    Real(f64),
+}
+
+impl Number {
+    #[allow(clippy::as_conversions, reason = "a whole number that is compared with a real one")]
+    const fn real(self) -> f64 {
+        match self {
+            Self::Whole(number) => number as f64,
+            Self::Real(number) => number,
+        }
+    }
+}
+
+fn number(value: &Value) -> Option<Number> {
+    let text = match value {
+        Value::String(text) => text.clone(),
+        Value::Number(number) => number.to_string(),
+        _ => return None,
+    };
+    let whole = text.parse().ok().map(Number::Whole);
+    whole.or_else(|| text.parse().ok().map(Number::Real))
+}
+
+/// As far as decimals of fifteen digits go.
+fn near(expected: f64, found: f64) -> bool {
+    let off = (expected - found).abs();
+    off <= expected.abs() * 1e-14
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn the_same_may_be_written_otherwise() {
+        for (expected, found) in [
+            (json!(30), json!("30")),
+            (json!(30), json!([30])),
+            (json!([[1, 2], [3, 4]]), json!([1, 2, 3, 4])),
+            (json!(true), json!(1)),
+            (json!(1234.2), json!("1234.2")),
+            (json!(2.0), json!(2)),
+            (json!(null), json!([])),
+            (json!({"name": "P1", "size": 4}), json!({"size": 4, "comment": "-"})),
+        ] {
+            assert!(same(&expected, &found), "{expected} {found}");
+        }
+    }
+
+    #[test]
+    fn another_is_another() {
+        for (expected, found) in [
+            (json!(30), json!(31)),
+            (json!(30), json!(null)),
+            (json!([1, 2]), json!([1, 2, 3])),
+            (json!([]), json!([0])),
+            (json!("a"), json!("a\0")),
+            (json!(-1), json!(65535)),
+            (json!({"name": "P1"}), json!({"size": 4})),
+            (json!({"name": "P1", "size": 4}), json!({"name": "P1", "size": 5})),
+            (json!(null), json!(0)),
+        ] {
+            assert!(!same(&expected, &found), "{expected} {found}");
+        }
+    }
+}

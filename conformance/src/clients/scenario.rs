@@ -1,0 +1,253 @@
+//! A scenario: what a client is told, what it has to send, and what it has to say.
+
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::Function;
+use serde_json::Value;
+
+use super::knob::Knob;
+use super::literal::Literal;
+use super::script::Script;
+use super::watch::Watch;
+use super::{Action, CLIENT};
+use crate::suite::{Body, Case, Needs, Rule, Subject};
+
+/// A request that has to be among those a client sends, as bytes, not as the codec has them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Ask {
+    /// The number of its command: 2 Read, 3 Write, 9 ReadWrite.
+    pub(super) command: u16,
+    pub(super) port: u16,
+    pub(super) group: u32,
+    pub(super) offset: u32,
+    pub(super) data: Vec<u8>,
+    /// How much has to be read.
+    pub(super) length: Length,
+    /// Other data that is as good.
+    pub(super) also: Vec<Vec<u8>>,
+    /// Other data that is not what is assumed to be sent.
+    pub(super) tolerated: Vec<Vec<u8>>,
+    /// Where the function is.
+    pub(super) place: &'static str,
+    /// What its data is.
+    pub(super) stream: &'static str,
+}
+
+/// How much a request has to ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Length {
+    AtLeast(u32),
+    /// A multiple, from one on.
+    Times(u32),
+}
+
+impl Ask {
+    pub(super) fn of(mut self, place: &'static str, stream: &'static str) -> Self {
+        (self.place, self.stream) = (place, stream);
+        self
+    }
+
+    pub(super) fn also(mut self, data: &[u8]) -> Self {
+        self.also.push(data.to_vec());
+        self
+    }
+
+    pub(super) fn tolerating(mut self, data: &[u8]) -> Self {
+        self.tolerated.push(data.to_vec());
+        self
+    }
+
+    /// The requirement that its group keeps.
+    pub(super) const fn group_rule(&self) -> &'static str {
+        let table = self.group & 0xF00;
+        match self.group & 0xFF_FF00 {
+            0x13_0100 | 0x13_0200 => "ADR-4",
+            0x12_0100 | 0x12_0200 => "ADR-3",
+            _ if table == 0x900 => "SDA-1",
+            _ if self.group & 0xF000 == 0x5000 => "ADR-2",
+            _ if table != 0x300 => "ADR-6",
+            _ => "ADR-5",
+        }
+    }
+
+    /// The requirement of its service.
+    pub(super) const fn service_rule(&self) -> &'static str {
+        match self.command {
+            2 => "ADS-1",
+            3 => "ADS-2",
+            _ => "ADS-3",
+        }
+    }
+}
+
+const fn ask(command: u16, port: u16, group: u32, offset: u32, data: Vec<u8>, least: u32) -> Ask {
+    Ask {
+        command,
+        port,
+        group,
+        offset,
+        data,
+        length: Length::AtLeast(least),
+        also: Vec::new(),
+        tolerated: Vec::new(),
+        place: CLIENT,
+        stream: CLIENT,
+    }
+}
+
+/// A Read of at least so many bytes.
+pub(super) const fn read(port: u16, group: u32, offset: u32, least: u32) -> Ask {
+    ask(2, port, group, offset, Vec::new(), least)
+}
+
+/// A ReadWrite to the SDA task.
+pub(super) fn both(group: u32, offset: u32, data: &[u8], least: u32) -> Ask {
+    ask(9, 552, group, offset, data.to_vec(), least)
+}
+
+/// A Write.
+pub(super) fn write(port: u16, group: u32, offset: u32, data: &[u8]) -> Ask {
+    ask(3, port, group, offset, data.to_vec(), 0)
+}
+
+/// What a client has to say in the end.
+#[derive(Clone, Debug)]
+pub(super) enum Expect {
+    /// This result.
+    Result(Value),
+    /// The result that the CNC itself gives.
+    Asked(fn(&Script) -> Option<Value>),
+    /// This result or an error.
+    ResultOrError(Value),
+    /// The result that the CNC itself gives, or an error.
+    AskedOrError(fn(&Script) -> Option<Value>),
+    /// Some result.
+    Done,
+    /// Some result or an error.
+    DoneOrError,
+    /// An error.
+    Error,
+}
+
+/// Something a client is put through.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// A slug that keeps its meaning.
+    pub id: String,
+    /// What is tried, in a sentence.
+    pub title: String,
+    /// What the client is told; a program to stream is put behind it.
+    pub(super) action: String,
+    pub(super) asks: Vec<Ask>,
+    pub(super) expect: Expect,
+    /// What what it says is judged by.
+    pub(super) rules: Vec<Rule>,
+    /// What it may be judged by beside that.
+    pub(super) more: Vec<&'static str>,
+    pub(super) knob: Option<(Function, Knob)>,
+    pub(super) refused: Vec<(usize, AdsError)>,
+    pub(super) literal: Option<Literal>,
+    pub(super) response: Option<&'static str>,
+    pub(super) prepare: Option<fn(&Script)>,
+    pub(super) watch: Option<Watch>,
+    pub(super) program: Option<Vec<u8>>,
+}
+
+impl Scenario {
+    pub(super) fn new(
+        id: impl Into<String>,
+        title: impl Into<String>,
+        action: impl Into<String>,
+    ) -> Self {
+        Self {
+            id: id.into(),
+            title: title.into(),
+            action: action.into(),
+            asks: Vec::new(),
+            expect: Expect::Done,
+            rules: Vec::new(),
+            more: Vec::new(),
+            knob: None,
+            refused: Vec::new(),
+            literal: None,
+            response: None,
+            prepare: None,
+            watch: None,
+            program: None,
+        }
+    }
+
+    pub(super) fn asks(mut self, ask: Ask) -> Self {
+        self.asks.push(ask);
+        self
+    }
+
+    pub(super) fn expect(mut self, expect: Expect) -> Self {
+        self.expect = expect;
+        self
+    }
+
+    pub(super) fn gives(self, result: impl Into<Value>) -> Self {
+        self.expect(Expect::Result(result.into()))
+    }
+
+    pub(super) fn by(mut self, rule: impl Into<Rule>) -> Self {
+        self.rules.push(rule.into());
+        self
+    }
+
+    pub(super) fn with(mut self, at: Function, knob: Knob) -> Self {
+        self.knob = Some((at, knob));
+        self
+    }
+
+    pub(super) fn watched(mut self, watch: Watch, more: &[&'static str]) -> Self {
+        self.watch = Some(watch);
+        self.more.extend(more);
+        self
+    }
+
+    /// What what the client says is judged by: what its first request is, unless it is said.
+    pub(super) fn rules(&self) -> Vec<Rule> {
+        match (self.rules.as_slice(), self.asks.first()) {
+            ([], Some(ask)) => vec![ask.place.into()],
+            ([], None) => vec![CLIENT.into()],
+            (rules, _) => rules.to_vec(),
+        }
+    }
+
+    /// It as a case of the suite.
+    pub fn case(&self) -> Case {
+        // Of what is not to be sent there is nothing to see.
+        let silent = matches!(self.watch, Some(Watch::NoStream(_)));
+        let mut requirements = if silent { Vec::new() } else { vec!["ADS-5", "GEN-4"] };
+        requirements.extend(self.rules().iter().map(|rule| rule.id));
+        for ask in &self.asks {
+            requirements.extend([ask.service_rule(), ask.group_rule(), ask.place]);
+            requirements.extend((!ask.data.is_empty()).then_some(ask.stream));
+            requirements.extend(matches!(ask.length, Length::Times(_)).then_some("COM-3"));
+        }
+        requirements.extend(&self.more);
+        let mut seen = Vec::new();
+        requirements.retain(|id| {
+            let new = !seen.contains(id);
+            seen.push(*id);
+            new
+        });
+        Case {
+            id: self.id.clone(),
+            title: self.title.clone(),
+            subject: Subject::Client,
+            requirements,
+            needs: Needs::Queries,
+            body: Body::Client,
+        }
+    }
+
+    /// What the client is told, with the file of the program behind it.
+    pub(super) fn told(&self, file: Option<&str>) -> Option<Action> {
+        match file {
+            Some(file) => Action::parse(&format!("{} {file}", self.action)),
+            None => Action::parse(&self.action),
+        }
+    }
+}

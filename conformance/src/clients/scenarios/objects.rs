@@ -1,0 +1,107 @@
+//! Objects of the COM task.
+
+use ads_cnc::operation::{ObjectList, ReadDescriptors};
+use ads_cnc::{Decode as _, DescriptorsRef};
+use serde_json::{Value, json};
+
+use crate::clients::Scenario;
+use crate::clients::scenario::{Ask, Expect, Length, read, write};
+use crate::clients::script::Script;
+
+/// Objects of channel 1 of the default model: its own, the platform's, three at each of three
+/// places.
+const COUNT: u32 = 30;
+
+fn content(offset: u32, size: u32) -> Ask {
+    read(553, 0x12_0101, offset, size).of("COM-5", "COM-5")
+}
+
+pub(super) fn scenarios() -> Vec<Scenario> {
+    let count = |group| read(553, group, 0, 4).of("COM-1", "COM-1");
+    let descriptors = Ask { length: Length::Times(84), ..read(553, 0x13_0101, 1, 84) };
+    vec![
+        Scenario::new("client-count-objects", "It counts objects", "count-objects 1")
+            .asks(count(0x13_0101))
+            .gives(COUNT),
+        Scenario::new("client-count-objects-6", "It counts those of channel 6", "count-objects 6")
+            .asks(count(0x13_0106))
+            .gives(11),
+        Scenario::new("client-list-objects", "It lists objects", "list-objects 1")
+            .asks(descriptors.of("COM-2", "COM-2"))
+            .by("COM-2")
+            .expect(Expect::Asked(list)),
+        Scenario::new(
+            "client-read-object",
+            "It reads an object where its descriptor says",
+            "read-object 1 example_lreal_w",
+        )
+        .asks(content(0x1A, 8))
+        .gives(1234.5678),
+        Scenario::new(
+            "client-read-object-unsigned",
+            "It reads a DWORD as a number without sign",
+            "read-object 1 example_dword_r",
+        )
+        .asks(content(0x15, 4))
+        .gives(0xDEAD_BEEF_u32),
+        Scenario::new(
+            "client-read-object-long",
+            "It reads a LINT of eight bytes",
+            "read-object 1 example_lint_w",
+        )
+        .asks(content(0x18, 8))
+        .gives(i64::MIN),
+        Scenario::new(
+            "client-read-object-text",
+            "It reads a STRING as CP1252",
+            "read-object 1 example_string_r",
+        )
+        .asks(content(0x1B, 21))
+        .by("GEN-3")
+        .gives("Länge 5€"),
+        Scenario::new(
+            "client-read-object-full-name",
+            "It finds an object whose name takes all 32 bytes",
+            "read-object 1 example_name_of_32_characters__r",
+        )
+        .asks(content(0x1C, 1))
+        .gives(false),
+        Scenario::new(
+            "client-write-object",
+            "It writes an object where its descriptor says",
+            "write-object 1 mc_command_single_block_w TRUE",
+        )
+        .asks(write(553, 0x12_0101, 1, &[1]).of("COM-5", "COM-5")),
+        Scenario::new(
+            "client-write-object-real",
+            "It writes an LREAL",
+            "write-object 1 example_lreal_w -2.5",
+        )
+        .asks(write(553, 0x12_0101, 0x1A, &[0, 0, 0, 0, 0, 0, 0x04, 0xC0]).of("COM-5", "GEN-1")),
+        Scenario::new(
+            "client-write-object-signed",
+            "It writes a negative INT",
+            "write-object 1 example_int_w -2",
+        )
+        .asks(write(553, 0x12_0101, 0x14, &[0xFE, 0xFF]).of("COM-5", "GEN-1")),
+    ]
+}
+
+/// The list as the CNC has it.
+pub(super) fn list(script: &Script) -> Option<Value> {
+    let channel = ads_cnc::address::Channel::new(1).ok()?;
+    let read = ReadDescriptors::new(ObjectList::from(channel), 1, COUNT).ok()?;
+    let reply = script.ask(read)?;
+    let each = DescriptorsRef::decode(&reply).ok()?;
+    let object = each.iter().map(|object| {
+        json!({
+            "name": object.name().to_string(),
+            "type": object.type_name().to_string(),
+            "size": object.size(),
+            "writable": object.write_access().0 != 0,
+            "group": object.index_group().get(),
+            "offset": object.index_offset().get(),
+        })
+    });
+    Some(object.collect())
+}

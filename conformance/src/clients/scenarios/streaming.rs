@@ -1,0 +1,75 @@
+//! NC programs, written packet by packet.
+
+use ads_cnc::ads::AdsError;
+
+use crate::clients::Scenario;
+use crate::clients::scenario::Expect;
+use crate::clients::watch::Watch;
+
+const JUDGED: &[&str] = &["STM-1", "STM-2", "STM-4", "STM-7", "STM-15", "STM-20", "ADS-2"];
+
+fn program(id: &str, title: &str, text: Vec<u8>) -> Scenario {
+    let mut scenario = Scenario::new(format!("client-stream-{id}"), title, "stream 1")
+        .by("STM-1")
+        .watched(Watch::Stream, JUDGED);
+    scenario.program = Some(text);
+    scenario
+}
+
+fn refused(id: &str, title: &str, text: &[u8], rule: &'static str) -> Scenario {
+    let mut scenario = Scenario::new(format!("client-stream-{id}"), title, "stream 1")
+        .expect(Expect::Error)
+        .watched(Watch::NoStream(rule), &[rule]);
+    scenario = match rule {
+        "STM-8" => scenario.by(crate::suite::assumed(rule)),
+        _ => scenario.by(rule),
+    };
+    scenario.program = Some(text.to_vec());
+    scenario
+}
+
+/// Lines of all lengths, so that no packet ends where a line does by chance.
+fn lines(count: usize, end: &str) -> Vec<u8> {
+    let line = |number: usize| {
+        let block = number.saturating_mul(10);
+        let comment = "x".repeat(number.wrapping_mul(37) % 61);
+        format!("N{block} G01 X{number}.5 F1000 ({comment}){end}")
+    };
+    let mut text: String = (1..=count).map(line).collect();
+    text.push_str("M30");
+    text.push_str(end);
+    text.into_bytes()
+}
+
+pub(super) fn scenarios() -> Vec<Scenario> {
+    let longest = [&b"N10 ("[..], &[b'x'; 984], b")\r\nM30\r\n"].concat();
+    let too_long = [&b"N10 ("[..], &[b'x'; 985], b")\r\nM30\r\n"].concat();
+    let unfinished = lines(3, "\n").strip_suffix(b"\n").unwrap_or_default().to_vec();
+    let later = |id: &str, title: &str, refusals: &[usize]| {
+        let mut scenario = program(id, title, lines(60, "\r\n"));
+        scenario.refused =
+            refusals.iter().map(|&number| (number, AdsError::INVALID_DATA)).collect();
+        scenario.by("STM-6")
+    };
+    let mut for_good = program("refused", "It gives up what is refused for good", lines(3, "\n"));
+    for_good.refused = (0..64).map(|number| (number, AdsError::INVALID_ACCESS)).collect();
+    (for_good.watch, for_good.more) = (None, vec!["ADS-2"]);
+    vec![
+        program("short", "It streams a few lines", lines(3, "\r\n")),
+        program("packets", "It streams a program in packets of whole lines", lines(90, "\r\n")),
+        program("line-feeds", "It ends lines by CR LF that ended by LF", lines(40, "\n")),
+        program("unfinished", "It ends the last line too", unfinished),
+        program("longest", "It streams a line of 990 characters", longest),
+        later("later", "It writes again what could not be taken", &[1]),
+        later("later-first", "It writes the first packet again, and again", &[0, 1, 2]),
+        for_good.expect(Expect::Error).by(crate::suite::assumed("STM-6")),
+        refused("too-long", "It refuses a line of 991 characters", &too_long, "STM-20"),
+        refused("no-ascii", "It refuses what is not ASCII", b"N10 (L\xE4nge)\r\nM30\r\n", "STM-7"),
+        refused(
+            "loop",
+            "It refuses a loop",
+            b"$FOR V.P.I = 1, 3, 1\nG00 X1\n$ENDFOR\nM30\n",
+            "STM-8",
+        ),
+    ]
+}

@@ -1,0 +1,171 @@
+//! What the CNC of a scenario answers.
+
+use std::collections::BTreeMap;
+
+use ads_cnc::address::Channel;
+use ads_cnc::ads::{AdsError, AmsHeader, FrameRef, StateFlags, WriteReply};
+use ads_cnc::operation::{Function, HandleByName, Request, WriteByName};
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::{Decode as _, Encode as _, Handle};
+
+use super::knob::{Deed, Knob};
+use super::literal::Literal;
+use crate::cnc::{Cnc, NET_ID};
+use crate::exchange::call_of;
+
+/// The longest frame the codec is asked to read.
+const DATA_MAX: u32 = 0x1_0000;
+
+/// How often a host of the Service Interface lets the client look before it has the response.
+const LOOKS: usize = 2;
+
+/// What the CNC of a scenario answers.
+#[derive(Debug)]
+pub(super) struct Script {
+    /// The CNC behind it.
+    pub(super) cnc: Cnc,
+    /// What is done to the replies of a function.
+    pub(super) knob: Option<(Function, Knob)>,
+    /// Writes to the streaming object that are refused, by their number from 0, and how.
+    pub(super) refused: Vec<(usize, AdsError)>,
+    /// Answers that no codec has made.
+    pub(super) literal: Option<Literal>,
+    /// The response that a host on the other side gives, and how long the client has to wait.
+    pub(super) response: Option<&'static str>,
+    looks: Option<usize>,
+    streamed: usize,
+    last: BTreeMap<usize, Vec<u8>>,
+}
+
+impl Script {
+    /// A CNC that does everything right.
+    pub(super) const fn new(cnc: Cnc) -> Self {
+        Self {
+            cnc,
+            knob: None,
+            refused: Vec::new(),
+            literal: None,
+            response: None,
+            looks: None,
+            streamed: 0,
+            last: BTreeMap::new(),
+        }
+    }
+
+    /// What is done for a frame.
+    ///
+    /// # Errors
+    /// Why it is none.
+    pub(super) fn answer(&mut self, connection: usize, frame: &[u8]) -> Result<Vec<Deed>, String> {
+        if let Some(literal) = &self.literal
+            && let Some(reply) = literal.reply(frame)
+        {
+            return Ok(vec![Deed::Send(reply)]);
+        }
+        let split = FrameRef::split(frame, DATA_MAX).map_err(|error| error.to_string())?;
+        let (request, _) = split.ok_or("cut")?;
+        let call = call_of(&request).ok().flatten();
+        let asked = call.as_ref().and_then(|call| call.dispatch().ok());
+        let mut reply = Vec::new();
+        match asked.as_ref().and_then(|asked| self.refusal(asked)) {
+            Some(error) => reply = write_reply(request.header(), error).unwrap_or_default(),
+            None => self.cnc.respond(NET_ID, &request, &mut reply),
+        }
+        if let Some(asked) = &asked {
+            self.host(asked);
+        }
+        let before = self.last.insert(connection, reply.clone());
+        let function = asked.map(|asked| asked.function());
+        Ok(match self.knob {
+            Some((at, knob)) if function == Some(at) => knob.deeds(&reply, before.as_deref()),
+            _ => vec![Deed::Send(reply)],
+        })
+    }
+
+    /// How a write to the streaming object is refused that is to be.
+    fn refusal(&mut self, asked: &Request<'_>) -> Option<AdsError> {
+        let Request::WriteProgramStream(_) = asked else { return None };
+        let number = self.streamed;
+        self.streamed = number.saturating_add(1);
+        self.refused.iter().find(|(refused, _)| *refused == number).map(|(_, error)| *error)
+    }
+
+    /// A host answers what the client asks: not at once.
+    fn host(&mut self, asked: &Request<'_>) {
+        let Some(response) = self.response else { return };
+        match self.service_variable(asked) {
+            Some((ServiceVariable::RequestState, Some(state))) => {
+                self.looks = state.iter().any(|&byte| byte != 0).then_some(0);
+            }
+            Some((ServiceVariable::ResponseState, None)) => {
+                let Some(looks) = self.looks.as_mut() else { return };
+                *looks = looks.saturating_add(1);
+                if *looks >= LOOKS {
+                    self.looks = None;
+                    self.put(ServiceVariable::Response, response.as_bytes());
+                    self.put(ServiceVariable::RequestState, &[0; 4]);
+                    self.put(ServiceVariable::ResponseState, &[1, 0, 0, 0]);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Which variable of the Service Interface of channel 1 is read, or written with what: by its
+    /// name or by its handle.
+    pub(super) fn service_variable<'a>(
+        &self,
+        asked: &Request<'a>,
+    ) -> Option<(ServiceVariable, Option<&'a [u8]>)> {
+        let by_name = |name: &str| ServiceVariable::by_name(name);
+        let by_handle = |handle: Handle| {
+            let all = ServiceVariable::ALL.into_iter();
+            all.into_iter().find(|one| self.handle(one.name()) == Some(handle))
+        };
+        match asked {
+            Request::ReadByName(read) => Some((by_name(&read.name.text().to_string())?, None)),
+            Request::WriteByName(write) => {
+                Some((by_name(&write.name.to_string())?, Some(write.value)))
+            }
+            Request::ReadByHandle(read) => Some((by_handle(read.handle)?, None)),
+            Request::WriteByHandle(write) => Some((by_handle(write.handle)?, Some(write.value))),
+            _ => None,
+        }
+    }
+
+    fn handle(&self, name: &str) -> Option<Handle> {
+        let asked = HandleByName::new(Channel::new(1).ok()?, name).ok()?;
+        Handle::decode(&self.ask(asked)?).ok()
+    }
+
+    /// Writes a variable of the Service Interface, as whoever is on the other side.
+    pub(super) fn put(&self, variable: ServiceVariable, value: &[u8]) {
+        let write = Channel::new(1)
+            .ok()
+            .and_then(|channel| WriteByName::new(channel, variable.name(), value).ok());
+        let _written = write.and_then(|write| self.ask(write));
+    }
+
+    /// What a function answers to who asks from within.
+    pub(super) fn ask<'a>(&self, request: impl Into<Request<'a>>) -> Option<Vec<u8>> {
+        let request = request.into();
+        let mut buf = vec![0; request.encoded_len()];
+        let call = request.encode(&mut buf).ok()?;
+        self.cnc.answer(&call).ok()
+    }
+}
+
+/// A refusal by the CNC that it would not give of itself.
+fn write_reply(asked: AmsHeader, result: AdsError) -> Option<Vec<u8>> {
+    let data = WriteReply { result }.to_vec().ok()?;
+    let header = AmsHeader {
+        target: asked.source,
+        source: asked.target,
+        state_flags: StateFlags::RESPONSE,
+        ..asked
+    };
+    let frame = FrameRef::new(header, &data).ok()?;
+    let mut bytes = vec![0; frame.encoded_len()];
+    frame.encode(&mut bytes).ok()?;
+    Some(bytes)
+}

@@ -1,0 +1,283 @@
+//! The CNC that a client under test talks to: it keeps every byte, and its replies can be turned
+//! into what they should not be.
+
+use std::io::{self, Read as _, Write as _};
+use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use ads_cnc::ads::AmsNetId;
+
+use super::knob::Deed;
+use super::script::Script;
+use crate::cnc::NET_ID;
+use crate::net;
+
+/// The longest frame that is taken.
+const FRAME_MAX: usize = 0x1_0000;
+
+/// The most connections of one scenario.
+const CONNECTIONS_MAX: usize = 64;
+
+/// How long a connection that the client has closed is waited for.
+const LINGER: Duration = Duration::from_millis(200);
+
+/// One request and what was sent for it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Turn {
+    /// Which connection.
+    pub(super) connection: usize,
+    /// The request; of the last one perhaps only a part.
+    pub(super) request: Vec<u8>,
+    /// Everything that was sent for it.
+    pub(super) sent: Vec<u8>,
+    /// Why it is not a frame.
+    pub(super) fault: Option<String>,
+}
+
+/// A listener with a scenario behind it, one after the other.
+#[derive(Debug)]
+pub struct Stage {
+    addr: SocketAddr,
+    shared: Arc<Shared>,
+    acceptor: Option<JoinHandle<()>>,
+}
+
+#[derive(Debug, Default)]
+struct Shared {
+    stopped: AtomicBool,
+    scene: Mutex<Option<Arc<Scene>>>,
+}
+
+/// What is going on.
+#[derive(Debug)]
+struct Scene {
+    script: Mutex<Script>,
+    turns: Mutex<Vec<Turn>>,
+    /// Open connections, and how many there have been.
+    streams: Mutex<Vec<TcpStream>>,
+    threads: Mutex<Vec<JoinHandle<()>>>,
+    count: AtomicUsize,
+    open: Mutex<usize>,
+    closed: Condvar,
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Whatever panicked, what it has written is whole.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Stage {
+    /// Listens.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub fn new(addr: SocketAddr) -> io::Result<Self> {
+        let listener = net::listen(addr)?;
+        let addr = listener.local_addr()?;
+        let shared = Arc::new(Shared::default());
+        let accepting = Arc::clone(&shared);
+        let acceptor = thread::Builder::new()
+            .name("clients".to_owned())
+            .spawn(move || accepting.accept(&listener))?;
+        Ok(Self { addr, shared, acceptor: Some(acceptor) })
+    }
+
+    /// Where it listens.
+    pub const fn addr(&self) -> SocketAddr {
+        self.addr
+    }
+
+    /// The AMS NetId it answers for.
+    pub const fn net_id(&self) -> AmsNetId {
+        NET_ID
+    }
+
+    /// From now on this is played.
+    pub(super) fn begin(&self, script: Script) {
+        *lock(&self.shared.scene) = Some(Arc::new(Scene {
+            script: Mutex::new(script),
+            turns: Mutex::default(),
+            streams: Mutex::default(),
+            threads: Mutex::default(),
+            count: AtomicUsize::new(0),
+            open: Mutex::new(0),
+            closed: Condvar::new(),
+        }));
+    }
+
+    /// Waits until somebody has connected and all connections are closed again, or it is told not
+    /// to wait any longer.
+    pub(super) fn watch(&self, mut go_on: impl FnMut() -> bool) {
+        let Some(scene) = lock(&self.shared.scene).clone() else { return };
+        let mut quiet: Option<Instant> = None;
+        while go_on() {
+            let any = scene.count.load(Ordering::SeqCst) > 0;
+            let idle = any && *lock(&scene.open) == 0;
+            match (idle, quiet) {
+                (true, Some(since)) if since.elapsed() > LINGER => return,
+                (true, None) => quiet = Some(Instant::now()),
+                (false, _) => quiet = None,
+                _ => {}
+            }
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// Ends what is played: every connection is closed.
+    pub(super) fn end(&self) -> (Vec<Turn>, Option<Script>) {
+        let Some(scene) = lock(&self.shared.scene).take() else { return (Vec::new(), None) };
+        // A client that has closed may have sent something just before.
+        drop(scene.closed.wait_timeout_while(lock(&scene.open), LINGER, |open| *open > 0));
+        for stream in lock(&scene.streams).iter() {
+            let _closed = stream.shutdown(Shutdown::Both);
+        }
+        for thread in lock(&scene.threads).drain(..) {
+            let _panicked = thread.join();
+        }
+        let turns = std::mem::take(&mut *lock(&scene.turns));
+        let script = Arc::into_inner(scene)
+            .map(|scene| scene.script.into_inner().unwrap_or_else(PoisonError::into_inner));
+        (turns, script)
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        self.shared.stopped.store(true, Ordering::SeqCst);
+        self.end();
+        let woken = net::knock(self.addr, Duration::from_secs(1)).is_ok();
+        let acceptor = self.acceptor.take().filter(|acceptor| woken || acceptor.is_finished());
+        let _joined = acceptor.map(JoinHandle::join);
+    }
+}
+
+impl Shared {
+    fn accept(&self, listener: &TcpListener) {
+        loop {
+            let accepted = listener.accept();
+            if self.stopped.load(Ordering::SeqCst) {
+                return;
+            }
+            let Ok((stream, _)) = accepted else {
+                thread::sleep(Duration::from_millis(20));
+                continue;
+            };
+            // Between scenarios nobody is there. Held until all that is known of the connection is
+            // with its scenario, which may end at any time.
+            let scene = lock(&self.scene);
+            let _gone = scene.clone().map(|scene| scene.connect(stream));
+        }
+    }
+}
+
+impl Scene {
+    fn connect(self: Arc<Self>, stream: TcpStream) -> io::Result<()> {
+        let connection = self.count.fetch_add(1, Ordering::SeqCst);
+        if connection >= CONNECTIONS_MAX {
+            return Ok(());
+        }
+        stream.set_nodelay(true)?;
+        stream.set_write_timeout(Some(Duration::from_secs(5)))?;
+        lock(&self.streams).push(stream.try_clone()?);
+        self.opened(1);
+        let scene = Arc::clone(&self);
+        let thread = thread::Builder::new().name(format!("client-{connection}"));
+        let spawned = thread.spawn(move || {
+            // A client may go at any time.
+            let _gone = scene.serve(connection, &stream);
+            let _closed = stream.shutdown(Shutdown::Both);
+            scene.opened(-1);
+            scene.closed.notify_all();
+        });
+        match spawned {
+            Ok(thread) => lock(&self.threads).push(thread),
+            Err(_) => self.opened(-1),
+        }
+        Ok(())
+    }
+
+    fn opened(&self, change: isize) {
+        let mut open = lock(&self.open);
+        *open = open.saturating_add_signed(change);
+    }
+
+    fn serve(&self, connection: usize, mut stream: &TcpStream) -> io::Result<()> {
+        let (mut received, mut chunk) = (Vec::new(), [0; 4096]);
+        loop {
+            while let Some(len) = frame_len(&received) {
+                if len > FRAME_MAX {
+                    let fault = Some(format!("a frame of {len} bytes"));
+                    self.keep(Turn { connection, request: received, fault, ..Turn::default() });
+                    return Ok(());
+                }
+                if received.len() < len {
+                    break;
+                }
+                let rest = received.split_off(len);
+                let request = std::mem::replace(&mut received, rest);
+                if !self.turn(connection, request, stream)? {
+                    return Ok(());
+                }
+            }
+            match stream.read(&mut chunk) {
+                Ok(0) | Err(_) => {
+                    if !received.is_empty() {
+                        let fault = Some("closed within a frame".to_owned());
+                        let turn = Turn { connection, request: received, fault, ..Turn::default() };
+                        self.keep(turn);
+                    }
+                    return Ok(());
+                }
+                Ok(count) => received.extend(chunk.iter().take(count)),
+            }
+        }
+    }
+
+    /// Answers a frame; whether the connection goes on.
+    fn turn(
+        &self,
+        connection: usize,
+        request: Vec<u8>,
+        mut stream: &TcpStream,
+    ) -> io::Result<bool> {
+        // Kept before it is answered: who has the answer may be gone at once.
+        let place = self.keep(Turn { connection, request: request.clone(), ..Turn::default() });
+        let deeds = match lock(&self.script).answer(connection, &request) {
+            Ok(deeds) => deeds,
+            Err(fault) => {
+                if let Some(turn) = lock(&self.turns).get_mut(place) {
+                    turn.fault = Some(fault);
+                }
+                return Ok(false);
+            }
+        };
+        for deed in deeds {
+            match deed {
+                Deed::Send(bytes) => {
+                    if let Some(turn) = lock(&self.turns).get_mut(place) {
+                        turn.sent.extend(&bytes);
+                    }
+                    stream.write_all(&bytes)?;
+                }
+                Deed::Pause(time) => thread::sleep(time),
+                Deed::Close => return Ok(false),
+            }
+        }
+        Ok(true)
+    }
+
+    fn keep(&self, turn: Turn) -> usize {
+        let mut turns = lock(&self.turns);
+        turns.push(turn);
+        turns.len().saturating_sub(1)
+    }
+}
+
+/// How long a frame says it is; not by the codec, which judges it afterwards.
+fn frame_len(received: &[u8]) -> Option<usize> {
+    let length = received.get(2..6)?.try_into().ok()?;
+    Some(usize::try_from(u32::from_le_bytes(length)).unwrap_or(usize::MAX).saturating_add(6))
+}

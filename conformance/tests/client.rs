@@ -1,0 +1,109 @@
+//! Clients under test: this project's own passes everything, and each of its defects is seen by the
+//! requirement it is about.
+
+use std::net::SocketAddr;
+use std::thread;
+
+use ads_cnc_conformance::clients::{
+    CLIENT, Defect, Flaw, Judged, Own, Scenario, Stage, VOCABULARY, defects, find_defect, habits,
+    judge, scenarios, trial,
+};
+use ads_cnc_conformance::verdict::Verdict;
+use ads_cnc_vectors::requirement;
+
+fn stage() -> Stage {
+    Stage::new(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap()
+}
+
+#[test]
+fn the_own_client_passes_everything() {
+    let judged = raises_nothing(None);
+    assert!(judged.requests > 200, "{}", judged.requests);
+}
+
+/// What is done otherwise, and is as right.
+#[test]
+fn habits_raise_nothing() {
+    thread::scope(|scope| {
+        for habit in habits() {
+            scope.spawn(|| raises_nothing(Some(habit.flaw)));
+        }
+    });
+}
+
+fn raises_nothing(flaw: Option<Flaw>) -> Judged {
+    let judged = judge(&mut Own { flaw }, &stage(), &scenarios());
+    let mut raised = Vec::new();
+    for outcome in &judged.outcomes {
+        for one in outcome.verdicts.iter().filter(|one| one.verdict != Verdict::Pass) {
+            let said = one.judgements.first().map(|one| (&one.expected, &one.found));
+            let (id, requirement) = (&outcome.case.id, one.requirement);
+            raised.push(format!("{id} {requirement} {}: {said:?} {:?}", one.verdict, outcome.note));
+        }
+    }
+    assert!(raised.is_empty(), "{flaw:?}\n{}", raised.join("\n"));
+    judged
+}
+
+#[test]
+fn every_defect_is_seen_by_its_requirement() {
+    // Most of the time is waiting.
+    let missed: Vec<&str> = thread::scope(|scope| {
+        let part = |part| {
+            move || defects().iter().skip(part).step_by(PARTS).filter(missed).map(id).collect()
+        };
+        let parts: Vec<_> = (0..PARTS).map(|one| scope.spawn::<_, Vec<&str>>(part(one))).collect();
+        parts.into_iter().flat_map(|part| part.join().unwrap()).collect()
+    });
+    assert!(missed.is_empty(), "{} of {}: {missed:?}", missed.len(), defects().len());
+}
+
+const PARTS: usize = 8;
+
+fn missed(defect: &&Defect) -> bool {
+    let outcomes = trial(defect, &stage());
+    let mut verdicts = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
+    !verdicts.any(|one| one.requirement == defect.requirement && one.verdict == Verdict::Fail)
+}
+
+fn id(defect: &Defect) -> &'static str {
+    defect.id
+}
+
+/// Every defect is about a requirement that a scenario judges, and is found by its ID.
+#[test]
+fn defects_are_about_something() {
+    for defect in defects() {
+        assert_eq!(find_defect(defect.id), Some(defect));
+        let judges = |one: &Scenario| one.case().requirements.contains(&defect.requirement);
+        assert!(defect.requirement == CLIENT || scenarios().iter().any(judges), "{}", defect.id);
+    }
+}
+
+/// A scenario is called one thing, tells a client something, and is about what it claims.
+#[test]
+fn scenarios_are_told_apart() {
+    let all = scenarios();
+    let mut ids: Vec<&str> = all.iter().map(|one| one.id.as_str()).collect();
+    ids.sort_unstable();
+    let before = ids.len();
+    ids.dedup();
+    assert_eq!(ids.len(), before);
+    for one in &all {
+        for id in one.case().requirements {
+            assert!(id == CLIENT || requirement(id).is_some(), "{} {id}", one.id);
+        }
+    }
+}
+
+/// The description for those who write glue has every word as it is.
+#[test]
+fn the_vocabulary_is_written_down() {
+    let text = include_str!("../adapters/CLIENTS.md");
+    for word in VOCABULARY {
+        let row = format!("| `{}` | {} | {} |", word.name, word.arguments.join(" "), word.gives);
+        assert!(text.contains(&row), "{row}");
+    }
+    let rows = text.lines().filter(|line| line.starts_with("| `") && line.contains("CHANNEL"));
+    assert_eq!(rows.count(), VOCABULARY.len());
+}

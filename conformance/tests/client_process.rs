@@ -1,0 +1,132 @@
+//! Clients as processes: spoken with, started for each action, dying, hanging, or coming of
+//! themselves.
+
+mod common;
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::process::{Command, Output, Stdio};
+
+use common::connect;
+use serde_json::Value;
+
+fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+/// The report of a run of this project's client, with its exit code.
+fn run(options: &str, args: &[&str]) -> (Option<i32>, Value) {
+    let client = format!("\"{}\" client {options}", env!("CARGO_BIN_EXE_ads-cnc"));
+    let output = ads_cnc(&[&["run", "--client", &client, "--json", "-"], args].concat());
+    let report = serde_json::from_slice(&output.stdout).unwrap_or_else(|error| {
+        panic!("{error}: {}", String::from_utf8_lossy(&output.stderr));
+    });
+    (output.status.code(), report)
+}
+
+/// The failures of a case: requirement, what was found, the bytes that came last.
+fn failures(report: &Value, id: &str) -> Vec<(String, String, Value)> {
+    let cases = report["cases"].as_array().unwrap();
+    let case = cases.iter().find(|case| case["id"] == id).unwrap();
+    let failed = case["failures"].as_array().into_iter().flatten();
+    let text = |value: &Value| value.as_str().unwrap().to_owned();
+    failed
+        .filter(|one| one["verdict"] == "fail")
+        .map(|one| (text(&one["requirement"]), text(&one["found"]), one["evidence"].clone()))
+        .collect()
+}
+
+#[test]
+fn one_that_stays_passes_everything() {
+    let (code, report) = run("", &[]);
+    assert_eq!(code, Some(0), "{report:#}");
+    assert_eq!(report["target"]["name"], "ads-cnc");
+    assert_eq!(report["target"]["language"], "Rust");
+    assert_eq!(report["subjects"][0]["subject"], "client");
+    assert!(report["frames"].as_u64().unwrap() > 200);
+}
+
+#[test]
+fn one_that_is_started_for_each_action_passes() {
+    let (code, report) = run("--once", &["--only", "VAR-14", "--only", "STM"]);
+    assert_eq!(code, Some(0), "{report:#}");
+    assert!(report["cases"].as_array().unwrap().len() > 30);
+}
+
+/// A death is reported with the bytes that did it, and the run goes on.
+#[test]
+fn a_death_is_told_with_its_bytes() {
+    for options in ["--defect client.dies", "--once --defect client.dies"] {
+        let (code, report) = run(options, &["--only", "ADS-3"]);
+        assert_eq!(code, Some(1));
+        let failed = failures(&report, "client-name-data-length-huge");
+        let (_, found, evidence) = failed.iter().find(|(id, ..)| id == "ADS-3").unwrap();
+        assert!(found.starts_with("it died: "), "{found}");
+        let bytes = evidence["frame_received"].as_str().unwrap();
+        assert!(bytes.contains("ff ff ff ff"), "{evidence:#}");
+        let others = report["cases"].as_array().unwrap().iter();
+        assert!(others.filter(|case| case["verdict"] == "pass").count() > 50);
+    }
+}
+
+#[test]
+fn a_hang_is_told_and_ended() {
+    let (code, report) = run(
+        "--defect client.hangs",
+        &[
+            "--only",
+            "client-name-silence",
+            "--only",
+            "client-name-more",
+            "--client-timeout",
+            "1500",
+        ],
+    );
+    assert_eq!(code, Some(1));
+    let failed = failures(&report, "client-name-silence");
+    assert!(failed.iter().any(|(id, found, _)| id == "CLIENT" && found.starts_with("it hung")));
+    assert!(failures(&report, "client-name-more").is_empty());
+}
+
+#[test]
+fn who_does_not_answer_fails_by_the_protocol_alone() {
+    let output = ads_cnc(&["run", "--client", "no-such-client-anywhere", "--json", "-"]);
+    assert_eq!(output.status.code(), Some(1));
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let failed = failures(&report, "client-manners");
+    assert_eq!(failed.len(), 1, "{report:#}");
+    assert_eq!(ads_cnc(&["run", "--client", "x", "--target", "y"]).status.code(), Some(2));
+    assert_eq!(ads_cnc(&["run", "--client", "x", "--only", "VRA"]).status.code(), Some(3));
+}
+
+/// One that comes of itself is judged by what it asks.
+#[test]
+fn who_connects_is_judged() {
+    let listen = |request: &[u8]| {
+        let mut process = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+            .args(["run", "--client-listen", "127.0.0.1:0", "--json", "-"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(process.stderr.take().unwrap()).read_line(&mut line).unwrap();
+        let addr = line.split([' ', ',']).find(|word| word.starts_with("127.0.0.1:")).unwrap();
+        let mut stream = connect(addr.parse().unwrap());
+        stream.write_all(request).unwrap();
+        stream.read_exact(&mut [0; 38]).unwrap();
+        drop(stream);
+        let output = process.wait_with_output().unwrap();
+        (output.status.code(), serde_json::from_slice::<Value>(&output.stdout).unwrap())
+    };
+    let mut request =
+        vec![0, 0, 44, 0, 0, 0, 127, 0, 0, 1, 1, 1, 0x29, 2, 10, 0, 0, 9, 1, 1, 0, 0x80];
+    request.extend([2, 0, 4, 0, 12, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0]);
+    request.extend([1, 1, 0x13, 0, 0, 0, 0, 0, 4, 0, 0, 0]);
+    let (code, report) = listen(&request);
+    assert_eq!(code, Some(0), "{report:#}");
+    // The same to the port of another task.
+    request[12] = 0x28;
+    let (code, report) = listen(&request);
+    assert_eq!(code, Some(1));
+    assert_eq!(failures(&report, "client-requests")[0].0, "GEN-4");
+}
