@@ -51,7 +51,7 @@ struct Cli {
 enum Command {
     /// Start the simulated CNC and serve it over AMS/TCP until interrupted.
     Serve(serve::Args),
-    Run(run::Run),
+    Run(Box<run::Run>),
     Report(report::ReportArgs),
     Explain(explain::Explain),
     Requirements(requirements::Requirements),
