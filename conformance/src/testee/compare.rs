@@ -107,7 +107,11 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
             let same = given.and_then(bits).is_some_and(|bits| Some(bits) == meant.real_bits());
             let expected = meant.bits.as_deref().unwrap_or_default();
             let found = given.unwrap_or("none");
-            if same { None } else { other(place, format_args!("bits {expected}, not {found}")) }
+            if same {
+                None
+            } else {
+                other(place, format_args!("bits {found} where {expected} is expected"))
+            }
         }
         Type::NetId | Type::Name => {
             let expected = meant.value.as_deref().unwrap_or_default();
@@ -115,7 +119,7 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
             if expected == given {
                 None
             } else {
-                other(place, format_args!("{expected}, not {given}"))
+                other(place, format_args!("{given} where {expected} is expected"))
             }
         }
         _ => {
@@ -124,7 +128,10 @@ fn single(place: &str, meant: &Tagged, found: &Json) -> Option<Difference> {
             let expected = meant.value.as_deref().unwrap_or_default();
             match number.is_some() && number == meant.integer() {
                 true => None,
-                false => other(place, format_args!("{expected}, not {}", given.unwrap_or("none"))),
+                false => other(
+                    place,
+                    format_args!("{} where {expected} is expected", given.unwrap_or("nothing")),
+                ),
             }
         }
     }
@@ -137,7 +144,9 @@ fn hex(place: &str, meant: &[u8], given: Option<&str>) -> Option<Difference> {
     };
     match compact::parse(given) {
         Ok(bytes) if bytes == meant => None,
-        Ok(bytes) => other(place, format_args!("hex {expected}, not {}", compact::show(&bytes))),
+        Ok(bytes) => {
+            other(place, format_args!("hex {} where {expected} is expected", compact::show(&bytes)))
+        }
         Err(why) => other(place, why),
     }
 }
