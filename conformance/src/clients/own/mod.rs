@@ -3,6 +3,7 @@
 mod acts;
 mod flaws;
 mod long;
+mod spoil;
 mod wire;
 
 use std::time::Duration;
