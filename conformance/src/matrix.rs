@@ -18,6 +18,7 @@ use ads_cnc::operation::Function;
 use ads_cnc_vectors::{Requirement, requirements, sequences, vectors};
 use serde::Serialize;
 
+use crate::clients;
 use crate::suite::{self, Needs};
 
 /// A requirement with everything that leads from it.
@@ -43,7 +44,8 @@ pub struct Row {
     pub accepted: Vec<String>,
     /// Vectors and sequences that are refused.
     pub rejected: Vec<String>,
-    /// Cases of the suite that ask a target; those that decode a vector are with the vectors.
+    /// Cases of the suite that ask a target, and scenarios of a client; those that decode a vector
+    /// are with the vectors.
     pub cases: Vec<String>,
     /// Fuzz targets that reach its bytes.
     pub fuzz_targets: Vec<&'static str>,
@@ -51,7 +53,8 @@ pub struct Row {
 
 /// All requirements in the catalogue's order.
 pub fn matrix() -> Vec<Row> {
-    let cases = suite::cases();
+    let mut cases = suite::cases();
+    cases.extend(clients::scenarios().iter().map(clients::Scenario::case));
     requirements().iter().map(|requirement| row(requirement, &cases)).collect()
 }
 
