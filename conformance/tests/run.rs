@@ -105,6 +105,22 @@ fn a_device_is_only_read() {
     assert!(shown.contains("not sent to a device"), "{shown}");
 }
 
+/// What no client should send is sent on demand, and to nobody but a CNC on this machine.
+#[test]
+fn malformed_requests_are_an_option_of_their_own() {
+    let serve = Serve::start(&[]);
+    let net_id = ["--net-id", "127.0.0.1.1.1"];
+    let run = ["run", "--malformed", "--target", &serve.addr];
+    let shown = ads_cnc(&[&run[..], &net_id].concat());
+    assert_eq!(shown.status.code(), Some(0), "{}", text(&shown.stdout));
+    assert!(!text(&shown.stdout).contains("not sent to a device"));
+
+    let away = ["run", "--malformed", "--target", "192.0.2.1:48898"];
+    let refused = ads_cnc(&[&away[..], &net_id].concat());
+    assert_eq!(refused.status.code(), Some(4), "{}", text(&refused.stderr));
+    assert!(text(&refused.stderr).contains("this machine only"), "{}", text(&refused.stderr));
+}
+
 /// A device that says nothing of itself is judged all the same, and not as failed.
 #[test]
 fn a_device_need_not_say_what_it_is() {

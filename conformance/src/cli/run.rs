@@ -59,6 +59,11 @@ pub(super) struct Run {
     #[arg(long, requires = "testee", conflicts_with_all = ["only", "list", "json", "waivers"])]
     check_protocol: bool,
 
+    /// Also send what no client should, to see it refused: malformed frames, unknown commands. Only to
+    /// a CNC on this machine, and never one that moves anything
+    #[arg(long, requires = "target")]
+    malformed: bool,
+
     /// Run what is called this: an area (VAR), a requirement (VAR-11), a case by its ID; repeatable
     #[arg(long, help_heading = SELECTION, value_name = "AREA|ID")]
     only: Vec<String>,
@@ -267,7 +272,7 @@ impl Run {
                 return Exit::Nothing;
             }
         };
-        let listed = list::of_plan(&plan, self.target.is_device());
+        let listed = list::of_plan(&plan, self.target.is_device() && !self.malformed);
         let written = match &self.json {
             Some(file) => write(file, |out| list::to_json(&listed, out)),
             None => show(|out| list::to_text(&listed, out)),
@@ -285,7 +290,8 @@ impl Run {
 
     fn device(&self, seed: u32, waivers: Waivers, profile: Profile) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let session = self.target.clone().with_timeout(profile.timeout).open()?;
+        let target = self.target.clone().with_timeout(profile.timeout);
+        let session = target.with_malformed(self.malformed).open()?;
         let mut session = self.captured(session)?;
         // Silence is judged case by case only of one that speaks at all: an error of ADS does.
         let greeted = match profile.claims(Function::CountObjects) {

@@ -68,6 +68,10 @@ pub(super) struct TargetArgs {
     /// Show what would be sent and send nothing
     #[arg(long, help_heading = TARGET)]
     dry_run: bool,
+
+    /// Whether what no client should send may be sent too: no option of all tools.
+    #[arg(skip)]
+    malformed: bool,
 }
 
 /// Which channel.
@@ -106,6 +110,11 @@ impl TargetArgs {
         self
     }
 
+    /// Lets requests pass that no client should send, if they are to.
+    pub(super) fn with_malformed(self, malformed: bool) -> Self {
+        Self { malformed, ..self }
+    }
+
     /// Connects to the device, or to a CNC that is started here.
     pub(super) fn open(&self) -> Result<Session, Trouble> {
         self.open_or(default_cnc)
@@ -140,7 +149,8 @@ impl TargetArgs {
     fn gate(&self) -> Result<Gate, Trouble> {
         let allowed = self.allow_write.as_deref().map(Allowed::from_file).transpose();
         let allowed = allowed.map_err(|error| Trouble::Usage(error.to_string()))?;
-        Ok(Gate::queries().with_allowed(allowed))
+        let gate = Gate::queries().with_allowed(allowed);
+        Ok(if self.malformed { gate.and_malformed() } else { gate })
     }
 
     /// Connects to the device, or starts this CNC.

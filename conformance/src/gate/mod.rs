@@ -120,6 +120,13 @@ impl Gate {
         Self { allowed, ..self }
     }
 
+    /// And what no client should send; [`Client`](crate::client::Client) takes no target with it but
+    /// a CNC on this machine.
+    #[must_use]
+    pub fn and_malformed(self) -> Self {
+        Self { malformed: true, ..self }
+    }
+
     /// Whether malformed frames pass.
     pub const fn lets_malformed_pass(&self) -> bool {
         self.malformed

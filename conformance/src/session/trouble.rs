@@ -24,6 +24,8 @@ pub enum Trouble {
     Internal(String),
     /// The gate did not let it through.
     Refused(Box<Refusal>),
+    /// The gate stands wider open than this target may be met with.
+    Unsafe(String),
     /// A dry run: an answer would be needed to go on.
     NotSent,
     /// What was to be sent has no form on the wire.
@@ -65,7 +67,7 @@ impl Trouble {
             }
             Self::Usage(_) | Self::Unsendable(_) => Exit::Usage,
             Self::NoAnswer(_) | Self::Ams { .. } => Exit::Nothing,
-            Self::Refused(_) => Exit::Refused,
+            Self::Refused(_) | Self::Unsafe(_) => Exit::Refused,
             Self::Internal(_) => Exit::Internal,
         }
     }
@@ -92,7 +94,7 @@ impl Trouble {
                 target.timeout.as_millis(),
                 addr.port()
             ),
-            io::ErrorKind::PermissionDenied => return Self::Usage(error.to_string()),
+            io::ErrorKind::PermissionDenied => return Self::Unsafe(error.to_string()),
             _ => format!(
                 "no connection to {addr}: {error}. Is it reachable, and does it listen for AMS/TCP?"
             ),
@@ -157,9 +159,11 @@ impl Trouble {
 impl fmt::Display for Trouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Usage(why) | Self::Unable(why) | Self::Internal(why) | Self::NoAnswer(why) => {
-                f.write_str(why)
-            }
+            Self::Usage(why)
+            | Self::Unsafe(why)
+            | Self::Unable(why)
+            | Self::Internal(why)
+            | Self::NoAnswer(why) => f.write_str(why),
             Self::Refused(refusal) => {
                 write!(f, "not sent, refused for safety: {refusal}")?;
                 match refusal.advice() {
