@@ -22,7 +22,7 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
         fields.insert(name, value);
     }
     if len != bytes.len() {
-        return Err(Refused::Unsupported("a frame and more".to_owned()));
+        return Err(Refused::Unfit("a frame and more".to_owned()));
     }
     let bytes = FrameRef::new(header, frame.data())?.to_vec()?;
     Ok(Decoded { fields, bytes })
@@ -37,8 +37,9 @@ fn cut(context: &Context, bytes: &[u8]) -> Refused {
         service(context, &AmsHeader::decode(header)?, data)?;
         Ok(())
     };
-    let whole = || Refused::Unsupported("a cut frame that is whole".to_owned());
-    parts().err().unwrap_or_else(whole)
+    // Data that no service takes apart do not tell that they are cut; their length does.
+    let rest = || Refused::Unfit("less data than the header says".to_owned());
+    parts().err().unwrap_or_else(rest)
 }
 
 /// The length only counts.
