@@ -1,4 +1,6 @@
 """Names by their parts, index groups and index offsets."""
+import re
+
 from .scalars import Bad, Refuse, TEXT_MAX, end, plain, read_fields, text, text_bytes, u32
 
 INDEX_LAST = 0xFFFFFFFE
@@ -16,6 +18,11 @@ def path_write(value, _context):
         indices = b"".join(b"[%d]" % plain(index) for index in part["indices"])
         parts.append(("parts[%d].indices" % place, indices))
     return parts
+
+
+def path_plain(data):
+    """Without the zeros in front of an index, which a value does not keep."""
+    return re.sub(rb"(?<=\[)0+(?=[0-9])", b"", data)
 
 
 def path_read(data, _context):

@@ -71,6 +71,14 @@ def number_bytes(tagged):
     return data
 
 
+def count_of(context):
+    """How many elements the dimensions make."""
+    count = 1
+    for dimension in context["dimensions"]:
+        count *= dimension
+    return count
+
+
 def size_of(kind):
     return struct.calcsize(NUMBERS[kind])
 
@@ -95,6 +103,17 @@ def text_bytes(tagged):
     if tagged.get("open"):
         return body
     return body + b"\0" + from_hex(tagged.get("tail", ""))
+
+
+def texts(data, at, count, field):
+    """The texts that take the rest of a stream: a single one all of it, several the same share each."""
+    size = len(data) - at
+    if count > size and count > 1:
+        raise Refuse("truncated", at, field)
+    share = size // count
+    if share * count != size:
+        raise Refuse("bad-length", at + share * count, field)
+    return [text(data[at + share * place:at + share * place + share]) for place in range(count)]
 
 
 def text_field(data):

@@ -1,10 +1,11 @@
 """Streams of SDA and GEO, of the dynamic parameters, of content, and the description by name."""
 from .scalars import (
-    Bad, NUMBERS, Refuse, STREAM_MAX, end, fixed_stream, from_hex, number, number_bytes, plain, read_fields,
-    size_of, text, text_bytes, to_hex, u32, write_field, write_fields,
+    Bad, NUMBERS, Refuse, STREAM_MAX, count_of, end, fixed_stream, from_hex, number, number_bytes, plain, read_fields,
+    size_of, text, text_bytes, texts, to_hex, u32, write_field, write_fields,
 )
 
 ELEMENT_TEXT_MAX = 256
+CONTENT_MAX = 4194304
 DYNAMIC_NAME_MAX = 96
 DIMENSIONS_MAX = (STREAM_MAX - 20) // 4
 
@@ -79,9 +80,7 @@ def content_write(value, context):
         if items["type"] != "BYTES":
             raise Bad("type %s where the context has none" % items["type"])
         return [("content", from_hex(items["hex"]))]
-    count = 1
-    for dimension in context["dimensions"]:
-        count *= dimension
+    count = count_of(context)
     if len(items) != count or any(item["type"] != kind for item in items):
         raise Bad("%s where %d of %s stand" % ([item["type"] for item in items], count, kind))
     encode = text_bytes if kind == "STRING" else number_bytes
@@ -90,17 +89,15 @@ def content_write(value, context):
 
 def content_read(data, context):
     kind = context.get("type")
+    if len(data) > CONTENT_MAX:
+        raise Refuse("too-long", 0, "content")
     if kind is None:
         return {"content": {"type": "BYTES", "hex": to_hex(data)}}
     if kind == "STRING":
-        if context["dimensions"]:
-            raise Bad("where the elements of a STRING array end is not documented")
-        return {"content": [text(data)]}
+        return {"content": texts(data, 0, count_of(context), "content")}
     if kind not in NUMBERS:
         raise Bad("no content is a %s" % kind)
-    step = size = size_of(kind)
-    for dimension in context["dimensions"]:
-        size *= dimension
+    step, size = size_of(kind), size_of(kind) * count_of(context)
     if len(data) < size:
         raise Refuse("truncated", 0, "content")
     end(data, size, "content")

@@ -1,7 +1,7 @@
 """Streams of the variables with flexible data type."""
 from .scalars import (
-    Bad, Refuse, STREAM_MAX, TEXT_MAX, end, fixed_stream, join, number, number_bytes, plain, read_fields,
-    request_text, size_of, text, text_bytes, u32, write_field, write_fields,
+    Bad, Refuse, STREAM_MAX, TEXT_MAX, count_of, end, fixed_stream, join, number, number_bytes, plain, read_fields,
+    request_text, size_of, text, text_bytes, texts, u32, write_field, write_fields,
 )
 
 
@@ -72,19 +72,12 @@ def fitting(parts):
     return parts
 
 
-def elements(context):
-    count = 1
-    for dimension in context["dimensions"]:
-        count *= dimension
-    return count
-
-
 def value_write(value, context):
     items = value["value"]
     kind = context["type"]
     if any(item["type"] != kind for item in items):
         raise Bad("an element is no %s" % kind)
-    if len(items) != elements(context):
+    if len(items) != count_of(context):
         raise Bad("%d elements for %s%s" % (len(items), kind, context["dimensions"]))
     encode = text_bytes if kind == "STRING" else number_bytes
     return fitting([("value[%d]" % i, encode(item)) for i, item in enumerate(items)])
@@ -94,10 +87,8 @@ def value_items(data, at, context):
     """The elements that take the rest of a stream from `at` on."""
     kind = context["type"]
     if kind == "STRING":
-        if context["dimensions"]:
-            raise Bad("where the elements of a STRING array end is not documented")
-        return [text(data[at:])]
-    step, size = size_of(kind), size_of(kind) * elements(context)
+        return texts(data, at, count_of(context), "value")
+    step, size = size_of(kind), size_of(kind) * count_of(context)
     if len(data) - at < size:
         raise Refuse("truncated", at, "value")
     end(data, at + size, "value")
