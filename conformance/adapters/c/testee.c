@@ -440,19 +440,22 @@ static void write_text(Codec *c, const char *name, Rule rule) {
 }
 
 /* As many elements of the context's type as its dimensions say. They never say
- * how long a STRING is: it takes what is there, even if that is nothing. */
+ * how long a STRING is: those of an array have the same room each, at least one
+ * byte; a single one takes what is there, even if that is nothing. */
 static void elements(Codec *c, const char *name) {
     bool string = c->type->kind == TEXT;
-    if (c->encoding && list_length(field(c, name)) != c->count) fail(c, "mismatch", here(c));
-    if (!c->encoding && !string && c->count > left(c) / c->type->size)
-        fail(c, "truncated", c->at);
+    size_t room = c->type->size, at = here(c), of = 0;
+    if (string) room = c->encoding || c->count == 0 ? 0 : (size_t)(left(c) / c->count);
+    if (c->encoding && list_length(field(c, name)) != c->count) fail(c, "mismatch", at);
+    if (!c->encoding && (c->count * room != left(c) || (room == 0 && c->count > 1)))
+        fail(c, "bad-length", at);
     for (List l = open_list(c, name, (size_t)c->count); more(c, &l);) {
-        if (!string)
-            number(c, NULL, c->type);
-        else if (c->encoding)
-            write_text(c, NULL, REPLY);
-        else
-            read_text(c, NULL, REPLY, left(c));
+        if (!string) number(c, NULL, c->type);
+        if (string && !c->encoding) read_text(c, NULL, REPLY, room);
+        if (!string || !c->encoding) continue;
+        write_text(c, NULL, REPLY);
+        if (of++ == 0) room = c->out->size - at;
+        if (c->out->size - at != of * room) fail(c, "mismatch", at);
     }
 }
 
@@ -744,10 +747,8 @@ static void ams_frame(Codec *c) {
     if (!c->encoding && (get_u32(head + 2) != c->end - 6 || get_u32(head + 26) != left(c)))
         fail(c, "mismatch", get_u32(head + 26) != left(c) ? 26 : 2);
     bool none = c->encoding ? !field(c, name) : left(c) == 0;
-    if (!known)
-        bytes(c, name, false);
-    else if (get_u32(head + 30) == 0 || !none)
-        record(c, name, STREAMS[i].fields);
+    if (get_u32(head + 30) == 0 || !none) /* an error may come alone */
+        known ? record(c, name, STREAMS[i].fields) : bytes(c, name, false);
     if (c->encoding) {
         set_u32(c->out, 2, c->out->size - 6);
         set_u32(c->out, 26, c->out->size - 38);
@@ -805,14 +806,14 @@ static bool read_context(Codec *c, const struct Stream *stream, Json context) {
         uint64_t size = read_number(d);
         c->count = size > UINT32_MAX || c->count * size > UINT32_MAX ? UINT32_MAX : c->count * size;
     }
-    c->stride = stride ? read_number(stride) : 0x10000;
+    c->stride = read_number(stride);
     c->based = base != NULL;
     c->base = read_number(base);
     bool typed = type != NULL;
     for (const Field *f = stream->fields; f->form != END; f++)
         typed = typed || f->form == ELEMENTS;
-    if (c->type ? c->type->kind == TEXT && c->count != 1 : typed) return false;
-    return c->count > 0 && (c->stride == 0x10000 || c->stride == 0x1000);
+    if (!c->type && typed) return false;
+    return stream->fields->special != index_offset || c->stride == 0x10000 || c->stride == 0x1000;
 }
 
 static void answer_case(Json request, Bytes *answer) {

@@ -111,12 +111,12 @@ const measured = codec((reader) => ({ type: "BYTES", hex: hex(reader.take(reader
 
 const typed = codec((reader, { type, dimensions }) => {
   support(Array.isArray(dimensions) && (type === "STRING" || TYPES.has(type)), "context");
-  if (type === "STRING") return [readText(reader.take())];
   const count = dimensions.reduce((product, dimension) => product * dimension, 1);
-  must(count * TYPES.get(type).size === reader.left, "bad-length", reader.at);
-  return Array.from({ length: count }, () => number(type).get(reader));
+  const size = TYPES.get(type)?.size ?? Math.floor(reader.left / Math.max(count, 1)); // texts share evenly
+  must(count * size === reader.left && (size > 0 || count < 2), "bad-length", reader.at);
+  return Array.from({ length: count }, () => TYPES.has(type) ? number(type).get(reader) : readText(reader.take(size)));
 });
-const content = codec((reader, context) => (context.type ? typed : bytes(0, 4194304)).get(reader, context));
+const content = codec((reader, context) => (context.type ? typed : bytes(0, Infinity)).get(reader, context));
 
 const descriptor = record({ id: uns32, size: uns32, write_access: uns16, not_assigned: uns16,
   index_group: uns32, index_offset: uns32, name: text32, type: text32 });
@@ -152,7 +152,7 @@ const indexOffset = codec((reader, context) => {
   return { axis: as("UNS16", Math.floor(offset / stride)), element: as("UNS16", offset % stride) };
 }, ({ axis, element }, context) => write(as("UNS32", axis.value * strideOf(context) + Number(element.value))));
 
-const PATH = /^(V\.(?:E|G|A|CYC|P|L|S))((?:\.[^\0.[\]]+(?:\[[0-9]+\])*)+)$/;
+const PATH = /^(V\.[^\0.[\]]+)((?:\.[^\0.[\]]+(?:\[[0-9]+\])*)+)$/;
 const PARTS = /\.([^\0.[\]]+)((?:\[[0-9]+\])*)/g;
 const open = (latin1) => ({ type: "STRING", hex: hex(Buffer.from(latin1, "latin1")), open: true });
 const variablePath = rest(1, 255, (all) => {
@@ -196,15 +196,15 @@ const frame = codec((reader) => {
     amsHeader.put({ ...ams_header, data_length: as("UNS32", body.length) }), body]);
 });
 
-const count = record({ count: uns32 });
+const [count, extended] = [record({ count: uns32 }), record({ synchronisation: uns32, validity: uns32 })];
 const description = { handle: uns32, type: uns32, access: uns32, size: uns32, dimensions: counted };
-const extended = record({ synchronisation: uns32, validity: uns32 });
 const STREAMS = new Map(Object.entries({
   "ams-tcp-header": tcpHeader, "ams-header": amsHeader, "ams-frame": frame,
   ...Object.fromEntries(Object.values(SERVICES).map(([name, service]) => [name.replaceAll("_", "-"), service])),
   "object-count": count, "element-count": count, "dynamic-count": count, "variable-count": count,
-  "object-descriptor": descriptor, "object-descriptors": record({ descriptors }), "content": record({ content }),
-  "object-address-query": record({ channel: uns32, axis: uns32 }), "object-address": record(address),
+  "object-descriptor": descriptor, "object-descriptors": record({ descriptors }),
+  "content": record({ content }, 4194304), "object-address": record(address),
+  "object-address-query": record({ channel: uns32, axis: uns32 }),
   "element-text": record({ text: text(0, 256) }), "element-length": record({ length: anyUnsigned }),
   "element-write-flag": record({ flag: boolean }), "dynamic-index": record({ index: notZero }),
   "dynamic-value": record({ value: real64 }), "dynamic-name": record({ name: text(1, 96) }),

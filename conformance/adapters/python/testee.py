@@ -26,15 +26,13 @@ FORMS = {"BOOLEAN": "B", "UNS08": "B", "SGN08": "b", "UNS16": "<H", "SGN16": "<h
 def leaf(kind, value):
     return {"type": kind, "value": str(value)}
 
-def take(data, size):
-    if size > len(data):
-        raise Refused("truncated")
-    return data[:size], data[size:]
-
 def within(data, least, most):
     if not least <= len(data) <= most:
         raise Refused("truncated" if len(data) < least else "too-long")
     return data
+
+def take(data, size):
+    return within(data, size, math.inf)[:size], data[size:]
 
 def numbers(data, count, kind):
     form = struct.Struct(FORMS[kind])
@@ -57,12 +55,16 @@ def counted(data):  # as many as the number in front of them says
     return numbers(data, int(count["value"]), "UNS32")
 
 def elements(context):  # of which type, and how many, is not among the bytes
-    kind = context.get("type")
-    if kind == "STRING":
-        return lambda data: ([text()(data)[0]], b"")
-    if kind not in FORMS:
+    kind, count = context.get("type"), math.prod(context.get("dimensions", []))
+    if kind != "STRING" and kind not in FORMS:
         raise Unsupported("context")
-    return lambda data: numbers(data, math.prod(context["dimensions"]), kind)
+    return lambda data: (texts(data, count), b"") if kind == "STRING" else numbers(data, count, kind)
+
+def texts(data, count):  # of an array: the same share of the bytes each, and at least one
+    size = len(data) // max(count, 1)
+    if size * count != len(data) or count > 1 and not size:
+        raise Refused("bad-length")
+    return [text()(data[size * place:][:size])[0] for place in range(count)]
 
 def net_id(data):
     six, data = take(data, 6)
@@ -151,10 +153,8 @@ class Frame:
             raise Refused("mismatch")
         value = {"ams_tcp_header": tcp, "ams_header": ams}
         service = self.SERVICES.get((ams["command"]["value"], ams["state_flags"]["value"]))
-        if not service:
-            value["data"] = raw()(data)[0]
-        elif data or ams["error"]["value"] == "0":  # an error may come without data
-            value[service] = STREAMS[service].get(data)
+        if data or ams["error"]["value"] == "0":  # an error may come alone
+            value[service or "data"] = STREAMS[service].get(data) if service else raw()(data)[0]
         return value
 
     def put(self, value):
@@ -168,7 +168,7 @@ class Path:
     """A variable's name taken apart, such as V.G.NP[0].V[1]."""
     PART = rb"\.([^.\[\]\0]+)((?:\[[0-9]+\])*)"
     def get(self, data):
-        found = re.fullmatch(rb"(V\.(?:G|E|A|CYC|P|L|S))((?:%s)+)" % self.PART, within(data, 0, 255))
+        found = re.fullmatch(rb"(V\.[^.\[\]\0]+)((?:%s)+)" % self.PART, within(data, 0, 255))
         if not found or any(int(n) > 4294967294 for n in re.findall(rb"\[([0-9]+)", found[2])):
             raise Refused("unexpected")
         return {"kind": string(found[1]), "parts": [
@@ -200,8 +200,8 @@ class Group(Record):
         else:
             return value
         words.update(access=["element", "object"][access - 2], addressing=["index", "logical"][logical])
-        value.update((name, leaf("NAME", word)) for name, word in words.items())
-        return dict(value, instance=leaf("UNS08", group & 255))
+        named = {name: leaf("NAME", word) for name, word in words.items()}
+        return dict(value, **named, instance=leaf("UNS08", group & 255))
 
 class Offset(Record):
     """An index offset taken apart: the stride is not among the bytes."""
@@ -236,7 +236,7 @@ STREAMS = dict(  # with - in place of _; those that need the context are functio
     write_request=Record(**ADDRESS, data=sized), write_reply=Record(result=UNS32),
     read_write_request=Record(**ADDRESS, read_length=UNS32, data=sized), read_write_reply=REPLY,
     object_count=COUNT, object_descriptor=DESCRIPTOR, object_descriptors=Record(descriptors=descriptors),
-    content=lambda context: Record(content=elements(context) if context else raw(0, 4194304)),
+    content=lambda context: Record(4194304, content=elements(context) if context else raw()),
     object_address_query=Record(channel=UNS32, axis=UNS32), object_address=Record(**ADDRESS),
     element_count=COUNT, element_text=Record(text=text(0, 256)), element_write_flag=Record(flag=number("BOOLEAN")),
     element_length=Record(length=lambda data: number({1: "UNS08", 2: "UNS16"}.get(len(data), "UNS32"))(data)),
