@@ -251,7 +251,7 @@ fn asked(probe: &mut Probe<'_>) -> Step {
 }
 
 /// How long the program and the service may take over it.
-const PATIENCE: Duration = Duration::from_secs(5);
+const PATIENCE: Duration = Duration::from_secs(1);
 
 fn square_root(probe: &mut Probe<'_>) -> Step {
     within(probe, |probe, channel, cnc| {

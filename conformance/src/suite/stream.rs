@@ -93,10 +93,16 @@ fn comment(len: usize) -> Vec<u8> {
     line
 }
 
-/// The first channel whose stream may be written.
+/// The first channel whose stream may be written. The embedded CNC's is set up anew: whatever was
+/// sent before, it waits for lines.
 fn channel(probe: &Probe<'_>) -> Step<Channel> {
     for channel in probe.channels()? {
         if probe.may(WriteProgramStream::new(channel, b"\r\n"))? {
+            if let Some(cnc) = &probe.session.cnc {
+                let config = cnc.with_program(channel.number(), |one| one.config().clone());
+                let set_up = config.and_then(|config| cnc.set_program(channel.number(), config));
+                set_up.map_err(harness)?;
+            }
             return Ok(channel);
         }
     }
@@ -107,14 +113,16 @@ fn channel(probe: &Probe<'_>) -> Step<Channel> {
 fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u32>> {
     let (begun, mut refused) = (Instant::now(), 0_u32);
     // Of the embedded CNC it is known how fast it is.
-    let embedded = probe.session.cnc.is_some();
-    let wait = if embedded { Duration::from_millis(5) } else { RETRY_AFTER };
+    let (wait, patience) = match probe.session.cnc.is_some() {
+        true => (Duration::from_millis(5), Duration::from_millis(300)),
+        false => (RETRY_AFTER, PATIENCE),
+    };
     loop {
         match send(probe, channel, data)? {
             Ack::Accepted => return Ok(Some(refused)),
             Ack::Refused => return Ok(None),
-            Ack::Later if begun.elapsed() > PATIENCE => {
-                let why = format!("still refused after {} s", PATIENCE.as_secs());
+            Ack::Later if begun.elapsed() > patience => {
+                let why = format!("still refused after {} ms", patience.as_millis());
                 return Err(Stop::Inconclusive(why));
             }
             Ack::Later => {
