@@ -134,6 +134,13 @@ impl Client {
         self
     }
 
+    /// The capture, for another connection; on this one nothing more is kept.
+    pub(crate) fn take_capture(&mut self) -> Option<Capture> {
+        let mut capture = self.capture.take()?;
+        capture.closed();
+        Some(capture)
+    }
+
     /// Ends the capture, if there is one.
     ///
     /// # Errors
@@ -410,7 +417,7 @@ pub(crate) fn answer(sent: AmsHeader, header: AmsHeader, payload: &[u8]) -> Resu
 }
 
 /// What of ADS-5 the response's header does not keep.
-fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
+pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
     let checks = [
         (
             got.command == sent.command,

@@ -109,6 +109,8 @@ pub enum Fault {
     Silence(Duration),
     /// The connection was closed.
     Closed,
+    /// Whatever it was: the request is looked at alone.
+    Unseen,
     /// What came is no frame, or no reply of the service.
     Malformed(Error),
     /// The network failed.
@@ -135,6 +137,7 @@ impl fmt::Display for Fault {
             Self::Unsendable(error) => write!(f, "not sent: {error}"),
             Self::Silence(time) => write!(f, "no answer within {} ms", time.as_millis()),
             Self::Closed => f.write_str("connection closed without an answer"),
+            Self::Unseen => f.write_str("whatever it was: the request alone is judged"),
             Self::Malformed(error) => write!(f, "malformed answer: {error}"),
             Self::Io(error) => write!(f, "network: {error}"),
             Self::Gone(error) => write!(f, "no connection: {error}"),

@@ -9,6 +9,7 @@
 //! | [`selftest`] | the suite tried on itself |
 //! | [`testee`] | codecs of others, asked over stdin and stdout |
 //! | [`clients`] | clients of others, which talk to a CNC that can do wrong |
+//! | [`capture`] | captured traffic, judged, and written |
 //! | [`child`] | commands that a user names |
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
 //! | [`capture`] | what went over a connection, as Wireshark reads it |

@@ -1,167 +1,116 @@
-//! A capture of a conversation, as Wireshark reads it: pcapng, with the headers of Ethernet, IP and
-//! TCP made up around the bytes that really went over the connection.
+//! Captured traffic: read from a file and judged, or written to one.
 //!
-//! What is written is what was handed to the system and what came back, in this order and with the
-//! time of this machine; how the network cut and acknowledged it, it does not tell. Each connection
-//! begins with a handshake and ends with a FIN, so that a reader can put it together.
+//! | step | where |
+//! |---|---|
+//! | packets out of pcap and pcapng | `file` |
+//! | TCP segments out of packets | `link` |
+//! | bytes in their order, connection by connection | `tcp`, `table` |
+//! | AMS frames | `frames` |
+//! | requests and their answers, judged | `judge` |
+//! | a conversation into a pcapng file | `writer`, `frame` |
+//!
+//! Nothing is kept of a capture but what a judgement of what comes later needs; how much that may
+//! be has a limit everywhere.
 //!
 //! ```
-//! use std::net::SocketAddr;
+//! use ads_cnc_conformance::capture::{Options, check};
 //!
-//! use ads_cnc_conformance::capture::Capture;
-//!
-//! let (local, remote) = (SocketAddr::from(([192, 0, 2, 20], 50000)), SocketAddr::from(([192, 0, 2, 10], 48898)));
-//! let file = std::env::temp_dir().join(format!("ads-cnc-doc-{}.pcapng", std::process::id()));
-//! let mut capture = Capture::create(&file)?;
-//! capture.opened(local, remote);
-//! capture.sent(b"question");
-//! capture.received(b"answer");
-//! capture.closed();
-//! capture.finish()?;
-//! assert!(std::fs::read(&file)?.starts_with(&[0x0A, 0x0D, 0x0D, 0x0A]));
-//! # std::fs::remove_file(&file)?;
-//! # Ok::<(), std::io::Error>(())
+//! // The beginning of a pcap file without a packet.
+//! let file = b"\xd4\xc3\xb2\xa1\x02\0\x04\0\0\0\0\0\0\0\0\0\xff\xff\0\0\x01\0\0\0";
+//! let checked = check(&file[..], Options::default())?;
+//! assert_eq!(checked.tally.packets, 0);
+//! assert!(checked.outcomes.iter().all(|outcome| !outcome.verdict().is_judged()));
+//! # Ok::<(), ads_cnc_conformance::capture::FileError>(())
 //! ```
 
+mod book;
+mod file;
 mod frame;
+mod frames;
+mod judge;
+mod link;
+mod table;
+mod tally;
+mod tcp;
+mod time;
+mod vectors;
+mod writer;
 
-use std::fmt;
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
-use std::net::SocketAddr;
-use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::io::Read;
 
-use frame::{ACK, FIN, Flow, PSH, SYN};
+pub use file::{End, FileError, RECORD_MAX};
+pub use table::Ports;
+pub use tally::Tally;
+pub use time::Time;
+pub use vectors::{Collector, VECTORS_MAX};
+pub use writer::Capture;
 
-/// The most bytes of a TCP segment, as on Ethernet.
-const SEGMENT_MAX: usize = 1440;
+use self::judge::Judge;
+use self::link::Content;
+use self::table::Table;
+use self::tally::{count, count_of};
+use self::tcp::Mark;
+use crate::suite::Outcome;
 
-/// A capture that is being written. What the system does not take is told in the end.
-pub struct Capture {
-    out: Box<dyn Write + Send>,
-    flow: Option<Flow>,
-    error: Option<io::Error>,
+/// The TCP port of AMS.
+pub const AMS_TCP_PORT: u16 = 48898;
+
+/// What is looked for.
+#[derive(Debug)]
+pub struct Options {
+    /// TCP ports.
+    pub ports: Ports,
+    /// Where golden vectors are to be kept, if they are wanted.
+    pub vectors: Option<Collector>,
 }
 
-impl fmt::Debug for Capture {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Capture").field("flow", &self.flow).finish_non_exhaustive()
+impl Default for Options {
+    fn default() -> Self {
+        Self { ports: Ports::Of(vec![AMS_TCP_PORT]), vectors: None }
     }
 }
 
-impl Capture {
-    /// A capture in a new file, or in place of an old one.
-    ///
-    /// # Errors
-    /// Those of the system.
-    pub fn create(file: &Path) -> io::Result<Self> {
-        Self::new(Box::new(BufWriter::new(File::create(file)?)))
-    }
+/// What came of a capture.
+#[derive(Debug)]
+pub struct Checked {
+    /// Each case.
+    pub outcomes: Vec<Outcome>,
+    /// What was there.
+    pub tally: Tally,
+    /// Golden vectors, if they were wanted.
+    pub vectors: Option<Collector>,
+}
 
-    /// A capture that goes somewhere else.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn new(mut out: Box<dyn Write + Send>) -> io::Result<Self> {
-        out.write_all(&section())?;
-        out.write_all(&interface())?;
-        Ok(Self { out, flow: None, error: None })
-    }
-
-    /// A connection was made.
-    pub fn opened(&mut self, local: SocketAddr, remote: SocketAddr) {
-        self.flow = Some(Flow::new(local, remote));
-        self.packet(true, SYN, &[]);
-        self.packet(false, SYN | ACK, &[]);
-        self.packet(true, ACK, &[]);
-    }
-
-    /// Bytes were sent.
-    pub fn sent(&mut self, bytes: &[u8]) {
-        self.bytes(true, bytes);
-    }
-
-    /// Bytes came.
-    pub fn received(&mut self, bytes: &[u8]) {
-        self.bytes(false, bytes);
-    }
-
-    /// The connection is over.
-    pub fn closed(&mut self) {
-        if self.flow.is_some() {
-            self.packet(true, FIN | ACK, &[]);
-            self.packet(false, FIN | ACK, &[]);
-            self.packet(true, ACK, &[]);
-            self.flow = None;
+/// Judges a file of captured packets, pcap or pcapng.
+///
+/// # Errors
+/// If it is no such file. One that ends too early is judged as far as it goes.
+pub fn check(input: impl Read + Send, options: Options) -> Result<Checked, FileError> {
+    let mut table = Table::new(options.ports);
+    let mut judge = Judge::new(options.vectors);
+    let mut events = Vec::new();
+    let end = file::packets(input, |packet| {
+        count(&mut judge.tally.packets);
+        judge.at(packet.time);
+        match link::segment(&packet) {
+            Content::Tcp(segment) if table.wants(&segment) => {
+                count(&mut judge.tally.segments);
+                let mark = Mark { packet: packet.number, time: packet.time };
+                table.push(&segment, mark, &mut events);
+            }
+            Content::Tcp(_) | Content::Other => {}
+            Content::Fragment => count(&mut judge.tally.fragments),
+            Content::Unreadable => count(&mut judge.tally.unreadable),
+            Content::Link(link) => count_of(&mut judge.tally.links, link),
         }
-    }
-
-    /// Ends the capture.
-    ///
-    /// # Errors
-    /// The first that the system did not take.
-    pub fn finish(mut self) -> io::Result<()> {
-        self.closed();
-        match self.error.take() {
-            Some(error) => Err(error),
-            None => self.out.flush(),
-        }
-    }
-
-    fn bytes(&mut self, outgoing: bool, bytes: &[u8]) {
-        for segment in bytes.chunks(SEGMENT_MAX) {
-            self.packet(outgoing, PSH | ACK, segment);
-        }
-    }
-
-    fn packet(&mut self, outgoing: bool, flags: u8, data: &[u8]) {
-        let Some(flow) = &mut self.flow else { return };
-        let block = enhanced(&flow.packet(outgoing, flags, data));
-        if let Err(error) = self.out.write_all(&block) {
-            self.error.get_or_insert(error);
-        }
-    }
-}
-
-/// A block: type, length, body filled up to four bytes, length again.
-fn block(kind: u32, body: &[u8]) -> Vec<u8> {
-    let filled = body.len().next_multiple_of(4);
-    let length = u32::try_from(filled.saturating_add(12)).unwrap_or(u32::MAX);
-    let mut block = kind.to_le_bytes().to_vec();
-    block.extend(length.to_le_bytes());
-    block.extend(body);
-    block.resize(filled.saturating_add(8), 0);
-    block.extend(length.to_le_bytes());
-    block
-}
-
-/// Section header: order of bytes, version 1.0, length not said, and who wrote it.
-fn section() -> Vec<u8> {
-    const USER_APPLICATION: u16 = 4;
-    let name = concat!("ads-cnc ", env!("CARGO_PKG_VERSION"));
-    let mut body = 0x1A2B_3C4D_u32.to_le_bytes().to_vec();
-    body.extend([1, 0, 0, 0]);
-    body.extend(u64::MAX.to_le_bytes());
-    body.extend(USER_APPLICATION.to_le_bytes());
-    body.extend(u16::try_from(name.len()).unwrap_or_default().to_le_bytes());
-    body.extend(name.as_bytes());
-    body.resize(body.len().next_multiple_of(4), 0);
-    body.extend([0; 4]);
-    block(0x0A0D_0D0A, &body)
-}
-
-/// Interface description: Ethernet, packets whole, times in microseconds.
-fn interface() -> Vec<u8> {
-    block(1, &[1, 0, 0, 0, 0, 0, 0, 0])
-}
-
-/// Enhanced packet: interface 0, time, length captured and length there was.
-fn enhanced(packet: &[u8]) -> Vec<u8> {
-    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
-    let time = u64::try_from(since.as_micros()).unwrap_or(u64::MAX).to_le_bytes();
-    let (low, high) = time.split_at(4);
-    let length = u32::try_from(packet.len()).unwrap_or(u32::MAX).to_le_bytes();
-    let body = [&[0; 4], high, low, &length, &length, packet].concat();
-    block(6, &body)
+        events.drain(..).for_each(|event| judge.take(event, &table));
+    })?;
+    table.finish(&mut events);
+    events.drain(..).for_each(|event| judge.take(event, &table));
+    judge.tally.connections = table.connections();
+    judge.tally.repeated = table.repeated;
+    judge.tally.early = table.early;
+    judge.tally.end = Some(end);
+    let (outcomes, tally, vectors) = judge.finish();
+    Ok(Checked { outcomes, tally, vectors })
 }

@@ -1,6 +1,7 @@
 //! The command line of `ads-cnc`.
 
 mod browse;
+mod check;
 mod client;
 mod completions;
 mod executed;
@@ -53,6 +54,7 @@ enum Command {
     Serve(serve::Args),
     Run(Box<run::Run>),
     Report(report::ReportArgs),
+    Check(check::Check),
     Explain(explain::Explain),
     Requirements(requirements::Requirements),
     Stream(stream::Stream),
@@ -98,6 +100,7 @@ impl Cli {
         match self.command {
             Some(Command::Run(run)) => run.execute().into(),
             Some(Command::Report(report)) => report.execute().into(),
+            Some(Command::Check(check)) => check.execute().into(),
             Some(Command::Explain(explain)) => explain.execute().into(),
             Some(Command::Requirements(requirements)) => requirements.execute().into(),
             Some(Command::Stream(stream)) => stream.execute().into(),

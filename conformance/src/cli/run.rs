@@ -14,7 +14,6 @@ use super::run_client::ClientArgs;
 use super::run_testee;
 use super::target::{REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect};
-use crate::capture::Capture;
 use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::Seed;
 use crate::gate::Moment;
@@ -51,7 +50,9 @@ pub(super) struct Run {
     #[arg(
         long,
         value_name = "COMMAND",
-        conflicts_with_all = ["target", "allow_write", "dry_run", "rate", "profile", "defect"]
+        conflicts_with_all = [
+            "target", "allow_write", "dry_run", "rate", "capture", "profile", "defect"
+        ]
     )]
     testee: Option<String>,
 
@@ -87,10 +88,6 @@ pub(super) struct Run {
     /// Write a profile to be filled in, with a comment on everything in it
     #[arg(long, exclusive = true)]
     print_profile: bool,
-
-    /// Write everything sent and received as pcapng, which Wireshark reads
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["testee", "dry_run"])]
-    capture: Option<PathBuf>,
 
     /// Known failures that the run puts up with
     #[arg(long, value_name = "FILE")]
@@ -291,8 +288,7 @@ impl Run {
     fn device(&self, seed: u32, waivers: Waivers, profile: Profile) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
         let target = self.target.clone().with_timeout(profile.timeout);
-        let session = target.with_malformed(self.malformed).open()?;
-        let mut session = self.captured(session)?;
+        let mut session = target.with_malformed(self.malformed).open()?;
         // Silence is judged case by case only of one that speaks at all: an error of ADS does.
         let greeted = match profile.claims(Function::CountObjects) {
             Claim::No => {
@@ -333,7 +329,8 @@ impl Run {
         let settings = Settings { edition: Some(profile.edition), version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
         let cnc = Cnc::new(model.map_err(internal)?).with_defect(defect.clone());
-        let mut session = self.captured(session::Session::embedded_to_try(cnc)?)?;
+        let session = session::Session::embedded_to_try(cnc)?;
+        let mut session = self.target.recorded(session)?;
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs as long as it is held.
         let (client, running) = session.into_parts();
@@ -381,15 +378,8 @@ impl Run {
         Ok(Report::new(About { frames, profile, ..about }, &outcomes, &left_out))
     }
 
-    /// The session with a capture of it, if one is wished for.
-    fn captured(&self, session: session::Session) -> Result<session::Session, Trouble> {
-        let Some(file) = &self.capture else { return Ok(session) };
-        let capture = Capture::create(file).map_err(|error| self.lost_capture(&error))?;
-        Ok(session.with_capture(capture))
-    }
-
     fn lost_capture(&self, error: &std::io::Error) -> Trouble {
-        let file = self.capture.as_deref().unwrap_or(Path::new("the capture"));
+        let file = self.target.capture().unwrap_or(Path::new("the capture"));
         Trouble::Internal(format!("{}: {error}", file.display()))
     }
 

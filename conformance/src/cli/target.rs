@@ -2,20 +2,18 @@
 
 use std::io;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::ads::AmsNetId;
 use clap::Args;
 
+use crate::capture::{AMS_TCP_PORT, Capture};
 use crate::client::Target;
 use crate::cnc::{Cnc, NET_ID};
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::session::{Session, TIMEOUT, Trouble};
-
-/// The TCP port of AMS.
-const AMS_TCP_PORT: u16 = 48898;
 
 /// Under which these options stand in the help.
 const TARGET: &str = "Target";
@@ -64,6 +62,10 @@ pub(super) struct TargetArgs {
     /// A file that says what may be written, on whom and until when; nothing may be without
     #[arg(long, help_heading = TARGET, value_name = "FILE")]
     allow_write: Option<PathBuf>,
+
+    /// Write everything sent and received as pcapng, which Wireshark and `check` read
+    #[arg(long, help_heading = TARGET, value_name = "FILE", conflicts_with = "dry_run")]
+    capture: Option<PathBuf>,
 
     /// Show what would be sent and send nothing
     #[arg(long, help_heading = TARGET)]
@@ -130,7 +132,7 @@ impl TargetArgs {
         match (self.is_device() || self.has_file(), self.dry_run) {
             (true, _) => self.open_or(cnc),
             (false, true) => Session::dry_embedded(embedded_gate(entry)),
-            (false, false) => Session::embedded(cnc()?, embedded_gate(entry)),
+            (false, false) => self.recorded(Session::embedded(cnc()?, embedded_gate(entry))?),
         }
     }
 
@@ -160,11 +162,23 @@ impl TargetArgs {
     ) -> Result<Session, Trouble> {
         let gate = self.gate()?;
         match (self.device()?, self.dry_run) {
-            (None, false) => Session::embedded(cnc()?, gate),
+            (None, false) => self.recorded(Session::embedded(cnc()?, gate)?),
             (None, true) => Session::dry_embedded(gate),
-            (Some(target), false) => Session::connect(target, gate),
+            (Some(target), false) => self.recorded(Session::connect(target, gate)?),
             (Some(target), true) => Session::dry(target, gate),
         }
+    }
+
+    /// Where all that is sent and received is kept.
+    pub(super) fn capture(&self) -> Option<&Path> {
+        self.capture.as_deref()
+    }
+
+    /// The session, with all that it sends and receives kept if that is wanted.
+    pub(super) fn recorded(&self, session: Session) -> Result<Session, Trouble> {
+        let Some(file) = &self.capture else { return Ok(session) };
+        let failed = |error| Trouble::Usage(format!("{}: {error}", file.display()));
+        Ok(session.with_capture(Capture::create(file).map_err(failed)?))
     }
 
     fn device(&self) -> Result<Option<Target>, Trouble> {

@@ -75,7 +75,8 @@ pub(super) const fn heading(subject: Subject) -> &'static str {
         Subject::Testee => "The testee against the golden vectors",
         Subject::Target => "The target, asked over AMS/TCP",
         Subject::Client => "The client, answered over AMS/TCP",
-        Subject::Capture => "The captured traffic",
+        Subject::CapturedClient => "The clients in the captured traffic",
+        Subject::CapturedCnc => "The CNCs in the captured traffic",
     }
 }
 

@@ -118,10 +118,16 @@ impl Session {
             return Err(Trouble::Usage("only an embedded CNC can have another gate".to_owned()));
         };
         let target = *client.target();
-        drop(client);
+        let mut before = client;
+        let capture = before.take_capture();
+        drop(before);
         let client = Client::connect(target, gate);
         let client = client.map_err(|error| Trouble::unreachable(&target, &error))?;
-        Ok(Self::over(client, Some(server)))
+        let session = Self::over(client, Some(server));
+        Ok(match capture {
+            Some(capture) => session.with_capture(capture),
+            None => session,
+        })
     }
 
     fn over(client: Client, embedded: Option<Server>) -> Self {

@@ -110,7 +110,7 @@ impl Trouble {
         );
         Self::NoAnswer(match fault {
             Fault::Refused(refusal) => return Self::Refused(refusal),
-            Fault::NotSent => return Self::NotSent,
+            Fault::NotSent | Fault::Unseen => return Self::NotSent,
             Fault::Unsendable(error) => return Self::Unsendable(error),
             Fault::Malformed(error) if answered => return Self::Reply(error),
             Fault::Malformed(error) => {

@@ -41,14 +41,22 @@ pub enum Subject {
     Target,
     /// What asks a CNC.
     Client,
-    /// Traffic of others.
-    Capture,
+    /// Clients in traffic that was captured.
+    CapturedClient,
+    /// CNCs in traffic that was captured.
+    CapturedCnc,
 }
 
 impl Subject {
     /// All of them, in the order of reports.
-    pub const ALL: [Self; 5] =
-        [Self::Codec, Self::Testee, Self::Target, Self::Client, Self::Capture];
+    pub const ALL: [Self; 6] = [
+        Self::Codec,
+        Self::Testee,
+        Self::Target,
+        Self::Client,
+        Self::CapturedClient,
+        Self::CapturedCnc,
+    ];
 
     /// Its name in reports.
     pub const fn name(self) -> &'static str {
@@ -57,7 +65,8 @@ impl Subject {
             Self::Testee => "testee",
             Self::Target => "target",
             Self::Client => "client",
-            Self::Capture => "capture",
+            Self::CapturedClient => "captured-client",
+            Self::CapturedCnc => "captured-cnc",
         }
     }
 }
@@ -83,7 +92,7 @@ pub enum Needs {
     Embedded,
     /// A target that claims to answer the manuals' examples.
     PrintedExamples,
-    /// The frames that all other cases exchanged.
+    /// The frames that all other cases, or others altogether, exchanged.
     Frames,
     /// No target: the codec itself is judged.
     Codec,
@@ -104,6 +113,8 @@ pub enum Body {
     Manners,
     /// By watching what a client sends and says.
     Client,
+    /// By looking through traffic of others.
+    Traffic,
 }
 
 /// How a step of a case goes on.

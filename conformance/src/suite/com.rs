@@ -4,11 +4,12 @@ use std::collections::HashSet;
 
 use ads_cnc::address::{Access, Channel, ComGroup, ComTable, Group, PlatformAxis};
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
-use ads_cnc::{Decode, Descriptors, DescriptorsRef, ObjectCount};
+use ads_cnc::{Decode, DescriptorRef, Descriptors, DescriptorsRef, ObjectCount};
 
 use super::case::{Case, Step, Stop, assumed, online};
 use super::declare;
 use super::probe::{Probe, harness};
+use super::record::Checks;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -149,30 +150,35 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
         for first in 1..=known_number(probe, list)? {
             let one = read(probe, "COM-2", list, first, 1)?;
             let Some(object) = one.as_ref().get(0) else { continue };
-            let name = object.name().to_string();
-            let rule = assumed("COM-2");
-            probe.check(rule, !name.is_empty(), "an object with a name", "an empty name");
             let id = object.id();
             probe.check("COM-2", ids.insert(id), "an ID no other object has", format!("ID {id}"));
-            let type_name = object.type_name().to_string();
-            probe.check(rule, !type_name.is_empty(), "the name of a type", "an empty type");
-            if let Some(size) = object.type_size() {
-                let whole = object.size() > 0 && object.size().checked_rem(size) == Some(0);
-                let expected = format!("a multiple of the {size} bytes of {type_name}");
-                let found = format!("size {} of {name}", object.size());
-                probe.check(online("GEN-5"), whole, expected, found);
-            }
-            let group = object.index_group();
-            let content =
-                matches!(group.parts(), Some(Group::Com(ComGroup { access: Access::Element, .. })));
-            let expected = "the group of an element of COM, 0x120100 or 0x120200 and the like";
-            probe.check(assumed("COM-5"), content, expected, format!("group {group} of {name}"));
-            let access = object.write_access().0;
-            let expected = "write access 0 or 1";
-            probe.check(assumed("COM-2"), access <= 1, expected, format!("{access} of {name}"));
+            descriptor_holds_together(probe, object);
         }
     }
     Ok(())
+}
+
+/// What a descriptor says of its object.
+pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: DescriptorRef<'_>) {
+    let name = object.name().to_string();
+    let rule = assumed("COM-2");
+    probe.check(rule, !name.is_empty(), "an object with a name", "an empty name");
+    let type_name = object.type_name().to_string();
+    probe.check(rule, !type_name.is_empty(), "the name of a type", "an empty type");
+    if let Some(size) = object.type_size() {
+        let whole = object.size() > 0 && object.size().checked_rem(size) == Some(0);
+        let expected = format!("a multiple of the {size} bytes of {type_name}");
+        let found = format!("size {} of {name}", object.size());
+        probe.check(online("GEN-5"), whole, expected, found);
+    }
+    let group = object.index_group();
+    let content =
+        matches!(group.parts(), Some(Group::Com(ComGroup { access: Access::Element, .. })));
+    let expected = "the group of an element of COM, 0x120100 or 0x120200 and the like";
+    probe.check(assumed("COM-5"), content, expected, format!("group {group} of {name}"));
+    let access = object.write_access().0;
+    let expected = "write access 0 or 1";
+    probe.check(assumed("COM-2"), access <= 1, expected, format!("{access} of {name}"));
 }
 
 fn in_sequence(probe: &mut Probe<'_>) -> Step {

@@ -16,6 +16,7 @@ mod outcome;
 mod place;
 mod printed;
 mod probe;
+mod record;
 mod replay;
 mod run;
 mod sda;
@@ -34,13 +35,16 @@ mod write_content;
 pub use case::{
     Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, Subject, assumed, online,
 };
+pub(crate) use com::descriptor_holds_together;
 pub use outcome::{Outcome, RequirementVerdict, gravest};
 pub(crate) use printed::typed;
 pub use probe::Probe;
+pub(crate) use record::{Checks, Record};
 pub use run::run;
 pub use select::{Plan, Selection, Unmatched, any_seed};
 pub(crate) use select::{names, order};
 pub use session::Session;
+pub(crate) use variable::holds_together;
 pub use vectors::siblings_of;
 
 /// Declares a case.

@@ -9,14 +9,12 @@ use ads_cnc::operation::{Call, Function, Request};
 use ads_cnc_vectors::Level;
 
 use super::case::{Evidence, Judgement, Rule, Step, Stop};
+use super::record::{Checks, Record};
 use super::session::Session;
 use crate::cnc::Cnc;
 use crate::exchange::{Exchange, Fault, Violation};
 use crate::profile::Claim;
 use crate::verdict::Verdict;
-
-/// The most failed checks a case keeps of one requirement.
-const KEPT: usize = 3;
 
 /// Requests in a row without an answer after which no more are sent.
 const SILENCES_MAX: usize = 8;
@@ -26,18 +24,17 @@ const SILENCES_MAX: usize = 8;
 pub struct Probe<'s> {
     /// The session.
     pub session: &'s mut Session,
-    judgements: Vec<Judgement>,
+    record: Record,
     last: Option<Evidence>,
-    checks: usize,
 }
 
 impl<'s> Probe<'s> {
     pub(super) fn new(session: &'s mut Session) -> Self {
-        Self { session, judgements: Vec::new(), last: None, checks: 0 }
+        Self { session, record: Record::default(), last: None }
     }
 
     pub(super) fn into_findings(self) -> (Vec<Judgement>, usize) {
-        (self.judgements, self.checks)
+        (self.record.judgements, self.record.checks)
     }
 
     /// The channels the target claims, by number.
@@ -81,12 +78,7 @@ impl<'s> Probe<'s> {
         found: impl Display,
     ) -> bool {
         let rule = rule.into();
-        let verdict = match (kept, rule.level) {
-            (true, _) => Verdict::Pass,
-            (false, Some(level)) => Verdict::missed(level),
-            (false, None) => Verdict::HarnessError,
-        };
-        self.record(rule, verdict, expected.to_string(), found.to_string());
+        self.record(rule, rule.verdict(kept), expected.to_string(), found.to_string());
         kept
     }
 
@@ -125,24 +117,8 @@ impl<'s> Probe<'s> {
     }
 
     fn record(&mut self, rule: Rule, verdict: Verdict, expected: String, found: String) {
-        self.checks = self.checks.saturating_add(1);
-        let passed = verdict == Verdict::Pass;
-        let same = self
-            .judgements
-            .iter_mut()
-            .filter(|judgement| judgement.requirement == rule.id && judgement.verdict == verdict);
-        let mut same: Vec<_> = same.collect();
-        if same.len() >= if passed { 1 } else { KEPT } {
-            if let Some(last) = same.last_mut() {
-                last.more = last.more.saturating_add(1);
-            }
-            return;
-        }
-        let evidence = if passed { None } else { self.last.clone() };
-        let (requirement, level) = (rule.id, rule.level);
-        let judgement =
-            Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
-        self.judgements.push(judgement);
+        let last = &self.last;
+        self.record.add(rule, verdict, expected, found, || last.clone());
     }
 
     /// Sends a call and keeps it as the evidence of the checks that follow.
@@ -362,4 +338,16 @@ impl<'s> Probe<'s> {
 /// What the suite builds for itself has to encode.
 pub(super) fn harness(error: impl Display) -> Stop {
     Stop::Harness(error.to_string())
+}
+
+impl Checks for Probe<'_> {
+    fn check(
+        &mut self,
+        rule: impl Into<Rule>,
+        kept: bool,
+        expected: impl Display,
+        found: impl Display,
+    ) -> bool {
+        Probe::check(self, rule, kept, expected, found)
+    }
 }

@@ -73,8 +73,8 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
         Body::Probe(body) => body(&mut probe),
         Body::Printed(vector) => printed::ask(&mut probe, vector),
         Body::Sequence(sequence) => replay::run(&mut probe, sequence),
-        Body::Vector(_) | Body::Manners | Body::Client => {
-            Err(Stop::Harness("a case of a codec or a client needs no target".to_owned()))
+        Body::Vector(_) | Body::Manners | Body::Client | Body::Traffic => {
+            Err(Stop::Harness("this case needs no target".to_owned()))
         }
     };
     let (judgements, checks) = probe.into_findings();

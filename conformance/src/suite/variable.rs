@@ -15,6 +15,7 @@ use super::case::{Case, Rule, Step, Stop, assumed};
 use super::declare;
 use super::described::kinds;
 use super::probe::{Probe, harness};
+use super::record::Checks;
 use super::survey::{KINDS, VARIABLES_MAX};
 
 pub(super) fn cases() -> Vec<Case> {
@@ -119,7 +120,7 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
 }
 
 /// What a description says of itself.
-fn holds_together(probe: &mut Probe<'_>, variable: &Description, kind: &str) {
+pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, kind: &str) {
     let name = variable.name.text.to_string();
     let of_kind = name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'));
     probe.check("VAR-3", of_kind, format!("a name of {kind}"), format!("{name:?}"));

@@ -1,0 +1,283 @@
+//! The cases of captured traffic, and what was found of each.
+
+use std::fmt::{self, Display};
+use std::net::SocketAddr;
+
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::Function;
+use ads_cnc_vectors::requirements;
+
+use super::frames::Span;
+use super::time::Time;
+use crate::exchange::Exchange;
+use crate::suite::{Body, Case, Checks, Evidence, Needs, Outcome, Record, Rule, Stop, Subject};
+use crate::verdict::Verdict;
+
+/// Declares [`Topic`].
+macro_rules! topics {
+    ($( $topic:ident: $subject:ident, $id:literal, $title:literal, [$($requirement:literal),*] $(of $area:literal)?; )+) => {
+        /// What is looked at.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum Topic { $( $topic, )+ }
+
+        impl Topic {
+            const ALL: &'static [Self] = &[$( Self::$topic, )+];
+
+            fn case(self) -> Case {
+                match self { $(
+                    Self::$topic => {
+                        let requirements = vec![$($requirement),*];
+                        $( let requirements = of_area($area, Subject::$subject, requirements); )?
+                        Case {
+                            id: $id.to_owned(),
+                            title: $title.to_owned(),
+                            subject: Subject::$subject,
+                            requirements,
+                            needs: Needs::Frames,
+                            body: Body::Traffic,
+                        }
+                    }
+                )+ }
+            }
+        }
+    };
+}
+
+topics! {
+    ClientFrames: CapturedClient, "cap-client-frames",
+        "Every request has the headers of a request", ["ADS-5"];
+    ClientServices: CapturedClient, "cap-client-services",
+        "Every request has what its service takes, and no more", ["ADS-1", "ADS-2", "ADS-3"];
+    ClientPorts: CapturedClient, "cap-client-ports",
+        "Every function is asked at the port of its task", ["GEN-4"];
+    ClientCom: CapturedClient, "cap-client-com",
+        "Requests for objects are as their function takes them", ["COM-3"] of "COM";
+    ClientSda: CapturedClient, "cap-client-sda",
+        "Requests for instances and elements are as their function takes them", [] of "SDA";
+    ClientDyn: CapturedClient, "cap-client-dyn",
+        "Requests for dynamic parameters are as their function takes them", [] of "DYN";
+    ClientVar: CapturedClient, "cap-client-var",
+        "Requests for variables are as their function takes them", ["VAR-20", "VAR-24"] of "VAR";
+    ClientStream: CapturedClient, "cap-client-stream",
+        "What is streamed is whole lines, and refused data comes again",
+        ["STM-6", "STM-7", "STM-8", "STM-10", "STM-20"] of "STM";
+    ClientService: CapturedClient, "cap-client-service",
+        "A service answers what it was asked, in the order of the interface",
+        ["SVC-1", "SVC-2", "SVC-4", "SVC-5", "SVC-12"];
+    CncFrames: CapturedCnc, "cap-cnc-frames",
+        "Every reply has the headers of the answer to its request", ["ADS-5", "ADS-6"];
+    CncServices: CapturedCnc, "cap-cnc-services",
+        "Every reply has what its service gives, and no more than was asked for",
+        ["ADS-1", "ADS-2", "ADS-3", "ADS-4"];
+    CncCom: CapturedCnc, "cap-cnc-com",
+        "Numbers, descriptors and contents of objects hold together",
+        ["GEN-5", "COM-3"] of "COM";
+    CncSda: CapturedCnc, "cap-cnc-sda",
+        "Instances, elements and their attributes hold together",
+        ["SDA-2", "ADR-5", "ADR-7", "GEN-5"] of "SDA";
+    CncDyn: CapturedCnc, "cap-cnc-dyn",
+        "Dynamic parameters hold together", ["DYN-5"] of "DYN";
+    CncVar: CapturedCnc, "cap-cnc-var",
+        "Numbers, descriptions, handles and values of variables hold together",
+        [
+            "VAR-1", "VAR-3", "VAR-7", "VAR-8", "VAR-9", "VAR-11", "VAR-14", "VAR-16", "VAR-17",
+            "VAR-18", "VAR-20", "VAR-24", "VAR-25", "GEN-1", "GEN-3"
+        ] of "VAR";
+    CncStream: CapturedCnc, "cap-cnc-stream",
+        "The stream takes what it has to, and no more", ["STM-2", "STM-5"];
+    CncService: CapturedCnc, "cap-cnc-service",
+        "The variables of the Service Interface are of their types, and follow one another",
+        ["SVC-1", "SVC-3"];
+}
+
+impl Topic {
+    /// Requests of a function.
+    pub(super) fn of_request(function: Function) -> Self {
+        match function.spec().clause.get(..3) {
+            Some("COM") => Self::ClientCom,
+            Some("SDA") => Self::ClientSda,
+            Some("DYN") => Self::ClientDyn,
+            Some("STM") => Self::ClientStream,
+            _ => Self::ClientVar,
+        }
+    }
+
+    /// Replies of a function.
+    pub(super) fn of_reply(function: Function) -> Self {
+        match function.spec().clause.get(..3) {
+            Some("COM") => Self::CncCom,
+            Some("SDA") => Self::CncSda,
+            Some("DYN") => Self::CncDyn,
+            Some("STM") => Self::CncStream,
+            _ => Self::CncVar,
+        }
+    }
+}
+
+/// The requirements that the function table and the field tables name for an area.
+fn of_area(area: &str, subject: Subject, also: Vec<&'static str>) -> Vec<&'static str> {
+    let mut all = also;
+    for spec in Function::ALL.iter().map(|function| function.spec()) {
+        if !spec.clause.starts_with(area) {
+            continue;
+        }
+        let stream = if subject == Subject::CapturedClient { spec.request } else { spec.reply };
+        all.push(spec.clause);
+        all.extend(stream.into_iter().flat_map(clauses));
+    }
+    all.retain(|id| requirements().iter().any(|known| known.id == *id));
+    all.sort_by_key(|id| requirements().iter().position(|known| known.id == *id));
+    all.dedup();
+    all
+}
+
+/// The requirements of a stream and its fields.
+fn clauses(stream: Stream) -> impl Iterator<Item = &'static str> {
+    let layout = stream.layout();
+    layout.fields.iter().map(|field| field.clause).chain([layout.clause])
+}
+
+/// Where something was seen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    pub(super) from: SocketAddr,
+    pub(super) to: SocketAddr,
+    pub(super) asked: Option<Span>,
+    pub(super) answered: Option<Span>,
+}
+
+impl Display for Spot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let packets = |f: &mut fmt::Formatter<'_>, span: Span| {
+            match (span.first.packet, span.last.packet) {
+                (first, last) if first == last => write!(f, "packet {first}")?,
+                (first, last) => write!(f, "packets {first} to {last}")?,
+            }
+            span.last.time.map_or(Ok(()), |time| write!(f, " at {time}"))
+        };
+        if let Some(asked) = self.asked {
+            packets(f, asked)?;
+        }
+        if let Some(answered) = self.answered {
+            f.write_str(if self.asked.is_some() { ", answered in " } else { "" })?;
+            packets(f, answered)?;
+        }
+        write!(f, ", {} to {}", self.from, self.to)
+    }
+}
+
+/// What a check is about.
+#[derive(Debug)]
+pub(super) enum Scene<'e> {
+    /// A request, and its answer if there is one.
+    Exchange(&'e Exchange, Spot),
+    /// Bytes that are no frame, or no whole one.
+    Bytes(&'e [u8], Spot),
+}
+
+impl Scene<'_> {
+    /// When the request was sent.
+    pub(super) fn time(&self) -> Option<Time> {
+        let (Self::Exchange(_, spot) | Self::Bytes(_, spot)) = self;
+        spot.asked?.last.time
+    }
+
+    fn evidence(&self) -> Evidence {
+        match self {
+            Self::Exchange(exchange, spot) => {
+                let evidence = Evidence::from(*exchange);
+                Evidence { call: format!("{}\n            {spot}", evidence.call), ..evidence }
+            }
+            Self::Bytes(bytes, spot) => {
+                Evidence { call: spot.to_string(), sent: bytes.to_vec(), ..Evidence::default() }
+            }
+        }
+    }
+}
+
+/// All cases.
+#[derive(Debug)]
+pub(super) struct Book {
+    pages: Vec<(Case, Record, Vec<String>)>,
+}
+
+impl Book {
+    pub(super) fn new() -> Self {
+        let pages = Topic::ALL.iter().map(|topic| (topic.case(), Record::default(), Vec::new()));
+        Self { pages: pages.collect() }
+    }
+
+    /// The page on which checks of a topic are noted.
+    pub(super) fn on<'b>(&'b mut self, topic: Topic, scene: &'b Scene<'b>) -> Page<'b> {
+        let place = Topic::ALL.iter().position(|one| *one == topic).unwrap_or(0);
+        Page { page: self.pages.get_mut(place), scene }
+    }
+
+    /// Something that a reader should know of a case.
+    pub(super) fn note(&mut self, topic: Topic, note: impl Into<String>) {
+        let place = Topic::ALL.iter().position(|one| *one == topic).unwrap_or(0);
+        if let Some((.., notes)) = self.pages.get_mut(place) {
+            notes.push(note.into());
+        }
+    }
+
+    /// What came of each case.
+    pub(super) fn finish(self) -> Vec<Outcome> {
+        let outcomes = self.pages.into_iter().map(|(case, record, notes)| {
+            let Record { judgements, checks } = record;
+            let outcome = Outcome::tried(case, judgements, checks, None::<Stop>);
+            let note = (!notes.is_empty()).then(|| notes.join("; "));
+            Outcome { note: note.or(outcome.note), ..outcome }
+        });
+        outcomes.collect()
+    }
+}
+
+/// One case, and what its next checks are about.
+#[derive(Debug)]
+pub(super) struct Page<'b> {
+    page: Option<&'b mut (Case, Record, Vec<String>)>,
+    scene: &'b Scene<'b>,
+}
+
+impl Page<'_> {
+    fn add(&mut self, rule: Rule, verdict: Verdict, expected: String, found: String) {
+        if let Some((_, record, _)) = &mut self.page {
+            record.add(rule, verdict, expected, found, || Some(self.scene.evidence()));
+        }
+    }
+
+    /// Something that may have been so or not: it was not captured.
+    pub(super) fn open(&mut self, rule: impl Into<Rule>, found: impl Display) {
+        let expected = "all of it in the capture".to_owned();
+        self.add(rule.into(), Verdict::Inconclusive, expected, found.to_string());
+    }
+
+    /// Whether the case judges by this requirement.
+    pub(super) fn knows(&self, requirement: &str) -> bool {
+        self.page.as_ref().is_some_and(|(case, ..)| case.requirements.contains(&requirement))
+    }
+
+    /// A check that was passed.
+    pub(super) fn pass(&mut self, rule: impl Into<Rule>) {
+        self.check(rule, true, "", "");
+    }
+}
+
+impl Checks for Page<'_> {
+    fn check(
+        &mut self,
+        rule: impl Into<Rule>,
+        kept: bool,
+        expected: impl Display,
+        found: impl Display,
+    ) -> bool {
+        let rule = rule.into();
+        let (expected, found) = match kept {
+            true => (String::new(), String::new()),
+            false => (expected.to_string(), found.to_string()),
+        };
+        self.add(rule, rule.verdict(kept), expected, found);
+        kept
+    }
+}

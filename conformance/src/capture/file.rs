@@ -1,0 +1,205 @@
+//! Packets out of a pcap or pcapng file, one at a time.
+
+use std::io::Read;
+
+use pcap_parser::pcapng::Block;
+use pcap_parser::traits::PcapNGPacketBlock as _;
+use pcap_parser::{Linktype, PcapBlockOwned, PcapError, create_reader};
+
+use super::time::Time;
+
+/// Bytes of the buffer to begin with.
+const BUFFER: usize = 0x1_0000;
+
+/// Bytes of the longest record or block that is read.
+pub const RECORD_MAX: usize = 0x80_0000;
+
+/// Interfaces of a pcapng section that are kept.
+const INTERFACES_MAX: usize = 4096;
+
+/// A packet as it was captured.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Packet<'p> {
+    /// From 1 on, as other tools count them.
+    pub(super) number: u64,
+    pub(super) time: Option<Time>,
+    pub(super) link: Linktype,
+    pub(super) bytes: &'p [u8],
+    /// Bytes that were not captured.
+    pub(super) missing: usize,
+}
+
+/// How a file ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum End {
+    /// With its last record.
+    Whole,
+    /// Inside a record, or where what follows is none.
+    Cut(String),
+}
+
+/// Why a file cannot be read at all.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// The system has it not, or no longer.
+    #[error("{0}")]
+    Io(#[from] std::io::Error),
+    /// It is something else.
+    #[error("neither pcap nor pcapng")]
+    Format,
+    /// There is nothing in it.
+    #[error("the file is empty")]
+    Empty,
+}
+
+/// What says how packets are to be read.
+struct Interface {
+    link: Linktype,
+    /// Units of time in a second.
+    resolution: u64,
+    offset: i64,
+}
+
+#[derive(Default)]
+struct Interfaces {
+    /// Of pcapng, of the section that is read.
+    all: Vec<Interface>,
+    packets: u64,
+}
+
+/// Hands over every packet of a file.
+pub(super) fn packets(
+    input: impl Read + Send,
+    mut each: impl FnMut(Packet<'_>),
+) -> Result<End, FileError> {
+    let mut reader = create_reader(BUFFER, Patient(input)).map_err(|error| match error {
+        PcapError::Eof => FileError::Empty,
+        PcapError::ReadError => FileError::Io(std::io::Error::other("it cannot be read")),
+        _ => FileError::Format,
+    })?;
+    let mut interfaces = Interfaces::default();
+    let mut capacity = BUFFER;
+    loop {
+        let more = match reader.next() {
+            Ok((length, block)) => {
+                interfaces.read(block, &mut each);
+                reader.consume(length);
+                continue;
+            }
+            Err(PcapError::Eof) => return Ok(End::Whole),
+            Err(PcapError::Incomplete(_)) => false,
+            Err(PcapError::BufferTooSmall) => true,
+            Err(PcapError::UnexpectedEof) => {
+                let left = reader.data().len();
+                let whole = if left == 0 { "inside a record" } else { "in the middle of a record" };
+                return Ok(End::Cut(format!("it ends {whole}, {left} bytes into it")));
+            }
+            Err(error) => {
+                let what = match error {
+                    PcapError::ReadError => "it cannot be read any further",
+                    _ => "what follows is no record",
+                };
+                let number = interfaces.packets;
+                return Ok(End::Cut(format!("{what}, after packet {number}")));
+            }
+        };
+        if more {
+            if capacity >= RECORD_MAX {
+                let number = interfaces.packets.saturating_add(1);
+                let what = format!("record {number} is longer than {RECORD_MAX} bytes");
+                return Ok(End::Cut(what));
+            }
+            capacity = capacity.saturating_mul(2);
+            reader.grow(capacity);
+        }
+        let before = reader.data().len();
+        let failed = reader.refill().is_err();
+        if failed || (reader.data().len() == before && !reader.reader_exhausted()) {
+            return Ok(End::Cut("it cannot be read any further".to_owned()));
+        }
+    }
+}
+
+/// Reads as much as there is room for, so that the end of a file is the end of what was read.
+struct Patient<R>(R);
+
+impl<R: Read> Read for Patient<R> {
+    fn read(&mut self, buf: &mut [u8]) -> std::io::Result<usize> {
+        let mut filled = 0_usize;
+        while let Some(room) = buf.get_mut(filled..).filter(|room| !room.is_empty()) {
+            match self.0.read(room) {
+                Ok(0) => break,
+                Ok(read) => filled = filled.saturating_add(read),
+                Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(filled)
+    }
+}
+
+impl Interfaces {
+    fn read(&mut self, block: PcapBlockOwned<'_>, each: &mut impl FnMut(Packet<'_>)) {
+        match block {
+            PcapBlockOwned::LegacyHeader(header) => {
+                let nanoseconds = header.is_nanosecond_precision();
+                let resolution = if nanoseconds { 1_000_000_000 } else { 1_000_000 };
+                // The upper bits say something about checksums at the end of frames.
+                let link = Linktype(header.network.0 & 0xFFFF);
+                self.all = vec![Interface { link, resolution, offset: 0 }];
+            }
+            PcapBlockOwned::Legacy(block) => {
+                let Some(interface) = self.all.first() else { return };
+                let time = Time::new(block.ts_sec.into(), block.ts_usec, interface.resolution);
+                let captured = usize::try_from(block.caplen).unwrap_or(usize::MAX);
+                let bytes = block.data.get(..captured).unwrap_or(block.data);
+                self.packet(0, Some(time), bytes, block.origlen, each);
+            }
+            PcapBlockOwned::NG(block) => self.block(&block, each),
+        }
+    }
+
+    fn block(&mut self, block: &Block<'_>, each: &mut impl FnMut(Packet<'_>)) {
+        match block {
+            Block::SectionHeader(_) => self.all.clear(),
+            Block::InterfaceDescription(interface) if self.all.len() < INTERFACES_MAX => {
+                self.all.push(Interface {
+                    link: interface.linktype,
+                    resolution: interface.ts_resolution().unwrap_or(1_000_000).max(1),
+                    offset: interface.ts_offset(),
+                });
+            }
+            Block::EnhancedPacket(packet) => {
+                let place = usize::try_from(packet.if_id).unwrap_or(usize::MAX);
+                let units = (u64::from(packet.ts_high) << 32) | u64::from(packet.ts_low);
+                let time = self
+                    .all
+                    .get(place)
+                    .map(|interface| Time::of_units(units, interface.resolution, interface.offset));
+                let captured = usize::try_from(packet.caplen).unwrap_or(usize::MAX);
+                let bytes = packet.data.get(..captured).unwrap_or(packet.data);
+                self.packet(place, time, bytes, packet.origlen, each);
+            }
+            Block::SimplePacket(packet) => {
+                self.packet(0, None, packet.packet_data(), packet.origlen, each);
+            }
+            _ => {}
+        }
+    }
+
+    fn packet(
+        &mut self,
+        interface: usize,
+        time: Option<Time>,
+        bytes: &[u8],
+        original: u32,
+        each: &mut impl FnMut(Packet<'_>),
+    ) {
+        self.packets = self.packets.saturating_add(1);
+        // A packet of an interface that nobody described is counted, and that is all.
+        let link = self.all.get(interface).map_or(Linktype(-1), |interface| interface.link);
+        let original = usize::try_from(original).unwrap_or(usize::MAX);
+        let missing = original.saturating_sub(bytes.len());
+        each(Packet { number: self.packets, time, link, bytes, missing });
+    }
+}

@@ -1,0 +1,208 @@
+//! Frames out of one direction of a connection.
+
+use std::collections::VecDeque;
+
+use ads_cnc::ads::{AmsHeader, AmsTcpHeader, Command, FrameRef, StateFlags};
+use ads_cnc::limits::{ADS_DATA_MAX, AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use ads_cnc::{Decode as _, Error};
+
+use super::tcp::Mark;
+
+/// What comes out.
+#[derive(Debug)]
+pub(super) enum Found {
+    /// A whole frame.
+    Frame(Vec<u8>, Span),
+    /// A message between a client and its local router.
+    Router,
+    /// What is no frame where one has to begin.
+    Broken(Error, Vec<u8>, Span),
+    /// The beginning of a frame whose rest was not captured.
+    Cut(Vec<u8>, Span),
+    /// Bytes that were passed over to find a frame.
+    Skipped(usize),
+    /// The beginning of a frame, and nothing more comes.
+    Unfinished,
+}
+
+/// Where a frame was captured: its first packet and its last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Span {
+    pub(super) first: Mark,
+    pub(super) last: Mark,
+}
+
+/// One direction of a connection.
+#[derive(Debug, Default)]
+pub(super) struct Frames {
+    bytes: Vec<u8>,
+    /// Where bytes from this place of the buffer on were captured.
+    marks: VecDeque<(usize, Mark)>,
+    /// A frame may begin anywhere.
+    is_lost: bool,
+    skipped: usize,
+}
+
+impl Frames {
+    /// Bytes held.
+    pub(super) fn held(&self) -> usize {
+        self.bytes.len()
+    }
+
+    /// The beginning was not captured.
+    pub(super) const fn begin_anywhere(&mut self) {
+        self.is_lost = true;
+    }
+
+    /// Takes bytes and hands over the frames that are whole now.
+    pub(super) fn push(&mut self, bytes: &[u8], mark: Mark, out: &mut impl FnMut(Found)) {
+        self.marks.push_back((self.bytes.len(), mark));
+        self.bytes.extend_from_slice(bytes);
+        while self.step(out) {}
+    }
+
+    /// Bytes are missing here: a frame that has begun stays unfinished.
+    pub(super) fn gap(&mut self, out: &mut impl FnMut(Found)) {
+        if !self.bytes.is_empty() {
+            let span = self.span(self.bytes.len());
+            if self.is_lost {
+                self.skip(self.bytes.len());
+            } else if let Some(span) = span {
+                let bytes = std::mem::take(&mut self.bytes);
+                out(Found::Cut(bytes, span));
+            }
+            self.bytes.clear();
+            self.marks.clear();
+        }
+        self.is_lost = true;
+    }
+
+    /// Nothing more comes.
+    pub(super) fn end(&mut self, out: &mut impl FnMut(Found)) {
+        if !self.is_lost && !self.bytes.is_empty() {
+            out(Found::Unfinished);
+        }
+        self.skipped = self.skipped.saturating_add(if self.is_lost { self.bytes.len() } else { 0 });
+        self.bytes.clear();
+        self.marks.clear();
+        self.tell_skipped(out);
+    }
+
+    /// Whether there is more to be had.
+    fn step(&mut self, out: &mut impl FnMut(Found)) -> bool {
+        if self.is_lost {
+            return self.find(out);
+        }
+        let router = self.bytes.get(..AMS_TCP_HEADER_LEN).and_then(router);
+        if let Some(length) = router {
+            if self.bytes.len() < length {
+                return false;
+            }
+            self.drop(length);
+            out(Found::Router);
+            return true;
+        }
+        match FrameRef::split(&self.bytes, most()) {
+            Ok(None) => false,
+            Ok(Some((_, length))) => {
+                if let Some(span) = self.span(length) {
+                    let frame = self.bytes.get(..length).unwrap_or_default().to_vec();
+                    self.drop(length);
+                    out(Found::Frame(frame, span));
+                }
+                true
+            }
+            Err(error) => {
+                let shown = self.bytes.len().min(SHOWN);
+                if let Some(span) = self.span(shown) {
+                    let bytes = self.bytes.get(..shown).unwrap_or_default().to_vec();
+                    out(Found::Broken(error, bytes, span));
+                }
+                self.skip(1);
+                self.is_lost = true;
+                true
+            }
+        }
+    }
+
+    /// Goes to the next place where a frame may begin.
+    fn find(&mut self, out: &mut impl FnMut(Found)) -> bool {
+        let last = self.bytes.len().saturating_sub(FrameRef::HEADERS_LEN);
+        if self.bytes.len() < FrameRef::HEADERS_LEN {
+            return false;
+        }
+        let place = (0..=last).find(|&place| self.bytes.get(place..).is_some_and(is_plausible));
+        match place {
+            Some(place) => {
+                self.skip(place);
+                self.tell_skipped(out);
+                self.is_lost = false;
+                true
+            }
+            None => {
+                // The rest may be the beginning of a header.
+                self.skip(last.saturating_add(1));
+                false
+            }
+        }
+    }
+
+    fn tell_skipped(&mut self, out: &mut impl FnMut(Found)) {
+        match std::mem::take(&mut self.skipped) {
+            0 => {}
+            skipped => out(Found::Skipped(skipped)),
+        }
+    }
+
+    fn skip(&mut self, length: usize) {
+        self.skipped = self.skipped.saturating_add(length);
+        self.drop(length);
+    }
+
+    fn drop(&mut self, length: usize) {
+        self.bytes.drain(..length.min(self.bytes.len()));
+        for (place, _) in &mut self.marks {
+            *place = place.saturating_sub(length);
+        }
+        // Of those that begin at the front the last one holds.
+        while matches!(self.marks.get(1), Some((0, _))) {
+            self.marks.pop_front();
+        }
+        if self.bytes.is_empty() {
+            self.marks.clear();
+        }
+    }
+
+    /// Where the first so many bytes were captured.
+    fn span(&self, length: usize) -> Option<Span> {
+        let inside = self.marks.iter().take_while(|(place, _)| *place < length);
+        let first = self.marks.front().map(|(_, mark)| *mark)?;
+        Some(Span { first, last: inside.last().map_or(first, |(_, mark)| *mark) })
+    }
+}
+
+/// Bytes of what is no frame that are shown.
+const SHOWN: usize = 64;
+
+/// The most data of a frame: that of a service, and the numbers before it.
+fn most() -> u32 {
+    u32::try_from(ADS_DATA_MAX).unwrap_or(u32::MAX).saturating_add(16)
+}
+
+/// How long a message between a client and its local router is, if this is the header of one:
+/// those that open and close a port, and what the router tells. None has as many bytes as an AMS header.
+fn router(tcp: &[u8]) -> Option<usize> {
+    let header = AmsTcpHeader::decode(tcp).ok()?;
+    let length = usize::try_from(header.length).ok().filter(|length| *length < AMS_HEADER_LEN)?;
+    let is_known = matches!(header.reserved, 1 | 0x1000..=0x1002);
+    is_known.then(|| length.saturating_add(AMS_TCP_HEADER_LEN))
+}
+
+/// Whether a frame may well begin here: both lengths agree, and command and flags are known.
+fn is_plausible(bytes: &[u8]) -> bool {
+    let header = bytes.get(AMS_TCP_HEADER_LEN..FrameRef::HEADERS_LEN);
+    let Some(Ok(header)) = header.map(AmsHeader::decode) else { return false };
+    let known = (Command::READ_DEVICE_INFO..=Command::READ_WRITE).contains(&header.command);
+    let flags = matches!(header.state_flags, StateFlags::REQUEST | StateFlags::RESPONSE);
+    known && flags && FrameRef::split(bytes, most()).is_ok()
+}

@@ -1,0 +1,148 @@
+//! Instances and elements of SDA and GEO, held together.
+
+use std::collections::BTreeMap;
+
+use ads_cnc::CncStr;
+use ads_cnc::address::{Addressing, Attribute, AxisStride, Class, Group, IndexGroup, IndexOffset};
+use ads_cnc::operation::{Call, FindInstance, Reply, Request};
+use ads_cnc::sda::ObjectAddress;
+use ads_cnc::value::DataType;
+
+use super::super::book::{Scene, Topic};
+use super::Bench;
+use crate::suite::{Checks as _, Rule, assumed, online};
+
+/// Elements that are kept.
+const ELEMENTS_MAX: usize = 0x1_0000;
+
+/// What is known of the elements of a CNC.
+#[derive(Debug, Default)]
+pub(super) struct Elements {
+    /// By the group of the content, and the offset.
+    known: BTreeMap<(u32, u32), Element>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Element {
+    data_type: Option<DataType>,
+    length: Option<u32>,
+    writable: Option<bool>,
+}
+
+/// The types that are printed for elements.
+fn is_known(name: CncStr<'_>) -> bool {
+    let known = ["UNS08", "SGN08", "UNS16", "SGN16", "UNS32", "SGN32", "REAL32", "REAL64"];
+    known.iter().chain(&["BOOLEAN", "STRING"]).any(|known| name == *known)
+}
+
+/// Of BOOLEAN the size is stated.
+fn size_rule(data_type: DataType) -> Rule {
+    if data_type == DataType::Boolean { "GEN-5".into() } else { online("GEN-5") }
+}
+
+impl Bench<'_> {
+    pub(super) fn elements(
+        &mut self,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+        reply: Option<&Reply<'_>>,
+        call: &Call<'_>,
+    ) {
+        if let (Request::FindInstance(find), Some(Reply::ObjectAddress(address))) = (request, reply)
+        {
+            self.instance(scene, find, *address);
+            return;
+        }
+        let Some(key) = key(call) else { return };
+        let all = &mut self.cnc.elements.known;
+        if !all.contains_key(&key) && all.len() >= ELEMENTS_MAX {
+            return;
+        }
+        let element = all.entry(key).or_default();
+        let mut page = self.book.on(Topic::CncSda, scene);
+        match (request, reply) {
+            (Request::ReadElementType(_), Some(Reply::ElementText(text))) => {
+                let name = text.text.text();
+                let found = format!("{name:?}");
+                page.check(assumed("SDA-7"), is_known(name), "a type of the manual", &found);
+                page.check("SDA-7", !name.is_empty(), "the name of a type", found);
+                element.data_type = DataType::by_name(name);
+            }
+            (Request::ReadElementLength(_), Some(Reply::ElementLength(length))) => {
+                element.length = Some(length.get());
+            }
+            (Request::ReadElementWriteFlag(_), Some(Reply::ElementWriteFlag(flag))) => {
+                element.writable = Some(flag.is_writable());
+                page.check(assumed("SDA-9"), flag.0 <= 1, "a write flag of 0 or 1", flag.0);
+                return;
+            }
+            (Request::ReadElement(_), Some(Reply::Content(content))) => {
+                let given = u32::try_from(content.bytes.len()).unwrap_or(u32::MAX);
+                if let Some(length) = element.length.filter(|length| call.read_length >= *length) {
+                    let expected = format!("the {length} bytes it says to have");
+                    page.check("SDA-8", given == length, expected, format!("{given} bytes"));
+                }
+                return;
+            }
+            (Request::WriteElement(write), reply) => {
+                let kept = element.writable != Some(false) || reply.is_none();
+                let expected = "an error number: its write flag is FALSE";
+                page.check(assumed("SDA-9"), kept, expected, "a success");
+                let given = u32::try_from(write.content().bytes.len()).unwrap_or(u32::MAX);
+                if let Some(length) = element.length {
+                    let expected = format!("the {length} bytes of the element");
+                    let mut page = self.book.on(Topic::ClientSda, scene);
+                    page.check("SDA-8", given == length, expected, format!("{given} bytes"));
+                }
+                return;
+            }
+            _ => return,
+        }
+        // The length and the type, as soon as both are known.
+        let (Some(data_type), Some(length)) = (element.data_type, element.length) else { return };
+        let Some(size) = data_type.size() else { return };
+        let found = format!("a length of {length}");
+        let expected = format!("the {size} bytes of {}", data_type.name());
+        page.check(size_rule(data_type), length == size, expected, found);
+    }
+
+    /// The address of an instance.
+    fn instance(&mut self, scene: &Scene<'_>, find: &FindInstance, address: ObjectAddress) {
+        let mut page = self.book.on(Topic::CncSda, scene);
+        let class = find.class_group().class;
+        let query = find.query();
+        if address == ObjectAddress::NONE {
+            page.pass("SDA-2");
+            return;
+        }
+        let found = format!("({}, {})", address.index_group, address.index_offset);
+        let Some(Group::Class(group)) = address.index_group.parts() else {
+            page.check("ADR-5", false, "the group of a class", found);
+            return;
+        };
+        let of_class = group.class == class && group.attribute == Attribute::Content;
+        page.check("ADR-5", of_class, format!("the content of {class:?}"), &found);
+        // By index the rank may be another number than the one that was asked for.
+        if group.addressing == Addressing::Logical || class == Class::Spindle {
+            let same = u32::from(group.instance) == query.channel;
+            page.check("ADR-5", same, format!("the group of instance {}", query.channel), &found);
+        }
+        let of = |stride| IndexOffset::of_axis(stride, query.axis, 0).ok();
+        let (rule, expected) = match (class, query.axis) {
+            (_, 0) => (Rule::from("SDA-1"), vec![Some(IndexOffset::new(0))]),
+            (Class::Decoder, _) => (Rule::from("ADR-7"), vec![of(AxisStride::X10000)]),
+            _ => (assumed("ADR-7"), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
+        };
+        let kept = expected.contains(&Some(address.index_offset));
+        page.check(rule, kept, format!("the first element of axis {}", query.axis), found);
+    }
+}
+
+/// The group of an element's content, and its offset.
+fn key(call: &Call<'_>) -> Option<(u32, u32)> {
+    let Some(Group::Class(group)) = call.index_group.parts() else { return None };
+    let mut content = group;
+    content.attribute = Attribute::Content;
+    let group: IndexGroup = content.index_group();
+    Some((group.get(), call.index_offset.get()))
+}

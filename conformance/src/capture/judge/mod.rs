@@ -1,0 +1,354 @@
+//! Requests paired with their replies, and judged.
+
+mod elements;
+mod lost;
+mod objects;
+mod parameters;
+mod replies;
+mod requests;
+mod service;
+mod streaming;
+mod values;
+mod variables;
+
+pub(super) use variables::Target;
+
+use std::collections::{BTreeMap, VecDeque};
+use std::time::Duration;
+
+use ads_cnc::ads::{AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags};
+use ads_cnc::operation::{Request, Task};
+
+use super::book::{Book, Scene, Spot, Topic};
+use super::frames::Span;
+use super::table::{Event, Table, Way};
+use super::tally::{Tally, count, count_of};
+use super::time::Time;
+use super::vectors::Collector;
+use crate::client::{answer, violations};
+use crate::exchange::{Exchange, Fault, call_of};
+use crate::suite::{Checks as _, Outcome, assumed};
+
+/// Requests of a connection that wait for their answers; of more the oldest are forgotten.
+const WAITING_MAX: usize = 4096;
+
+/// Answers that wait for their requests, of all connections.
+const EARLY_MAX: usize = 1024;
+
+/// CNCs that are told apart.
+const CNCS_MAX: usize = 64;
+
+/// As long as this nobody waits for an answer.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// A frame with what is known of it.
+#[derive(Clone, Debug)]
+struct Seen {
+    frame: Vec<u8>,
+    header: AmsHeader,
+    way: Way,
+    span: Span,
+}
+
+/// What was lost of a connection.
+#[derive(Clone, Copy, Debug, Default)]
+struct Lost {
+    /// It began before the capture.
+    joined: bool,
+    /// The last packet behind a gap.
+    gap: Option<u64>,
+}
+
+/// What is known of one CNC.
+#[derive(Debug, Default)]
+struct Cnc {
+    objects: objects::Objects,
+    elements: elements::Elements,
+    parameters: parameters::Parameters,
+    variables: variables::Variables,
+    streams: streaming::Streams,
+    services: service::Services,
+}
+
+/// Judges traffic.
+#[derive(Debug)]
+pub(super) struct Judge {
+    book: Book,
+    pub(super) tally: Tally,
+    waiting: BTreeMap<(u64, u32), VecDeque<Seen>>,
+    waiting_of: BTreeMap<u64, usize>,
+    early: Vec<Seen>,
+    lost: BTreeMap<u64, Lost>,
+    cncs: BTreeMap<AmsNetId, Cnc>,
+    vectors: Option<Collector>,
+    now: Option<Time>,
+}
+
+/// What a judgement of one exchange needs.
+struct Bench<'j> {
+    book: &'j mut Book,
+    cnc: &'j mut Cnc,
+}
+
+/// Whether a frame is for a task of a CNC.
+fn is_cnc(port: AmsPort) -> bool {
+    Task::from_port(port).is_some()
+}
+
+/// Whether a frame answers; where the flags do not tell, the ports do.
+fn is_reply(header: &AmsHeader) -> bool {
+    match header.state_flags {
+        StateFlags::REQUEST => false,
+        StateFlags::RESPONSE => true,
+        _ if is_cnc(header.target.port) => false,
+        _ if is_cnc(header.source.port) => true,
+        flags => flags.0 & 1 == 1,
+    }
+}
+
+fn spot(way: &Way, asked: Option<Span>, answered: Option<Span>) -> Spot {
+    Spot { from: way.from, to: way.to, asked, answered }
+}
+
+/// The requirement of a command's service.
+fn service_clause(command: Command) -> &'static str {
+    match command {
+        Command::READ => "ADS-1",
+        Command::WRITE => "ADS-2",
+        Command::READ_WRITE => "ADS-3",
+        _ => "ADS-5",
+    }
+}
+
+impl Judge {
+    pub(super) fn new(vectors: Option<Collector>) -> Self {
+        Self {
+            book: Book::new(),
+            tally: Tally::default(),
+            waiting: BTreeMap::new(),
+            waiting_of: BTreeMap::new(),
+            early: Vec::new(),
+            lost: BTreeMap::new(),
+            cncs: BTreeMap::new(),
+            vectors,
+            now: None,
+        }
+    }
+
+    /// What came of everything.
+    pub(super) fn finish(mut self) -> (Vec<Outcome>, Tally, Option<Collector>) {
+        for reply in std::mem::take(&mut self.early) {
+            self.unasked(&reply);
+        }
+        for line in self.tally.lines().into_iter().skip(1) {
+            self.book.note(Topic::CncFrames, line);
+        }
+        (self.book.finish(), self.tally, self.vectors)
+    }
+
+    /// The moment up to which the capture has come.
+    pub(super) fn at(&mut self, time: Option<Time>) {
+        self.now = time.max(self.now);
+    }
+
+    /// Takes what happened on a connection.
+    pub(super) fn take(&mut self, event: Event, table: &Table) {
+        match event {
+            Event::Frame(frame, way, span) => self.frame(frame, way, span, table),
+            Event::Router => count(&mut self.tally.router),
+            Event::Broken(error, bytes, way, span) => self.broken(error, &bytes, &way, span),
+            Event::Cut(bytes, way, span) => self.cut(&bytes, &way, span),
+            Event::Gap(length, way, mark) => self.gap(length, &way, mark),
+            Event::Skipped(length) => {
+                let length = u64::try_from(length).unwrap_or(u64::MAX);
+                self.tally.skipped = self.tally.skipped.saturating_add(length);
+            }
+            Event::Joined(connection) => {
+                count(&mut self.tally.joined);
+                self.lost.entry(connection).or_default().joined = true;
+            }
+            Event::Unfinished => count(&mut self.tally.unfinished),
+            Event::Ended(connection) => self.ended(connection),
+        }
+    }
+
+    fn frame(&mut self, frame: Vec<u8>, way: Way, span: Span, table: &Table) {
+        count(&mut self.tally.frames);
+        let Ok(Some((whole, _))) = FrameRef::split(&frame, u32::MAX) else { return };
+        let header = whole.header();
+        let seen = Seen { header, way, span, frame };
+        if !is_reply(&header) {
+            self.request(seen);
+            // What came before it by mistake of the network.
+            for reply in std::mem::take(&mut self.early) {
+                self.reply(reply, table);
+            }
+        } else {
+            self.reply(seen, table);
+        }
+    }
+
+    fn request(&mut self, seen: Seen) {
+        let header = seen.header;
+        if !is_cnc(header.target.port) {
+            count_of(&mut self.tally.other_ports, header.target.port.0);
+            return;
+        }
+        let Ok(Some((frame, _))) = FrameRef::split(&seen.frame, u32::MAX) else { return };
+        let call = call_of(&frame);
+        let exchange = call.as_ref().ok().copied().flatten().map(|call| Exchange {
+            sent: seen.frame.clone(),
+            outcome: Err(Fault::Unseen),
+            ..Exchange::new(&call)
+        });
+        let place = spot(&seen.way, Some(seen.span), None);
+        let scene = match &exchange {
+            Some(exchange) => Scene::Exchange(exchange, place),
+            None => Scene::Bytes(&seen.frame, place),
+        };
+        let again = self.waiting.contains_key(&(seen.way.connection, header.invoke_id));
+        requests::headers(&mut self.book, &scene, &header, again);
+        match call {
+            Err(error) => {
+                let rule = service_clause(header.command);
+                let mut page = self.book.on(Topic::ClientServices, &scene);
+                page.check(rule, false, "what the service takes", error);
+            }
+            Ok(None) => {
+                count_of(&mut self.tally.commands, header.command.0);
+                return;
+            }
+            Ok(Some(call)) => {
+                self.book.on(Topic::ClientServices, &scene).pass(service_clause(header.command));
+                if let Some(unknown) = requests::judge(&mut self.book, &scene, &call) {
+                    count_of(&mut self.tally.unknown, unknown);
+                }
+            }
+        }
+        self.wait(seen);
+    }
+
+    fn wait(&mut self, seen: Seen) {
+        let connection = seen.way.connection;
+        let number = self.waiting_of.entry(connection).or_default();
+        *number = number.saturating_add(1);
+        if *number > WAITING_MAX {
+            let oldest = self.waiting.range((connection, 0)..=(connection, u32::MAX));
+            let oldest = oldest.min_by_key(|(_, all)| all.front().map(|one| one.span.first.packet));
+            if let Some(key) = oldest.map(|(key, _)| *key) {
+                self.forget(key);
+                count(&mut self.tally.unanswered);
+                self.lost.entry(connection).or_default().joined = true;
+            }
+        }
+        self.waiting.entry((connection, seen.header.invoke_id)).or_default().push_back(seen);
+    }
+
+    /// The first request with this key, which waits no more.
+    fn forget(&mut self, key: (u64, u32)) -> Option<Seen> {
+        let all = self.waiting.get_mut(&key)?;
+        let first = all.pop_front();
+        if all.is_empty() {
+            self.waiting.remove(&key);
+        }
+        if let Some(number) = self.waiting_of.get_mut(&key.0) {
+            *number = number.saturating_sub(1);
+        }
+        first
+    }
+
+    fn reply(&mut self, reply: Seen, table: &Table) {
+        let header = reply.header;
+        let key = (reply.way.connection, header.invoke_id);
+        let answers = |asked: &Seen| {
+            asked.header.source == header.target && asked.header.target == header.source
+        };
+        // Two routers may answer each other on whichever of their connections.
+        let elsewhere = || {
+            let mut all = self.waiting.iter().filter(|((_, id), _)| *id == header.invoke_id);
+            all.find(|(_, all)| all.front().is_some_and(answers)).map(|(key, _)| *key)
+        };
+        let found = self.waiting.contains_key(&key).then_some(key).or_else(elsewhere);
+        match found.and_then(|key| self.forget(key)) {
+            Some(asked) => self.exchange(&asked, &reply),
+            None if !is_cnc(header.source.port) => {
+                count_of(&mut self.tally.other_ports, header.source.port.0);
+            }
+            None if service_clause(header.command) == "ADS-5" => {
+                count_of(&mut self.tally.commands, header.command.0);
+            }
+            None => {
+                let back = Way { from: reply.way.to, to: reply.way.from, ..reply.way };
+                match table.waits(&back) && self.early.len() < EARLY_MAX {
+                    true => self.early.push(reply),
+                    false => self.unasked(&reply),
+                }
+            }
+        }
+    }
+
+    /// An answer to nothing.
+    fn unasked(&mut self, reply: &Seen) {
+        count(&mut self.tally.unasked);
+        let lost = self.lost.get(&reply.way.connection).copied().unwrap_or_default();
+        if lost.joined || lost.gap.is_some() {
+            return;
+        }
+        let scene = Scene::Bytes(&reply.frame, spot(&reply.way, None, Some(reply.span)));
+        let found = format!("an answer with the invoke ID {:#x}", reply.header.invoke_id);
+        let expected = "an answer to a request that still waits for one";
+        self.book.on(Topic::CncFrames, &scene).check("ADS-5", false, expected, found);
+    }
+
+    fn exchange(&mut self, asked: &Seen, reply: &Seen) {
+        count(&mut self.tally.exchanges);
+        let Ok(Some((sent, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
+        let Ok(Some((received, _))) = FrameRef::split(&reply.frame, u32::MAX) else { return };
+        // What is no request of a service may be answered in any way.
+        let Ok(Some(call)) = call_of(&sent) else { return };
+        let exchange = Exchange {
+            sent: asked.frame.clone(),
+            received: reply.frame.clone(),
+            outcome: answer(asked.header, reply.header, received.data())
+                .map(|answer| (answer, reply.header)),
+            ..Exchange::new(&call)
+        };
+        let place = spot(&asked.way, Some(asked.span), Some(reply.span));
+        let scene = Scene::Exchange(&exchange, place);
+        replies::headers(&mut self.book, &scene, &violations(&asked.header, &reply.header));
+        let Some(answer) = replies::service(&mut self.book, &scene, &exchange) else { return };
+        if answer.success().is_none() {
+            count(&mut self.tally.refused);
+        }
+        let net_id = asked.header.target.net_id;
+        if !answer.ams_error.is_none() {
+            // Who is not there may come back as another.
+            self.cncs.remove(&net_id);
+            return;
+        }
+        if !self.cncs.contains_key(&net_id) && self.cncs.len() >= CNCS_MAX {
+            return;
+        }
+        let cnc = self.cncs.entry(net_id).or_default();
+        let mut bench = Bench { book: &mut self.book, cnc };
+        replies::judge(&mut bench, &scene, &call, answer);
+        if let (Some(vectors), Ok(request)) = (&mut self.vectors, call.dispatch()) {
+            let known = bench.cnc.variables.described(&request);
+            vectors.add(&request, &call, answer.success(), known.as_ref());
+        }
+    }
+}
+
+impl Bench<'_> {
+    /// A request that a reply shows to ask for what is not there: nobody forbids to ask.
+    fn beyond(
+        &mut self,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+        rule: &'static str,
+        (expected, found): (&str, &str),
+    ) {
+        let topic = Topic::of_request(request.function());
+        self.book.on(topic, scene).check(assumed(rule), false, expected, found);
+    }
+}

@@ -1,0 +1,180 @@
+//! Objects of COM: numbers, descriptors and contents, held together.
+
+use std::collections::BTreeMap;
+
+use ads_cnc::limits::DESCRIPTOR_LEN;
+use ads_cnc::operation::{Call, ReadDescriptors, Reply, Request};
+use ads_cnc::{Descriptor, DescriptorsRef};
+
+use super::super::book::{Scene, Topic};
+use super::Bench;
+use crate::suite::{Checks as _, Rule, assumed, descriptor_holds_together};
+
+/// Objects of a list that are kept.
+const OBJECTS_MAX: usize = 0x1_0000;
+
+/// What is known of the objects of a CNC.
+#[derive(Debug, Default)]
+pub(super) struct Objects {
+    /// By the index group of the list.
+    lists: BTreeMap<u32, List>,
+    /// By the address of the content.
+    contents: BTreeMap<(u32, u32), Content>,
+}
+
+#[derive(Debug, Default)]
+struct List {
+    count: Option<u32>,
+    /// By index: the descriptor, and whether it was read alone.
+    known: BTreeMap<u32, (Descriptor, bool)>,
+    /// The index of each ID.
+    ids: BTreeMap<u32, u32>,
+}
+
+#[derive(Clone, Debug)]
+struct Content {
+    name: String,
+    size: u32,
+    /// Bytes of its type, if it has a fixed size.
+    type_size: Option<u32>,
+    writable: bool,
+}
+
+impl Bench<'_> {
+    pub(super) fn objects(
+        &mut self,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+        reply: Option<&Reply<'_>>,
+        call: &Call<'_>,
+    ) {
+        match (request, reply) {
+            (Request::CountObjects(_), Some(Reply::ObjectCount(count))) => {
+                self.count(scene, call.index_group.get(), count.0);
+            }
+            (Request::ReadDescriptors(read), reply) => {
+                let given = match reply {
+                    Some(Reply::Descriptors(given)) => Some(*given),
+                    _ => None,
+                };
+                self.descriptors(scene, request, read, given, call);
+            }
+            (Request::ReadObject(_), Some(Reply::Content(content))) => {
+                let Some(known) = self.content(call) else { return };
+                let full = call.read_length >= known.size && known.type_size.is_some();
+                if full {
+                    let given = content.bytes.len();
+                    let sized = u32::try_from(given) == Ok(known.size);
+                    let expected = format!("the {} bytes of its descriptor", known.size);
+                    let found = format!("{given} bytes of {}", known.name);
+                    let mut page = self.book.on(Topic::CncCom, scene);
+                    for rule in ["COM-5", "COM-2"] {
+                        page.check(rule, sized, &expected, &found);
+                    }
+                }
+            }
+            (Request::WriteObject(write), reply) => {
+                let Some(known) = self.content(call) else { return };
+                let given = write.content().bytes.len();
+                if known.type_size.is_some() {
+                    let sized = u32::try_from(given) == Ok(known.size);
+                    let expected = format!("the {} bytes of {}", known.size, known.name);
+                    let found = format!("{given} bytes");
+                    self.book.on(Topic::ClientCom, scene).check("COM-5", sized, expected, found);
+                }
+                let kept = known.writable || reply.is_none();
+                let expected = format!("an error number: {} may not be written", known.name);
+                let mut page = self.book.on(Topic::CncCom, scene);
+                page.check(assumed("COM-2"), kept, expected, "a success");
+            }
+            _ => {}
+        }
+    }
+
+    fn content(&self, call: &Call<'_>) -> Option<Content> {
+        let place = (call.index_group.get(), call.index_offset.get());
+        self.cnc.objects.contents.get(&place).cloned()
+    }
+
+    fn count(&mut self, scene: &Scene<'_>, group: u32, count: u32) {
+        let list = self.cnc.objects.lists.entry(group).or_default();
+        if list.count.is_some_and(|known| known != count) {
+            *list = List::default();
+        }
+        list.count = Some(count);
+        let beyond = list.known.last_key_value().map_or(0, |(&last, _)| last);
+        let kept = beyond <= count;
+        let found = format!("{count} objects, but a descriptor of object {beyond}");
+        let mut page = self.book.on(Topic::CncCom, scene);
+        page.check("COM-1", kept, "the number of objects", found);
+    }
+
+    fn descriptors(
+        &mut self,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+        read: &ReadDescriptors,
+        given: Option<DescriptorsRef<'_>>,
+        call: &Call<'_>,
+    ) {
+        let group = call.index_group.get();
+        let first = read.first();
+        let count = self.cnc.objects.lists.get(&group).and_then(|list| list.count);
+        if let Some(count) = count.filter(|count| first > *count) {
+            let asked = format!("object {first}");
+            self.beyond(scene, request, "COM-2", (&format!("one of {count} objects"), &asked));
+            let expected = format!("an error number: there are {count} objects");
+            let found = format!("a descriptor of {asked}");
+            let mut page = self.book.on(Topic::CncCom, scene);
+            page.check("COM-2", given.is_none_or(|given| given.is_empty()), expected, found);
+            return;
+        }
+        let Some(given) = given else { return };
+        if let Some(count) = count {
+            let left = count.saturating_sub(first).saturating_add(1);
+            let length = u32::try_from(DESCRIPTOR_LEN).unwrap_or(1);
+            let exact = call.read_length.checked_rem(length) == Some(0);
+            let asked = if exact { read.count() } else { 1 };
+            let expected = asked.min(left);
+            // Where the list ends, and for another length, it is assumed.
+            let rule: Rule = if exact && asked <= left { "COM-3".into() } else { assumed("COM-3") };
+            let kept = u32::try_from(given.len()) == Ok(expected);
+            let expected = format!("{expected} descriptors from object {first} on");
+            self.book.on(Topic::CncCom, scene).check(rule, kept, expected, given.len());
+        }
+        let alone = given.len() == 1;
+        for (index, object) in (first..).zip(given.iter()) {
+            let owned = object.to_owned();
+            descriptor_holds_together(&mut self.book.on(Topic::CncCom, scene), object);
+            let list = self.cnc.objects.lists.entry(group).or_default();
+            let other = list.ids.get(&object.id()).copied().filter(|other| *other != index);
+            let found =
+                format!("ID {} of object {index}, and of {}", object.id(), other.unwrap_or(0));
+            let known = list.known.get(&index).copied();
+            if list.known.len() < OBJECTS_MAX {
+                list.ids.insert(object.id(), index);
+                list.known.insert(index, (owned, alone));
+            }
+            let mut page = self.book.on(Topic::CncCom, scene);
+            page.check("COM-2", other.is_none(), "an ID no other object has", found);
+            if let Some((known, was_alone)) = known {
+                // One by one or in sequence it is the same list.
+                let rule: Rule = if alone == was_alone { assumed("COM-2") } else { "COM-3".into() };
+                let found = format!("another descriptor of object {index} than before");
+                page.check(rule, known == owned, "the same descriptor", found);
+            }
+            let place = (object.index_group().get(), object.index_offset().get());
+            if self.cnc.objects.contents.len() < OBJECTS_MAX {
+                self.cnc.objects.contents.insert(
+                    place,
+                    Content {
+                        name: object.name().to_string(),
+                        size: object.size(),
+                        type_size: object.type_size(),
+                        writable: object.write_access().is_writable(),
+                    },
+                );
+            }
+        }
+    }
+}

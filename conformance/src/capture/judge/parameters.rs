@@ -1,0 +1,69 @@
+//! Dynamic parameters, held together.
+
+use std::collections::BTreeMap;
+
+use ads_cnc::operation::{Call, Reply, Request};
+
+use super::super::book::{Scene, Topic};
+use super::Bench;
+use crate::suite::Checks as _;
+
+/// Names that are kept.
+const NAMES_MAX: usize = 0x1_0000;
+
+/// What is known of the dynamic parameters of a CNC.
+#[derive(Debug, Default)]
+pub(super) struct Parameters {
+    /// By index group and kind.
+    counts: BTreeMap<(u32, String), u32>,
+}
+
+impl Parameters {
+    /// Forgets nothing but what changes: indices move (DYN-4), so names are not kept.
+    fn learn(&mut self, group: u32, kind: String, count: u32) {
+        if self.counts.len() < NAMES_MAX {
+            self.counts.insert((group, kind), count);
+        }
+    }
+}
+
+impl Bench<'_> {
+    pub(super) fn parameters(
+        &mut self,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+        reply: Option<&Reply<'_>>,
+        call: &Call<'_>,
+    ) {
+        let group = call.index_group.get();
+        let (kind, index) = match request {
+            Request::CountDynamic(count) => {
+                if let Some(Reply::DynamicCount(number)) = reply {
+                    self.cnc.parameters.learn(group, count.kind.to_string(), number.0);
+                }
+                return;
+            }
+            Request::DynamicNameByIndex(name) => (name.kind, name.index),
+            Request::DynamicValueByIndex(value) => (value.kind, value.index),
+            _ => return,
+        };
+        let Some(&count) = self.cnc.parameters.counts.get(&(group, kind.to_string())) else {
+            return;
+        };
+        if index > count {
+            let asked = format!("index {index}");
+            self.beyond(scene, request, "DYN-5", (&format!("one of 1 to {count}"), &asked));
+        }
+        let kept = index <= count || reply.is_none();
+        let expected = format!("an error number for index {index} of {count}");
+        self.book.on(Topic::CncDyn, scene).check("DYN-5", kept, expected, "a success");
+        let name = match reply {
+            Some(Reply::DynamicName(name)) => name.name.text(),
+            _ => return,
+        };
+        let prefix = kind.to_string();
+        let of_kind = name.to_string().starts_with(&prefix);
+        let mut page = self.book.on(Topic::CncDyn, scene);
+        page.check("DYN-2", of_kind, format!("a name of {prefix}"), format!("{name:?}"));
+    }
+}

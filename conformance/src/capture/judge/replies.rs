@@ -1,0 +1,152 @@
+//! What a CNC answered, for itself; what it says together is judged by what it is about.
+
+use ads_cnc::ErrorKind;
+use ads_cnc::ads::AmsHeader;
+use ads_cnc::operation::{Call, Refusal, Reply, Request, Service};
+use ads_cnc_vectors::requirement;
+
+use super::super::book::{Book, Scene, Topic};
+use super::Bench;
+use crate::exchange::{Answer, Exchange, Violation};
+use crate::suite::{Checks as _, Rule, assumed};
+
+/// What every reply has in its headers.
+pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, violations: &[Violation]) {
+    let mut page = book.on(Topic::CncFrames, scene);
+    for violation in violations {
+        let expected = "the header of the answer to this request";
+        page.check(violation.requirement, false, expected, &violation.what);
+    }
+    if violations.is_empty() {
+        page.pass("ADS-5");
+    }
+}
+
+/// What the service of a request gives; the answer, if it is one.
+pub(super) fn service<'e>(
+    book: &mut Book,
+    scene: &Scene<'_>,
+    exchange: &'e Exchange,
+) -> Option<&'e Answer> {
+    let clause = match exchange.service {
+        Service::Read => "ADS-1",
+        Service::Write => "ADS-2",
+        Service::ReadWrite => "ADS-3",
+    };
+    let mut page = book.on(Topic::CncServices, scene);
+    match &exchange.outcome {
+        Ok((answer, header)) => {
+            page.pass(clause);
+            page.pass("ADS-4");
+            let given = answer.data.as_ref().map_or(0, Vec::len);
+            let kept = usize::try_from(exchange.read_length).is_ok_and(|read| given <= read);
+            let expected =
+                format!("at most the {} bytes that were asked for", exchange.read_length);
+            page.check(clause, kept, expected, format!("{given} bytes of data"));
+            short_error(book, scene, answer, header);
+            Some(answer)
+        }
+        Err(fault) => {
+            page.check(clause, false, "what the service gives", fault);
+            None
+        }
+    }
+}
+
+/// An error may come without what would follow a success: if it does, it was seen.
+fn short_error(book: &mut Book, scene: &Scene<'_>, answer: &Answer, header: &AmsHeader) {
+    let is_error = !answer.ams_error.is_none() || !answer.result.is_none();
+    if is_error && (answer.data.is_none() || header.data_length == 0) {
+        book.on(Topic::CncFrames, scene).pass("ADS-6");
+    }
+}
+
+/// Judges the data of a reply.
+pub(super) fn judge(bench: &mut Bench<'_>, scene: &Scene<'_>, call: &Call<'_>, answer: &Answer) {
+    let data = answer.success();
+    let request = match call.dispatch() {
+        Ok(request) => request,
+        Err(Refusal::Stream(error)) => {
+            // That it is to be refused is assumed, but where a count has no room.
+            let spec = error.field().spec().map(|spec| spec.clause);
+            let spec = if error.kind() == ErrorKind::TooMany { Some("VAR-24") } else { spec };
+            let Some(clause) = spec.filter(|id| requirement(id).is_some()) else { return };
+            let rule = if clause == "VAR-24" { Rule::from(clause) } else { assumed(clause) };
+            let topic = match clause.get(..3) {
+                Some("COM") => Topic::CncCom,
+                Some("SDA") => Topic::CncSda,
+                Some("DYN") => Topic::CncDyn,
+                Some("STM") => Topic::CncStream,
+                _ => Topic::CncVar,
+            };
+            let given = data.is_some_and(|data| !data.is_empty() || call.service == Service::Write);
+            let mut page = bench.book.on(topic, scene);
+            if given && page.knows(clause) {
+                page.check(rule, false, format!("an error number for {error}"), "a success");
+            }
+            return;
+        }
+        Err(_) => return,
+    };
+    let reply = data.map(|data| request.decode_reply(data));
+    let reply = match reply {
+        None => None,
+        Some(Ok(reply)) => {
+            let spec = request.function().spec();
+            let mut page = bench.book.on(Topic::of_reply(request.function()), scene);
+            let clauses = [Some(spec.clause), spec.reply.map(|stream| stream.layout().clause)];
+            for clause in clauses.into_iter().flatten() {
+                if page.knows(clause) {
+                    page.pass(clause);
+                }
+            }
+            Some(reply)
+        }
+        Some(Err(error)) => {
+            let spec = request.function().spec();
+            let field = error.field().spec().map(|spec| spec.clause);
+            let field = if error.kind() == ErrorKind::TooMany { Some("VAR-24") } else { field };
+            let clause = field.filter(|id| requirement(id).is_some()).unwrap_or(spec.clause);
+            let mut page = bench.book.on(Topic::of_reply(request.function()), scene);
+            let clause = if page.knows(clause) { clause } else { spec.clause };
+            page.check(clause, false, format!("what {} gives", spec.name), error);
+            return;
+        }
+    };
+    together(bench, scene, &request, reply.as_ref(), call);
+}
+
+/// What it says together with what came before.
+fn together(
+    bench: &mut Bench<'_>,
+    scene: &Scene<'_>,
+    request: &Request<'_>,
+    reply: Option<&Reply<'_>>,
+    call: &Call<'_>,
+) {
+    match request {
+        Request::CountObjects(_)
+        | Request::ReadDescriptors(_)
+        | Request::ReadObject(_)
+        | Request::WriteObject(_) => bench.objects(scene, request, reply, call),
+        Request::WriteProgramStream(_) => bench.stream(scene, call, reply.is_some()),
+        Request::FindInstance(_)
+        | Request::CountElements(_)
+        | Request::ReadElement(_)
+        | Request::WriteElement(_)
+        | Request::ReadElementName(_)
+        | Request::ReadElementType(_)
+        | Request::ReadElementLength(_)
+        | Request::ReadElementUnit(_)
+        | Request::ReadElementWriteFlag(_) => bench.elements(scene, request, reply, call),
+        Request::CountDynamic(_)
+        | Request::DynamicNameByIndex(_)
+        | Request::DynamicValueByName(_)
+        | Request::DynamicValueByIndex(_) => bench.parameters(scene, request, reply, call),
+        _ => {
+            bench.variables(scene, request, reply, call);
+            bench.values(scene, request, reply, call);
+            bench.service(scene, request, reply, call);
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! What a client sent, for itself.
+
+use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, StateFlags};
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::{Call, Function, Refusal, Request, Service};
+use ads_cnc::{CncStr, ErrorKind, VariablePath};
+use ads_cnc_vectors::requirement;
+
+use super::super::book::{Book, Scene, Topic};
+use crate::suite::{Checks as _, Rule, assumed, online};
+
+/// What every request has in its headers.
+pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, header: &AmsHeader, again: bool) {
+    let mut page = book.on(Topic::ClientFrames, scene);
+    let flags = header.state_flags;
+    let found = format!("state flags {:#06x}", flags.0);
+    page.check("ADS-5", flags == StateFlags::REQUEST, "state flags 0x0004", found);
+    let rule = assumed("ADS-5");
+    let none = header.error == AdsError::NONE;
+    page.check(rule, none, "no AMS error in a request", format!("AMS error {}", header.error));
+    let found = format!("the invoke ID {:#x} of one that still waits", header.invoke_id);
+    page.check(rule, !again, "an invoke ID of its own", found);
+}
+
+/// Judges what is asked, and returns what is asked if it is documented nowhere.
+pub(super) fn judge(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>) -> Option<String> {
+    match call.dispatch() {
+        Ok(request) => {
+            book.on(Topic::ClientPorts, scene).pass(port_rule(call.port));
+            documented(book, scene, call, &request);
+            None
+        }
+        Err(Refusal::Stream(error)) => {
+            if let Some(function) = function_at(call, |_| true) {
+                let spec = function.spec();
+                let clause = error.field().spec().map(|spec| spec.clause);
+                let known = clause.filter(|id| requirement(id).is_some());
+                let rule = match error.kind() {
+                    ErrorKind::TooMany => "VAR-24".into(),
+                    // No room for the answer: how little may be asked for is assumed.
+                    ErrorKind::BufferTooSmall => assumed("COM-3"),
+                    _ => Rule::from(known.unwrap_or(spec.clause)),
+                };
+                let expected = format!("what {} takes", spec.name);
+                book.on(Topic::of_request(function), scene).check(rule, false, expected, error);
+            }
+            None
+        }
+        Err(refusal) => {
+            let other = if call.port == AmsPort::COM { AmsPort::SDA } else { AmsPort::COM };
+            let elsewhere = Call { port: other, ..*call }.dispatch();
+            if let Ok(request) = elsewhere {
+                let spec = request.function().spec();
+                let expected = format!("port {} for {}", spec.task.port(), spec.name);
+                let mut page = book.on(Topic::ClientPorts, scene);
+                page.check(port_rule(other), false, expected, format!("port {}", call.port));
+                return None;
+            }
+            if matches!(refusal, Refusal::Service { .. }) {
+                return wrong_service(book, scene, call, refusal);
+            }
+            let Call { port, service, index_group, index_offset, .. } = call;
+            Some(format!("{service} {index_group}, {index_offset} at {port}"))
+        }
+    }
+}
+
+/// The port of COM is stated; those of SDA and GEO are known from elsewhere.
+fn port_rule(port: AmsPort) -> Rule {
+    if port == AmsPort::COM { "GEN-4".into() } else { online("GEN-4") }
+}
+
+/// The function at a call's address, whatever it takes.
+fn function_at(call: &Call<'_>, fits: impl Fn(Service) -> bool) -> Option<Function> {
+    let group = call.index_group.parts()?;
+    let mut all = Function::ALL.iter().copied().filter(|function| {
+        let spec = function.spec();
+        let here = spec.group.holds(group) && spec.offset.holds(call.index_offset);
+        here && fits(spec.service)
+    });
+    // A function wins over content (SDA-12).
+    let first = all.clone().find(|function| !function.spec().is_content());
+    first.or_else(|| all.find(|function| function.spec().service == call.service))
+}
+
+/// A function that is asked by another service than its own. On the decoder that may be a walk over
+/// elements, which meets functions there (SDA-12): it is counted.
+fn wrong_service(
+    book: &mut Book,
+    scene: &Scene<'_>,
+    call: &Call<'_>,
+    refusal: Refusal,
+) -> Option<String> {
+    let function = function_at(call, |service| service != call.service)?;
+    let spec = function.spec();
+    let content = call.service == Service::Read || function == Function::WriteProgramStream;
+    if content {
+        let Call { port, service, index_group, index_offset, .. } = call;
+        return Some(format!("{service} {index_group}, {index_offset} at {port}"));
+    }
+    let mut page = book.on(Topic::of_request(function), scene);
+    page.check(spec.clause, false, format!("{} for {}", spec.service, spec.name), refusal);
+    None
+}
+
+/// A request that the codec reads.
+fn documented(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>, request: &Request<'_>) {
+    let function = request.function();
+    let spec = function.spec();
+    let topic = Topic::of_request(function);
+    let mut page = book.on(topic, scene);
+    page.pass(spec.clause);
+    if let Some(clause) = spec.request.map(|stream| stream.layout().clause) {
+        if requirement(clause).is_some() {
+            page.pass(clause);
+        }
+    }
+    if let Request::DynamicValueByName(request) = request {
+        let ended = request.name.tail().is_some();
+        page.check(assumed("DYN-3"), ended, "a name with its NUL", "a name without");
+    }
+    if let Request::ReadByHandle(_) | Request::WriteByHandle(_) = request {
+        page.pass("VAR-24");
+    }
+    if let Some(least) = spec.reply.filter(|reply| reply.layout().is_fixed()).map(least) {
+        let rule = assumed(if call.service == Service::Read { "ADS-1" } else { "ADS-3" });
+        let asked = call.read_length;
+        let mut page = book.on(Topic::ClientServices, scene);
+        page.check(rule, asked >= least, format!("room for {least} bytes"), format!("for {asked}"));
+    }
+    let mut page = book.on(topic, scene);
+    if let Some(name) = name_of(request) {
+        let path = VariablePath::from_text(name);
+        let found = path.err().map(|error| format!("{name}: {error}")).unwrap_or_default();
+        page.check(assumed("VAR-20"), found.is_empty(), "a name as the manual builds them", found);
+    }
+}
+
+/// The fewest bytes of a stream of fixed length; 0 of others.
+fn least(stream: Stream) -> u32 {
+    if stream.layout().is_fixed() { stream.layout().max } else { 0 }
+}
+
+/// The name of a variable in a request.
+pub(super) fn name_of<'a>(request: &Request<'a>) -> Option<CncStr<'a>> {
+    match request {
+        Request::HandleByName(request) => Some(request.name.text()),
+        Request::ReadByName(request) => Some(request.name.text()),
+        Request::DescribeByName(request) => Some(request.name.text()),
+        Request::WriteByName(request) => Some(request.name),
+        Request::AxisHandleByName(request) => Some(request.name.text()),
+        Request::AxisReadByName(request) => Some(request.name.text()),
+        Request::AxisWriteByName(request) => Some(request.name),
+        _ => None,
+    }
+}

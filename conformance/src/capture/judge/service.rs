@@ -1,0 +1,149 @@
+//! The variables of the Service Interface, in their order.
+
+use std::collections::BTreeMap;
+
+use ads_cnc::limits::SERVICE_TEXT_MAX;
+use ads_cnc::operation::{Call, Reply, Request};
+use ads_cnc::service::ServiceVariable;
+
+use super::super::book::{Page, Scene, Topic};
+use super::Bench;
+use super::requests::name_of;
+use crate::suite::{Checks as _, assumed};
+
+/// What is known of the Service Interface of each channel, by its index group.
+#[derive(Debug, Default)]
+pub(super) struct Services(BTreeMap<u32, Interface>);
+
+/// One channel's, as a client left it.
+#[derive(Debug, Default)]
+struct Interface {
+    /// A service has read that it is asked, and who is.
+    read_state: bool,
+    read_id: bool,
+    /// The response, REQUEST_STATE = 0 and RESPONSE_STATE were written for what is asked now.
+    response: bool,
+    reset: bool,
+    answered: bool,
+    /// A client that plays the program has written these.
+    wrote_id: bool,
+    wrote_request: bool,
+    /// REQUEST_STATE was written last, and nothing of the answer since.
+    asked: bool,
+}
+
+impl Bench<'_> {
+    pub(super) fn service(
+        &mut self,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+        reply: Option<&Reply<'_>>,
+        call: &Call<'_>,
+    ) {
+        let group = call.index_group.get();
+        let handle = match request {
+            Request::ReadByHandle(read) => Some(read.handle.0),
+            Request::WriteByHandle(write) => Some(write.handle.0),
+            _ => None,
+        };
+        let by_handle = handle.and_then(|handle| self.cnc.variables.name_of(group, handle));
+        let name = by_handle.map(str::to_owned);
+        let name = name.or_else(|| name_of(request).map(|name| name.to_string()));
+        let variable = name.as_deref().and_then(ServiceVariable::by_name);
+        let (Some(variable), Some(reply)) = (variable, reply) else { return };
+        let written = match request {
+            Request::WriteByHandle(write) => Some(write.value),
+            Request::WriteByName(write) => Some(write.value),
+            Request::ReadByHandle(_) | Request::ReadByName(_) => None,
+            _ => return,
+        };
+        let interface = self.cnc.services.0.entry(group).or_default();
+        match (written, reply) {
+            (Some(value), _) => {
+                let mut page = self.book.on(Topic::ClientService, scene);
+                form(&mut page, variable, value);
+                interface.write(&mut page, variable, value);
+            }
+            (None, Reply::Value(value)) => {
+                let mut page = self.book.on(Topic::CncService, scene);
+                form(&mut page, variable, value.bytes);
+                interface.read(&mut page, variable, value.bytes);
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Texts have room for 128 bytes, states are UNS32.
+fn form(page: &mut Page<'_>, variable: ServiceVariable, value: &[u8]) {
+    let length = value.len();
+    let found = format!("{length} bytes of {}", variable.name());
+    match variable {
+        ServiceVariable::RequestState | ServiceVariable::ResponseState => {
+            page.check("SVC-1", length == 4, "an UNS32", found);
+        }
+        ServiceVariable::Uuid => {}
+        _ => {
+            page.check("SVC-1", length <= SERVICE_TEXT_MAX, "at most 128 bytes", found);
+        }
+    }
+}
+
+/// Whether a state is other than 0.
+fn is_set(value: &[u8]) -> bool {
+    value.iter().any(|byte| *byte != 0)
+}
+
+impl Interface {
+    fn read(&mut self, page: &mut Page<'_>, variable: ServiceVariable, value: &[u8]) {
+        match variable {
+            ServiceVariable::RequestState => {
+                if is_set(value) && self.answered {
+                    // Asked anew.
+                    *self = Self::default();
+                }
+                self.read_state = is_set(value);
+            }
+            ServiceVariable::Uuid => self.read_id = true,
+            // A service may have answered meanwhile: only 0 tells.
+            ServiceVariable::ResponseState if self.asked && !is_set(value) => {
+                page.pass(assumed("SVC-3"));
+            }
+            _ => {}
+        }
+    }
+
+    fn write(&mut self, page: &mut Page<'_>, variable: ServiceVariable, value: &[u8]) {
+        match variable {
+            ServiceVariable::Uuid => self.wrote_id = true,
+            ServiceVariable::Request => self.wrote_request = true,
+            ServiceVariable::RequestState if is_set(value) => {
+                // Who asks plays the program.
+                let found = "REQUEST_STATE before UUID and REQUEST";
+                let kept = self.wrote_id && self.wrote_request;
+                page.check("SVC-12", kept, "UUID and REQUEST before it", found);
+                *self = Self { asked: true, ..Self::default() };
+            }
+            ServiceVariable::RequestState => {
+                let found = "REQUEST_STATE behind RESPONSE_STATE, which it resets";
+                page.check(assumed("SVC-4"), !self.answered, "RESPONSE_STATE last", found);
+                self.reset = true;
+            }
+            ServiceVariable::Response => self.response = true,
+            ServiceVariable::ResponseState => {
+                self.asked = false;
+                let found = "RESPONSE_STATE = 0, which leaves the program waiting";
+                page.check("SVC-5", is_set(value), "another number than 0", found);
+                if !is_set(value) {
+                    return;
+                }
+                let found = "RESPONSE_STATE before RESPONSE";
+                page.check("SVC-5", self.response, "RESPONSE before it", found);
+                let found = "an answer to what was not read to be asked";
+                let kept = self.read_state && self.read_id;
+                page.check("SVC-2", kept, "UUID and REQUEST_STATE read before", found);
+                self.answered = true;
+            }
+        }
+    }
+}

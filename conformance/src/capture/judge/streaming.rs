@@ -1,0 +1,102 @@
+//! NC text on its way to the stream of a channel.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::time::Duration;
+
+use ads_cnc::limits::STREAM_PACKET_MAX;
+use ads_cnc::operation::Call;
+use ads_cnc::streaming::{Checker, FindingKind, Found, LineErrorKind, NcText};
+
+use super::super::book::{Scene, Topic};
+use super::Bench;
+use crate::suite::{Checks as _, assumed};
+
+/// Who has been refused and writes nothing for as long has given up.
+const GIVEN_UP: Duration = Duration::from_secs(30);
+
+/// What is known of the streams of a CNC, by the index group of the channel.
+#[derive(Debug, Default)]
+pub(super) struct Streams(BTreeMap<u32, Stream>);
+
+#[derive(Default)]
+struct Stream {
+    /// What was refused last, and when.
+    refused: Option<(Vec<u8>, Option<super::Time>)>,
+    /// What is wrong with the program so far; none while its beginning is not known.
+    checker: Option<Checker>,
+}
+
+impl fmt::Debug for Stream {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Stream").field("refused", &self.refused).finish_non_exhaustive()
+    }
+}
+
+impl Bench<'_> {
+    pub(super) fn stream(&mut self, scene: &Scene<'_>, call: &Call<'_>, accepted: bool) {
+        let data = call.data;
+        let mut page = self.book.on(Topic::ClientStream, scene);
+        let length = data.len();
+        let kept = length <= STREAM_PACKET_MAX;
+        page.check("STM-2", kept, "at most 992 bytes", format!("{length} bytes"));
+        let whole = data.ends_with(b"\r\n");
+        page.check("STM-4", whole, "whole lines, each with CR LF", "an open line at the end");
+        // NcText takes lines with any end: what is open was judged, the rest is told apart here.
+        let bare = data.windows(2).any(|two| matches!(two, [first, b'\n'] if *first != b'\r'))
+            || data.first() == Some(&b'\n')
+            || data.windows(2).any(|two| matches!(two, [b'\r', second] if *second != b'\n'));
+        page.check("STM-4", !bare, "lines that end in CR LF", "CR or LF alone");
+        match NcText::new(data) {
+            Ok(_) => {
+                page.pass("STM-7");
+                page.pass("STM-20");
+            }
+            Err(error) => {
+                let rule = error.kind().clause();
+                let rule = if rule == "STM-5" { "STM-4" } else { rule };
+                let is_line = matches!(error.kind(), LineErrorKind::TooLong { .. });
+                let expected = if is_line { "lines of at most 990 characters" } else { "ASCII" };
+                page.check(rule, false, expected, error);
+            }
+        }
+        let now = scene.time();
+        let stream = self.cnc.streams.0.entry(call.index_group.get()).or_default();
+        if let Some((refused, then)) = stream.refused.take() {
+            let waited = match (now, then) {
+                (Some(now), Some(then)) => now.since(then),
+                _ => Duration::ZERO,
+            };
+            if waited < GIVEN_UP {
+                let expected = format!("the {} bytes that were refused before", refused.len());
+                page.check("STM-6", refused == data, expected, "other data");
+            }
+        }
+        if accepted {
+            let checker = stream.checker.get_or_insert_with(Checker::new);
+            let mut ended = false;
+            for found in checker.check(data) {
+                match found {
+                    Found::End { .. } => ended = true,
+                    Found::Finding(finding) => {
+                        let clause = match finding.kind {
+                            FindingKind::Loop(_) | FindingKind::BackwardJump { .. } => "STM-8",
+                            // Behind an end comes the next program, or what is left of it.
+                            _ => continue,
+                        };
+                        page.check(clause, false, "what a stream may have", finding);
+                    }
+                }
+            }
+            page.pass("STM-8");
+            if ended {
+                stream.checker = None;
+            }
+        } else if kept && whole {
+            stream.refused = Some((data.to_vec(), now));
+        }
+        let mut page = self.book.on(Topic::CncStream, scene);
+        let expected = "an error number for more than 992 bytes";
+        page.check(assumed("STM-2"), kept || !accepted, expected, "a success");
+    }
+}

@@ -1,0 +1,91 @@
+//! Values of variables, held against their descriptions.
+
+use ads_cnc::operation::{Call, Reply, Request};
+use ads_cnc::{VariableAccess, VariableType};
+
+use super::super::book::{Scene, Topic};
+use super::Bench;
+use super::variables::Target;
+use crate::suite::{Checks as _, assumed};
+
+/// Bytes of the longest text that can be declared.
+const TEXT_MAX: usize = 800;
+
+impl Target {
+    /// Bytes of what is read or written, if the type says them.
+    fn size(&self) -> Option<u32> {
+        let element = self.description.var_type.element_size()?;
+        Some(if self.indices.is_empty() { self.description.size } else { element })
+    }
+
+    /// Whether the number of indices addresses anything.
+    fn fits(&self) -> bool {
+        self.indices.is_empty() || self.indices.len() == self.description.dimensions.len()
+    }
+
+    /// Whether each index is one that the array has.
+    fn is_inside(&self) -> bool {
+        self.indices.iter().zip(&self.description.dimensions).all(|(index, count)| index < count)
+    }
+}
+
+impl Bench<'_> {
+    pub(super) fn values(
+        &mut self,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+        reply: Option<&Reply<'_>>,
+        _: &Call<'_>,
+    ) {
+        let Some(target) = self.cnc.variables.described(request) else { return };
+        let name = &target.description.name.text;
+        let by_handle = matches!(request, Request::ReadByHandle(_) | Request::WriteByHandle(_));
+        let (clause, written) = match request {
+            Request::WriteByHandle(write) => ("VAR-12", Some(write.value)),
+            Request::WriteByName(write) => ("VAR-13", Some(write.value)),
+            _ => (if by_handle { "VAR-11" } else { "VAR-20" }, None),
+        };
+        let dimensions = target.description.dimensions.len();
+        let indices = target.indices.len();
+        let fits = target.fits();
+        let mut page = self.book.on(Topic::ClientVar, scene);
+        let found = format!("{indices} indices of {name}");
+        let rule = assumed(if by_handle { "VAR-11" } else { "VAR-20" });
+        page.check(rule, fits, format!("none, or {dimensions} indices"), &found);
+        if let (Some(written), Some(size), true) = (written, target.size(), fits) {
+            let given = written.len();
+            let sized = u32::try_from(given) == Ok(size);
+            let expected = format!("the {size} bytes of {name}");
+            page.check(clause, sized, expected, format!("{given} bytes"));
+        }
+        let mut page = self.book.on(Topic::CncVar, scene);
+        if !fits {
+            let expected = format!("an error number: {name} has {dimensions} dimensions");
+            page.check(rule, reply.is_none(), expected, "a success");
+            return;
+        }
+        if !target.is_inside() {
+            let rule = if by_handle { "VAR-11" } else { "VAR-20" };
+            let expected = format!("an error number: {name} has not {:?}", target.indices);
+            page.check(rule, reply.is_none(), expected, "a success");
+            return;
+        }
+        if written.is_some() {
+            let only_read = target.description.access == VariableAccess::READ_ONLY;
+            let kept = !only_read || reply.is_none();
+            let expected = format!("an error number: {name} may only be read");
+            page.check(assumed("VAR-6"), kept, expected, "a success");
+            return;
+        }
+        let Some(Reply::Value(value)) = reply else { return };
+        let given = value.bytes.len();
+        let found = format!("{given} bytes of {name}");
+        if let Some(size) = target.size() {
+            let sized = u32::try_from(given) == Ok(size);
+            page.check("VAR-14", sized, format!("the {size} bytes of its description"), found);
+        } else if target.description.var_type == VariableType::STRING && dimensions == 0 {
+            let expected = format!("a text of at most {TEXT_MAX} bytes");
+            page.check("VAR-25", given <= TEXT_MAX, expected, found);
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! Numbers, descriptions and handles of variables, held together.
+
+use std::collections::BTreeMap;
+
+use ads_cnc::operation::{Call, Reply, Request};
+use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
+
+use super::super::book::{Scene, Topic};
+use super::Bench;
+use crate::suite::{Checks as _, assumed, holds_together};
+
+/// Variables of a channel that are kept.
+const VARIABLES_MAX: usize = 0x1_0000;
+
+/// Channels that are told apart.
+const CHANNELS_MAX: usize = 512;
+
+/// What is known of the variables of a CNC.
+#[derive(Debug, Default)]
+pub(super) struct Variables {
+    /// By the index group of the channel.
+    channels: BTreeMap<u32, Channel>,
+}
+
+#[derive(Debug, Default)]
+struct Channel {
+    /// By kind; that of no kind is the sum.
+    counts: BTreeMap<String, u32>,
+    /// By name: with the kind and index it was described at.
+    described: BTreeMap<String, (Description, String, u32)>,
+    /// The name of each handle.
+    handles: BTreeMap<u32, String>,
+}
+
+/// A variable that a request is about.
+#[derive(Clone, Debug)]
+pub(in super::super) struct Target {
+    pub(in super::super) description: Description,
+    /// The indices that select an element; none for the whole.
+    pub(in super::super) indices: Vec<u32>,
+}
+
+impl Variables {
+    fn channel(&mut self, call: &Call<'_>) -> Option<&mut Channel> {
+        let group = call.index_group.get();
+        if !self.channels.contains_key(&group) && self.channels.len() >= CHANNELS_MAX {
+            return None;
+        }
+        Some(self.channels.entry(group).or_default())
+    }
+
+    /// The name a handle stands for, as far as it was seen.
+    pub(super) fn name_of(&self, group: u32, handle: u32) -> Option<&str> {
+        self.channels.get(&group)?.handles.get(&handle).map(String::as_str)
+    }
+
+    /// The described variable that a request reads or writes, and where in it.
+    pub(super) fn described(&self, request: &Request<'_>) -> Option<Target> {
+        let by_handle = |group: u32, handle: u32, indices: Vec<u32>| {
+            let channel = self.channels.get(&group)?;
+            let (description, ..) = channel.described.get(channel.handles.get(&handle)?)?;
+            Some(Target { description: description.clone(), indices })
+        };
+        let group = |channel: ads_cnc::address::Channel| {
+            use ads_cnc::address::{Attribute, Class};
+            channel.class(Class::Decoder, Attribute::Content).get()
+        };
+        match request {
+            Request::ReadByHandle(read) => {
+                by_handle(group(read.channel), read.handle.0, read.indices.iter().collect())
+            }
+            Request::WriteByHandle(write) => {
+                by_handle(group(write.channel), write.handle.0, write.indices.iter().collect())
+            }
+            Request::ReadByName(read) => self.by_name(group(read.channel), read.name.text()),
+            Request::WriteByName(write) => self.by_name(group(write.channel), write.name),
+            _ => None,
+        }
+    }
+
+    fn by_name(&self, group: u32, name: CncStr<'_>) -> Option<Target> {
+        let channel = self.channels.get(&group)?;
+        let of = |name: String, indices| {
+            let (description, ..) = channel.described.get(&name)?;
+            Some(Target { description: description.clone(), indices })
+        };
+        let path = VariablePath::from_text(name).ok()?;
+        of(name.to_string(), Vec::new())
+            .or_else(|| of(path.variable().text().to_string(), path.elements().iter().collect()))
+    }
+}
+
+impl Bench<'_> {
+    pub(super) fn variables(
+        &mut self,
+        scene: &Scene<'_>,
+        request: &Request<'_>,
+        reply: Option<&Reply<'_>>,
+        call: &Call<'_>,
+    ) {
+        match (request, reply) {
+            (Request::CountVariables(count), Some(Reply::VariableCount(number))) => {
+                self.number(scene, call, count.kind.text().to_string(), number.0);
+            }
+            (Request::DescribeByIndex(describe), reply) => {
+                let kind = describe.kind.text().to_string();
+                let known = self.bound(call, &kind).filter(|count| describe.index >= *count);
+                if let Some(count) = known {
+                    let (index, none) = (describe.index, reply.is_none());
+                    let asked = format!("index {index}");
+                    let expected = format!("an index below {count}");
+                    self.beyond(scene, request, "VAR-2", (&expected, &asked));
+                    let expected = format!("an error number for index {index} of {count}");
+                    let mut page = self.book.on(Topic::CncVar, scene);
+                    page.check("VAR-2", none, expected, "a description");
+                    return;
+                }
+                if let Some(Reply::Description(variable)) = reply {
+                    let variable = Description {
+                        handle: variable.handle,
+                        var_type: variable.var_type,
+                        access: variable.access,
+                        size: variable.size,
+                        dimensions: variable.dimensions.iter().collect(),
+                        name: variable.name.into(),
+                    };
+                    self.description(scene, call, variable, kind, describe.index);
+                }
+            }
+            (Request::HandleByName(handle), Some(Reply::Handle(given))) => {
+                self.handle(scene, call, handle.name.text(), given.0);
+            }
+            (Request::DescribeExtended(describe), Some(Reply::Extended(given))) => {
+                self.extended(scene, &describe.kind.text().to_string(), *given);
+            }
+            (Request::DescribeByName(describe), Some(Reply::DescriptionByName(given))) => {
+                let name = describe.name.text().to_string();
+                let known = self.cnc.variables.channel(call);
+                let known = known.and_then(|channel| channel.described.get(&name)).cloned();
+                if let Some((known, ..)) = known {
+                    let same = given.var_type == known.var_type
+                        && given.access == known.access
+                        && given.size == known.size
+                        && given.dimensions.iter().eq(known.dimensions.iter().copied());
+                    let found = format!("{given:?}");
+                    let mut page = self.book.on(Topic::CncVar, scene);
+                    page.check("VAR-28", same, format!("as by index: {known:?}"), found);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn bound(&mut self, call: &Call<'_>, kind: &str) -> Option<u32> {
+        self.cnc.variables.channel(call)?.counts.get(kind).copied()
+    }
+
+    fn number(&mut self, scene: &Scene<'_>, call: &Call<'_>, kind: String, number: u32) {
+        let Some(channel) = self.cnc.variables.channel(call) else { return };
+        let changed = channel.counts.get(&kind).is_some_and(|known| *known != number);
+        if changed {
+            // Another configuration: what is known is of the one before.
+            *channel = Channel::default();
+        }
+        if channel.counts.len() < 64 {
+            channel.counts.insert(kind, number);
+        }
+        let counts = &channel.counts;
+        let of = |kind: &str| counts.get(kind).copied();
+        if let (Some(all), Some(g), Some(e), Some(a)) = (of(""), of("V.G"), of("V.E"), of("V.A")) {
+            let sum = g.saturating_add(e).saturating_add(a);
+            let expected = format!("{sum} variables of all kinds");
+            self.book.on(Topic::CncVar, scene).check("VAR-1", all == sum, expected, all);
+        }
+    }
+
+    fn description(
+        &mut self,
+        scene: &Scene<'_>,
+        call: &Call<'_>,
+        variable: Description,
+        kind: String,
+        index: u32,
+    ) {
+        let mut page = self.book.on(Topic::CncVar, scene);
+        holds_together(&mut page, &variable, &kind);
+        let Some(channel) = self.cnc.variables.channel(call) else { return };
+        let name = variable.name.text.to_string();
+        let handle = variable.handle.0;
+        if let Some((known, of, at)) = channel.described.get(&name) {
+            let unique = *of == kind && *at == index;
+            let found = format!("{name} at index {index}, and at {at}");
+            page.check("VAR-3", unique, "another variable at each index", found);
+            let found = format!("{variable:?}");
+            page.check(assumed("VAR-4"), !unique || *known == variable, "as before", found);
+        }
+        let other = channel.handles.get(&handle).filter(|other| **other != name);
+        let found = format!("the handle {handle:#x} of {}", other.map_or("", String::as_str));
+        page.check(assumed("VAR-10"), other.is_none(), "a handle of its own", found);
+        if channel.described.len() < VARIABLES_MAX {
+            channel.handles.insert(handle, name.clone());
+            channel.described.insert(name, (variable, kind, index));
+        }
+    }
+
+    fn handle(&mut self, scene: &Scene<'_>, call: &Call<'_>, name: CncStr<'_>, handle: u32) {
+        let text = name.to_string();
+        let mut page = self.book.on(Topic::CncVar, scene);
+        // In both editions; V.P, V.L and V.S in one of them.
+        let barred = text.starts_with("V.CYC");
+        page.check(
+            "VAR-18",
+            !barred,
+            "an error number: V.CYC has no handles",
+            format!("{handle:#x}"),
+        );
+        let Some(channel) = self.cnc.variables.channel(call) else { return };
+        let before = channel.handles.iter().find(|(_, known)| **known == text).map(|(key, _)| *key);
+        let rule = assumed("VAR-10");
+        if let Some(before) = before {
+            let expected = format!("{before:#x}, as before for {text}");
+            page.check(rule, before == handle, expected, format!("{handle:#x}"));
+        }
+        let other = channel.handles.get(&handle).filter(|other| **other != text).cloned();
+        let found = format!("the handle of {}", other.as_deref().unwrap_or_default());
+        page.check(rule, other.is_none(), format!("a handle of {text} alone"), found);
+        if channel.handles.len() < VARIABLES_MAX {
+            channel.handles.insert(handle, text);
+        }
+    }
+
+    fn extended(&mut self, scene: &Scene<'_>, kind: &str, given: ExtendedReply) {
+        let mut page = self.book.on(Topic::CncVar, scene);
+        match (kind, given.0) {
+            ("V.E", Some(extended)) => {
+                let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
+                let kept = known.contains(&extended.synchronisation);
+                let found = format!("{:?}", extended.synchronisation);
+                page.check("VAR-15", kept, "a synchronisation of 1 or 2", found);
+                let known = [Validity::CHANNEL, Validity::GLOBAL];
+                let kept = known.contains(&extended.validity);
+                let found = format!("{:?}", extended.validity);
+                page.check("VAR-15", kept, "a validity of 1 or 2", found);
+            }
+            ("V.E", None) => {
+                page.check("VAR-15", false, "an extended description", "no data");
+            }
+            ("V.G" | "V.A", given) => {
+                page.check("VAR-16", given.is_none(), "no data", "an extended description");
+            }
+            _ => {}
+        }
+    }
+}

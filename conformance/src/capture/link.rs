@@ -1,0 +1,118 @@
+//! From a captured packet to the TCP segment in it.
+
+use std::net::{IpAddr, SocketAddr};
+
+use etherparse::{EtherType, LaxNetSlice, LaxSlicedPacket, TransportSlice};
+use pcap_parser::Linktype;
+
+use super::file::Packet;
+
+/// A TCP segment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Segment<'p> {
+    pub(super) from: SocketAddr,
+    pub(super) to: SocketAddr,
+    pub(super) sequence: u32,
+    pub(super) acknowledged: Option<u32>,
+    pub(super) syn: bool,
+    pub(super) fin: bool,
+    pub(super) rst: bool,
+    pub(super) payload: &'p [u8],
+    /// Bytes of the payload that were not captured.
+    pub(super) missing: usize,
+}
+
+/// What is in a packet.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Content<'p> {
+    Tcp(Segment<'p>),
+    /// Another protocol.
+    Other,
+    /// A piece of an IP packet, which is not put together.
+    Fragment,
+    /// A header is cut or wrong.
+    Unreadable,
+    /// A link type that is not known here.
+    Link(i32),
+}
+
+/// The segment of a packet.
+pub(super) fn segment<'p>(packet: &Packet<'p>) -> Content<'p> {
+    let bytes = packet.bytes;
+    let behind = |length: usize| bytes.get(length..).unwrap_or_default();
+    let typed = |at: usize| match bytes.get(at..) {
+        Some([high, low, ..]) => EtherType(u16::from_be_bytes([*high, *low])),
+        _ => EtherType(0),
+    };
+    let read = match packet.link {
+        Linktype::ETHERNET => LaxSlicedPacket::from_ethernet(bytes).ok(),
+        // 12 and 14 are what some systems write for raw IP.
+        Linktype::RAW | Linktype::IPV4 | Linktype::IPV6 | Linktype(12 | 14) => {
+            LaxSlicedPacket::from_ip(bytes).ok()
+        }
+        // The number of the address family is in the order of the machine; the version tells too.
+        Linktype::NULL | Linktype::LOOP => LaxSlicedPacket::from_ip(behind(4)).ok(),
+        Linktype::LINUX_SLL => Some(LaxSlicedPacket::from_ether_type(typed(14), behind(16))),
+        Linktype::LINUX_SLL2 => Some(LaxSlicedPacket::from_ether_type(typed(0), behind(20))),
+        Linktype(other) => return Content::Link(other),
+    };
+    read.map_or(Content::Unreadable, |read| of_ip(&read, packet.missing))
+}
+
+fn of_ip<'p>(read: &LaxSlicedPacket<'p>, missing: usize) -> Content<'p> {
+    let Some((from, to, missing)) = read.net.as_ref().and_then(|net| ends(net, missing)) else {
+        // What stops inside of IP is no other protocol.
+        return if read.stop_err.is_some() { Content::Unreadable } else { Content::Other };
+    };
+    let is_fragment = read.ip_payload().is_some_and(|payload| payload.fragmented);
+    let is_tcp = read.ip_payload().is_some_and(|payload| payload.ip_number.0 == 6);
+    match &read.transport {
+        _ if is_fragment => {
+            if is_tcp {
+                Content::Fragment
+            } else {
+                Content::Other
+            }
+        }
+        Some(TransportSlice::Tcp(tcp)) => Content::Tcp(Segment {
+            from: SocketAddr::new(from, tcp.source_port()),
+            to: SocketAddr::new(to, tcp.destination_port()),
+            sequence: tcp.sequence_number(),
+            acknowledged: tcp.ack().then(|| tcp.acknowledgment_number()),
+            syn: tcp.syn(),
+            fin: tcp.fin(),
+            rst: tcp.rst(),
+            payload: tcp.payload(),
+            missing,
+        }),
+        _ if is_tcp => Content::Unreadable,
+        _ => Content::Other,
+    }
+}
+
+/// Both addresses, and how many bytes of the IP packet were not captured.
+fn ends(net: &LaxNetSlice<'_>, missing: usize) -> Option<(IpAddr, IpAddr, usize)> {
+    // What the header counts; a sender's card may leave it at 0 for the packet to be cut later.
+    let lost = |told: usize, there: usize| match told {
+        0 => missing,
+        told => told.saturating_sub(there),
+    };
+    match net {
+        LaxNetSlice::Ipv4(ip) => {
+            let header = ip.header();
+            let extensions = ip.extensions().auth.map_or(0, |auth| auth.slice().len());
+            let there = header.slice().len().saturating_add(extensions);
+            let there = there.saturating_add(ip.payload().payload.len());
+            let missing = lost(header.total_len().into(), there);
+            Some((header.source_addr().into(), header.destination_addr().into(), missing))
+        }
+        LaxNetSlice::Ipv6(ip) => {
+            let header = ip.header();
+            let there = ip.extensions().slice().len();
+            let there = there.saturating_add(ip.payload().payload.len());
+            let missing = lost(header.payload_length().into(), there);
+            Some((header.source_addr().into(), header.destination_addr().into(), missing))
+        }
+        LaxNetSlice::Arp(_) => None,
+    }
+}

@@ -1,0 +1,284 @@
+//! Connections: segments of all of them in, frames with their place out.
+
+use std::collections::BTreeMap;
+use std::net::SocketAddr;
+
+use ads_cnc::Error;
+
+use super::frames::{Found, Frames, Span};
+use super::link::Segment;
+use super::tcp::{Half, Mark, Part, Piece};
+
+/// Connections that are followed at the same time; of more, those that were silent longest end.
+pub(super) const CONNECTIONS_MAX: usize = 1024;
+
+/// Bytes that all connections hold together until a frame is whole.
+pub(super) const HELD_MAX: usize = 0x400_0000;
+
+/// Which TCP ports are looked at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ports {
+    /// Connections from or to one of these.
+    Of(Vec<u16>),
+    /// All of them; where no frame is found nothing is judged.
+    Any,
+}
+
+/// Where something was seen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    /// Number of the connection, from 1 on.
+    pub(super) connection: u64,
+    pub(super) from: SocketAddr,
+    pub(super) to: SocketAddr,
+}
+
+/// What comes out.
+#[derive(Debug)]
+pub(super) enum Event {
+    Frame(Vec<u8>, Way, Span),
+    Router,
+    Broken(Error, Vec<u8>, Way, Span),
+    Cut(Vec<u8>, Way, Span),
+    /// Bytes that were not captured.
+    Gap(u64, Way, Mark),
+    /// Bytes that were passed over to find a frame.
+    Skipped(usize),
+    /// A connection that began before the capture did.
+    Joined(u64),
+    /// A frame of which nothing more came before the connection, or the capture, was over.
+    Unfinished,
+    /// The connection is over; no more comes of it.
+    Ended(u64),
+}
+
+#[derive(Debug)]
+struct Connection {
+    number: u64,
+    ends: [SocketAddr; 2],
+    halves: [Half; 2],
+    frames: [Frames; 2],
+    finished: [bool; 2],
+    /// Whether it is known to be AMS: by its port, or by a frame that was found.
+    speaks: bool,
+    /// Whether it began before the capture, and nobody was told.
+    joined: bool,
+    last: u64,
+}
+
+/// All connections.
+#[derive(Debug)]
+pub(super) struct Table {
+    ports: Ports,
+    open: BTreeMap<(SocketAddr, SocketAddr), Connection>,
+    connections: u64,
+    held: usize,
+    segments: u64,
+    pub(super) repeated: u64,
+    pub(super) early: u64,
+}
+
+impl Table {
+    pub(super) const fn new(ports: Ports) -> Self {
+        let open = BTreeMap::new();
+        Self { ports, open, connections: 0, held: 0, segments: 0, repeated: 0, early: 0 }
+    }
+
+    /// Connections so far.
+    pub(super) const fn connections(&self) -> u64 {
+        self.connections
+    }
+
+    /// Whether the direction from here is waiting for something that comes too late.
+    pub(super) fn waits(&self, way: &Way) -> bool {
+        let connection = self.open.get(&key(way.from, way.to));
+        connection.is_some_and(|one| {
+            let side = usize::from(one.ends.first() != Some(&way.from));
+            one.halves.get(side).is_some_and(|half| half.held() > 0)
+        })
+    }
+
+    /// Whether a segment is on one of the ports.
+    pub(super) fn wants(&self, segment: &Segment<'_>) -> bool {
+        match &self.ports {
+            Ports::Any => true,
+            Ports::Of(ports) => {
+                ports.contains(&segment.from.port()) || ports.contains(&segment.to.port())
+            }
+        }
+    }
+
+    /// Takes a segment.
+    pub(super) fn push(&mut self, segment: &Segment<'_>, mark: Mark, out: &mut Vec<Event>) {
+        self.segments = self.segments.saturating_add(1);
+        let key = key(segment.from, segment.to);
+        if segment.syn && self.open.get(&key).is_some_and(|known| !known.is_same(segment)) {
+            self.end(key, out);
+        }
+        if !self.open.contains_key(&key) {
+            // A connection that is over and says so once more.
+            if segment.payload.is_empty() && !segment.syn {
+                return;
+            }
+            self.make_room(out);
+            self.connections = self.connections.saturating_add(1);
+            let ends = [segment.from, segment.to];
+            let speaks = self.ports != Ports::Any;
+            self.open.insert(key, Connection::new(self.connections, ends, speaks));
+        }
+        let Some(connection) = self.open.get_mut(&key) else { return };
+        connection.last = self.segments;
+        let before = connection.held();
+        let events = out.len();
+        connection.push(segment, mark, self.ports == Ports::Any, out);
+        self.held = self.held.saturating_sub(before).saturating_add(connection.held());
+        let over = segment.rst || connection.finished == [true; 2] && connection.held() == 0;
+        if connection.speaks && std::mem::take(&mut connection.joined) {
+            out.insert(events, Event::Joined(connection.number));
+        }
+        // The last acknowledgement finds nothing to acknowledge.
+        if over || self.held > HELD_MAX {
+            self.end(key, out);
+        } else if !connection.speaks {
+            // What is not AMS is not told of.
+            out.truncate(events);
+        }
+    }
+
+    fn make_room(&mut self, out: &mut Vec<Event>) {
+        if self.open.len() < CONNECTIONS_MAX {
+            return;
+        }
+        let oldest = self.open.iter().min_by_key(|(_, one)| one.last).map(|(key, _)| *key);
+        if let Some(key) = oldest {
+            self.end(key, out);
+        }
+    }
+
+    fn end(&mut self, key: (SocketAddr, SocketAddr), out: &mut Vec<Event>) {
+        let Some(mut connection) = self.open.remove(&key) else { return };
+        self.held = self.held.saturating_sub(connection.held());
+        let events = out.len();
+        connection.finish(out);
+        if !connection.speaks {
+            out.truncate(events);
+        }
+        for half in &connection.halves {
+            self.repeated = self.repeated.saturating_add(half.repeated);
+            self.early = self.early.saturating_add(half.early);
+        }
+    }
+
+    /// Nothing more comes of any.
+    pub(super) fn finish(&mut self, out: &mut Vec<Event>) {
+        while let Some((&key, _)) = self.open.first_key_value() {
+            self.end(key, out);
+        }
+    }
+}
+
+fn key(one: SocketAddr, other: SocketAddr) -> (SocketAddr, SocketAddr) {
+    if one <= other { (one, other) } else { (other, one) }
+}
+
+impl Connection {
+    fn new(number: u64, ends: [SocketAddr; 2], speaks: bool) -> Self {
+        Self {
+            number,
+            ends,
+            halves: Default::default(),
+            frames: Default::default(),
+            finished: [false; 2],
+            speaks,
+            joined: false,
+            last: 0,
+        }
+    }
+
+    fn held(&self) -> usize {
+        let halves = self.halves.iter().map(Half::held);
+        halves.chain(self.frames.iter().map(Frames::held)).fold(0, usize::saturating_add)
+    }
+
+    fn side(&self, from: SocketAddr) -> usize {
+        usize::from(self.ends.first() != Some(&from))
+    }
+
+    /// Whether a SYN is that of this connection, once more or of the other side.
+    fn is_same(&self, segment: &Segment<'_>) -> bool {
+        let half = self.halves.get(self.side(segment.from));
+        half.is_none_or(|half| half.is_new() || half.begins_with(segment.sequence))
+    }
+
+    fn push(&mut self, segment: &Segment<'_>, mark: Mark, any: bool, out: &mut Vec<Event>) {
+        let side = self.side(segment.from);
+        let first = self.halves.iter().all(Half::is_new);
+        let Some(half) = self.halves.get_mut(side) else { return };
+        let Some(frames) = self.frames.get_mut(side) else { return };
+        if half.is_new() && !segment.syn && !segment.payload.is_empty() {
+            frames.begin_anywhere();
+            self.joined = first;
+        } else if half.is_new() && any {
+            frames.begin_anywhere();
+        }
+        let way = Way { connection: self.number, from: segment.from, to: segment.to };
+        let part = Part {
+            sequence: segment.sequence,
+            syn: segment.syn,
+            payload: segment.payload,
+            missing: segment.missing,
+            mark,
+        };
+        let speaks = &mut self.speaks;
+        half.push(part, &mut |piece| feed(frames, piece, way, speaks, out));
+        if segment.fin {
+            if let Some(finished) = self.finished.get_mut(side) {
+                *finished = true;
+            }
+        }
+        let other = self.halves.get_mut(1_usize.saturating_sub(side));
+        if let (Some(other), Some(number)) = (other, segment.acknowledged) {
+            other.acknowledge(number);
+        }
+    }
+
+    /// What is held back comes out.
+    fn finish(&mut self, out: &mut Vec<Event>) {
+        let [one, other] = self.ends;
+        for (side, (from, to)) in [(one, other), (other, one)].into_iter().enumerate() {
+            let way = Way { connection: self.number, from, to };
+            let (Some(half), Some(frames)) = (self.halves.get_mut(side), self.frames.get_mut(side))
+            else {
+                continue;
+            };
+            let speaks = &mut self.speaks;
+            half.flush(&mut |piece| feed(frames, piece, way, speaks, out));
+            frames.end(&mut |found| tell(found, way, speaks, out));
+        }
+        out.push(Event::Ended(self.number));
+    }
+}
+
+fn feed(frames: &mut Frames, piece: Piece<'_>, way: Way, speaks: &mut bool, out: &mut Vec<Event>) {
+    match piece {
+        Piece::Data(bytes, mark) => {
+            frames.push(bytes, mark, &mut |found| tell(found, way, speaks, out));
+        }
+        Piece::Gap(length, mark) => {
+            frames.gap(&mut |found| tell(found, way, speaks, out));
+            out.push(Event::Gap(length, way, mark));
+        }
+    }
+}
+
+fn tell(found: Found, way: Way, speaks: &mut bool, out: &mut Vec<Event>) {
+    *speaks |= matches!(found, Found::Frame(..));
+    out.push(match found {
+        Found::Frame(frame, span) => Event::Frame(frame, way, span),
+        Found::Router => Event::Router,
+        Found::Broken(error, bytes, span) => Event::Broken(error, bytes, way, span),
+        Found::Cut(bytes, span) => Event::Cut(bytes, way, span),
+        Found::Skipped(length) => Event::Skipped(length),
+        Found::Unfinished => Event::Unfinished,
+    });
+}

@@ -1,0 +1,45 @@
+//! When a packet was captured.
+
+use std::fmt;
+use std::time::Duration;
+
+/// A moment, since 1970 in UTC.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Time(Duration);
+
+impl Time {
+    /// Seconds and a part of one in so many units each.
+    pub(super) fn new(seconds: u64, units: u32, resolution: u64) -> Self {
+        Self(Duration::from_secs(seconds).saturating_add(part(units.into(), resolution)))
+    }
+
+    /// Units since 1970, and what is to be added in seconds.
+    pub(super) fn of_units(units: u64, resolution: u64, offset: i64) -> Self {
+        let seconds = units.checked_div(resolution).unwrap_or(0);
+        let rest = units.checked_rem(resolution).unwrap_or(0);
+        let seconds = seconds.saturating_add_signed(offset);
+        Self(Duration::from_secs(seconds).saturating_add(part(rest, resolution)))
+    }
+
+    /// What passed since another; none if that was later.
+    pub(super) const fn since(self, earlier: Self) -> Duration {
+        self.0.saturating_sub(earlier.0)
+    }
+}
+
+/// A part of a second.
+fn part(units: u64, resolution: u64) -> Duration {
+    let nanos = u128::from(units).saturating_mul(1_000_000_000).checked_div(resolution.into());
+    Duration::from_nanos(nanos.and_then(|nanos| u64::try_from(nanos).ok()).unwrap_or(0))
+}
+
+/// The time of the day in UTC, to the microsecond.
+impl fmt::Display for Time {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = |unit: u64, count: u64| {
+            self.0.as_secs().checked_div(unit).and_then(|all| all.checked_rem(count)).unwrap_or(0)
+        };
+        let (hours, minutes, seconds) = (of(3600, 24), of(60, 60), of(1, 60));
+        write!(f, "{hours:02}:{minutes:02}:{seconds:02}.{:06} UTC", self.0.subsec_micros())
+    }
+}

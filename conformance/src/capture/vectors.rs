@@ -1,0 +1,337 @@
+//! Golden vectors out of captured traffic, without what says whose it was.
+
+use std::collections::BTreeMap;
+use std::fs::OpenOptions;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use ads_cnc::Encode as _;
+use ads_cnc::ads::{
+    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef,
+    StateFlags, WriteReply,
+};
+use ads_cnc::layout::{Segment as Piece, Size, Stream, Type as FieldType};
+use ads_cnc::operation::{Call, Function, Request, Service};
+use ads_cnc_vectors::{
+    Accept, Context, Direction, Expect, Hex, Provenance, ProvenanceKind, Segment,
+    Service as VectorService, Type, VERSION, Vector, requirement,
+};
+use serde_json::json;
+
+use super::judge::Target;
+use crate::client::frame;
+use crate::codec::decode_stream;
+
+/// Vectors of one capture; more are left out.
+pub const VECTORS_MAX: usize = 10_000;
+
+/// Who asks and who answers in every frame.
+const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 20, 1, 1]), port: AmsPort(0x8001) };
+const CNC: AmsNetId = AmsNetId([192, 0, 2, 10, 1, 1]);
+
+/// Vectors so far.
+#[derive(Debug, Default)]
+pub struct Collector {
+    keep_texts: bool,
+    vectors: BTreeMap<String, Vector>,
+}
+
+impl Collector {
+    /// With texts as they were, or with each letter of them replaced.
+    pub fn new(keep_texts: bool) -> Self {
+        Self { keep_texts, vectors: BTreeMap::new() }
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.vectors.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.vectors.is_empty()
+    }
+
+    /// Those of a request and of the data that answered it.
+    pub(super) fn add(
+        &mut self,
+        request: &Request<'_>,
+        call: &Call<'_>,
+        reply: Option<&[u8]>,
+        known: Option<&Target>,
+    ) {
+        let function = request.function();
+        // Programs are nobody's business.
+        if function == Function::WriteProgramStream && !self.keep_texts {
+            return;
+        }
+        let spec = function.spec();
+        let kept = self.keep_texts || function == Function::ReadElementType;
+        let context = Context {
+            service: Some(match call.service {
+                Service::Read => VectorService::Read,
+                Service::Write => VectorService::Write,
+                Service::ReadWrite => VectorService::ReadWrite,
+            }),
+            index_group: Some(call.index_group.get()),
+            index_offset: Some(call.index_offset.get()),
+            ..typed(known)
+        };
+        let is_text = context.kind == Some(Type::String);
+        let scrubbed = |stream: Option<Stream>, data: &[u8]| match (kept, stream) {
+            (false, Some(stream)) => scrub(stream, data, is_text),
+            _ => data.to_vec(),
+        };
+        let sent = scrubbed(spec.request, call.data);
+        let asked = spec.request.and_then(|stream| {
+            self.stream(stream, Direction::Request, context.clone(), &sent, spec.clause)
+        });
+        let received = reply.map(|data| scrubbed(spec.reply, data));
+        if let (Some(stream), Some(received)) = (spec.reply, &received) {
+            let context = Context { request: asked, ..context };
+            self.stream(stream, Direction::Reply, context, received, spec.clause);
+        }
+        self.frames(&Call { data: &sent, ..*call }, received.as_deref());
+    }
+
+    /// Both frames, made anew.
+    fn frames(&mut self, call: &Call<'_>, received: Option<&[u8]>) {
+        let cnc = AmsAddr { net_id: CNC, port: call.port };
+        let header = AmsHeader {
+            target: cnc,
+            source: CLIENT,
+            command: call.service.command(),
+            state_flags: StateFlags::REQUEST,
+            data_length: 0,
+            error: AdsError::NONE,
+            invoke_id: 1,
+        };
+        let clause = match call.service {
+            Service::Read => "ADS-1",
+            Service::Write => "ADS-2",
+            Service::ReadWrite => "ADS-3",
+        };
+        let Ok(asked) = frame(header, call) else { return };
+        self.frame(Direction::Request, &asked, clause);
+        let Some(data) = received else { return };
+        let (result, data) = (AdsError::NONE, Some(data));
+        let reply = match call.service {
+            Service::Read => ReadReplyRef { result, data }.to_vec(),
+            Service::Write => WriteReply { result }.to_vec(),
+            Service::ReadWrite => ReadWriteReplyRef { result, data }.to_vec(),
+        };
+        let header =
+            AmsHeader { target: CLIENT, source: cnc, state_flags: StateFlags::RESPONSE, ..header };
+        let Ok(reply) = reply else { return };
+        let Ok(frame) = FrameRef::new(header, &reply) else { return };
+        let mut bytes = vec![0; frame.encoded_len()];
+        if frame.encode(&mut bytes).is_ok() {
+            self.frame(Direction::Reply, &bytes, clause);
+        }
+    }
+
+    fn frame(&mut self, way: Direction, bytes: &[u8], clause: &'static str) {
+        let mut segments = Vec::new();
+        let (tcp, rest) = bytes.split_at(bytes.len().min(6));
+        let (ams, data) = rest.split_at(rest.len().min(32));
+        let service = match (clause, way) {
+            ("ADS-1", Direction::Request) => "read-request",
+            ("ADS-1", _) => "read-reply",
+            ("ADS-2", Direction::Request) => "write-request",
+            ("ADS-2", _) => "write-reply",
+            (_, Direction::Request) => "read-write-request",
+            _ => "read-write-reply",
+        };
+        for (name, bytes) in [("ams-tcp-header", tcp), ("ams-header", ams), (service, data)] {
+            let Some(stream) = Stream::by_name(name) else { return };
+            let prefix = format!("{}.", name.replace('-', "_"));
+            segments.extend(self::segments(stream, bytes, &prefix));
+        }
+        self.keep("ams-frame", way, Context::default(), bytes, segments, &["ADS-5", clause]);
+    }
+
+    /// The ID of the vector, if the stream decodes.
+    fn stream(
+        &mut self,
+        stream: Stream,
+        way: Direction,
+        context: Context,
+        bytes: &[u8],
+        clause: &'static str,
+    ) -> Option<String> {
+        let layout = stream.layout();
+        let segments = segments(stream, bytes, "");
+        self.keep(layout.name, way, context, bytes, segments, &[clause, layout.clause])
+    }
+
+    fn keep(
+        &mut self,
+        stream: &str,
+        direction: Direction,
+        mut context: Context,
+        bytes: &[u8],
+        segments: Vec<Segment>,
+        clauses: &[&'static str],
+    ) -> Option<String> {
+        let values = ["variable-value", "variable-handle-write", "variable-name-write", "content"];
+        if !values.contains(&stream) {
+            (context.kind, context.dimensions) = (None, None);
+        }
+        let decoded = decode_stream(stream, &context, bytes).ok()?;
+        let mut clauses: Vec<&str> = clauses.to_vec();
+        clauses.retain(|id| requirement(id).is_some());
+        clauses.dedup();
+        let known = serde_json::to_string(&context).unwrap_or_default();
+        let way = if direction == Direction::Request { "request" } else { "reply" };
+        let hash = hash([stream.as_bytes(), known.as_bytes(), way.as_bytes(), bytes]);
+        let id = format!("captured-{stream}-{hash:016x}");
+        if self.vectors.contains_key(&id) {
+            return Some(id);
+        }
+        if clauses.is_empty() || segments.is_empty() || self.vectors.len() >= VECTORS_MAX {
+            return None;
+        }
+        let canonical = (decoded.bytes != bytes).then_some(Hex(decoded.bytes));
+        let vector = Vector {
+            id: id.clone(),
+            title: format!("Captured {way}: {}", stream.replace('-', " ")),
+            requirements: clauses.iter().map(ToString::to_string).collect(),
+            errata: Vec::new(),
+            stream: stream.to_owned(),
+            direction,
+            context,
+            segments,
+            expect: Expect::Accept(Accept { value: decoded.fields, canonical }),
+            sibling: None,
+            provenance: Provenance {
+                kind: ProvenanceKind::Derived,
+                reason: Some(self.reason().to_owned()),
+                sources: Vec::new(),
+            },
+            assumed: Vec::new(),
+        };
+        self.vectors.insert(id.clone(), vector);
+        Some(id)
+    }
+
+    const fn reason(&self) -> &'static str {
+        match self.keep_texts {
+            true => "captured traffic, addresses replaced",
+            false => "captured traffic, addresses and letters of texts replaced",
+        }
+    }
+
+    /// Writes them: to a new file, or to a new file for each stream in a folder that is there.
+    /// Nothing is written over.
+    ///
+    /// # Errors
+    /// Those of the system, and [`io::ErrorKind::AlreadyExists`].
+    pub fn write(&self, place: &Path) -> io::Result<Vec<PathBuf>> {
+        let mut files: BTreeMap<PathBuf, Vec<&Vector>> = BTreeMap::new();
+        for vector in self.vectors.values() {
+            let file = match place.is_dir() {
+                true => place.join(format!("captured-{}.json", vector.stream)),
+                false => place.to_owned(),
+            };
+            files.entry(file).or_default().push(vector);
+        }
+        let named = |file: &Path, error: io::Error| {
+            io::Error::new(error.kind(), format!("{}: {error}", file.display()))
+        };
+        // Before anything is written.
+        if let Some(there) = files.keys().find(|file| file.exists()) {
+            return Err(named(there, io::ErrorKind::AlreadyExists.into()));
+        }
+        for (file, vectors) in &files {
+            let document = json!({
+                "$schema": "vectors.schema.json",
+                "version": VERSION,
+                "vectors": vectors,
+            });
+            let mut out = OpenOptions::new()
+                .write(true)
+                .create_new(true)
+                .open(file)
+                .map_err(|error| named(file, error))?;
+            serde_json::to_writer_pretty(&mut out, &document)?;
+            writeln!(out).map_err(|error| named(file, error))?;
+        }
+        Ok(files.into_keys().collect())
+    }
+}
+
+/// Type and dimensions of what is read or written.
+fn typed(known: Option<&Target>) -> Context {
+    let Some(known) = known else { return Context::default() };
+    let name = known.description.var_type.name();
+    let kind = name.and_then(|name| serde_json::from_value(json!(name)).ok());
+    let dimensions = match known.indices.is_empty() {
+        true => known.description.dimensions.clone(),
+        false => Vec::new(),
+    };
+    let dimensions = kind.map(|_: Type| dimensions);
+    Context { kind, dimensions, ..Context::default() }
+}
+
+/// The pieces of a stream under their names.
+fn segments(stream: Stream, bytes: &[u8], prefix: &str) -> Vec<Segment> {
+    let mut all = Vec::new();
+    let repeats = stream.layout().repeats;
+    // A fault ends the walk; what has one is not kept.
+    let _walked = stream.walk(bytes, |piece| {
+        let several = piece
+            .field
+            .spec()
+            .is_some_and(|spec| matches!(spec.size, Size::Items { each, .. } if each > 1));
+        let name = piece.field.name();
+        let field = match (repeats, several) {
+            (true, _) => format!("{prefix}descriptors[{}].{name}", piece.record),
+            (_, true) => format!("{prefix}{name}[{}]", piece.item),
+            _ => format!("{prefix}{name}"),
+        };
+        all.push(Segment { field, hex: Hex(piece.bytes.to_vec()), value: None });
+    });
+    all
+}
+
+/// The stream with the letters of its texts replaced; kinds and types stay, they are the manual's.
+fn scrub(stream: Stream, bytes: &[u8], is_text: bool) -> Vec<u8> {
+    let mut scrubbed = bytes.to_vec();
+    let mut places = Vec::new();
+    let _walked = stream.walk(bytes, |piece: Piece<'_>| {
+        let Some(spec) = piece.field.spec() else { return };
+        let is_private = match spec.ty {
+            FieldType::String => !matches!(spec.name, "kind" | "type"),
+            FieldType::Bytes => is_text && spec.name == "value",
+            _ => false,
+        };
+        if is_private {
+            let start = usize::try_from(piece.offset).unwrap_or(usize::MAX);
+            places.push((start, start.saturating_add(piece.bytes.len()), spec.name == "name"));
+        }
+    });
+    for (start, end, is_name) in places {
+        let Some(text) = scrubbed.get_mut(start..end) else { continue };
+        // The kind in front of a name of a variable.
+        let kind = is_name && text.get(..2) == Some(b"V.");
+        let skip = if kind { text.iter().skip(2).position(|byte| *byte == b'.') } else { None };
+        let skip = skip.map_or(0, |at| at.saturating_add(2));
+        for byte in text.iter_mut().skip(skip) {
+            *byte = match *byte {
+                b'A'..=b'Z' => b'X',
+                b'a'..=b'z' => b'x',
+                0x80.. => 0xE4,
+                other => other,
+            };
+        }
+    }
+    scrubbed
+}
+
+/// FNV-1a, 64 bits: the same everywhere and for ever, which is all that is asked of it.
+fn hash<const N: usize>(parts: [&[u8]; N]) -> u64 {
+    let bytes = parts.iter().flat_map(|part| part.iter().copied().chain([0xFF]));
+    bytes.fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
+    })
+}

@@ -1,0 +1,176 @@
+//! A capture of a conversation, as Wireshark reads it: pcapng, with the headers of Ethernet, IP and
+//! TCP made up around the bytes that really went over the connection.
+//!
+//! What is written is what was handed to the system and what came back, in this order and with the
+//! time of this machine; how the network cut and acknowledged it, it does not tell. Each connection
+//! begins with a handshake and ends with a FIN, so that a reader can put it together.
+//!
+//! ```
+//! use std::net::SocketAddr;
+//!
+//! use ads_cnc_conformance::capture::Capture;
+//!
+//! let (local, remote) = (SocketAddr::from(([192, 0, 2, 20], 50000)), SocketAddr::from(([192, 0, 2, 10], 48898)));
+//! let file = std::env::temp_dir().join(format!("ads-cnc-doc-{}.pcapng", std::process::id()));
+//! let mut capture = Capture::create(&file)?;
+//! capture.opened(local, remote);
+//! capture.sent(b"question");
+//! capture.received(b"answer");
+//! capture.closed();
+//! capture.finish()?;
+//! assert!(std::fs::read(&file)?.starts_with(&[0x0A, 0x0D, 0x0D, 0x0A]));
+//! # std::fs::remove_file(&file)?;
+//! # Ok::<(), std::io::Error>(())
+//! ```
+
+use std::fmt;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::net::SocketAddr;
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use super::frame::{ACK, FIN, Flow, PSH, SYN};
+
+/// The most bytes of a TCP segment, as on Ethernet.
+const SEGMENT_MAX: usize = 1440;
+
+/// A capture that is being written. What the system does not take is told in the end.
+pub struct Capture {
+    out: Box<dyn Write + Send>,
+    flow: Option<Flow>,
+    error: Option<io::Error>,
+}
+
+impl fmt::Debug for Capture {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Capture").field("flow", &self.flow).finish_non_exhaustive()
+    }
+}
+
+impl Capture {
+    /// A capture in a new file, or in place of an old one.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub fn create(file: &Path) -> io::Result<Self> {
+        Self::new(Box::new(BufWriter::new(File::create(file)?)))
+    }
+
+    /// A capture that goes somewhere else.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn new(mut out: Box<dyn Write + Send>) -> io::Result<Self> {
+        out.write_all(&section())?;
+        out.write_all(&interface())?;
+        Ok(Self { out, flow: None, error: None })
+    }
+
+    /// A connection was made.
+    pub fn opened(&mut self, local: SocketAddr, remote: SocketAddr) {
+        self.flow = Some(Flow::new(local, remote));
+        self.packet(true, SYN, &[]);
+        self.packet(false, SYN | ACK, &[]);
+        self.packet(true, ACK, &[]);
+    }
+
+    /// Bytes were sent.
+    pub fn sent(&mut self, bytes: &[u8]) {
+        self.bytes(true, bytes);
+    }
+
+    /// Bytes came.
+    pub fn received(&mut self, bytes: &[u8]) {
+        self.bytes(false, bytes);
+    }
+
+    /// The connection is over.
+    pub fn closed(&mut self) {
+        if self.flow.is_some() {
+            self.packet(true, FIN | ACK, &[]);
+            self.packet(false, FIN | ACK, &[]);
+            self.packet(true, ACK, &[]);
+            self.flow = None;
+        }
+    }
+
+    /// Ends the capture.
+    ///
+    /// # Errors
+    /// The first that the system did not take.
+    pub fn finish(mut self) -> io::Result<()> {
+        self.end()
+    }
+
+    fn end(&mut self) -> io::Result<()> {
+        self.closed();
+        match self.error.take() {
+            Some(error) => Err(error),
+            None => self.out.flush(),
+        }
+    }
+
+    fn bytes(&mut self, outgoing: bool, bytes: &[u8]) {
+        for segment in bytes.chunks(SEGMENT_MAX) {
+            self.packet(outgoing, PSH | ACK, segment);
+        }
+    }
+
+    fn packet(&mut self, outgoing: bool, flags: u8, data: &[u8]) {
+        let Some(flow) = &mut self.flow else { return };
+        let block = enhanced(&flow.packet(outgoing, flags, data));
+        if let Err(error) = self.out.write_all(&block) {
+            self.error.get_or_insert(error);
+        }
+    }
+}
+
+/// Who does not end it hears nothing of what the system did not take.
+impl Drop for Capture {
+    fn drop(&mut self) {
+        let _ended = self.end();
+    }
+}
+
+/// A block: type, length, body filled up to four bytes, length again.
+fn block(kind: u32, body: &[u8]) -> Vec<u8> {
+    let filled = body.len().next_multiple_of(4);
+    let length = u32::try_from(filled.saturating_add(12)).unwrap_or(u32::MAX);
+    let mut block = kind.to_le_bytes().to_vec();
+    block.extend(length.to_le_bytes());
+    block.extend(body);
+    block.resize(filled.saturating_add(8), 0);
+    block.extend(length.to_le_bytes());
+    block
+}
+
+/// Section header: order of bytes, version 1.0, length not said, and who wrote it.
+fn section() -> Vec<u8> {
+    const USER_APPLICATION: u16 = 4;
+    let name = concat!("ads-cnc ", env!("CARGO_PKG_VERSION"));
+    let mut body = 0x1A2B_3C4D_u32.to_le_bytes().to_vec();
+    body.extend([1, 0, 0, 0]);
+    body.extend(u64::MAX.to_le_bytes());
+    body.extend(USER_APPLICATION.to_le_bytes());
+    body.extend(u16::try_from(name.len()).unwrap_or_default().to_le_bytes());
+    body.extend(name.as_bytes());
+    body.resize(body.len().next_multiple_of(4), 0);
+    body.extend([0; 4]);
+    block(0x0A0D_0D0A, &body)
+}
+
+/// Interface description: Ethernet, packets whole, times in microseconds.
+fn interface() -> Vec<u8> {
+    block(1, &[1, 0, 0, 0, 0, 0, 0, 0])
+}
+
+/// Enhanced packet: interface 0, time, length captured and length there was.
+fn enhanced(packet: &[u8]) -> Vec<u8> {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    let time = u64::try_from(since.as_micros()).unwrap_or(u64::MAX).to_le_bytes();
+    let (low, high) = time.split_at(4);
+    let length = u32::try_from(packet.len()).unwrap_or(u32::MAX).to_le_bytes();
+    let body = [&[0; 4], high, low, &length, &length, packet].concat();
+    block(6, &body)
+}

@@ -1,0 +1,199 @@
+//! `ads-cnc check`: captured traffic.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use ads_cnc::edition::Edition;
+use clap::Args;
+
+use super::complain;
+use super::forms::{Forms, is_stdout, lost, show, write};
+use crate::capture::{self, AMS_TCP_PORT, Checked, Collector, Options, Ports};
+use crate::cnc;
+use crate::gate::Moment;
+use crate::report::{self, About, Report, TargetReport};
+use crate::suite::{Case, Selection};
+use crate::verdict::Exit;
+use crate::waivers::Waivers;
+
+/// Under which these options stand in the help.
+const TRAFFIC: &str = "Traffic";
+
+/// Judge captured traffic by the same requirements: what clients sent and what CNCs answered.
+///
+/// The file is pcap or pcapng, as Wireshark, tcpdump and `ads-cnc run --capture` write them. TCP
+/// connections are put together in both directions, requests are paired with their answers, and what
+/// is said in one exchange is held against the others. Frames to AMS ports other than 551 (GEO), 552
+/// (SDA) and 553 (COM), and calls of addresses at which nothing is documented, are counted.
+#[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES, after_long_help = AFTER)]
+pub(super) struct Check {
+    /// The capture
+    file: PathBuf,
+
+    /// Look at this TCP port too, whichever side has it; repeatable [default: 48898 alone]
+    #[arg(long, help_heading = TRAFFIC, value_name = "N", conflicts_with = "any_port")]
+    port: Vec<u16>,
+
+    /// Look at every TCP connection, and judge those in which an AMS frame is found
+    #[arg(long, help_heading = TRAFFIC)]
+    any_port: bool,
+
+    /// Write the streams that were captured as golden vectors: to a new file, or into a folder
+    #[arg(long, help_heading = TRAFFIC, value_name = "DIR|FILE")]
+    extract_vectors: Option<PathBuf>,
+
+    /// Leave texts and NC programs in the vectors as they were captured
+    #[arg(long, help_heading = TRAFFIC, requires = "extract_vectors")]
+    keep_texts: bool,
+
+    /// Judge by this alone: an area (VAR), a requirement (VAR-11), a case by its ID; repeatable
+    #[arg(long, value_name = "AREA|ID")]
+    only: Vec<String>,
+
+    /// Judge by this edition alone, en-1.05 or de-1.051 [default: both]
+    #[arg(long, value_name = "EDITION", value_parser = cnc::edition)]
+    edition: Option<Edition>,
+
+    /// Known failures that are put up with
+    #[arg(long, value_name = "FILE")]
+    waivers: Option<PathBuf>,
+
+    /// Write the report as JSON, from which `ads-cnc report` makes all others; - is stdout
+    #[arg(long, help_heading = super::forms::HEADING, value_name = "FILE")]
+    json: Option<PathBuf>,
+
+    #[command(flatten)]
+    forms: Forms,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes: 0 passed, 1 failed, 2 wrong usage or no capture, 3 nothing judged or inconclusive, 5 a \
+waiver no longer holds, 70 internal error";
+
+const AFTER: &str = "\
+Examples:
+  ads-cnc check traffic.pcapng
+  ads-cnc check traffic.pcap --port 48898 --port 8016 --html report.html
+  ads-cnc check traffic.pcapng --extract-vectors vectors.json
+
+What is read:
+  Ethernet with and without VLAN tags, raw IP, Linux cooked (SLL, SLL2) and loopback (NULL, LOOP);
+  IPv4 and IPv6. Fragments of IP packets are counted, not put together. What never came, or was cut
+  off by a snap length, is a gap: what it touches is inconclusive. A connection that began before the
+  capture is judged from the first frame that is found. A file that ends too early is judged up to
+  there, and the report says so.
+
+Limits:
+  A record of 8 MiB; 1024 connections at the same time; 1 MiB of one direction that waits for what is
+  missing before it; 64 MiB of all connections that wait; frames of 4 MiB; 4096 requests of a
+  connection without an answer; 65536 names, objects or elements of each sort; 10000 vectors.
+
+What is taken out of vectors:
+  AMS NetIds, TCP and IP addresses, the client's AMS port, invoke IDs. Unless --keep-texts is given,
+  letters of names, units and texts of the type STRING become x too, and NC programs are left out.
+  Numbers stay, and so do values of which the capture does not tell the type. Look through the
+  vectors before you hand them on. Nothing is written over.
+
+Exit codes, the first that holds:
+  70 internal error, 2 wrong usage or no capture, 1 a fail, 5 a waiver that does not hold, 3 nothing
+  judged or something inconclusive, 0. Warnings and differences leave 0.";
+
+impl Check {
+    /// Reads and judges the file and writes the reports.
+    pub(super) fn execute(&self) -> Exit {
+        let usage = |why: String| {
+            complain(why);
+            Exit::Usage
+        };
+        let waivers = self.waivers.as_deref().map(Waivers::from_file).transpose();
+        let waivers = match waivers.map_err(|error| error.to_string()) {
+            Ok(waivers) => waivers.unwrap_or_default(),
+            Err(why) => return usage(why),
+        };
+        if let Err(why) = self.forms.check(self.json.as_deref()) {
+            return usage(why);
+        }
+        let checked = match self.read() {
+            Ok(checked) => checked,
+            Err(why) => return usage(format!("{}: {why}", self.file.display())),
+        };
+        // What is not selected was looked at all the same: it just does not count.
+        let selection = Selection { edition: self.edition, only: self.only.clone() };
+        let cases: Vec<Case> =
+            checked.outcomes.iter().map(|outcome| outcome.case.clone()).collect();
+        let plan = match selection.plan(cases, 0) {
+            Ok(plan) => plan,
+            Err(why) => {
+                complain(why);
+                return Exit::Nothing;
+            }
+        };
+        let selected: Vec<String> = plan.selected().map(|case| case.id.clone()).collect();
+        let mut outcomes = checked.outcomes.clone();
+        outcomes.retain(|outcome| selected.contains(&outcome.case.id));
+        let (outcomes, left_out) = plan.finish(outcomes);
+        let about = About {
+            time: Moment::now(),
+            edition: self.edition,
+            seed: 0,
+            only: self.only.clone(),
+            target: TargetReport {
+                name: "captured traffic".to_owned(),
+                file: Some(self.file.display().to_string()),
+                ..TargetReport::default()
+            },
+            profile: None,
+            waivers,
+            frames: usize::try_from(checked.tally.frames).unwrap_or(usize::MAX),
+        };
+        let report = Report::new(about, &outcomes, &left_out);
+        let extracted = match self.extract(&checked) {
+            Ok(extracted) => extracted,
+            Err(error) => {
+                complain(format_args!("the vectors could not be written: {error}"));
+                return Exit::Usage;
+            }
+        };
+        self.write(&report, &checked, &extracted)
+    }
+
+    fn read(&self) -> Result<Checked, capture::FileError> {
+        let ports = match (self.any_port, self.port.is_empty()) {
+            (true, _) => Ports::Any,
+            (false, true) => Ports::Of(vec![AMS_TCP_PORT]),
+            (false, false) => Ports::Of(self.port.clone()),
+        };
+        let vectors = self.extract_vectors.as_ref().map(|_| Collector::new(self.keep_texts));
+        capture::check(File::open(&self.file)?, Options { ports, vectors })
+    }
+
+    /// The files with vectors, and how many there are.
+    fn extract(&self, checked: &Checked) -> std::io::Result<Vec<String>> {
+        let (Some(place), Some(vectors)) = (&self.extract_vectors, &checked.vectors) else {
+            return Ok(Vec::new());
+        };
+        let files = vectors.write(Path::new(place))?;
+        let files: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+        Ok(vec![format!("{} vectors: {}", vectors.len(), files.join(", "))])
+    }
+
+    fn write(&self, report: &Report, checked: &Checked, extracted: &[String]) -> Exit {
+        // The files first: whoever reads the console may stop reading.
+        let json = self.json.as_deref();
+        let written = json.map_or(Ok(()), |file| write(file, |out| report::to_json(report, out)));
+        let written = written.and_then(|()| self.forms.write(report));
+        let quiet = json.is_some_and(is_stdout) || self.forms.has_stdout();
+        let shown = match quiet {
+            true => Ok(()),
+            false => show(|out| {
+                writeln!(out, "Traffic")?;
+                let lines = checked.tally.lines();
+                lines.iter().chain(extracted).try_for_each(|line| writeln!(out, "  {line}"))?;
+                writeln!(out)?;
+                report::print(report, false, out)
+            }),
+        };
+        written.and(shown).map_or_else(lost, |()| report.exit())
+    }
+}

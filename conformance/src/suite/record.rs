@@ -1,0 +1,72 @@
+//! What a case has found so far.
+
+use std::fmt::Display;
+
+use super::case::{Evidence, Judgement, Rule};
+use crate::verdict::Verdict;
+
+/// The most failed checks a case keeps of one requirement.
+const KEPT: usize = 3;
+
+/// The checks of one case.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Record {
+    /// Those that are kept.
+    pub(crate) judgements: Vec<Judgement>,
+    /// How many there were.
+    pub(crate) checks: usize,
+}
+
+/// Who judges checks: a case that asks for itself, or one that looks on.
+pub(crate) trait Checks {
+    /// Judges one check.
+    fn check(
+        &mut self,
+        rule: impl Into<Rule>,
+        kept: bool,
+        expected: impl Display,
+        found: impl Display,
+    ) -> bool;
+}
+
+impl Rule {
+    /// What comes of it if it is kept or not.
+    pub(crate) const fn verdict(self, kept: bool) -> Verdict {
+        match (kept, self.level) {
+            (true, _) => Verdict::Pass,
+            (false, Some(level)) => Verdict::missed(level),
+            (false, None) => Verdict::HarnessError,
+        }
+    }
+}
+
+impl Record {
+    /// Adds a check; of those that passed, and of many alike, the first are kept.
+    pub(crate) fn add(
+        &mut self,
+        rule: Rule,
+        verdict: Verdict,
+        expected: String,
+        found: String,
+        evidence: impl FnOnce() -> Option<Evidence>,
+    ) {
+        self.checks = self.checks.saturating_add(1);
+        let passed = verdict == Verdict::Pass;
+        let same = self
+            .judgements
+            .iter_mut()
+            .filter(|judgement| judgement.requirement == rule.id && judgement.verdict == verdict);
+        let mut same: Vec<_> = same.collect();
+        if same.len() >= if passed { 1 } else { KEPT } {
+            if let Some(last) = same.last_mut() {
+                last.more = last.more.saturating_add(1);
+            }
+            return;
+        }
+        let evidence = if passed { None } else { evidence() };
+        let (requirement, level) = (rule.id, rule.level);
+        let judgement =
+            Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
+        self.judgements.push(judgement);
+    }
+}

@@ -1,0 +1,153 @@
+//! `ads-cnc check` and `--capture` as a person calls them.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+use crate::maker::{Link, pcap, segments};
+use crate::talk::{conversation, everything};
+
+fn ads_cnc(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(args).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// A folder of this process, gone when it is dropped.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path =
+            std::env::temp_dir().join(format!("ads-cnc-capture-{}-{name}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str) -> String {
+        self.0.join(name).to_str().unwrap().to_owned()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _gone = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Every tool that talks to a CNC keeps what it says, and nothing of it is to be complained of.
+#[test]
+fn what_tools_say_passes() {
+    let folder = Folder::new("tools");
+    let program = folder.file("program.nc");
+    fs::write(&program, "N10 G01 X100 F1000\n".repeat(200) + "N20 M30\n").unwrap();
+    let calls: [&[&str]; 5] = [
+        &["browse", "--content"],
+        &["browse", "--variables"],
+        &["get", "V.E.Testvar"],
+        &["set", "V.E.Testvar[1]", "7"],
+        &["stream", &program],
+    ];
+    for (place, call) in calls.into_iter().enumerate() {
+        let file = folder.file(&format!("{place}.pcapng"));
+        let said = ads_cnc(&[call, &["--capture", &file]].concat());
+        assert_eq!(said.status.code(), Some(0), "{call:?}: {}", text(&said.stderr));
+        let checked = ads_cnc(&["check", "--any-port", &file]);
+        let shown = text(&checked.stdout);
+        assert_eq!(checked.status.code(), Some(0), "{call:?}: {shown}");
+        assert!(!shown.contains("DIFFERS") && !shown.contains("WARNING"), "{call:?}: {shown}");
+    }
+    let streamed = text(&ads_cnc(&["check", "--any-port", &folder.file("4.pcapng")]).stdout);
+    let line = "pass            What is streamed is whole lines, and refused data comes again";
+    assert!(streamed.contains(line), "{streamed}");
+}
+
+/// The suite itself, which sends what no client should: the CNC passes, the client does not.
+#[test]
+fn the_suite_is_no_model_of_a_client() {
+    let folder = Folder::new("suite");
+    let (file, report) = (folder.file("run.pcapng"), folder.file("report.json"));
+    let run = ads_cnc(&["run", "--only", "VAR", "--only", "COM", "--capture", &file]);
+    assert_eq!(run.status.code(), Some(0));
+    let checked = ads_cnc(&["check", "--any-port", &file, "--json", &report]);
+    assert_eq!(checked.status.code(), Some(1));
+    let report: Value = serde_json::from_str(&fs::read_to_string(&report).unwrap()).unwrap();
+    let totals = |subject: &str| {
+        let all = report["subjects"].as_array().unwrap();
+        all.iter().find(|one| one["subject"] == subject).unwrap()["totals"].clone()
+    };
+    assert!(totals("captured-cnc")["fail"].is_null(), "{}", totals("captured-cnc"));
+    assert!(totals("captured-client")["fail"].as_u64() > Some(3));
+    assert_eq!(report["target"]["file"], *file);
+    valid(&report, "conformance/schema/report.schema.json");
+}
+
+fn valid(value: &Value, schema: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join(schema);
+    let schema: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let schema = jsonschema::validator_for(&schema).unwrap();
+    let errors: Vec<String> = schema.iter_errors(value).map(|error| error.to_string()).collect();
+    assert_eq!(errors, [""; 0]);
+}
+
+/// Vectors are as the schema has them, without the addresses, and nothing is written over.
+#[test]
+fn vectors_are_extracted() {
+    let folder = Folder::new("vectors");
+    let (file, vectors) = (folder.file("a.pcap"), folder.file("vectors.json"));
+    let talk = conversation(None, everything);
+    fs::write(&file, pcap(&segments(&talk, 1460, (1, 1)), Link::Ethernet)).unwrap();
+    let extract = |place: &str, more: &[&str]| {
+        ads_cnc(&[&["check", &file, "--extract-vectors", place], more].concat())
+    };
+    let first = extract(&vectors, &[]);
+    assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
+    let content = fs::read_to_string(&vectors).unwrap();
+    let document: Value = serde_json::from_str(&content).unwrap();
+    valid(&document, "spec-vectors/schema/vectors.schema.json");
+    let all = document["vectors"].as_array().unwrap();
+    let streams = |name: &str| all.iter().filter(|one| one["stream"] == name).count();
+    assert!(streams("variable-description") > 5 && streams("ams-frame") > 50, "{}", all.len());
+    assert!(
+        streams("variable-value") > 3
+            && streams("object-descriptor") + streams("object-descriptors") > 3
+    );
+    // Neither the NetIds of the conversation nor a name that was asked for.
+    assert!(content.contains("192.0.2.10.1.1") && !content.contains("127.0.0.1"));
+    assert!(!content.contains("Testvar") && content.contains("V.E.Xxxxxxx"));
+    // All of them decode; each says so of itself.
+    let again = extract(&vectors, &[]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(text(&again.stderr).contains("vectors could not be written"));
+    assert_eq!(fs::read_to_string(&vectors).unwrap(), content);
+    // Into a folder, with the texts.
+    let into = folder.file("folder");
+    fs::create_dir(&into).unwrap();
+    assert_eq!(extract(&into, &["--keep-texts"]).status.code(), Some(0));
+    let names = fs::read_to_string(Path::new(&into).join("captured-variable-name.json")).unwrap();
+    assert!(names.contains("V.E.Testvar"));
+}
+
+#[test]
+fn what_is_no_capture_is_wrong_usage() {
+    let folder = Folder::new("none");
+    let file = folder.file("none.pcap");
+    let refused = |file: &str, why: &str| {
+        let checked = ads_cnc(&["check", file]);
+        assert_eq!(checked.status.code(), Some(2));
+        assert!(text(&checked.stderr).contains(why), "{}", text(&checked.stderr));
+    };
+    refused(&file, "No such file");
+    fs::write(&file, "").unwrap();
+    refused(&file, "empty");
+    fs::write(&file, "N10 G01 X100\n".repeat(10)).unwrap();
+    refused(&file, "neither pcap nor pcapng");
+    // Nothing in it is nothing judged.
+    fs::write(&file, pcap(&[], Link::Ethernet)).unwrap();
+    let checked = ads_cnc(&["check", &file]);
+    assert_eq!(checked.status.code(), Some(3), "{}", text(&checked.stdout));
+}

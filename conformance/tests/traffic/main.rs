@@ -1,0 +1,7 @@
+//! `ads-cnc check` and what stands behind it: captures are made here, of real conversations.
+
+mod cli;
+mod defects;
+mod maker;
+mod talk;
+mod wire;
