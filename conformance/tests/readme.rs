@@ -135,6 +135,7 @@ fn calls_show_what_the_readme_has() {
 fn every_tool_is_shown() {
     for tool in [
         "run",
+        "check",
         "serve",
         "explain",
         "browse",
