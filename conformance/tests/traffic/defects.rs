@@ -177,3 +177,77 @@ fn printed_examples_pass() {
     }
     assert!(judged >= 20, "{judged}");
 }
+
+/// A write of a channel's group, and the answer with this result.
+fn written(offset: u32, data: &[u8], result: u32) -> [Message; 2] {
+    let (group, port) = if offset == 0x90 { (0x12_0101_u32, 553_u16) } else { (0x12_2301, 552) };
+    let mut asked = Vec::new();
+    for number in [group, offset, u32::try_from(data.len()).unwrap()] {
+        asked.extend(number.to_le_bytes());
+    }
+    asked.extend(data);
+    let frame = |reply: bool, payload: &[u8]| {
+        let mut out = vec![0, 0];
+        let length = u32::try_from(payload.len()).unwrap();
+        out.extend((length + 32).to_le_bytes());
+        let ends = [([127, 0, 0, 1, 1, 1], port), ([10, 0, 0, 9, 1, 1], 0x8001)];
+        for (id, port) in if reply { [ends[1], ends[0]] } else { ends } {
+            out.extend(id);
+            out.extend(port.to_le_bytes());
+        }
+        out.extend([3, 0, if reply { 5 } else { 4 }, 0]);
+        out.extend(length.to_le_bytes());
+        out.extend([0, 0, 0, 0, 7, 0, 0, 0]);
+        out.extend(payload);
+        out
+    };
+    [(Side::Client, frame(false, &asked)), (Side::Cnc, frame(true, &result.to_le_bytes()))]
+}
+
+fn failing_writes(writes: &[(u32, &[u8], u32)]) -> Vec<String> {
+    let talk: Vec<Message> =
+        writes.iter().flat_map(|(offset, data, result)| written(*offset, data, *result)).collect();
+    let checked = checked(&pcap(&segments(&talk, 1460, (1, 1)), Link::Sll2));
+    assert_eq!(with(&checked, Verdict::HarnessError), [""; 0]);
+    with(&checked, Verdict::Fail)
+}
+
+#[test]
+fn streams_are_judged() {
+    let stream = |requirement: &str| vec![format!("cap-client-stream {requirement}")];
+    let none: [&str; 0] = [];
+    // Refused, and the same again.
+    let again: [(u32, &[u8], u32); 3] =
+        [(0x90, b"N10 X1\r\n", 0), (0x90, b"N20 X2\r\n", 0x706), (0x90, b"N20 X2\r\n", 0)];
+    assert_eq!(failing_writes(&again), none);
+    let other: [(u32, &[u8], u32); 2] = [(0x90, b"N10 X1\r\n", 0x706), (0x90, b"N20 X2\r\n", 0)];
+    assert_eq!(failing_writes(&other), stream("STM-6"));
+    assert_eq!(failing_writes(&[(0x90, b"N10 X1", 0)]), stream("STM-4"));
+    assert_eq!(failing_writes(&[(0x90, b"N10 X1\nN20 X2\r\n", 0)]), stream("STM-4"));
+    assert_eq!(failing_writes(&[(0x90, b"N10 X\xE4\r\n", 0)]), stream("STM-7"));
+    assert_eq!(failing_writes(&[(0x90, b"N10 $WHILE 1\r\n", 0)]), stream("STM-8"));
+    // In a comment that began in the packet before, it may.
+    let comment: [(u32, &[u8], u32); 2] =
+        [(0x90, b"#COMMENT BEGIN\r\n", 0), (0x90, b"$WHILE 1\r\n#COMMENT END\r\n", 0)];
+    assert_eq!(failing_writes(&comment), none);
+    let long = [&[b'X'; 1000][..], b"\r\n"].concat();
+    assert_eq!(failing_writes(&[(0x90, &long, 0x705)]), stream("STM-2"));
+}
+
+#[test]
+fn services_are_judged() {
+    let of = |requirement: &str| format!("cap-client-service {requirement}");
+    let response: (u32, &[u8], u32) = (0x4A, b"V.G.SERVICE.RESPONSE\x001.732051\0", 0);
+    let state: (u32, &[u8], u32) = (0x4A, b"V.G.SERVICE.RESPONSE_STATE\0\x01\0\0\0", 0);
+    let zero: (u32, &[u8], u32) = (0x4A, b"V.G.SERVICE.RESPONSE_STATE\0\0\0\0\0", 0);
+    // Nothing was read, so nothing was asked; the rest is in order.
+    assert_eq!(failing_writes(&[response, state]), [of("SVC-2")]);
+    assert_eq!(failing_writes(&[state]), [of("SVC-2"), of("SVC-5")]);
+    assert_eq!(failing_writes(&[response, zero]), [of("SVC-5")]);
+    let asked: (u32, &[u8], u32) = (0x4A, b"V.G.SERVICE.REQUEST_STATE\0\x01\0\0\0", 0);
+    assert_eq!(failing_writes(&[asked]), [of("SVC-12")]);
+    let long = [b"V.G.SERVICE.RESPONSE\0".as_slice(), &[b'x'; 129]].concat();
+    assert_eq!(failing_writes(&[(0x4A, &long, 0)]), [of("SVC-1")]);
+    let short: (u32, &[u8], u32) = (0x4A, b"V.G.SERVICE.REQUEST_STATE\0\0\0", 0);
+    assert_eq!(failing_writes(&[short]), [of("SVC-1")]);
+}

@@ -37,6 +37,9 @@ pub(super) fn judge(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>) -> Opti
                 let known = clause.filter(|id| requirement(id).is_some());
                 let rule = match error.kind() {
                     ErrorKind::TooMany => "VAR-24".into(),
+                    ErrorKind::TooLong if function == Function::WriteProgramStream => {
+                        "STM-2".into()
+                    }
                     // No room for the answer: how little may be asked for is assumed.
                     ErrorKind::BufferTooSmall => assumed("COM-3"),
                     _ => Rule::from(known.unwrap_or(spec.clause)),
