@@ -177,7 +177,7 @@ impl TargetArgs {
     /// The session, with all that it sends and receives kept if that is wanted.
     pub(super) fn recorded(&self, session: Session) -> Result<Session, Trouble> {
         let Some(file) = &self.capture else { return Ok(session) };
-        let failed = |error| Trouble::Usage(format!("{}: {error}", file.display()));
+        let failed = |error| Trouble::Internal(format!("{}: {error}", file.display()));
         Ok(session.with_capture(Capture::create(file).map_err(failed)?))
     }
 
