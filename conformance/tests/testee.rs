@@ -25,8 +25,15 @@ fn own() -> String {
     format!("\"{}\" testee", env!("CARGO_BIN_EXE_ads-cnc"))
 }
 
+/// A machine that does much else answers late.
+const PATIENCE: Duration = Duration::from_secs(20);
+
 fn process(arguments: &str) -> Process {
-    Process::new(format!("{} {arguments}", own()), Duration::from_millis(1500))
+    within(PATIENCE, arguments)
+}
+
+fn within(timeout: Duration, arguments: &str) -> Process {
+    Process::new(format!("{} {arguments}", own()), timeout)
 }
 
 fn failed(outcomes: &[Outcome]) -> Vec<&str> {
@@ -76,7 +83,13 @@ fn the_order_comes_from_the_seed_and_does_not_matter() {
 #[test]
 fn miniatures_are_seen_through() {
     for miniature in Miniature::ALL {
-        let mut process = process(&format!("--miniature {}", miniature.name()));
+        // What these two are about is how long they take.
+        let timeout = match miniature {
+            Miniature::Hangs => Duration::from_secs(1),
+            Miniature::Stays => Duration::from_secs(5),
+            _ => PATIENCE,
+        };
+        let mut process = within(timeout, &format!("--miniature {}", miniature.name()));
         let judged = judge(&mut process, some(), OF_A_TESTEE);
         let failed = failed(&judged.outcomes);
         let expected = if miniature.is_right() { Exit::Success } else { Exit::Failure };
