@@ -12,8 +12,14 @@ const README: &str = include_str!("../../README.md");
 
 /// Calls that are not made here: they do not end, take long, need more than this project, or show
 /// what differs from run to run. Other tests make them.
-const ELSEWHERE: [&str; 4] =
-    ["cargo ", "ads-cnc serve ", "ads-cnc stream part.nc", "ads-cnc service "];
+const ELSEWHERE: [&str; 6] = [
+    "cargo ",
+    "ads-cnc run --client ",
+    "ads-cnc run --testee ",
+    "ads-cnc serve ",
+    "ads-cnc stream part.nc",
+    "ads-cnc service ",
+];
 
 /// A call and what it shows.
 #[derive(Debug, Default)]
