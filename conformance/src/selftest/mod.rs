@@ -151,7 +151,8 @@ pub fn run(only: &[String], tell: impl Fn(usize, usize) + Sync) -> SelfTest {
     candidates.retain(wanted);
     let all = candidates.len();
     let left = Mutex::new((candidates.into_iter().enumerate(), Vec::with_capacity(all)));
-    let workers = thread::available_parallelism().map_or(1, usize::from);
+    // Most of their time they wait for each other's ends of a connection.
+    let workers = thread::available_parallelism().map_or(1, usize::from).saturating_mul(3);
     thread::scope(|scope| {
         for _ in 0..workers {
             scope.spawn(|| {

@@ -2,7 +2,7 @@
 
 use ads_cnc::edition::Edition;
 
-use super::{Candidate, Group};
+use super::{Candidate, Group, Outcomes};
 use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::{self, Kind, Seed};
 use crate::profile::Profile;
@@ -33,7 +33,8 @@ fn against(seed: &Seed) -> Result<Vec<Outcome>, Trouble> {
     let by_default = Settings { edition: seed.edition, version: None };
     let newest = Settings { edition: Some(Edition::German), version: NEWEST.parse().ok() };
     let mut outcomes = run(seed, by_default)?;
-    if seed.edition.is_none() {
+    let is_caught = super::judge(&seed.requirements, &outcomes).1 == Outcomes::Caught;
+    if seed.edition.is_none() && !is_caught {
         outcomes.extend(run(seed, newest)?);
     }
     Ok(outcomes)
