@@ -9,6 +9,9 @@ use crate::child::{self, Spoken, Stderr, Unheard, cut};
 /// How long it has for ending after `bye`.
 const GRACE: Duration = Duration::from_secs(2);
 
+/// How long it has at least for starting: some languages take longer for that than for any answer.
+const START: Duration = Duration::from_secs(20);
+
 /// Who is started to be judged.
 #[derive(Debug)]
 pub struct Process {
@@ -57,7 +60,7 @@ impl Process {
         Ok(())
     }
 
-    fn exchange(&mut self, command: &Command) -> Result<String, Reaction> {
+    fn exchange(&mut self, command: &Command, timeout: Duration) -> Result<String, Reaction> {
         let line = serde_json::to_vec(command)
             .map_err(|error| Reaction::Broken(format!("the question: {error}")))?;
         (self.sent, self.received) = (Some(front(&String::from_utf8_lossy(&line))), None);
@@ -65,7 +68,7 @@ impl Process {
             return Err(Reaction::Broken("it is not running".to_owned()));
         };
         running.say(line);
-        match running.hear(self.timeout) {
+        match running.hear(timeout) {
             Ok(line) => {
                 self.received = Some(front(&line));
                 Ok(line)
@@ -76,7 +79,7 @@ impl Process {
             }
             Err(Unheard::Silence) => {
                 self.running = None;
-                Err(Reaction::Silent(self.timeout))
+                Err(Reaction::Silent(timeout))
             }
             Err(Unheard::Closed) => Err(Reaction::Crashed(self.ended())),
         }
@@ -98,7 +101,8 @@ impl Testee for Process {
     fn hello(&mut self) -> Result<Hello, Reaction> {
         self.running = None;
         self.start()?;
-        let line = self.exchange(&Command::Hello { protocol: PROTOCOL })?;
+        let line =
+            self.exchange(&Command::Hello { protocol: PROTOCOL }, START.max(self.timeout))?;
         let hello: Hello = serde_json::from_str(&line).map_err(|error| {
             Reaction::Garbled(format!("{error} in the answer to hello: {}", cut(&line)))
         })?;
@@ -116,7 +120,7 @@ impl Testee for Process {
         }
         self.seq = self.seq.saturating_add(1);
         let command = Command::Case { seq: self.seq, question: Box::new(question.clone()) };
-        let line = match self.exchange(&command) {
+        let line = match self.exchange(&command, self.timeout) {
             Ok(line) => line,
             Err(reaction) => return reaction,
         };
