@@ -198,5 +198,5 @@ fn question(op: &str, vector: &Vector, hex: Option<Vec<u8>>) -> Question {
 }
 
 fn tell(reaction: &Reaction) -> String {
-    super::judge::describe(reaction)
+    super::tell::describe(reaction)
 }

@@ -5,11 +5,13 @@ use std::collections::HashMap;
 use ads_cnc_vectors::{Expect, Level, SequenceExpect, Vector};
 
 use super::assumed::rests_on_assumption;
+use super::manners::Manners;
 use super::message::{Answer, Hello, Output, Question, compact};
 use super::plan::{Asked, Purpose, plan, questions};
+use super::tell::{describe, evidence};
 use super::{Reaction, Testee, compare};
 use crate::show::show;
-use crate::suite::{self, Body, Case, Evidence, Judgement, Needs, Outcome, Rule, Stop, Subject};
+use crate::suite::{self, Body, Case, Evidence, Judgement, Outcome, Rule, Stop, Subject};
 use crate::verdict::Verdict;
 
 /// What the protocol asks of a testee, beside the requirements of the catalogue.
@@ -45,7 +47,7 @@ pub struct Judged {
 }
 
 /// The answers to the questions of a case, by op.
-type Reactions = HashMap<(usize, String), Reaction>;
+pub(super) type Reactions = HashMap<(usize, String), Reaction>;
 
 /// Asks a testee all that these cases have.
 pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) -> Judged {
@@ -116,82 +118,6 @@ fn without_hello(cases: Vec<Case>, reaction: &Reaction, subject: Subject) -> Jud
     let mut outcomes: Vec<Outcome> = cases.into_iter().map(untried).collect();
     outcomes.push(manners.outcome(subject));
     Judged { hello: None, outcomes, asked: 0, restarts: 0 }
-}
-
-/// How a testee keeps to the protocol.
-#[derive(Default)]
-struct Manners {
-    faults: Vec<Judgement>,
-    checks: usize,
-    first: Reactions,
-}
-
-impl Manners {
-    fn sanity(&mut self, case: usize, first: bool, question: Question, reaction: Reaction) {
-        if first {
-            self.first.insert((case, question.op), reaction);
-            return;
-        }
-        self.checks = self.checks.saturating_add(1);
-        let before = self.first.get(&(case, question.op.clone()));
-        if before != Some(&reaction) {
-            let before = before.map_or_else(|| "nothing".to_owned(), describe);
-            let evidence = evidence(&question, &reaction, "", None);
-            self.fault(
-                format!("the same answer at the end as at the start: {before}"),
-                describe(&reaction),
-                Some(evidence),
-            );
-        }
-    }
-
-    fn made_up(&mut self, question: &Question, reaction: &Reaction) {
-        self.checks = self.checks.saturating_add(1);
-        if !matches!(reaction, Reaction::Answer(Answer::Unsupported { .. })) {
-            let expected = format!("unsupported, for the op {}", question.op);
-            self.fault(expected, describe(reaction), Some(evidence(question, reaction, "", None)));
-        }
-    }
-
-    fn fault(
-        &mut self,
-        expected: impl Into<String>,
-        found: impl Into<String>,
-        evidence: Option<Evidence>,
-    ) {
-        self.faults.push(Judgement {
-            requirement: TESTEE,
-            level: Some(Level::Must),
-            verdict: Verdict::Fail,
-            expected: expected.into(),
-            found: found.into(),
-            evidence,
-            more: 0,
-        });
-    }
-
-    fn outcome(self, subject: Subject) -> Outcome {
-        let case = Case {
-            id: "testee-manners".to_owned(),
-            title: "It keeps to the protocol, and does at the end what it did at the start"
-                .to_owned(),
-            subject,
-            requirements: vec![TESTEE],
-            needs: Needs::Codec,
-            body: Body::Manners,
-        };
-        let pass = Judgement {
-            requirement: TESTEE,
-            level: Some(Level::Must),
-            verdict: Verdict::Pass,
-            expected: String::new(),
-            found: String::new(),
-            evidence: None,
-            more: 0,
-        };
-        let judgements = if self.faults.is_empty() { vec![pass] } else { self.faults };
-        Outcome::tried(case, judgements, self.checks.max(1), None)
-    }
 }
 
 /// Everything that was asked and answered.
@@ -434,72 +360,5 @@ fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
             let same = all.iter().zip(text).take_while(|(one, other)| one == other).count();
             Some(format!("{} bytes in all, another one at offset {same}", all.len()))
         }
-    }
-}
-
-pub(super) fn describe(reaction: &Reaction) -> String {
-    match reaction {
-        Reaction::Answer(Answer::Ok(output)) => match output {
-            Output { value: Some(value), .. } => format!("accepted: {value}"),
-            Output { hex: Some(hex), .. } => format!("accepted: {}", compact::show(hex)),
-            Output { packets: Some(packets), .. } => format!("{} packets", packets.len()),
-            _ => "accepted".to_owned(),
-        },
-        Reaction::Answer(Answer::Reject(reject)) => {
-            let mut text = "refused".to_owned();
-            if let Some(class) = &reject.class {
-                text.push_str(&format!(": {class}"));
-            }
-            if let Some(at) = reject.at {
-                text.push_str(&format!(" at offset {at}"));
-            }
-            if let Some(message) = &reject.message {
-                text.push_str(&format!(" ({message})"));
-            }
-            text
-        }
-        Reaction::Answer(Answer::Unsupported { what }) => {
-            format!("unsupported: {what}, which it claims to support")
-        }
-        Reaction::Answer(Answer::Error { message }) => format!("an error of its own: {message}"),
-        Reaction::Garbled(why) => format!("no answer of the protocol: {why}"),
-        Reaction::Crashed(how) => format!("a crash: {how}"),
-        Reaction::Silent(limit) => format!("no answer within {} ms", limit.as_millis()),
-        Reaction::Broken(why) => why.clone(),
-    }
-}
-
-fn evidence(
-    question: &Question,
-    reaction: &Reaction,
-    id: &str,
-    expected: Option<Vec<u8>>,
-) -> Evidence {
-    let stream = ads_cnc::layout::Stream::by_name(&question.stream);
-    let stream = stream.map(|stream| stream.layout().name);
-    let received = match reaction {
-        Reaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => Some(hex.clone()),
-        _ => None,
-    };
-    let shown = match &question.value {
-        Some(fields) => show(fields),
-        None => question.stream.clone(),
-    };
-    let sent = match (&question.hex, &question.packets) {
-        (Some(hex), _) => hex.clone(),
-        (None, Some(packets)) => packets.concat(),
-        (None, None) => Vec::new(),
-    };
-    let id = id.strip_prefix("vec-").unwrap_or(id);
-    Evidence {
-        call: format!("{} {shown} ({id})", question.op),
-        request_stream: stream,
-        reply_stream: stream,
-        sent,
-        expected: expected.filter(|_| received.is_some()),
-        received,
-        values: question.context.context().as_ref().map(suite::typed).unwrap_or_default(),
-        result: describe(reaction),
-        ..Evidence::default()
     }
 }

@@ -7,11 +7,13 @@ mod assumed;
 mod check;
 mod compare;
 mod judge;
+mod manners;
 mod message;
 mod miniature;
 mod own;
 mod plan;
 mod process;
+mod tell;
 
 use std::time::Duration;
 
