@@ -4,14 +4,14 @@
 //! elements or `0x030000` for the description of objects, a class in bits 12 … 15, a table in
 //! bits 8 … 11, and a channel, platform axis or spindle in bits 0 … 7.
 
+mod class;
 mod element;
 mod group;
 mod offset;
 mod place;
 
+pub use class::{Attribute, Class, ClassGroup};
 pub use element::ElementAddress;
-pub use group::{
-    Access, Addressing, Attribute, Class, ClassGroup, ComGroup, ComTable, Group, IndexGroup,
-};
+pub use group::{Access, Addressing, ComGroup, ComTable, Group, IndexGroup};
 pub use offset::{AxisStride, IndexOffset};
 pub use place::{Channel, ChannelAxis, PlatformAxis, Spindle};
