@@ -7,14 +7,13 @@ use ads_cnc::edition::Edition;
 use clap::Args;
 
 use super::complain;
-use super::forms::{Forms, is_stdout, lost, show, write};
+use super::forms::Reports;
 use crate::capture::{self, AMS_TCP_PORT, Checked, Collector, Options, Ports};
 use crate::cnc;
 use crate::gate::Moment;
 use crate::report::{self, About, Report, TargetReport};
 use crate::suite::{Case, Selection};
 use crate::verdict::Exit;
-use crate::waivers::Waivers;
 
 /// Under which these options stand in the help.
 const TRAFFIC: &str = "Traffic";
@@ -55,16 +54,8 @@ pub(super) struct Check {
     #[arg(long, value_name = "EDITION", value_parser = cnc::edition)]
     edition: Option<Edition>,
 
-    /// Known failures that are put up with
-    #[arg(long, value_name = "FILE")]
-    waivers: Option<PathBuf>,
-
-    /// Write the report as JSON, from which `ads-cnc report` makes all others; - is stdout
-    #[arg(long, help_heading = super::forms::HEADING, value_name = "FILE")]
-    json: Option<PathBuf>,
-
     #[command(flatten)]
-    forms: Forms,
+    reports: Reports,
 }
 
 const EXIT_CODES: &str = "\
@@ -106,14 +97,10 @@ impl Check {
             complain(why);
             Exit::Usage
         };
-        let waivers = self.waivers.as_deref().map(Waivers::from_file).transpose();
-        let waivers = match waivers.map_err(|error| error.to_string()) {
-            Ok(waivers) => waivers.unwrap_or_default(),
+        let waivers = match self.reports.waivers() {
+            Ok(waivers) => waivers,
             Err(why) => return usage(why),
         };
-        if let Err(why) = self.forms.check(self.json.as_deref()) {
-            return usage(why);
-        }
         let checked = match self.read() {
             Ok(checked) => checked,
             Err(why) => return usage(format!("{}: {why}", self.file.display())),
@@ -179,21 +166,12 @@ impl Check {
     }
 
     fn write(&self, report: &Report, checked: &Checked, extracted: &[String]) -> Exit {
-        // The files first: whoever reads the console may stop reading.
-        let json = self.json.as_deref();
-        let written = json.map_or(Ok(()), |file| write(file, |out| report::to_json(report, out)));
-        let written = written.and_then(|()| self.forms.write(report));
-        let quiet = json.is_some_and(is_stdout) || self.forms.has_stdout();
-        let shown = match quiet {
-            true => Ok(()),
-            false => show(|out| {
-                writeln!(out, "Traffic")?;
-                let lines = checked.tally.lines();
-                lines.iter().chain(extracted).try_for_each(|line| writeln!(out, "  {line}"))?;
-                writeln!(out)?;
-                report::print(report, false, out)
-            }),
-        };
-        written.and(shown).map_or_else(lost, |()| report.exit())
+        self.reports.write(report, |out| {
+            writeln!(out, "Traffic")?;
+            let lines = checked.tally.lines();
+            lines.iter().chain(extracted).try_for_each(|line| writeln!(out, "  {line}"))?;
+            writeln!(out)?;
+            report::print(report, false, out)
+        })
     }
 }

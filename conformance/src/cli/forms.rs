@@ -9,6 +9,7 @@ use clap::Args;
 use super::complain;
 use crate::report::{self, Report};
 use crate::verdict::Exit;
+use crate::waivers::Waivers;
 
 /// Under which these options stand in the help.
 pub(super) const HEADING: &str = "Reports";
@@ -69,6 +70,52 @@ impl Forms {
     /// Writes those that are wanted.
     pub(super) fn write(&self, report: &Report) -> io::Result<()> {
         self.wanted().try_for_each(|(file, maker)| write(file, |out| maker(report, out)))
+    }
+}
+
+/// What whoever is judged is reported in, and the failures that are known of it.
+#[derive(Args, Clone, Debug)]
+pub(super) struct Reports {
+    /// Known failures that are put up with
+    #[arg(long, value_name = "FILE")]
+    waivers: Option<PathBuf>,
+
+    /// Write the report as JSON, from which `ads-cnc report` makes all others; - is stdout
+    #[arg(long, help_heading = HEADING, value_name = "FILE")]
+    json: Option<PathBuf>,
+
+    #[command(flatten)]
+    forms: Forms,
+}
+
+impl Reports {
+    /// Where the JSON goes.
+    pub(super) fn json(&self) -> Option<&Path> {
+        self.json.as_deref()
+    }
+
+    /// The known failures, if the options do.
+    pub(super) fn waivers(&self) -> Result<Waivers, String> {
+        let waivers = self.waivers.as_deref().map(Waivers::from_file).transpose();
+        let waivers = waivers.map_err(|error| error.to_string())?;
+        self.forms.check(self.json())?;
+        Ok(waivers.unwrap_or_default())
+    }
+
+    /// Writes the report; `print` shows it to people, unless stdout is somebody else's.
+    pub(super) fn write(
+        &self,
+        report: &Report,
+        print: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Exit {
+        // The files first: whoever reads the console may stop reading.
+        let json = self.json();
+        let written = json.map_or(Ok(()), |file| write(file, |out| report::to_json(report, out)));
+        let written = written.and_then(|()| self.forms.write(report));
+        // What is piped into something else is alone on stdout.
+        let quiet = json.is_some_and(is_stdout) || self.forms.has_stdout();
+        let shown = if quiet { Ok(()) } else { show(print) };
+        written.and(shown).map_or_else(lost, |()| report.exit())
     }
 }
 

@@ -8,7 +8,7 @@ use ads_cnc::edition::Edition;
 use ads_cnc::operation::{CountObjects, CountVariables, Function, ObjectList, Task};
 use clap::Args;
 
-use super::forms::{Forms, is_stdout, show, write};
+use super::forms::{Reports, show, write};
 use super::list;
 use super::run_client::ClientArgs;
 use super::run_testee;
@@ -89,16 +89,8 @@ pub(super) struct Run {
     #[arg(long, exclusive = true)]
     print_profile: bool,
 
-    /// Known failures that the run puts up with
-    #[arg(long, value_name = "FILE")]
-    waivers: Option<PathBuf>,
-
-    /// Write the report as JSON, from which `ads-cnc report` makes all others; - is stdout
-    #[arg(long, help_heading = super::forms::HEADING, value_name = "FILE")]
-    json: Option<PathBuf>,
-
     #[command(flatten)]
-    forms: Forms,
+    reports: Reports,
 
     /// Show the cases made of vectors one by one
     #[arg(long, short)]
@@ -167,8 +159,7 @@ impl Run {
             return printed.map_or_else(super::forms::lost, |()| Exit::Success);
         }
         let checked = find_defect(self.defect.as_deref())
-            .and_then(|defect| Ok((defect, self.waivers()?, self.profile()?)))
-            .and_then(|checked| self.forms.check(self.json.as_deref()).map(|()| checked));
+            .and_then(|defect| Ok((defect, self.reports.waivers()?, self.profile()?)));
         let (defect, waivers, profile) = match checked {
             Ok(checked) => checked,
             Err(why) => {
@@ -211,11 +202,6 @@ impl Run {
         }
     }
 
-    fn waivers(&self) -> Result<Waivers, String> {
-        let waivers = self.waivers.as_deref().map(Waivers::from_file).transpose();
-        waivers.map(Option::unwrap_or_default).map_err(|error| error.to_string())
-    }
-
     /// What the file says, or what holds without one; --edition is about both.
     fn profile(&self) -> Result<Profile, String> {
         let read = self.profile.as_deref().map(Profile::from_file).transpose();
@@ -248,11 +234,7 @@ impl Run {
 
     fn testee(&self, command: &str, seed: u32, waivers: Waivers) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let edition = self.edition.map(|edition| {
-            let document = edition.document();
-            let language = document.strip_prefix("ads-").unwrap_or(document);
-            format!("{language}-{}", edition.number())
-        });
+        let edition = self.edition.map(cnc::edition_name);
         let timeout = self.target.timeout();
         let cases = plan.cases.clone();
         let judged = run_testee::run(command, timeout, cases, seed, edition.as_deref());
@@ -270,7 +252,7 @@ impl Run {
             }
         };
         let listed = list::of_plan(&plan, self.target.is_device() && !self.malformed);
-        let written = match &self.json {
+        let written = match self.reports.json() {
             Some(file) => write(file, |out| list::to_json(&listed, out)),
             None => show(|out| list::to_text(&listed, out)),
         };
@@ -384,17 +366,7 @@ impl Run {
     }
 
     fn write(&self, report: &Report) -> Exit {
-        // The files first: whoever reads the console may stop reading.
-        let json = self.json.as_deref();
-        let written = json.map_or(Ok(()), |file| write(file, |out| report::to_json(report, out)));
-        let written = written.and_then(|()| self.forms.write(report));
-        // What is piped into something else is alone on stdout.
-        let quiet = json.is_some_and(is_stdout) || self.forms.has_stdout();
-        let shown = match quiet {
-            true => Ok(()),
-            false => show(|out| report::print(report, self.verbose, out)),
-        };
-        written.and(shown).map_or_else(super::forms::lost, |()| report.exit())
+        self.reports.write(report, |out| report::print(report, self.verbose, out))
     }
 }
 

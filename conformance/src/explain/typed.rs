@@ -57,18 +57,8 @@ pub(super) fn elements(
 fn element(element: Element<'_>) -> String {
     match element {
         Element::Boolean(flag) => super::codes::boolean(flag.0),
-        Element::Sgn08(number) => number.to_string(),
-        Element::Uns08(number) => number.to_string(),
-        Element::Sgn16(number) => number.to_string(),
-        Element::Uns16(number) => number.to_string(),
-        Element::Sgn32(number) => number.to_string(),
-        Element::Uns32(number) => number.to_string(),
-        Element::Lint(number) => number.to_string(),
-        Element::Lword(number) => number.to_string(),
-        Element::Real32(number) => format!("{number:?}"),
-        Element::Real64(number) => format!("{number:?}"),
         Element::String(text) => text_of(text),
-        other => format!("{other:?}"),
+        other => crate::values::number(other),
     }
 }
 

@@ -225,14 +225,7 @@ impl Profile {
 
 /// As `--edition` has it.
 fn edition<S: Serializer>(edition: &Edition, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(edition_name(*edition))
-}
-
-fn edition_name(edition: Edition) -> &'static str {
-    match edition {
-        Edition::German => "de-1.051",
-        _ => "en-1.05",
-    }
+    serializer.serialize_str(&crate::cnc::edition_name(*edition))
 }
 
 fn version<S: Serializer>(version: &Option<CncVersion>, serializer: S) -> Result<S::Ok, S::Error> {

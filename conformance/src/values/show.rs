@@ -41,7 +41,8 @@ fn listed(text: &str) -> String {
     }
 }
 
-fn number(element: Element<'_>) -> String {
+/// An element that is no text, as it can be given again.
+pub(crate) fn number(element: Element<'_>) -> String {
     match element {
         Element::Boolean(flag) if flag.is_true() => "TRUE".to_owned(),
         Element::Boolean(_) => "FALSE".to_owned(),
