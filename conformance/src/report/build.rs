@@ -203,9 +203,12 @@ fn failure(judgement: &Judgement, waived: bool) -> FailureReport {
         level: judgement.level,
         clause: match clause {
             Some(clause) => text(clause, judgement.level),
-            None => "The testee protocol, conformance/adapters/README.md.".to_owned(),
+            None => "The protocol between the suite and a testee.".to_owned(),
         },
-        sources: clause.map(|clause| sources(clause, judgement.level)).unwrap_or_default(),
+        sources: match clause {
+            Some(clause) => sources(clause, judgement.level),
+            None => vec!["conformance/adapters/README.md".to_owned()],
+        },
         verdict: judgement.verdict,
         waived,
         expected: judgement.expected.clone(),

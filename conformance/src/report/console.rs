@@ -90,6 +90,7 @@ fn cases(report: &Report, who: Subject, verbose: bool, out: &mut dyn Write) -> i
             streams.entry(stream).or_default().push(case);
         }
     }
+    let width = streams.keys().map(|stream| stream.len()).max().unwrap_or_default();
     for (stream, cases) in streams {
         let mut totals = Totals::new();
         for case in &cases {
@@ -97,13 +98,27 @@ fn cases(report: &Report, who: Subject, verbose: bool, out: &mut dyn Write) -> i
             *number = number.saturating_add(1);
         }
         let waived = cases.iter().filter(|case| case.waived).count();
-        writeln!(out, "  {stream:<22}  {}", counts(&totals, waived))?;
+        writeln!(out, "  {stream:<width$}  {}", counts(&totals, waived))?;
         if verbose {
             cases.iter().try_for_each(|case| line(case, out))?;
         }
     }
-    mine().filter(|case| case.stream.is_none()).try_for_each(|case| line(case, out))?;
+    let mut others: Vec<&CaseReport> = mine().filter(|case| case.stream.is_none()).collect();
+    // The order in which they were run is the seed's; a reader looks for what belongs together.
+    let places = places(report, who);
+    others.sort_by_key(|case| {
+        let first = case.requirements.first().map(|one| one.requirement.as_str());
+        (first.and_then(|id| places.get(id)), case.id.as_str())
+    });
+    others.into_iter().try_for_each(|case| line(case, out))?;
     writeln!(out)
+}
+
+/// The place of each requirement in the catalogue.
+fn places(report: &Report, who: Subject) -> BTreeMap<&str, usize> {
+    let mine = report.subjects.iter().filter(|one| one.subject == who);
+    let all = mine.flat_map(|one| &one.areas).flat_map(|area| &area.requirements);
+    all.enumerate().map(|(place, one)| (one.requirement.as_str(), place)).collect()
 }
 
 fn line(case: &CaseReport, out: &mut dyn Write) -> io::Result<()> {
