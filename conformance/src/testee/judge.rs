@@ -7,7 +7,7 @@ use ads_cnc_vectors::{Expect, Level, SequenceExpect, Vector};
 use super::assumed::rests_on_assumption;
 use super::manners::Manners;
 use super::message::{Answer, Hello, Output, Question, compact};
-use super::plan::{Asked, Purpose, plan, questions};
+use super::plan::{Asked, Purpose, forms, plan, questions};
 use super::tell::{describe, evidence};
 use super::{Reaction, Testee, compare};
 use crate::show::show;
@@ -215,8 +215,7 @@ impl View<'_> {
     ) -> (Verdict, String, String) {
         match (&vector.expect, question.op.as_str()) {
             (Expect::Accept(accept), "encode") => {
-                let mut forms = vec![vector.bytes()];
-                forms.extend(accept.canonical.as_ref().map(|hex| hex.to_vec()));
+                let forms = forms(vector, accept);
                 let shown: Vec<String> = forms.iter().map(|form| compact::show(form)).collect();
                 let expected = shown.join(" or ");
                 match reaction {

@@ -53,6 +53,21 @@ pub struct Question {
     pub packets: Option<Vec<Vec<u8>>>,
 }
 
+impl Question {
+    /// A question about nothing yet.
+    pub fn new(op: impl Into<String>, stream: impl Into<String>, edition: &str) -> Self {
+        Self {
+            op: op.into(),
+            stream: stream.into(),
+            edition: edition.to_owned(),
+            context: Known::default(),
+            hex: None,
+            value: None,
+            packets: None,
+        }
+    }
+}
+
 /// What a testee is told beside the bytes: no more than it needs.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Known {

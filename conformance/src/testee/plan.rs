@@ -1,6 +1,6 @@
 //! What a testee is asked, and in which order.
 
-use ads_cnc_vectors::{Expect, Given, Pieces, Vector};
+use ads_cnc_vectors::{Accept, Expect, Given, Pieces, Vector};
 
 use super::message::{Capabilities, Known, Question};
 use crate::suite::{Body, Case, order};
@@ -92,15 +92,8 @@ fn sanity(cases: &[Case], asked: &[Asked]) -> Vec<(usize, Question)> {
 
 /// An op that nobody has, for a stream that everybody may have.
 fn made_up(number: u64, edition: &str) -> Asked {
-    let question = Question {
-        op: format!("decode-{number:x}"),
-        stream: "object-count".to_owned(),
-        edition: edition.to_owned(),
-        context: Known::default(),
-        hex: Some(vec![1, 0, 0, 0]),
-        value: None,
-        packets: None,
-    };
+    let blank = Question::new(format!("decode-{number:x}"), "object-count", edition);
+    let question = Question { hex: Some(vec![1, 0, 0, 0]), ..blank };
     Asked { purpose: Purpose::MadeUp, question }
 }
 
@@ -110,15 +103,7 @@ pub(super) fn questions(case: &Case, edition: &str) -> Vec<Question> {
         Body::Vector(vector) => of_vector(vector, edition),
         Body::Sequence(sequence) => {
             let bytes = |pieces: &Vec<Pieces>| pieces.iter().map(Pieces::bytes).collect();
-            let blank = |op: &str, stream: &str| Question {
-                op: op.to_owned(),
-                stream: stream.to_owned(),
-                edition: edition.to_owned(),
-                context: Known::default(),
-                hex: None,
-                value: None,
-                packets: None,
-            };
+            let blank = |op: &str, stream: &str| Question::new(op, stream, edition);
             match &sequence.given {
                 Given::NcText(text) => {
                     vec![Question { hex: Some(text.bytes()), ..blank("packets", "nc-text") }]
@@ -133,26 +118,23 @@ pub(super) fn questions(case: &Case, edition: &str) -> Vec<Question> {
     }
 }
 
-fn of_vector(vector: &Vector, edition: &str) -> Vec<Question> {
-    let decode = Question {
-        op: "decode".to_owned(),
-        stream: vector.stream.clone(),
-        edition: edition.to_owned(),
+/// A vector is decoded and, if it is accepted, encoded from its value.
+pub(super) fn of_vector(vector: &Vector, edition: &str) -> Vec<Question> {
+    let of = |op: &str| Question {
         context: Known::from(&vector.context),
-        hex: Some(vector.bytes()),
-        value: None,
-        packets: None,
+        ..Question::new(op, vector.stream.as_str(), edition)
     };
+    let decode = Question { hex: Some(vector.bytes()), ..of("decode") };
     match &vector.expect {
         Expect::Reject(_) => vec![decode],
         Expect::Accept(accept) => {
-            let encode = Question {
-                op: "encode".to_owned(),
-                hex: None,
-                value: Some(accept.value.clone()),
-                ..decode.clone()
-            };
-            vec![decode, encode]
+            vec![decode, Question { value: Some(accept.value.clone()), ..of("encode") }]
         }
     }
+}
+
+/// The bytes that a value may be encoded to: as they stand, or as a careful writer puts them.
+pub(super) fn forms(vector: &Vector, accept: &Accept) -> Vec<Vec<u8>> {
+    let canonical = accept.canonical.as_ref().map(|hex| hex.to_vec());
+    std::iter::once(vector.bytes()).chain(canonical).collect()
 }
