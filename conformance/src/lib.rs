@@ -4,7 +4,7 @@
 //! | module | what it has |
 //! |---|---|
 //! | [`cnc`] | the simulated CNC: data model, answers, AMS/TCP server |
-//! | [`defect`] | seeded defects: changed bytes around the codec |
+//! | [`defect`] | seeded defects: what a codec or a CNC can get wrong |
 //! | [`suite`] | what is tried, and what comes of it |
 //! | [`selftest`] | the suite tried on itself |
 //! | [`testee`] | codecs of others, asked over stdin and stdout |

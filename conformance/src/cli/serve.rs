@@ -109,6 +109,12 @@ pub(super) fn serve(args: &Args) -> ExitCode {
         Ok(defect) => defect,
         Err(why) => return refuse(Exit::Usage, why),
     };
+    if let Some(seed) = defect.as_ref().filter(|seed| !seed.is_for_cnc()) {
+        return refuse(
+            Exit::Usage,
+            format_args!("{} is a defect of a codec, not of a CNC", seed.id),
+        );
+    }
     let cnc = match args.model.cnc() {
         Ok(cnc) => cnc,
         Err(why) => return refuse(Exit::Usage, why),

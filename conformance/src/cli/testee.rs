@@ -33,6 +33,10 @@ impl Testee {
                 return Exit::Usage;
             }
         };
+        if let Some(seed) = defect.as_ref().filter(|seed| !seed.is_for_codec()) {
+            complain(format_args!("{} is a defect of a CNC, not of a codec", seed.id));
+            return Exit::Usage;
+        }
         let own = Own { defect };
         let done = match self.miniature {
             None => answer(&own),

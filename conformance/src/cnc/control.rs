@@ -106,9 +106,9 @@ impl Cnc {
     /// # Errors
     /// [`ControlError::Channel`]
     pub fn set_program(&self, channel: u8, config: ProgramConfig) -> Result<(), ControlError> {
-        let now = self.now();
+        let (now, habit) = (self.now(), self.habit());
         self.of_channel(channel, |channel| {
-            channel.program = Program::new(config);
+            channel.program = Program::new(config).with_habit(habit);
             channel.program.advance(now);
         })
     }
@@ -131,6 +131,7 @@ impl Cnc {
     /// # Errors
     /// [`ControlError::Channel`]
     pub fn set_script(&self, channel: u8, script: Option<Script>) -> Result<(), ControlError> {
+        let script = script.map(|script| script.with_habit(self.habit()));
         self.of_channel(channel, |channel| channel.script = script)
     }
 

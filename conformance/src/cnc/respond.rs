@@ -13,6 +13,7 @@ use ads_cnc::operation::{Call, Service, Task};
 use ads_cnc::{Decode, Encode, Error};
 
 use super::{Cnc, to_len, to_u32};
+use crate::defect::{Seed, Twist};
 
 /// The most bytes behind the AMS header of a frame that is taken or sent: more ends a connection,
 /// and is refused as the answer to a request.
@@ -31,6 +32,25 @@ impl Cnc {
     /// A frame for another NetId or a port that no task has is answered with an error in the AMS
     /// header and no data, all other refusals with a result.
     pub fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
+        let start = answers.len();
+        self.respond_right(net_id, frame, answers);
+        if let Some(Twist::Frame(sent)) = self.defect.as_ref().and_then(Seed::of_cnc)
+            && answers.len() > start
+        {
+            let right = answers.split_off(start);
+            answers.extend(sent(&self.right(), frame, right));
+        }
+    }
+
+    /// How many bytes leave at a time, if that is not as many as there are.
+    pub(super) fn piece(&self) -> Option<usize> {
+        match self.defect.as_ref().and_then(Seed::of_cnc) {
+            Some(Twist::Pieces(len)) => Some(len.max(1)),
+            _ => None,
+        }
+    }
+
+    fn respond_right(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
         let header = frame.header();
         if header.state_flags.0 & RESPONSE_BIT != 0 {
             let flags = header.state_flags.0;

@@ -10,7 +10,7 @@ use ads_cnc::service;
 use super::content::Owner;
 use super::model::{AxisModel, ChannelModel, Item, Model, Variables, class_place};
 use super::parameters::{ParameterState, Parameters};
-use super::program::{Program, Script};
+use super::program::{Habit, Program, Script};
 
 /// Contents, in the order of what they belong to.
 pub(super) type Values = Vec<Vec<u8>>;
@@ -97,6 +97,15 @@ impl State {
                 .collect(),
             platform: items(&model.platform.items, 0),
         }
+    }
+
+    /// With a seeded defect of all NC programs.
+    pub(super) fn with_habit(mut self, habit: Option<Habit>) -> Self {
+        for channel in &mut self.channels {
+            channel.program = channel.program.clone().with_habit(habit);
+            channel.script = channel.script.take().map(|script| script.with_habit(habit));
+        }
+        self
     }
 
     /// Lets the parameters and programs of all channels make up for the time that has passed.

@@ -11,7 +11,7 @@
 
 use std::fmt;
 
-use ads_cnc::layout::{Field, Segment, Stream};
+use ads_cnc::layout::{Field, Segment, Size, Stream};
 
 /// One field done wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -72,9 +72,14 @@ impl Defect {
         streams.flat_map(Self::of_stream).collect()
     }
 
-    /// The defects of one stream: every change of every field.
+    /// The defects of one stream: every change of every field. One byte has no order to reverse.
     pub fn of_stream(stream: Stream) -> Vec<Self> {
-        let each = |field: Field| Change::ALL.map(|change| Self::new(stream, field, change));
+        let each = |field: Field| {
+            let one = field.spec().is_some_and(|spec| spec.size == Size::Fixed(1));
+            let changes = Change::ALL.into_iter();
+            let changes = changes.filter(move |change| !(one && *change == Change::SwapBytes));
+            changes.map(move |change| Self::new(stream, field, change))
+        };
         stream.fields().flat_map(each).collect()
     }
 

@@ -11,13 +11,20 @@
 //! assert_eq!((seed.kind, &seed.requirements[..]), (Kind::Codec, &["VAR-4", "VAR-8"][..]));
 //! ```
 
+mod cnc;
+mod codec;
+mod different;
 mod field;
+
+#[cfg(test)]
+mod tests;
 
 use std::fmt;
 use std::sync::OnceLock;
 
 use ads_cnc::edition::Edition;
 
+pub(crate) use cnc::{Memory, Right, Twist};
 pub use field::{Change, Defect};
 
 /// One thing done wrong, or otherwise.
@@ -36,7 +43,7 @@ pub struct Seed {
     /// Whether the examples that the manuals print are still answered literally, as far as it is
     /// about. Who does things otherwise need not.
     pub printed: bool,
-    twist: Twist,
+    how: How,
 }
 
 /// Who does something wrong, or otherwise.
@@ -66,19 +73,38 @@ impl Kind {
 
 /// How it is done.
 #[derive(Clone, Debug)]
-enum Twist {
+enum How {
     Field(Defect),
+    Codec(codec::Twist),
+    Cnc(Twist),
 }
 
 /// All of them.
 pub fn all() -> &'static [Seed] {
     static ALL: OnceLock<Vec<Seed>> = OnceLock::new();
-    ALL.get_or_init(|| Defect::all().into_iter().map(Seed::from).collect())
+    ALL.get_or_init(|| {
+        let fields = Defect::all().into_iter().map(Seed::from);
+        let cnc = cnc::rows().map(|row| Seed::of_row(row, Kind::Cnc));
+        let different = different::ROWS.iter().map(|row| Seed::of_row(row, Kind::Different));
+        fields.chain(codec::seeds()).chain(cnc).chain(different).collect()
+    })
 }
 
 /// The one with this ID.
 pub fn by_id(id: &str) -> Option<&'static Seed> {
     all().iter().find(|seed| seed.id == id)
+}
+
+/// Musts that none of these breaks, and why.
+///
+/// What a client alone can break has its defects among those of
+/// [clients](crate::clients::defects).
+pub const fn without() -> &'static [(&'static str, &'static str)] {
+    &[(
+        "STM-21",
+        "The simulated CNC does not interpret NC lines, so it has no other syntax errors to report; \
+         how a CNC reports one shows on its screen.",
+    )]
 }
 
 impl From<Defect> for Seed {
@@ -95,24 +121,56 @@ impl From<Defect> for Seed {
             kind: Kind::Codec,
             edition: None,
             printed: true,
-            twist: Twist::Field(defect),
+            how: How::Field(defect),
         }
     }
 }
 
 impl Seed {
+    fn of_row(row: &cnc::Row, kind: Kind) -> Self {
+        Self {
+            id: row.id.to_owned(),
+            requirements: row.breaks.to_vec(),
+            what: row.what.to_owned(),
+            kind,
+            edition: row.edition,
+            printed: row.printed,
+            how: How::Cnc(row.twist),
+        }
+    }
+
     /// The wrong field, if that is all.
     pub fn field(&self) -> Option<&Defect> {
-        match &self.twist {
-            Twist::Field(defect) => Some(defect),
+        match &self.how {
+            How::Field(defect) => Some(defect),
+            _ => None,
+        }
+    }
+
+    /// What a CNC does around its answers.
+    pub(crate) const fn of_cnc(&self) -> Option<Twist> {
+        match self.how {
+            How::Cnc(twist) => Some(twist),
+            _ => None,
+        }
+    }
+
+    /// What a codec does around its answers.
+    pub(crate) const fn of_codec(&self) -> Option<codec::Twist> {
+        match self.how {
+            How::Codec(twist) => Some(twist),
+            _ => None,
         }
     }
 
     /// Whether a simulated CNC can have it.
     pub const fn is_for_cnc(&self) -> bool {
-        match self.twist {
-            Twist::Field(_) => true,
-        }
+        matches!(self.how, How::Field(_) | How::Cnc(_))
+    }
+
+    /// Whether the CNC is another one: with channels, variables and objects of its own.
+    pub const fn has_own_model(&self) -> bool {
+        matches!(self.how, How::Cnc(Twist::Model(_)))
     }
 
     /// Whether a codec can have it.

@@ -47,7 +47,7 @@ fn run(seed: &Seed, settings: Settings) -> Result<Vec<Outcome>, Trouble> {
     let session = session::Session::embedded_to_try(cnc)?;
     // The CNC runs as long as it is held.
     let (client, running) = session.into_parts();
-    let embedded = Profile::EMBEDDED;
+    let embedded = if seed.has_own_model() { Profile::DEVICE } else { Profile::EMBEDDED };
     let profile = Profile {
         edition: settings.edition.unwrap_or(embedded.edition),
         printed_examples: seed.printed,

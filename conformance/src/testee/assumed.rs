@@ -47,7 +47,7 @@ const SETTING: [&str; 39] = [
 ];
 
 /// Whether what the vector expects stands on something that nobody documents.
-pub(super) fn rests_on_assumption(vector: &Vector) -> bool {
+pub(crate) fn rests_on_assumption(vector: &Vector) -> bool {
     vector.provenance.kind != ProvenanceKind::Manual
         && vector.assumed.iter().any(|one| !SETTING.contains(&one.as_str()))
 }

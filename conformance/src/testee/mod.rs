@@ -17,6 +17,7 @@ mod tell;
 
 use std::time::Duration;
 
+pub(crate) use assumed::rests_on_assumption;
 pub use check::{Finding, check_protocol};
 pub use judge::{Judged, TESTEE, Terms, judge};
 pub use message::{
@@ -25,6 +26,8 @@ pub use message::{
 };
 pub use miniature::{Act, Miniature};
 pub use own::Own;
+#[cfg(test)]
+pub(crate) use plan::questions;
 pub use process::Process;
 
 /// Who is judged by the golden vectors.

@@ -15,9 +15,10 @@ use ads_cnc::operation::{Call, Reply, Request, WriteProgramStream};
 use ads_cnc::{Encode, NoData};
 
 use super::clock::Clock;
+use super::program::Habit;
 use super::state::State;
 use super::{Model, ModelError, program, to_u32};
-use crate::defect::Seed;
+use crate::defect::{Memory, Right, Seed, Twist};
 
 /// The simulated CNC: a model, and its state behind one lock.
 #[derive(Debug)]
@@ -25,7 +26,8 @@ pub struct Cnc {
     model: Model,
     state: Mutex<State>,
     clock: Clock,
-    defect: Option<Seed>,
+    pub(super) defect: Option<Seed>,
+    memory: Mutex<Memory>,
 }
 
 /// Data, or the error number.
@@ -35,7 +37,7 @@ impl Cnc {
     /// A CNC with this data model, in the state it starts in.
     pub fn new(model: Model) -> Self {
         let state = Mutex::new(State::new(&model));
-        Self { model, state, clock: Clock::running(), defect: None }
+        Self { model, state, clock: Clock::running(), defect: None, memory: Mutex::default() }
     }
 
     /// The CNC that answers what the manuals print: see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
@@ -46,11 +48,21 @@ impl Cnc {
         Model::default_model().map(Self::new)
     }
 
-    /// With a seeded defect: streams of the requests are changed before they are read, streams
-    /// of the replies after they are encoded.
+    /// With a seeded defect.
+    ///
+    /// Of a wrong field, streams of the requests are changed before they are read, streams of the
+    /// replies after they are encoded.
     #[must_use]
     pub fn with_defect(mut self, defect: Option<Seed>) -> Self {
+        if let Some(Twist::Model(model)) = defect.as_ref().and_then(Seed::of_cnc)
+            && let Ok(model) = Model::from_toml(model, "the defect's model")
+        {
+            self = Self { clock: self.clock, ..Self::new(model) };
+        }
         self.defect = defect;
+        let habit = self.habit();
+        let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        self.state = Mutex::new(state.with_habit(habit));
         self
     }
 
@@ -131,6 +143,14 @@ impl Cnc {
     /// # Errors
     /// One of these numbers.
     pub fn answer(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
+        match self.defect.as_ref().and_then(Seed::of_cnc) {
+            Some(Twist::Answer(answer)) => answer(&self.right(), call),
+            _ => self.answer_right(call),
+        }
+    }
+
+    /// The same, whatever the CNC does wrong around it.
+    pub(crate) fn answer_right(&self, call: &Call<'_>) -> Answer {
         let request = dispatch(call)?;
         let spec = request.function().spec();
         let misread = spec.request.and_then(|stream| self.change(stream, call.data));
@@ -142,6 +162,19 @@ impl Cnc {
             return Err(AdsError::INVALID_SIZE);
         }
         Ok(spec.reply.and_then(|stream| self.change(stream, &reply)).unwrap_or(reply))
+    }
+
+    /// What a defect is done around.
+    pub(super) fn right(&self) -> Right<'_> {
+        Right::new(self, &self.memory)
+    }
+
+    /// What its NC programs do wrong.
+    pub(super) fn habit(&self) -> Option<Habit> {
+        match self.defect.as_ref().and_then(Seed::of_cnc) {
+            Some(Twist::Program(habit)) => Some(habit),
+            _ => None,
+        }
     }
 
     /// The bytes of a stream with the defect, if it is about that stream.

@@ -30,6 +30,7 @@
 
 mod answer;
 mod executed;
+mod habit;
 mod pace;
 mod script;
 mod segment;
@@ -38,6 +39,7 @@ mod stream;
 
 pub use answer::{Answer, Outcome};
 pub use executed::{Executed, digest};
+pub(crate) use habit::Habit;
 pub use pace::{Pace, ParsePaceError};
 pub use script::{Repeat, Request, Script, ScriptConfig, ScriptError, ScriptState, Wait};
 pub use state::{Message, StartError, State};

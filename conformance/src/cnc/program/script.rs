@@ -2,10 +2,12 @@
 
 use std::time::Duration;
 
+use ads_cnc::service::ServiceVariable::{RequestState, ResponseState, Uuid};
 use ads_cnc::service::{Call, CallStep, Interface, ServiceId, SysServiceWait};
 use ads_cnc::{CncStr, CncString, Error};
 
 use super::answer::{Answer, Answers, Outcome};
+use super::habit::Habit;
 
 /// What an NC program asks services, and how often.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -165,6 +167,7 @@ pub struct Script {
     due: Option<Duration>,
     pausing: bool,
     answers: Answers,
+    habit: Option<Habit>,
 }
 
 impl Script {
@@ -194,9 +197,16 @@ impl Script {
             due: None,
             pausing: false,
             answers: Answers::default(),
+            habit: None,
         };
         script.restart();
         Ok(script)
+    }
+
+    /// The same with a seeded defect.
+    pub(crate) fn with_habit(mut self, habit: Option<Habit>) -> Self {
+        self.habit = habit;
+        self
     }
 
     /// Begins with the first request again, as after an NC reset and a start. The answers stay.
@@ -230,15 +240,23 @@ impl Script {
         self.due = Some(now.saturating_add(self.cycle));
         let Some((at, call)) = &mut self.present else { return };
         call.poll();
+        let time = if self.habit == Some(Habit::WaitsForEver) { Duration::ZERO } else { now };
         // The interface takes what a call writes and has what it reads; else it is tried again.
         match call.step() {
             CallStep::Write(variable, value) => {
+                let first = (self.habit, variable) == (Some(Habit::StateFirst), Uuid);
+                if first && interface.write(RequestState, &[1, 0, 0, 0]).is_err() {
+                    return;
+                }
                 if interface.write(variable, value).is_ok() {
-                    call.written(now);
+                    call.written(time);
                 }
             }
+            CallStep::Read(ResponseState) if self.habit == Some(Habit::WaitsNot) => {
+                let _ = call.read(&[1, 0, 0, 0], time);
+            }
             CallStep::Read(variable) => {
-                let _ = call.read(interface.read(variable), now);
+                let _ = call.read(interface.read(variable), time);
             }
             CallStep::Wait { .. } | CallStep::Done { .. } | CallStep::TimedOut => {}
         }

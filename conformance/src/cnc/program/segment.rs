@@ -3,6 +3,7 @@
 use ads_cnc::streaming::{Checker, Finding, Found, ProgramEnd};
 
 use super::executed::lines;
+use super::habit::Habit;
 
 /// Lines that were read together, and where they stop being run.
 #[derive(Clone, Debug, Default)]
@@ -31,11 +32,14 @@ pub(super) enum Next<'a> {
 }
 
 impl Segment {
-    pub(super) fn new(checker: &mut Checker, read: &[u8]) -> Self {
+    pub(super) fn new(checker: &mut Checker, read: &[u8], habit: Option<Habit>) -> Self {
         let number = checker.lines().saturating_add(1);
         let (mut end, mut fault) = (None, None);
-        for found in checker.check(read) {
+        let seen = habit.map(|habit| habit.seen(read));
+        let own = habit.and_then(|habit| habit.finds(read, number));
+        for found in own.into_iter().chain(checker.check(seen.as_deref().unwrap_or(read))) {
             match found {
+                _ if habit.is_some_and(|habit| habit.overlooks(&found)) => {}
                 // Not run.
                 _ if end.is_some_and(|(_, line)| line < found.line()) => break,
                 Found::Finding(finding) if finding.kind.ends_streaming() => {
@@ -47,6 +51,9 @@ impl Segment {
                 }
                 Found::Finding(_) => {}
             }
+        }
+        if let (Some((_, line)), Some(Habit::BehindEnd)) = (&mut end, habit) {
+            *line = checker.lines();
         }
         let stop = fault.or(end.map(|(end, line)| Stop::End { end, line }));
         Self { lines: read.to_vec(), at: 0, number, stop }

@@ -5,7 +5,8 @@ use std::time::Duration;
 use ads_cnc::ads::AdsError;
 use ads_cnc::streaming::{Ack, Checker, Interface};
 
-use super::executed::Executed;
+use super::executed::{Executed, lines};
+use super::habit::Habit;
 use super::pace::{Clock, Pace};
 use super::segment::{Next, Segment};
 use super::state::{Message, StartError, State};
@@ -79,6 +80,9 @@ pub struct Program {
     now: Duration,
     executed: Executed,
     refusals: u64,
+    habit: Option<Habit>,
+    /// What was written and not read, for a habit that needs it.
+    written: Vec<Vec<u8>>,
 }
 
 #[derive(Clone, Debug)]
@@ -99,6 +103,8 @@ impl Program {
             now: Duration::ZERO,
             executed: Executed::new(config.kept),
             refusals: 0,
+            habit: None,
+            written: Vec::new(),
             config,
         };
         if program.config.start != Start::ByHand && !program.config.name.is_empty() {
@@ -107,11 +113,20 @@ impl Program {
         program
     }
 
+    /// The same with a seeded defect.
+    pub(crate) fn with_habit(mut self, habit: Option<Habit>) -> Self {
+        self.habit = habit;
+        if habit == Some(Habit::StartsItself) && !self.config.name.is_empty() {
+            self.begin();
+        }
+        self
+    }
+
     /// Writes to `mc_program_stream_w`; [`result`] is what ADS answers.
     pub fn write(&mut self, data: &[u8], now: Duration) -> Ack {
         self.advance(now);
         let was_dry = self.is_dry();
-        let ack = self.interface.write(data);
+        let ack = self.take(data);
         match ack {
             Ack::Accepted if was_dry => {
                 self.clock = Clock::begin(self.now);
@@ -119,6 +134,23 @@ impl Program {
             }
             Ack::Later => self.refusals = self.refusals.saturating_add(1),
             Ack::Accepted | Ack::Refused => {}
+        }
+        ack
+    }
+
+    fn take(&mut self, data: &[u8]) -> Ack {
+        let Some(habit) = self.habit else { return self.interface.write(data) };
+        let over = self.interface.len().saturating_add(data.len()) > Habit::LITTLE_ROOM;
+        if habit == Habit::Narrow && over {
+            return Ack::Later;
+        }
+        let mut ack = self.interface.write(data);
+        let all = self.written.iter().map(Vec::len).sum::<usize>().saturating_add(data.len());
+        if ack == Ack::Later && habit == Habit::Roomy && all <= 2 * Habit::ROOM {
+            ack = Ack::Accepted;
+        }
+        if ack == Ack::Accepted {
+            self.written.push(data.to_vec());
         }
         ack
     }
@@ -144,6 +176,9 @@ impl Program {
             Phase::Over(State::Aborted(_)) => return Err(StartError::Aborted),
             Phase::Over(_) => {}
         }
+        if self.habit == Some(Habit::StartEmpties) {
+            self.empty();
+        }
         self.begin();
         self.clock = Clock::begin(self.now);
         self.run();
@@ -154,8 +189,19 @@ impl Program {
     /// still be read back.
     pub fn reset(&mut self, now: Duration) {
         self.advance(now);
+        if self.habit != Some(Habit::ResetKeeps) {
+            self.empty();
+        }
+        match self.habit {
+            Some(Habit::ResetGoesOn) => {}
+            Some(Habit::StartsItself) => self.begin(),
+            _ => self.phase = Phase::Over(State::Stopped),
+        }
+    }
+
+    fn empty(&mut self) {
         self.interface.reset();
-        self.phase = Phase::Over(State::Stopped);
+        self.written.clear();
     }
 
     /// Changes how fast lines are run from now on; the line that is being run begins anew.
@@ -226,20 +272,59 @@ impl Program {
                     let message = Message::of_finding(&self.config.name, &finding);
                     self.phase = Phase::Over(State::Aborted(message));
                 }
-                Next::End(_) if self.config.start == Start::Again => self.begin(),
-                Next::End(end) => self.phase = Phase::Over(State::Ended(end)),
-                Next::Nothing if self.interface.is_empty() => break,
+                Next::End(end) => {
+                    if self.habit == Some(Habit::EndEmpties) {
+                        self.empty();
+                    }
+                    match self.config.start {
+                        Start::Again => self.begin(),
+                        _ => self.phase = Phase::Over(State::Ended(end)),
+                    }
+                }
+                Next::Nothing if self.interface.is_empty() => {
+                    if self.habit == Some(Habit::DryEnds) && self.checker.lines() > 0 {
+                        self.phase = Phase::Over(State::Stopped);
+                    }
+                    break;
+                }
                 Next::Nothing => self.read(),
             }
         }
     }
 
     fn read(&mut self) {
-        self.phase = match self.interface.read() {
-            Ok(lines) => Phase::Started(Segment::new(&mut self.checker, lines)),
-            Err(error) => {
+        let written = std::mem::take(&mut self.written);
+        self.phase = match (self.interface.read(), self.habit) {
+            (Ok(lines), None) => Phase::Started(Segment::new(&mut self.checker, lines, None)),
+            (Ok(_), Some(habit)) => {
+                let lines = match (habit, written.as_slice()) {
+                    (Habit::Packets, [first, rest @ ..]) => {
+                        for packet in rest {
+                            self.interface.write(packet);
+                        }
+                        self.written = rest.to_vec();
+                        first.clone()
+                    }
+                    (Habit::Reversed, all) => all.iter().rev().flatten().copied().collect(),
+                    (_, all) => all.concat(),
+                };
+                if habit == Habit::Forgets {
+                    self.checker = Checker::new();
+                }
+                Phase::Started(Segment::new(&mut self.checker, &lines, self.habit))
+            }
+            (Err(_), Some(Habit::SkipsLines)) => {
+                let all = written.concat();
+                let whole = lines(&all).filter(|line| line.ends_with(b"\r\n"));
+                let whole: Vec<u8> = whole.flatten().copied().collect();
+                Phase::Started(Segment::new(&mut self.checker, &whole, self.habit))
+            }
+            (Err(error), habit) => {
                 let before = self.checker.lines();
-                let message = Message::of_line_end(&self.config.name, before, &error);
+                let mut message = Message::of_line_end(&self.config.name, before, &error);
+                if habit == Some(Habit::OtherError) {
+                    message.number = message.number.map(|number| number.wrapping_add(1));
+                }
                 Phase::Over(State::Aborted(message))
             }
         };

@@ -51,12 +51,12 @@ pub(super) fn serve(cnc: &Cnc, options: &ServerOptions, mut stream: &TcpStream) 
             cnc.respond(options.net_id, &frame, &mut answers);
             rest = rest.get(len..).unwrap_or_default();
             if answers.len() >= GATHERED_MAX {
-                stream.write_all(&answers)?;
+                send(cnc, stream, &answers)?;
                 answers.clear();
             }
         }
         if !answers.is_empty() {
-            stream.write_all(&answers)?;
+            send(cnc, stream, &answers)?;
             answers.clear();
         }
         let left = rest.len();
@@ -69,6 +69,12 @@ pub(super) fn serve(cnc: &Cnc, options: &ServerOptions, mut stream: &TcpStream) 
         }
         limit.set(stream)?;
     }
+}
+
+/// Sends answers, all at once but for a CNC that does not.
+fn send(cnc: &Cnc, mut stream: &TcpStream, answers: &[u8]) -> io::Result<()> {
+    let piece = cnc.piece().unwrap_or(answers.len());
+    answers.chunks(piece).try_for_each(|piece| stream.write_all(piece))
 }
 
 fn split(received: &[u8]) -> io::Result<Option<(FrameRef<'_>, usize)>> {

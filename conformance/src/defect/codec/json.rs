@@ -1,0 +1,76 @@
+//! Values as JSON, changed.
+
+use ads_cnc::text::cp1252_to_char;
+use serde_json::{Map, Value as Json};
+
+/// Every single value.
+pub(super) fn each(value: &mut Json, change: &mut dyn FnMut(&mut Map<String, Json>)) {
+    match value {
+        Json::Array(items) => items.iter_mut().for_each(|item| each(item, change)),
+        Json::Object(fields) => match fields.get("type").is_some_and(Json::is_string) {
+            true => change(fields),
+            false => fields.values_mut().for_each(|field| each(field, change)),
+        },
+        _ => {}
+    }
+}
+
+/// Every text, as bytes.
+pub(super) fn texts(value: &mut Json, change: fn(Vec<u8>) -> Vec<u8>) {
+    each(value, &mut |one| {
+        if one.get("type").and_then(Json::as_str) == Some("STRING")
+            && let Some(hex) = one.get("hex").and_then(Json::as_str)
+        {
+            let bytes = change(bytes(hex));
+            let text: String = bytes.iter().map(|byte| cp1252_to_char(*byte)).collect();
+            let hex: Vec<String> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+            one.insert("hex".to_owned(), Json::String(hex.join(" ")));
+            one.insert("value".to_owned(), Json::String(text));
+        }
+    });
+}
+
+fn bytes(hex: &str) -> Vec<u8> {
+    hex.split_ascii_whitespace().filter_map(|byte| u8::from_str_radix(byte, 16).ok()).collect()
+}
+
+/// Every number of these types.
+pub(super) fn numbers(value: &mut Json, types: &[&str], change: fn(i128) -> i128) {
+    each(value, &mut |one| {
+        let is = one.get("type").and_then(Json::as_str).is_some_and(|kind| types.contains(&kind));
+        let number = one.get("value").and_then(Json::as_str).and_then(|it| it.parse().ok());
+        if let (true, Some(number)) = (is, number) {
+            one.insert("value".to_owned(), Json::String(change(number).to_string()));
+        }
+    });
+}
+
+/// Every list under this name.
+pub(super) fn lists(value: &mut Json, name: &str, change: fn(&mut Vec<Json>)) {
+    match value {
+        Json::Array(items) => items.iter_mut().for_each(|item| lists(item, name, change)),
+        Json::Object(fields) => {
+            for (field, value) in fields {
+                match value {
+                    Json::Array(items) if field == name => change(items),
+                    value => lists(value, name, change),
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+/// A word in a place of another, and the other way round.
+pub(super) fn words(value: &mut Json, field: &str, pairs: &[(&str, &str)]) {
+    let Some(Json::Object(one)) = value.get_mut(field) else { return };
+    let word = one.get("value").and_then(Json::as_str).unwrap_or_default();
+    let other = pairs.iter().find_map(|(a, b)| match word {
+        word if word == *a => Some(*b),
+        word if word == *b => Some(*a),
+        _ => None,
+    });
+    if let Some(other) = other.map(str::to_owned) {
+        one.insert("value".to_owned(), Json::String(other));
+    }
+}

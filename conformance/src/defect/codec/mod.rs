@@ -1,0 +1,318 @@
+//! What a codec can get wrong: its answers to the testee protocol are changed around the right ones.
+
+mod address;
+mod json;
+mod nc;
+mod packets;
+mod strict;
+mod text;
+mod value;
+
+use std::collections::BTreeMap;
+
+use ads_cnc::layout::Stream;
+use ads_cnc_vectors::{Expect, Vector, vectors};
+use serde_json::Value as Json;
+
+use super::{How, Kind, Seed};
+use crate::codec;
+use crate::testee::{Answer, Output, Question, Rejection, rests_on_assumption};
+
+/// The right answers.
+pub(super) type Right<'a> = &'a dyn Fn(&Question) -> Answer;
+
+/// How a codec does something wrong.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Twist {
+    /// What it has to refuse for such a fault it accepts.
+    Accepts(&'static str, &'static str),
+    /// It refuses this stream if it is as long as it may be.
+    Longest(&'static str),
+    /// It takes two fields of a stream for each other.
+    Swaps(&'static str, &'static str, &'static str),
+    /// Each number of the stream has its bytes in reverse order.
+    BigEndian(Stream),
+    /// Values are changed on their way out and in: of the stream, the value.
+    Value(fn(&str, &mut Json)),
+    /// Bytes are changed on their way out.
+    Bytes(fn(&str, Vec<u8>) -> Vec<u8>),
+    /// Packets of NC text are changed on their way out.
+    Packets(fn(Vec<Vec<u8>>) -> Vec<Vec<u8>>),
+    /// NC text is changed on its way in.
+    Text(fn(&[u8]) -> Vec<u8>),
+    /// Anything.
+    Around(fn(Right<'_>, &Question) -> Answer),
+}
+
+impl Twist {
+    /// The answer to a question.
+    pub(crate) fn answer(self, right: Right<'_>, question: &Question) -> Answer {
+        let stream = question.stream.as_str();
+        match self {
+            Self::Accepts(class, of) => match right(question) {
+                Answer::Reject(reject)
+                    if of == stream && reject.class.as_deref() == Some(class) =>
+                {
+                    accepted()
+                }
+                answer => answer,
+            },
+            Self::Longest(of) => {
+                let longest = Stream::by_name(of).map(|stream| stream.layout().max);
+                let len = question.hex.as_ref().and_then(|hex| u32::try_from(hex.len()).ok());
+                match of == stream && question.op == "decode" && len == longest {
+                    true => refused("too-long"),
+                    false => right(question),
+                }
+            }
+            Self::Swaps(of, one, other) => match of == stream {
+                true => around_value(right, question, |value| swap(value, one, other)),
+                false => right(question),
+            },
+            Self::BigEndian(of) => match of.layout().name == stream {
+                true => big_endian(right, question, of),
+                false => right(question),
+            },
+            Self::Value(change) => around_value(right, question, |value| change(stream, value)),
+            Self::Bytes(change) => match right(question) {
+                Answer::Ok(Output { hex: Some(bytes), .. }) if question.op == "encode" => {
+                    Answer::Ok(Output { hex: Some(change(stream, bytes)), ..Output::default() })
+                }
+                answer => answer,
+            },
+            Self::Packets(change) => match right(question) {
+                Answer::Ok(Output { packets: Some(packets), .. }) => {
+                    Answer::Ok(Output { packets: Some(change(packets)), ..Output::default() })
+                }
+                answer => answer,
+            },
+            Self::Text(change) => {
+                let mut other = question.clone();
+                if question.op == "packets" {
+                    other.hex = question.hex.as_deref().map(change);
+                }
+                for packet in other.packets.iter_mut().flatten() {
+                    *packet = change(packet);
+                }
+                right(&other)
+            }
+            Self::Around(change) => change(right, question),
+        }
+    }
+}
+
+/// It is accepted, whatever it is.
+pub(super) fn accepted() -> Answer {
+    let value = Some(Json::Object(serde_json::Map::default()));
+    Answer::Ok(Output { value, ..Output::default() })
+}
+
+pub(super) fn refused(class: &str) -> Answer {
+    Answer::Reject(Rejection { class: Some(class.to_owned()), ..Rejection::default() })
+}
+
+/// With the value changed that comes out of `decode` and that goes into `encode`.
+fn around_value(right: Right<'_>, question: &Question, change: impl Fn(&mut Json)) -> Answer {
+    let mut other = question.clone();
+    if let Some(fields) = &question.value
+        && let Ok(mut value) = serde_json::to_value(fields)
+    {
+        change(&mut value);
+        match serde_json::from_value(value) {
+            Ok(fields) => other.value = Some(fields),
+            Err(error) => return Answer::Error { message: error.to_string() },
+        }
+    }
+    match right(&other) {
+        Answer::Ok(Output { value: Some(mut value), .. }) => {
+            change(&mut value);
+            Answer::Ok(Output { value: Some(value), ..Output::default() })
+        }
+        answer => answer,
+    }
+}
+
+/// Swaps two fields, in each record.
+fn swap(value: &mut Json, one: &str, other: &str) {
+    match value {
+        Json::Array(items) => items.iter_mut().for_each(|item| swap(item, one, other)),
+        Json::Object(fields) => match (fields.remove(one), fields.remove(other)) {
+            (Some(first), Some(second)) => {
+                fields.insert(one.to_owned(), second);
+                fields.insert(other.to_owned(), first);
+            }
+            _ => fields.values_mut().for_each(|field| swap(field, one, other)),
+        },
+        _ => {}
+    }
+}
+
+fn big_endian(right: Right<'_>, question: &Question, stream: Stream) -> Answer {
+    let all = super::Defect::of_stream(stream);
+    let numbers = all.iter().filter(|one| one.change == super::Change::SwapBytes && is_number(one));
+    let turn = |bytes: &[u8]| numbers.clone().fold(bytes.to_vec(), |bytes, one| one.apply(&bytes));
+    let mut other = question.clone();
+    other.hex = question.hex.as_deref().map(turn);
+    match right(&other) {
+        Answer::Ok(Output { hex: Some(bytes), .. }) => {
+            Answer::Ok(Output { hex: Some(turn(&bytes)), ..Output::default() })
+        }
+        answer => answer,
+    }
+}
+
+fn is_number(defect: &super::Defect) -> bool {
+    use ads_cnc::layout::Type;
+    let number = |field: &ads_cnc::layout::FieldSpec| {
+        matches!(field.ty, Type::Uns16 | Type::Uns32 | Type::Unsigned | Type::Real64)
+    };
+    defect.field.spec().is_some_and(number)
+}
+
+/// A row of the tables of defects.
+pub(super) struct Row {
+    pub(super) id: &'static str,
+    pub(super) breaks: &'static [&'static str],
+    pub(super) what: &'static str,
+    pub(super) twist: Twist,
+}
+
+pub(super) const fn row(
+    id: &'static str,
+    breaks: &'static [&'static str],
+    what: &'static str,
+    twist: Twist,
+) -> Row {
+    Row { id, breaks, what, twist }
+}
+
+fn seed(id: String, requirements: Vec<&'static str>, what: String, twist: Twist) -> Seed {
+    let how = How::Codec(twist);
+    Seed { id, requirements, what, kind: Kind::Codec, edition: None, printed: true, how }
+}
+
+/// All of them.
+pub(super) fn seeds() -> Vec<Seed> {
+    let mut seeds = forgotten_checks();
+    seeds.extend(too_strict());
+    seeds.extend(swapped());
+    seeds.extend(turned());
+    let rows = [address::ROWS, nc::ROWS, packets::ROWS, strict::ROWS, text::ROWS, value::ROWS];
+    seeds.extend(
+        rows.into_iter().flatten().map(|row| {
+            seed(row.id.to_owned(), row.breaks.to_vec(), row.what.to_owned(), row.twist)
+        }),
+    );
+    seeds
+}
+
+/// Requirements of these vectors, each once.
+fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
+    let known = |id: &String| ads_cnc_vectors::requirement(id).map(|one| one.id.as_str());
+    let mut all: Vec<&'static str> =
+        of.flat_map(|vector| &vector.requirements).filter_map(known).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// A check of each class and stream that there is a vector for.
+fn forgotten_checks() -> Vec<Seed> {
+    let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
+    // Fields never carry: that is a must though nobody states it.
+    let no_carry = |vector: &&Vector| vector.requirements.iter().any(|id| id == "ADR-9");
+    let judged = |vector: &&'static Vector| !rests_on_assumption(vector) || no_carry(vector);
+    for vector in vectors().iter().filter(judged) {
+        if let Expect::Reject(reject) = &vector.expect {
+            pairs.entry((&vector.stream, &reject.class)).or_default().push(vector);
+        }
+    }
+    let each = |((stream, class), those): ((&'static str, &'static str), Vec<&'static Vector>)| {
+        // The classes of vectors are advisory: what the codec calls it is what is forgotten.
+        let refusal = |vector: &&'static Vector| match codec::decode_stream(
+            stream,
+            &vector.context,
+            &vector.bytes(),
+        ) {
+            Err(codec::Refused::Error(error)) => Some(codec::class(&error)),
+            _ => None,
+        };
+        let called = those.iter().find_map(refusal)?;
+        let what = format!("{stream}: what is {} is accepted", class.replace('-', " "));
+        let id = format!("codec.accepts.{class}.{stream}");
+        Some(seed(id, broken(those.into_iter()), what, Twist::Accepts(called, stream)))
+    };
+    pairs.into_iter().filter_map(each).collect()
+}
+
+/// Streams of which there is one as long as may be.
+fn too_strict() -> Vec<Seed> {
+    let longest = |stream: &Stream| -> Vec<&'static Vector> {
+        let layout = stream.layout();
+        let all = vectors().iter().filter(|vector| vector.is_accepted());
+        all.filter(|vector| vector.stream == layout.name && !rests_on_assumption(vector))
+            .filter(|vector| u32::try_from(vector.bytes().len()) == Ok(layout.max))
+            .collect()
+    };
+    let each = |stream: Stream| {
+        let those = longest(&stream);
+        let name = stream.layout().name;
+        let any = !stream.layout().is_fixed() && !those.is_empty();
+        any.then(|| {
+            let what = format!("{name}: the longest there may be is refused");
+            let id = format!("codec.refuses.longest.{name}");
+            seed(id, broken(those.into_iter()), what, Twist::Longest(name))
+        })
+    };
+    Stream::all().filter_map(each).collect()
+}
+
+/// Neighbours of the same type.
+fn swapped() -> Vec<Seed> {
+    let fields = Stream::all().filter(|stream| !stream.layout().repeats).flat_map(|stream| {
+        let layout = stream.layout();
+        let pairs = layout.fields.iter().zip(layout.fields.iter().skip(1));
+        pairs
+            .filter(|(one, other)| one.ty == other.ty)
+            .map(move |(one, other)| (layout, one, other))
+    });
+    // What only counts is no field of a value.
+    let is_value = |stream: &str, field: &str| {
+        let accepted = |vector: &&Vector| vector.stream == stream && vector.is_accepted();
+        vectors().iter().filter(accepted).any(|vector| match &vector.expect {
+            Expect::Accept(accept) => accept.value.contains_key(field),
+            Expect::Reject(_) => false,
+        })
+    };
+    fields
+        .filter(|(layout, one, other)| {
+            is_value(layout.name, one.name) && is_value(layout.name, other.name)
+        })
+        .map(|(layout, one, other)| {
+            let id = format!("codec.swaps.{}.{}-{}", layout.name, one.name, other.name);
+            let what = format!(
+                "{}: {} is taken for {}, and it for that",
+                layout.name, one.name, other.name
+            );
+            let mut clauses = vec![one.clause, other.clause];
+            clauses.dedup();
+            seed(id, clauses, what, Twist::Swaps(layout.name, one.name, other.name))
+        })
+        .collect()
+}
+
+/// Streams with numbers.
+fn turned() -> Vec<Seed> {
+    let each = |stream: Stream| {
+        let layout = stream.layout();
+        let all = super::Defect::of_stream(stream);
+        let any = all.iter().any(|one| one.change == super::Change::SwapBytes && is_number(one));
+        any.then(|| {
+            let what = format!("{}: numbers have the most significant byte first", layout.name);
+            let id = format!("codec.big-endian.{}", layout.name);
+            seed(id, vec!["GEN-1", layout.clause], what, Twist::BigEndian(stream))
+        })
+    };
+    let streams = Stream::all().filter(|stream| *stream != Stream::ObjectDescriptors);
+    streams.filter_map(each).collect()
+}

@@ -1,0 +1,92 @@
+//! Each of them shows somewhere, and every requirement has one or a reason to have none.
+
+mod talk;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use ads_cnc_vectors::{Level, requirements};
+
+use self::talk::Talk;
+use super::*;
+use crate::testee::{self, Answer, Own, Question};
+use crate::{clients, suite};
+
+fn of_kind(kinds: &[Kind]) -> impl Iterator<Item = &'static Seed> {
+    let kinds = kinds.to_vec();
+    all().iter().filter(move |seed| kinds.contains(&seed.kind) && seed.field().is_none())
+}
+
+#[test]
+fn ids_differ_and_sentences_say_something() {
+    let ids: BTreeSet<&str> = all().iter().map(|seed| seed.id.as_str()).collect();
+    assert_eq!(ids.len(), all().len());
+    for seed in all() {
+        assert_eq!(by_id(&seed.id).map(|one| &one.what), Some(&seed.what));
+        assert!(seed.what.len() > 10 && !seed.what.ends_with('.'), "{}", seed.id);
+        assert!(seed.id.bytes().all(|byte| byte.is_ascii_graphic()), "{}", seed.id);
+        assert_eq!(seed.requirements.is_empty(), seed.kind == Kind::Different, "{}", seed.id);
+        for id in &seed.requirements {
+            let requirement = requirements().iter().find(|one| one.id == *id);
+            let requirement = requirement.unwrap_or_else(|| panic!("{}: {id}", seed.id));
+            assert!(requirement.excluded.is_none(), "{}: {id} is excluded", seed.id);
+        }
+    }
+}
+
+/// One that changes nothing is none.
+#[test]
+fn every_defect_of_a_cnc_shows() {
+    let mut right: BTreeMap<Option<Edition>, Talk<'_>> = BTreeMap::new();
+    let mut hidden = Vec::new();
+    for seed in of_kind(&[Kind::Cnc, Kind::Different]) {
+        if matches!(seed.of_cnc(), Some(Twist::Pieces(_))) {
+            continue;
+        }
+        let right = right.entry(seed.edition).or_insert_with(|| match seed.edition {
+            None => Talk::new(None, None),
+            Some(_) => {
+                Talk::new(Some(&Seed { how: How::Cnc(Twist::Pieces(0)), ..seed.clone() }), None)
+            }
+        });
+        if !Talk::new(Some(seed), Some(&right.said)).differs {
+            hidden.push(seed.id.as_str());
+        }
+    }
+    assert_eq!(hidden, [""; 0]);
+}
+
+/// All that the vectors and sequences ask a codec.
+fn questions() -> Vec<Question> {
+    let cases = suite::cases();
+    cases.iter().flat_map(|case| testee::questions(case, "en-1.05")).collect()
+}
+
+#[test]
+fn every_defect_of_a_codec_shows() {
+    let questions = questions();
+    let right: Vec<Answer> = questions.iter().map(|one| Own::default().answer(one)).collect();
+    let cnc = Talk::new(None, None).said;
+    let hidden = all().iter().filter(|seed| seed.is_for_codec()).filter(|seed| {
+        let own = Own { defect: Some((*seed).clone()) };
+        let same = |(question, right): (&Question, &Answer)| own.answer(question) == *right;
+        questions.iter().zip(&right).all(same)
+            && !(seed.is_for_cnc() && Talk::new(Some(seed), Some(&cnc)).differs)
+    });
+    assert_eq!(hidden.map(|seed| seed.id.as_str()).collect::<Vec<_>>(), [""; 0]);
+}
+
+/// A must without a defect has a reason, and none has both.
+#[test]
+fn every_must_can_be_broken() {
+    let clients = clients::defects().iter().map(|defect| defect.requirement);
+    let targets: BTreeSet<&str> =
+        all().iter().flat_map(|seed| seed.requirements.iter().copied()).chain(clients).collect();
+    let reasons: BTreeMap<&str, &str> = without().iter().copied().collect();
+    for one in requirements() {
+        let must = one.level == Level::Must && one.excluded.is_none();
+        let id = one.id.as_str();
+        let (broken, reason) = (targets.contains(id), reasons.contains_key(id));
+        assert!(!must || broken != reason, "{id}: defect {broken}, reason {reason}");
+    }
+    assert!(reasons.values().all(|reason| reason.len() > 40));
+}
