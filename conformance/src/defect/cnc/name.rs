@@ -99,7 +99,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row(
         "cnc.var.name-unknown",
-        &["VAR-9"],
+        &["VAR-9", "VAR-20"],
         "a name that is not there has the handle 0 and the value 0",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),
@@ -111,7 +111,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row(
         "cnc.var.name-unknown-nothing",
-        &["VAR-9"],
+        &["VAR-9", "VAR-20"],
         "a name that is not there is answered without an error and without data",
         |cnc, call| match (
             is(call, &[Function::ReadByName, Function::HandleByName]),

@@ -294,7 +294,8 @@ fn swapped() -> Vec<Seed> {
                 "{}: {} is taken for {}, and it for that",
                 layout.name, one.name, other.name
             );
-            let mut clauses = vec![one.clause, other.clause];
+            let mut clauses = vec![layout.clause, one.clause, other.clause];
+            clauses.sort_unstable();
             clauses.dedup();
             seed(id, clauses, what, Twist::Swaps(layout.name, one.name, other.name))
         })

@@ -162,7 +162,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row(
         "codec.nc.empty-lines-dropped",
-        &["STM-7"],
+        &["STM-4"],
         "empty lines are dropped",
         Twist::Packets(|packets| {
             let text = lines(&packets.concat(), |line| match line {

@@ -53,19 +53,6 @@ pub(super) const ROWS: &[Row] = &[
         Twist::Value(|_, value| texts(value, |bytes| bytes.to_ascii_uppercase())),
     ),
     row(
-        "codec.text.cut-31",
-        &["COM-2"],
-        "names of objects have 31 characters at most",
-        Twist::Value(|stream, value| {
-            if stream.starts_with("object-descriptor") {
-                texts(value, |mut bytes| {
-                    bytes.truncate(31);
-                    bytes
-                });
-            }
-        }),
-    ),
-    row(
         "codec.text.cut-20",
         &["SDA-6", "VAR-4"],
         "texts have 20 characters at most",
@@ -78,7 +65,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row(
         "codec.text.service-cut",
-        &["SVC-1"],
+        &["SVC-1", "VAR-13"],
         "values of strings have 80 characters at most",
         Twist::Value(|stream, value| {
             if stream.starts_with("variable-value") || stream == "variable-name-write" {
