@@ -124,6 +124,13 @@ impl Client {
         Self { clock, ..self }
     }
 
+    /// With another time to wait for a connection and for an answer.
+    #[must_use]
+    pub(crate) const fn with_timeout(mut self, timeout: Duration) -> Self {
+        self.target.timeout = timeout;
+        self
+    }
+
     /// With a capture of all that is sent and received from now on.
     #[must_use]
     pub fn with_capture(mut self, mut capture: Capture) -> Self {
