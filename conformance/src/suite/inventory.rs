@@ -3,7 +3,8 @@
 use ads_cnc::address::{Channel, Class, ElementAddress, PlatformAxis};
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{
-    CountElements, CountObjects, FindInstance, Function, ObjectList, ReadDescriptors, Request,
+    CountElements, CountObjects, FindInstance, Function, ObjectList, ReadDescriptors,
+    ReadElementName, Request,
 };
 use ads_cnc::sda::{ElementCount, ObjectAddress};
 use ads_cnc::{CncString, Decode, DescriptorsRef, ObjectCount};
@@ -16,6 +17,10 @@ use crate::profile::Claim;
 pub(super) const OBJECTS_MAX: u32 = 10_000;
 /// The most axes and spindles that are looked for.
 pub(super) const INSTANCES_MAX: u32 = 255;
+
+/// How many in a row may be unreadable before no more are looked for: a number that a target gives
+/// may be any.
+const GAPS_MAX: u32 = 8;
 
 /// Classes with an instance for each channel, and one for each place of it.
 pub(super) const OF_PLACES: [Class; 3] =
@@ -47,13 +52,16 @@ pub(super) struct Instance {
     pub(super) channel: u32,
     pub(super) axis: u32,
     pub(super) first: ElementAddress,
+    /// How many elements it is said to have.
     pub(super) count: u32,
+    /// How many of them are looked at.
+    reached: u32,
 }
 
 impl Instance {
     /// Its elements, without that which says how many there are.
     pub(super) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
-        (1..=self.count.min(OBJECTS_MAX)).map_while(|place| self.first.following(place).ok())
+        (1..=self.reached).map_while(|place| self.first.following(place).ok())
     }
 }
 
@@ -92,14 +100,20 @@ impl Probe<'_> {
             for list in self.lists()? {
                 let Some(data) = self.try_ask(CountObjects::new(list))? else { continue };
                 let count = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
+                let mut gaps = 0_u32;
                 for first in 1..=count {
                     let one = ReadDescriptors::new(list, first, 1).map_err(harness)?;
                     let data = self.try_ask(one)?.filter(|data| data.len() == DESCRIPTOR_LEN);
                     let data = data.unwrap_or_default();
                     let object = DescriptorsRef::decode(&data).ok();
                     let Some(object) = object.as_ref().and_then(|list| list.get(0)) else {
+                        gaps = gaps.saturating_add(1);
+                        if gaps >= GAPS_MAX {
+                            break;
+                        }
                         continue;
                     };
+                    gaps = 0;
                     all.push(Object {
                         list,
                         name: object.name().into(),
@@ -180,8 +194,35 @@ impl Probe<'_> {
         };
         let count = count.and_then(|data| ElementCount::decode(&data).ok());
         let count = count.map_or(0, |count| count.0);
-        all.push(Instance { class, channel, axis, first, count });
+        let reached = self.reach(first, count.min(OBJECTS_MAX))?;
+        all.push(Instance { class, channel, axis, first, count, reached });
         Ok(true)
+    }
+
+    /// How many of an instance's elements there are to look at, if it says to have so many: all, if
+    /// the last one has a name.
+    fn reach(&mut self, first: ElementAddress, count: u32) -> Step<u32> {
+        if self.is_named(first, count)? {
+            return Ok(count);
+        }
+        let (mut reached, mut gaps) = (0, 0_u32);
+        for place in 1..count {
+            match self.is_named(first, place)? {
+                true => (reached, gaps) = (place, 0),
+                false => gaps = gaps.saturating_add(1),
+            }
+            if gaps >= GAPS_MAX {
+                break;
+            }
+        }
+        Ok(reached)
+    }
+
+    fn is_named(&mut self, first: ElementAddress, place: u32) -> Step<bool> {
+        match first.following(place) {
+            Ok(element) => Ok(self.try_ask(ReadElementName::new(element))?.is_some()),
+            Err(_) => Ok(false),
+        }
     }
 
     /// What the target says of where an instance is; nothing if it refuses.

@@ -19,6 +19,9 @@ use crate::verdict::Verdict;
 /// Requests in a row without an answer after which no more are sent.
 const SILENCES_MAX: usize = 8;
 
+/// Requests of one case after which it ends: a target may say to have no end of anything.
+const REQUESTS_MAX: usize = 50_000;
+
 /// One case's view of the session.
 #[derive(Debug)]
 pub struct Probe<'s> {
@@ -26,11 +29,12 @@ pub struct Probe<'s> {
     pub session: &'s mut Session,
     record: Record,
     last: Option<Evidence>,
+    asked: usize,
 }
 
 impl<'s> Probe<'s> {
     pub(super) fn new(session: &'s mut Session) -> Self {
-        Self { session, record: Record::default(), last: None }
+        Self { session, record: Record::default(), last: None, asked: 0 }
     }
 
     pub(super) fn into_findings(self) -> (Vec<Judgement>, usize) {
@@ -124,6 +128,12 @@ impl<'s> Probe<'s> {
     /// Sends a call and keeps it as the evidence of the checks that follow.
     pub fn call(&mut self, call: &Call<'_>) -> Step<Exchange> {
         self.target()?;
+        self.asked = self.asked.saturating_add(1);
+        if self.asked > REQUESTS_MAX {
+            let why =
+                format!("{REQUESTS_MAX} requests, and no end to what the target says to have");
+            return Err(Stop::Inconclusive(why));
+        }
         let function = call.dispatch().ok().map(|request| request.function());
         if let Some(function) = function.filter(|one| self.claims(*one) == Claim::No) {
             let why = format!("the profile does not claim {}", function.spec().name);
