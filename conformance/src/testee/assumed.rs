@@ -3,8 +3,9 @@
 use ads_cnc_vectors::{ProvenanceKind, Vector};
 
 /// Assumptions that set the scene, or without which nothing could be said of a stream at all. Whoever
-/// does it otherwise is judged nonetheless. All others are left to the testee: it may differ.
-const SETTING: [&str; 39] = [
+/// does it otherwise is judged nonetheless; so are the widths of numbers in an address, which are a
+/// must (ADR-9) though nobody documents them. All others are left to the testee: it may differ.
+const SETTING: [&str; 45] = [
     "0x4C is reserved in the manuals",
     "0x703 for a wrong offset",
     "0x704 for an object that must not be written",
@@ -12,6 +13,9 @@ const SETTING: [&str; 39] = [
     "NetIds, the client's port and the invoke ID are made up",
     "TRUE is written as 1",
     "a STRING of 21 bytes",
+    "a number takes the low 8 bits",
+    "an instance takes the low 8 bits",
+    "axis and element take 16 bits each",
     "both numbers are UNS32",
     "both numbers are UNS32, so both lengths are 8",
     "channel 1",
@@ -21,8 +25,11 @@ const SETTING: [&str; 39] = [
     "handles of the axis interface are used with 0x49",
     "id and size",
     "one NUL is written behind the text",
+    "the axis takes 16 bits",
+    "the axis takes 16 bits, the element 12",
     "the content is made up: none is printed",
     "the element and its type",
+    "the element takes 12 bits",
     "the group: only its parts are printed, the base without the bit for logical addressing",
     "the length to read",
     "the name ends with one NUL",

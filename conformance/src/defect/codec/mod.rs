@@ -219,9 +219,7 @@ fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
 /// A check of each class and stream that there is a vector for.
 fn forgotten_checks() -> Vec<Seed> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
-    // Fields never carry: that is a must though nobody states it.
-    let no_carry = |vector: &&Vector| vector.requirements.iter().any(|id| id == "ADR-9");
-    let judged = |vector: &&'static Vector| !rests_on_assumption(vector) || no_carry(vector);
+    let judged = |vector: &&'static Vector| !rests_on_assumption(vector);
     for vector in vectors().iter().filter(judged) {
         if let Expect::Reject(reject) = &vector.expect {
             pairs.entry((&vector.stream, &reject.class)).or_default().push(vector);
