@@ -13,7 +13,7 @@ pub(super) fn candidates() -> Vec<Candidate> {
         group,
         what: defect.to_string(),
         targets: Some(defect.requirement).into_iter().filter(|id| !id.is_empty()).collect(),
-        run: Box::new(move || run(defect)),
+        run: Box::new(move || run(defect).map(Some)),
     };
     let wrong = defects().iter().map(|defect| one(defect, Group::Client));
     wrong.chain(habits().iter().map(|habit| one(habit, Group::Different))).collect()

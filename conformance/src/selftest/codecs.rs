@@ -40,7 +40,7 @@ fn of_seed(seed: &'static Seed) -> Candidate {
                 (_, field) => field.is_none(),
             };
             let mut own = Own { defect: Some(seed.clone()) };
-            Ok(judge(&mut own, cases().filter(touched).collect(), TERMS).outcomes)
+            Ok(Some(judge(&mut own, cases().filter(touched).collect(), TERMS).outcomes))
         }),
     }
 }
@@ -53,7 +53,7 @@ fn of_miniature(miniature: Miniature) -> Candidate {
         group: if is_right { Group::Different } else { Group::Miniature },
         what: format!("a testee that {}", name.replace('-', " ")),
         targets: if is_right { Vec::new() } else { targets(miniature) },
-        run: Box::new(move || over_pipes(miniature)),
+        run: Box::new(move || over_pipes(miniature).map(Some)),
     }
 }
 

@@ -89,6 +89,8 @@ pub enum Outcomes {
     Quiet,
     /// Nothing is wrong, and something has failed.
     FalseAlarm,
+    /// What it changes was what it is changed to wherever it came by: nobody could tell.
+    Same,
     /// It could not be tried.
     Broken,
 }
@@ -103,9 +105,11 @@ pub struct SelfTest {
 }
 
 impl SelfTest {
-    /// How many of a group did what they should, and how many there are.
+    /// How many of a group did what they should, and how many there are; without those that are the
+    /// same as without their defect.
     pub fn rate(&self, group: Group) -> (usize, usize) {
-        let mine = || self.tried.iter().filter(|one| one.group == group);
+        let differs = |one: &&Tried| one.group == group && one.result != Outcomes::Same;
+        let mine = || self.tried.iter().filter(differs);
         let right = |one: &&Tried| matches!(one.result, Outcomes::Caught | Outcomes::Quiet);
         (mine().filter(right).count(), mine().count())
     }
@@ -113,7 +117,7 @@ impl SelfTest {
     /// How the process ends: a survivor without a reason, a false alarm and a reason for none fail.
     pub fn exit(&self) -> Exit {
         let wrong = |one: &Tried| match one.result {
-            Outcomes::Caught | Outcomes::Quiet => false,
+            Outcomes::Caught | Outcomes::Quiet | Outcomes::Same => false,
             Outcomes::Survived | Outcomes::Elsewhere => one.reason.is_none(),
             Outcomes::FalseAlarm | Outcomes::Broken => true,
         };
@@ -131,7 +135,8 @@ struct Candidate {
     group: Group,
     what: String,
     targets: Vec<&'static str>,
-    run: Box<dyn Fn() -> Result<Vec<Outcome>, Trouble> + Send + Sync>,
+    /// Nothing if it does as it would without its defect.
+    run: Box<dyn Fn() -> Result<Option<Vec<Outcome>>, Trouble> + Send + Sync>,
 }
 
 /// Tries all whose ID, group or target begins with one of these words; all if there is none.
@@ -181,7 +186,8 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 fn attempt(candidate: &Candidate) -> Tried {
     let Candidate { id, group, what, targets, run } = candidate;
     let (failed, result) = match run() {
-        Ok(outcomes) => judge(targets, &outcomes),
+        Ok(Some(outcomes)) => judge(targets, &outcomes),
+        Ok(None) => (Vec::new(), Outcomes::Same),
         Err(trouble) => (vec![trouble.to_string()], Outcomes::Broken),
     };
     let survives = matches!(result, Outcomes::Survived | Outcomes::Elsewhere);

@@ -3,7 +3,41 @@
 use super::{Group, Outcomes, Tried};
 
 /// Group, beginning of the ID, and why nothing can tell.
-const REASONS: &[(Group, &str, &str)] = &[];
+const REASONS: &[(Group, &str, &str)] = &[
+    (
+        Group::Codec,
+        "object-descriptor.not_assigned.",
+        "Nothing is assigned to these two bytes: whoever keeps, orders or drops them as they like \
+         breaks nothing, so no vector has anything else there than 0.",
+    ),
+    (
+        Group::Codec,
+        "codec.element.length-one-byte",
+        "Nobody documents how wide a length is, and the only one printed is 1. The vectors above 255 \
+         rest on an assumed width: this codec differs at them, which fails nobody.",
+    ),
+    (
+        Group::Codec,
+        "codec.refuses.sum",
+        "That no kind asks for the sum is documented, how none is written is not. This codec refuses \
+         one of the two ways and differs by that, which fails nobody.",
+    ),
+    (
+        Group::Cnc,
+        "device-info-reply.",
+        "Any name and any version are right: nobody documents what a device says of itself.",
+    ),
+    (
+        Group::Cnc,
+        "device-state-reply.",
+        "Any state is right: nobody documents which a CNC has when.",
+    ),
+    (
+        Group::Cnc,
+        "object-descriptor.write_access.swap",
+        "Whatever is not 0 is TRUE: 0x0100 says no other thing than 0x0001.",
+    ),
+];
 
 /// The reason for a survivor, if there is one.
 pub(super) fn of(group: Group, id: &str) -> Option<&'static str> {

@@ -14,7 +14,7 @@ const TARGETS_SHOWN: usize = 6;
 /// Those of `out`.
 pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     for one in &test.tried {
-        let fine = matches!(one.result, Outcomes::Caught | Outcomes::Quiet);
+        let fine = matches!(one.result, Outcomes::Caught | Outcomes::Quiet | Outcomes::Same);
         if verbose || !fine {
             entry(one, out)?;
         }
@@ -37,7 +37,17 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
             }
             _ => {
                 let percent = percent(right, all);
-                writeln!(out, "{:<10}  {right} caught of {all} ({percent} %)", group.name())?;
+                let same = test.tried.iter().filter(|one| one.group == group);
+                let same = same.filter(|one| one.result == Outcomes::Same).count();
+                let beside = match same {
+                    0 => String::new(),
+                    _ => format!(", beside {same} that change nothing here"),
+                };
+                writeln!(
+                    out,
+                    "{:<10}  {right} caught of {all} ({percent} %){beside}",
+                    group.name()
+                )?;
             }
         }
     }
@@ -56,6 +66,7 @@ fn entry(one: &Tried, out: &mut dyn Write) -> io::Result<()> {
         Outcomes::Elsewhere => "ELSEWHERE",
         Outcomes::Survived => "SURVIVED",
         Outcomes::Quiet => "quiet",
+        Outcomes::Same => "same",
         Outcomes::FalseAlarm => "FALSE ALARM",
         Outcomes::Broken => "BROKEN",
     };

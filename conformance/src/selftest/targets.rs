@@ -37,30 +37,33 @@ const IMPATIENCE: Duration = Duration::from_millis(400);
 /// new enough for whatever there is.
 ///
 /// First those alone that can judge what the defect breaks: what is caught by them is caught.
-fn against(seed: &Seed) -> Result<Vec<Outcome>, Trouble> {
+fn against(seed: &Seed) -> Result<Option<Vec<Outcome>>, Trouble> {
     let by_default = Settings { edition: seed.edition, version: None };
     let newest = Settings { edition: Some(Edition::German), version: NEWEST.parse().ok() };
     let is_caught =
         |outcomes: &[Outcome]| super::judge(&seed.requirements, outcomes).1 == Outcomes::Caught;
     let targeted = |case: &Case| seed.requirements.iter().any(|id| case.requirements.contains(id));
     if !seed.requirements.is_empty() {
-        let outcomes = run(seed, by_default, targeted)?;
+        let (outcomes, _) = run(seed, by_default, targeted)?;
         if is_caught(&outcomes) {
-            return Ok(outcomes);
+            return Ok(Some(outcomes));
         }
     }
-    let mut outcomes = run(seed, by_default, |_| true)?;
+    let (mut outcomes, mut has_shown) = run(seed, by_default, |_| true)?;
     if seed.edition.is_none() && !is_caught(&outcomes) {
-        outcomes.extend(run(seed, newest, |_| true)?);
+        let (more, has_shown_there) = run(seed, newest, |_| true)?;
+        outcomes.extend(more);
+        has_shown |= has_shown_there;
     }
-    Ok(outcomes)
+    Ok(has_shown.then_some(outcomes))
 }
 
+/// What came of it, and whether the defect has shown at all.
 fn run(
     seed: &Seed,
     settings: Settings,
     wanted: impl Fn(&Case) -> bool,
-) -> Result<Vec<Outcome>, Trouble> {
+) -> Result<(Vec<Outcome>, bool), Trouble> {
     let internal = |error| Trouble::Internal(format!("the default model: {error}"));
     let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
     let cnc = Cnc::new(model.map_err(internal)?).with_defect(Some(seed.clone()));
@@ -83,5 +86,7 @@ fn run(
     }
     let of_target = |case: &Case| case.needs != Needs::Codec && wanted(case);
     let cases = suite::cases().into_iter().filter(of_target).collect();
-    Ok(suite::run(cases, Some(&mut session), None, 1))
+    let outcomes = suite::run(cases, Some(&mut session), None, 1);
+    let has_shown = running.is_none_or(|server| server.cnc().has_shown());
+    Ok((outcomes, has_shown))
 }

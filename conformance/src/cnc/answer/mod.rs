@@ -5,6 +5,7 @@ mod elements;
 mod objects;
 mod variables;
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -28,6 +29,8 @@ pub struct Cnc {
     clock: Clock,
     pub(super) defect: Option<Seed>,
     memory: Mutex<Memory>,
+    /// Whether a wrong field has changed any byte.
+    shown: AtomicBool,
 }
 
 /// Data, or the error number.
@@ -37,7 +40,8 @@ impl Cnc {
     /// A CNC with this data model, in the state it starts in.
     pub fn new(model: Model) -> Self {
         let state = Mutex::new(State::new(&model));
-        Self { model, state, clock: Clock::running(), defect: None, memory: Mutex::default() }
+        let (clock, memory) = (Clock::running(), Mutex::default());
+        Self { model, state, clock, defect: None, memory, shown: AtomicBool::new(false) }
     }
 
     /// The CNC that answers what the manuals print: see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
@@ -181,7 +185,15 @@ impl Cnc {
     pub(super) fn change(&self, stream: Stream, bytes: &[u8]) -> Option<Vec<u8>> {
         let field = self.defect.as_ref().and_then(Seed::field);
         let defect = field.filter(|defect| defect.touches(stream))?;
-        Some(defect.apply(bytes))
+        let changed = Some(defect.apply(bytes)).filter(|changed| changed != bytes)?;
+        self.shown.store(true, Ordering::Relaxed);
+        Some(changed)
+    }
+
+    /// Whether the defect has shown so far: one that turns a field into what it is does not.
+    pub(crate) fn has_shown(&self) -> bool {
+        let is_field = self.defect.as_ref().and_then(Seed::field).is_some();
+        !is_field || self.shown.load(Ordering::Relaxed)
     }
 
     fn reply(&self, request: &Request<'_>) -> Answer {
