@@ -98,7 +98,8 @@ pub fn check(input: impl Read + Send, options: Options) -> Result<Checked, FileE
                 let mark = Mark { packet: packet.number, time: packet.time };
                 table.push(&segment, mark, &mut events);
             }
-            Content::Tcp(_) | Content::Other => {}
+            Content::Tcp(_) => count(&mut judge.tally.elsewhere),
+            Content::Other => {}
             Content::Fragment => count(&mut judge.tally.fragments),
             Content::Unreadable => count(&mut judge.tally.unreadable),
             Content::Link(link) => count_of(&mut judge.tally.links, link),

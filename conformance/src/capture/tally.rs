@@ -24,7 +24,9 @@ pub struct Tally {
     pub links: BTreeMap<i32, u64>,
     /// TCP segments on the ports that were looked at.
     pub segments: u64,
-    /// TCP connections among them.
+    /// TCP segments on other ports.
+    pub elsewhere: u64,
+    /// TCP connections on the ports that were looked at.
     pub connections: u64,
     /// Connections that began before the capture did.
     pub joined: u64,
@@ -100,6 +102,12 @@ impl Tally {
         lines.extend(unjudged("frames to AMS ports", &self.other_ports));
         lines.extend(unjudged("AMS commands", &self.commands));
         lines.extend(unjudged("calls of what is documented nowhere,", &self.unknown));
+        if self.segments == 0 && self.elsewhere > 0 {
+            let elsewhere = self.elsewhere;
+            lines.push(format!(
+                "not looked at: {elsewhere} TCP segments on other ports; see --port and --any-port"
+            ));
+        }
         if let Some(End::Cut(why)) = &self.end {
             lines.push(format!("judged up to a cut of the file: {why}"));
         }

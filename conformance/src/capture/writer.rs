@@ -40,6 +40,8 @@ pub struct Capture {
     out: Box<dyn Write + Send>,
     flow: Option<Flow>,
     error: Option<io::Error>,
+    /// Who hears of an error if nobody ends the capture.
+    dropped: Option<Box<dyn FnOnce(io::Error) + Send>>,
 }
 
 impl fmt::Debug for Capture {
@@ -64,7 +66,16 @@ impl Capture {
     pub fn new(mut out: Box<dyn Write + Send>) -> io::Result<Self> {
         out.write_all(&section())?;
         out.write_all(&interface())?;
-        Ok(Self { out, flow: None, error: None })
+        Ok(Self { out, flow: None, error: None, dropped: None })
+    }
+
+    /// Tells of what the system did not take when it is dropped without having been
+    /// [ended](Self::finish).
+    #[must_use]
+    pub fn or_tell(self, tell: impl FnOnce(io::Error) + Send + 'static) -> Self {
+        let mut capture = self;
+        capture.dropped = Some(Box::new(tell));
+        capture
     }
 
     /// A connection was made.
@@ -100,6 +111,7 @@ impl Capture {
     /// # Errors
     /// The first that the system did not take.
     pub fn finish(mut self) -> io::Result<()> {
+        self.dropped = None;
         self.end()
     }
 
@@ -126,10 +138,11 @@ impl Capture {
     }
 }
 
-/// Who does not end it hears nothing of what the system did not take.
 impl Drop for Capture {
     fn drop(&mut self) {
-        let _ended = self.end();
+        if let (Err(error), Some(tell)) = (self.end(), self.dropped.take()) {
+            tell(error);
+        }
     }
 }
 

@@ -95,10 +95,11 @@ type Content = Result<Vec<u8>, String>;
 
 impl Browse {
     pub(super) fn execute(&self) -> Exit {
-        self.run().unwrap_or_else(|trouble| {
+        let exit = self.run().unwrap_or_else(|trouble| {
             complain(&trouble);
             trouble.exit()
-        })
+        });
+        self.target.end(exit)
     }
 
     fn run(&self) -> Result<Exit, Trouble> {

@@ -62,13 +62,14 @@ error.";
 
 impl Get {
     pub(super) fn execute(&self) -> Exit {
-        self.run().unwrap_or_else(|trouble| {
+        let exit = self.run().unwrap_or_else(|trouble| {
             complain(&trouble);
             if let Some(advice) = self.name.advice(&trouble) {
                 complain(advice);
             }
             trouble.exit()
-        })
+        });
+        self.target.end(exit)
     }
 
     fn run(&self) -> Result<Exit, Trouble> {

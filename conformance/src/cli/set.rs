@@ -59,7 +59,7 @@ not fit; 3 no answer; 4 refused for safety; 70 internal error.";
 
 impl Set {
     pub(super) fn execute(&self) -> Exit {
-        self.run().unwrap_or_else(|trouble| {
+        let exit = self.run().unwrap_or_else(|trouble| {
             complain(&trouble);
             match (&trouble, self.name.advice(&trouble)) {
                 (Trouble::NotSent, _) => complain("with --type TYPE the write itself is shown"),
@@ -67,7 +67,8 @@ impl Set {
                 _ => {}
             }
             trouble.exit()
-        })
+        });
+        self.target.end(exit)
     }
 
     fn run(&self) -> Result<Exit, Trouble> {

@@ -3,17 +3,21 @@
 use std::io;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::ads::AmsNetId;
 use clap::Args;
 
+use super::complain;
 use crate::capture::{AMS_TCP_PORT, Capture};
 use crate::client::Target;
 use crate::cnc::{Cnc, NET_ID};
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::session::{Session, TIMEOUT, Trouble};
+use crate::verdict::Exit;
 
 /// Under which these options stand in the help.
 const TARGET: &str = "Target";
@@ -74,6 +78,10 @@ pub(super) struct TargetArgs {
     /// Whether what no client should send may be sent too: no option of all tools.
     #[arg(skip)]
     malformed: bool,
+
+    /// Whether some of the capture could not be written.
+    #[arg(skip)]
+    lost: Arc<AtomicBool>,
 }
 
 /// Which channel.
@@ -178,7 +186,20 @@ impl TargetArgs {
     pub(super) fn recorded(&self, session: Session) -> Result<Session, Trouble> {
         let Some(file) = &self.capture else { return Ok(session) };
         let failed = |error| Trouble::Internal(format!("{}: {error}", file.display()));
-        Ok(session.with_capture(Capture::create(file).map_err(failed)?))
+        let (lost, name) = (Arc::clone(&self.lost), file.display().to_string());
+        let capture = Capture::create(file).map_err(failed)?.or_tell(move |error| {
+            complain(format_args!("{name}: {error}: the capture is not whole"));
+            lost.store(true, Ordering::Relaxed);
+        });
+        Ok(session.with_capture(capture))
+    }
+
+    /// How the process ends when the session is over: what was to be kept and is not is an error.
+    pub(super) fn end(&self, exit: Exit) -> Exit {
+        match exit {
+            Exit::Success if self.lost.load(Ordering::Relaxed) => Exit::Internal,
+            exit => exit,
+        }
     }
 
     fn device(&self) -> Result<Option<Target>, Trouble> {

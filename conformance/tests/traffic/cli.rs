@@ -61,9 +61,25 @@ fn what_tools_say_passes() {
         assert_eq!(checked.status.code(), Some(0), "{call:?}: {shown}");
         assert!(!shown.contains("DIFFERS") && !shown.contains("WARNING"), "{call:?}: {shown}");
     }
+    // The embedded CNC listens where the system lets it: whoever forgets that is told.
+    let forgotten = ads_cnc(&["check", &folder.file("2.pcapng")]);
+    let hint = "TCP segments on other ports; see --port and --any-port";
+    assert!(text(&forgotten.stdout).contains(hint), "{}", text(&forgotten.stdout));
     let streamed = text(&ads_cnc(&["check", "--any-port", &folder.file("4.pcapng")]).stdout);
     let line = "pass            What is streamed is whole lines, and refused data comes again";
     assert!(streamed.contains(line), "{streamed}");
+}
+
+/// Whoever keeps what is said wants all of it.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_capture_that_is_not_whole_is_an_error() {
+    let calls: [&[&str]; 3] = [&["get", "V.E.Testvar"], &["browse"], &["run", "--only", "COM-1"]];
+    for call in calls {
+        let said = ads_cnc(&[call, &["--capture", "/dev/full"]].concat());
+        assert_eq!(said.status.code(), Some(70), "{call:?}: {}", text(&said.stderr));
+        assert!(text(&said.stderr).contains("/dev/full: "), "{call:?}: {}", text(&said.stderr));
+    }
 }
 
 /// The suite itself, which sends what no client should: the CNC passes, the client does not.

@@ -112,13 +112,14 @@ impl Service {
             true => self.show(),
             false => self.serve(),
         };
-        match done {
-            Ok(()) => Exit::Success,
-            Err(trouble) => {
+        let exit = done.map_or_else(
+            |trouble| {
                 complain(&trouble);
                 trouble.exit()
-            }
-        }
+            },
+            |()| Exit::Success,
+        );
+        self.target.end(exit)
     }
 
     /// Connects to the device, or to a CNC with the manual's NC program, which asks for square
