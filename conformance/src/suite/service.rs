@@ -56,7 +56,7 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 /// The channels that have the interface: all, if it is claimed; else those that answer.
-fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
+pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
     let profile = &probe.session.profile;
     let lacks = |why: &str| Err(Stop::NotApplicable(why.to_owned()));
     if !profile.has_section(Section::Service) {
@@ -190,19 +190,26 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     Ok(())
 }
 
-/// The channel that the suite uses, of the embedded CNC.
-const CHANNEL: u8 = 1;
-
-/// Uses the interface from both sides, and leaves it as at the start.
+/// Uses the interface of the first channel that has one from both sides, and leaves it as at the
+/// start.
 fn within(
     probe: &mut Probe<'_>,
     then: impl FnOnce(&mut Probe<'_>, Channel, &crate::cnc::Cnc) -> Step,
 ) -> Step {
     let cnc = probe.cnc()?;
-    let channel = Channel::new(CHANNEL.into()).map_err(harness)?;
+    let lacks = || Stop::NotApplicable("no channel has the Service Interface".to_owned());
+    let channel = channels(probe)?.into_iter().next().ok_or_else(lacks)?;
+    let number = channel.number();
+    // What asks there of itself asks nothing meanwhile.
+    let script = cnc.with_script(number, |script| script.cloned()).map_err(harness)?;
+    let empty = || -> Step {
+        cnc.set_script(number, None).map_err(harness)?;
+        cnc.with_service(number, |service| service.reset()).map_err(harness)
+    };
+    empty()?;
     let done = then(probe, channel, &cnc);
-    cnc.set_script(CHANNEL, None).map_err(harness)?;
-    cnc.with_service(CHANNEL, |service| service.reset()).map_err(harness)?;
+    empty()?;
+    cnc.set_script(number, script).map_err(harness)?;
     done
 }
 
@@ -231,7 +238,8 @@ fn asked(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Response, ResponseState};
     within(probe, |probe, channel, cnc| {
         let write = |variable, value: &[u8]| {
-            let written = cnc.with_service(CHANNEL, |service| service.write(variable, value));
+            let written =
+                cnc.with_service(channel.number(), |service| service.write(variable, value));
             written.map_err(harness)?.map_err(harness)
         };
         write(Request, b"1\0")?;
@@ -260,8 +268,8 @@ fn square_root(probe: &mut Probe<'_>) -> Step {
         let (repeat, pause) = (Repeat::Times(1), Duration::ZERO);
         let cycle = Duration::from_micros(100);
         let script = Script::new(ScriptConfig { repeat, pause, cycle, ..config });
-        cnc.set_script(CHANNEL, Some(script.map_err(harness)?)).map_err(harness)?;
-        let state = || cnc.with_script(CHANNEL, |script| script.map(|one| one.state()));
+        cnc.set_script(channel.number(), Some(script.map_err(harness)?)).map_err(harness)?;
+        let state = || cnc.with_script(channel.number(), |script| script.map(|one| one.state()));
         let begun = Instant::now();
         let mut host = Host::new(&ids);
         while state().map_err(harness)? != Some(ScriptState::Finished) {
@@ -271,7 +279,7 @@ fn square_root(probe: &mut Probe<'_>) -> Step {
             }
             serve(probe, channel, &mut host)?;
         }
-        let answers = cnc.with_script(CHANNEL, |script| {
+        let answers = cnc.with_script(channel.number(), |script| {
             let answers =
                 script.into_iter().flat_map(|script| script.answers().cloned().collect::<Vec<_>>());
             answers.map(|answer| answer.outcome).collect::<Vec<_>>()

@@ -4,8 +4,6 @@
 mod service;
 mod streaming;
 
-pub(super) use streaming::send;
-
 use ads_cnc_vectors::{Given, Sequence, SequenceExpect, requirement, sequences};
 
 use crate::suite::case::{Body, Case, Needs, Step, Stop, Subject};
@@ -13,9 +11,6 @@ use crate::suite::probe::{Probe, harness};
 
 /// What a client or a service does, which the suite itself is here.
 const NOT_THE_TARGETS: [&str; 4] = ["STM-17", "SVC-2", "SVC-5", "SVC-7"];
-
-/// The channel that sequences are about, unless they say which.
-const CHANNEL: u8 = 1;
 
 /// One case for each sequence that says something of the CNC.
 pub(super) fn cases() -> Vec<Case> {
@@ -66,7 +61,7 @@ fn lacks(what: &str) -> Otherwise {
 /// Goes through a sequence.
 pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
     let done = match &sequence.given {
-        Given::Streaming(given) => streaming::run(probe, given),
+        Given::Streaming(given) => streaming::run(probe, given, &sequence.requirements),
         Given::Service(given) => service::run(probe, given),
         _ => return Err(Stop::Harness("a text has no steps".to_owned())),
     };

@@ -10,41 +10,51 @@ use ads_cnc::service::{CallStep, Host, HostStep, Interface, ServiceId, ServiceVa
 use ads_cnc::{CncStr, CncString, Error, ErrorKind, VariableType};
 use ads_cnc_vectors::{Pieces, ServiceAction, ServiceInterface, ServiceStep};
 
-use super::{CHANNEL, Done, Fault, differs, lacks, within};
+use super::{Done, Fault, differs, lacks, within};
 use crate::cnc::Cnc;
 use crate::cnc::program::{Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait};
-use crate::suite::case::Step;
+use crate::suite::case::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
 
 /// Goes through the steps up to the first at fault, and leaves the interfaces as at the start.
 pub(super) fn run<'c>(probe: &mut Probe<'_>, given: &'c ServiceInterface) -> Done<Fault<'c>> {
     let cnc = probe.cnc()?;
-    let channels: Vec<u8> = given.steps.iter().map(channel_of).collect();
+    let channels = crate::suite::service::channels(probe)?;
+    for step in &given.steps {
+        channel_of(&channels, step)?;
+    }
     let reset = || {
         let mut all = channels.iter();
-        within(all.try_for_each(|&one| cnc.with_service(one, |service| service.reset())))
+        within(all.try_for_each(|one| cnc.with_service(one.number(), |service| service.reset())))
     };
     reset()?;
-    let done = steps(probe, &cnc, given);
+    let done = steps(probe, &cnc, given, &channels);
     reset()?;
     done
 }
 
-fn channel_of(step: &ServiceStep) -> u8 {
-    step.channel.map_or(CHANNEL, |channel| u8::try_from(channel).unwrap_or(CHANNEL))
+/// The channel of a step: the first is the first that has the interface, whatever its number.
+fn channel_of(channels: &[Channel], step: &ServiceStep) -> Step<Channel> {
+    let place = step.channel.unwrap_or(1);
+    let before = usize::try_from(place).ok().and_then(|place| place.checked_sub(1));
+    let channel = before.and_then(|before| channels.get(before)).copied();
+    let why = || format!("there are not {place} channels with a Service Interface");
+    channel.ok_or_else(|| Stop::NotApplicable(why()))
 }
 
 fn steps<'c>(
     probe: &mut Probe<'_>,
     cnc: &Arc<Cnc>,
     given: &'c ServiceInterface,
+    channels: &[Channel],
 ) -> Done<Fault<'c>> {
     let mut ids: BTreeMap<&str, [ServiceId; 1]> = BTreeMap::new();
     for (name, service) in &given.services {
         ids.insert(name, [ServiceId::new(&service.uuid).map_err(harness)?]);
     }
     let hosts = ids.iter().map(|(name, ids)| (*name, Host::new(ids))).collect();
-    let mut scene = Scene { probe, cnc, given, hosts, script: None, now: Duration::ZERO };
+    let (script, now) = (None, Duration::ZERO);
+    let mut scene = Scene { probe, cnc, given, channels, hosts, script, now };
     for step in &given.steps {
         if let Some(at) = step.at {
             scene.now = Duration::from_millis(at);
@@ -60,6 +70,7 @@ struct Scene<'s, 'p, 'c> {
     probe: &'s mut Probe<'p>,
     cnc: &'s Arc<Cnc>,
     given: &'c ServiceInterface,
+    channels: &'s [Channel],
     hosts: BTreeMap<&'c str, Host<'s>>,
     script: Option<Script>,
     now: Duration,
@@ -126,7 +137,7 @@ impl Scene<'_, '_, '_> {
 
     /// The value over the wire: of a text what the interface holds, without what fills it up.
     fn read(&mut self, step: &ServiceStep, variable: ServiceVariable) -> Step<Vec<u8>> {
-        let channel = Channel::new(channel_of(step).into()).map_err(harness)?;
+        let channel = channel_of(self.channels, step)?;
         let request = ReadByName::new(channel, variable.name()).map_err(harness)?;
         let mut value = self.probe.try_ask(request)?.unwrap_or_default();
         if variable.var_type() == VariableType::STRING {
@@ -138,7 +149,7 @@ impl Scene<'_, '_, '_> {
 
     /// Whether the value was taken over the wire.
     fn put(&mut self, step: &ServiceStep, variable: ServiceVariable, value: &[u8]) -> Step<bool> {
-        let channel = Channel::new(channel_of(step).into()).map_err(harness)?;
+        let channel = channel_of(self.channels, step)?;
         let request = WriteByName::new(channel, variable.name(), value).map_err(harness)?;
         let exchange = self.probe.send(request)?;
         Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
@@ -147,8 +158,8 @@ impl Scene<'_, '_, '_> {
     /// The program does one step.
     fn script_step(&mut self, step: &ServiceStep) -> Done<ScriptState> {
         let script = self.script.as_mut().ok_or_else(|| lacks("program"))?;
-        let now = self.now;
-        within(self.cnc.with_service(channel_of(step), |service| {
+        let (now, channel) = (self.now, channel_of(self.channels, step)?);
+        within(self.cnc.with_service(channel.number(), |service| {
             script.step(now, service);
             script.state()
         }))
@@ -188,7 +199,9 @@ impl Scene<'_, '_, '_> {
                 HostWants::Read(variable) => {
                     let value = self.read(step, variable)?;
                     let host = self.hosts.get_mut(actor).ok_or_else(|| lacks("service"))?;
-                    host.read(&value).map_err(harness)?;
+                    if let Err(error) = host.read(&value) {
+                        return differs(format!("a value of {}", variable.name()), error);
+                    }
                 }
             }
         }

@@ -1,0 +1,191 @@
+//! Cases of data streaming. What goes to a device are comments alone: they move nothing.
+
+mod sent;
+mod stage;
+mod words;
+
+pub(super) use sent::{Sent, send};
+pub(super) use stage::HELD_MAX;
+
+use std::thread;
+use std::time::{Duration, Instant};
+
+use ads_cnc::address::Channel;
+use ads_cnc::limits::STREAM_PACKET_MAX;
+use ads_cnc::operation::WriteProgramStream;
+use ads_cnc::streaming::RETRY_AFTER;
+
+use super::case::{Case, Step, Stop};
+use super::declare;
+use super::probe::{Probe, harness};
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "stream-whole-lines",
+            "A packet of whole lines is taken, by the number of the channel and by its rank",
+            ["STM-1", "STM-4", "STM-7"],
+            Writes,
+            whole_lines
+        ),
+        declare!(
+            "stream-longest",
+            "A packet of 992 bytes is taken, and a line of 990 characters in it",
+            ["STM-2", "STM-20"],
+            Writes,
+            longest
+        ),
+        declare!(
+            "stream-refused-for-now",
+            "What is refused for now is taken later, the same bytes again",
+            ["STM-6"],
+            Writes,
+            refused_for_now
+        ),
+        declare!(
+            "stream-too-long",
+            "A packet of 993 bytes is refused, and nothing of it is taken",
+            ["STM-2"],
+            Embedded,
+            stage::too_long
+        ),
+        declare!(
+            "stream-full",
+            "The interface holds 4094 bytes; then a write is refused until they were read",
+            ["STM-3", "STM-6", "STM-12", "STM-15"],
+            Embedded,
+            stage::full
+        ),
+        declare!(
+            "stream-dry",
+            "Where nothing more is written motion stops, and the next write resumes it",
+            ["STM-7", "STM-14", "STM-16"],
+            Embedded,
+            stage::dry
+        ),
+        declare!(
+            "stream-reset",
+            "A reset empties the interface, and the next program is another",
+            ["STM-11", "STM-14"],
+            Embedded,
+            stage::reset
+        ),
+        declare!(
+            "stream-forbidden-words",
+            "Each word of a loop ends streaming where it stands, unless it is in a comment",
+            ["STM-8", "STM-9"],
+            Embedded,
+            words::forbidden_words
+        ),
+        declare!(
+            "stream-permitted-words",
+            "Branches and jumps forward may span packets",
+            ["STM-8", "STM-19"],
+            Embedded,
+            words::permitted_words
+        ),
+    ]
+}
+
+/// How long a device may take before it has read what it holds.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// A comment of so many bytes, with its line end.
+fn comment(len: usize) -> Vec<u8> {
+    let mut line = vec![b'('];
+    line.resize(len.saturating_sub(3), b'-');
+    line.extend(b")\r\n");
+    line
+}
+
+/// The first channel whose stream may be written. The embedded CNC's is set up anew: whatever was
+/// sent before, it waits for lines.
+fn channel(probe: &Probe<'_>) -> Step<Channel> {
+    for channel in probe.channels()? {
+        if probe.may(WriteProgramStream::new(channel, b"\r\n"))? {
+            if let Some(cnc) = &probe.session.cnc {
+                let config = cnc.with_program(channel.number(), |one| one.config().clone());
+                let set_up = config.and_then(|config| cnc.set_program(channel.number(), config));
+                set_up.map_err(harness)?;
+            }
+            return Ok(channel);
+        }
+    }
+    Err(Stop::NotApplicable("no stream may be written".to_owned()))
+}
+
+/// Writes until it is taken; how often it was refused before. None if it is not, though there is
+/// room for it.
+///
+/// An error number does not tell for now from for good: that it is taken later does.
+fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u32>> {
+    let (begun, mut refused) = (Instant::now(), 0_u32);
+    // Of the embedded CNC it is known how fast it is.
+    let (wait, patience) = match probe.session.cnc.is_some() {
+        true => (Duration::from_millis(5), Duration::from_millis(300)),
+        false => (RETRY_AFTER, PATIENCE),
+    };
+    loop {
+        let sent = send(probe, channel, data)?;
+        if sent.is_taken() {
+            return Ok(Some(refused));
+        }
+        if begun.elapsed() > patience {
+            let room = match &probe.session.cnc {
+                Some(cnc) => {
+                    let held = cnc.with_program(channel.number(), |program| program.held());
+                    held.map_err(harness)?.saturating_add(data.len()) <= HELD_MAX
+                }
+                None => false,
+            };
+            let why = format!("still refused after {} ms: {sent}", patience.as_millis());
+            return if room { Ok(None) } else { Err(Stop::Inconclusive(why)) };
+        }
+        refused = refused.saturating_add(1);
+        thread::sleep(wait);
+    }
+}
+
+fn taken(probe: &mut Probe<'_>, rules: &[&'static str], at: Channel, data: &[u8]) -> Step {
+    let taken = write(probe, at, data)?;
+    for &rule in rules {
+        let expected = format!("{} bytes of whole lines taken", data.len());
+        probe.check(rule, taken.is_some(), expected, "refused while there is room");
+    }
+    Ok(())
+}
+
+fn whole_lines(probe: &mut Probe<'_>) -> Step {
+    let channel = channel(probe)?;
+    let lines = b"; comment\r\n(a second line)\r\n\r\n";
+    taken(probe, &["STM-1", "STM-4", "STM-7"], channel, lines)?;
+    let ranks = (1_u32..).zip(probe.channels()?);
+    let rank = ranks.filter(|(_, one)| *one == channel).map(|(rank, _)| rank).next();
+    let by_index = Channel::by_index(rank.unwrap_or(1)).map_err(harness)?;
+    if probe.may(WriteProgramStream::new(by_index, b"\r\n"))? {
+        taken(probe, &["STM-1"], by_index, lines)?;
+    }
+    Ok(())
+}
+
+fn longest(probe: &mut Probe<'_>) -> Step {
+    let channel = channel(probe)?;
+    taken(probe, &["STM-2", "STM-20"], channel, &comment(STREAM_PACKET_MAX))?;
+    let many = comment(STREAM_PACKET_MAX / 8).repeat(8);
+    taken(probe, &["STM-2"], channel, &many)
+}
+
+fn refused_for_now(probe: &mut Probe<'_>) -> Step {
+    let channel = channel(probe)?;
+    let packet = comment(STREAM_PACKET_MAX);
+    for _ in 0..8 {
+        let taken = write(probe, channel, &packet)?;
+        let found = "refused while there is room";
+        probe.check("STM-6", taken.is_some(), "taken, or refused for now", found);
+        if taken != Some(0) {
+            return Ok(());
+        }
+    }
+    // Nothing was refused: that the same is taken later could not be seen.
+    Ok(())
+}

@@ -1,0 +1,62 @@
+//! What came of a write to a stream.
+
+use std::fmt;
+
+use ads_cnc::address::Channel;
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Request, WriteProgramStream};
+use ads_cnc::streaming::Ack;
+
+use crate::suite::case::Step;
+use crate::suite::probe::{Probe, harness};
+
+/// How a write was answered. Which error number means that it is refused for now, and which that it
+/// is for good, is documented nowhere: what they are taken for is assumed.
+#[derive(Debug)]
+pub(in crate::suite) struct Sent {
+    /// The error of either header; none if the write was taken.
+    error: Option<AdsError>,
+    answered: bool,
+    shown: String,
+}
+
+impl Sent {
+    pub(in crate::suite) const fn is_taken(&self) -> bool {
+        self.answered && self.error.is_none()
+    }
+
+    /// By an error: silence refuses nothing.
+    pub(in crate::suite) const fn is_refused(&self) -> bool {
+        self.answered && self.error.is_some()
+    }
+
+    /// What the error number is taken for.
+    pub(in crate::suite) fn assumed(&self) -> Ack {
+        match self.error {
+            Some(error) => Ack::of(error),
+            None if self.answered => Ack::Accepted,
+            None => Ack::Refused,
+        }
+    }
+}
+
+impl fmt::Display for Sent {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.shown)
+    }
+}
+
+/// Sends bytes to the stream as they are, whether a client may or not.
+pub(in crate::suite) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Sent> {
+    let request = Request::from(WriteProgramStream::new(channel, b"\r\n"));
+    let mut buf = [0; 2];
+    let whole = request.encode(&mut buf).map_err(harness)?;
+    let exchange = probe.call(&Call { data, ..whole })?;
+    let answer = exchange.answer();
+    let errors = answer.map(|answer| [answer.ams_error, answer.result]);
+    Ok(Sent {
+        error: errors.into_iter().flatten().find(|error| !error.is_none()),
+        answered: answer.is_some(),
+        shown: exchange.result(),
+    })
+}

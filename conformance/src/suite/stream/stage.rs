@@ -1,0 +1,205 @@
+//! The embedded CNC's streams: what becomes of what was written.
+
+use std::time::Duration;
+
+use ads_cnc::address::Channel;
+use ads_cnc::limits::STREAM_PACKET_MAX;
+use ads_cnc::streaming::Ack;
+
+use super::{Sent, comment, send};
+use crate::cnc::Cnc;
+use crate::cnc::program::{Pace, Program, ProgramConfig, Start, State};
+use crate::suite::case::{Step, Stop, assumed};
+use crate::suite::probe::{Probe, harness};
+
+/// The most bytes that the interface holds.
+pub(in crate::suite) const HELD_MAX: usize = 4094;
+
+/// Sets the streaming program of the first channel up, does something with it, and leaves it as it
+/// was.
+pub(super) fn set_up(
+    probe: &mut Probe<'_>,
+    pace: Pace,
+    start: Start,
+    then: impl FnOnce(&mut Probe<'_>, Channel, &Stage<'_>) -> Step,
+) -> Step {
+    let cnc = probe.cnc()?;
+    let channel = probe.channel()?;
+    let number = channel.number();
+    let config = cnc.with_program(number, |program| program.config().clone()).map_err(harness)?;
+    if config.name.is_empty() {
+        return Err(Stop::NotApplicable(format!("streaming is off in channel {number}")));
+    }
+    let set = ProgramConfig { pace, start, ..config.clone() };
+    cnc.set_program(number, set).map_err(harness)?;
+    let done = then(probe, channel, &Stage { cnc: &cnc, number });
+    cnc.set_program(number, config).map_err(harness)?;
+    done
+}
+
+/// The program from within.
+pub(super) struct Stage<'c> {
+    cnc: &'c Cnc,
+    number: u8,
+}
+
+impl Stage<'_> {
+    pub(super) fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Step<T> {
+        self.cnc.with_program(self.number, then).map_err(harness)
+    }
+
+    pub(super) fn pace(&self, pace: Pace) -> Step {
+        self.with(|program| program.set_pace(pace, Duration::ZERO))
+    }
+
+    pub(super) fn held(&self) -> Step<usize> {
+        self.with(|program| program.held())
+    }
+
+    pub(super) fn executed(&self) -> Step<Vec<u8>> {
+        self.with(|program| program.executed().kept().to_vec())
+    }
+
+    pub(super) fn state(&self) -> Step<State> {
+        self.with(|program| program.state())
+    }
+
+    /// That it cannot be started, as it was already, is the CNC's doing.
+    fn start(&self, probe: &mut Probe<'_>) -> Step {
+        let started = self.with(|program| program.start(Duration::ZERO))?;
+        let found = started.as_ref().err().map(ToString::to_string).unwrap_or_default();
+        probe.require(&["STM-14".into()], started.is_ok(), "a program that starts now", found)
+    }
+}
+
+pub(super) fn expect<T: PartialEq + std::fmt::Debug>(
+    probe: &mut Probe<'_>,
+    rules: &[&'static str],
+    expected: T,
+    found: T,
+) {
+    for &rule in rules {
+        probe.check(rule, found == expected, format!("{expected:?}"), format!("{found:?}"));
+    }
+}
+
+/// Sends what has to be taken.
+pub(super) fn taken(
+    probe: &mut Probe<'_>,
+    rules: &[&'static str],
+    channel: Channel,
+    data: &[u8],
+) -> Step<Sent> {
+    let sent = send(probe, channel, data)?;
+    for &rule in rules {
+        probe.check(rule, sent.is_taken(), format!("{} bytes taken", data.len()), &sent);
+    }
+    Ok(sent)
+}
+
+pub(super) fn too_long(probe: &mut Probe<'_>) -> Step {
+    set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
+        let most = comment(STREAM_PACKET_MAX);
+        let longer = comment(STREAM_PACKET_MAX.saturating_add(1));
+        // Whether there is much room or little, and how often it is sent.
+        for held in [0, most.len()] {
+            for _ in 0..2 {
+                let sent = send(probe, channel, &longer)?;
+                probe.check("STM-2", sent.is_refused(), "993 bytes refused", &sent);
+                // That it is told by its number is assumed.
+                let good = sent.assumed() == Ack::Refused;
+                probe.check(assumed("STM-2"), good, "refused for good", &sent);
+                expect(probe, &["STM-2"], held, stage.held()?);
+            }
+            if held == 0 {
+                taken(probe, &["STM-2"], channel, &most)?;
+            }
+        }
+        Ok(())
+    })
+}
+
+pub(super) fn full(probe: &mut Probe<'_>) -> Step {
+    set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
+        let packets: Vec<Vec<u8>> = [992, 992, 992, 992, 126].map(numbered).into();
+        for packet in &packets {
+            taken(probe, &["STM-3"], channel, packet)?;
+        }
+        expect(probe, &["STM-3"], HELD_MAX, stage.held()?);
+        let more = b"N1\r\n";
+        for _ in 0..2 {
+            let sent = send(probe, channel, more)?;
+            probe.check("STM-3", sent.is_refused(), "no byte more", &sent);
+            probe.check("STM-6", sent.is_refused(), "refused for now", &sent);
+            // That it is told by its number is assumed.
+            let now = sent.assumed() == Ack::Later;
+            probe.check(assumed("STM-6"), now, "refused for now, and not for good", &sent);
+            expect(probe, &["STM-6"], HELD_MAX, stage.held()?);
+        }
+        stage.pace(Pace::Fast)?;
+        stage.pace(Pace::Hold)?;
+        expect(probe, &["STM-12"], 0, stage.held()?);
+        taken(probe, &["STM-6"], channel, more)?;
+        stage.pace(Pace::Fast)?;
+        let mut all = packets.concat();
+        all.extend(more);
+        expect(probe, &["STM-12", "STM-15"], all, stage.executed()?);
+        Ok(())
+    })
+}
+
+/// Lines that differ, so that their order shows.
+fn numbered(len: usize) -> Vec<u8> {
+    let mut lines = Vec::new();
+    for number in 1.. {
+        let line = format!("N{number} (of {len})\r\n");
+        if lines.len().saturating_add(line.len()) > len {
+            break;
+        }
+        lines.extend(line.as_bytes());
+    }
+    let left = len.saturating_sub(lines.len());
+    match left {
+        0 => lines,
+        1..=3 => {
+            // Blanks in front fill up what is too short for a line.
+            let mut filled = vec![b' '; left];
+            filled.extend(lines);
+            filled
+        }
+        _ => {
+            lines.extend(comment(left));
+            lines
+        }
+    }
+}
+
+pub(super) fn dry(probe: &mut Probe<'_>) -> Step {
+    set_up(probe, Pace::Fast, Start::ByHand, |probe, channel, stage| {
+        let (first, second) = (b"N10 X1\r\nN20 X2\r\n", b"N30 X3\r\n");
+        taken(probe, &["STM-14"], channel, first)?;
+        expect(probe, &["STM-14"], first.len(), stage.held()?);
+        expect(probe, &["STM-14"], Vec::new(), stage.executed()?);
+        stage.start(probe)?;
+        expect(probe, &["STM-14", "STM-7"], first.to_vec(), stage.executed()?);
+        expect(probe, &["STM-16"], State::Dry, stage.state()?);
+        send(probe, channel, second)?;
+        let both = [&first[..], second].concat();
+        expect(probe, &["STM-16", "STM-7"], both, stage.executed()?);
+        Ok(())
+    })
+}
+
+pub(super) fn reset(probe: &mut Probe<'_>) -> Step {
+    set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
+        send(probe, channel, b"N10 X1\r\n")?;
+        stage.with(|program| program.reset(Duration::ZERO))?;
+        expect(probe, &["STM-11"], (0, State::Stopped), (stage.held()?, stage.state()?));
+        send(probe, channel, b"N10 Y1\r\n")?;
+        stage.pace(Pace::Fast)?;
+        expect(probe, &["STM-14"], Vec::new(), stage.executed()?);
+        stage.start(probe)?;
+        expect(probe, &["STM-11", "STM-14"], b"N10 Y1\r\n".to_vec(), stage.executed()?);
+        Ok(())
+    })
+}
