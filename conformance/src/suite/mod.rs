@@ -31,6 +31,8 @@ mod variable;
 mod vectors;
 mod write;
 mod write_content;
+mod write_elements;
+mod write_refused;
 
 pub use case::{
     Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, Subject, assumed, online,
@@ -79,6 +81,8 @@ pub fn cases() -> Vec<Case> {
     cases.extend(values::cases());
     cases.extend(axis::cases());
     cases.extend(write::cases());
+    cases.extend(write_elements::cases());
+    cases.extend(write_refused::cases());
     cases.extend(write_content::cases());
     cases.extend(stream::cases());
     cases.extend(service::cases());

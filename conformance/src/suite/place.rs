@@ -9,7 +9,7 @@ use ads_cnc::{CncString, Error, Handle};
 use ads_cnc_vectors::Hex;
 
 use super::case::{Rule, Step, Stop};
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 
 /// A value by one way to it.
 #[derive(Clone, Debug)]
@@ -58,7 +58,7 @@ impl Place {
 }
 
 /// Whether a request has a form on the wire: a long value beside a long name has none.
-fn is_sendable(request: &Request<'_>) -> bool {
+pub(super) fn is_sendable(request: &Request<'_>) -> bool {
     let mut buf = vec![0; request.encoded_len()];
     request.encode(&mut buf).is_ok()
 }
@@ -113,7 +113,11 @@ impl Probe<'_> {
 
     /// Writes a value that must be taken.
     pub(super) fn put(&mut self, trial: &Trial<'_>, place: &Place, value: &[u8]) -> Step<bool> {
-        let exchange = self.send(place.write(value).map_err(harness)?)?;
+        let Some(write) = place.write(value).ok().filter(is_sendable) else {
+            let why = format!("{} of {} bytes cannot be written", trial.what, value.len());
+            return Err(Stop::Inconclusive(why));
+        };
+        let exchange = self.send(write)?;
         let kept = exchange.answer().is_some_and(|answer| answer.success().is_some());
         for &rule in trial.rules {
             let expected = format!("{} takes {}", trial.what, Hex(value.to_vec()));
@@ -187,7 +191,11 @@ impl Probe<'_> {
     ) -> Step {
         if let Some(sibling) = sibling {
             let Some(taken) = self.value_at(sibling)? else { return Ok(()) };
-            let exchange = self.send(sibling.write(&taken).map_err(harness)?)?;
+            let Some(write) = sibling.write(&taken).ok().filter(is_sendable) else {
+                let why = "nothing to hold it against has a value that can be written".to_owned();
+                return Err(Stop::Inconclusive(why));
+            };
+            let exchange = self.send(write)?;
             if exchange.answer().is_none_or(|answer| answer.success().is_none()) {
                 // Whether writable things take a value is judged by those cases.
                 let why = format!("nothing to hold it against is written: {}", exchange.result());

@@ -326,12 +326,17 @@ impl<'s> Probe<'s> {
     }
 
     /// Numbers from the first that is too many on; of those far beyond only what cannot move is
-    /// asked.
+    /// asked. Some have the lower bytes of a number that is not: who reads fewer finds it.
     pub fn beyond(&self, first: u32) -> Vec<u32> {
-        match self.session.client.gate().lets_malformed_pass() {
-            true => vec![first, first.saturating_add(1), u32::MAX],
-            false => vec![first],
+        if !self.session.client.gate().lets_malformed_pass() {
+            return vec![first];
         }
+        let last = first.saturating_sub(1);
+        let wide = [0x100, 0x1_0000, 0x100_0000, 0x8000_0000].map(|bit| last | bit);
+        let mut all = vec![first, first.saturating_add(1)];
+        all.extend(wide.into_iter().filter(|number| *number > first));
+        all.push(u32::MAX);
+        all
     }
 
     /// The evidence of the last call.

@@ -1,11 +1,10 @@
 //! Cases that write variables, and undo it.
 
 use ads_cnc::address::{Channel, ChannelAxis};
-use ads_cnc::operation::{AxisHandleByName, HandleByName, Request, WriteByHandle, WriteByName};
+use ads_cnc::operation::{AxisHandleByName, HandleByName};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{
-    CncString, Decode as _, Description, Handle, Numbers, VariableAccess, VariablePath,
-    VariableType,
+    CncString, Decode as _, Description, Handle, VariableAccess, VariablePath, VariableType,
 };
 use ads_cnc_vectors::Hex;
 
@@ -33,20 +32,6 @@ pub(super) fn cases() -> Vec<Case> {
             by_name
         ),
         declare!(
-            "write-elements-by-handle",
-            "An index writes the element of that place, and no other",
-            ["VAR-12"],
-            Writes,
-            elements_by_handle
-        ),
-        declare!(
-            "write-elements-by-name",
-            "A name with [index] writes the element of that place, and no other",
-            ["VAR-13", "VAR-20"],
-            Writes,
-            elements_by_name
-        ),
-        declare!(
             "write-axis-variable",
             "What is written on the axis interface is read with the axis behind the name",
             ["VAR-17", "VAR-26"],
@@ -67,37 +52,16 @@ pub(super) fn cases() -> Vec<Case> {
             Writes,
             dynamic_by_name
         ),
-        declare!(
-            "write-read-only",
-            "A variable that is READ_ONLY takes no value",
-            ["VAR-6"],
-            Writes,
-            read_only
-        ),
-        declare!(
-            "write-wrong-size",
-            "A value of another size than the variable's is answered by an error",
-            ["VAR-12", "VAR-13"],
-            MalformedWrites,
-            wrong_size
-        ),
-        declare!(
-            "write-unknown",
-            "What is not there takes no value",
-            ["VAR-12", "VAR-13", "ADS-4"],
-            MalformedWrites,
-            unknown
-        ),
     ]
 }
 
 /// What writing a variable of the Service Interface leads to has cases of its own.
-fn is_of_service(variable: &Description) -> bool {
+pub(super) fn is_of_service(variable: &Description) -> bool {
     ServiceVariable::by_name(&variable.name.text.to_string()).is_some()
 }
 
 /// Every variable of this access of every channel.
-fn each(
+pub(super) fn each(
     probe: &mut Probe<'_>,
     access: VariableAccess,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step<bool>,
@@ -116,13 +80,17 @@ fn each(
     }
 }
 
-fn trial<'t>(variable: &Description, what: &'t str, rules: &'t [Rule]) -> Trial<'t> {
+pub(super) fn trial<'t>(variable: &Description, what: &'t str, rules: &'t [Rule]) -> Trial<'t> {
     let is_text = variable.var_type == VariableType::STRING;
     Trial { what, rules, is_text }
 }
 
 /// The handle of a name, asked for by it: a file that names it allows the handle then.
-fn handle_of(probe: &mut Probe<'_>, channel: Channel, variable: &Description) -> Step<Handle> {
+pub(super) fn handle_of(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    variable: &Description,
+) -> Step<Handle> {
     let data = probe.try_ask(HandleByName { channel, name: name_of(variable) })?;
     let handle = data.and_then(|data| Handle::decode(&data).ok());
     Ok(handle.unwrap_or(variable.handle))
@@ -160,75 +128,6 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             Ok(())
         })?;
         Ok(true)
-    })
-}
-
-/// The first and the last place of an array.
-fn ends(variable: &Description) -> Vec<Vec<u32>> {
-    let first = vec![0; variable.dimensions.len()];
-    let last = variable.dimensions.iter().map(|n| n.saturating_sub(1)).collect();
-    if first == last { vec![first] } else { vec![first, last] }
-}
-
-fn elements(
-    probe: &mut Probe<'_>,
-    rules: impl Fn(&Description) -> Vec<Rule>,
-    place_of: impl Fn(&mut Probe<'_>, Channel, &Description, Vec<u32>) -> Step<Option<Place>>,
-) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
-        let mut any = false;
-        let whole = Place::Handle { channel, handle: variable.handle, indices: Vec::new() };
-        let arrays = if variable.dimensions.is_empty() { Vec::new() } else { ends(variable) };
-        for indices in arrays {
-            let name = format!("{}{indices:?}", variable.name.text);
-            let at_end = indices.iter().any(|&index| index > 0);
-            let Some(place) = place_of(probe, channel, variable, indices)? else { continue };
-            if !probe.may_write(&place, &variable.name.text.to_string())? {
-                continue;
-            }
-            any = true;
-            let before = probe.value_at(&whole)?.unwrap_or_default();
-            let rules = rules(variable);
-            let trial = trial(variable, &name, &rules);
-            probe.try_write(&trial, &place, |probe, old, new| {
-                // The one element, at its end of the whole, and nothing else.
-                let mut expected = before.clone();
-                let size = old.len();
-                let start = if at_end { expected.len().saturating_sub(size) } else { 0 };
-                let part = expected.get_mut(start..start.saturating_add(size));
-                part.unwrap_or_default().iter_mut().zip(new).for_each(|(byte, new)| *byte = *new);
-                let after = probe.value_at(&whole)?.unwrap_or_default();
-                for &rule in trial.rules {
-                    let shown = Hex(expected.clone());
-                    probe.check(rule, after == expected, shown, Hex(after.clone()));
-                }
-                Ok(())
-            })?;
-        }
-        Ok(any)
-    })
-}
-
-/// More dimensions than one are assumed, and how texts lie in an array.
-fn of_order(variable: &Description, ids: &[&'static str]) -> Vec<Rule> {
-    let is_assumed = variable.dimensions.len() > 1 || variable.var_type == VariableType::STRING;
-    ids.iter().map(|&id| if is_assumed { assumed(id) } else { id.into() }).collect()
-}
-
-fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
-    let rules = |variable: &Description| of_order(variable, &["VAR-12"]);
-    elements(probe, rules, |probe, channel, variable, indices| {
-        let handle = handle_of(probe, channel, variable)?;
-        Ok(Some(Place::Handle { channel, handle, indices }))
-    })
-}
-
-fn elements_by_name(probe: &mut Probe<'_>) -> Step {
-    let rules = |variable: &Description| of_order(variable, &["VAR-13", "VAR-20"]);
-    elements(probe, rules, |_, channel, variable, indices| {
-        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
-        let name = path.and_then(|path| path.element(indices.as_slice().into()).ok());
-        Ok(name.map(|name| Place::Name { channel, name }))
     })
 }
 
@@ -295,107 +194,4 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
 fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
     let all = dynamic_among_variables(probe)?;
     by_names(probe, "VAR-19", all.into_iter().map(|(_, name)| name).collect())
-}
-
-/// Something that may be written, to hold a refusal against.
-fn writable(probe: &mut Probe<'_>) -> Step<(Channel, Description)> {
-    for channel in probe.channels()? {
-        for variable in probe.variables(channel)? {
-            let place = Place::Name { channel, name: variable.name.text.clone() };
-            let is_writable = variable.access == VariableAccess::READ_WRITE
-                && variable.dimensions.is_empty()
-                && variable.var_type != VariableType::STRING
-                && !is_of_service(&variable);
-            if is_writable && probe.may_write(&place, &variable.name.text.to_string())? {
-                return Ok((channel, variable));
-            }
-        }
-    }
-    Err(Stop::NotApplicable("no number may be written".to_owned()))
-}
-
-fn read_only(probe: &mut Probe<'_>) -> Step {
-    let (at, known) = writable(probe)?;
-    let sibling = Place::Name { channel: at, name: known.name.text.clone() };
-    each(probe, VariableAccess::READ_ONLY, |probe, channel, variable| {
-        let name = variable.name.text.to_string();
-        let handle = handle_of(probe, channel, variable)?;
-        let mut any = false;
-        for place in [
-            Place::Name { channel, name: variable.name.text.clone() },
-            Place::Handle { channel, handle, indices: Vec::new() },
-        ] {
-            if probe.may_write(&place, &name)? {
-                any = true;
-                let rules = [Rule::from("VAR-6")];
-                probe.write_refused(&trial(variable, &name, &rules), &place, Some(&sibling))?;
-            }
-        }
-        Ok(any)
-    })
-}
-
-/// Sends a write that must be refused, and one that differs by the fault only and must not be.
-fn refused(
-    probe: &mut Probe<'_>,
-    rule: Rule,
-    what: &str,
-    bad: Request<'_>,
-    good: Request<'_>,
-) -> Step {
-    let accepted = probe.send(good)?;
-    if accepted.answer().is_none_or(|answer| answer.success().is_none()) {
-        let why = format!("what differs by that alone is refused too: {}", accepted.result());
-        return Err(Stop::Inconclusive(why));
-    }
-    let exchange = probe.send(bad)?;
-    let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
-    probe.check(rule, refused, format!("an error number for {what}"), exchange.result());
-    probe.send(good).map(drop)
-}
-
-fn wrong_size(probe: &mut Probe<'_>) -> Step {
-    let (channel, known) = writable(probe)?;
-    let name = known.name.text.as_cnc_str();
-    let place = Place::Name { channel, name: known.name.text.clone() };
-    let Some(value) = probe.value_at(&place)? else { return Ok(()) };
-    let longer = [&value[..], &[0]].concat();
-    let shorter = value.get(1..).unwrap_or_default();
-    for other in [&longer[..], shorter, &[]] {
-        let what = format!("{} bytes for the {} of {name}", other.len(), value.len());
-        let by_handle = |value| WriteByHandle::new(channel, known.handle, Numbers::EMPTY, value);
-        let (bad, good) = (by_handle(other).into(), by_handle(&value).into());
-        refused(probe, assumed("VAR-12"), &what, bad, good)?;
-        let by_name = |value| WriteByName { channel, name, value };
-        refused(probe, assumed("VAR-13"), &what, by_name(other).into(), by_name(&value).into())?;
-    }
-    Ok(())
-}
-
-fn unknown(probe: &mut Probe<'_>) -> Step {
-    let (channel, known) = writable(probe)?;
-    let name = known.name.text.as_cnc_str();
-    let place = Place::Name { channel, name: known.name.text.clone() };
-    let Some(value) = probe.value_at(&place)? else { return Ok(()) };
-    let variables = probe.variables(channel)?;
-    let free =
-        [0, 1, u32::MAX].into_iter().find(|&free| variables.iter().all(|one| one.handle.0 != free));
-    let by_handle = |handle, indices: &'static [u32]| {
-        Request::from(WriteByHandle::new(channel, handle, indices.into(), &value))
-    };
-    let good = by_handle(known.handle, &[]);
-    if let Some(free) = free {
-        let what = format!("a write to the handle {free:#x}");
-        refused(probe, "ADS-4".into(), &what, by_handle(Handle(free), &[]), good)?;
-    }
-    refused(probe, "VAR-12".into(), "an index of no array", by_handle(known.handle, &[0]), good)?;
-    let by_name = |name| Request::from(WriteByName { channel, name, value: &value });
-    let good = by_name(name);
-    for unknown in ["V.E.no such variable", ""] {
-        let what = format!("a write to the name {unknown:?}");
-        let bad = by_name(ads_cnc::CncStr::new(unknown).map_err(harness)?);
-        refused(probe, "ADS-4".into(), &what, bad, good)?;
-    }
-    let element: CncString = format!("{name}[0]").parse().map_err(harness)?;
-    refused(probe, "VAR-13".into(), "an element of no array", by_name(element.as_cnc_str()), good)
 }

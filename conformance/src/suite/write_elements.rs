@@ -1,0 +1,145 @@
+//! Cases that write single elements of arrays, and undo it.
+
+use ads_cnc::address::Channel;
+use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Rule, Step, assumed};
+use super::declare;
+use super::place::Place;
+use super::probe::Probe;
+use super::write::{each, handle_of, trial};
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "write-elements-by-handle",
+            "An index writes the element of that place, and no other",
+            ["VAR-12"],
+            Writes,
+            by_handle
+        ),
+        declare!(
+            "write-elements-by-name",
+            "A name with [index] writes the element of that place, and no other",
+            ["VAR-13", "VAR-20"],
+            Writes,
+            by_name
+        ),
+    ]
+}
+
+/// The first and the last place of an array; of more dimensions those at one edge too, whose
+/// indices cannot be mistaken for each other.
+fn ends(dimensions: &[u32]) -> Vec<Vec<u32>> {
+    let last = |count: &u32| count.saturating_sub(1);
+    let mut places = vec![vec![0; dimensions.len()]];
+    if dimensions.len() > 1 {
+        for (axis, count) in dimensions.iter().enumerate() {
+            let mut place = vec![0; dimensions.len()];
+            place.iter_mut().skip(axis).take(1).for_each(|index| *index = last(count));
+            places.push(place);
+        }
+    }
+    places.push(dimensions.iter().map(last).collect());
+    places.dedup();
+    places
+}
+
+/// Which element of the whole a place is, the last index running fastest.
+fn number_of(place: &[u32], dimensions: &[u32]) -> usize {
+    let number = place
+        .iter()
+        .zip(dimensions)
+        .fold(0_u32, |number, (&index, &count)| number.saturating_mul(count).saturating_add(index));
+    usize::try_from(number).unwrap_or(usize::MAX)
+}
+
+fn elements(
+    probe: &mut Probe<'_>,
+    rules: impl Fn(&Description) -> Vec<Rule>,
+    place_of: impl Fn(&mut Probe<'_>, Channel, &Description, Vec<u32>) -> Step<Option<Place>>,
+) -> Step {
+    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+        let mut any = false;
+        let whole = Place::Handle { channel, handle: variable.handle, indices: Vec::new() };
+        let arrays =
+            if variable.dimensions.is_empty() { Vec::new() } else { ends(&variable.dimensions) };
+        for indices in arrays {
+            let name = format!("{}{indices:?}", variable.name.text);
+            let number = number_of(&indices, &variable.dimensions);
+            let Some(place) = place_of(probe, channel, variable, indices)? else { continue };
+            if !probe.may_write(&place, &variable.name.text.to_string())? {
+                continue;
+            }
+            any = true;
+            let before = probe.value_at(&whole)?.unwrap_or_default();
+            let rules = rules(variable);
+            let trial = trial(variable, &name, &rules);
+            probe.try_write(&trial, &place, |probe, old, new| {
+                // Wherever it lies, and whoever allows it: what it takes there it gives there.
+                let read = probe.value_at(&place)?.unwrap_or_default();
+                let is_text = variable.var_type == VariableType::STRING;
+                for rule in trial.rules.iter().map(|rule| Rule::from(rule.id)) {
+                    let kept = read == new || is_text;
+                    let expected = format!("{} of {name}, as written", Hex(new.to_vec()));
+                    probe.check(rule, kept, expected, Hex(read.clone()));
+                }
+                // The one element, at its place of the whole, and nothing else.
+                let mut expected = before.clone();
+                let size = old.len();
+                let start = number.saturating_mul(size);
+                let part = expected.get_mut(start..start.saturating_add(size));
+                part.unwrap_or_default().iter_mut().zip(new).for_each(|(byte, new)| *byte = *new);
+                let after = probe.value_at(&whole)?.unwrap_or_default();
+                for &rule in trial.rules {
+                    let shown = Hex(expected.clone());
+                    probe.check(rule, after == expected, shown, Hex(after.clone()));
+                }
+                Ok(())
+            })?;
+        }
+        Ok(any)
+    })
+}
+
+/// More dimensions than one are assumed, and how texts lie in an array.
+fn of_order(variable: &Description, ids: &[&'static str]) -> Vec<Rule> {
+    let is_assumed = variable.dimensions.len() > 1 || variable.var_type == VariableType::STRING;
+    ids.iter().map(|&id| if is_assumed { assumed(id) } else { id.into() }).collect()
+}
+
+fn by_handle(probe: &mut Probe<'_>) -> Step {
+    let rules = |variable: &Description| of_order(variable, &["VAR-12"]);
+    elements(probe, rules, |probe, channel, variable, indices| {
+        let handle = handle_of(probe, channel, variable)?;
+        Ok(Some(Place::Handle { channel, handle, indices }))
+    })
+}
+
+fn by_name(probe: &mut Probe<'_>) -> Step {
+    let rules = |variable: &Description| of_order(variable, &["VAR-13", "VAR-20"]);
+    elements(probe, rules, |_, channel, variable, indices| {
+        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
+        let name = path.and_then(|path| path.element(indices.as_slice().into()).ok());
+        Ok(name.map(|name| Place::Name { channel, name }))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_are_tried_once_each() {
+        assert_eq!(ends(&[5]), [[0], [4]]);
+        assert_eq!(ends(&[1]), [[0]]);
+        assert_eq!(ends(&[2, 3]), [[0, 0], [1, 0], [0, 2], [1, 2]]);
+    }
+
+    #[test]
+    fn the_last_index_runs_fastest() {
+        assert_eq!(number_of(&[1, 0, 2], &[2, 3, 4]), 14);
+        assert_eq!(number_of(&[], &[]), 0);
+    }
+}

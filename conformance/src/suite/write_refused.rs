@@ -1,0 +1,373 @@
+//! Cases of writes that are no good: what is refused is not done either, and what is taken is
+//! what is there afterwards.
+
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{Call, Request, WriteByHandle, WriteByName};
+use ads_cnc::{CncStr, CncString, Description, Handle, Numbers, VariableAccess, VariableType};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Rule, Step, Stop, assumed};
+use super::declare;
+use super::place::{Place, Trial, another, is_sendable};
+use super::probe::{Probe, harness};
+use super::write::{each, handle_of, is_of_service, trial};
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "write-read-only",
+            "A variable that is READ_ONLY takes no value",
+            ["VAR-6"],
+            Writes,
+            read_only
+        ),
+        declare!(
+            "write-read-only-changed",
+            "A variable that is READ_ONLY takes no other value, whatever is answered",
+            ["VAR-6"],
+            MalformedWrites,
+            read_only_changed
+        ),
+        declare!(
+            "write-wrong-size",
+            "A value of another size than the variable's is answered by an error, or is there as sent",
+            ["VAR-12", "VAR-13"],
+            MalformedWrites,
+            wrong_size
+        ),
+        declare!(
+            "write-unknown",
+            "What is not there takes no value",
+            ["VAR-12", "VAR-13", "ADS-4"],
+            MalformedWrites,
+            unknown
+        ),
+        declare!(
+            "write-index-out-of-bounds",
+            "An element that the array does not have takes no value, and no other one takes it",
+            ["VAR-12", "VAR-13"],
+            MalformedWrites,
+            out_of_bounds
+        ),
+        declare!(
+            "write-bad-requests",
+            "A write whose name has no end, or whose count of indices lies, writes nothing",
+            ["VAR-12", "VAR-13", "VAR-24"],
+            MalformedWrites,
+            bad_requests
+        ),
+    ]
+}
+
+/// A variable with the value it has, to hold a refusal against.
+struct Known {
+    channel: Channel,
+    variable: Description,
+    value: Vec<u8>,
+}
+
+impl Known {
+    fn place(&self) -> Place {
+        Place::Name { channel: self.channel, name: self.variable.name.text.clone() }
+    }
+
+    fn name(&self) -> CncStr<'_> {
+        self.variable.name.text.as_cnc_str()
+    }
+
+    fn by_handle<'v>(&self, indices: Numbers<'v>, value: &'v [u8]) -> Request<'v> {
+        WriteByHandle::new(self.channel, self.variable.handle, indices, value).into()
+    }
+
+    fn by_name<'v>(&'v self, value: &'v [u8]) -> Request<'v> {
+        WriteByName { channel: self.channel, name: self.name(), value }.into()
+    }
+}
+
+/// Numbers that may be written, the first of each type; those that read as they are described, as
+/// anything else is judged elsewhere.
+fn writable(probe: &mut Probe<'_>) -> Step<Vec<Known>> {
+    let mut all: Vec<Known> = Vec::new();
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            let is_number = variable.access == VariableAccess::READ_WRITE
+                && variable.dimensions.is_empty()
+                && variable.var_type != VariableType::STRING
+                && !is_of_service(&variable);
+            let of_type = all.iter().any(|known| known.variable.var_type == variable.var_type);
+            let place = Place::Name { channel, name: variable.name.text.clone() };
+            if !is_number || of_type || !probe.may_write(&place, &variable.name.text.to_string())? {
+                continue;
+            }
+            let value = probe.value_at(&place)?.unwrap_or_default();
+            if u32::try_from(value.len()) == Ok(variable.size) {
+                all.push(Known { channel, variable, value });
+            }
+        }
+    }
+    match all.is_empty() {
+        true => Err(Stop::NotApplicable("no number may be written".to_owned())),
+        false => Ok(all),
+    }
+}
+
+fn first(probe: &mut Probe<'_>) -> Step<Known> {
+    let first = writable(probe)?.into_iter().next();
+    first.ok_or(Stop::NotApplicable("no number may be written".to_owned()))
+}
+
+/// Each way to every READ_ONLY variable.
+fn each_read_only(
+    probe: &mut Probe<'_>,
+    mut judge: impl FnMut(&mut Probe<'_>, &Trial<'_>, &Place) -> Step,
+) -> Step {
+    each(probe, VariableAccess::READ_ONLY, |probe, channel, variable| {
+        let name = variable.name.text.to_string();
+        let handle = handle_of(probe, channel, variable)?;
+        let mut any = false;
+        for place in [
+            Place::Name { channel, name: variable.name.text.clone() },
+            Place::Handle { channel, handle, indices: Vec::new() },
+        ] {
+            if probe.may_write(&place, &name)? {
+                any = true;
+                let rules = [Rule::from("VAR-6")];
+                judge(probe, &trial(variable, &name, &rules), &place)?;
+            }
+        }
+        Ok(any)
+    })
+}
+
+fn read_only(probe: &mut Probe<'_>) -> Step {
+    let sibling = first(probe)?.place();
+    each_read_only(probe, |probe, trial, place| probe.write_refused(trial, place, Some(&sibling)))
+}
+
+fn read_only_changed(probe: &mut Probe<'_>) -> Step {
+    each_read_only(probe, |probe, trial, place| {
+        let Some(before) = probe.value_at(place)?.filter(|value| !value.is_empty()) else {
+            return Ok(());
+        };
+        let other = another(&before, trial.is_text);
+        let Some(write) = place.write(&other).ok().filter(is_sendable) else { return Ok(()) };
+        let exchange = probe.send(write)?;
+        let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
+        let expected = format!("an error number for a write of {}", trial.what);
+        probe.check("VAR-6", refused, expected, exchange.result());
+        let after = probe.value_at(place)?.unwrap_or_default();
+        let expected = format!("{} of {} as before", Hex(before.clone()), trial.what);
+        probe
+            .check("VAR-6", after == before, expected, Hex(after))
+            .then_some(())
+            .ok_or(Stop::Judged)
+    })
+}
+
+/// Whether a request is taken; silence is no answer to anything, and judged by `rule`.
+fn taken(probe: &mut Probe<'_>, rule: Rule, what: &str, request: Request<'_>) -> Step<bool> {
+    let exchange = probe.send(request)?;
+    if exchange.answer().is_none() {
+        let expected = format!("an answer to {what}");
+        probe.require(&[rule], false, expected, exchange.result())?;
+    }
+    Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
+}
+
+/// What is refused must differ by its fault only from what is taken.
+fn taken_first(probe: &mut Probe<'_>, rule: Rule, good: Request<'_>) -> Step {
+    match taken(probe, rule, "what differs by that alone", good)? {
+        true => Ok(()),
+        false => {
+            let why = "what differs by that alone is refused too".to_owned();
+            Err(Stop::Inconclusive(why))
+        }
+    }
+}
+
+/// Sends a write that must be refused and have no effect on `watched`; then the good one again,
+/// so that all is as it was.
+fn refused(
+    probe: &mut Probe<'_>,
+    rules: &[Rule],
+    what: &str,
+    (bad, good): (Request<'_>, Request<'_>),
+    watched: &Place,
+) -> Step {
+    let mut buf = vec![0; bad.encoded_len()];
+    let Ok(call) = bad.encode(&mut buf) else { return Ok(()) };
+    refused_call(probe, rules, what, (&call, good), watched)
+}
+
+fn refused_call(
+    probe: &mut Probe<'_>,
+    rules: &[Rule],
+    what: &str,
+    (bad, good): (&Call<'_>, Request<'_>),
+    watched: &Place,
+) -> Step {
+    let Some(&rule) = rules.first() else { return Ok(()) };
+    if !is_sendable(&good) {
+        return Ok(());
+    }
+    taken_first(probe, rule, good)?;
+    let before = probe.value_at(watched)?;
+    let exchange = probe.call(bad)?;
+    let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
+    for &rule in rules {
+        let expected = format!("an error number for {what}");
+        probe.check(rule, refused, expected, exchange.result());
+    }
+    let after = probe.value_at(watched)?;
+    for &rule in rules {
+        let same = after == before;
+        let found = Hex(after.clone().unwrap_or_default());
+        probe.check(rule, same, format!("the value of before {what}"), found);
+    }
+    probe.send(good).map(drop)
+}
+
+fn wrong_size(probe: &mut Probe<'_>) -> Step {
+    for known in writable(probe)? {
+        let Known { value, .. } = &known;
+        let longer = [&value[..], &[0]].concat();
+        let far = [&value[..], &[0; 64]].concat();
+        let shorter = value.get(1..).unwrap_or_default();
+        for other in [&longer[..], &far, shorter, &[]] {
+            let what = format!("{} bytes for the {} of {}", other.len(), value.len(), known.name());
+            let by_handle = |value| known.by_handle(Numbers::EMPTY, value);
+            other_size(probe, "VAR-12", &what, &known, (by_handle(other), by_handle(value)))?;
+            let (bad, good) = (known.by_name(other), known.by_name(value));
+            other_size(probe, "VAR-13", &what, &known, (bad, good))?;
+        }
+    }
+    Ok(())
+}
+
+/// That it is refused is assumed. An error that has written something is none, and a success has
+/// written what was sent: of another size the variable cannot have it.
+fn other_size(
+    probe: &mut Probe<'_>,
+    id: &'static str,
+    what: &str,
+    known: &Known,
+    (bad, good): (Request<'_>, Request<'_>),
+) -> Step {
+    if !is_sendable(&bad) {
+        return Ok(());
+    }
+    taken_first(probe, id.into(), good)?;
+    let is_taken = taken(probe, id.into(), what, bad)?;
+    let evidence = probe.evidence();
+    let after = probe.value_at(&known.place())?.unwrap_or_default();
+    probe.show(evidence);
+    probe.check(assumed(id), !is_taken, format!("an error number for {what}"), "a success");
+    let same = after == known.value;
+    if !is_taken || what.starts_with("0 ") {
+        probe.check(id, same, format!("the value of before {what}"), Hex(after));
+    } else {
+        probe.check(id, false, format!("an error, or {what} read back"), Hex(after));
+    }
+    probe.send(good).map(drop)
+}
+
+fn unknown(probe: &mut Probe<'_>) -> Step {
+    let known = first(probe)?;
+    let (channel, watched, value) = (known.channel, known.place(), &known.value);
+    let variables = probe.variables(channel)?;
+    let is_free = |free: &u32| variables.iter().all(|one| one.handle.0 != *free);
+    let good = known.by_handle(Numbers::EMPTY, value);
+    if let Some(free) = [0, 1, u32::MAX].into_iter().find(is_free) {
+        let bad = WriteByHandle::new(channel, Handle(free), Numbers::EMPTY, value).into();
+        let what = format!("a write to the handle {free:#x}");
+        let rules = ["ADS-4", "VAR-12"].map(Rule::from);
+        refused(probe, &rules, &what, (bad, good), &watched)?;
+    }
+    let bad = known.by_handle((&[0]).into(), value);
+    refused(probe, &["VAR-12".into()], "an index of no array", (bad, good), &watched)?;
+    let good = known.by_name(value);
+    let text = known.name().to_string();
+    let (longer, shorter) = (format!("{text}x"), text.get(..text.len().saturating_sub(1)));
+    let near = [longer.as_str(), shorter.unwrap_or_default()];
+    for unknown in ["V.E.no such variable", ""].into_iter().chain(near) {
+        let unknown: CncString = unknown.parse().map_err(harness)?;
+        if variables.iter().any(|one| one.name.text == unknown) {
+            continue;
+        }
+        let what = format!("a write to the name \"{unknown}\"");
+        let bad = WriteByName { channel, name: unknown.as_cnc_str(), value }.into();
+        let rules = ["ADS-4", "VAR-13"].map(Rule::from);
+        refused(probe, &rules, &what, (bad, good), &watched)?;
+    }
+    let element: CncString = format!("{text}[0]").parse().map_err(harness)?;
+    let bad = WriteByName { channel, name: element.as_cnc_str(), value }.into();
+    refused(probe, &["VAR-13".into()], "an element of no array", (bad, good), &watched)
+}
+
+/// The most arrays that are tried.
+const ARRAYS_MAX: usize = 16;
+
+fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
+    let mut tried = 0_usize;
+    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+        let Description { handle, dimensions, var_type, name, .. } = variable;
+        let &[count] = dimensions.as_slice() else { return Ok(false) };
+        let by_name = |index: u32| format!("{}[{index}]", name.text).parse::<CncString>();
+        let first = Place::Handle { channel, handle: *handle, indices: vec![0] };
+        if *var_type == VariableType::STRING
+            || tried >= ARRAYS_MAX
+            || !probe.may_write(&first, &name.text.to_string())?
+        {
+            return Ok(false);
+        }
+        tried = tried.saturating_add(1);
+        let whole = Place::Handle { channel, handle: *handle, indices: Vec::new() };
+        let Some(value) = probe.value_at(&first)? else { return Ok(false) };
+        let other = another(&value, false);
+        let good = first.write(&value).map_err(harness)?;
+        let named = by_name(0).map_err(harness)?;
+        let good_by_name = Place::Name { channel, name: named };
+        for beyond in probe.beyond(count) {
+            let what = format!("a write to {}[{beyond}] of {count}", name.text);
+            let bad = Place::Handle { channel, handle: *handle, indices: vec![beyond] };
+            let bad = bad.write(&other).map_err(harness)?;
+            refused(probe, &["VAR-12".into()], &what, (bad, good), &whole)?;
+            let bad = Place::Name { channel, name: by_name(beyond).map_err(harness)? };
+            let bad = bad.write(&other).map_err(harness)?;
+            let good = good_by_name.write(&value).map_err(harness)?;
+            refused(probe, &["VAR-13".into()], &what, (bad, good), &whole)?;
+        }
+        Ok(true)
+    })
+}
+
+fn bad_requests(probe: &mut Probe<'_>) -> Step {
+    for known in writable(probe)? {
+        let watched = known.place();
+        // Without its end there is no name, and nothing that would be behind it.
+        let good = known.by_name(&known.value);
+        let mut buf = vec![0; good.encoded_len()];
+        let call = good.encode(&mut buf).map_err(harness)?;
+        let name: Vec<u8> = known.name().bytes().collect();
+        for size in [known.value.len(), 4, 8] {
+            let data = [&name[..], &vec![b'A'; size]].concat();
+            let what = format!("a write of {size} bytes to a name without NUL");
+            let bad = Call { data: &data, ..call };
+            refused_call(probe, &["VAR-13".into()], &what, (&bad, good), &watched)?;
+        }
+        let good = known.by_handle(Numbers::EMPTY, &known.value);
+        let mut buf = vec![0; good.encoded_len()];
+        let call = good.encode(&mut buf).map_err(harness)?;
+        for count in [0x4000_0000_u32, 0x8000_0001, u32::MAX] {
+            let mut data = call.data.to_vec();
+            data.get_mut(4..8)
+                .into_iter()
+                .for_each(|four| four.copy_from_slice(&count.to_le_bytes()));
+            let what = format!("a write with a count of {count:#x} indices");
+            let bad = Call { data: &data, ..call };
+            let rules = ["VAR-24", "VAR-12"].map(Rule::from);
+            refused_call(probe, &rules, &what, (&bad, good), &watched)?;
+        }
+    }
+    Ok(())
+}
