@@ -91,6 +91,13 @@ impl<'p, 's> Spoilt<'p, 's> {
         self.probe.refused(rule, what, &Call { data, ..self.call }, &sibling)
     }
 
+    /// Sends data in which count and indices do not fit each other: as long as the count says it
+    /// has to be, and what is not is found out.
+    fn of_other_length(&mut self, what: &str, data: &[u8]) -> Step {
+        self.data("VAR-24", what, data)?;
+        self.data("VAR-11", what, data)
+    }
+
     /// Sends the good data elsewhere or otherwise.
     fn call(&mut self, rule: impl Into<Rule>, what: &str, spoil: impl Fn(&mut Call<'_>)) -> Step {
         let sibling = Call { data: &self.good, ..self.call };
@@ -153,6 +160,22 @@ fn bad_name(probe: &mut Probe<'_>) -> Step {
             spoilt.data(assumed("VAR-9"), what, &data)?;
         }
     }
+    // Whatever is done with more characters than a name has: it is no variable's.
+    let longest = variables.iter().max_by_key(|one| one.name.text.as_bytes().len());
+    for known in [Some(known), longest].into_iter().flatten() {
+        let field = TextRef::from(known.name.text.as_cnc_str());
+        let requests: [Request<'_>; 2] = [
+            HandleByName { channel, name: field }.into(),
+            ReadByName { channel, name: field }.into(),
+        ];
+        for request in requests {
+            let mut spoilt = Spoilt::new(probe, request)?;
+            let mut long = known.name.text.as_bytes().to_vec();
+            long.resize(256, b'q');
+            long.push(0);
+            spoilt.data("VAR-9", "a name of 256 characters", &long)?;
+        }
+    }
     Ok(())
 }
 
@@ -165,24 +188,39 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
     let mut spoilt = Spoilt::new(probe, request)?;
     let good = spoilt.good.clone();
     for len in 0..good.len() {
-        let rule = if len < 8 { assumed("VAR-11") } else { "VAR-24".into() };
         let what = format!("the header cut to {len} bytes");
-        spoilt.data(rule, &what, good.get(..len).unwrap_or_default())?;
+        let data = good.get(..len).unwrap_or_default();
+        if len < 8 {
+            spoilt.data(assumed("VAR-11"), &what, data)?;
+        } else {
+            spoilt.of_other_length(&what, data)?;
+        }
     }
     let handle = good.get(..4).unwrap_or_default();
-    for (count, indices) in [(2_u32, 1_usize), (u32::MAX, 1), (0x4000_0001, 1), (511, 511)] {
+    for (count, indices) in [
+        (2_u32, 1_usize),
+        (0, 1),
+        (0, 2),
+        (1, 2),
+        (0x101, 1),
+        (0x1_0001, 1),
+        (0x100_0001, 1),
+        (0x4000_0001, 1),
+        (0x8000_0001, 1),
+        (u32::MAX, 1),
+        (511, 511),
+    ] {
         let mut data = handle.to_vec();
         data.extend(count.to_le_bytes());
         data.resize(indices.saturating_mul(4).saturating_add(8), 0);
-        let what = format!("a count of {count} beside {indices} indices");
-        spoilt.data("VAR-24", &what, &data)?;
+        spoilt.of_other_length(&format!("a count of {count} beside {indices} indices"), &data)?;
     }
-    let mut more = good.clone();
-    more.push(0);
-    spoilt.data("VAR-24", "a byte behind the last index", &more)?;
-    let mut fewer = good;
-    fewer.iter_mut().skip(4).take(4).for_each(|byte| *byte = 0);
-    spoilt.data("VAR-24", "a count of 0 beside one index", &fewer)
+    for more in 1..4 {
+        let mut data = good.clone();
+        data.extend((0..more).map(|_| 0));
+        spoilt.of_other_length(&format!("{more} bytes behind the last index"), &data)?;
+    }
+    Ok(())
 }
 
 fn bad_address(probe: &mut Probe<'_>) -> Step {

@@ -9,7 +9,9 @@ mod described;
 mod device;
 mod dynamic;
 mod elements;
+mod handles;
 mod inventory;
+mod known;
 mod malformed;
 mod names;
 mod outcome;
@@ -76,6 +78,8 @@ pub fn cases() -> Vec<Case> {
     cases.extend(elements::cases());
     cases.extend(dynamic::cases());
     cases.extend(variable::cases());
+    cases.extend(handles::cases());
+    cases.extend(known::cases());
     cases.extend(described::cases());
     cases.extend(names::cases());
     cases.extend(values::cases());

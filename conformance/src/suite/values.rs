@@ -3,7 +3,7 @@
 use ads_cnc::address::Channel;
 use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{ReadByHandle, ReadByName, Request};
-use ads_cnc::{CncString, Description, Handle, Numbers, VariableType};
+use ads_cnc::{CncString, Description, Numbers, VariableType};
 use ads_cnc_vectors::{Hex, Level};
 
 use super::case::{Case, Evidence, Rule, Step, Stop, assumed};
@@ -12,8 +12,22 @@ use super::probe::Probe;
 use super::variable::name_of;
 use crate::explain::{Values, type_by_name};
 
-/// The most elements of an array that are read one by one.
+/// The most elements at the start of an array that are read one by one.
 const ELEMENTS_MAX: usize = 64;
+
+/// Those, what an index of one byte cannot tell from them, and the last.
+fn tried(number: usize, count: usize) -> bool {
+    number < ELEMENTS_MAX || (255..=257).contains(&number) || number.saturating_add(2) >= count
+}
+
+/// The places of an array that are tried, and which element of the whole each is.
+fn places_tried(dimensions: &[u32]) -> impl Iterator<Item = (usize, Vec<u32>)> + use<'_> {
+    let count = dimensions.iter().fold(1_u32, |all, &n| all.saturating_mul(n));
+    let count = usize::try_from(count).unwrap_or(usize::MAX);
+    // A value has 2048 elements at most.
+    let all = places(dimensions).take(2048).enumerate();
+    all.filter(move |(number, _)| tried(*number, count))
+}
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -46,6 +60,13 @@ pub(super) fn cases() -> Vec<Case> {
             elements_by_name
         ),
         declare!(
+            "val-array-has-elements",
+            "An array has the elements that its dimensions say, up to the last of each",
+            ["VAR-4", "VAR-7"],
+            Queries,
+            array_has_elements
+        ),
+        declare!(
             "val-index-out-of-bounds",
             "An index that the array does not have is answered by an error",
             ["VAR-11", "VAR-20"],
@@ -65,13 +86,6 @@ pub(super) fn cases() -> Vec<Case> {
             ["VAR-25"],
             Queries,
             string_size
-        ),
-        declare!(
-            "val-unknown-handle",
-            "A handle nobody has is answered by an error",
-            ["ADS-4"],
-            Malformed,
-            unknown_handle
         ),
     ]
 }
@@ -205,7 +219,9 @@ fn whole_by_handle(probe: &mut Probe<'_>) -> Step {
         if variable.var_type.element_size().is_some() {
             let same = u32::try_from(value.len()) == Ok(variable.size);
             let expected = format!("the {} bytes of its description", variable.size);
-            probe.check("VAR-8", same, expected, found);
+            for rule in ["VAR-8", "VAR-14"] {
+                probe.check(rule, same, &expected, &found);
+            }
         }
         Ok(())
     })
@@ -256,7 +272,7 @@ fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
 fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::new();
     each_array(probe, |probe, channel, variable, size| {
-        for (number, place) in places(&variable.dimensions).take(ELEMENTS_MAX).enumerate() {
+        for (number, place) in places_tried(&variable.dimensions) {
             let indices = place.as_slice().into();
             let request = ReadByHandle::new(channel, variable.handle, indices);
             if variable.var_type.element_size().is_some() {
@@ -284,9 +300,16 @@ fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>
 fn elements_by_name(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::new();
     each_array(probe, |probe, channel, variable, size| {
-        for (number, place) in places(&variable.dimensions).take(ELEMENTS_MAX).enumerate() {
+        for (number, place) in places_tried(&variable.dimensions) {
             let Some(name) = element_name(variable, &place)? else { continue };
             let request = ReadByName { channel, name: name.as_cnc_str().into() };
+            if variable.var_type.element_size().is_some()
+                && let Some(element) = probe.try_ask(request)?
+            {
+                let found = format!("{} bytes of {name}", element.len());
+                let sized = element.len() == size;
+                probe.check("VAR-14", sized, format!("{size} bytes of one element"), found);
+            }
             let (at, part) = ((channel, variable), part(number, size));
             steady.compare(probe, brackets(variable), at, request.into(), part)?;
         }
@@ -303,15 +326,48 @@ fn brackets(variable: &Description) -> Rule {
     }
 }
 
+/// A place with another index in one dimension.
+fn with(place: &[u32], axis: usize, index: u32) -> Vec<u32> {
+    let mut place = place.to_vec();
+    place.iter_mut().skip(axis).take(1).for_each(|one| *one = index);
+    place
+}
+
+/// What is no array has no dimension. How many indices more dimensions take is assumed: what has
+/// the first element has the last of each.
+fn array_has_elements(probe: &mut Probe<'_>) -> Step {
+    each_array(probe, |probe, channel, variable, _| {
+        let Description { handle, dimensions, name, .. } = variable;
+        let first = vec![0; dimensions.len()];
+        let ask = |probe: &mut Probe<'_>, place: &[u32]| {
+            probe.try_ask(ReadByHandle::new(channel, *handle, place.into()))
+        };
+        let whole_is_there = ask(probe, &[])?.is_some();
+        let has_first = ask(probe, &first)?.is_some();
+        if dimensions.len() == 1 && whole_is_there {
+            let expected = format!("element 0 of {name}, or no dimension", name = name.text);
+            let rule = if dimensions == &[1] { "VAR-7" } else { "VAR-4" };
+            probe.check(rule, has_first, expected, "an error");
+        }
+        if !has_first {
+            return Ok(());
+        }
+        for (axis, count) in dimensions.iter().enumerate() {
+            let last = with(&first, axis, count.saturating_sub(1));
+            let is_there = ask(probe, &last)?.is_some();
+            let expected = format!("{last:?} of the {dimensions:?} elements of {}", name.text);
+            probe.check("VAR-4", is_there, expected, "an error");
+        }
+        Ok(())
+    })
+}
+
 fn index_out_of_bounds(probe: &mut Probe<'_>) -> Step {
     each_array(probe, |probe, channel, variable, _| {
         let first = vec![0; variable.dimensions.len()];
         for (axis, &dimension) in variable.dimensions.iter().enumerate() {
             for beyond in probe.beyond(dimension) {
-                let mut place = first.clone();
-                if let Some(index) = place.get_mut(axis) {
-                    *index = beyond;
-                }
+                let place = with(&first, axis, beyond);
                 let what = format!("{place:?} of {:?}", variable.dimensions);
                 let (bad, good) = (place.as_slice().into(), first.as_slice().into());
                 probe.refuses(
@@ -321,18 +377,19 @@ fn index_out_of_bounds(probe: &mut Probe<'_>) -> Step {
                     ReadByHandle::new(channel, variable.handle, good),
                 )?;
             }
-            let mut place = first.clone();
-            if let Some(index) = place.get_mut(axis) {
-                *index = dimension;
+            for beyond in probe.beyond(dimension) {
+                let place = with(&first, axis, beyond);
+                let bad = element_name(variable, &place)?;
+                let (Some(bad), Some(good)) = (bad, element_name(variable, &first)?) else {
+                    continue;
+                };
+                probe.refuses(
+                    brackets(variable),
+                    &format!("the name {bad}"),
+                    ReadByName { channel, name: bad.as_cnc_str().into() },
+                    ReadByName { channel, name: good.as_cnc_str().into() },
+                )?;
             }
-            let (bad, good) = (element_name(variable, &place)?, element_name(variable, &first)?);
-            let (Some(bad), Some(good)) = (bad, good) else { continue };
-            probe.refuses(
-                brackets(variable),
-                &format!("the name {bad}"),
-                ReadByName { channel, name: bad.as_cnc_str().into() },
-                ReadByName { channel, name: good.as_cnc_str().into() },
-            )?;
         }
         Ok(())
     })
@@ -376,20 +433,4 @@ fn string_size(probe: &mut Probe<'_>) -> Step {
         true => Ok(()),
         false => Err(Stop::NotApplicable("no variable is a STRING".to_owned())),
     }
-}
-
-fn unknown_handle(probe: &mut Probe<'_>) -> Step {
-    let channel = probe.channel()?;
-    let variables = probe.variables(channel)?;
-    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
-    let taken = |number: u32| variables.iter().any(|variable| variable.handle.0 == number);
-    for number in [0, 1, 0x7FFF_FFFF, u32::MAX].into_iter().filter(|&number| !taken(number)) {
-        probe.refuses(
-            "ADS-4",
-            &format!("the handle {number:#x}"),
-            ReadByHandle::new(channel, Handle(number), Numbers::EMPTY),
-            whole(channel, known),
-        )?;
-    }
-    Ok(())
 }

@@ -2,14 +2,15 @@
 
 use std::collections::HashSet;
 
+use ads_cnc::address::Channel;
 use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{
     CountVariables, DescribeByIndex, HandleByName, ReadByHandle, ReadByName, Request,
 };
 use ads_cnc::{
-    Decode as _, Description, Handle, Kind, Numbers, TextRef, VariableAccess, VariableCount,
+    Decode as _, Description, Kind, Numbers, TextRef, VariableAccess, VariableCount, VariablePath,
+    VariableType,
 };
-use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Rule, Step, Stop, assumed};
 use super::declare;
@@ -31,8 +32,8 @@ pub(super) fn cases() -> Vec<Case> {
             "var-descriptions",
             "Every index from 0 on has a description that holds together",
             [
-                "VAR-2", "VAR-3", "VAR-4", "VAR-5", "VAR-6", "VAR-7", "VAR-8", "VAR-9", "GEN-1",
-                "GEN-3"
+                "VAR-1", "VAR-2", "VAR-3", "VAR-4", "VAR-5", "VAR-6", "VAR-7", "VAR-8", "VAR-9",
+                "GEN-1", "GEN-3"
             ],
             Queries,
             descriptions
@@ -40,23 +41,16 @@ pub(super) fn cases() -> Vec<Case> {
         declare!(
             "var-index-beyond-last",
             "The index behind the last is answered by an error",
-            ["VAR-2"],
+            ["VAR-1", "VAR-2"],
             Queries,
             index_beyond_last
         ),
         declare!(
-            "var-handle-by-name",
-            "A name's handle is the one in its description, and no other's",
-            ["VAR-9", "VAR-10"],
+            "var-other-channel",
+            "In a channel that is not there, there is no variable either",
+            ["VAR-2", "VAR-3", "VAR-14"],
             Queries,
-            handle_by_name
-        ),
-        declare!(
-            "var-unknown-name",
-            "A name nobody has is answered by an error",
-            ["ADS-4"],
-            Queries,
-            unknown_name
+            other_channel
         ),
         declare!(
             "var-structures-are-resolved",
@@ -75,12 +69,21 @@ pub(super) fn cases() -> Vec<Case> {
     ]
 }
 
+/// How many variables of a kind there are, which has to be said.
+fn number(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
+    let rules = ["VAR-1", "VAR-2"].map(Rule::from);
+    let data = probe.ask_for(&rules, CountVariables::new(channel, kind))?;
+    let count = VariableCount::decode(&data);
+    let found = format!("{} bytes", data.len());
+    probe.require(&["VAR-2".into()], count.is_ok(), "a number of 4 bytes", found)?;
+    count.map(|VariableCount(number)| number).map_err(harness)
+}
+
 fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let mut sum = 0_u32;
         for (_, kind) in kinds(probe) {
-            let VariableCount(number) = probe.read("VAR-2", CountVariables::new(channel, kind))?;
-            sum = sum.saturating_add(number);
+            sum = sum.saturating_add(number(probe, channel, kind)?);
         }
         let VariableCount(all) = probe.read("VAR-1", CountVariables::new(channel, Kind::ALL))?;
         let found = format!("{all} of channel {}", channel.number());
@@ -104,16 +107,35 @@ fn count(probe: &mut Probe<'_>) -> Step {
 fn descriptions(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for (name, kind) in kinds(probe) {
-            let VariableCount(number) = probe.read("VAR-2", CountVariables::new(channel, kind))?;
+            let number = number(probe, channel, kind)?.min(VARIABLES_MAX);
             let mut names = HashSet::new();
-            for index in 0..number.min(VARIABLES_MAX) {
+            let mut all = Vec::new();
+            for index in 0..number {
                 let request = DescribeByIndex::new(channel, index, kind);
                 let variable: Description = probe.read("VAR-4", request)?;
                 holds_together(probe, &variable, name);
                 let unique = names.insert(variable.name.text.clone());
                 let found = format!("{} again at index {index}", variable.name.text);
                 probe.check("VAR-3", unique, "another variable at each index", found);
+                all.push(variable);
             }
+            again(probe, channel, kind, &all)?;
+        }
+    }
+    Ok(())
+}
+
+/// From the last index to the first there are the same variables. An axis may change its place
+/// meanwhile: what differs has to differ from two readings that agree.
+fn again(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>, all: &[Description]) -> Step {
+    let indexed: Vec<(u32, &Description)> = (0..).zip(all).collect();
+    for (index, first) in indexed.into_iter().rev() {
+        let request = || DescribeByIndex::new(channel, index, kind);
+        let read = |data: Option<Vec<u8>>| data.and_then(|data| Description::decode(&data).ok());
+        let same = read(probe.try_ask(request())?).as_ref() == Some(first);
+        if same || read(probe.try_ask(request())?).as_ref() == Some(first) {
+            let expected = format!("{} at index {index} again", first.name.text);
+            probe.check("VAR-3", same, expected, "another description");
         }
     }
     Ok(())
@@ -136,7 +158,15 @@ pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, ki
     probe.check("VAR-6", known, "access 1 or 2", format!("{} of {name}", access.0));
     let empty = variable.dimensions.contains(&0);
     let found = format!("{:?} of {name}", variable.dimensions);
-    probe.check("VAR-4", !empty, "at least one element in each dimension", found);
+    probe.check("VAR-4", !empty, "at least one element in each dimension", &found);
+    probe.check("VAR-7", !empty, "no dimension where there is no array", found);
+    let Description { var_type, access, .. } = variable;
+    // As they stand they mean nothing, and would the other way round.
+    let exchanged = !(1..=2).contains(&access.0)
+        && VariableType(access.0).name().is_some()
+        && (1..=2).contains(&var_type.0);
+    let found = format!("{} and {} of {name}", var_type.0, access.0);
+    probe.check("VAR-4", !exchanged, "the type, and behind it the access", found);
     let Some(size) = variable.var_type.element_size() else { return };
     if variable.dimensions.is_empty() {
         let one = variable.size < size.saturating_mul(2);
@@ -155,7 +185,7 @@ pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, ki
 fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for (_, kind) in kinds(probe) {
-            let VariableCount(number) = probe.read("VAR-2", CountVariables::new(channel, kind))?;
+            let number = number(probe, channel, kind)?;
             let Some(last) = number.checked_sub(1) else {
                 let first = DescribeByIndex::new(channel, 0, kind);
                 probe.refuses_alone("VAR-2", "index 0 of no variable", first)?;
@@ -174,60 +204,33 @@ fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
+fn other_channel(probe: &mut Probe<'_>) -> Step {
+    let Some(absent) = probe.session.profile.absent_channel else {
+        let why = "no channel is known that is not there; a profile can name one".to_owned();
+        return Err(Stop::NotApplicable(why));
+    };
+    let (channel, absent) = (probe.channel()?, Channel::new(absent).map_err(harness)?);
+    let what = format!("channel {}", absent.number());
+    for (_, kind) in kinds(probe).into_iter().chain([("", Kind::ALL)]) {
+        let count = |channel| CountVariables::new(channel, kind);
+        probe.refuses("VAR-2", &what, count(absent), count(channel))?;
+    }
+    let variables = probe.variables(channel)?;
+    let Some(known) = variables.first() else { return Ok(()) };
+    let kind = VariablePath::from_text(known.name.text.as_cnc_str()).map(|path| path.kind());
+    if let Some((_, kind)) = kinds(probe).into_iter().find(|(_, one)| Ok(*one) == kind) {
+        let first = |channel| DescribeByIndex::new(channel, 0, kind);
+        probe.refuses("VAR-3", &what, first(absent), first(channel))?;
+    }
+    let read = |channel| ReadByName { channel, name: name_of(known) };
+    probe.refuses("VAR-14", &what, read(absent), read(channel))?;
+    let read = |channel| ReadByHandle::new(channel, known.handle, Numbers::EMPTY);
+    probe.refuses("VAR-14", &what, read(absent), read(channel))
+}
+
 /// The name of a description, as a request carries it.
 pub(super) fn name_of(variable: &Description) -> TextRef<'_> {
     variable.name.text.as_cnc_str().into()
-}
-
-fn handle_by_name(probe: &mut Probe<'_>) -> Step {
-    for channel in probe.channels()? {
-        let variables = probe.variables(channel)?;
-        let mut handles = HashSet::new();
-        for variable in &variables {
-            let name = name_of(variable);
-            let rules = ["VAR-9", "VAR-10"].map(Rule::from);
-            let data = probe.ask_for(&rules, HandleByName { channel, name })?;
-            let handle = Handle::decode(&data);
-            probe.require(&rules, handle.is_ok(), "a handle of four bytes", Hex(data))?;
-            let Ok(handle) = handle else { continue };
-            // That there is but one handle is said nowhere: what counts is what it reads.
-            let expected = format!("the description's {:?} for {}", variable.handle, name.text());
-            let rule = assumed("VAR-10");
-            probe.check(rule, handle == variable.handle, expected, format!("{handle:?}"));
-            let found = format!("{handle:?} of {} again", name.text());
-            probe.check(rule, handles.insert(handle), "a handle of its own", found);
-            let whole = |handle| ReadByHandle::new(channel, handle, Numbers::EMPTY);
-            let read = probe.ask("VAR-10", whole(handle))?;
-            let sized = u32::try_from(read.len()) == Ok(variable.size)
-                || variable.var_type.element_size().is_none();
-            let found = format!("{} bytes of {}", read.len(), name.text());
-            probe.check("VAR-10", sized, format!("its {} bytes", variable.size), found);
-        }
-    }
-    Ok(())
-}
-
-fn unknown_name(probe: &mut Probe<'_>) -> Step {
-    let channel = probe.channel()?;
-    let variables = probe.variables(channel)?;
-    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
-    let known = name_of(known);
-    for name in ["V.E.no such variable", "V.E.", "V.X.a", "no kind", ""] {
-        let unknown = TextRef::new(name).map_err(harness)?;
-        probe.refuses(
-            "ADS-4",
-            &format!("the name {name:?}"),
-            HandleByName { channel, name: unknown },
-            HandleByName { channel, name: known },
-        )?;
-        probe.refuses(
-            "ADS-4",
-            &format!("the name {name:?}"),
-            ReadByName { channel, name: unknown },
-            ReadByName { channel, name: known },
-        )?;
-    }
-    Ok(())
 }
 
 fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {

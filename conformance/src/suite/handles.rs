@@ -1,0 +1,168 @@
+//! Cases of handles: which variable they stand for, and how long.
+
+use std::collections::HashSet;
+
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{HandleByName, ReadByHandle, ReadByName};
+use ads_cnc::{Decode as _, Description, Handle, Kind, Numbers, TextRef, VariablePath};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Rule, Step, Stop, assumed};
+use super::declare;
+use super::probe::{Probe, harness};
+use super::still::Still;
+use super::variable::name_of;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        // The first that asks for values: no handle has been asked for by name before.
+        declare!(
+            "var-described-handle",
+            "A description has the name and the handle that the variable is read by",
+            ["VAR-4", "VAR-9", "VAR-10"],
+            Queries,
+            described
+        ),
+        declare!(
+            "var-handle-by-name",
+            "A name's handle is the one in its description, and no other's",
+            ["VAR-9", "VAR-10"],
+            Queries,
+            by_name
+        ),
+        declare!(
+            "var-handle-stays",
+            "A handle keeps its variable, whatever else is asked, read or refused meanwhile",
+            ["VAR-10"],
+            Queries,
+            stays
+        ),
+        declare!(
+            "val-unknown-handle",
+            "A handle nobody has is answered by an error",
+            ["ADS-4", "VAR-11"],
+            Malformed,
+            unknown
+        ),
+    ]
+}
+
+pub(super) fn whole(channel: Channel, handle: Handle) -> ReadByHandle<'static> {
+    ReadByHandle::new(channel, handle, Numbers::EMPTY)
+}
+
+fn described(probe: &mut Probe<'_>) -> Step {
+    let mut still = Still::default();
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            let what = variable.name.text.to_string();
+            let by_handle = whole(channel, variable.handle);
+            let by_name = ReadByName { channel, name: name_of(&variable) };
+            let answered = probe.try_ask(by_handle)?.is_some();
+            let expected = format!("an answer to the handle {what} is described with");
+            for rule in ["VAR-4", "VAR-10"] {
+                probe.check(rule, answered, &expected, "an error");
+            }
+            let exchange = probe.send(by_name)?;
+            let named = exchange.answer().is_some_and(|answer| answer.success().is_some());
+            for rule in ["VAR-4", "VAR-9"] {
+                let expected = format!("an answer to the name {what}");
+                probe.check(rule, named, expected, exchange.result());
+            }
+            if answered && named {
+                let rules = ["VAR-4", "VAR-10"].map(Rule::from);
+                still.same(probe, &rules, &what, by_handle, by_name.into())?;
+            }
+        }
+    }
+    still.finish()
+}
+
+/// The handle of a name, which has to have one.
+fn handle_of(probe: &mut Probe<'_>, channel: Channel, name: TextRef<'_>) -> Step<Option<Handle>> {
+    let rules = ["VAR-9", "VAR-10"].map(Rule::from);
+    let data = probe.ask_for(&rules, HandleByName { channel, name })?;
+    let handle = Handle::decode(&data);
+    probe.require(&rules, handle.is_ok(), "a handle of four bytes", Hex(data))?;
+    Ok(handle.ok())
+}
+
+fn by_name(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        let variables = probe.variables(channel)?;
+        let mut handles = HashSet::new();
+        for variable in &variables {
+            let name = name_of(variable);
+            let Some(handle) = handle_of(probe, channel, name)? else { continue };
+            // That there is but one handle is said nowhere: what counts is what it reads.
+            let expected = format!("the description's {:?} for {}", variable.handle, name.text());
+            let rule = assumed("VAR-10");
+            probe.check(rule, handle == variable.handle, expected, format!("{handle:?}"));
+            let found = format!("{handle:?} of {} again", name.text());
+            probe.check(rule, handles.insert(handle), "a handle of its own", found);
+            let read = probe.ask("VAR-10", whole(channel, handle))?;
+            let sized = u32::try_from(read.len()) == Ok(variable.size)
+                || variable.var_type.element_size().is_none();
+            let found = format!("{} bytes of {}", read.len(), name.text());
+            probe.check("VAR-10", sized, format!("its {} bytes", variable.size), found);
+        }
+    }
+    Ok(())
+}
+
+fn stays(probe: &mut Probe<'_>) -> Step {
+    let mut all: Vec<(Channel, Description, Handle)> = Vec::new();
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            let asked = HandleByName { channel, name: name_of(&variable) };
+            let data = probe.try_ask(asked)?;
+            let handle = data.and_then(|data| Handle::decode(&data).ok());
+            all.extend(handle.map(|handle| (channel, variable, handle)));
+        }
+        let unknown = TextRef::new("V.E.no such variable").map_err(harness)?;
+        probe.try_ask(HandleByName { channel, name: unknown })?;
+    }
+    if all.is_empty() {
+        return Err(Stop::Inconclusive("no name has a handle".to_owned()));
+    }
+    let mut still = Still::default();
+    for (channel, variable, handle) in &all {
+        let (channel, by_handle) = (*channel, whole(*channel, *handle));
+        // Twice each, as one that is used up by the first read is none.
+        for time in ["once", "again"] {
+            let read = probe.try_ask(by_handle)?.is_some();
+            let expected = format!("{} read by its handle {time}", variable.name.text);
+            probe.check("VAR-10", read, expected, "an error");
+        }
+        let by_name = ReadByName { channel, name: name_of(variable) };
+        let what = variable.name.text.to_string();
+        still.same(probe, &["VAR-10".into()], &what, by_handle, by_name.into())?;
+    }
+    still.finish()
+}
+
+fn unknown(probe: &mut Probe<'_>) -> Step {
+    let mut taken = HashSet::new();
+    for channel in probe.channels()? {
+        taken.extend(probe.variables(channel)?.into_iter().map(|variable| variable.handle.0));
+    }
+    let channel = probe.channel()?;
+    let variables = probe.variables(channel)?;
+    // Of an axis variable there are handles of other places, where no axis may be.
+    let is_of_axis = |variable: &&Description| {
+        let path = VariablePath::from_text(variable.name.text.as_cnc_str());
+        path.is_ok_and(|path| path.kind() == Kind::V_A)
+    };
+    let known = variables.iter().find(|one| !is_of_axis(one)).or(variables.first());
+    let known = known.ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let near = [0x80_0000, 0x8000_0000].map(|bit| known.handle.0 ^ bit);
+    let numbers = [0, 1, 0x7FFF_FFFF, u32::MAX].into_iter().chain(near);
+    for number in numbers.filter(|number| !taken.contains(number)) {
+        let what = format!("the handle {number:#x}");
+        for rule in ["ADS-4", "VAR-11"] {
+            let unknown = whole(channel, Handle(number));
+            probe.refuses(rule, &what, unknown, whole(channel, known.handle))?;
+        }
+    }
+    Ok(())
+}

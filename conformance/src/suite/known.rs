@@ -1,0 +1,129 @@
+//! Cases of names and types: which variable a name stands for, and what is known of one from
+//! elsewhere.
+
+use ads_cnc::address::Channel;
+use ads_cnc::limits::TEXT_MAX;
+use ads_cnc::operation::{HandleByName, ReadByName};
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::{CncStr, Description, TextRef};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Step, Stop};
+use super::declare;
+use super::probe::{Probe, harness};
+use super::variable::name_of;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "var-unknown-name",
+            "A name nobody has is answered by an error",
+            ["ADS-4", "VAR-9", "VAR-10"],
+            Queries,
+            unknown_name
+        ),
+        declare!(
+            "var-similar-name",
+            "A name that differs in a character is not the variable's",
+            ["VAR-9"],
+            Queries,
+            similar_name
+        ),
+        declare!(
+            "var-known-types",
+            "Variables whose type is documented have its number",
+            ["VAR-5"],
+            Queries,
+            known_types
+        ),
+    ]
+}
+
+fn unknown_name(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let variables = probe.variables(channel)?;
+    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let known = name_of(known);
+    for name in ["V.E.no such variable", "V.E.", "V.X.a", "no kind", ""] {
+        let (what, name) = (format!("the name {name:?}"), TextRef::new(name).map_err(harness)?);
+        let (handle, good) =
+            (HandleByName { channel, name }, HandleByName { channel, name: known });
+        probe.refuses("ADS-4", &what, handle, good)?;
+        let good = ReadByName { channel, name: known };
+        probe.refuses("ADS-4", &what, ReadByName { channel, name }, good)?;
+        // A success is a handle, and not a variable's that is not there.
+        let given = probe.try_ask(handle)?;
+        let none = given.is_none();
+        for rule in ["VAR-9", "VAR-10"] {
+            let found = Hex(given.clone().unwrap_or_default());
+            probe.check(rule, none, format!("no handle for {what}"), format!("{found} for it"));
+        }
+    }
+    Ok(())
+}
+
+/// The most names of a channel that are tried, the longest first.
+const NAMES_MAX: usize = 64;
+
+/// The name with a character more, one less, and another last one and one in the middle.
+fn similar(name: &[u8]) -> Vec<Vec<u8>> {
+    let other = |at: usize| {
+        let mut other = name.to_vec();
+        other.iter_mut().skip(at).take(1).for_each(|byte| {
+            *byte = if *byte == b'q' { b'x' } else { b'q' };
+        });
+        other
+    };
+    let Some((_, shorter)) = name.split_last() else { return Vec::new() };
+    let longer = [name, &b"q"[..]].concat();
+    // Behind the kind: in front of it there is no variable at all.
+    let middle =
+        name.len().saturating_sub(4).checked_div(2).map_or(4, |half| half.saturating_add(4));
+    vec![longer, shorter.to_vec(), other(name.len().saturating_sub(1)), other(middle)]
+}
+
+fn similar_name(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        let mut variables = probe.variables(channel)?;
+        let is_there = |name: &[u8], variables: &[Description]| {
+            variables.iter().any(|one| one.name.text.as_bytes() == name)
+        };
+        variables.sort_by_key(|one| std::cmp::Reverse(one.name.text.as_bytes().len()));
+        for known in variables.iter().take(NAMES_MAX) {
+            let others = similar(known.name.text.as_bytes()).into_iter();
+            let fits = |name: &Vec<u8>| name.len() < TEXT_MAX && !is_there(name, &variables);
+            for other in others.filter(fits) {
+                let Ok(other) = CncStr::from_bytes(&other) else { continue };
+                apart(probe, channel, other, name_of(known))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn apart(probe: &mut Probe<'_>, channel: Channel, other: CncStr<'_>, known: TextRef<'_>) -> Step {
+    let (what, name) = (format!("the name {other}"), TextRef::from(other));
+    let good = HandleByName { channel, name: known };
+    probe.refuses("VAR-9", &what, HandleByName { channel, name }, good)?;
+    let good = ReadByName { channel, name: known };
+    probe.refuses("VAR-9", &what, ReadByName { channel, name }, good)
+}
+
+/// The five of the Service Interface.
+fn known_types(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            let name = variable.name.text.to_string();
+            let Some(of_service) = ServiceVariable::by_name(&name) else { continue };
+            any = true;
+            let expected = format!("the type {:?} of {name}", of_service.var_type());
+            let found = format!("{:?}", variable.var_type);
+            probe.check("VAR-5", variable.var_type == of_service.var_type(), expected, found);
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("no variable has a type that is documented".to_owned())),
+    }
+}
