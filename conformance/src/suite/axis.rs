@@ -61,7 +61,10 @@ pub(super) fn cases() -> Vec<Case> {
 const PLACES_MAX: u32 = 64;
 
 /// The axis variables of a channel as described, with their names on the axis interface.
-fn described(probe: &mut Probe<'_>, channel: Channel) -> Step<Vec<(CncString, Description)>> {
+pub(super) fn described(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+) -> Step<Vec<(CncString, Description)>> {
     let all = probe.variables(channel)?;
     let of_axes = all.into_iter().filter_map(|variable| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
@@ -109,7 +112,7 @@ fn each(
     }
 }
 
-fn names(described: &[(CncString, Description)]) -> Vec<&CncString> {
+pub(super) fn names(described: &[(CncString, Description)]) -> Vec<&CncString> {
     let mut names: Vec<&CncString> = described.iter().map(|(name, _)| name).collect();
     names.sort_by_key(|name| name.as_bytes());
     names.dedup();

@@ -2,6 +2,7 @@
 
 mod address;
 mod axis;
+mod axis_place;
 mod case;
 mod com;
 mod content;
@@ -84,6 +85,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(names::cases());
     cases.extend(values::cases());
     cases.extend(axis::cases());
+    cases.extend(axis_place::cases());
     cases.extend(write::cases());
     cases.extend(write_elements::cases());
     cases.extend(write_refused::cases());

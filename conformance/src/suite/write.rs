@@ -27,7 +27,7 @@ pub(super) fn cases() -> Vec<Case> {
         declare!(
             "write-by-name",
             "What is written by a name is read back by name and by handle",
-            ["VAR-6", "VAR-13", "VAR-17"],
+            ["VAR-6", "VAR-13", "VAR-14", "VAR-17"],
             Writes,
             by_name
         ),
@@ -37,6 +37,13 @@ pub(super) fn cases() -> Vec<Case> {
             ["VAR-17", "VAR-26"],
             Writes,
             axis_variables
+        ),
+        declare!(
+            "write-axis-read-only",
+            "An axis variable that is READ_ONLY takes no value on the axis interface either",
+            ["VAR-6", "VAR-26"],
+            Writes,
+            axis_read_only
         ),
         declare!(
             "write-by-name-only",
@@ -121,10 +128,14 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
         let by_handle = Place::Handle { channel, handle, indices: Vec::new() };
         let rules = ["VAR-13", "VAR-17", "VAR-6"].map(Rule::from);
         probe.try_write(&trial(variable, &name, &rules), &place, |probe, _, new| {
+            let named = probe.value_at(&place)?.unwrap_or_default();
             let read = probe.value_at(&by_handle)?.unwrap_or_default();
-            let same = read == new || variable.var_type == VariableType::STRING;
+            let is_text = variable.var_type == VariableType::STRING;
             let expected = format!("{} of {name} by its handle", Hex(new.to_vec()));
-            probe.check("VAR-13", same, expected, Hex(read));
+            probe.check("VAR-13", read == new || is_text, &expected, Hex(read.clone()));
+            // What the name gives by now the handle has to give as well.
+            let same = read == new || named != new || is_text;
+            probe.check("VAR-14", same, expected, Hex(read));
             Ok(())
         })?;
         Ok(true)
@@ -134,8 +145,13 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
 /// The most places of a channel that are looked at.
 const PLACES_MAX: u32 = 64;
 
-fn axis_variables(probe: &mut Probe<'_>) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+/// Every axis variable of this access, at the place whose handle it is described with.
+fn each_of_axes(
+    probe: &mut Probe<'_>,
+    access: VariableAccess,
+    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, &Place, &str) -> Step,
+) -> Step {
+    each(probe, access, |probe, channel, variable| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
         let path = path.filter(|path| path.axis().is_some());
         let Some(name) = path.and_then(|path| path.without_axis().ok()) else { return Ok(false) };
@@ -150,18 +166,31 @@ fn axis_variables(probe: &mut Probe<'_>) -> Step {
             if !probe.may_write(&at, &name.to_string())? {
                 break;
             }
-            let named = Place::Name { channel, name: variable.name.text.clone() };
             let what = format!("{name} of place {place}");
-            let rules = ["VAR-26", "VAR-17"].map(Rule::from);
-            probe.try_write(&trial(variable, &what, &rules), &at, |probe, _, new| {
-                let read = probe.value_at(&named)?.unwrap_or_default();
-                let expected = format!("{} of {}", Hex(new.to_vec()), variable.name.text);
-                probe.check("VAR-26", read == new, expected, Hex(read));
-                Ok(())
-            })?;
+            judge(probe, channel, variable, &at, &what)?;
             return Ok(true);
         }
         Ok(false)
+    })
+}
+
+fn axis_variables(probe: &mut Probe<'_>) -> Step {
+    let rules = ["VAR-26", "VAR-17"].map(Rule::from);
+    each_of_axes(probe, VariableAccess::READ_WRITE, |probe, channel, variable, at, what| {
+        let named = Place::Name { channel, name: variable.name.text.clone() };
+        probe.try_write(&trial(variable, what, &rules), at, |probe, _, new| {
+            let read = probe.value_at(&named)?.unwrap_or_default();
+            let expected = format!("{} of {}", Hex(new.to_vec()), variable.name.text);
+            probe.check("VAR-26", read == new, expected, Hex(read));
+            Ok(())
+        })
+    })
+}
+
+fn axis_read_only(probe: &mut Probe<'_>) -> Step {
+    let rules = ["VAR-6", "VAR-26"].map(Rule::from);
+    each_of_axes(probe, VariableAccess::READ_ONLY, |probe, _, variable, at, what| {
+        probe.write_refused(&trial(variable, what, &rules), at, None)
     })
 }
 

@@ -1,0 +1,269 @@
+//! Cases of places: which axis the axis interface means, and where there is none.
+
+use std::collections::HashSet;
+
+use ads_cnc::address::{Channel, ChannelAxis, IndexOffset};
+use ads_cnc::operation::{
+    AxisHandleByName, AxisReadByName, Call, HandleByName, ReadByHandle, ReadByName, Request,
+};
+use ads_cnc::{CncString, Decode as _, Description, Handle, Numbers, TextRef};
+use ads_cnc_vectors::Hex;
+
+use super::axis::{described, names};
+use super::case::{Case, Step, Stop};
+use super::declare;
+use super::probe::{Probe, harness};
+use super::variable::name_of;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "axis-places",
+            "Every axis with variables is at a place, counted from 1, and at no other",
+            ["VAR-10", "VAR-26", "GEN-6"],
+            Queries,
+            places
+        ),
+        declare!(
+            "axis-place-too-far",
+            "The axis index takes 16 bits, and no place is another's",
+            ["VAR-26"],
+            Malformed,
+            too_far
+        ),
+        declare!(
+            "axis-reserved",
+            "The reserved offsets of the axis interface are no functions",
+            ["VAR-26"],
+            Malformed,
+            reserved
+        ),
+        declare!(
+            "axis-variables-exchanged",
+            "Name and handle of a place mean whichever axis is there",
+            ["VAR-10", "VAR-26"],
+            Embedded,
+            exchanged
+        ),
+    ]
+}
+
+/// The most places of a channel that are looked at.
+const PLACES_MAX: u32 = 64;
+/// The most places without an axis in between.
+const GAP_MAX: u32 = 4;
+
+/// A place at which a name answers.
+struct At {
+    axis: ChannelAxis,
+    handle: Handle,
+}
+
+fn answering(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<Vec<At>> {
+    let mut all = Vec::new();
+    let mut gap = 0_u32;
+    for place in 1..=PLACES_MAX {
+        let axis = ChannelAxis::new(place).map_err(harness)?;
+        let name = name.as_cnc_str().into();
+        let handle = probe.try_ask(AxisHandleByName { channel, axis, name })?;
+        match handle.and_then(|data| Handle::decode(&data).ok()) {
+            Some(handle) => {
+                all.push(At { axis, handle });
+                gap = 0;
+            }
+            None => gap = gap.saturating_add(1),
+        }
+        if gap > GAP_MAX {
+            break;
+        }
+    }
+    Ok(all)
+}
+
+fn places(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    for channel in probe.channels()? {
+        let described = described(probe, channel)?;
+        let handles: HashSet<u32> = described.iter().map(|one| one.1.handle.0).collect();
+        for name in names(&described) {
+            any = true;
+            let places = answering(probe, channel, name)?;
+            let own: Vec<&Description> =
+                described.iter().filter(|one| one.0 == *name).map(|one| &one.1).collect();
+            let found = format!("{} places of channel {}", places.len(), channel.number());
+            let expected = format!("a place for each {name} of {} axes", own.len());
+            for rule in ["VAR-26", "GEN-6"] {
+                probe.check(rule, places.len() >= own.len(), &expected, &found);
+            }
+            // An axis is at one place. Where none is, handles are nobody's.
+            let mut seen = HashSet::new();
+            for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
+                let found = format!("{:?} of place {} too", at.handle, at.axis.place());
+                let expected = format!("another handle at each place for {name}");
+                probe.check("VAR-26", seen.insert(at.handle.0), expected, found);
+            }
+            for variable in own {
+                at_a_place(probe, channel, name, variable, &places)?;
+            }
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("the target describes no axis variable".to_owned())),
+    }
+}
+
+/// How often a value that does not stand still is looked for again.
+const TRIES: usize = 3;
+
+/// The value with the axis's name behind it is that of one of the places.
+fn at_a_place(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    name: &CncString,
+    variable: &Description,
+    places: &[At],
+) -> Step {
+    let by_name = ReadByName { channel, name: name_of(variable) };
+    for _ in 0..TRIES {
+        let Some(before) = probe.try_ask(by_name)? else { return Ok(()) };
+        for at in places {
+            let name = name.as_cnc_str().into();
+            let read = probe.try_ask(AxisReadByName { channel, axis: at.axis, name })?;
+            if read.as_ref() == Some(&before) {
+                probe.check("VAR-26", true, "", "");
+                return Ok(());
+            }
+        }
+        if probe.try_ask(by_name)?.as_ref() == Some(&before) {
+            let expected = format!("{} of {} at a place", Hex(before), variable.name.text);
+            let found = format!("other values at all {} places", places.len());
+            probe.check("VAR-26", false, expected, found);
+            return Ok(());
+        }
+    }
+    Ok(())
+}
+
+/// A name that answers, with its channel and place.
+fn one(probe: &mut Probe<'_>) -> Step<(Channel, ChannelAxis, CncString)> {
+    for channel in probe.channels()? {
+        let described = described(probe, channel)?;
+        for name in names(&described) {
+            if let Some(at) = answering(probe, channel, name)?.first() {
+                return Ok((channel, at.axis, name.clone()));
+            }
+        }
+    }
+    Err(Stop::NotApplicable("no axis variable is on the axis interface".to_owned()))
+}
+
+fn too_far(probe: &mut Probe<'_>) -> Step {
+    let (channel, axis, name) = one(probe)?;
+    let name = TextRef::from(name.as_cnc_str());
+    let handle = |axis| AxisHandleByName { channel, axis, name };
+    let read = |axis| AxisReadByName { channel, axis, name };
+    for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {
+        let far = ChannelAxis::new(u32::from(axis.place()) | bit).map_err(harness)?;
+        let what = format!("{} of place {}", name.text(), far.place());
+        probe.refuses("VAR-26", &what, handle(far), handle(axis))?;
+        probe.refuses("VAR-26", &what, read(far), read(axis))?;
+    }
+    Ok(())
+}
+
+fn reserved(probe: &mut Probe<'_>) -> Step {
+    let (channel, axis, name) = one(probe)?;
+    let name = TextRef::from(name.as_cnc_str());
+    let request = Request::from(AxisReadByName { channel, axis, name });
+    let mut buf = [0; 256];
+    let good = request.encode(&mut buf).map_err(harness)?;
+    let of_place = good.index_offset.get() & 0xFFFF_0000;
+    for function in 7..=9 {
+        let offset = IndexOffset::new(of_place | function);
+        let what = format!("a name at offset {:#x}", offset.get());
+        let bad = Call { index_offset: offset, ..good };
+        probe.refused("VAR-26", &what, &bad, &good)?;
+    }
+    Ok(())
+}
+
+/// What is read of a variable of an axis in the ways there are.
+#[derive(PartialEq, Eq)]
+struct Seen {
+    by_place: Vec<u8>,
+    by_handle: Vec<u8>,
+}
+
+fn seen(probe: &mut Probe<'_>, place: u32, handle: Handle) -> Step<Seen> {
+    let channel = Channel::new(1).map_err(harness)?;
+    let axis = ChannelAxis::new(place).map_err(harness)?;
+    let by_place = AxisReadByName::new(channel, axis, NAME).map_err(harness)?;
+    let by_handle = ReadByHandle::new(channel, handle, Numbers::EMPTY);
+    Ok(Seen {
+        by_place: probe.try_ask(by_place)?.unwrap_or_default(),
+        by_handle: probe.try_ask(by_handle)?.unwrap_or_default(),
+    })
+}
+
+const NAME: &str = "V.A.WCS";
+
+/// What the suite knows of the default model: at the second place of channel 1 is the axis 2, Y, at
+/// the third the axis 3, Z.
+fn exchanged(probe: &mut Probe<'_>) -> Step {
+    let cnc = probe.cnc()?;
+    let channel = Channel::new(1).map_err(harness)?;
+    let mut handles = Vec::new();
+    for place in [2, 3] {
+        let axis = ChannelAxis::new(place).map_err(harness)?;
+        let request = AxisHandleByName::new(channel, axis, NAME).map_err(harness)?;
+        let handle = probe.try_ask(request)?.and_then(|data| Handle::decode(&data).ok());
+        handles.extend(handle);
+    }
+    let &[second, third] = handles.as_slice() else {
+        return Err(Stop::NotApplicable("channel 1 has no third axis".to_owned()));
+    };
+    let (of_y, of_z) = (seen(probe, 2, second)?, seen(probe, 3, third)?);
+    if cnc.exchange_axis(1, 2, 3).is_err() {
+        return Err(Stop::NotApplicable("channel 1 has no axis 3 to be exchanged".to_owned()));
+    }
+    let one_moved = seen(probe, 2, second);
+    let left = seen(probe, 3, third);
+    let named = of_axis_z(probe, channel);
+    let swapped = cnc.exchange_axis(1, 3, 2).map_err(harness);
+    let both = (seen(probe, 2, second), seen(probe, 3, third));
+    // In the order in which they do not get into each other's way.
+    cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3)).map_err(harness)?;
+    swapped?;
+    same(probe, &one_moved?, &of_z, "axis 3 at place 2");
+    same(probe, &both.0?, &of_z, "axis 3 at place 2, and axis 2 at place 3");
+    same(probe, &both.1?, &of_y, "axis 2 at place 3, and axis 3 at place 2");
+    // What is read where no axis is, is assumed; not so that no axis is at two places.
+    let (left, found) = (left?.by_place, Hex(of_z.by_place.clone()));
+    let gone = left != of_z.by_place;
+    probe.check("VAR-26", gone, "axis 3 no more at place 3", format!("{found} there still"));
+    let (handle, value) = named?;
+    let expected = format!("{second:?} of place 2 for {NAME}.Z");
+    probe.check("VAR-10", handle == Some(second), expected, format!("{handle:?}"));
+    let expected = format!("{found} of {NAME}.Z");
+    probe.check("VAR-26", value == of_z.by_place, expected, Hex(value));
+    let back = seen(probe, 3, third)? == of_z && seen(probe, 2, second)? == of_y;
+    probe.require(&["VAR-26".into()], back, "all axes where they were", "others")
+}
+
+fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, Vec<u8>)> {
+    let name = format!("{NAME}.Z");
+    let handle = probe.try_ask(HandleByName::new(channel, &name).map_err(harness)?)?;
+    let value = probe.try_ask(ReadByName::new(channel, &name).map_err(harness)?)?;
+    Ok((handle.and_then(|data| Handle::decode(&data).ok()), value.unwrap_or_default()))
+}
+
+fn same(probe: &mut Probe<'_>, found: &Seen, expected: &Seen, what: &str) {
+    for (rule, found, expected) in [
+        ("VAR-26", &found.by_place, &expected.by_place),
+        ("VAR-10", &found.by_handle, &expected.by_handle),
+    ] {
+        let shown = format!("{} of {what}", Hex(expected.clone()));
+        probe.check(rule, found == expected, shown, Hex(found.clone()));
+    }
+}
