@@ -33,6 +33,7 @@ mod values;
 mod variable;
 mod vectors;
 mod write;
+mod write_all;
 mod write_content;
 mod write_elements;
 mod write_refused;
@@ -89,6 +90,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(write::cases());
     cases.extend(write_elements::cases());
     cases.extend(write_refused::cases());
+    cases.extend(write_all::cases());
     cases.extend(write_content::cases());
     cases.extend(stream::cases());
     cases.extend(service::cases());

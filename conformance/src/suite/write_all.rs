@@ -1,0 +1,346 @@
+//! Cases that write all there is, one behind the other, and look at what that has done to the rest.
+
+use ads_cnc::VariableType;
+use ads_cnc::address::{Channel, ChannelAxis};
+use ads_cnc::operation::AxisHandleByName;
+use ads_cnc::{CncString, Decode as _, Description, Handle, VariableAccess};
+use ads_cnc_vectors::Hex;
+
+use super::axis::{described, names};
+use super::case::{Case, Rule, Step, Stop, online};
+use super::declare;
+use super::place::{Place, is_sendable};
+use super::probe::{Probe, harness};
+use super::write::{each, is_of_service};
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "write-nothing-else-by-name",
+            "A write by name changes what it names, and nothing else in any channel",
+            ["VAR-13"],
+            MalformedWrites,
+            by_name
+        ),
+        declare!(
+            "write-nothing-else-by-handle",
+            "A write by handle changes what the handle stands for, and nothing else in any channel",
+            ["VAR-12"],
+            MalformedWrites,
+            by_handle
+        ),
+        declare!(
+            "write-nothing-else-of-axes",
+            "A write on the axis interface changes the variable of that place, and nothing else",
+            ["VAR-26"],
+            MalformedWrites,
+            of_axes
+        ),
+        declare!(
+            "write-texts",
+            "A text as long as is described is read as written, and a shorter one behind it too",
+            ["VAR-12", "VAR-13", "VAR-25"],
+            Writes,
+            texts
+        ),
+    ]
+}
+
+/// A variable, the value of it at the start, and the one it should have.
+struct One {
+    channel: Channel,
+    variable: Description,
+    start: Vec<u8>,
+    value: Vec<u8>,
+    /// Where else it can be written.
+    at: Option<Place>,
+}
+
+impl One {
+    fn named(&self) -> Place {
+        Place::Name { channel: self.channel, name: self.variable.name.text.clone() }
+    }
+
+    fn handled(&self) -> Place {
+        let handle = self.variable.handle;
+        Place::Handle { channel: self.channel, handle, indices: Vec::new() }
+    }
+}
+
+/// All that has a value.
+fn all(probe: &mut Probe<'_>) -> Step<Vec<One>> {
+    let mut all = Vec::new();
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            let empty = Vec::new();
+            let mut one = One { channel, variable, start: empty.clone(), value: empty, at: None };
+            if let Some(value) = probe.value_at(&one.handled())? {
+                (one.start, one.value) = (value.clone(), value);
+                all.push(one);
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// Another value, in which every byte is another if the type allows it.
+fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
+    let mixed = (0_usize..).zip(value).map(|(place, byte)| {
+        let mixed = place.wrapping_mul(37).wrapping_add(salt.wrapping_mul(101)) & 0xFF;
+        let mixed = u8::try_from(mixed).unwrap_or_default();
+        if mixed == *byte { !mixed } else { mixed }
+    });
+    match variable.var_type {
+        VariableType::BOOLEAN => value.iter().map(|byte| byte ^ 1).collect(),
+        // Finite, and no two alike.
+        VariableType::REAL64 => {
+            let exponent = |(place, byte): (usize, u8)| match place % 8 {
+                7 => 0x40 | byte & 0x80,
+                6 => byte & 0x7F | 0x10,
+                _ => byte,
+            };
+            mixed.enumerate().map(exponent).collect()
+        }
+        VariableType::STRING => {
+            let letter = b'a'.saturating_add(u8::try_from(salt % 26).unwrap_or_default());
+            let texts = variable.dimensions.iter().fold(1_u32, |all, &n| all.saturating_mul(n));
+            let size = usize::try_from(texts).ok().and_then(|texts| value.len().checked_div(texts));
+            let size = size.unwrap_or_default().max(1);
+            let ended = |(place, _): (usize, &u8)| match place.checked_rem(size) {
+                Some(place) if place.saturating_add(1) < size => letter,
+                _ => 0,
+            };
+            value.iter().enumerate().map(ended).collect()
+        }
+        _ => mixed.collect(),
+    }
+}
+
+/// Writes each in this order, the last first if `backwards`, and then looks at all.
+fn pass(
+    probe: &mut Probe<'_>,
+    rule: Rule,
+    all: &mut [One],
+    (backwards, salt): (bool, usize),
+    by: impl Fn(&One) -> Option<Place>,
+    look: impl Fn(&One) -> Place,
+) -> Step {
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    if backwards {
+        order.reverse();
+    }
+    for number in order {
+        let Some(one) = all.get_mut(number) else { continue };
+        let writable = one.variable.access == VariableAccess::READ_WRITE;
+        if !writable || is_of_service(&one.variable) {
+            continue;
+        }
+        let Some(place) = by(one) else { continue };
+        let value = other_value(&one.variable, &one.value, salt.wrapping_add(number));
+        if write(probe, &place, &value)? {
+            one.value = value;
+        }
+    }
+    for (number, one) in all.iter().enumerate() {
+        let read = probe.value_at(&look(one))?.unwrap_or_default();
+        if read != one.value && !is_shared(all, number) {
+            let (name, channel) = (&one.variable.name.text, one.channel.number());
+            let expected = format!("{} of {name} of channel {channel}", Hex(one.value.clone()));
+            probe.check(rule, false, expected, Hex(read));
+        } else {
+            probe.check(rule, true, "", "");
+        }
+    }
+    Ok(())
+}
+
+/// Whether it may be the same one as that of another channel: with the same name, and the same
+/// value at the start.
+fn is_shared(all: &[One], number: usize) -> bool {
+    let Some(one) = all.get(number) else { return false };
+    let same = |other: &One| {
+        other.channel != one.channel
+            && other.variable.name.text == one.variable.name.text
+            && other.start == one.start
+    };
+    all.iter().any(same)
+}
+
+fn write(probe: &mut Probe<'_>, place: &Place, value: &[u8]) -> Step<bool> {
+    let Some(write) = place.write(value).ok().filter(is_sendable) else { return Ok(false) };
+    let exchange = probe.send(write)?;
+    Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
+}
+
+/// Puts everything back, by whichever way takes it.
+fn restore(probe: &mut Probe<'_>, rule: Rule, all: &mut [One]) -> Step {
+    for one in all.iter_mut().filter(|one| one.start != one.value) {
+        let ways = [one.at.clone(), Some(one.handled()), Some(one.named())];
+        for place in ways.into_iter().flatten() {
+            let start = one.start.clone();
+            if write(probe, &place, &start)? && probe.value_at(&place)? == Some(start) {
+                one.value = one.start.clone();
+                break;
+            }
+        }
+        let (name, kept) = (&one.variable.name.text, one.value == one.start);
+        let expected = format!("{} of {name} again", Hex(one.start.clone()));
+        probe.check(rule, kept, expected, "another value");
+    }
+    Ok(())
+}
+
+/// Forwards and backwards, so that what one write does to what was written before it shows; what
+/// is written one way is read the other.
+fn both_ways(
+    probe: &mut Probe<'_>,
+    rule: Rule,
+    mut all: Vec<One>,
+    by: impl Fn(&One) -> Option<Place>,
+    look: impl Fn(&One) -> Place,
+) -> Step {
+    let mut tried = Ok(());
+    for (backwards, salt) in [(false, 1), (true, 1001)] {
+        tried = tried.and_then(|()| pass(probe, rule, &mut all, (backwards, salt), &by, &look));
+    }
+    let restored = restore(probe, rule, &mut all);
+    tried.and(restored)
+}
+
+fn by_name(probe: &mut Probe<'_>) -> Step {
+    let all = all(probe)?;
+    both_ways(probe, "VAR-13".into(), all, |one| Some(one.named()), One::handled)
+}
+
+fn by_handle(probe: &mut Probe<'_>) -> Step {
+    let all = all(probe)?;
+    both_ways(probe, "VAR-12".into(), all, |one| Some(one.handled()), One::named)
+}
+
+/// The most places of a channel that are looked at.
+const PLACES_MAX: u32 = 64;
+
+fn of_axes(probe: &mut Probe<'_>) -> Step {
+    let mut all = all(probe)?;
+    for channel in probe.channels()? {
+        let described = described(probe, channel)?;
+        for name in names(&described) {
+            for place in 1..=PLACES_MAX {
+                let axis = ChannelAxis::new(place).map_err(harness)?;
+                let request = AxisHandleByName { channel, axis, name: name.as_cnc_str().into() };
+                let Some(data) = probe.try_ask(request)? else { break };
+                let Ok(handle) = Handle::decode(&data) else { break };
+                let at = Place::Axis { channel, axis, name: name.clone() };
+                let own = all
+                    .iter_mut()
+                    .find(|one| one.channel == channel && one.variable.handle == handle);
+                own.into_iter().for_each(|one| one.at = Some(at.clone()));
+            }
+        }
+    }
+    if all.iter().all(|one| one.at.is_none()) {
+        return Err(Stop::NotApplicable("no axis variable is on the axis interface".to_owned()));
+    }
+    both_ways(probe, "VAR-26".into(), all, |one| one.at.clone(), One::handled)
+}
+
+/// Up to the first NUL.
+fn text(value: &[u8]) -> &[u8] {
+    value.split(|&byte| byte == 0).next().unwrap_or_default()
+}
+
+fn texts(probe: &mut Probe<'_>) -> Step {
+    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+        let name = variable.name.text.clone();
+        if variable.var_type != VariableType::STRING || !variable.dimensions.is_empty() {
+            return Ok(false);
+        }
+        let mut any = false;
+        for (id, place) in [
+            ("VAR-13", Place::Name { channel, name: name.clone() }),
+            ("VAR-12", Place::Handle { channel, handle: variable.handle, indices: Vec::new() }),
+        ] {
+            if !probe.may_write(&place, &name.to_string())? {
+                continue;
+            }
+            let Some(before) = probe.value_at(&place)?.filter(|value| !value.is_empty()) else {
+                continue;
+            };
+            any = true;
+            let tried = of_lengths(probe, id, &place, (&name, variable.size));
+            write(probe, &place, &before)?;
+            let after = probe.value_at(&place)?.unwrap_or_default();
+            let kept = text(&after) == text(&before);
+            probe.check(id, kept, format!("{} of {name} again", Hex(before)), Hex(after));
+            tried?;
+        }
+        Ok(any)
+    })
+}
+
+/// How much a text holds is known from help pages; that what is taken is there is not.
+fn of_lengths(
+    probe: &mut Probe<'_>,
+    id: &'static str,
+    place: &Place,
+    (name, size): (&CncString, u32),
+) -> Step {
+    let size = usize::try_from(size).unwrap_or_default().min(800);
+    for len in [size.saturating_sub(1), size.checked_div(2).unwrap_or(0), 1] {
+        let mut value = vec![b'x'; len];
+        value.push(0);
+        // As many bytes as it is described with: that fewer are taken is assumed.
+        value.resize(size.max(1), 0);
+        let taken = write(probe, place, &value)?;
+        let expected = format!("{name} takes a text of {len} characters");
+        probe.check(online("VAR-25"), taken, expected, "an error");
+        if !taken {
+            continue;
+        }
+        let read = probe.value_at(place)?.unwrap_or_default();
+        let same = text(&read) == text(&value);
+        let expected = format!("{len} characters of {name}, as written");
+        let found = format!("{} bytes: {}", read.len(), Hex(read.clone()));
+        probe.check(id, same, &expected, &found);
+        probe.check(online("VAR-25"), same, expected, found);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ads_cnc::Text;
+
+    fn of_type(var_type: VariableType, dimensions: &[u32]) -> Description {
+        Description {
+            handle: Handle(1),
+            var_type,
+            access: VariableAccess::READ_WRITE,
+            size: 0,
+            dimensions: dimensions.to_vec(),
+            name: "V.E.a".parse::<Text>().unwrap(),
+        }
+    }
+
+    #[test]
+    fn every_byte_of_a_number_is_another() {
+        for salt in 0..300 {
+            let old = [0, 1, 255, 37, 74, 111, 148, 185];
+            for var_type in [VariableType::UNS32, VariableType::SGN08] {
+                let new = other_value(&of_type(var_type, &[]), &old, salt);
+                assert!(new.iter().zip(old).all(|(new, old)| *new != old));
+            }
+            let new = other_value(&of_type(VariableType::REAL64, &[]), &old, salt);
+            let number = f64::from_le_bytes(new.try_into().unwrap());
+            assert!(number.is_normal(), "{number}");
+        }
+    }
+
+    #[test]
+    fn texts_end_and_truth_stays_truth() {
+        let new = other_value(&of_type(VariableType::STRING, &[2]), &[0; 6], 27);
+        assert_eq!(new, *b"bb\0bb\0");
+        assert_eq!(other_value(&of_type(VariableType::BOOLEAN, &[2]), &[0, 1], 5), [1, 0]);
+    }
+}
