@@ -36,6 +36,7 @@ mod state;
 
 pub use answer::Cnc;
 pub use control::ControlError;
+pub(crate) use model::Configured;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
 pub use respond::{DATA_MAX, NET_ID};
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Server, ServerOptions};

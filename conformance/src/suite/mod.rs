@@ -5,6 +5,7 @@ mod axis;
 mod axis_place;
 mod case;
 mod com;
+mod configured;
 mod content;
 mod described;
 mod device;
@@ -85,6 +86,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(described::cases());
     cases.extend(names::cases());
     cases.extend(values::cases());
+    cases.extend(configured::cases());
     cases.extend(axis::cases());
     cases.extend(axis_place::cases());
     cases.extend(write::cases());

@@ -4,6 +4,7 @@
 //! `ads-cnc serve --print-model` writes it out.
 
 mod build;
+mod configured;
 mod document;
 mod error;
 mod item;
@@ -18,6 +19,7 @@ use ads_cnc::address::Class;
 use ads_cnc::edition::{CncVersion, Edition};
 use ads_cnc::{CncString, Descriptors};
 
+pub(crate) use configured::Configured;
 pub use error::ModelError;
 pub(super) use item::{ClassModel, Item, Meaning, Objects};
 pub(super) use parameter::{Parameter, Times};

@@ -1,0 +1,95 @@
+//! Cases that hold the embedded CNC against its own model, which nobody asks a CNC for.
+
+use std::collections::HashMap;
+
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeExtended, ReadByName};
+use ads_cnc::{Decode as _, Description, ExtendedReply, Kind, VariableAccess, VariableCount};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Step};
+use super::declare;
+use super::probe::Probe;
+use super::survey::VARIABLES_MAX;
+use crate::cnc::Configured;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![declare!(
+        "var-as-configured",
+        "V.E and V.G are described, and what is READ_ONLY is read, as they are configured",
+        [
+            "VAR-2", "VAR-3", "VAR-4", "VAR-5", "VAR-6", "VAR-7", "VAR-8", "VAR-14", "VAR-15",
+            "VAR-16"
+        ],
+        Embedded,
+        as_configured
+    )]
+}
+
+fn as_configured(probe: &mut Probe<'_>) -> Step {
+    let cnc = probe.cnc()?;
+    for channel in probe.channels()? {
+        let (external, global) = cnc.model().configured(channel.number().into());
+        for (kind, configured) in [(Kind::V_E, external), (Kind::V_G, global)] {
+            let found = listed(probe, channel, kind)?;
+            let number = format!("{} of channel {}", configured.len(), channel.number());
+            let same = found.len() == configured.len();
+            probe.check("VAR-2", same, number, found.len());
+            for one in &configured {
+                let Some((described, extended)) = found.get(&one.name.to_string()) else {
+                    let expected = format!("a description of {}", one.name);
+                    probe.check("VAR-3", false, expected, "none");
+                    continue;
+                };
+                holds(probe, one, described);
+                let shown = |extended: &ExtendedReply| format!("{extended:?} of {}", one.name);
+                let expected = ExtendedReply(one.extended);
+                let rule = if one.extended.is_some() { "VAR-15" } else { "VAR-16" };
+                let same = extended.as_ref() == Some(&expected);
+                let found = extended.as_ref().map_or_else(|| "none".to_owned(), shown);
+                probe.check(rule, same, shown(&expected), found);
+                if one.access == VariableAccess::READ_ONLY {
+                    let name = one.name.as_cnc_str().into();
+                    let value = probe.try_ask(ReadByName { channel, name })?.unwrap_or_default();
+                    let expected = format!("{} of {}", Hex(one.value.clone()), one.name);
+                    probe.check("VAR-14", value == one.value, expected, Hex(value));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+type Described = HashMap<String, (Description, Option<ExtendedReply>)>;
+
+/// What is described, by its name, with what the same index has beside it.
+fn listed(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<Described> {
+    let count = probe.try_ask(CountVariables::new(channel, kind))?.unwrap_or_default();
+    let count = VariableCount::decode(&count).map_or(0, |count| count.0.min(VARIABLES_MAX));
+    let mut all = HashMap::new();
+    for index in 0..count {
+        let data = probe.try_ask(DescribeByIndex::new(channel, index, kind))?;
+        let Some(Ok(found)) = data.map(|data| Description::decode(&data)) else { continue };
+        let data = probe.try_ask(DescribeExtended::new(channel, index, kind))?;
+        let extended = data.and_then(|data| ExtendedReply::decode(&data).ok());
+        all.insert(found.name.text.to_string(), (found, extended));
+    }
+    Ok(all)
+}
+
+fn holds(probe: &mut Probe<'_>, one: &Configured, found: &Description) {
+    let name = &one.name;
+    let expected = format!("{:?} of {name}", one.var_type);
+    let same = found.var_type == one.var_type;
+    probe.check("VAR-5", same, expected, format!("{:?}", found.var_type));
+    let expected = format!("{:?} of {name}", one.access);
+    let same = found.access == one.access;
+    probe.check("VAR-6", same, expected, format!("{:?}", found.access));
+    let expected = format!("{} bytes of {name}", one.size);
+    let same = usize::try_from(found.size) == Ok(one.size);
+    probe.check("VAR-8", same, expected, found.size);
+    let expected = format!("{:?} of {name}", one.dimensions);
+    let rule = if one.dimensions.is_empty() { "VAR-7" } else { "VAR-4" };
+    let same = found.dimensions == one.dimensions;
+    probe.check(rule, same, expected, format!("{:?}", found.dimensions));
+}
