@@ -293,7 +293,8 @@ pub(super) const ROWS: &[Row] = &[
         "names of more than 96 bytes are cut and looked up",
         |cnc, call| match of_decoder(call) {
             Some(0x1C | 0x1F | 0x22 | 0x25) if call.data.len() > 96 => {
-                cnc.with(call, &[text(call.data), &[0]].concat())
+                let name = text(call.data);
+                cnc.with(call, &[name.get(..95).unwrap_or(name), &[0]].concat())
             }
             _ => cnc.answer(call),
         },

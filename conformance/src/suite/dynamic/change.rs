@@ -1,0 +1,111 @@
+//! Dynamic parameters that an NC program makes and deletes.
+
+use ads_cnc::Decode as _;
+use ads_cnc::address::Channel;
+use ads_cnc::dynamic::{DynamicKind, DynamicName, DynamicValue};
+use ads_cnc::operation::{DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName};
+
+use super::super::case::Step;
+use super::super::probe::{Probe, harness};
+use super::{number, prefix};
+use crate::cnc::Cnc;
+
+/// More than a byte has numbers.
+const MANY: u32 = 300;
+
+pub(super) fn come_and_go(probe: &mut Probe<'_>) -> Step {
+    let cnc = probe.cnc()?;
+    for kind in DynamicKind::ALL {
+        // Where there is none, nothing has to be put back.
+        let mut none = None;
+        for channel in probe.channels()?.into_iter().rev() {
+            if none.is_none() && number(probe, channel, kind)? == 0 {
+                none = Some(channel);
+            }
+        }
+        let Some(channel) = none else { continue };
+        let judged = stages(probe, &cnc, channel, kind);
+        cnc.set_parameters(channel.number(), kind, &[]).map_err(harness)?;
+        judged?;
+        let gone = number(probe, channel, kind)?;
+        probe.check("DYN-1", gone == 0, "0, as all are deleted", gone);
+    }
+    Ok(())
+}
+
+/// Of a place in a list of parameters: its name and its value.
+fn one(kind: DynamicKind, place: u32) -> (String, f64) {
+    let mut name = format!("{}{place}", prefix(kind));
+    // Each tenth is as long as a name may be, its NUL counted.
+    if place % 10 == 0 {
+        let digits = name.len();
+        name = format!("{name}{}", "x".repeat(95_usize.saturating_sub(digits)));
+    }
+    (name, f64::from(place) + 0.125)
+}
+
+fn set(cnc: &Cnc, channel: Channel, kind: DynamicKind, all: &[(String, f64)]) -> Step {
+    let all: Vec<(&str, f64)> = all.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    cnc.set_parameters(channel.number(), kind, &all).map_err(harness)
+}
+
+fn stages(probe: &mut Probe<'_>, cnc: &Cnc, channel: Channel, kind: DynamicKind) -> Step {
+    let mut all: Vec<(String, f64)> = (1..=MANY).map(|place| one(kind, place)).collect();
+    set(cnc, channel, kind, &all)?;
+    listed(probe, channel, kind, &all)?;
+    // The first is deleted: those behind it move up.
+    let gone = all.remove(0);
+    set(cnc, channel, kind, &all)?;
+    listed(probe, channel, kind, &all)?;
+    let (gone, there) = (gone.0, all.first().map(|(name, _)| name.clone()).unwrap_or_default());
+    let by_name =
+        |name| DynamicValueByName::new(channel, kind, name).map_err(|error| harness(error));
+    let what = format!("{gone}, which is deleted");
+    probe.refuses("DYN-3", &what, by_name(&gone)?, by_name(&there)?)?;
+    // And one comes in front.
+    all.insert(0, (format!("{}7654", prefix(kind)), -7.5));
+    set(cnc, channel, kind, &all)?;
+    listed(probe, channel, kind, &all)
+}
+
+/// Holds what is told against what was set: at the ends, and where a byte has no more numbers.
+fn listed(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    kind: DynamicKind,
+    all: &[(String, f64)],
+) -> Step {
+    let count = u32::try_from(all.len()).map_err(harness)?;
+    let found = number(probe, channel, kind)?;
+    probe.check("DYN-1", found == count, count, found);
+    for index in [1, 2, 10, 11, 127, 128, 255, 256, 257, count] {
+        let place = usize::try_from(index).ok().and_then(|index| index.checked_sub(1));
+        let Some((name, value)) = place.and_then(|place| all.get(place)) else { continue };
+        let by_index = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+        let data = probe.try_ask(by_index)?.unwrap_or_default();
+        let told = DynamicName::decode(&data).map(|name| name.name.text.to_string());
+        let told = told.unwrap_or_default();
+        let found = format!("{told:?} at index {index} of {count}");
+        let same = told == *name;
+        for rule in ["DYN-2", "DYN-5"] {
+            probe.check(rule, same, format!("{name:?}"), &found);
+        }
+        let by_name = DynamicValueByName::new(channel, kind, name).map_err(harness)?;
+        let by_name = value_of(probe.try_ask(by_name)?);
+        let found = format!("{by_name:?} of {name:?}");
+        let same = by_name == Some(*value);
+        probe.check("DYN-3", same, value, &found);
+        if name.len() > 20 {
+            probe.check("DYN-6", told == *name && same, format!("{value} of {name:?}"), &found);
+        }
+        let by_index = DynamicValueByIndex::new(channel, kind, index).map_err(harness)?;
+        let by_index = value_of(probe.try_ask(by_index)?);
+        let found = format!("{by_index:?} at index {index}");
+        probe.check("DYN-4", by_index == Some(*value), value, found);
+    }
+    Ok(())
+}
+
+fn value_of(data: Option<Vec<u8>>) -> Option<f64> {
+    data.and_then(|data| DynamicValue::decode(&data).ok()).map(DynamicValue::get)
+}

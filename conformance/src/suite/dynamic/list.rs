@@ -1,0 +1,242 @@
+//! Numbers of dynamic parameters, and their names by index.
+
+use std::collections::HashSet;
+
+use ads_cnc::Decode as _;
+use ads_cnc::address::Channel;
+use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
+use ads_cnc::limits::DYNAMIC_NAME_MAX;
+use ads_cnc::operation::{
+    CountDynamic, CountVariables, DynamicNameByIndex, DynamicValueByIndex, Function,
+};
+use ads_cnc_vectors::Hex;
+
+use super::super::case::{Evidence, Rule, Step, Stop};
+use super::super::probe::{Probe, harness};
+use super::super::survey::KINDS;
+use super::{PARAMETERS_MAX, each, nothing, number, prefix};
+use crate::profile::Claim;
+
+pub(super) fn count(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        let rules = ["DYN-1", "SDA-12"].map(Rule::from);
+        for kind in DynamicKind::ALL {
+            let data = probe.ask_for(&rules, CountDynamic::new(channel, kind))?;
+            let count = DynamicCount::decode(&data);
+            let found = format!("{} bytes for {}", data.len(), prefix(kind));
+            // A number in the wrong order of bytes is the first to leave all limits.
+            let plausible = count.is_ok_and(|count| count.0 <= 0x00FF_FFFF);
+            for rule in rules {
+                probe.check(rule, count.is_ok(), "a number of 4 bytes", &found);
+                let found = format!("{count:?}");
+                probe.check(rule, plausible, "a number of parameters", found);
+            }
+        }
+        // Other functions of the decoder are in its group too.
+        if probe.claims(Function::CountVariables) == Claim::Yes {
+            for (_, kind) in KINDS {
+                let kind = CountVariables::new(channel, kind);
+                let answered = probe.try_ask(kind)?.is_some();
+                probe.check("SDA-12", answered, "a number of variables", "an error");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What came of asking for the name of an index.
+struct Told {
+    index: u32,
+    data: Option<Vec<u8>>,
+    result: String,
+    evidence: Option<Evidence>,
+}
+
+fn tell(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind, index: u32) -> Step<Told> {
+    let request = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+    let exchange = probe.send(request)?;
+    let data = exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec);
+    Ok(Told { index, data, result: exchange.result(), evidence: probe.evidence() })
+}
+
+/// What is told of a kind, while nobody makes or deletes a parameter.
+struct List {
+    count: u32,
+    /// Of each index, up to the first that is refused.
+    names: Vec<Told>,
+    beyond: Told,
+    /// An index that has another name if it is asked for in another order.
+    swayed: Option<Told>,
+}
+
+/// How often a list that does not stand is read again.
+const TRIES: usize = 3;
+
+fn ahead(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    kind: DynamicKind,
+    count: u32,
+) -> Step<Vec<Told>> {
+    let mut all = Vec::new();
+    for index in 1..=count.min(PARAMETERS_MAX) {
+        let one = tell(probe, channel, kind, index)?;
+        let is_refused = one.data.is_none();
+        all.push(one);
+        if is_refused {
+            break;
+        }
+    }
+    Ok(all)
+}
+
+fn backwards(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    kind: DynamicKind,
+    names: &[Told],
+) -> Step<Vec<Told>> {
+    let mut all = Vec::new();
+    for one in names.iter().rev() {
+        all.push(tell(probe, channel, kind, one.index)?);
+    }
+    all.reverse();
+    Ok(all)
+}
+
+fn same(one: &[Told], other: &[Told]) -> bool {
+    one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.data == other.data)
+}
+
+/// The list of a kind; none if it never stood.
+fn settled(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<Option<List>> {
+    for _ in 0..TRIES {
+        let count = number(probe, channel, kind)?;
+        let names = ahead(probe, channel, kind, count)?;
+        let beyond = tell(probe, channel, kind, count.saturating_add(1))?;
+        let back = backwards(probe, channel, kind, &names)?;
+        let mut swayed = None;
+        if !same(&names, &back) {
+            let once_more = ahead(probe, channel, kind, count)?;
+            let and_back = backwards(probe, channel, kind, &names)?;
+            if !same(&names, &once_more) || !same(&back, &and_back) {
+                continue;
+            }
+            let mut pairs = names.iter().zip(back);
+            swayed = pairs.find(|(one, other)| one.data != other.data).map(|(_, other)| other);
+        }
+        if number(probe, channel, kind)? == count {
+            return Ok(Some(List { count, names, beyond, swayed }));
+        }
+    }
+    Ok(None)
+}
+
+pub(super) fn names(probe: &mut Probe<'_>) -> Step {
+    let (mut any, mut moved) = (false, None);
+    for channel in probe.channels()? {
+        for kind in DynamicKind::ALL {
+            match settled(probe, channel, kind)? {
+                Some(list) => {
+                    any |= list.count > 0;
+                    judge(probe, kind, &list);
+                }
+                None => moved = Some(format!("{} come and go", prefix(kind))),
+            }
+        }
+    }
+    match (any, moved) {
+        (true, _) => Ok(()),
+        (false, Some(moved)) => Err(Stop::Inconclusive(moved)),
+        (false, None) => Err(nothing()),
+    }
+}
+
+fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &List) {
+    let List { count, names, beyond, swayed } = list;
+    let mut seen = HashSet::new();
+    for told in names {
+        probe.show(told.evidence.clone());
+        let expected = format!("a name of index {} of {count} of {}", told.index, prefix(kind));
+        // The number may be wrong as well as the range; of the first, the function too.
+        let rules: &[&str] = match told.index {
+            1 => &["DYN-1", "DYN-5", "SDA-12", "DYN-2"],
+            _ => &["DYN-1", "DYN-5", "SDA-12"],
+        };
+        for &rule in rules {
+            probe.check(rule, told.data.is_some(), &expected, &told.result);
+        }
+        let Some(data) = &told.data else { continue };
+        let found = format!("{} bytes of index {}", data.len(), told.index);
+        let expected = format!("at most {DYNAMIC_NAME_MAX} bytes");
+        probe.check("DYN-6", data.len() <= DYNAMIC_NAME_MAX, expected, &found);
+        let name = DynamicName::decode(data);
+        if !probe.check("DYN-2", name.is_ok(), "a name", found) {
+            continue;
+        }
+        let name = name.map(|name| name.name.text.to_string()).unwrap_or_default();
+        let found = format!("{name:?} at index {}", told.index);
+        let of_kind = is_of(kind, &name);
+        probe.check("DYN-2", of_kind, format!("a name of {}", prefix(kind)), &found);
+        let own = seen.insert(name);
+        for rule in ["DYN-2", "DYN-5"] {
+            probe.check(rule, own, "another at each index", &found);
+        }
+    }
+    if let Some(other) = swayed {
+        probe.show(other.evidence.clone());
+        let found = format!("{}, asked for backwards", other.result);
+        let expected = format!("the name of index {}, whatever was asked before", other.index);
+        probe.check("DYN-2", false, expected, found);
+    }
+    // Whoever has one more than it says to have tells its name.
+    probe.show(beyond.evidence.clone());
+    let data = beyond.data.as_deref().unwrap_or_default();
+    let name = DynamicName::decode(data).map(|name| name.name.text.to_string());
+    let another = name.is_ok_and(|name| is_of(kind, &name) && !seen.contains(&name));
+    let is_whole = *count <= PARAMETERS_MAX;
+    let expected = format!("{} of {} in all", count, prefix(kind));
+    let found = format!("index {} is {}", beyond.index, Hex(data.to_vec()));
+    probe.check("DYN-1", !(another && is_whole), expected, found);
+}
+
+fn is_of(kind: DynamicKind, name: &str) -> bool {
+    name.strip_prefix(prefix(kind)).is_some_and(|rest| !rest.is_empty())
+}
+
+/// Indices that are too many, those too of which some bits are one that is not.
+fn beyond(probe: &Probe<'_>, count: u32) -> Vec<u32> {
+    let mut all = probe.beyond(count.saturating_add(1));
+    if all.len() > 1 {
+        let folded = [0x100, 0x1_0000, 0x100_0000, 0x8000_0000].map(|bit: u32| bit.wrapping_add(1));
+        all.extend(folded.into_iter().filter(|&index| index > count));
+    }
+    all
+}
+
+pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        for kind in DynamicKind::ALL {
+            if number(probe, channel, kind)? == 0 {
+                let what = format!("index 1 of no {}", prefix(kind));
+                let first = DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?;
+                probe.refuses_alone("DYN-5", &what, first)?;
+                let first = DynamicValueByIndex::new(channel, kind, 1).map_err(harness)?;
+                probe.refuses_alone("DYN-5", &what, first)?;
+            }
+        }
+    }
+    each(probe, |probe, channel, kind, count| {
+        if count == PARAMETERS_MAX {
+            return Ok(());
+        }
+        for beyond in beyond(probe, count) {
+            let what = format!("index {beyond} of {count} of {}", prefix(kind));
+            let name = |index| DynamicNameByIndex::new(channel, kind, index).map_err(harness);
+            probe.refuses("DYN-5", &what, name(beyond)?, name(count)?)?;
+            let value = |index| DynamicValueByIndex::new(channel, kind, index).map_err(harness);
+            probe.refuses("DYN-5", &what, value(beyond)?, value(count)?)?;
+        }
+        Ok(())
+    })
+}
