@@ -282,6 +282,17 @@ pub(super) const ROWS: &[Row] = &[
             false => cnc.answer(call),
         }
     }),
+    row(
+        "different.absent-refused",
+        &[],
+        "an instance that is not there is answered with an error",
+        |cnc, call| match (is(call, &[Function::FindInstance]), cnc.answer(call)) {
+            (true, Ok(bytes)) if bytes.iter().all(|byte| *byte == 0) => {
+                Err(AdsError::SYMBOL_NOT_FOUND)
+            }
+            (_, answer) => answer,
+        },
+    ),
     unprinted(twisted(
         "different.model",
         &[],

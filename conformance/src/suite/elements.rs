@@ -10,11 +10,11 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementCount, ElementLength, ElementText, ElementWriteFlag};
 use ads_cnc::{Decode, ErrorKind};
 
-use super::case::{Case, Rule, Step, Stop, assumed, online};
+use super::case::{Case, Rule, Step, Stop, assumed};
 use super::declare;
-use super::inventory::Instance;
+use super::inventory::{Instance, OF_PLACES};
 use super::probe::{Probe, harness};
-use super::sda::length_of;
+use super::sda::{length_of, type_and_length};
 use super::still::Still;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -27,9 +27,16 @@ pub(super) fn cases() -> Vec<Case> {
             elements
         ),
         declare!(
+            "sda-first-element",
+            "The first element has the attributes of an element, and its length is that of the number",
+            ["SDA-4", "SDA-8"],
+            Queries,
+            first_element
+        ),
+        declare!(
             "sda-attributes",
             "Every element has a name, a type, a length, a unit and a write flag that make sense",
-            ["SDA-6", "SDA-7", "SDA-8", "SDA-9", "ADR-6", "GEN-3", "GEN-5"],
+            ["SDA-4", "SDA-6", "SDA-7", "SDA-8", "SDA-9", "ADR-6", "GEN-3", "GEN-5"],
             Queries,
             attributes
         ),
@@ -42,7 +49,7 @@ pub(super) fn cases() -> Vec<Case> {
         ),
         declare!(
             "sda-content-by-index",
-            "By number and by rank of the channel, an element has the same content",
+            "By number and by rank of the channel, an element has the same content and attributes",
             ["ADR-1", "ADR-12"],
             Queries,
             content_by_index
@@ -81,9 +88,12 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         probe.check("SDA-4", count <= 0xFFFF, "no more than an offset has room for", found);
         let name: ElementText = attribute(probe, "SDA-4", ReadElementName::new(first))?;
         let name = name.text.text.to_string();
-        let rule = assumed("SDA-4");
         let found = format!("{name:?} of {instance}");
+        // What a place without an axis is called nobody says.
+        let rule =
+            if is_claimed_empty(probe, &instance) { assumed("SDA-4") } else { "SDA-4".into() };
         probe.check(rule, !name.is_empty(), "the name of the instance", &found);
+        let rule = assumed("SDA-4");
         // Axes of the platform are in several HLDs.
         let shared = instance.class == Class::Hld && instance.axis > 0;
         if !shared {
@@ -94,6 +104,12 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
+/// Whether it is at a place that the profile says to be without an axis.
+fn is_claimed_empty(probe: &Probe<'_>, instance: &Instance) -> bool {
+    let at = (instance.channel, instance.axis);
+    OF_PLACES.contains(&instance.class) && probe.session.profile.empty_places.contains(&at)
+}
+
 /// The last element has a name, and behind it there is none.
 fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     let (last, beyond) =
@@ -102,22 +118,63 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     if count > 0 {
         attribute::<ElementText>(probe, "SDA-4", ReadElementName::new(last))?;
     }
+    let at_place = OF_PLACES.contains(&instance.class) && instance.axis > 0;
+    // Of a place without an axis the number may be blank as all its contents.
+    let rule = if at_place && count == 0 { assumed("SDA-4") } else { "SDA-4".into() };
     let what = format!("element {} of {instance}, which has {count}", beyond.index_offset());
-    probe.refuses("SDA-4", &what, ReadElementName::new(beyond), ReadElementName::new(last))?;
-    probe.refuses("SDA-4", &what, ReadElementLength::new(beyond), ReadElementLength::new(last))
+    let pairs: [(Request<'_>, Request<'_>); 5] = [
+        (ReadElementName::new(beyond).into(), ReadElementName::new(last).into()),
+        (ReadElementType::new(beyond).into(), ReadElementType::new(last).into()),
+        (ReadElementLength::new(beyond).into(), ReadElementLength::new(last).into()),
+        (ReadElementUnit::new(beyond).into(), ReadElementUnit::new(last).into()),
+        (ReadElementWriteFlag::new(beyond).into(), ReadElementWriteFlag::new(last).into()),
+    ];
+    for (beyond, last) in pairs {
+        // The first of all need not have them all.
+        if count > 0 || probe.try_ask(last)?.is_some() {
+            probe.refuses(rule, &what, beyond, last)?;
+        }
+    }
+    // Among the decoder's contents are functions, of which not all are known.
+    let Some(length) = length_of(probe, last)?.filter(|_| instance.class != Class::Decoder) else {
+        return Ok(());
+    };
+    let (Ok(beyond), Ok(last)) = (ReadElement::new(beyond, length), ReadElement::new(last, length))
+    else {
+        return Ok(());
+    };
+    match count {
+        0 => Ok(()),
+        _ => probe.refuses(rule, &what, beyond, last),
+    }
 }
 
-/// What the sizes of the types are; BOOLEAN's is printed.
-fn size_of(type_name: &str) -> Option<(Rule, u32)> {
-    let size = match type_name {
-        "BOOLEAN" => return Some(("GEN-5".into(), 1)),
-        "UNS08" | "SGN08" => 1,
-        "UNS16" | "SGN16" => 2,
-        "UNS32" | "SGN32" | "REAL32" => 4,
-        "REAL64" => 8,
-        _ => return None,
-    };
-    Some((online("GEN-5"), size))
+fn first_element(probe: &mut Probe<'_>) -> Step {
+    for instance in probe.instances()? {
+        let first = instance.first;
+        let number = probe.try_ask(CountElements::new(first).map_err(harness)?)?;
+        let Some(number) = number else { continue };
+        let length = probe.try_ask(ReadElementLength::new(first))?;
+        probe.check(assumed("SDA-4"), length.is_some(), "a length of the number", "an error");
+        let length = length.and_then(|data| ElementLength::decode(&data).ok());
+        if let Some(length) = length {
+            let same = u32::try_from(number.len()) == Ok(length.get());
+            let found = format!("a length of {} for element 0 of {instance}", length.get());
+            let expected = format!("the {} bytes of the number", number.len());
+            probe.check("SDA-8", same, expected, found);
+        }
+        let requests: [Request<'_>; 3] = [
+            ReadElementType::new(first).into(),
+            ReadElementUnit::new(first).into(),
+            ReadElementWriteFlag::new(first).into(),
+        ];
+        for request in requests {
+            let answered = probe.try_ask(request)?.is_some();
+            let expected = format!("{} of element 0", request.function().spec().name);
+            probe.check(assumed("SDA-4"), answered, expected, "an error");
+        }
+    }
+    Ok(())
 }
 
 fn each(
@@ -133,38 +190,42 @@ fn each(
 }
 
 fn attributes(probe: &mut Probe<'_>) -> Step {
-    each(probe, |probe, instance, element| {
-        let name: ElementText = attribute(probe, "SDA-6", ReadElementName::new(element))?;
-        let ty: ElementText = attribute(probe, "SDA-7", ReadElementType::new(element))?;
-        let length: ElementLength = attribute(probe, "SDA-8", ReadElementLength::new(element))?;
-        let unit: ElementText = attribute(probe, "SDA-6", ReadElementUnit::new(element))?;
-        let flag: ElementWriteFlag = attribute(probe, "SDA-9", ReadElementWriteFlag::new(element))?;
-        let at = format!("element {} of {instance}", element.index_offset());
-        let text = |text: &ElementText| text.text.text.to_string();
-        let found = format!("{:?} of {at}", text(&name));
-        probe.check("SDA-6", !text(&name).is_empty(), "a name", &found);
-        for one in [&name, &unit, &ty] {
-            let readable = !text(one).chars().any(char::is_control);
-            let found = format!("{:?} of {at}", text(one));
-            probe.check(assumed("GEN-3"), readable, "CP1252 characters", found);
+    for instance in probe.instances()? {
+        let of_instance = probe.try_ask(ReadElementName::new(instance.first))?;
+        let of_instance = of_instance.and_then(|data| ElementText::decode(&data).ok());
+        for element in instance.elements() {
+            attributes_of(probe, &instance, of_instance.as_ref(), element)?;
         }
-        let type_name = text(&ty);
-        let known = size_of(&type_name);
-        let found = format!("{type_name:?} of {at}");
-        let is_known = known.is_some() || type_name == "STRING";
-        probe.check(assumed("SDA-7"), is_known, "one of the types of the manual", &found);
-        probe.check("SDA-7", !type_name.is_empty(), "the name of a type", found);
-        if let Some((rule, size)) = known {
-            let (length, same) = (length.get(), length.get() == size);
-            let found = format!("{length} bytes of {at}, {type_name}");
-            // A value of its type in another number of bytes.
-            probe.check(rule, same, format!("the {size} bytes of {type_name}"), &found);
-            probe.check("SDA-8", length > 0, "a number of bytes", found);
-        }
-        let found = format!("{} of {at}", flag.0);
-        probe.check(assumed("SDA-9"), flag.0 <= 1, "a write flag of 0 or 1", found);
-        Ok(())
-    })
+    }
+    Ok(())
+}
+
+fn attributes_of(
+    probe: &mut Probe<'_>,
+    instance: &Instance,
+    of_instance: Option<&ElementText>,
+    element: ElementAddress,
+) -> Step {
+    let text = |text: &ElementText| text.text.text.to_string();
+    let name: ElementText = attribute(probe, "SDA-6", ReadElementName::new(element))?;
+    let at = format!("element {} of {instance}", element.index_offset());
+    let found = format!("{:?} of {at}", text(&name));
+    probe.check("SDA-6", !text(&name).is_empty(), "a name", &found);
+    let is_own = of_instance.is_none_or(|of_instance| text(of_instance) != text(&name));
+    probe.check("SDA-4", is_own, "another name than the instance's, which element 0 has", &found);
+    let ty: ElementText = attribute(probe, "SDA-7", ReadElementType::new(element))?;
+    let length: ElementLength = attribute(probe, "SDA-8", ReadElementLength::new(element))?;
+    let unit: ElementText = attribute(probe, "SDA-6", ReadElementUnit::new(element))?;
+    let flag: ElementWriteFlag = attribute(probe, "SDA-9", ReadElementWriteFlag::new(element))?;
+    for one in [&name, &unit, &ty] {
+        let readable = !text(one).chars().any(char::is_control);
+        let found = format!("{:?} of {at}", text(one));
+        probe.check(assumed("GEN-3"), readable, "CP1252 characters", found);
+    }
+    type_and_length(probe, &text(&ty), length.get(), &at);
+    let found = format!("{} of {at}", flag.0);
+    probe.check(assumed("SDA-9"), flag.0 <= 1, "a write flag of 0 or 1", found);
+    Ok(())
 }
 
 fn content(probe: &mut Probe<'_>) -> Step {
@@ -211,14 +272,25 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
             ClassGroup { addressing: Addressing::Index, instance: *rank, ..element.class_group() };
         let by_index = ElementAddress::new(group, element.index_offset());
         let Some(length) = length_of(probe, element)? else { return Ok(()) };
-        let (Ok(one), Ok(other)) =
-            (ReadElement::new(element, length), ReadElement::new(by_index, length))
-        else {
-            return Ok(());
-        };
         let rules = ["ADR-1", "ADR-12"].map(Rule::from);
         let what = format!("element {} of {instance}", element.index_offset());
-        still.same(probe, &rules, &what, one, other.into())
+        let attributes = |element| -> [Request<'static>; 5] {
+            [
+                ReadElementName::new(element).into(),
+                ReadElementType::new(element).into(),
+                ReadElementLength::new(element).into(),
+                ReadElementUnit::new(element).into(),
+                ReadElementWriteFlag::new(element).into(),
+            ]
+        };
+        for (one, other) in attributes(element).into_iter().zip(attributes(by_index)) {
+            let what = format!("{} of {what}", one.function().spec().name);
+            still.same(probe, &rules, &what, one, other)?;
+        }
+        match (ReadElement::new(element, length), ReadElement::new(by_index, length)) {
+            (Ok(one), Ok(other)) => still.same(probe, &rules, &what, one, other.into()),
+            _ => Ok(()),
+        }
     })?;
     still.finish()
 }

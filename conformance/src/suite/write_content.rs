@@ -1,13 +1,14 @@
 //! Cases that write COM objects and elements of SDA and GEO, and undo it.
 
 use ads_cnc::Decode as _;
-use ads_cnc::address::{AxisStride, ElementAddress, IndexOffset};
+use ads_cnc::address::{AxisStride, Class, ElementAddress, IndexOffset};
 use ads_cnc::operation::{
     CountElements, ReadElementName, ReadElementType, ReadElementWriteFlag, Request,
 };
 use ads_cnc::sda::{ElementText, ElementWriteFlag};
+use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop};
+use super::case::{Case, Rule, Step, Stop, assumed};
 use super::declare;
 use super::inventory::{Instance, OF_PLACES, Object};
 use super::place::{Place, Trial};
@@ -32,8 +33,8 @@ pub(super) fn cases() -> Vec<Case> {
         ),
         declare!(
             "write-elements",
-            "What is written to an element with its write flag set is read back",
-            ["SDA-9"],
+            "What is written to an element with its write flag set is read back, and nowhere else",
+            ["SDA-1", "SDA-9"],
             Writes,
             elements
         ),
@@ -43,6 +44,13 @@ pub(super) fn cases() -> Vec<Case> {
             ["SDA-9"],
             Writes,
             read_only_elements
+        ),
+        declare!(
+            "write-elements-of-wrong-size",
+            "A value of another length than the element's is answered by an error",
+            ["SDA-8"],
+            MalformedWrites,
+            wrong_size
         ),
         declare!(
             "write-number-of-elements",
@@ -122,6 +130,8 @@ fn read_only_objects(probe: &mut Probe<'_>) -> Step {
 
 /// An element with its name and whether it is a text.
 struct Named {
+    instance: Instance,
+    element: ElementAddress,
     place: Place,
     what: String,
     is_text: bool,
@@ -168,15 +178,87 @@ fn named(
         return Ok(None);
     }
     let is_text = text(probe, ReadElementType::new(element).into())? == "STRING";
-    Ok(Some(Named { place, what: format!("{name} of {instance}"), is_text }))
+    let (what, instance) = (format!("{name} of {instance}"), instance.clone());
+    Ok(Some(Named { instance, element, place, what, is_text }))
 }
 
 fn elements(probe: &mut Probe<'_>) -> Step {
     let all = flagged(probe, true)?;
-    for Named { place, what, is_text } in &all {
+    for one in &all {
+        let twins = twins(probe, one)?;
         let rules = ["SDA-9".into()];
-        let trial = Trial { what, rules: &rules, is_text: *is_text };
-        probe.try_write(&trial, place, |_, _, _| Ok(()))?;
+        let trial = Trial { what: &one.what, rules: &rules, is_text: one.is_text };
+        let mut taken = Vec::new();
+        probe.try_write(&trial, &one.place, |probe, _, new| {
+            for (twin, place, before) in &twins {
+                let after = probe.value_at(place)?.unwrap_or_default();
+                if after == new && after != *before {
+                    taken.push((twin, place, before, probe.evidence()));
+                }
+            }
+            Ok(())
+        })?;
+        // What took the new value and has the old one again has taken both writes.
+        let is_own = taken.is_empty();
+        for (twin, place, before, evidence) in taken {
+            let again = probe.value_at(place)?;
+            probe.show(evidence);
+            let kept = again.as_ref() != Some(before);
+            let expected = format!("{} at a place of its own", one.what);
+            probe.check("SDA-1", kept, expected, format!("written in {twin} too"));
+        }
+        if is_own && !twins.is_empty() {
+            probe.check("SDA-1", true, "", "");
+        }
+    }
+    nothing(!all.is_empty())
+}
+
+/// The same element of the other instances of its class, and what it holds there.
+fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<(Instance, Place, Vec<u8>)>> {
+    let Place::Element { length, .. } = one.place else { return Ok(Vec::new()) };
+    let of = |element: ElementAddress, first: ElementAddress| {
+        element.index_offset().get().checked_sub(first.index_offset().get())
+    };
+    let number = of(one.element, one.instance.first).unwrap_or_default();
+    let mut all = Vec::new();
+    for other in probe.instances()? {
+        // The HLD of each channel has the same axes.
+        let is_same = other.first == one.instance.first
+            || other.class == Class::Hld && other.axis > 0 && other.axis == one.instance.axis;
+        let (true, false) = (other.class == one.instance.class, is_same) else { continue };
+        let Ok(element) = other.first.following(number) else { continue };
+        if number == 0 || number > other.count || length_of(probe, element)? != Some(length) {
+            continue;
+        }
+        let place = Place::Element { element, length };
+        if let Some(before) = probe.value_at(&place)? {
+            all.push((other, place, before));
+        }
+    }
+    Ok(all)
+}
+
+/// What is refused is not written either.
+fn wrong_size(probe: &mut Probe<'_>) -> Step {
+    let all = flagged(probe, true)?;
+    for Named { place, what, .. } in all.iter().filter(|one| !one.is_text) {
+        let Some(value) = probe.value_at(place)?.filter(|value| !value.is_empty()) else {
+            continue;
+        };
+        let longer = [&value[..], &[0]].concat();
+        for other in [&longer[..], value.get(1..).unwrap_or_default()] {
+            let Ok(write) = place.write(other) else { continue };
+            let exchange = probe.send(write)?;
+            let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
+            let expected = format!("an error for {} bytes of {what}", other.len());
+            probe.check(assumed("SDA-8"), refused, expected, exchange.result());
+            let after = probe.value_at(place)?.unwrap_or_default();
+            let kept = !refused || after == value;
+            let expected = format!("{} of {what} still", Hex(value.clone()));
+            probe.check("SDA-8", kept, expected, Hex(after));
+            probe.send(place.write(&value).map_err(harness)?)?;
+        }
     }
     nothing(!all.is_empty())
 }

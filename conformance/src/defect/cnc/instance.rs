@@ -134,17 +134,6 @@ pub(super) const ROWS: &[Row] = &[
         },
     ),
     row(
-        "cnc.sda.absent-refused",
-        &["SDA-2"],
-        "an instance that is not there is answered with an error",
-        |cnc, call| match (is(call, FIND), cnc.answer(call)) {
-            (true, Ok(bytes)) if bytes.iter().all(|byte| *byte == 0) => {
-                Err(AdsError::SYMBOL_NOT_FOUND)
-            }
-            (_, answer) => answer,
-        },
-    ),
-    row(
         "cnc.sda.absent-answered",
         &["SDA-2"],
         "an address is made of whatever is asked for, there or not",

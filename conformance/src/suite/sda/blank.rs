@@ -1,0 +1,227 @@
+//! Places without an axis.
+
+use std::sync::Arc;
+
+use ads_cnc::address::{AxisStride, Class, ElementAddress, Group, IndexOffset};
+use ads_cnc::operation::{CountElements, ObjectList, ReadElement};
+use ads_cnc_vectors::Hex;
+
+use super::super::case::{Step, Stop, assumed};
+use super::super::content::read_of;
+use super::super::inventory::{Instance, OBJECTS_MAX, OF_PLACES};
+use super::super::probe::{Probe, harness};
+use super::length_of;
+use crate::cnc::Cnc;
+
+pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
+    let places = probe.session.profile.empty_places.clone();
+    if places.is_empty() {
+        let why = "no place is known to be empty; a profile can name one".to_owned();
+        return Err(Stop::NotApplicable(why));
+    }
+    let all = probe.instances()?;
+    for &(channel, place) in places.iter() {
+        let there = all.iter().filter(|one| {
+            OF_PLACES.contains(&one.class) && (one.channel, one.axis) == (channel, place)
+        });
+        for one in there {
+            let occupied = |other: &&Instance| {
+                other.class == one.class
+                    && other.axis > 0
+                    && !places.contains(&(other.channel, other.axis))
+            };
+            let occupied: Vec<&Instance> = all.iter().filter(occupied).collect();
+            blank_elements(probe, one, &occupied)?;
+        }
+        blank_objects(probe, channel, place)?;
+    }
+    Ok(())
+}
+
+/// The content of an element; nothing of what is none.
+fn content(probe: &mut Probe<'_>, element: ElementAddress) -> Step<Option<Vec<u8>>> {
+    let Some(length) = length_of(probe, element)? else { return Ok(None) };
+    match ReadElement::new(element, length) {
+        Ok(read) => probe.try_ask(read),
+        Err(_) => Ok(None),
+    }
+}
+
+fn is_blank(bytes: &[u8]) -> bool {
+    bytes.iter().all(|&byte| byte == 0)
+}
+
+fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance]) -> Step {
+    // How many elements there are is content, too.
+    probe.ask("SDA-11", CountElements::new(one.first).map_err(harness)?)?;
+    let count = occupied.iter().map(|other| other.count).chain([one.count]).max();
+    for place in 1..=count.unwrap_or_default().min(OBJECTS_MAX) {
+        let Ok(element) = one.first.following(place) else { continue };
+        let mut theirs = Vec::new();
+        for other in occupied {
+            let Ok(other) = other.first.following(place) else { continue };
+            theirs.extend(content(probe, other)?);
+        }
+        let length = match length_of(probe, element)? {
+            Some(length) => Some(length),
+            None => theirs.first().and_then(|bytes| u32::try_from(bytes.len()).ok()),
+        };
+        let Some(Ok(read)) = length.map(|length| ReadElement::new(element, length)) else {
+            continue;
+        };
+        let content = probe.ask("SDA-11", read)?;
+        let found = format!("{} of element {place} of {one}", Hex(content.clone()));
+        // What zeros are for one axis, others are for another: blank is what no axis has.
+        let of_axis = !is_blank(&content) && theirs.contains(&content);
+        probe.check("SDA-11", !of_axis, "blank, not what an axis has elsewhere", &found);
+        probe.check(assumed("SDA-11"), is_blank(&content), "zeros", found);
+    }
+    Ok(())
+}
+
+/// Whether an offset is at this place: the objects of a channel's axes have a stride that only
+/// their descriptors tell.
+fn is_at(offset: IndexOffset, place: u32) -> bool {
+    let strides = [AxisStride::X1000, AxisStride::X10000];
+    let mut split = strides.iter().filter_map(|&stride| offset.axis_and_element(stride).ok());
+    split.any(|(axis, element)| axis == place && element > 0)
+}
+
+fn blank_objects(probe: &mut Probe<'_>, channel: u32, place: u32) -> Step {
+    let list = ObjectList::from(probe.channel_of(channel)?);
+    for object in probe.objects()?.into_iter().filter(|one| one.list == list) {
+        let is_com = matches!(object.group.parts(), Some(Group::Com(_)));
+        let (true, true, Some(read)) = (is_at(object.offset, place), is_com, read_of(&object))
+        else {
+            continue;
+        };
+        let content = probe.ask("SDA-11", read)?;
+        let expected = format!("zeros of {} at place {place} of channel {channel}", object.name);
+        probe.check(assumed("SDA-11"), is_blank(&content), expected, Hex(content));
+    }
+    Ok(())
+}
+
+/// What the suite knows of the default model: the first places of these channels have the axes 4
+/// and 5, the others of them none.
+const CHANNELS: [(u8, u32); 2] = [(2, 4), (6, 5)];
+
+/// The element with this number among those of a place; nothing if it is a function's.
+type Found = (Class, u32);
+
+pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
+    let cnc = probe.cnc()?;
+    let [(one, mine), (other, theirs)] = CHANNELS;
+    let at = |probe: &mut Probe<'_>, channel: u8, number: u32| {
+        let number = u64::from(number).to_le_bytes();
+        holding(probe, channel.into(), 1, |bytes| {
+            number.starts_with(bytes) && number.iter().skip(bytes.len()).all(|&byte| byte == 0)
+        })
+    };
+    let before = at(probe, one, mine)?;
+    let objects = numbers_of(probe, one, mine)?;
+    let none = || Stop::NotApplicable("nothing is the number of an axis".to_owned());
+    if before.is_empty() && objects.is_empty() {
+        return Err(none());
+    }
+    // The axis of the other channel comes here: an element that follows is the axis's number.
+    cnc.exchange_axis(one, 1, theirs).map_err(harness)?;
+    let moved = (at(probe, one, theirs), numbers_of(probe, one, theirs));
+    let blank = blank_at(probe, other.into(), 1, &before);
+    restore(&cnc)?;
+    let numbers: Vec<Found> = moved.0?.into_iter().filter(|one| before.contains(one)).collect();
+    let of_com: Vec<_> = moved.1?.into_iter().filter(|one| objects.contains(one)).collect();
+    if numbers.is_empty() && of_com.is_empty() {
+        return Err(none());
+    }
+    let is_number = |(element, _): &&(Found, Vec<u8>)| numbers.contains(element);
+    for ((class, element), content) in blank?.iter().filter(is_number) {
+        let found = format!("{} of element {element} of {class:?}", Hex(content.clone()));
+        probe.check("SDA-11", is_blank(content), "0 where the axis was", found);
+    }
+    for &(channel, place) in probe.session.profile.empty_places.clone().iter() {
+        for ((class, element), content) in blank_at(probe, channel, place, &numbers)? {
+            let found = format!("{} of element {element} of {class:?}", Hex(content.clone()));
+            let expected = format!("0 at place {place} of channel {channel}");
+            probe.check("SDA-11", is_blank(&content), expected, found);
+        }
+    }
+    let list = ObjectList::from(probe.channel_of(one.into())?);
+    for object in probe.objects()?.into_iter().filter(|object| object.list == list) {
+        let name = object.name.to_string();
+        let (true, false, Some(read)) =
+            (of_com.contains(&name), is_at(object.offset, 1), read_of(&object))
+        else {
+            continue;
+        };
+        let content = probe.ask("SDA-11", read)?;
+        let expected = format!("0 of {name} at {}", object.offset);
+        probe.check("SDA-11", is_blank(&content), expected, Hex(content));
+    }
+    Ok(())
+}
+
+/// In the order in which they do not get into each other's way.
+fn restore(cnc: &Arc<Cnc>) -> Step {
+    for (channel, axis) in CHANNELS {
+        cnc.exchange_axis(channel, 1, axis).map_err(harness)?;
+    }
+    Ok(())
+}
+
+/// The elements at a place whose contents are such.
+fn holding(
+    probe: &mut Probe<'_>,
+    channel: u32,
+    place: u32,
+    is_such: impl Fn(&[u8]) -> bool,
+) -> Step<Vec<Found>> {
+    let mut all = Vec::new();
+    for one in probe.instances()? {
+        if !OF_PLACES.contains(&one.class) || (one.channel, one.axis) != (channel, place) {
+            continue;
+        }
+        for (number, element) in (1..).zip(one.elements()) {
+            if content(probe, element)?.is_some_and(|bytes| is_such(&bytes)) {
+                all.push((one.class, number));
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// What these elements are at a place.
+fn blank_at(
+    probe: &mut Probe<'_>,
+    channel: u32,
+    place: u32,
+    elements: &[Found],
+) -> Step<Vec<(Found, Vec<u8>)>> {
+    let mut all = Vec::new();
+    for one in probe.instances()? {
+        if (one.channel, one.axis) != (channel, place) {
+            continue;
+        }
+        for &(class, number) in elements.iter().filter(|(class, _)| *class == one.class) {
+            let Ok(element) = one.first.following(number) else { continue };
+            let content = content(probe, element)?.unwrap_or_default();
+            all.push(((class, number), content));
+        }
+    }
+    Ok(all)
+}
+
+/// The names of objects at the first place whose content is this number.
+fn numbers_of(probe: &mut Probe<'_>, channel: u8, number: u32) -> Step<Vec<String>> {
+    let list = ObjectList::from(probe.channel_of(channel.into())?);
+    let number = u64::from(number).to_le_bytes();
+    let mut all = Vec::new();
+    for object in probe.objects()?.into_iter().filter(|object| object.list == list) {
+        let (true, Some(read)) = (is_at(object.offset, 1), read_of(&object)) else { continue };
+        let content = probe.try_ask(read)?.unwrap_or_default();
+        if !content.is_empty() && number.starts_with(&content) {
+            all.push(object.name.to_string());
+        }
+    }
+    Ok(all)
+}

@@ -1,0 +1,43 @@
+//! The axes of the platform, in the HLD of the first channel.
+
+use ads_cnc::address::Class;
+use ads_cnc::operation::ReadElement;
+
+use super::super::case::{Step, Stop};
+use super::super::probe::Probe;
+use super::super::still::Still;
+use super::length_of;
+
+pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
+    let first = u32::from(probe.channel()?.number());
+    let all = probe.instances()?;
+    let of = |channel: u32| {
+        let axes = all
+            .iter()
+            .filter(move |one| (one.class, one.channel) == (Class::Hld, channel) && one.axis > 0);
+        axes.cloned().collect::<Vec<_>>()
+    };
+    let (platform, own) = (of(0), of(first));
+    if platform.is_empty() {
+        return Err(Stop::NotApplicable("the HLD names no axis of the platform".to_owned()));
+    }
+    let mut still = Still::default();
+    for axis in &platform {
+        let mine = own.iter().find(|one| one.axis == axis.axis);
+        let expected = format!("axis {} under channel {first} as under channel 0", axis.axis);
+        for rule in ["SDA-5", "SDA-13"] {
+            probe.check(rule, mine.is_some(), &expected, "no such instance");
+        }
+        let Some(mine) = mine else { continue };
+        let counts = format!("{} elements, of {axis} {}", mine.count, axis.count);
+        probe.check("SDA-13", mine.count == axis.count, "the same elements", counts);
+        for (one, other) in axis.elements().zip(mine.elements()) {
+            let Some(length) = length_of(probe, one)? else { continue };
+            let read = |address| ReadElement::new(address, length);
+            let (Ok(read_one), Ok(read_other)) = (read(one), read(other)) else { continue };
+            let what = format!("element {} of {axis}", one.index_offset());
+            still.same(probe, &["SDA-13".into()], &what, read_one, read_other.into())?;
+        }
+    }
+    still.finish()
+}

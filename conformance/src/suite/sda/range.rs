@@ -1,0 +1,211 @@
+//! Which instances there are, and which there cannot be.
+
+use ads_cnc::Decode as _;
+use ads_cnc::address::Class;
+use ads_cnc::operation::{FindInstance, Request};
+use ads_cnc::sda::ObjectAddress;
+use ads_cnc_vectors::Hex;
+
+use super::super::case::{Rule, Step, Stop, assumed};
+use super::super::inventory::{INSTANCES_MAX, Instance, OF_PLACES, class_name};
+use super::super::probe::Probe;
+
+/// Asks for what has to be there. Another task may serve a class: who refuses to say is not judged
+/// but for the decoder, which SDA has.
+fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, axis: u32) -> Step {
+    let request = Request::from(FindInstance::new(class, channel, axis));
+    let exchange = probe.send(request)?;
+    let data = exchange.answer().and_then(|answer| answer.success());
+    if data.is_none() && class != Class::Decoder {
+        return Ok(());
+    }
+    let address = data.and_then(|data| ObjectAddress::decode(data).ok());
+    let first = address.and_then(|address| address.first_element().ok()).flatten();
+    let expected = format!("the {} ({channel}, {axis}) in a group of its class", class_name(class));
+    let found = match address {
+        Some(address) => format!("{}, {}", address.index_group, address.index_offset),
+        None => exchange.result(),
+    };
+    for &rule in rules {
+        probe.check(rule, first.is_some(), &expected, &found);
+    }
+    Ok(())
+}
+
+/// Whether path preparation has axes the manual says in one place, and not in another.
+fn of_axes(class: Class, id: &'static str) -> Rule {
+    if class == Class::PathPreparation { assumed(id) } else { id.into() }
+}
+
+/// Asks for what cannot be there, by the range that these requirements give.
+fn is_nowhere(
+    probe: &mut Probe<'_>,
+    rules: &[&'static str],
+    class: Class,
+    channel: u32,
+    axis: u32,
+) -> Step {
+    let request = Request::from(FindInstance::new(class, channel, axis));
+    let exchange = probe.send(request)?;
+    let data = exchange.answer().and_then(|answer| answer.success());
+    let Some(data) = data else {
+        // By an error instead: that the result is 0 is assumed.
+        let found = exchange.result();
+        probe.check(assumed("SDA-2"), false, "the answer (0, 0)", found);
+        return Ok(());
+    };
+    let address = ObjectAddress::decode(data);
+    let none = address == Ok(ObjectAddress::NONE);
+    let expected = format!("(0, 0) for the {} ({channel}, {axis})", class_name(class));
+    let found = Hex(data.to_vec());
+    probe.check("SDA-2", none, &expected, &found);
+    // An instance is found where there can be none.
+    let is_found = address.is_ok_and(|address| matches!(address.first_element(), Ok(Some(_))));
+    for &rule in rules {
+        probe.check(rule, !is_found, &expected, &found);
+    }
+    Ok(())
+}
+
+pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
+    let rules = ["SDA-5", "ADR-5"].map(Rule::from);
+    let numbers: Vec<u32> =
+        probe.channels()?.into_iter().map(|channel| channel.number().into()).collect();
+    for &channel in &numbers {
+        for class in OF_PLACES.into_iter().chain([Class::Hld]) {
+            is_there(probe, &rules, class, channel, 0)?;
+        }
+    }
+    // A place is there whether an axis is or not.
+    for &(channel, place) in probe.session.profile.empty_places.clone().iter() {
+        for class in OF_PLACES {
+            is_there(probe, &[of_axes(class, "SDA-5")], class, channel, place)?;
+        }
+    }
+    let axes = probe.session.profile.platform_axes;
+    for axis in 1..=axes {
+        is_there(probe, &rules, Class::PositionController, 0, axis)?;
+        is_there(probe, &rules, Class::Hld, 0, axis)?;
+        for &channel in &numbers {
+            is_there(probe, &rules, Class::Hld, channel, axis)?;
+        }
+    }
+    let beyond = axes.saturating_add(1);
+    if axes > 0 {
+        is_nowhere(probe, &["SDA-5"], Class::PositionController, 0, beyond)?;
+        is_nowhere(probe, &["SDA-5"], Class::Hld, 0, beyond)?;
+        for &channel in &numbers {
+            is_nowhere(probe, &["SDA-5"], Class::Hld, channel, beyond)?;
+        }
+    }
+    if let Some(spindles) = probe.session.profile.spindles {
+        for index in 0..spindles {
+            is_there(probe, &rules, Class::Spindle, index, 0)?;
+        }
+        is_nowhere(probe, &["SDA-5"], Class::Spindle, spindles, 0)?;
+    }
+    if let Some(absent) = probe.session.profile.absent_channel {
+        for class in OF_PLACES.into_iter().chain([Class::Hld]) {
+            is_nowhere(probe, &["SDA-5"], class, absent, 0)?;
+            is_nowhere(probe, &["SDA-5"], class, absent, 1)?;
+        }
+    }
+    Ok(())
+}
+
+/// The last axis of a channel in a class; none if the class does not even have the channel.
+fn last_axis(all: &[Instance], class: Class, channel: u32) -> Option<u32> {
+    let mine = all.iter().filter(|one| (one.class, one.channel) == (class, channel));
+    mine.map(|one| one.axis).max()
+}
+
+/// What the target says of one class has to go with what it says of another.
+pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
+    let all = probe.instances()?;
+    let mut any = false;
+    // One limit stands for the axes of these classes.
+    for channel in probe.channels()?.into_iter().map(|channel| u32::from(channel.number())) {
+        let lasts = OF_PLACES.map(|class| (class, last_axis(&all, class, channel)));
+        let last = lasts.iter().filter_map(|(_, last)| *last).max().unwrap_or_default();
+        for (class, mine) in lasts {
+            let Some(mine) = mine.filter(|_| last > 0) else { continue };
+            any = true;
+            let axis = if mine < last { mine.saturating_add(1) } else { last };
+            is_there(probe, &[of_axes(class, "SDA-5")], class, channel, axis)?;
+        }
+    }
+    // And the axes of the platform are as many wherever they are.
+    let lasts =
+        [Class::PositionController, Class::Hld].map(|class| (class, last_axis(&all, class, 0)));
+    let last = lasts.iter().filter_map(|(_, last)| *last).max().unwrap_or_default();
+    for (class, mine) in lasts {
+        let Some(mine) = mine.filter(|_| last > 0) else { continue };
+        any = true;
+        let axis = if mine < last { mine.saturating_add(1) } else { last };
+        is_there(probe, &["SDA-5".into()], class, 0, axis)?;
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("no class names an axis".to_owned())),
+    }
+}
+
+/// Every class has an end, whatever is configured.
+pub(super) fn no_such_instance(probe: &mut Probe<'_>) -> Step {
+    let all = probe.instances()?;
+    let has = |class| all.iter().any(|one| one.class == class);
+    let channels: Vec<u32> =
+        probe.channels()?.into_iter().map(|channel| channel.number().into()).collect();
+    // What has nothing at all may be with another task.
+    for class in OF_PLACES.into_iter().filter(|class| has(*class)) {
+        for &channel in &channels {
+            let last = last_axis(&all, class, channel).unwrap_or(INSTANCES_MAX);
+            if last < INSTANCES_MAX {
+                is_nowhere(probe, &["SDA-5"], class, channel, last.saturating_add(1))?;
+            }
+        }
+        // Channels start at 1: 0 is the platform, which these classes have not.
+        is_nowhere(probe, &["SDA-5", "GEN-6"], class, 0, 0)?;
+        is_nowhere(probe, &["SDA-5", "GEN-6"], class, 0, 1)?;
+    }
+    if has(Class::PositionController) {
+        for &channel in &channels {
+            is_nowhere(probe, &["SDA-5"], Class::PositionController, channel, 1)?;
+        }
+    }
+    for class in [Class::PositionController, Class::Hld] {
+        let last = last_axis(&all, class, 0).filter(|last| (1..INSTANCES_MAX).contains(last));
+        if let Some(last) = last {
+            is_nowhere(probe, &["SDA-5"], class, 0, last.saturating_add(1))?;
+        }
+    }
+    let spindles = all.iter().filter(|one| one.class == Class::Spindle);
+    let last = spindles.map(|one| one.channel).max().filter(|last| *last < INSTANCES_MAX);
+    if let Some(last) = last {
+        is_nowhere(probe, &["SDA-5"], Class::Spindle, last.saturating_add(1), 0)?;
+    }
+    Ok(())
+}
+
+/// Numbers of which some bits are those of an instance: a group has room for 8 bits of a channel,
+/// an offset for 16 of an axis.
+pub(super) fn far(probe: &mut Probe<'_>) -> Step {
+    for one in probe.instances()? {
+        let channels: &[u32] = match one.axis {
+            0 | 1 => &[0x100, 0x1_0000, 0x100_0000, 0x8000_0000],
+            _ => &[],
+        };
+        for &bit in channels {
+            let channel = one.channel.wrapping_add(bit);
+            is_nowhere(probe, &["SDA-5"], one.class, channel, one.axis)?;
+        }
+        // The axis of a spindle has no meaning.
+        if one.class != Class::Spindle {
+            for bit in [0x1_0000, 0x100_0000, 0x8000_0000] {
+                let axis = one.axis.wrapping_add(bit);
+                is_nowhere(probe, &["SDA-5"], one.class, one.channel, axis)?;
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,77 @@
+//! The types of elements, by their names.
+
+use super::super::case::{Rule, assumed, online};
+use super::super::probe::Probe;
+
+/// The bytes of a type, and whether the manuals say them or only help pages do. The tables of
+/// dynamic parameters print those of UNS32 and REAL64, an example that of BOOLEAN.
+fn size_of(type_name: &str) -> Option<(u32, bool)> {
+    Some(match type_name {
+        "BOOLEAN" => (1, true),
+        "UNS08" | "SGN08" => (1, false),
+        "UNS16" | "SGN16" => (2, false),
+        "UNS32" => (4, true),
+        "SGN32" | "REAL32" => (4, false),
+        "REAL64" => (8, true),
+        _ => return None,
+    })
+}
+
+/// How a name that is none of the manual's is judged: one that is made as they are, of another
+/// width, goes on where their list ends; one that names such a thing otherwise does not.
+fn rule_of(type_name: &str) -> Rule {
+    let digits = ["UNS", "SGN", "REAL"].into_iter().find_map(|one| type_name.strip_prefix(one));
+    let is_alike = digits.is_some_and(|digits| {
+        digits.len() == 2 && digits.bytes().all(|byte| byte.is_ascii_digit())
+    });
+    match is_alike || type_name == "STRING" {
+        true => assumed("SDA-7"),
+        false => "SDA-7".into(),
+    }
+}
+
+/// Judges the type and the length of an element, which have to go together.
+pub(in super::super) fn type_and_length(
+    probe: &mut Probe<'_>,
+    type_name: &str,
+    length: u32,
+    at: &str,
+) {
+    let known = size_of(type_name);
+    let found = format!("{type_name:?} of {at}");
+    let is_known = known.is_some() || type_name == "STRING";
+    probe.check(rule_of(type_name), is_known, "one of the types of the manual", found);
+    let found = format!("{length} bytes of {at}, {type_name}");
+    let Some((size, is_printed)) = known else {
+        probe.check(assumed("SDA-8"), length > 0, "a number of bytes", found);
+        return;
+    };
+    let expected = format!("the {size} bytes of {type_name}");
+    // A value of its type has that many bytes, or the type is another.
+    let rules = match is_printed {
+        true => ["SDA-7", "SDA-8"].map(Rule::from),
+        false => ["SDA-7", "SDA-8"].map(online),
+    };
+    let of_type = if type_name == "BOOLEAN" { "GEN-5".into() } else { online("GEN-5") };
+    for rule in rules.into_iter().chain([of_type]) {
+        probe.check(rule, length == size, &expected, &found);
+    }
+    probe.check("SDA-8", length > 0, "a number of bytes", found);
+}
+
+#[cfg(test)]
+mod tests {
+    use ads_cnc_vectors::Level;
+
+    use super::*;
+
+    #[test]
+    fn names_that_are_none() {
+        for other in ["UNS64", "SGN64", "REAL80", "STRING"] {
+            assert_eq!(rule_of(other).level, Some(Level::Info), "{other}");
+        }
+        for wrong in ["UNS8", "uns08", "DWORD", "BOOL", "", "UNS008", "REAL"] {
+            assert_eq!(rule_of(wrong).level, Some(Level::Must), "{wrong:?}");
+        }
+    }
+}
