@@ -10,6 +10,8 @@ mod codecs;
 mod reasons;
 mod show;
 mod targets;
+#[cfg(test)]
+mod tests;
 
 use std::sync::Mutex;
 use std::thread;

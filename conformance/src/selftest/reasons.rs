@@ -45,6 +45,12 @@ pub(super) fn of(group: Group, id: &str) -> Option<&'static str> {
     mine.map(|(_, _, reason)| *reason)
 }
 
+/// Of what there are reasons.
+#[cfg(test)]
+pub(super) fn names() -> impl Iterator<Item = (Group, &'static str)> {
+    REASONS.iter().map(|(group, start, _)| (*group, *start))
+}
+
 /// Reasons that no survivor needs.
 pub(super) fn stale(tried: &[Tried]) -> Vec<String> {
     let needed = |(group, start, _): &&(Group, &str, &str)| {

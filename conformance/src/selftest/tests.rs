@@ -1,0 +1,111 @@
+//! What counts as caught, and what the self-test says of it.
+
+use super::*;
+use crate::suite::{self, RequirementVerdict};
+
+/// Outcomes in which these requirements got these verdicts.
+fn outcomes(verdicts: &[(&'static str, Verdict)]) -> Vec<Outcome> {
+    let case = suite::cases().swap_remove(0);
+    let verdicts = verdicts.iter().map(|&(requirement, verdict)| RequirementVerdict {
+        requirement,
+        verdict,
+        judgements: Vec::new(),
+    });
+    vec![Outcome { case, verdicts: verdicts.collect(), checks: 1, note: None, refused: false }]
+}
+
+fn judged(targets: &[&str], verdicts: &[(&'static str, Verdict)]) -> Outcomes {
+    judge(targets, &outcomes(verdicts)).1
+}
+
+#[test]
+fn caught_is_what_fails_by_its_own_requirement() {
+    use Verdict::{Differs, Fail, NotObserved, Pass, Vacuous, Warning};
+
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Fail), ("VAR-8", Pass)]), Outcomes::Caught);
+    assert_eq!(judged(&["VAR-4", "VAR-8"], &[("VAR-8", Fail)]), Outcomes::Caught);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Vacuous)]), Outcomes::Caught);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-8", Fail)]), Outcomes::Elsewhere);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Pass)]), Outcomes::Survived);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", NotObserved)]), Outcomes::Survived);
+    // To be warned of a must is not to have caught it; of a should it is.
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Warning)]), Outcomes::Survived);
+    assert_eq!(judged(&["VAR-4"], &[("VAR-4", Differs)]), Outcomes::Survived);
+    assert_eq!(judged(&["ADS-8"], &[("ADS-8", Warning)]), Outcomes::Caught);
+}
+
+#[test]
+fn who_is_right_may_differ_and_not_fail() {
+    use Verdict::{Differs, Fail, HarnessError, Pass, Warning};
+
+    assert_eq!(judged(&[], &[("VAR-4", Pass), ("VAR-8", Differs)]), Outcomes::Quiet);
+    assert_eq!(judged(&[], &[("VAR-4", Warning)]), Outcomes::Quiet);
+    assert_eq!(judged(&[], &[("VAR-4", Fail)]), Outcomes::FalseAlarm);
+    // A fault of the suite is neither, whatever failed besides.
+    assert_eq!(judged(&[], &[("VAR-4", HarnessError)]), Outcomes::Broken);
+    let both = [("VAR-4", Fail), ("VAR-8", HarnessError)];
+    assert_eq!(judged(&["VAR-4"], &both), Outcomes::Broken);
+}
+
+fn tried(result: Outcomes, reason: Option<&str>) -> Tried {
+    Tried {
+        id: "an-id".to_owned(),
+        group: Group::Cnc,
+        what: "something".to_owned(),
+        targets: vec!["VAR-4".to_owned()],
+        failed: Vec::new(),
+        result,
+        reason: reason.map(str::to_owned),
+    }
+}
+
+fn test(tried: Vec<Tried>) -> SelfTest {
+    SelfTest { tried, stale: Vec::new() }
+}
+
+#[test]
+fn only_a_reason_lets_a_defect_survive() {
+    use Outcomes::{Broken, Caught, Elsewhere, FalseAlarm, Quiet, Same, Survived};
+
+    assert_eq!(test(Vec::new()).exit(), Exit::Nothing);
+    for fine in [Caught, Quiet, Same] {
+        assert_eq!(test(vec![tried(fine, None)]).exit(), Exit::Success, "{fine:?}");
+    }
+    for open in [Survived, Elsewhere] {
+        assert_eq!(test(vec![tried(open, None)]).exit(), Exit::Failure, "{open:?}");
+        assert_eq!(test(vec![tried(open, Some("why"))]).exit(), Exit::Success, "{open:?}");
+    }
+    // Nothing excuses these.
+    for wrong in [FalseAlarm, Broken] {
+        assert_eq!(test(vec![tried(wrong, Some("why"))]).exit(), Exit::Failure, "{wrong:?}");
+    }
+    let stale = SelfTest { tried: vec![tried(Caught, None)], stale: vec!["cnc old".to_owned()] };
+    assert_eq!(stale.exit(), Exit::Failure);
+}
+
+#[test]
+fn what_changes_nothing_counts_neither_way() {
+    let all = [Outcomes::Caught, Outcomes::Same, Outcomes::Survived, Outcomes::Same];
+    let test = test(all.map(|result| tried(result, None)).into());
+    assert_eq!(test.rate(Group::Cnc), (1, 2));
+    let mut shown = Vec::new();
+    print(&test, false, &mut shown).unwrap();
+    let shown = String::from_utf8(shown).unwrap();
+    let line = "cnc         1 caught of 2 (50.0 %), beside 2 that change nothing here";
+    assert!(shown.contains(line), "{shown}");
+    assert!(shown.contains("SURVIVED     cnc        an-id  [VAR-4]"), "{shown}");
+}
+
+#[test]
+fn every_reason_is_of_something_that_is_tried() {
+    let mut candidates = codecs::candidates();
+    candidates.extend(targets::candidates());
+    candidates.extend(clients::candidates());
+    for (group, start) in reasons::names() {
+        let any = candidates.iter().any(|one| one.group == group && one.id.starts_with(start));
+        assert!(any, "{} {start}", group.name());
+    }
+    let ids: std::collections::BTreeSet<_> =
+        candidates.iter().map(|one| (one.group, one.id.clone())).collect();
+    assert_eq!(ids.len(), candidates.len(), "an ID is there twice");
+}
