@@ -75,6 +75,9 @@ pub struct Client {
     invoke_id: u32,
 }
 
+/// Before the first: no byte of it is 0 or like another, as a response has to have all four.
+const FIRST_INVOKE_ID: u32 = 0x5403_0201;
+
 impl Client {
     /// Connects. What no client should send goes to this machine only.
     ///
@@ -114,7 +117,7 @@ impl Client {
             capture: None,
             dry: false,
             last: None,
-            invoke_id: 0,
+            invoke_id: FIRST_INVOKE_ID,
         })
     }
 
@@ -262,36 +265,50 @@ impl Client {
 
     /// What is wrong with the frames themselves.
     fn judge(&mut self, asked: &AmsHeader, exchange: &mut Exchange) {
+        let mut broken = Vec::new();
         match &exchange.outcome {
             Ok((answer, header)) => {
-                exchange.violations.extend(violations(asked, header));
+                broken.extend(violations(asked, header));
+                let mut add = |requirement, what: String| {
+                    broken.push(Violation { requirement, what });
+                };
                 let given = answer.data.as_ref().map_or(0, Vec::len);
                 let read = exchange.read_length;
                 if usize::try_from(read).is_ok_and(|read| given > read) {
-                    exchange.violations.push(Violation {
-                        requirement: if exchange.service == Service::Read {
-                            "ADS-1"
-                        } else {
-                            "ADS-3"
-                        },
-                        what: format!("{given} bytes of data for a read length of {read}"),
-                    });
+                    let of = if exchange.service == Service::Read { "ADS-1" } else { "ADS-3" };
+                    add(of, format!("{given} bytes of data for a read length of {read}"));
+                }
+                let payload = exchange.received.len() > FrameRef::HEADERS_LEN;
+                if payload && !answer.ams_error.is_none() && answer.result.is_none() {
+                    let error = answer.ams_error;
+                    add("ADS-5", format!("AMS error {error} before a reply of success"));
                 }
             }
             Err(fault) => {
+                let mut add = |requirement, what: String| {
+                    broken.push(Violation { requirement, what });
+                };
                 if let Fault::Malformed(error) = fault {
-                    let requirement = match error.field().stream() {
+                    let of = match error.field().stream() {
                         Stream::ReadReply => "ADS-1",
                         Stream::WriteReply => "ADS-2",
                         Stream::ReadWriteReply => "ADS-3",
                         _ => "ADS-5",
                     };
-                    exchange.violations.push(Violation { requirement, what: error.to_string() });
+                    add(of, error.to_string());
+                    if of != "ADS-5" {
+                        // Its numbers do not stand where they stand with 4 bytes each.
+                        add("ADS-4", error.to_string());
+                    }
+                    if exchange.received.len() == FrameRef::HEADERS_LEN {
+                        add("ADS-5", "no data, and no error in the AMS header".to_owned());
+                    }
                 }
                 // What comes next on this connection cannot be told apart any more.
                 self.disconnect();
             }
         }
+        exchange.violations.append(&mut broken);
     }
 
     /// Ends the connection. Who answers on the next may be another, or have restarted.

@@ -46,6 +46,24 @@ impl Cnc {
         done.and_then(Result::ok).ok_or(ControlError::Exchange { channel, place, axis })
     }
 
+    /// The logical number of the axis at a place, from 1, of a channel; 0 if there is none.
+    ///
+    /// ```
+    /// use ads_cnc_conformance::cnc::Cnc;
+    ///
+    /// let cnc = Cnc::with_default_model()?;
+    /// assert_eq!((cnc.axis_at(1, 2), cnc.axis_at(1, 9)), (2, 0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn axis_at(&self, channel: u8, place: u8) -> u32 {
+        let axis = || {
+            let place = usize::from(place).checked_sub(1)?;
+            let axis = self.state().axis_at(self.place_of(channel).ok()?, place)?;
+            self.model().axes.get(axis).map(|axis| axis.number)
+        };
+        axis().unwrap_or_default()
+    }
+
     /// Activates or deactivates a channel: the ranks of those behind it change (ADR-11).
     ///
     /// # Errors
@@ -131,7 +149,7 @@ impl Cnc {
     /// # Errors
     /// [`ControlError::Channel`]
     pub fn set_script(&self, channel: u8, script: Option<Script>) -> Result<(), ControlError> {
-        let script = script.map(|script| script.with_habit(self.habit()));
+        let script = script.map(|script| self.as_run(script));
         self.of_channel(channel, |channel| channel.script = script)
     }
 
@@ -145,6 +163,11 @@ impl Cnc {
         then: impl FnOnce(Option<&mut Script>) -> T,
     ) -> Result<T, ControlError> {
         self.of_channel(channel, |channel| then(channel.script.as_mut()))
+    }
+
+    /// A program that asks services, as it is run here.
+    pub(crate) fn as_run(&self, script: Script) -> Script {
+        script.with_habit(self.habit())
     }
 
     fn of_channel<T>(

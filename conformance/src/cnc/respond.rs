@@ -241,7 +241,7 @@ impl Cnc {
 const SERVICE_LEN: usize = 8;
 
 /// What the simulated CNC says of itself: a name, and the version of this program.
-const INFO: DeviceInfoReply = DeviceInfoReply {
+pub(crate) const INFO: DeviceInfoReply = DeviceInfoReply {
     result: AdsError::NONE,
     major: number(env!("CARGO_PKG_VERSION_MAJOR")),
     minor: number(env!("CARGO_PKG_VERSION_MINOR")),

@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
+use ads_cnc::service::ServiceVariable;
 
 use super::cnc::{
     Answer, Right, Row, Twist, dimensions, fits, function, group, is, measured, number, offset,
@@ -291,6 +292,20 @@ pub(super) const ROWS: &[Row] = &[
                 Err(AdsError::SYMBOL_NOT_FOUND)
             }
             (_, answer) => answer,
+        },
+    ),
+    row(
+        "different.request-over-early",
+        &[],
+        "REQUEST_STATE becomes 0 when RESPONSE is written, and not when RESPONSE_STATE is",
+        |cnc, call| {
+            let name = ServiceVariable::RESPONSE.as_bytes();
+            let done = cnc.answer(call);
+            if done.is_ok() && is(call, &[Function::WriteByName]) && text(call.data) == name {
+                let state = [ServiceVariable::REQUEST_STATE.as_bytes(), &[0; 5]].concat();
+                cnc.with(call, &state)?;
+            }
+            done
         },
     ),
     unprinted(twisted(

@@ -65,7 +65,7 @@ pub(super) fn frame_cases() -> Vec<Case> {
         declare!(
             "ads-every-frame",
             "Every frame of this run has the header and the length its request asks for",
-            ["ADS-1", "ADS-2", "ADS-3", "ADS-5"],
+            ["ADS-1", "ADS-2", "ADS-3", "ADS-4", "ADS-5"],
             Frames,
             every_frame
         ),
@@ -96,13 +96,15 @@ fn decoder_group(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Rank and number of each claimed channel.
-fn ranks(probe: &Probe<'_>) -> Step<Vec<(Channel, Channel)>> {
-    let channels = probe.channels()?;
-    (1..)
-        .zip(channels)
-        .map(|(rank, channel)| Ok((Channel::by_index(rank).map_err(harness)?, channel)))
-        .collect()
+impl Probe<'_> {
+    /// Rank and number of each claimed channel.
+    pub(super) fn ranks(&self) -> Step<Vec<(Channel, Channel)>> {
+        let channels = self.channels()?;
+        (1..)
+            .zip(channels)
+            .map(|(rank, channel)| Ok((Channel::by_index(rank).map_err(harness)?, channel)))
+            .collect()
+    }
 }
 
 /// What a channel is known by: its numbers, its first object and its first variables.
@@ -135,14 +137,14 @@ fn same_by_rank(probe: &mut Probe<'_>, rules: &[Rule], rank: Channel, number: Ch
 }
 
 fn logical_and_by_index(probe: &mut Probe<'_>) -> Step {
-    for (rank, number) in ranks(probe)? {
+    for (rank, number) in probe.ranks()? {
         same_by_rank(probe, &["ADR-1", "ADR-12"].map(Rule::from), rank, number)?;
     }
     Ok(())
 }
 
 fn rank_among_active(probe: &mut Probe<'_>) -> Step {
-    let ranks = ranks(probe)?;
+    let ranks = probe.ranks()?;
     let gap = ranks.iter().find(|(rank, number)| rank.number() != number.number());
     let Some(&(rank, number)) = gap else {
         let why = "every channel's number is its rank";
@@ -199,6 +201,7 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
         ("ADS-1", &[Service::Read][..]),
         ("ADS-2", &[Service::Write]),
         ("ADS-3", &[Service::ReadWrite]),
+        ("ADS-4", &[Service::Read, Service::Write, Service::ReadWrite]),
         ("ADS-5", &[Service::Read, Service::Write, Service::ReadWrite]),
     ] {
         let mut broken = violations

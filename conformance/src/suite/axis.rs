@@ -272,6 +272,10 @@ const OF_PLATFORM: [Class; 2] = [Class::PositionController, Class::Hld];
 /// third the axis 3.
 fn exchange(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
+    if (cnc.axis_at(1, 2), cnc.axis_at(1, 3)) != (2, 3) {
+        let why = "the places 2 and 3 of channel 1 have not the axes 2 and 3";
+        return Err(Stop::NotApplicable(why.to_owned()));
+    }
     let places = |probe: &mut Probe<'_>, place| contents(probe, &OF_PLACES, 1, place);
     let platform = |probe: &mut Probe<'_>| -> Step<Vec<Vec<u8>>> {
         let mut all = contents(probe, &OF_PLATFORM, 0, 2)?;

@@ -1,28 +1,36 @@
 //! Cases of what a device says of itself. It is known from help pages only, and need not be said.
 
-use ads_cnc::ads::{DeviceInfoReply, DeviceStateReply};
+use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;
 
 use super::case::{Case, Evidence, Step};
 use super::declare;
 use super::probe::Probe;
 use crate::client::{Inquired, Inquiry, Said};
+use crate::cnc;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
         declare!(
             "ads-device-info",
-            "The COM task says its name and version",
+            "Each task says the name and version of its device",
             ["ADS-8"],
             Queries,
             device_info
         ),
         declare!(
             "ads-device-state",
-            "The COM task says the state it is in",
+            "Each task says the state it is in",
             ["ADS-9"],
             Queries,
             device_state
+        ),
+        declare!(
+            "ads-device-as-it-is",
+            "The embedded CNC's name, version and state are its own",
+            ["ADS-8", "ADS-9"],
+            Embedded,
+            as_it_is
         ),
     ]
 }
@@ -39,17 +47,57 @@ impl Probe<'_> {
 }
 
 fn device_info(probe: &mut Probe<'_>) -> Step {
-    says::<DeviceInfoReply>(probe)
+    each(probe, |probe, info: DeviceInfoReply| {
+        let name = info.name.split(|&byte| byte == 0).next().unwrap_or_default();
+        let is_text = !name.is_empty() && !name.iter().any(u8::is_ascii_control);
+        probe.check(DeviceInfoReply::CLAUSE, is_text, "a name", format!("{:02x?}", info.name));
+        Ok(())
+    })
 }
 
 fn device_state(probe: &mut Probe<'_>) -> Step {
-    says::<DeviceStateReply>(probe)
+    each(probe, |probe, state: DeviceStateReply| {
+        let valid = state.ads_state != AdsState(0);
+        probe.check(DeviceStateReply::CLAUSE, valid, "an ADS state", "0");
+        Ok(())
+    })
 }
 
-fn says<R: Inquiry>(probe: &mut Probe<'_>) -> Step {
-    let inquired = probe.inquire::<R>(Task::Com)?;
-    let said = matches!(inquired.outcome, Ok(Said::Reply(_)));
-    let expected = format!("a {}", R::STREAM.layout().name);
-    probe.check(R::CLAUSE, said, expected, inquired.result());
+/// Of no other CNC it is known what it has to say.
+fn as_it_is(probe: &mut Probe<'_>) -> Step {
+    probe.cnc()?;
+    each(probe, |probe, info: DeviceInfoReply| {
+        let own = info == cnc::INFO;
+        probe.check(DeviceInfoReply::CLAUSE, own, format!("{:?}", cnc::INFO), format!("{info:?}"));
+        Ok(())
+    })?;
+    each(probe, |probe, state: DeviceStateReply| {
+        let own = (state.ads_state, state.device_state) == (AdsState::RUN, 0);
+        probe.check(DeviceStateReply::CLAUSE, own, "RUN, and 0", format!("{state:?}"));
+        Ok(())
+    })
+}
+
+/// What each task says that is claimed.
+fn each<R: Inquiry>(
+    probe: &mut Probe<'_>,
+    mut then: impl FnMut(&mut Probe<'_>, R) -> Step,
+) -> Step {
+    for task in [Task::Com, Task::Sda, Task::Geo] {
+        if !probe.session.profile.has_task(task) {
+            continue;
+        }
+        let inquired = probe.inquire::<R>(task)?;
+        let (expected, found) = (format!("a {}", R::STREAM.layout().name), inquired.result());
+        match inquired.outcome {
+            Ok(Said::Reply(reply)) => {
+                probe.check(R::CLAUSE, true, "", "");
+                then(probe, reply)?;
+            }
+            _ => {
+                probe.check(R::CLAUSE, false, expected, found);
+            }
+        }
+    }
     Ok(())
 }

@@ -26,6 +26,7 @@ mod run;
 mod sda;
 mod select;
 mod service;
+mod services;
 mod session;
 mod still;
 mod stream;
@@ -74,6 +75,7 @@ pub(crate) use declare;
 pub fn cases() -> Vec<Case> {
     let mut cases = vectors::cases();
     cases.extend(address::cases());
+    cases.extend(services::cases());
     cases.extend(device::cases());
     cases.extend(com::cases());
     cases.extend(content::cases());

@@ -5,13 +5,14 @@ use std::time::{Duration, Instant};
 use ads_cnc::address::Channel;
 use ads_cnc::edition::Feature;
 use ads_cnc::operation::{HandleByName, ReadByName, WriteByName};
-use ads_cnc::service::{Host, HostStep, ServiceVariable};
+use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::{CncStr, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Rule, Step, Stop, assumed};
 use super::declare;
 use super::probe::{Probe, harness};
+use super::stream::heard;
 use crate::cnc::program::{Outcome, Repeat, Script, ScriptConfig, ScriptState};
 use crate::profile::{Claim, Section};
 
@@ -44,6 +45,13 @@ pub(super) fn cases() -> Vec<Case> {
             ["SVC-3", "SVC-4"],
             Embedded,
             asked
+        ),
+        declare!(
+            "service-asks-last",
+            "A program writes REQUEST_STATE when UUID and REQUEST are there, and not before",
+            ["SVC-12"],
+            Embedded,
+            asks_last
         ),
         declare!(
             "service-square-root",
@@ -117,7 +125,9 @@ fn variables(probe: &mut Probe<'_>) -> Step {
 
 fn get(probe: &mut Probe<'_>, channel: Channel, variable: ServiceVariable) -> Step<Vec<u8>> {
     let request = ReadByName::new(channel, variable.name()).map_err(harness)?;
-    Ok(probe.try_ask(request)?.unwrap_or_default())
+    let exchange = heard(probe.send(request)?)?;
+    let value = exchange.answer().and_then(|answer| answer.success());
+    Ok(value.unwrap_or_default().to_vec())
 }
 
 fn put(
@@ -127,7 +137,7 @@ fn put(
     value: &[u8],
 ) -> Step<bool> {
     let request = WriteByName::new(channel, variable.name(), value).map_err(harness)?;
-    let exchange = probe.send(request)?;
+    let exchange = heard(probe.send(request)?)?;
     Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
 }
 
@@ -138,6 +148,8 @@ fn text(value: &[u8]) -> &[u8] {
 
 const ONE: [u8; 4] = [1, 0, 0, 0];
 const NONE: [u8; 4] = [0; 4];
+/// Each byte another.
+const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
 fn response(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
@@ -177,10 +189,13 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     let read = get(probe, channel, Response)?;
     let same = text(&read) == b"nobody asked";
     probe.check("SVC-1", same, "the response as written", Hex(read));
-    let taken = put(probe, channel, ResponseState, &ONE)?;
-    probe.check("SVC-1", taken, "a response state taken", "an error");
-    let read = get(probe, channel, ResponseState)?;
-    probe.check("SVC-1", read == ONE, "the response state as written", Hex(read));
+    // Any number: it is between the program and the service.
+    for state in [ONE, WIDE, [0, 0, 0, 0x80]] {
+        let taken = put(probe, channel, ResponseState, &state)?;
+        probe.check("SVC-1", taken, "a response state taken", "an error");
+        let read = get(probe, channel, ResponseState)?;
+        probe.check("SVC-1", read == state, Hex(state.to_vec()), Hex(read));
+    }
     let read = get(probe, channel, RequestState)?;
     probe.check("SVC-4", read == NONE, "no request any more", Hex(read));
     // Any write of it does, over ADS too: assumed.
@@ -245,6 +260,9 @@ fn asked(probe: &mut Probe<'_>) -> Step {
         write(Request, b"1\0")?;
         write(RequestState, &ONE)?;
         put(probe, channel, Response, b"one\0")?;
+        let read = get(probe, channel, RequestState)?;
+        let expected = "the request until it is answered";
+        probe.check(assumed("SVC-4"), read == ONE, expected, Hex(read));
         put(probe, channel, ResponseState, &ONE)?;
         // When that is, is assumed; that it is, is not.
         let read = get(probe, channel, RequestState)?;
@@ -254,6 +272,36 @@ fn asked(probe: &mut Probe<'_>) -> Step {
         probe.check("SVC-3", read == NONE, "the last response state taken back", Hex(read));
         let read = get(probe, channel, RequestState)?;
         probe.check("SVC-3", read == [2, 0, 0, 0], "the new request", Hex(read));
+        Ok(())
+    })
+}
+
+/// Looks at the variables after each step of a program.
+fn asks_last(probe: &mut Probe<'_>) -> Step {
+    use ServiceVariable::{Request, RequestState, Uuid};
+    within(probe, |probe, channel, cnc| {
+        let config = ScriptConfig::square_root().map_err(harness)?;
+        let Some(asked) = config.requests.first().cloned() else {
+            return Err(harness("no request"));
+        };
+        let mut script = cnc.as_run(Script::new(config).map_err(harness)?);
+        // Remains of another request.
+        for (variable, value) in [(Uuid, &b"other\0"[..]), (Request, b"other\0")] {
+            let done = cnc.with_service(channel.number(), |one| one.write(variable, value));
+            done.map_err(harness)?.map_err(harness)?;
+        }
+        while script.state() == ScriptState::Asking(0) {
+            let stepped =
+                cnc.with_service(channel.number(), |service| script.step(Duration::ZERO, service));
+            stepped.map_err(harness)?;
+            let state = get(probe, channel, RequestState)?;
+            let (uuid, request) = (get(probe, channel, Uuid)?, get(probe, channel, Request)?);
+            let own = CncStr::from_bytes(text(&uuid)).and_then(ServiceId::from_text);
+            let same = text(&request) == asked.text.as_bytes() && own == Ok(asked.uuid);
+            let found = format!("state {}, {} of {}", Hex(state.clone()), Hex(request), Hex(uuid));
+            let expected = "no request before it is all there";
+            probe.check("SVC-12", same || state == NONE, expected, found);
+        }
         Ok(())
     })
 }

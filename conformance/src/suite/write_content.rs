@@ -74,7 +74,7 @@ fn place_of(object: &Object) -> Place {
 }
 
 /// Whether an object is at a place where no axis is: what is written there nobody has.
-fn is_blank(probe: &Probe<'_>, object: &Object) -> bool {
+pub(super) fn is_blank(probe: &Probe<'_>, object: &Object) -> bool {
     let parts = object.list.parts();
     let at = |offset: IndexOffset, place: u32| {
         let strides = [AxisStride::X1000, AxisStride::X10000];

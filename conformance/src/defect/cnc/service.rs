@@ -246,22 +246,6 @@ pub(super) const ROWS: &[Row] = &[
         },
     ),
     row(
-        "cnc.svc.request-state-cleared-early",
-        &["SVC-4"],
-        "REQUEST_STATE becomes 0 when RESPONSE is written",
-        |cnc, call| {
-            if writes(call, RESPONSE) {
-                cnc.memory().keep(key(call), Vec::new());
-            } else if writes(call, RESPONSE_STATE) || writes(call, REQUEST_STATE) {
-                cnc.memory().forget();
-            }
-            match reads(call, REQUEST_STATE) && cnc.memory().get(&key(call)).is_some() {
-                true => Ok(vec![0; 4]),
-                false => cnc.answer(call),
-            }
-        },
-    ),
-    row(
         "cnc.svc.request-cleared",
         &["SVC-1", "SVC-2"],
         "REQUEST is empty as soon as REQUEST_STATE is set",
@@ -272,7 +256,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row(
         "cnc.svc.request-state-1",
-        &["SVC-2"],
+        &["SVC-1"],
         "a REQUEST_STATE that is not 0 is read as 1",
         |cnc, call| match reads(call, REQUEST_STATE) {
             true => number(cnc.answer(call), 0, |state| state.min(1)),
@@ -281,7 +265,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row(
         "cnc.svc.response-state-8-bit",
-        &["SVC-5"],
+        &["SVC-1"],
         "of RESPONSE_STATE the lowest byte counts",
         |cnc, call| match reads(call, RESPONSE_STATE) {
             true => number(cnc.answer(call), 0, |state| state & 0xFF),

@@ -15,6 +15,7 @@ use crate::cnc::Cnc;
 use crate::cnc::program::{Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait};
 use crate::suite::case::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
+use crate::suite::stream::heard;
 
 /// Goes through the steps up to the first at fault, and leaves the interfaces as at the start.
 pub(super) fn run<'c>(probe: &mut Probe<'_>, given: &'c ServiceInterface) -> Done<Fault<'c>> {
@@ -90,7 +91,7 @@ impl Scene<'_, '_, '_> {
             ServiceAction::Write => self.write(step),
             ServiceAction::Ask => match ask(step)? {
                 Ok(script) => {
-                    self.script = Some(script);
+                    self.script = Some(self.cnc.as_run(script));
                     Ok(None)
                 }
                 Err(error) => Ok(Some(class(&error))),
@@ -139,7 +140,9 @@ impl Scene<'_, '_, '_> {
     fn read(&mut self, step: &ServiceStep, variable: ServiceVariable) -> Step<Vec<u8>> {
         let channel = channel_of(self.channels, step)?;
         let request = ReadByName::new(channel, variable.name()).map_err(harness)?;
-        let mut value = self.probe.try_ask(request)?.unwrap_or_default();
+        let exchange = heard(self.probe.send(request)?)?;
+        let value = exchange.answer().and_then(|answer| answer.success());
+        let mut value = value.unwrap_or_default().to_vec();
         if variable.var_type() == VariableType::STRING {
             let filled = value.iter().rposition(|&byte| byte != 0);
             value.truncate(filled.map_or(1, |last| last.saturating_add(2)));
@@ -151,7 +154,7 @@ impl Scene<'_, '_, '_> {
     fn put(&mut self, step: &ServiceStep, variable: ServiceVariable, value: &[u8]) -> Step<bool> {
         let channel = channel_of(self.channels, step)?;
         let request = WriteByName::new(channel, variable.name(), value).map_err(harness)?;
-        let exchange = self.probe.send(request)?;
+        let exchange = heard(self.probe.send(request)?)?;
         Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
     }
 

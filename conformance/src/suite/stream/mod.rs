@@ -1,16 +1,17 @@
 //! Cases of data streaming. What goes to a device are comments alone: they move nothing.
 
+mod course;
 mod sent;
 mod stage;
 mod words;
 
-pub(super) use sent::{Sent, send};
+pub(super) use sent::{Sent, heard, send};
 pub(super) use stage::HELD_MAX;
 
 use std::thread;
 use std::time::{Duration, Instant};
 
-use ads_cnc::address::Channel;
+use ads_cnc::address::{Channel, ComTable};
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
@@ -21,6 +22,13 @@ use super::probe::{Probe, harness};
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
+        declare!(
+            "stream-object",
+            "The object of the stream is listed by its name and at its address, and takes writes",
+            ["STM-1"],
+            Queries,
+            object
+        ),
         declare!(
             "stream-whole-lines",
             "A packet of whole lines is taken, by the number of the channel and by its rank",
@@ -57,6 +65,34 @@ pub(super) fn cases() -> Vec<Case> {
             stage::full
         ),
         declare!(
+            "stream-channels",
+            "What is written to the stream of a channel is run there, and nowhere else",
+            ["STM-1", "ADR-12"],
+            Embedded,
+            course::channels
+        ),
+        declare!(
+            "stream-as-written",
+            "Every character is run as it was written, and every line as a line",
+            ["STM-4", "STM-7"],
+            Embedded,
+            course::as_written
+        ),
+        declare!(
+            "stream-read-at-once",
+            "All that is there is read at once, before any of it is run",
+            ["STM-12"],
+            Embedded,
+            course::at_once
+        ),
+        declare!(
+            "stream-behind-the-end",
+            "What comes behind a program end that was read stays for the next start",
+            ["STM-10", "STM-14"],
+            Embedded,
+            course::behind_end
+        ),
+        declare!(
             "stream-dry",
             "Where nothing more is written motion stops, and the next write resumes it",
             ["STM-7", "STM-14", "STM-16"],
@@ -85,6 +121,40 @@ pub(super) fn cases() -> Vec<Case> {
             words::permitted_words
         ),
     ]
+}
+
+/// Where the object is in the group of a channel.
+const OFFSET: u32 = 0x90;
+
+/// The name of the object.
+const NAME: &str = "mc_program_stream_w";
+
+/// The object is looked for in the lists of channels, by what is stated of it: its name, and where
+/// it is. That it is listed at all is not.
+fn object(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    for object in probe.objects()? {
+        let parts = object.list.parts();
+        let groups: Vec<_> = match parts.instance {
+            0 => continue,
+            number => [0x12_0100, 0x02_0100].iter().map(|base| base + u32::from(number)).collect(),
+        };
+        let of_channel = parts.table == ComTable::Channel;
+        let here = groups.contains(&object.group.get()) && object.offset.get() == OFFSET;
+        let named = object.name.as_cnc_str() == NAME;
+        if !of_channel || !here && !named {
+            continue;
+        }
+        any = true;
+        let found = format!("{} at {}, {}", object.name, object.group, object.offset);
+        let expected = format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
+        probe.check("STM-1", here && named, expected, found);
+        probe.check("STM-1", object.writable, "write access", "none");
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable(format!("no list names {NAME}"))),
+    }
 }
 
 /// How long a device may take before it has read what it holds.

@@ -7,7 +7,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Request, WriteProgramStream};
 use ads_cnc::streaming::Ack;
 
-use crate::suite::case::Step;
+use crate::exchange::{Exchange, Fault};
+use crate::suite::case::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
 
 /// How a write was answered. Which error number means that it is refused for now, and which that it
@@ -46,12 +47,21 @@ impl fmt::Display for Sent {
     }
 }
 
+/// An exchange that was not passed over in silence: whether it was done then nobody knows, and
+/// nothing of what follows can be held against it.
+pub(in crate::suite) fn heard(exchange: Exchange) -> Step<Exchange> {
+    match &exchange.outcome {
+        Err(fault @ Fault::Silence(_)) => Err(Stop::Inconclusive(format!("{exchange}: {fault}"))),
+        _ => Ok(exchange),
+    }
+}
+
 /// Sends bytes to the stream as they are, whether a client may or not.
 pub(in crate::suite) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Sent> {
     let request = Request::from(WriteProgramStream::new(channel, b"\r\n"));
     let mut buf = [0; 2];
     let whole = request.encode(&mut buf).map_err(harness)?;
-    let exchange = probe.call(&Call { data, ..whole })?;
+    let exchange = heard(probe.call(&Call { data, ..whole })?)?;
     let answer = exchange.answer();
     let errors = answer.map(|answer| [answer.ams_error, answer.result]);
     Ok(Sent {

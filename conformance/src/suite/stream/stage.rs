@@ -23,8 +23,19 @@ pub(super) fn set_up(
     start: Start,
     then: impl FnOnce(&mut Probe<'_>, Channel, &Stage<'_>) -> Step,
 ) -> Step {
-    let cnc = probe.cnc()?;
     let channel = probe.channel()?;
+    set_up_at(probe, channel, pace, start, then)
+}
+
+/// As [`set_up`], of any channel.
+pub(super) fn set_up_at(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    pace: Pace,
+    start: Start,
+    then: impl FnOnce(&mut Probe<'_>, Channel, &Stage<'_>) -> Step,
+) -> Step {
+    let cnc = probe.cnc()?;
     let number = channel.number();
     let config = cnc.with_program(number, |program| program.config().clone()).map_err(harness)?;
     if config.name.is_empty() {
@@ -65,7 +76,7 @@ impl Stage<'_> {
     }
 
     /// That it cannot be started, as it was already, is the CNC's doing.
-    fn start(&self, probe: &mut Probe<'_>) -> Step {
+    pub(super) fn start(&self, probe: &mut Probe<'_>) -> Step {
         let started = self.with(|program| program.start(Duration::ZERO))?;
         let found = started.as_ref().err().map(ToString::to_string).unwrap_or_default();
         probe.require(&["STM-14".into()], started.is_ok(), "a program that starts now", found)

@@ -1,0 +1,334 @@
+//! Cases of the services themselves: each takes and gives what its numbers say, and what is asked
+//! by one agrees with what is asked by another.
+
+mod write;
+
+use ads_cnc::address::{Channel, Class};
+use ads_cnc::dynamic::{DynamicCount, DynamicKind};
+use ads_cnc::limits::DESCRIPTOR_LEN;
+use ads_cnc::operation::{
+    Call, CountDynamic, CountElements, CountObjects, CountVariables, DescribeByIndex,
+    DynamicNameByIndex, Function, ReadByHandle, ReadByName, ReadDescriptors, ReadElement, Request,
+    Service,
+};
+use ads_cnc::sda::ElementCount;
+use ads_cnc::{Decode as _, Description, Numbers, ObjectCount, VariableCount, VariableType};
+
+use super::case::{Case, Rule, Step, Stop};
+use super::declare;
+use super::described::kinds;
+use super::probe::{Probe, harness};
+use super::sda::length_of;
+use super::still::Still;
+use super::variable::name_of;
+use crate::profile::Claim;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "ads-read-addresses",
+            "A Read answers for its own group and offset, with so many bytes as it asks for",
+            ["ADS-1"],
+            Queries,
+            read_addresses
+        ),
+        declare!(
+            "ads-read-write-addresses",
+            "A ReadWrite answers for its own group and offset, and for the data it writes",
+            ["ADS-3"],
+            Queries,
+            read_write_addresses
+        ),
+        declare!(
+            "ads-services-agree",
+            "What a Read gives the number of, a ReadWrite gives so many of",
+            ["ADS-1", "ADS-3"],
+            Queries,
+            services_agree
+        ),
+        declare!(
+            "ads-read-lengths",
+            "A reply has no more bytes than are asked for, and no more than there are",
+            ["ADS-1", "ADS-3"],
+            Queries,
+            lengths
+        ),
+        declare!(
+            "ads-write",
+            "What a Write is acknowledged for is there by another service, and nothing else is",
+            ["ADS-2"],
+            Writes,
+            write::arrives
+        ),
+    ]
+}
+
+/// The most of a kind that is looked at.
+const SOME: u32 = 8;
+
+/// The answer to a request, whose service has to give one.
+fn some<'a>(
+    probe: &mut Probe<'_>,
+    rule: &'static str,
+    request: impl Into<Request<'a>>,
+) -> Step<Option<Vec<u8>>> {
+    let request = request.into();
+    if probe.claims(request.function()) != Claim::Yes {
+        return Ok(None);
+    }
+    let exchange = probe.send(request)?;
+    let data = exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec);
+    let expected = format!("{} by {}", request.function().spec().name, exchange.service);
+    probe.check(rule, data.is_some(), expected, exchange.result());
+    Ok(data)
+}
+
+/// The answer to a request, if the target claims to have one: whether it gives one is judged
+/// elsewhere.
+fn maybe<'a>(probe: &mut Probe<'_>, request: impl Into<Request<'a>>) -> Step<Option<Vec<u8>>> {
+    let request = request.into();
+    match probe.claims(request.function()) {
+        Claim::No => Ok(None),
+        Claim::Yes | Claim::Open => probe.try_ask(request),
+    }
+}
+
+fn number(data: &[u8]) -> u32 {
+    ObjectCount::decode(data).map_or(0, |count| count.0)
+}
+
+/// Descriptors: one at each offset, unlike the others, and the same among several.
+fn read_addresses(probe: &mut Probe<'_>) -> Step {
+    const RULE: &str = "ADS-1";
+    for list in probe.lists()? {
+        // That platform axes have lists of their own is assumed.
+        let Some(data) = maybe(probe, CountObjects::new(list))? else { continue };
+        let count = number(&data).min(SOME);
+        let mut all: Vec<Vec<u8>> = Vec::new();
+        for index in 1..=count {
+            let one = ReadDescriptors::new(list, index, 1).map_err(harness)?;
+            let Some(one) = some(probe, RULE, one)? else { break };
+            let found = format!("{} bytes at offset {index}", one.len());
+            probe.check(RULE, one.len() == DESCRIPTOR_LEN, "84 bytes", found);
+            let other = !all.contains(&one);
+            probe.check(RULE, other, "another descriptor at each offset", "the same again");
+            all.push(one);
+        }
+        if let (Ok(several), true) = (ReadDescriptors::new(list, 1, count), count > 1)
+            && let Some(several) = maybe(probe, several)?.filter(|data| data.len() > DESCRIPTOR_LEN)
+        {
+            let same = several == all.concat();
+            probe.check(RULE, same, "the descriptors as they are one by one", "others");
+        }
+    }
+    for channel in probe.channels()? {
+        some(probe, RULE, CountObjects::new(channel))?;
+        for kind in DynamicKind::ALL {
+            let count = some(probe, RULE, CountDynamic::new(channel, kind))?;
+            let Some(count) = count else { continue };
+            let found = format!("{} bytes of a number", count.len());
+            probe.check(RULE, DynamicCount::decode(&count).is_ok(), "4 bytes", found);
+        }
+    }
+    Ok(())
+}
+
+/// Variables: one at each index, and by its handle what it is by its name.
+fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
+    const RULE: &str = "ADS-3";
+    let mut still = Still::default();
+    for channel in probe.channels()? {
+        for (name, kind) in kinds(probe) {
+            let data = some(probe, RULE, CountVariables::new(channel, kind))?;
+            let Some(data) = data else { continue };
+            let count = VariableCount::decode(&data);
+            let found = format!("{} bytes for {name}", data.len());
+            probe.check(RULE, count.is_ok(), "a number of 4 bytes", found);
+            let mut all = Vec::new();
+            for index in 0..count.map_or(0, |count| count.0.min(SOME)) {
+                let one = some(probe, RULE, DescribeByIndex::new(channel, index, kind))?;
+                let Some(one) = one else { continue };
+                let other = !all.contains(&one);
+                let found = format!("the same again at index {index} of {name}");
+                probe.check(RULE, other, "another variable at each index", found);
+                // That those of axes are used there is assumed.
+                if let Some(one) = Description::decode(&one).ok().filter(|_| name != "V.A") {
+                    same_by_handle(probe, &mut still, channel, &one)?;
+                }
+                all.push(one);
+            }
+        }
+    }
+    still.finish()
+}
+
+fn same_by_handle(
+    probe: &mut Probe<'_>,
+    still: &mut Still,
+    channel: Channel,
+    variable: &Description,
+) -> Step {
+    let functions = [Function::ReadByName, Function::ReadByHandle];
+    let claimed = functions.iter().all(|one| probe.claims(*one) == Claim::Yes);
+    if variable.var_type == VariableType::STRING || !claimed {
+        return Ok(());
+    }
+    let by_name = Request::from(ReadByName { channel, name: name_of(variable) });
+    let by_handle = ReadByHandle::new(channel, variable.handle, Numbers::EMPTY);
+    let what = variable.name.text.to_string();
+    still.same_part(probe, &["ADS-3".into()], &what, by_name, by_handle.into(), <[u8]>::to_vec)
+}
+
+/// Numbers that a Read gives, and what is there by a ReadWrite.
+fn services_agree(probe: &mut Probe<'_>) -> Step {
+    let rules: [Rule; 2] = ["ADS-1".into(), "ADS-3".into()];
+    let mut any = false;
+    for channel in probe.channels()? {
+        for kind in DynamicKind::ALL {
+            for _ in 0..3 {
+                let count = |probe: &mut Probe<'_>| -> Step<Option<u32>> {
+                    let data = maybe(probe, CountDynamic::new(channel, kind))?;
+                    Ok(data.and_then(|data| DynamicCount::decode(&data).ok()).map(|count| count.0))
+                };
+                let Some(before) = count(probe)?.filter(|count| *count > 0) else { break };
+                let has = |probe: &mut Probe<'_>, index: u32| -> Step<bool> {
+                    let name = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+                    Ok(maybe(probe, name)?.is_some_and(|name| !name.is_empty()))
+                };
+                let last = has(probe, before)?;
+                let beyond = match before.checked_add(1) {
+                    Some(beyond) => has(probe, beyond)?,
+                    None => false,
+                };
+                // A program may have made or deleted one meanwhile.
+                if count(probe)? != Some(before) {
+                    continue;
+                }
+                any = true;
+                for rule in rules {
+                    let expected = format!("a name of index {before} and of no other behind it");
+                    let found = format!("{last} and {}", !beyond);
+                    probe.check(rule, last && !beyond, expected, found);
+                }
+                break;
+            }
+        }
+    }
+    any |= elements_agree(probe, &rules)?;
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("nothing is asked by both services".to_owned())),
+    }
+}
+
+/// Where a ReadWrite says that the elements of an instance are, a Read finds them.
+fn elements_agree(probe: &mut Probe<'_>, rules: &[Rule]) -> Step<bool> {
+    let mut any = false;
+    let functions = [Function::FindInstance, Function::ReadElementLength];
+    if functions.iter().any(|one| probe.claims(*one) != Claim::Yes) {
+        return Ok(false);
+    }
+    for channel in probe.channels()? {
+        for class in [Class::Interpolator, Class::Decoder, Class::PathPreparation, Class::Hld] {
+            let address = probe.address_of(class, channel.number().into(), 0)?;
+            let first = address.and_then(|address| address.first_element().ok().flatten());
+            let Some(first) = first else { continue };
+            let Ok(count) = CountElements::new(first) else { continue };
+            let data = maybe(probe, count)?;
+            let count = data.as_deref().and_then(|data| ElementCount::decode(data).ok());
+            any = true;
+            for &rule in rules {
+                let expected = "a number of elements where the object address says";
+                probe.check(rule, count.is_some(), expected, format!("{data:02x?}"));
+            }
+            for place in 1..=count.map_or(0, |count| count.0).min(SOME) {
+                let Ok(element) = first.following(place) else { break };
+                let Some(length) = length_of(probe, element)? else { continue };
+                let Ok(read) = ReadElement::new(element, length) else { continue };
+                let Some(data) = maybe(probe, read)? else { continue };
+                let found = format!("{} bytes", data.len());
+                let same = u32::try_from(data.len()).is_ok_and(|len| len == length);
+                probe.check("ADS-1", same, format!("{length} bytes, as its length says"), found);
+            }
+        }
+    }
+    Ok(any)
+}
+
+/// Whether a reply's length follows from what is documented, or a text ends where it ends.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Extent {
+    Fixed,
+    Open,
+}
+
+fn lengths(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        for kind in DynamicKind::ALL {
+            lengths_of(probe, CountDynamic::new(channel, kind).into(), Extent::Fixed)?;
+            let name = DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?;
+            lengths_of(probe, name.into(), Extent::Open)?;
+        }
+        for (_, kind) in kinds(probe) {
+            lengths_of(probe, CountVariables::new(channel, kind).into(), Extent::Fixed)?;
+            for index in 0..2 {
+                let described = DescribeByIndex::new(channel, index, kind);
+                lengths_of(probe, described.into(), Extent::Open)?;
+            }
+        }
+        let Ok(variables) = probe.variables(channel) else { continue };
+        for variable in variables {
+            if variable.var_type != VariableType::STRING {
+                let read = ReadByName { channel, name: name_of(&variable) };
+                lengths_of(probe, read.into(), Extent::Fixed)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> Step {
+    if probe.claims(request.function()) != Claim::Yes {
+        return Ok(());
+    }
+    let mut buf = vec![0; request.encoded_len()];
+    let call = request.encode(&mut buf).map_err(harness)?;
+    let rule = if call.service == Service::Read { "ADS-1" } else { "ADS-3" };
+    let Some(whole) = maybe(probe, request)?.filter(|data| !data.is_empty()) else {
+        return Ok(());
+    };
+    let there = u32::try_from(whole.len()).unwrap_or(u32::MAX);
+    let answer = |probe: &mut Probe<'_>, read_length: u32| -> Step<Option<Option<usize>>> {
+        let call = Call { read_length, ..call };
+        // The gate may let no other lengths pass.
+        if probe.session.client.check(&call).is_err() {
+            return Ok(None);
+        }
+        let exchange = probe.call(&call)?;
+        Ok(Some(exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::len)))
+    };
+    let what = request.function().spec().name;
+    // Of a text that ends with the reply the CNC may want room for a NUL.
+    if extent == Extent::Fixed
+        && let Some(found) = answer(probe, there)?
+    {
+        let expected = format!("{there} bytes of {what}, as many as are asked for");
+        probe.check(rule, found == Some(whole.len()), expected, format!("{found:?}"));
+    }
+    // What it gives instead of an error, if it gives anything, fits.
+    if let Some(found) = answer(probe, there.saturating_sub(1))? {
+        let fits = found.is_none_or(|len| len < whole.len());
+        let expected = format!("fewer than {there} bytes of {what}");
+        probe.check(rule, fits, expected, format!("{found:?}"));
+    }
+    // Nothing is behind what there is.
+    if extent == Extent::Fixed
+        && probe.session.client.gate().lets_malformed_pass()
+        && let Some(found) = answer(probe, there.saturating_add(5))?
+    {
+        let fits = found.is_none_or(|len| len <= whole.len());
+        let expected = format!("{there} bytes of {what}, or an error");
+        probe.check(rule, fits, expected, format!("{found:?}"));
+    }
+    Ok(())
+}

@@ -1,0 +1,100 @@
+//! A Write, and what the other services read where it wrote.
+
+use ads_cnc::{CncString, VariableAccess, VariableType};
+use ads_cnc_vectors::Hex;
+
+use crate::suite::case::{Rule, Step, Stop};
+use crate::suite::place::{Place, Trial};
+use crate::suite::probe::Probe;
+use crate::suite::write::is_of_service;
+use crate::suite::write_content::is_blank;
+
+/// So many of each kind are tried.
+const SOME: usize = 3;
+
+const RULE: &str = "ADS-2";
+
+/// What is written at one address is there by another service, and nowhere else.
+pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    for channel in probe.channels()? {
+        let Ok(variables) = probe.variables(channel) else { continue };
+        let written = variables.iter().filter(|one| one.access == VariableAccess::READ_WRITE);
+        let mut tried: Vec<(Place, CncString)> = Vec::new();
+        for variable in written.filter(|one| !is_of_service(one)) {
+            let name = variable.name.text.clone();
+            let place = Place::Name { channel, name: name.clone() };
+            if tried.len() >= SOME || !probe.may_write(&place, &name.to_string())? {
+                continue;
+            }
+            let is_text = variable.var_type == VariableType::STRING;
+            let neighbour = tried.last().map(|(place, _)| place.clone());
+            at(probe, &place, &name.to_string(), is_text, neighbour.as_ref())?;
+            tried.push((place, name));
+        }
+        any |= !tried.is_empty();
+    }
+    any |= objects(probe)?;
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
+    }
+}
+
+fn objects(probe: &mut Probe<'_>) -> Step<bool> {
+    let Ok(objects) = probe.objects() else { return Ok(false) };
+    let mut tried = 0;
+    for object in
+        objects.iter().filter(|one| one.writable && one.type_name.as_cnc_str() != "STRING")
+    {
+        let (group, offset, size) = (object.group, object.offset, object.size);
+        let place = Place::Object { group, offset, size };
+        let name = object.name.to_string();
+        // At a place without an axis nothing is written: its content is blank.
+        let of_axis = offset.get() >= 0x1000;
+        let filled = match place.read() {
+            Ok(read) if !is_blank(probe, object) && probe.may(read)? => {
+                probe.value_at(&place)?.is_some_and(|was| !of_axis || any(&was))
+            }
+            _ => false,
+        };
+        if tried >= SOME || !filled || !probe.may_write(&place, &name)? {
+            continue;
+        }
+        at(probe, &place, &name, false, None)?;
+        tried += 1;
+    }
+    Ok(tried > 0)
+}
+
+fn any(value: &[u8]) -> bool {
+    value.iter().any(|&byte| byte != 0)
+}
+
+fn at(
+    probe: &mut Probe<'_>,
+    place: &Place,
+    what: &str,
+    is_text: bool,
+    neighbour: Option<&Place>,
+) -> Step {
+    let rules: [Rule; 1] = [RULE.into()];
+    let look = |probe: &mut Probe<'_>| match neighbour {
+        Some(neighbour) => probe.value_at(neighbour),
+        None => Ok(None),
+    };
+    let (before, mut meanwhile) = (look(probe)?, None);
+    probe.try_write(&Trial { what, rules: &rules, is_text }, place, |probe, _, _| {
+        meanwhile = look(probe)?;
+        Ok(())
+    })?;
+    let after = look(probe)?;
+    // One that moves of itself says nothing.
+    if let (Some(before), Some(meanwhile)) = (&before, meanwhile)
+        && after.as_ref() == Some(before)
+    {
+        let expected = format!("{} beside {what}, as before", Hex(before.clone()));
+        probe.check(RULE, meanwhile == *before, expected, Hex(meanwhile));
+    }
+    Ok(())
+}

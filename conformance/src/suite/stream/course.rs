@@ -1,0 +1,100 @@
+//! What becomes of lines on their way through the embedded CNC.
+
+use ads_cnc::address::Channel;
+
+use super::stage::{expect, set_up, set_up_at, taken};
+use crate::cnc::program::{Pace, Start, State};
+use crate::suite::case::Step;
+use crate::suite::probe::{Probe, harness};
+
+/// Each channel by its number, and by its rank.
+pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
+    let all: Vec<(Channel, Channel)> = probe.ranks()?;
+    for &(rank, channel) in &all {
+        let number = channel.number();
+        set_up_at(probe, channel, Pace::Fast, Start::Once, |probe, channel, stage| {
+            let (one, two) = (format!("X{number}\r\n"), format!("Y{number}\r\n"));
+            taken(probe, &["STM-1"], channel, one.as_bytes())?;
+            expect(probe, &["STM-1"], one.as_bytes().to_vec(), stage.executed()?);
+            // Without the bit of logical addressing, channels are counted by their ranks.
+            taken(probe, &["STM-1", "ADR-12"], rank, two.as_bytes())?;
+            let both = [one, two].concat().into_bytes();
+            expect(probe, &["STM-1", "ADR-12"], both, stage.executed()?);
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
+/// Every character that ASCII prints, and tabs; comments, as they stop nothing.
+pub(super) fn as_written(probe: &mut Probe<'_>) -> Step {
+    let graphic: String =
+        (b' '..=b'~').map(char::from).filter(|c| !"()$#;%".contains(*c)).collect();
+    let lines = [
+        "n10 x1 Y2  z-0.5\r\n".to_owned(),
+        "\tN20\tG01  X 1 \r\n".to_owned(),
+        format!("({graphic})\r\n"),
+        "\r\n".to_owned(),
+        "; the last\r\n".to_owned(),
+    ];
+    set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
+        let all = lines.concat().into_bytes();
+        taken(probe, &["STM-4", "STM-7"], channel, &all)?;
+        expect(probe, &["STM-4", "STM-7"], all.clone(), stage.executed()?);
+        // And the same, a line in each packet.
+        for line in &lines {
+            taken(probe, &["STM-7"], channel, line.as_bytes())?;
+        }
+        expect(probe, &["STM-7"], all.repeat(2), stage.executed()?);
+        let state = stage.state()?;
+        probe.check("STM-4", state == State::Dry, "lines that all were run", format!("{state:?}"));
+        Ok(())
+    })
+}
+
+/// So slow that nothing is run meanwhile.
+fn slow() -> Step<Pace> {
+    Pace::lines_per_second(1).ok_or_else(|| harness("a pace of one line a second"))
+}
+
+pub(super) fn at_once(probe: &mut Probe<'_>) -> Step {
+    let slow = slow()?;
+    set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
+        let packets = ["X1\r\n", "X2\r\nX3\r\n", "X4\r\n"];
+        for packet in packets {
+            taken(probe, &["STM-12"], channel, packet.as_bytes())?;
+        }
+        expect(probe, &["STM-12"], packets.concat().len(), stage.held()?);
+        stage.pace(slow)?;
+        expect(probe, &["STM-12"], (0, Vec::new()), (stage.held()?, stage.executed()?));
+        stage.pace(Pace::Fast)?;
+        expect(probe, &["STM-12"], packets.concat().into_bytes(), stage.executed()?);
+        Ok(())
+    })
+}
+
+pub(super) fn behind_end(probe: &mut Probe<'_>) -> Step {
+    let slow = slow()?;
+    for end in ["M30", "M2", "M17", "M29"] {
+        set_up(probe, slow, Start::Once, |probe, channel, stage| {
+            let ending = format!("X1\r\n{end}\r\nX2\r\n");
+            taken(probe, &["STM-10"], channel, ending.as_bytes())?;
+            // The end was read, and is not run yet.
+            expect(probe, &["STM-10"], 0, stage.held()?);
+            let next = b"Y1\r\n";
+            taken(probe, &["STM-10"], channel, next)?;
+            stage.pace(Pace::Fast)?;
+            let ended = matches!(stage.state()?, State::Ended(_));
+            probe.require(&["STM-10".into()], ended, format!("{end} ends it"), "no end")?;
+            let before = stage.executed()?;
+            let lost = !before.windows(2).any(|two| two == b"X2" || two == b"Y1");
+            probe.check("STM-10", lost, "nothing run behind it", format!("{before:02x?}"));
+            expect(probe, &["STM-10"], next.len(), stage.held()?);
+            stage.start(probe)?;
+            let all = [before, next.to_vec()].concat();
+            expect(probe, &["STM-10", "STM-14"], all, stage.executed()?);
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
