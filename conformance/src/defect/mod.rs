@@ -114,6 +114,10 @@ impl From<Defect> for Seed {
         let mut requirements = vec![layout.clause];
         requirements.extend(defect.field.spec().map(|field| field.clause));
         requirements.dedup();
+        // An error number of 0 is none, and that is all that is said of them.
+        if defect.field.name() == "result" && defect.change == Change::Zero {
+            requirements.push("ADS-7");
+        }
         Self {
             id: defect.id.clone(),
             requirements,

@@ -63,7 +63,8 @@ pub(super) fn cases() -> Vec<Case> {
     ]
 }
 
-/// The channels that have the interface: all, if it is claimed; else those that answer.
+/// The channels that have the interface: all, if it is claimed; else those that describe it, or
+/// answer.
 pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
     let profile = &probe.session.profile;
     let lacks = |why: &str| Err(Stop::NotApplicable(why.to_owned()));
@@ -78,7 +79,10 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
             for channel in probe.channels()? {
                 let name = ServiceVariable::RequestState.name();
                 let state = ReadByName::new(channel, name).map_err(harness)?;
-                if probe.try_ask(state)?.is_some() {
+                let described = probe.variables(channel).unwrap_or_default();
+                let mut names = described.iter().map(|one| one.name.text.to_string());
+                let described = names.any(|name| ServiceVariable::by_name(&name).is_some());
+                if described || probe.try_ask(state)?.is_some() {
                     there.push(channel);
                 }
             }
