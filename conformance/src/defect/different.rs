@@ -1,8 +1,10 @@
 //! What a CNC may do otherwise: nothing of it is wrong.
 
+mod further;
+mod models;
+
 use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
-use ads_cnc::service::ServiceVariable;
 
 use super::cnc::{
     Answer, Right, Row, Twist, dimensions, fits, function, group, is, measured, number, offset,
@@ -57,7 +59,12 @@ fn or_short(cnc: &Right<'_>, call: &Call<'_>, answer: Answer) -> Answer {
     fits(call, answer).or_else(|_| cnc.answer(call))
 }
 
-pub(super) const ROWS: &[Row] = &[
+/// All rows.
+pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
+    [ROWS, further::ROWS, models::ROWS].into_iter().flatten()
+}
+
+const ROWS: &[Row] = &[
     unprinted(row(
         "different.names-padded",
         &[],
@@ -294,51 +301,4 @@ pub(super) const ROWS: &[Row] = &[
             (_, answer) => answer,
         },
     ),
-    row(
-        "different.request-over-early",
-        &[],
-        "REQUEST_STATE becomes 0 when RESPONSE is written, and not when RESPONSE_STATE is",
-        |cnc, call| {
-            let name = ServiceVariable::RESPONSE.as_bytes();
-            let done = cnc.answer(call);
-            if done.is_ok() && is(call, &[Function::WriteByName]) && text(call.data) == name {
-                let state = [ServiceVariable::REQUEST_STATE.as_bytes(), &[0; 5]].concat();
-                cnc.with(call, &state)?;
-            }
-            done
-        },
-    ),
-    unprinted(twisted(
-        "different.model",
-        &[],
-        "the CNC is a small one, with objects, variables and elements of its own",
-        Twist::Model(MODEL),
-    )),
 ];
-
-/// A small CNC.
-const MODEL: &str = r#"
-cnc-version = "V4.29.0"
-
-[[axis]]
-name = "A"
-
-[[channel]]
-number = 1
-places = [1]
-objects = [
-  { name = "small_state_r", type = "DWORD", offset = 7, value = 5 },
-  { name = "mc_program_stream_w", type = "STRING", offset = 0x90, size = 4094, writable = true },
-]
-variables = [
-  { name = "V.E.small", type = "UNS16", writable = true, value = 3 },
-  { name = "V.E.pair", type = "SGN32", dimensions = [2], writable = true, value = [1, -1] },
-]
-parameters = [{ name = "P10", value = 1.5 }]
-[channel.streaming]
-pace = "1000 lines/s"
-
-[class.hld.channel]
-name = "HLD {}"
-elements = [{ name = "small", type = "UNS32", unit = "-", writable = true, value = 9 }]
-"#;

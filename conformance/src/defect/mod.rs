@@ -85,7 +85,7 @@ pub fn all() -> &'static [Seed] {
     ALL.get_or_init(|| {
         let fields = Defect::all().into_iter().map(Seed::from);
         let cnc = cnc::rows().map(|row| Seed::of_row(row, Kind::Cnc));
-        let different = different::ROWS.iter().map(|row| Seed::of_row(row, Kind::Different));
+        let different = different::rows().map(|row| Seed::of_row(row, Kind::Different));
         fields.chain(codec::seeds()).chain(cnc).chain(different).collect()
     })
 }
