@@ -15,6 +15,7 @@ mod cnc;
 mod codec;
 mod different;
 mod field;
+mod lenient;
 
 #[cfg(test)]
 mod tests;
@@ -85,7 +86,8 @@ pub fn all() -> &'static [Seed] {
     ALL.get_or_init(|| {
         let fields = Defect::all().into_iter().map(Seed::from);
         let cnc = cnc::rows().map(|row| Seed::of_row(row, Kind::Cnc));
-        let different = different::rows().map(|row| Seed::of_row(row, Kind::Different));
+        let different = different::rows().chain(lenient::ROWS);
+        let different = different.map(|row| Seed::of_row(row, Kind::Different));
         fields.chain(codec::seeds()).chain(cnc).chain(different).collect()
     })
 }

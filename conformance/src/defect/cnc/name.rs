@@ -56,15 +56,6 @@ pub(super) const ROWS: &[Row] = &[
             _ => cnc.answer(call),
         },
     ),
-    row(
-        "cnc.var.name-unended",
-        &["VAR-9"],
-        "names without a NUL are taken",
-        |cnc, call| match named(call) && !call.data.contains(&0) {
-            true if !call.data.is_empty() => cnc.with(call, &[call.data, &[0]].concat()),
-            _ => cnc.answer(call),
-        },
-    ),
     row("cnc.var.name-not-ended", &["VAR-9"], "names with a NUL are refused", |cnc, call| {
         match named(call) && call.service == Service::ReadWrite {
             true if call.data.contains(&0) => Err(AdsError::SYMBOL_NOT_FOUND),
@@ -72,15 +63,6 @@ pub(super) const ROWS: &[Row] = &[
             false => cnc.answer(call),
         }
     }),
-    row(
-        "cnc.var.name-bytes-behind",
-        &["VAR-9"],
-        "bytes behind the NUL of a name are ignored",
-        |cnc, call| match named(call) && call.service == Service::ReadWrite {
-            true if call.data.contains(&0) => cnc.with(call, &[text(call.data), &[0]].concat()),
-            _ => cnc.answer(call),
-        },
-    ),
     row(
         "cnc.var.name-one-character",
         &["VAR-9"],

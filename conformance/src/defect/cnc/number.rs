@@ -1,7 +1,7 @@
 //! Numbers, kinds and indices of variables (VAR).
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{Call, Function};
 
 use super::{Answer, Right, Row, group, is, number, of_decoder, offset, put, row, text, u32_at};
 
@@ -78,23 +78,6 @@ pub(super) const ROWS: &[Row] = &[
             }
         },
     ),
-    row(
-        "cnc.var.kind-of-256",
-        &["VAR-1"],
-        "a kind takes 32 bytes at most, NULs behind it counted",
-        |cnc, call| match is(call, COUNT) && call.data.len() > 32 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
-        },
-    ),
-    row("cnc.var.kind-unended", &["VAR-1"], "a kind without a NUL is taken", |cnc, call| {
-        match of_decoder(call) {
-            Some(0x44) if !call.data.contains(&0) && call.service == Service::ReadWrite => {
-                cnc.with(call, &[call.data, &[0]].concat())
-            }
-            _ => cnc.answer(call),
-        }
-    }),
     row("cnc.var.count-one-more", &["VAR-2"], "numbers of variables are one more", |cnc, call| {
         match is(call, COUNT) {
             true => number(cnc.answer(call), 0, |count| count.wrapping_add(1)),
@@ -216,37 +199,6 @@ pub(super) const ROWS: &[Row] = &[
                     4 => cnc.with(call, &[index, kind, &[0]].concat()),
                     _ => Err(AdsError::INVALID_SIZE),
                 }
-            }
-            _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.kind-of-259",
-        &["VAR-3"],
-        "an index and a kind take 36 bytes at most, NULs behind it counted",
-        |cnc, call| match is(call, INDEXED) && call.data.len() > 36 {
-            true => Err(AdsError::INVALID_SIZE),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.index-261",
-        &["VAR-3"],
-        "an index and a kind may be longer than 260 bytes",
-        |cnc, call| match of_decoder(call) {
-            Some(0x45 | 0x4B) if call.data.len() > 260 => {
-                cnc.with(call, call.data.get(..260).unwrap_or_default())
-            }
-            _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.index-kind-unended",
-        &["VAR-3"],
-        "behind an index a kind without a NUL is taken",
-        |cnc, call| match (of_decoder(call), call.data.get(4..)) {
-            (Some(0x45 | 0x4B), Some(kind)) if !kind.contains(&0) => {
-                cnc.with(call, &[call.data, &[0]].concat())
             }
             _ => cnc.answer(call),
         },

@@ -1,0 +1,84 @@
+//! What a CNC may take though no client should send it, or leave out of what nobody has to take:
+//! which requests it refuses no manual says.
+
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Function, Service};
+
+use super::cnc::{Row, is, of_decoder, row, text};
+
+const COUNT: &[Function] = &[Function::CountVariables];
+const INDEXED: &[Function] = &[Function::DescribeByIndex, Function::DescribeExtended];
+
+/// Whether it is a request of the channel interface that begins with a name.
+fn named(call: &Call<'_>) -> bool {
+    matches!(of_decoder(call), Some(0x46 | 0x48 | 0x4A | 0x4C))
+}
+
+pub(super) const ROWS: &[Row] = &[
+    row("different.name-unended", &[], "names without a NUL are taken", |cnc, call| {
+        match named(call) && !call.data.contains(&0) {
+            true if !call.data.is_empty() => cnc.with(call, &[call.data, &[0]].concat()),
+            _ => cnc.answer(call),
+        }
+    }),
+    row(
+        "different.name-bytes-behind",
+        &[],
+        "bytes behind the NUL of a name are ignored",
+        |cnc, call| match named(call) && call.service == Service::ReadWrite {
+            true if call.data.contains(&0) => cnc.with(call, &[text(call.data), &[0]].concat()),
+            _ => cnc.answer(call),
+        },
+    ),
+    row(
+        "different.kind-of-256",
+        &[],
+        "a kind takes 32 bytes at most, NULs behind it counted",
+        |cnc, call| match is(call, COUNT) && call.data.len() > 32 {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        },
+    ),
+    row(
+        "different.kind-unended",
+        &[],
+        "a kind without a NUL is taken",
+        |cnc, call| match of_decoder(call) {
+            Some(0x44) if !call.data.contains(&0) && call.service == Service::ReadWrite => {
+                cnc.with(call, &[call.data, &[0]].concat())
+            }
+            _ => cnc.answer(call),
+        },
+    ),
+    row(
+        "different.kind-of-259",
+        &[],
+        "an index and a kind take 36 bytes at most, NULs behind it counted",
+        |cnc, call| match is(call, INDEXED) && call.data.len() > 36 {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        },
+    ),
+    row(
+        "different.index-261",
+        &[],
+        "an index and a kind may be longer than 260 bytes",
+        |cnc, call| match of_decoder(call) {
+            Some(0x45 | 0x4B) if call.data.len() > 260 => {
+                cnc.with(call, call.data.get(..260).unwrap_or_default())
+            }
+            _ => cnc.answer(call),
+        },
+    ),
+    row(
+        "different.index-kind-unended",
+        &[],
+        "behind an index a kind without a NUL is taken",
+        |cnc, call| match (of_decoder(call), call.data.get(4..)) {
+            (Some(0x45 | 0x4B), Some(kind)) if !kind.contains(&0) => {
+                cnc.with(call, &[call.data, &[0]].concat())
+            }
+            _ => cnc.answer(call),
+        },
+    ),
+];
