@@ -1,6 +1,7 @@
 //! The suite: what it tries, in which order, and what comes of it.
 
 mod address;
+mod arrays;
 mod axis;
 mod axis_place;
 mod case;
@@ -39,6 +40,7 @@ mod write_all;
 mod write_content;
 mod write_elements;
 mod write_refused;
+mod write_texts;
 
 pub use case::{
     Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, Subject, assumed, online,
@@ -88,6 +90,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(described::cases());
     cases.extend(names::cases());
     cases.extend(values::cases());
+    cases.extend(arrays::cases());
     cases.extend(configured::cases());
     cases.extend(axis::cases());
     cases.extend(axis_place::cases());
@@ -95,6 +98,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(write_elements::cases());
     cases.extend(write_refused::cases());
     cases.extend(write_all::cases());
+    cases.extend(write_texts::cases());
     cases.extend(write_content::cases());
     cases.extend(stream::cases());
     cases.extend(service::cases());

@@ -60,27 +60,6 @@ pub(super) fn cases() -> Vec<Case> {
             elements_by_name
         ),
         declare!(
-            "val-array-has-elements",
-            "An array has the elements that its dimensions say, up to the last of each",
-            ["VAR-4", "VAR-7"],
-            Queries,
-            array_has_elements
-        ),
-        declare!(
-            "val-index-out-of-bounds",
-            "An index that the array does not have is answered by an error",
-            ["VAR-11", "VAR-20"],
-            Queries,
-            index_out_of_bounds
-        ),
-        declare!(
-            "val-number-of-indices",
-            "Neither too few nor too many indices address anything",
-            ["VAR-11"],
-            Queries,
-            number_of_indices
-        ),
-        declare!(
             "val-string-size",
             "A text is no longer than one can be declared",
             ["VAR-25"],
@@ -167,7 +146,7 @@ fn typed(variable: &Description, dimensions: &[u32]) -> Values {
 }
 
 /// Every variable of every channel.
-fn each(
+pub(super) fn each(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step,
 ) -> Step {
@@ -187,7 +166,7 @@ fn element_size(variable: &Description) -> Option<usize> {
 }
 
 /// Every array.
-fn each_array(
+pub(super) fn each_array(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, usize) -> Step,
 ) -> Step {
@@ -290,7 +269,7 @@ fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
 }
 
 /// A variable's name with indices behind it; none if that is too long to be asked for.
-fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>> {
+pub(super) fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>> {
     let mut name = variable.name.text.to_string();
     place.iter().for_each(|index| name.push_str(&format!("[{index}]")));
     let name: CncString = name.parse().map_err(super::probe::harness)?;
@@ -319,101 +298,11 @@ fn elements_by_name(probe: &mut Probe<'_>) -> Step {
 }
 
 /// More than one pair of brackets is assumed, and how texts lie in an array.
-fn brackets(variable: &Description) -> Rule {
+pub(super) fn brackets(variable: &Description) -> Rule {
     match order(variable).level {
         Some(Level::Info) => assumed("VAR-20"),
         _ => "VAR-20".into(),
     }
-}
-
-/// A place with another index in one dimension.
-fn with(place: &[u32], axis: usize, index: u32) -> Vec<u32> {
-    let mut place = place.to_vec();
-    place.iter_mut().skip(axis).take(1).for_each(|one| *one = index);
-    place
-}
-
-/// What is no array has no dimension. How many indices more dimensions take is assumed: what has
-/// the first element has the last of each.
-fn array_has_elements(probe: &mut Probe<'_>) -> Step {
-    each_array(probe, |probe, channel, variable, _| {
-        let Description { handle, dimensions, name, .. } = variable;
-        let first = vec![0; dimensions.len()];
-        let ask = |probe: &mut Probe<'_>, place: &[u32]| {
-            probe.try_ask(ReadByHandle::new(channel, *handle, place.into()))
-        };
-        let whole_is_there = ask(probe, &[])?.is_some();
-        let has_first = ask(probe, &first)?.is_some();
-        if dimensions.len() == 1 && whole_is_there {
-            let expected = format!("element 0 of {name}, or no dimension", name = name.text);
-            let rule = if dimensions == &[1] { "VAR-7" } else { "VAR-4" };
-            probe.check(rule, has_first, expected, "an error");
-        }
-        if !has_first {
-            return Ok(());
-        }
-        for (axis, count) in dimensions.iter().enumerate() {
-            let last = with(&first, axis, count.saturating_sub(1));
-            let is_there = ask(probe, &last)?.is_some();
-            let expected = format!("{last:?} of the {dimensions:?} elements of {}", name.text);
-            probe.check("VAR-4", is_there, expected, "an error");
-        }
-        Ok(())
-    })
-}
-
-fn index_out_of_bounds(probe: &mut Probe<'_>) -> Step {
-    each_array(probe, |probe, channel, variable, _| {
-        let first = vec![0; variable.dimensions.len()];
-        for (axis, &dimension) in variable.dimensions.iter().enumerate() {
-            for beyond in probe.beyond(dimension) {
-                let place = with(&first, axis, beyond);
-                let what = format!("{place:?} of {:?}", variable.dimensions);
-                let (bad, good) = (place.as_slice().into(), first.as_slice().into());
-                probe.refuses(
-                    "VAR-11",
-                    &what,
-                    ReadByHandle::new(channel, variable.handle, bad),
-                    ReadByHandle::new(channel, variable.handle, good),
-                )?;
-            }
-            for beyond in probe.beyond(dimension) {
-                let place = with(&first, axis, beyond);
-                let bad = element_name(variable, &place)?;
-                let (Some(bad), Some(good)) = (bad, element_name(variable, &first)?) else {
-                    continue;
-                };
-                probe.refuses(
-                    brackets(variable),
-                    &format!("the name {bad}"),
-                    ReadByName { channel, name: bad.as_cnc_str().into() },
-                    ReadByName { channel, name: good.as_cnc_str().into() },
-                )?;
-            }
-        }
-        Ok(())
-    })
-}
-
-fn number_of_indices(probe: &mut Probe<'_>) -> Step {
-    each(probe, |probe, channel, variable| {
-        let m = variable.dimensions.len();
-        let zeros = vec![0; m.saturating_add(1)];
-        for n in [m.saturating_sub(1), m.saturating_add(1)] {
-            if n == 0 {
-                continue;
-            }
-            let few = zeros.get(..n).unwrap_or_default();
-            let good = zeros.get(..m).unwrap_or_default();
-            probe.refuses(
-                assumed("VAR-11"),
-                &format!("{n} indices for {m} dimensions"),
-                ReadByHandle::new(channel, variable.handle, few.into()),
-                ReadByHandle::new(channel, variable.handle, good.into()),
-            )?;
-        }
-        Ok(())
-    })
 }
 
 fn string_size(probe: &mut Probe<'_>) -> Step {

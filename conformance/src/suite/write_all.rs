@@ -3,15 +3,15 @@
 use ads_cnc::VariableType;
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::AxisHandleByName;
-use ads_cnc::{CncString, Decode as _, Description, Handle, VariableAccess};
+use ads_cnc::{Decode as _, Description, Handle, VariableAccess};
 use ads_cnc_vectors::Hex;
 
 use super::axis::{described, names};
-use super::case::{Case, Rule, Step, Stop, online};
+use super::case::{Case, Evidence, Rule, Step, Stop};
 use super::declare;
 use super::place::{Place, is_sendable};
 use super::probe::{Probe, harness};
-use super::write::{each, is_of_service};
+use super::write::is_of_service;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -36,13 +36,6 @@ pub(super) fn cases() -> Vec<Case> {
             MalformedWrites,
             of_axes
         ),
-        declare!(
-            "write-texts",
-            "A text as long as is described is read as written, and a shorter one behind it too",
-            ["VAR-12", "VAR-13", "VAR-25"],
-            Writes,
-            texts
-        ),
     ]
 }
 
@@ -54,6 +47,14 @@ struct One {
     value: Vec<u8>,
     /// Where else it can be written.
     at: Option<Place>,
+    seen: Vec<Seen>,
+}
+
+/// What was read of a variable at some time.
+struct Seen {
+    expected: Vec<u8>,
+    read: Vec<u8>,
+    evidence: Option<Evidence>,
 }
 
 impl One {
@@ -72,8 +73,8 @@ fn all(probe: &mut Probe<'_>) -> Step<Vec<One>> {
     let mut all = Vec::new();
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {
-            let empty = Vec::new();
-            let mut one = One { channel, variable, start: empty.clone(), value: empty, at: None };
+            let (start, value, seen) = (Vec::new(), Vec::new(), Vec::new());
+            let mut one = One { channel, variable, start, value, at: None, seen };
             if let Some(value) = probe.value_at(&one.handled())? {
                 (one.start, one.value) = (value.clone(), value);
                 all.push(one);
@@ -116,10 +117,9 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
     }
 }
 
-/// Writes each in this order, the last first if `backwards`, and then looks at all.
+/// Writes each in this order, the last first if `backwards`, and then reads all.
 fn pass(
     probe: &mut Probe<'_>,
-    rule: Rule,
     all: &mut [One],
     (backwards, salt): (bool, usize),
     by: impl Fn(&One) -> Option<Place>,
@@ -141,32 +141,47 @@ fn pass(
             one.value = value;
         }
     }
-    for (number, one) in all.iter().enumerate() {
+    for one in all {
         let read = probe.value_at(&look(one))?.unwrap_or_default();
-        if read != one.value && !is_shared(all, number) {
-            let (name, channel) = (&one.variable.name.text, one.channel.number());
-            let expected = format!("{} of {name} of channel {channel}", Hex(one.value.clone()));
-            probe.check(rule, false, expected, Hex(read));
-        } else {
-            probe.check(rule, true, "", "");
-        }
+        let evidence = probe.evidence().filter(|_| read != one.value);
+        one.seen.push(Seen { expected: one.value.clone(), read, evidence });
     }
     Ok(())
 }
 
-/// Whether it may be the same one as that of another channel: with the same name, and the same
-/// value at the start.
-fn is_shared(all: &[One], number: usize) -> bool {
-    let Some(one) = all.get(number) else { return false };
+/// Whether it may be the same one as that of another channel: with the same name, and never
+/// another value.
+fn is_shared(all: &[One], one: &One) -> bool {
+    let reads = |one: &One| -> Vec<Vec<u8>> {
+        one.seen.iter().map(|seen| seen.read.clone()).chain([one.start.clone()]).collect()
+    };
     let same = |other: &One| {
         other.channel != one.channel
             && other.variable.name.text == one.variable.name.text
-            && other.start == one.start
+            && reads(other) == reads(one)
     };
     all.iter().any(same)
 }
 
-fn write(probe: &mut Probe<'_>, place: &Place, value: &[u8]) -> Step<bool> {
+/// Each has what was written to it last, and no other has.
+fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[One]) {
+    for one in all {
+        let wrong = one.seen.iter().filter(|seen| seen.expected != seen.read);
+        let mut wrong = wrong.filter(|_| !is_shared(all, one)).peekable();
+        if wrong.peek().is_none() {
+            probe.check(rule, true, "", "");
+        }
+        for seen in wrong {
+            let (name, channel) = (&one.variable.name.text, one.channel.number());
+            let expected = format!("{} of {name} of channel {channel}", Hex(seen.expected.clone()));
+            probe.show(seen.evidence.clone());
+            probe.check(rule, false, expected, Hex(seen.read.clone()));
+        }
+    }
+}
+
+/// Whether a value is taken.
+pub(super) fn write(probe: &mut Probe<'_>, place: &Place, value: &[u8]) -> Step<bool> {
     let Some(write) = place.write(value).ok().filter(is_sendable) else { return Ok(false) };
     let exchange = probe.send(write)?;
     Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
@@ -201,8 +216,9 @@ fn both_ways(
 ) -> Step {
     let mut tried = Ok(());
     for (backwards, salt) in [(false, 1), (true, 1001)] {
-        tried = tried.and_then(|()| pass(probe, rule, &mut all, (backwards, salt), &by, &look));
+        tried = tried.and_then(|()| pass(probe, &mut all, (backwards, salt), &by, &look));
     }
+    judge(probe, rule, &all);
     let restored = restore(probe, rule, &mut all);
     tried.and(restored)
 }
@@ -242,69 +258,6 @@ fn of_axes(probe: &mut Probe<'_>) -> Step {
         return Err(Stop::NotApplicable("no axis variable is on the axis interface".to_owned()));
     }
     both_ways(probe, "VAR-26".into(), all, |one| one.at.clone(), One::handled)
-}
-
-/// Up to the first NUL.
-fn text(value: &[u8]) -> &[u8] {
-    value.split(|&byte| byte == 0).next().unwrap_or_default()
-}
-
-fn texts(probe: &mut Probe<'_>) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
-        let name = variable.name.text.clone();
-        if variable.var_type != VariableType::STRING || !variable.dimensions.is_empty() {
-            return Ok(false);
-        }
-        let mut any = false;
-        for (id, place) in [
-            ("VAR-13", Place::Name { channel, name: name.clone() }),
-            ("VAR-12", Place::Handle { channel, handle: variable.handle, indices: Vec::new() }),
-        ] {
-            if !probe.may_write(&place, &name.to_string())? {
-                continue;
-            }
-            let Some(before) = probe.value_at(&place)?.filter(|value| !value.is_empty()) else {
-                continue;
-            };
-            any = true;
-            let tried = of_lengths(probe, id, &place, (&name, variable.size));
-            write(probe, &place, &before)?;
-            let after = probe.value_at(&place)?.unwrap_or_default();
-            let kept = text(&after) == text(&before);
-            probe.check(id, kept, format!("{} of {name} again", Hex(before)), Hex(after));
-            tried?;
-        }
-        Ok(any)
-    })
-}
-
-/// How much a text holds is known from help pages; that what is taken is there is not.
-fn of_lengths(
-    probe: &mut Probe<'_>,
-    id: &'static str,
-    place: &Place,
-    (name, size): (&CncString, u32),
-) -> Step {
-    let size = usize::try_from(size).unwrap_or_default().min(800);
-    for len in [size.saturating_sub(1), size.checked_div(2).unwrap_or(0), 1] {
-        let mut value = vec![b'x'; len];
-        value.push(0);
-        // As many bytes as it is described with: that fewer are taken is assumed.
-        value.resize(size.max(1), 0);
-        let taken = write(probe, place, &value)?;
-        let expected = format!("{name} takes a text of {len} characters");
-        probe.check(online("VAR-25"), taken, expected, "an error");
-        if !taken {
-            continue;
-        }
-        let read = probe.value_at(place)?.unwrap_or_default();
-        let same = text(&read) == text(&value);
-        let expected = format!("{len} characters of {name}, as written");
-        let found = format!("{} bytes: {}", read.len(), Hex(read.clone()));
-        probe.check(id, same, &expected, &found);
-        probe.check(online("VAR-25"), same, expected, found);
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,0 +1,84 @@
+//! Cases that write texts, and undo it.
+
+use ads_cnc::{CncString, VariableAccess, VariableType};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Step, online};
+use super::declare;
+use super::place::Place;
+use super::probe::Probe;
+use super::write::each;
+use super::write_all::write;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![declare!(
+        "write-texts",
+        "A text as long as is described is read as written, and a shorter one behind it too",
+        ["VAR-12", "VAR-13", "VAR-25"],
+        Writes,
+        texts
+    )]
+}
+
+/// Up to the first NUL.
+fn text(value: &[u8]) -> &[u8] {
+    value.split(|&byte| byte == 0).next().unwrap_or_default()
+}
+
+fn texts(probe: &mut Probe<'_>) -> Step {
+    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+        let name = variable.name.text.clone();
+        if variable.var_type != VariableType::STRING || !variable.dimensions.is_empty() {
+            return Ok(false);
+        }
+        let mut any = false;
+        for (id, place) in [
+            ("VAR-13", Place::Name { channel, name: name.clone() }),
+            ("VAR-12", Place::Handle { channel, handle: variable.handle, indices: Vec::new() }),
+        ] {
+            if !probe.may_write(&place, &name.to_string())? {
+                continue;
+            }
+            let Some(before) = probe.value_at(&place)?.filter(|value| !value.is_empty()) else {
+                continue;
+            };
+            any = true;
+            let tried = of_lengths(probe, id, &place, (&name, variable.size));
+            write(probe, &place, &before)?;
+            let after = probe.value_at(&place)?.unwrap_or_default();
+            let kept = text(&after) == text(&before);
+            probe.check(id, kept, format!("{} of {name} again", Hex(before)), Hex(after));
+            tried?;
+        }
+        Ok(any)
+    })
+}
+
+/// How much a text holds is known from help pages; that what is taken is there is not.
+fn of_lengths(
+    probe: &mut Probe<'_>,
+    id: &'static str,
+    place: &Place,
+    (name, size): (&CncString, u32),
+) -> Step {
+    let size = usize::try_from(size).unwrap_or_default().min(800);
+    for len in [size.saturating_sub(1), size.checked_div(2).unwrap_or(0), 1] {
+        let mut value = vec![b'x'; len];
+        value.push(0);
+        // As many bytes as it is described with: that fewer are taken is assumed.
+        value.resize(size.max(1), 0);
+        let taken = write(probe, place, &value)?;
+        let expected = format!("{name} takes a text of {len} characters");
+        probe.check(online("VAR-25"), taken, expected, "an error");
+        if !taken {
+            continue;
+        }
+        let read = probe.value_at(place)?.unwrap_or_default();
+        let same = text(&read) == text(&value);
+        let expected = format!("{len} characters of {name}, as written");
+        let found = format!("{} bytes: {}", read.len(), Hex(read.clone()));
+        probe.check(id, same, &expected, &found);
+        probe.check(online("VAR-25"), same, expected, found);
+    }
+    Ok(())
+}
