@@ -286,10 +286,12 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
     let handle_of = |probe: &mut Probe<'_>| {
         let (channel, axis) =
             (Channel::new(1).map_err(harness)?, ChannelAxis::new(2).map_err(harness)?);
-        probe.ask("VAR-10", AxisHandleByName::new(channel, axis, "V.A.WCS").map_err(harness)?)
+        probe.try_ask(AxisHandleByName::new(channel, axis, "V.A.WCS").map_err(harness)?)
     };
     let (before, of_platform, handle) = (places(probe, 3)?, platform(probe)?, handle_of(probe)?);
-    cnc.exchange_axis(1, 2, 3).map_err(harness)?;
+    if cnc.exchange_axis(1, 2, 3).is_err() {
+        return Err(Stop::NotApplicable("channel 1 has no axis 3 to be exchanged".to_owned()));
+    }
     let after = (places(probe, 2), places(probe, 3), platform(probe), handle_of(probe));
     // In the order in which they do not get into each other's way.
     cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3)).map_err(harness)?;
@@ -303,8 +305,11 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
         let same = platform_after == of_platform;
         probe.check(rule, same, "the platform's axes where they were", "others");
     }
-    let (same, expected) =
-        (handle_after? == handle, "the handle of the place, whichever axis is there");
+    let handle_after = handle_after?;
+    let (same, expected) = (
+        handle_after.is_some() && handle_after == handle,
+        "the handle of the place, whichever axis is there",
+    );
     probe.check("VAR-10", same, expected, "another");
     let back = places(probe, 3)? == before;
     probe.require(&["ADR-13".into()], back, "axis 3 at place 3 again", "others")

@@ -100,7 +100,10 @@ fn places(probe: &mut Probe<'_>) -> Step {
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
                 let found = format!("{:?} of place {} too", at.handle, at.axis.place());
                 let expected = format!("another handle at each place for {name}");
-                probe.check("VAR-26", seen.insert(at.handle.0), expected, found);
+                let own = seen.insert(at.handle.0);
+                for rule in ["VAR-10", "VAR-26"] {
+                    probe.check(rule, own, &expected, &found);
+                }
             }
             for variable in own {
                 at_a_place(probe, channel, name, variable, &places)?;

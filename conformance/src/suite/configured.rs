@@ -36,11 +36,10 @@ fn as_configured(probe: &mut Probe<'_>) -> Step {
             let same = found.len() == configured.len();
             probe.check("VAR-2", same, number, found.len());
             for one in &configured {
-                let Some((described, extended)) = found.get(&one.name.to_string()) else {
-                    let expected = format!("a description of {}", one.name);
-                    probe.check("VAR-3", false, expected, "none");
-                    continue;
-                };
+                let found = found.get(&one.name.to_string());
+                let expected = format!("a description of {}", one.name);
+                probe.check("VAR-3", found.is_some(), expected, "none");
+                let Some((described, extended)) = found else { continue };
                 holds(probe, one, described);
                 let shown = |extended: &ExtendedReply| format!("{extended:?} of {}", one.name);
                 let expected = ExtendedReply(one.extended);

@@ -5,7 +5,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{HandleByName, ReadByName};
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{CncStr, Description, TextRef};
+use ads_cnc::{CncStr, CncString, Description, TextRef};
 use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Step, Stop};
@@ -24,8 +24,8 @@ pub(super) fn cases() -> Vec<Case> {
         ),
         declare!(
             "var-similar-name",
-            "A name that differs in a character is not the variable's",
-            ["VAR-9"],
+            "A name that differs in a character or an index is not the variable's",
+            ["VAR-9", "VAR-20"],
             Queries,
             similar_name
         ),
@@ -82,6 +82,21 @@ fn similar(name: &[u8]) -> Vec<Vec<u8>> {
     vec![longer, shorter.to_vec(), other(name.len().saturating_sub(1)), other(middle)]
 }
 
+/// The name with an index within that is far beyond all there can be, whether its lower bytes are
+/// those of the right one or not.
+fn other_structures(name: &str) -> Vec<String> {
+    let mut all = Vec::new();
+    for (at, _) in name.match_indices('[') {
+        let (head, tail) = name.split_at_checked(at.saturating_add(1)).unwrap_or_default();
+        let Some((index, tail)) = tail.split_once(']') else { continue };
+        let Ok(index) = index.parse::<u32>() else { continue };
+        for other in [index | 0x1_0000, index | 0x100_0000, u32::MAX] {
+            all.push(format!("{head}{other}]{tail}"));
+        }
+    }
+    all
+}
+
 fn similar_name(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let mut variables = probe.variables(channel)?;
@@ -92,21 +107,34 @@ fn similar_name(probe: &mut Probe<'_>) -> Step {
         for known in variables.iter().take(NAMES_MAX) {
             let others = similar(known.name.text.as_bytes()).into_iter();
             let fits = |name: &Vec<u8>| name.len() < TEXT_MAX && !is_there(name, &variables);
+            let name = known.name.text.to_string();
+            for other in other_structures(&name) {
+                let Ok(other) = other.parse::<CncString>() else { continue };
+                if fits(&other.as_bytes().to_vec()) {
+                    apart(probe, channel, "VAR-20", other.as_cnc_str(), name_of(known))?;
+                }
+            }
             for other in others.filter(fits) {
                 let Ok(other) = CncStr::from_bytes(&other) else { continue };
-                apart(probe, channel, other, name_of(known))?;
+                apart(probe, channel, "VAR-9", other, name_of(known))?;
             }
         }
     }
     Ok(())
 }
 
-fn apart(probe: &mut Probe<'_>, channel: Channel, other: CncStr<'_>, known: TextRef<'_>) -> Step {
+fn apart(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    rule: &'static str,
+    other: CncStr<'_>,
+    known: TextRef<'_>,
+) -> Step {
     let (what, name) = (format!("the name {other}"), TextRef::from(other));
     let good = HandleByName { channel, name: known };
-    probe.refuses("VAR-9", &what, HandleByName { channel, name }, good)?;
+    probe.refuses(rule, &what, HandleByName { channel, name }, good)?;
     let good = ReadByName { channel, name: known };
-    probe.refuses("VAR-9", &what, ReadByName { channel, name }, good)
+    probe.refuses(rule, &what, ReadByName { channel, name }, good)
 }
 
 /// The five of the Service Interface.

@@ -40,6 +40,7 @@ mod write_all;
 mod write_content;
 mod write_elements;
 mod write_refused;
+mod write_sizes;
 mod write_texts;
 
 pub use case::{
@@ -97,6 +98,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(write::cases());
     cases.extend(write_elements::cases());
     cases.extend(write_refused::cases());
+    cases.extend(write_sizes::cases());
     cases.extend(write_all::cases());
     cases.extend(write_texts::cases());
     cases.extend(write_content::cases());

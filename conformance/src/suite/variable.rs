@@ -233,32 +233,55 @@ pub(super) fn name_of(variable: &Description) -> TextRef<'_> {
     variable.name.text.as_cnc_str().into()
 }
 
+/// The structures that a leaf is in: `V.E.a`, `V.E.a[0]` and `V.E.a[0].b` of `V.E.a[0].b.c`.
+fn structures(name: &str) -> Vec<&str> {
+    let mut all = Vec::new();
+    let mut rest = name;
+    while let Some((structure, _)) = rest.rsplit_once('.') {
+        // What is left is the kind.
+        if structure.matches('.').count() < 2 {
+            break;
+        }
+        all.push(structure);
+        if let Some((array, _)) = structure.rsplit_once('[').filter(|_| structure.ends_with(']')) {
+            all.push(array);
+        }
+        rest = structure;
+    }
+    all
+}
+
 fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
-    let channel = probe.channel()?;
-    let variables = probe.variables(channel)?;
-    let names: HashSet<String> =
-        variables.iter().map(|variable| variable.name.text.to_string()).collect();
-    // Axis variables end in the axis's name; what is before it is no structure.
-    let leaf = variables.iter().filter_map(|variable| {
-        let name = variable.name.text.to_string();
-        let (structure, _) = name.rsplit_once('.')?;
-        let is_structure = structure.matches('.').count() > 1 && !name.starts_with("V.A.");
-        (is_structure && !names.contains(structure)).then(|| (structure.to_owned(), variable))
-    });
-    let leaves: Vec<_> = leaf.collect();
-    if leaves.is_empty() {
-        return Err(Stop::NotApplicable("no variable is part of a structure".to_owned()));
+    let mut any = false;
+    for channel in probe.channels()? {
+        let variables = probe.variables(channel)?;
+        let names: HashSet<String> =
+            variables.iter().map(|variable| variable.name.text.to_string()).collect();
+        let mut tried = HashSet::new();
+        for leaf in &variables {
+            let name = leaf.name.text.to_string();
+            // Axis variables end in the axis's name; what is before it is no structure.
+            if name.starts_with("V.A.") {
+                continue;
+            }
+            for structure in structures(&name) {
+                if names.contains(structure) || !tried.insert(structure.to_owned()) {
+                    continue;
+                }
+                any = true;
+                let what = format!("the structure {structure}");
+                let (name, good) = (TextRef::new(structure).map_err(harness)?, name_of(leaf));
+                let handle = |name| HandleByName { channel, name };
+                probe.refuses("VAR-20", &what, handle(name), handle(good))?;
+                let read = |name| ReadByName { channel, name };
+                probe.refuses("VAR-20", &what, read(name), read(good))?;
+            }
+        }
     }
-    for (structure, leaf) in leaves {
-        let (name, leaf) = (TextRef::new(&structure).map_err(harness)?, name_of(leaf));
-        probe.refuses(
-            "VAR-20",
-            &format!("the structure {structure}"),
-            HandleByName { channel, name },
-            HandleByName { channel, name: leaf },
-        )?;
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("no variable is part of a structure".to_owned())),
     }
-    Ok(())
 }
 
 fn padded_name(probe: &mut Probe<'_>) -> Step {
@@ -287,4 +310,17 @@ fn same(probe: &mut Probe<'_>, rule: &'static str, plain: Request<'_>, odd: Requ
     let kept = data(&exchange).is_some() && data(&exchange) == data(&expected);
     probe.check(assumed(rule), kept, "the same answer as without padding", exchange.result());
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_level_is_a_structure() {
+        assert_eq!(structures("V.E.a"), [""; 0]);
+        assert_eq!(structures("V.G.NP[0].V"), ["V.G.NP[0]", "V.G.NP"]);
+        let all = ["V.E.a[0].b[12]", "V.E.a[0].b", "V.E.a[0]", "V.E.a"];
+        assert_eq!(structures("V.E.a[0].b[12].c"), all);
+    }
 }

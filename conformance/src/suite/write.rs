@@ -205,7 +205,13 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
             any = true;
             let rules = [assumed(rule)];
             let trial = Trial { what: &what, rules: &rules, is_text: false };
-            probe.try_write(&trial, &place, |_, _, _| Ok(()))?;
+            probe.try_write(&trial, &place, |probe, _, new| {
+                // What is taken is there, though.
+                let read = probe.value_at(&place)?.unwrap_or_default();
+                let expected = format!("{} of {what}, as written", Hex(new.to_vec()));
+                probe.check(rule, read == new, expected, Hex(read));
+                Ok(())
+            })?;
         }
     }
     match any {

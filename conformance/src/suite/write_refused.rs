@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Request, WriteByHandle, WriteByName};
 use ads_cnc::{CncStr, CncString, Description, Handle, Numbers, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop, assumed};
+use super::case::{Case, Rule, Step, Stop};
 use super::declare;
 use super::place::{Place, Trial, another, is_sendable};
 use super::probe::{Probe, harness};
@@ -27,13 +27,6 @@ pub(super) fn cases() -> Vec<Case> {
             ["VAR-6"],
             MalformedWrites,
             read_only_changed
-        ),
-        declare!(
-            "write-wrong-size",
-            "A value of another size than the variable's is answered by an error, or is there as sent",
-            ["VAR-12", "VAR-13"],
-            MalformedWrites,
-            wrong_size
         ),
         declare!(
             "write-unknown",
@@ -165,7 +158,12 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Whether a request is taken; silence is no answer to anything, and judged by `rule`.
-fn taken(probe: &mut Probe<'_>, rule: Rule, what: &str, request: Request<'_>) -> Step<bool> {
+pub(super) fn taken(
+    probe: &mut Probe<'_>,
+    rule: Rule,
+    what: &str,
+    request: Request<'_>,
+) -> Step<bool> {
     let exchange = probe.send(request)?;
     if exchange.answer().is_none() {
         let expected = format!("an answer to {what}");
@@ -175,7 +173,7 @@ fn taken(probe: &mut Probe<'_>, rule: Rule, what: &str, request: Request<'_>) ->
 }
 
 /// What is refused must differ by its fault only from what is taken.
-fn taken_first(probe: &mut Probe<'_>, rule: Rule, good: Request<'_>) -> Step {
+pub(super) fn taken_first(probe: &mut Probe<'_>, rule: Rule, good: Request<'_>) -> Step {
     match taken(probe, rule, "what differs by that alone", good)? {
         true => Ok(()),
         false => {
@@ -223,50 +221,6 @@ fn refused_call(
         let same = after == before;
         let found = Hex(after.clone().unwrap_or_default());
         probe.check(rule, same, format!("the value of before {what}"), found);
-    }
-    probe.send(good).map(drop)
-}
-
-fn wrong_size(probe: &mut Probe<'_>) -> Step {
-    for known in writable(probe)? {
-        let Known { value, .. } = &known;
-        let longer = [&value[..], &[0]].concat();
-        let far = [&value[..], &[0; 64]].concat();
-        let shorter = value.get(1..).unwrap_or_default();
-        for other in [&longer[..], &far, shorter, &[]] {
-            let what = format!("{} bytes for the {} of {}", other.len(), value.len(), known.name());
-            let by_handle = |value| known.by_handle(Numbers::EMPTY, value);
-            other_size(probe, "VAR-12", &what, &known, (by_handle(other), by_handle(value)))?;
-            let (bad, good) = (known.by_name(other), known.by_name(value));
-            other_size(probe, "VAR-13", &what, &known, (bad, good))?;
-        }
-    }
-    Ok(())
-}
-
-/// That it is refused is assumed. An error that has written something is none, and a success has
-/// written what was sent: of another size the variable cannot have it.
-fn other_size(
-    probe: &mut Probe<'_>,
-    id: &'static str,
-    what: &str,
-    known: &Known,
-    (bad, good): (Request<'_>, Request<'_>),
-) -> Step {
-    if !is_sendable(&bad) {
-        return Ok(());
-    }
-    taken_first(probe, id.into(), good)?;
-    let is_taken = taken(probe, id.into(), what, bad)?;
-    let evidence = probe.evidence();
-    let after = probe.value_at(&known.place())?.unwrap_or_default();
-    probe.show(evidence);
-    probe.check(assumed(id), !is_taken, format!("an error number for {what}"), "a success");
-    let same = after == known.value;
-    if !is_taken || what.starts_with("0 ") {
-        probe.check(id, same, format!("the value of before {what}"), Hex(after));
-    } else {
-        probe.check(id, false, format!("an error, or {what} read back"), Hex(after));
     }
     probe.send(good).map(drop)
 }

@@ -1,0 +1,164 @@
+//! Cases of values of another size than a variable's.
+
+use ads_cnc::address::{Channel, ChannelAxis};
+use ads_cnc::operation::AxisHandleByName;
+use ads_cnc::{
+    CncString, Decode as _, Description, Handle, VariableAccess, VariablePath, VariableType,
+};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Rule, Step, assumed, online};
+use super::declare;
+use super::place::{Place, another, is_sendable};
+use super::probe::{Probe, harness};
+use super::write::{each, is_of_service};
+use super::write_refused::{taken, taken_first};
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![declare!(
+        "write-wrong-size",
+        "A value of another size than the variable's is answered by an error, or is there as sent",
+        ["VAR-12", "VAR-13", "VAR-25", "VAR-26"],
+        MalformedWrites,
+        wrong_size
+    )]
+}
+
+/// A way to a value, and the clause that says what a write by it has.
+struct Way {
+    id: &'static str,
+    place: Place,
+}
+
+fn ways(probe: &mut Probe<'_>, channel: Channel, variable: &Description) -> Step<Vec<Way>> {
+    let (name, handle) = (&variable.name.text, variable.handle);
+    let by_name = |name: CncString| Way { id: "VAR-13", place: Place::Name { channel, name } };
+    let by_handle =
+        |indices| Way { id: "VAR-12", place: Place::Handle { channel, handle, indices } };
+    let mut all = vec![by_handle(Vec::new()), by_name(name.clone())];
+    if variable.dimensions.len() == 1 {
+        all.push(by_handle(vec![0]));
+        all.push(by_name(format!("{name}[0]").parse().map_err(harness)?));
+    }
+    if let Some((axis, name)) = on_axis_interface(probe, channel, variable)? {
+        all.push(Way { id: "VAR-26", place: Place::Axis { channel, axis, name } });
+    }
+    Ok(all)
+}
+
+/// The most places of a channel that are looked at.
+const PLACES_MAX: u32 = 64;
+
+fn on_axis_interface(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    variable: &Description,
+) -> Step<Option<(ChannelAxis, CncString)>> {
+    let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
+    let path = path.filter(|path| path.axis().is_some());
+    let Some(name) = path.and_then(|path| path.without_axis().ok()) else { return Ok(None) };
+    for place in 1..=PLACES_MAX {
+        let axis = ChannelAxis::new(place).map_err(harness)?;
+        let request = AxisHandleByName { channel, axis, name: name.as_cnc_str().into() };
+        match probe.try_ask(request)?.map(|data| Handle::decode(&data)) {
+            Some(Ok(handle)) if handle == variable.handle => return Ok(Some((axis, name))),
+            Some(_) => {}
+            None => break,
+        }
+    }
+    Ok(None)
+}
+
+/// Of each type the first variable and the first array, and whatever an axis has.
+fn wrong_size(probe: &mut Probe<'_>) -> Step {
+    let mut tried = Vec::new();
+    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+        let is_of_axis = variable.name.text.as_bytes().starts_with(b"V.A.");
+        let sort = (variable.var_type, variable.dimensions.len(), is_of_axis);
+        if is_of_service(variable) || tried.contains(&sort) || variable.dimensions.len() > 1 {
+            return Ok(false);
+        }
+        let mut any = false;
+        for way in ways(probe, channel, variable)? {
+            if probe.may_write(&way.place, &variable.name.text.to_string())? {
+                any = true;
+                of_way(probe, channel, variable, &way)?;
+            }
+        }
+        if any {
+            tried.push(sort);
+        }
+        Ok(any)
+    })
+}
+
+fn of_way(probe: &mut Probe<'_>, channel: Channel, variable: &Description, way: &Way) -> Step {
+    let is_text = variable.var_type == VariableType::STRING;
+    let Some(value) = probe.value_at(&way.place)?.filter(|value| !value.is_empty()) else {
+        return Ok(());
+    };
+    let whole = Place::Handle { channel, handle: variable.handle, indices: Vec::new() };
+    // Other bytes from the first on: a part of them that is written shows.
+    let other = if is_text { vec![b'x'; value.len()] } else { another(&value, false) };
+    let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());
+    let one = size.unwrap_or(1);
+    let longer = |more: usize| [&other[..], &vec![1; more]].concat();
+    let shorter = |fewer: usize| other.get(..other.len().saturating_sub(fewer));
+    let mut all = vec![longer(1), longer(one), longer(64)];
+    // A text may well be shorter than its variable, and empty too.
+    if !is_text {
+        all.push(Vec::new());
+        all.extend([1, one].into_iter().filter_map(shorter).map(<[u8]>::to_vec));
+    }
+    let mut sizes = Vec::new();
+    for data in all {
+        if data.len() != value.len() && !sizes.contains(&data.len()) {
+            sizes.push(data.len());
+            let sent = Sent { way, watched: &whole, is_text, value: &value, other: &data };
+            let what =
+                format!("{} bytes for {} of {}", data.len(), value.len(), variable.name.text);
+            sent.judge(probe, &what)?;
+        }
+    }
+    Ok(())
+}
+
+/// A value of another size, on its way.
+struct Sent<'a> {
+    way: &'a Way,
+    watched: &'a Place,
+    is_text: bool,
+    value: &'a [u8],
+    other: &'a [u8],
+}
+
+impl Sent<'_> {
+    /// That it is refused is assumed. An error that has written something is none, and a success
+    /// has written what was sent: of another size a variable cannot have it. How much a text
+    /// holds is known from help pages only.
+    fn judge(&self, probe: &mut Probe<'_>, what: &str) -> Step {
+        let Self { way, watched, is_text, value, other } = *self;
+        let (bad, good) = (way.place.write(other), way.place.write(value));
+        let (Ok(bad), Ok(good)) = (bad, good) else { return Ok(()) };
+        if !is_sendable(&bad) || !is_sendable(&good) {
+            return Ok(());
+        }
+        let of_size: Rule = if is_text { online("VAR-25") } else { way.id.into() };
+        taken_first(probe, way.id.into(), good)?;
+        let before = probe.value_at(watched)?;
+        let is_taken = taken(probe, way.id.into(), what, bad)?;
+        let evidence = probe.evidence();
+        let after = probe.value_at(watched)?;
+        probe.show(evidence);
+        let rule = if is_text { of_size } else { assumed(way.id) };
+        let shown = Hex(after.clone().unwrap_or_default());
+        probe.check(rule, !is_taken, format!("an error number for {what}"), "a success");
+        if !is_taken || other.is_empty() {
+            let expected = format!("the value of before {what}");
+            probe.check(way.id, after == before, expected, shown);
+        } else {
+            probe.check(of_size, false, format!("an error, or {what} read back"), shown);
+        }
+        probe.send(good).map(drop)
+    }
+}
