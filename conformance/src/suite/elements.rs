@@ -7,12 +7,12 @@ use ads_cnc::operation::{
     CountElements, ReadElement, ReadElementLength, ReadElementName, ReadElementType,
     ReadElementUnit, ReadElementWriteFlag, Request,
 };
-use ads_cnc::sda::{ElementCount, ElementLength, ElementText, ElementWriteFlag};
+use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag};
 use ads_cnc::{Decode, ErrorKind};
 
 use super::case::{Case, Rule, Step, Stop, assumed};
 use super::declare;
-use super::inventory::{Instance, OF_PLACES};
+use super::inventory::{Instance, OF_PLACES, number_of};
 use super::probe::{Probe, harness};
 use super::sda::{length_of, type_and_length};
 use super::still::Still;
@@ -80,10 +80,24 @@ where
 
 fn elements(probe: &mut Probe<'_>) -> Step {
     let mut names = HashSet::new();
+    let (mut alone, mut with_first) = (None, None);
     for instance in probe.instances()? {
         let first = instance.first;
-        let count = CountElements::new(first).map_err(harness)?;
-        let ElementCount(count) = attribute(probe, "SDA-4", count)?;
+        let data = probe.ask("SDA-4", CountElements::new(first).map_err(harness)?)?;
+        probe.check("ADR-6", true, "", "");
+        let found = format!("{} bytes for the number of {instance}", data.len());
+        probe.check(assumed("SDA-4"), data.len() == 4, "a number of 4 bytes", &found);
+        let told = number_of(&data);
+        probe.check("SDA-4", told.is_some(), "a number", &found);
+        let same = told == Some(instance.told);
+        let found = format!("{told:?} elements of {instance}");
+        probe.check("SDA-4", same, format!("{}, as before", instance.told), found);
+        let count = instance.count;
+        match (instance.counts_itself(), instance.told) {
+            (true, _) => with_first = Some((instance.to_string(), probe.evidence())),
+            (false, 1..) => alone = Some(instance.to_string()),
+            (false, 0) => {}
+        }
         let found = format!("{count} elements of {instance}");
         probe.check("SDA-4", count <= 0xFFFF, "no more than an offset has room for", found);
         let name: ElementText = attribute(probe, "SDA-4", ReadElementName::new(first))?;
@@ -100,6 +114,14 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             probe.check(rule, names.insert((instance.channel, name)), "a name of its own", found);
         }
         ends(probe, &instance, count)?;
+    }
+    // Whether element 0 is counted is assumed, but not that of one it is and of another not.
+    if let Some((with_first, evidence)) = with_first {
+        probe.show(evidence);
+        let found = format!("one more for {with_first}");
+        let rule = if alone.is_some() { "SDA-4".into() } else { assumed("SDA-4") };
+        let like = alone.map(|alone| format!(", as for {alone}")).unwrap_or_default();
+        probe.check(rule, false, format!("the number of elements behind the first{like}"), found);
     }
     Ok(())
 }

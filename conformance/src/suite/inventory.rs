@@ -6,7 +6,7 @@ use ads_cnc::operation::{
     CountElements, CountObjects, FindInstance, Function, ObjectList, ReadDescriptors,
     ReadElementName, Request,
 };
-use ads_cnc::sda::{ElementCount, ObjectAddress};
+use ads_cnc::sda::{ElementCount, ElementLength, ObjectAddress};
 use ads_cnc::{CncString, Decode, DescriptorsRef, ObjectCount};
 
 use super::case::{Step, Stop};
@@ -52,13 +52,20 @@ pub(super) struct Instance {
     pub(super) channel: u32,
     pub(super) axis: u32,
     pub(super) first: ElementAddress,
-    /// How many elements it is said to have.
+    /// How many elements it says to have.
+    pub(super) told: u32,
+    /// How many it means, without that which says how many: whether that is counted nobody says.
     pub(super) count: u32,
     /// How many of them are looked at.
     reached: u32,
 }
 
 impl Instance {
+    /// Whether its number counts the element that says it.
+    pub(super) const fn counts_itself(&self) -> bool {
+        self.told > self.count
+    }
+
     /// Its elements, without that which says how many there are.
     pub(super) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
         (1..=self.reached).map_while(|place| self.first.following(place).ok())
@@ -81,6 +88,12 @@ pub(super) const fn class_name(class: Class) -> &'static str {
         Class::PathPreparation => "path preparation",
         Class::Spindle => "spindle",
     }
+}
+
+/// A number of elements. Its width nobody says: a narrower one is read as that of a length is.
+pub(super) fn number_of(data: &[u8]) -> Option<u32> {
+    let count = ElementCount::decode(data).map(|count| count.0);
+    count.or_else(|_| ElementLength::decode(data).map(ElementLength::get)).ok()
 }
 
 impl Probe<'_> {
@@ -192,10 +205,14 @@ impl Probe<'_> {
             Ok(count) => self.try_ask(count)?,
             Err(_) => None,
         };
-        let count = count.and_then(|data| ElementCount::decode(&data).ok());
-        let count = count.map_or(0, |count| count.0);
-        let reached = self.reach(first, count.min(OBJECTS_MAX))?;
-        all.push(Instance { class, channel, axis, first, count, reached });
+        let told = count.and_then(|data| number_of(&data)).unwrap_or_default();
+        let reached = self.reach(first, told.min(OBJECTS_MAX))?;
+        // One less than it says, and there it ends: the first is counted.
+        let is_itself = told > 0
+            && reached.saturating_add(1) == told
+            && (reached > 0 || self.is_named(first, 0)?);
+        let count = if is_itself { reached } else { told };
+        all.push(Instance { class, channel, axis, first, told, count, reached });
         Ok(true)
     }
 

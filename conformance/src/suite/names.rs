@@ -2,6 +2,7 @@
 
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
 use ads_cnc::edition::{Edition, Feature};
+use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByName, HandleByName, ReadByName,
 };
@@ -101,7 +102,10 @@ fn dynamic(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
         for index in 1..=count {
             let request = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
             let data = probe.try_ask(request)?.unwrap_or_default();
-            all.extend(DynamicName::decode(&data).ok().map(|name| (kind, name.name.text)));
+            let name = DynamicName::decode(&data).ok().map(|name| name.name.text);
+            // One that leaves no room for its NUL cannot be asked for.
+            let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
+            all.extend(name.map(|name| (kind, name)));
         }
     }
     Ok(all)

@@ -190,22 +190,22 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let trial = Trial { what: &one.what, rules: &rules, is_text: one.is_text };
         let mut taken = Vec::new();
         probe.try_write(&trial, &one.place, |probe, _, new| {
-            for (twin, place, before) in &twins {
+            for (rule, twin, place, before) in &twins {
                 let after = probe.value_at(place)?.unwrap_or_default();
                 if after == new && after != *before {
-                    taken.push((twin, place, before, probe.evidence()));
+                    taken.push((*rule, twin, place, before, probe.evidence()));
                 }
             }
             Ok(())
         })?;
         // What took the new value and has the old one again has taken both writes.
         let is_own = taken.is_empty();
-        for (twin, place, before, evidence) in taken {
+        for (rule, twin, place, before, evidence) in taken {
             let again = probe.value_at(place)?;
             probe.show(evidence);
             let kept = again.as_ref() != Some(before);
             let expected = format!("{} at a place of its own", one.what);
-            probe.check("SDA-1", kept, expected, format!("written in {twin} too"));
+            probe.check(rule, kept, expected, format!("written in {twin} too"));
         }
         if is_own && !twins.is_empty() {
             probe.check("SDA-1", true, "", "");
@@ -214,26 +214,41 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     nothing(!all.is_empty())
 }
 
-/// The same element of the other instances of its class, and what it holds there.
-fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<(Instance, Place, Vec<u8>)>> {
+/// Where else a write might go to: what is there, what it holds and how it is judged.
+type Twin = (Rule, String, Place, Vec<u8>);
+
+/// The same element of the other instances of its class, and the other elements of its own. Of
+/// these one may well follow another on a machine.
+fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<Twin>> {
     let Place::Element { length, .. } = one.place else { return Ok(Vec::new()) };
-    let of = |element: ElementAddress, first: ElementAddress| {
-        element.index_offset().get().checked_sub(first.index_offset().get())
+    let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
+    let number = at.saturating_sub(start);
+    let beside = match probe.session.cnc {
+        Some(_) => "SDA-9".into(),
+        None => assumed("SDA-9"),
     };
-    let number = of(one.element, one.instance.first).unwrap_or_default();
-    let mut all = Vec::new();
+    let mut others = Vec::new();
+    for element in one.instance.elements().filter(|element| *element != one.element) {
+        let what = format!("element {} of {}", element.index_offset(), one.instance);
+        others.push((beside, what, element));
+    }
     for other in probe.instances()? {
         // The HLD of each channel has the same axes.
         let is_same = other.first == one.instance.first
             || other.class == Class::Hld && other.axis > 0 && other.axis == one.instance.axis;
-        let (true, false) = (other.class == one.instance.class, is_same) else { continue };
-        let Ok(element) = other.first.following(number) else { continue };
-        if number == 0 || number > other.count || length_of(probe, element)? != Some(length) {
+        let is_twin = other.class == one.instance.class && !is_same && number <= other.count;
+        if let (true, 1.., Ok(element)) = (is_twin, number, other.first.following(number)) {
+            others.push(("SDA-1".into(), other.to_string(), element));
+        }
+    }
+    let mut all = Vec::new();
+    for (rule, what, element) in others {
+        if length_of(probe, element)? != Some(length) {
             continue;
         }
         let place = Place::Element { element, length };
         if let Some(before) = probe.value_at(&place)? {
-            all.push((other, place, before));
+            all.push((rule, what, place, before));
         }
     }
     Ok(all)

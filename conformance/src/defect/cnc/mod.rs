@@ -7,6 +7,7 @@ mod axis;
 mod code;
 mod com;
 mod content;
+mod crossed;
 mod device;
 mod dynamic;
 mod element;
@@ -89,7 +90,7 @@ pub(super) const fn twisted(
 
 /// All rows.
 pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
-    let areas: [&'static [Row]; 23] = [
+    let areas: [&'static [Row]; 24] = [
         address::ROWS,
         ads::ROWS,
         area::ROWS,
@@ -97,6 +98,7 @@ pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
         code::ROWS,
         com::ROWS,
         content::ROWS,
+        crossed::ROWS,
         device::ROWS,
         dynamic::ROWS,
         element::ROWS,

@@ -11,10 +11,10 @@ use ads_cnc::operation::{
 };
 use ads_cnc_vectors::Hex;
 
-use super::super::case::{Evidence, Rule, Step, Stop};
+use super::super::case::{Evidence, Rule, Step, Stop, assumed};
 use super::super::probe::{Probe, harness};
 use super::super::survey::KINDS;
-use super::{PARAMETERS_MAX, each, nothing, number, prefix};
+use super::{PARAMETERS_MAX, each, nothing, number, prefix, refuses_still};
 use crate::profile::Claim;
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {
@@ -176,6 +176,8 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &List) {
         }
         let name = name.map(|name| name.name.text.to_string()).unwrap_or_default();
         let found = format!("{name:?} at index {}", told.index);
+        let ended = name.chars().count() < DYNAMIC_NAME_MAX;
+        probe.check(assumed("DYN-6"), ended, "a name with room for its NUL", &found);
         let of_kind = is_of(kind, &name);
         probe.check("DYN-2", of_kind, format!("a name of {}", prefix(kind)), &found);
         let own = seen.insert(name);
@@ -233,9 +235,10 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
         for beyond in beyond(probe, count) {
             let what = format!("index {beyond} of {count} of {}", prefix(kind));
             let name = |index| DynamicNameByIndex::new(channel, kind, index).map_err(harness);
-            probe.refuses("DYN-5", &what, name(beyond)?, name(count)?)?;
+            let (at, rule) = ((channel, kind), "DYN-5");
+            refuses_still(probe, rule, &what, at, name(beyond)?.into(), name(count)?.into())?;
             let value = |index| DynamicValueByIndex::new(channel, kind, index).map_err(harness);
-            probe.refuses("DYN-5", &what, value(beyond)?, value(count)?)?;
+            refuses_still(probe, rule, &what, at, value(beyond)?.into(), value(count)?.into())?;
         }
         Ok(())
     })

@@ -7,10 +7,11 @@ mod value;
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
-use ads_cnc::operation::{CountDynamic, DynamicNameByIndex};
+use ads_cnc::limits::DYNAMIC_NAME_MAX;
+use ads_cnc::operation::{CountDynamic, DynamicNameByIndex, Request};
 use ads_cnc::{CncString, Decode as _};
 
-use super::case::{Case, Step, Stop};
+use super::case::{Case, Rule, Step, Stop};
 use super::declare;
 use super::probe::{Probe, harness};
 
@@ -143,7 +144,10 @@ fn told(
         let request = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
         // Where one is not there, none is behind it.
         let Some(data) = probe.try_ask(request)? else { break };
-        all.extend(DynamicName::decode(&data).ok().map(|name| (index, name.name.text)));
+        let name = DynamicName::decode(&data).ok().map(|name| name.name.text);
+        // One that leaves no room for its NUL cannot be asked for.
+        let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
+        all.extend(name.map(|name| (index, name)));
     }
     Ok(all)
 }
@@ -153,4 +157,32 @@ fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<Cnc
     let first = told(probe, channel, kind, 1)?.into_iter().next();
     let lacks = || Stop::Inconclusive(format!("{}: no name of index 1", prefix(kind)));
     first.map(|(_, name)| name).ok_or_else(lacks)
+}
+
+/// Sends what must be refused while parameters neither come nor go: with as many before as after,
+/// and a request that differs by the fault only answered both times. Otherwise nothing is judged:
+/// that it is answered at all is, elsewhere.
+fn refuses_still(
+    probe: &mut Probe<'_>,
+    rule: impl Into<Rule>,
+    what: &str,
+    (channel, kind): (Channel, DynamicKind),
+    bad: Request<'_>,
+    good: Request<'_>,
+) -> Step {
+    let rule = rule.into();
+    let count = number(probe, channel, kind)?;
+    if probe.try_ask(good)?.is_none() {
+        return Ok(());
+    }
+    let exchange = probe.send(bad)?;
+    let evidence = probe.evidence();
+    let is_still = probe.try_ask(good)?.is_some() && number(probe, channel, kind)? == count;
+    if is_still {
+        probe.show(evidence);
+        let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
+        let refused = given.is_some_and(<[u8]>::is_empty);
+        probe.check(rule, refused, format!("an error number for {what}"), exchange.result());
+    }
+    Ok(())
 }

@@ -10,7 +10,7 @@ use ads_cnc::{CncString, TextRef};
 use super::super::case::{Rule, Step, Stop, assumed};
 use super::super::probe::{Probe, harness};
 use super::super::still::Still;
-use super::{PARAMETERS_MAX, each, first, number, prefix, told};
+use super::{PARAMETERS_MAX, each, first, number, prefix, refuses_still, told};
 
 /// Names from this length on are judged by how long a name may be, too.
 const LONG: usize = 20;
@@ -71,7 +71,7 @@ fn near(kind: DynamicKind, known: &str) -> Vec<String> {
     let kept = |name: &String| name.strip_prefix(prefix(kind)).is_some_and(|rest| !rest.is_empty());
     let shorter = Some(shorter).filter(kept);
     let changed = shorter.as_ref().map(|shorter| format!("{shorter}{other}"));
-    let longer = ["x", "[0]", ".x"].map(|more| format!("{known}{more}"));
+    let longer = ["x", ".x"].map(|more| format!("{known}{more}"));
     longer.into_iter().chain(shorter).chain(changed).collect()
 }
 
@@ -94,7 +94,7 @@ pub(super) fn unknown_name(probe: &mut Probe<'_>) -> Step {
                 continue;
             }
             let what = format!("the name {unknown:?}");
-            probe.refuses("DYN-3", &what, bad, good)?;
+            refuses_still(probe, "DYN-3", &what, (channel, kind), bad.into(), good.into())?;
         }
         Ok(())
     })
@@ -107,7 +107,8 @@ pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
         for other in DynamicKind::ALL.into_iter().filter(|other| *other != kind) {
             let what = format!("{known} among the {}", prefix(other));
             let bad = DynamicValueByName { kind: other, ..good };
-            probe.refuses(assumed("DYN-3"), &what, bad, good)?;
+            let rule = assumed("DYN-3");
+            refuses_still(probe, rule, &what, (channel, kind), bad.into(), good.into())?;
         }
         Ok(())
     })
@@ -149,9 +150,9 @@ mod tests {
 
     #[test]
     fn names_near_one() {
-        let near_p1 = ["P1x", "P1[0]", "P1.x"];
+        let near_p1 = ["P1x", "P1.x"];
         assert_eq!(near(DynamicKind::P, "P1"), near_p1);
         let near_x = near(DynamicKind::VL, "V.L.ax");
-        assert_eq!(near_x, ["V.L.axx", "V.L.ax[0]", "V.L.ax.x", "V.L.a", "V.L.ay"]);
+        assert_eq!(near_x, ["V.L.axx", "V.L.ax.x", "V.L.a", "V.L.ay"]);
     }
 }

@@ -38,6 +38,16 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let found = format!("{found}, which another instance has too");
         probe.check("SDA-1", own, "a place of its own", found);
     }
+    // Whoever says one place of several instances is not asked further: that behind the last.
+    for one in probe.instances()? {
+        let beyond = probe.address_of(one.class, one.channel, one.axis.saturating_add(1))?;
+        let Some(beyond) = beyond.filter(|address| *address != ObjectAddress::NONE) else {
+            continue;
+        };
+        let own = beyond != ObjectAddress::from(one.first) || one.class == Class::Spindle;
+        let found = format!("{beyond:?} for the axis behind {one} too");
+        probe.check("SDA-1", own, "a place of its own", found);
+    }
     // In another order, each is where it was.
     for one in probe.instances()?.iter().rev() {
         let again = probe.address_of(one.class, one.channel, one.axis)?;

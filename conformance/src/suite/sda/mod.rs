@@ -29,7 +29,7 @@ pub(super) fn cases() -> Vec<Case> {
         declare!(
             "sda-configured-instances",
             "Every class has the instances that the configuration makes",
-            ["SDA-2", "SDA-5", "ADR-5"],
+            ["SDA-1", "SDA-2", "SDA-5", "ADR-5"],
             Queries,
             range::configured
         ),
@@ -50,7 +50,7 @@ pub(super) fn cases() -> Vec<Case> {
         declare!(
             "sda-axes-agree",
             "Classes with the axes of a channel have as many, and so have those of the platform",
-            ["SDA-5"],
+            ["SDA-1", "SDA-5"],
             Queries,
             range::axes_agree
         ),

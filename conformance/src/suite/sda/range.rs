@@ -29,6 +29,13 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
     for &rule in rules {
         probe.check(rule, first.is_some(), &expected, &found);
     }
+    if let Some(first) = first {
+        let group = first.class_group();
+        let same = (group.class, u32::from(group.instance)) == (class, channel);
+        let expected =
+            format!("the {} ({channel}, {axis}) in a group of its own", class_name(class));
+        probe.check("SDA-1", same, expected, found);
+    }
     Ok(())
 }
 
@@ -86,7 +93,9 @@ pub(super) fn configured(probe: &mut Probe<'_>) -> Step {
     for axis in 1..=axes {
         is_there(probe, &rules, Class::PositionController, 0, axis)?;
         is_there(probe, &rules, Class::Hld, 0, axis)?;
-        for &channel in &numbers {
+        for (rank, &channel) in numbers.iter().enumerate() {
+            // Of the first channel's HLD it is said that it has them, of the others' not.
+            let rules = if rank == 0 { rules } else { ["SDA-5", "ADR-5"].map(assumed) };
             is_there(probe, &rules, Class::Hld, channel, axis)?;
         }
     }
