@@ -19,6 +19,7 @@ mod lenient;
 
 #[cfg(test)]
 mod tests;
+mod unlike;
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -86,7 +87,7 @@ pub fn all() -> &'static [Seed] {
     ALL.get_or_init(|| {
         let fields = Defect::all().into_iter().map(Seed::from);
         let cnc = cnc::rows().map(|row| Seed::of_row(row, Kind::Cnc));
-        let different = different::rows().chain(lenient::ROWS);
+        let different = different::rows().chain(lenient::ROWS).chain(unlike::ROWS);
         let different = different.map(|row| Seed::of_row(row, Kind::Different));
         fields.chain(codec::seeds()).chain(cnc).chain(different).collect()
     })

@@ -7,13 +7,14 @@ use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
 use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::operation::{
-    CountDynamic, CountVariables, DynamicNameByIndex, DynamicValueByIndex, Function,
+    CountDynamic, CountVariables, DynamicNameByIndex, DynamicValueByIndex, Function, Request,
 };
 use ads_cnc_vectors::Hex;
 
 use super::super::case::{Evidence, Rule, Step, Stop, assumed};
 use super::super::probe::{Probe, harness};
 use super::super::survey::KINDS;
+use super::steady::{Checked, steadily};
 use super::{PARAMETERS_MAX, each, nothing, number, prefix, refuses_still};
 use crate::profile::Claim;
 
@@ -69,8 +70,20 @@ struct List {
     swayed: Option<Told>,
 }
 
+impl List {
+    fn is_doubtful(&self) -> bool {
+        let refused = self.names.iter().any(|told| told.data.is_none());
+        refused || self.beyond.data.is_some() || self.swayed.is_some()
+    }
+
+    fn is_same(&self, other: &Self) -> bool {
+        let beyond = self.beyond.data == other.beyond.data;
+        self.count == other.count && same(&self.names, &other.names) && beyond
+    }
+}
+
 /// How often a list that does not stand is read again.
-const TRIES: usize = 3;
+const TRIES: usize = 5;
 
 fn ahead(
     probe: &mut Probe<'_>,
@@ -110,6 +123,7 @@ fn same(one: &[Told], other: &[Told]) -> bool {
 
 /// The list of a kind; none if it never stood.
 fn settled(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<Option<List>> {
+    let mut doubtful: Option<List> = None;
     for _ in 0..TRIES {
         let count = number(probe, channel, kind)?;
         let names = ahead(probe, channel, kind, count)?;
@@ -125,9 +139,15 @@ fn settled(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<O
             let mut pairs = names.iter().zip(back);
             swayed = pairs.find(|(one, other)| one.data != other.data).map(|(_, other)| other);
         }
-        if number(probe, channel, kind)? == count {
-            return Ok(Some(List { count, names, beyond, swayed }));
+        if number(probe, channel, kind)? != count {
+            continue;
         }
+        let list = List { count, names, beyond, swayed };
+        // What is wrong has to be so once more.
+        if !list.is_doubtful() || doubtful.is_some_and(|before| before.is_same(&list)) {
+            return Ok(Some(list));
+        }
+        doubtful = Some(list);
     }
     Ok(None)
 }
@@ -216,15 +236,34 @@ fn beyond(probe: &Probe<'_>, count: u32) -> Vec<u32> {
     all
 }
 
+/// Where there is none, there is no first.
+fn none(
+    probe: &mut Probe<'_>,
+    kind: DynamicKind,
+    answers: &[Vec<u8>],
+    first: Request<'_>,
+) -> Step<Vec<Checked>> {
+    let count = answers.first().and_then(|data| DynamicCount::decode(data).ok());
+    if count != Some(DynamicCount(0)) {
+        return Ok(Vec::new());
+    }
+    let exchange = probe.send(first)?;
+    let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
+    let refused = given.is_some_and(<[u8]>::is_empty);
+    let expected = format!("an error number for index 1 of no {}", prefix(kind));
+    Ok(vec![Checked::new(probe, "DYN-5", refused, expected, exchange.result())])
+}
+
 pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
-            if number(probe, channel, kind)? == 0 {
-                let what = format!("index 1 of no {}", prefix(kind));
-                let first = DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?;
-                probe.refuses_alone("DYN-5", &what, first)?;
-                let first = DynamicValueByIndex::new(channel, kind, 1).map_err(harness)?;
-                probe.refuses_alone("DYN-5", &what, first)?;
+            let first: [Request<'_>; 2] = [
+                DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?.into(),
+                DynamicValueByIndex::new(channel, kind, 1).map_err(harness)?.into(),
+            ];
+            for first in first {
+                let count = CountDynamic::new(channel, kind).into();
+                steadily(probe, &[count], |probe, answers| none(probe, kind, answers, first))?;
             }
         }
     }

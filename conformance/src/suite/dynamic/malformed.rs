@@ -8,27 +8,29 @@ use ads_cnc::operation::{
 
 use super::super::case::{Step, assumed};
 use super::super::probe::{Probe, harness};
-use super::{each, first, told};
+use super::{each, first, refused_still, told};
 
 pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, count| {
+        let at = (channel, kind);
         let index = DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?;
         let value = DynamicValueByIndex::new(channel, kind, 1).map_err(harness)?;
         for (id, request) in [("DYN-2", Request::from(index)), ("DYN-4", value.into())] {
             let mut buf = [0; 4];
             let good = request.encode(&mut buf).map_err(harness)?;
             let zero = Call { data: &[0; 4], ..good };
-            probe.refused("DYN-5", "index 0", &zero, &good)?;
+            refused_still(probe, "DYN-5", "index 0", at, &zero, request)?;
             for data in [&[][..], &[1], &[1, 0], &[1, 0, 0, 0, 0]] {
                 let what = format!("an index of {} bytes", data.len());
-                probe.refused(assumed(id), &what, &Call { data, ..good }, &good)?;
+                refused_still(probe, assumed(id), &what, at, &Call { data, ..good }, request)?;
             }
         }
         let request = Request::from(CountDynamic::new(channel, kind));
         let mut buf = [0; 4];
         let good = request.encode(&mut buf).map_err(harness)?;
         let short = Call { read_length: 3, ..good };
-        probe.refused(assumed("ADS-1"), "a read length of 3 for a number", &short, &good)?;
+        let what = "a read length of 3 for a number";
+        refused_still(probe, assumed("ADS-1"), what, at, &short, request)?;
         for (_, known) in told(probe, channel, kind, count)? {
             let text = TextRef::from(known.as_cnc_str());
             let request = Request::from(DynamicValueByName { channel, kind, name: text });
@@ -41,15 +43,17 @@ pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
                 let long = [known.as_bytes(), &rest, &[0]].concat();
                 let what = format!("a name of {} characters", long.len().saturating_sub(1));
                 let long = Call { data: &long, ..good };
-                probe.refused("DYN-6", &what, &long, &good)?;
+                refused_still(probe, "DYN-6", &what, at, &long, request)?;
             }
             let mut behind = good.data.to_vec();
             behind.resize(DYNAMIC_NAME_MAX.saturating_add(1), b'x');
             let what = "a request of 97 bytes, with something behind the name's end";
-            probe.refused(assumed("DYN-6"), what, &Call { data: &behind, ..good }, &good)?;
+            let behind = Call { data: &behind, ..good };
+            refused_still(probe, assumed("DYN-6"), what, at, &behind, request)?;
             let read = good.read_length.saturating_sub(1);
             let short = Call { read_length: read, ..good };
-            probe.refused(assumed("DYN-3"), "a read length of 7 for a value", &short, &good)?;
+            let what = "a read length of 7 for a value";
+            refused_still(probe, assumed("DYN-3"), what, at, &short, request)?;
         }
         Ok(())
     })

@@ -3,17 +3,19 @@
 mod change;
 mod list;
 mod malformed;
+mod steady;
 mod value;
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
 use ads_cnc::limits::DYNAMIC_NAME_MAX;
-use ads_cnc::operation::{CountDynamic, DynamicNameByIndex, Request};
+use ads_cnc::operation::{Call, CountDynamic, DynamicNameByIndex, Request};
 use ads_cnc::{CncString, Decode as _};
 
 use super::case::{Case, Rule, Step, Stop};
 use super::declare;
 use super::probe::{Probe, harness};
+use steady::Checked;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -159,30 +161,36 @@ fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<Cnc
     first.map(|(_, name)| name).ok_or_else(lacks)
 }
 
-/// Sends what must be refused while parameters neither come nor go: with as many before as after,
-/// and a request that differs by the fault only answered both times. Otherwise nothing is judged:
-/// that it is answered at all is, elsewhere.
+/// Sends what must be refused, beside a request that differs by the fault only and is answered.
 fn refuses_still(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,
     what: &str,
-    (channel, kind): (Channel, DynamicKind),
+    at: (Channel, DynamicKind),
     bad: Request<'_>,
     good: Request<'_>,
 ) -> Step {
+    let mut buf = vec![0; bad.encoded_len()];
+    let bad = bad.encode(&mut buf).map_err(harness)?;
+    refused_still(probe, rule, what, at, &bad, good)
+}
+
+/// As [`refuses_still`], for what is no request.
+fn refused_still(
+    probe: &mut Probe<'_>,
+    rule: impl Into<Rule>,
+    what: &str,
+    (channel, kind): (Channel, DynamicKind),
+    bad: &Call<'_>,
+    good: Request<'_>,
+) -> Step {
     let rule = rule.into();
-    let count = number(probe, channel, kind)?;
-    if probe.try_ask(good)?.is_none() {
-        return Ok(());
-    }
-    let exchange = probe.send(bad)?;
-    let evidence = probe.evidence();
-    let is_still = probe.try_ask(good)?.is_some() && number(probe, channel, kind)? == count;
-    if is_still {
-        probe.show(evidence);
+    let count = CountDynamic::new(channel, kind).into();
+    steady::steadily(probe, &[count, good], |probe, _| {
+        let exchange = probe.call(bad)?;
         let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
         let refused = given.is_some_and(<[u8]>::is_empty);
-        probe.check(rule, refused, format!("an error number for {what}"), exchange.result());
-    }
-    Ok(())
+        let expected = format!("an error number for {what}");
+        Ok(vec![Checked::new(probe, rule, refused, expected, exchange.result())])
+    })
 }

@@ -1,66 +1,87 @@
 //! Values of dynamic parameters, by name and by index.
 
 use ads_cnc::address::Channel;
-use ads_cnc::dynamic::{DynamicKind, DynamicValue};
+use ads_cnc::dynamic::{DynamicKind, DynamicName, DynamicValue};
+use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, Request,
 };
-use ads_cnc::{CncString, TextRef};
+use ads_cnc::{CncString, Decode as _, TextRef};
+use ads_cnc_vectors::Hex;
 
-use super::super::case::{Rule, Step, Stop, assumed};
+use super::super::case::{Step, Stop, assumed};
 use super::super::probe::{Probe, harness};
-use super::super::still::Still;
+use super::steady::{Checked, steadily};
 use super::{PARAMETERS_MAX, each, first, number, prefix, refuses_still, told};
 
 /// Names from this length on are judged by how long a name may be, too.
 const LONG: usize = 20;
 
 pub(super) fn values(probe: &mut Probe<'_>) -> Step {
-    let mut still = Still::default();
     each(probe, |probe, channel, kind, count| {
-        let names = told(probe, channel, kind, count)?;
         // Backwards: what an index means does not depend on what was asked before.
-        for (index, name) in names.iter().rev() {
-            value(probe, &mut still, (channel, kind), *index, name)?;
+        for index in (1..=count).rev() {
+            let by_index = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+            steadily(probe, &[by_index.into()], |probe, answers| {
+                let name = answers.first().and_then(|data| DynamicName::decode(data).ok());
+                let name = name.map(|name| name.name.text);
+                // One that leaves no room for its NUL cannot be asked for.
+                match name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX) {
+                    Some(name) => value(probe, channel, kind, index, &name),
+                    None => Ok(Vec::new()),
+                }
+            })?;
         }
         Ok(())
-    })?;
-    still.finish()
+    })
 }
 
 fn value(
     probe: &mut Probe<'_>,
-    still: &mut Still,
-    (channel, kind): (Channel, DynamicKind),
+    channel: Channel,
+    kind: DynamicKind,
     index: u32,
     name: &CncString,
-) -> Step {
+) -> Step<Vec<Checked>> {
     let text = TextRef::from(name.as_cnc_str());
-    let by_name = DynamicValueByName { channel, kind, name: text };
+    let by_name = Request::from(DynamicValueByName { channel, kind, name: text });
     let by_index = DynamicValueByIndex::new(channel, kind, index).map_err(harness)?;
-    // As it is told it has to be found, if it has not gone meanwhile.
-    let exchange = probe.send(by_name)?;
-    let is_found = exchange.answer().is_some_and(|answer| answer.success().is_some());
-    if !is_found && !told(probe, channel, kind, index)?.contains(&(index, name.clone())) {
-        return Ok(());
-    }
+    let mut checks = Vec::new();
+    let read = |probe: &mut Probe<'_>, request| -> Step<(Option<Vec<u8>>, String)> {
+        let exchange = probe.send(request)?;
+        let data = exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec);
+        Ok((data, exchange.result()))
+    };
+    let (named, result) = read(probe, by_name)?;
+    // As it is told it has to be found.
     let rules: &[&str] = match name.as_bytes().len() {
-        LONG.. => &["DYN-6", "DYN-3", "DYN-2"],
+        LONG.. => &["DYN-3", "DYN-2", "DYN-6"],
         _ => &["DYN-3", "DYN-2"],
     };
     for &rule in rules {
         let expected = format!("the value of {name}, as index {index} is called");
-        probe.check(rule, is_found, expected, exchange.result());
+        checks.push(Checked::new(probe, rule, named.is_some(), expected, &result));
     }
-    if !is_found {
-        return Ok(());
+    let mut real = |probe: &Probe<'_>, rule, data: &Option<Vec<u8>>, result: &str| {
+        let is_real = data.as_ref().is_some_and(|data| DynamicValue::decode(data).is_ok());
+        checks.push(Checked::new(probe, rule, is_real, format!("a REAL64 of {name}"), result));
+    };
+    if named.is_some() {
+        real(probe, "DYN-3", &named, &result);
     }
-    for (rule, request) in [("DYN-3", Request::from(by_name)), ("DYN-4", by_index.into())] {
-        let _value: DynamicValue = probe.read(rule, request)?;
+    let (indexed, result) = read(probe, by_index.into())?;
+    real(probe, "DYN-4", &indexed, &result);
+    let (named_again, _) = read(probe, by_name)?;
+    // A value that moves is held against nothing.
+    let still = named.filter(|named| named_again.as_ref() == Some(named));
+    if let (Some(named), Some(indexed)) = (still, indexed) {
+        for rule in ["DYN-3", "DYN-4"] {
+            let expected = format!("{} of {name}, at index {index} too", Hex(named.clone()));
+            let found = Hex(indexed.clone());
+            checks.push(Checked::new(probe, rule, named == indexed, expected, found));
+        }
     }
-    let rules = ["DYN-3", "DYN-4"].map(Rule::from);
-    let what = name.to_string();
-    still.same_part(probe, &rules, &what, by_name.into(), by_index.into(), <[u8]>::to_vec)
+    Ok(checks)
 }
 
 /// Names near one that is there: longer, shorter, with another end.
@@ -116,32 +137,42 @@ pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
 
 /// Each function by the channel's rank, beside the same by its number.
 pub(super) fn by_rank(probe: &mut Probe<'_>) -> Step {
-    let mut still = Still::default();
-    let rules = ["ADR-1", "ADR-12"].map(Rule::from);
     for (rank, channel) in (1_u32..).zip(probe.channels()?) {
         let rank = Channel::by_index(rank).map_err(harness)?;
         for kind in DynamicKind::ALL {
-            let what = format!("the number of {}", prefix(kind));
-            let count = |channel| CountDynamic::new(channel, kind);
-            still.same(probe, &rules, &what, count(channel), count(rank).into())?;
+            let count = |channel| CountDynamic::new(channel, kind).into();
+            same_by_rank(probe, count(channel), count(rank))?;
             let count = number(probe, channel, kind)?.min(PARAMETERS_MAX);
             for (index, name) in told(probe, channel, kind, count)? {
                 let text = TextRef::from(name.as_cnc_str());
-                let pairs = |channel| -> Step<[Request<'_>; 3]> {
+                let of = |channel| -> Step<[Request<'_>; 3]> {
                     let name = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
                     let by_index =
                         DynamicValueByIndex::new(channel, kind, index).map_err(harness)?;
                     let by_name = DynamicValueByName { channel, kind, name: text };
                     Ok([name.into(), by_index.into(), by_name.into()])
                 };
-                for (one, other) in pairs(channel)?.into_iter().zip(pairs(rank)?) {
-                    let what = name.to_string();
-                    still.same_part(probe, &rules, &what, one, other, <[u8]>::to_vec)?;
+                for (one, other) in of(channel)?.into_iter().zip(of(rank)?) {
+                    same_by_rank(probe, one, other)?;
                 }
             }
         }
     }
-    still.finish()
+    Ok(())
+}
+
+fn same_by_rank(probe: &mut Probe<'_>, one: Request<'_>, other: Request<'_>) -> Step {
+    steadily(probe, &[one], |probe, answers| {
+        let exchange = probe.send(other)?;
+        let by_rank = exchange.answer().and_then(|answer| answer.success());
+        let by_number = answers.first().map(Vec::as_slice);
+        let expected = Hex(by_number.unwrap_or_default().to_vec());
+        let check = |rule| {
+            let kept = by_rank == by_number;
+            Checked::new(probe, rule, kept, format!("{expected}, by number"), exchange.result())
+        };
+        Ok(["ADR-1", "ADR-12"].map(check).into())
+    })
 }
 
 #[cfg(test)]
