@@ -15,7 +15,7 @@ use super::super::case::{Evidence, Rule, Step, Stop, assumed};
 use super::super::probe::{Probe, harness};
 use super::super::survey::KINDS;
 use super::steady::{Checked, steadily};
-use super::{PARAMETERS_MAX, each, nothing, number, prefix, refuses_still};
+use super::{PARAMETERS_MAX, each, nothing, number, prefix};
 use crate::profile::Claim;
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {
@@ -236,21 +236,22 @@ fn beyond(probe: &Probe<'_>, count: u32) -> Vec<u32> {
     all
 }
 
-/// Where there is none, there is no first.
-fn none(
+/// Sends a request for what is not there while there are so many.
+fn refused_of(
     probe: &mut Probe<'_>,
-    kind: DynamicKind,
+    count: u32,
+    what: &str,
     answers: &[Vec<u8>],
-    first: Request<'_>,
+    bad: Request<'_>,
 ) -> Step<Vec<Checked>> {
-    let count = answers.first().and_then(|data| DynamicCount::decode(data).ok());
-    if count != Some(DynamicCount(0)) {
+    let now = answers.first().and_then(|data| DynamicCount::decode(data).ok());
+    if now != Some(DynamicCount(count)) {
         return Ok(Vec::new());
     }
-    let exchange = probe.send(first)?;
+    let exchange = probe.send(bad)?;
     let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
     let refused = given.is_some_and(<[u8]>::is_empty);
-    let expected = format!("an error number for index 1 of no {}", prefix(kind));
+    let expected = format!("an error number for {what}");
     Ok(vec![Checked::new(probe, "DYN-5", refused, expected, exchange.result())])
 }
 
@@ -261,9 +262,12 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
                 DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?.into(),
                 DynamicValueByIndex::new(channel, kind, 1).map_err(harness)?.into(),
             ];
+            let what = format!("index 1 of no {}", prefix(kind));
             for first in first {
-                let count = CountDynamic::new(channel, kind).into();
-                steadily(probe, &[count], |probe, answers| none(probe, kind, answers, first))?;
+                let guards = [CountDynamic::new(channel, kind).into()];
+                steadily(probe, &guards, |probe, answers| {
+                    refused_of(probe, 0, &what, answers, first)
+                })?;
             }
         }
     }
@@ -271,13 +275,19 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
         if count == PARAMETERS_MAX {
             return Ok(());
         }
+        let requests = |index| -> Step<[Request<'_>; 2]> {
+            let name = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+            let value = DynamicValueByIndex::new(channel, kind, index).map_err(harness)?;
+            Ok([name.into(), value.into()])
+        };
         for beyond in beyond(probe, count) {
             let what = format!("index {beyond} of {count} of {}", prefix(kind));
-            let name = |index| DynamicNameByIndex::new(channel, kind, index).map_err(harness);
-            let (at, rule) = ((channel, kind), "DYN-5");
-            refuses_still(probe, rule, &what, at, name(beyond)?.into(), name(count)?.into())?;
-            let value = |index| DynamicValueByIndex::new(channel, kind, index).map_err(harness);
-            refuses_still(probe, rule, &what, at, value(beyond)?.into(), value(count)?.into())?;
+            for (bad, good) in requests(beyond)?.into_iter().zip(requests(count)?) {
+                let guards = [CountDynamic::new(channel, kind).into(), good];
+                steadily(probe, &guards, |probe, answers| {
+                    refused_of(probe, count, &what, answers, bad)
+                })?;
+            }
         }
         Ok(())
     })
