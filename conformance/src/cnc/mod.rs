@@ -33,6 +33,7 @@ pub mod program;
 mod respond;
 mod server;
 mod state;
+mod within;
 
 pub use answer::Cnc;
 pub use control::ControlError;
@@ -41,6 +42,7 @@ pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
 pub(crate) use respond::INFO;
 pub use respond::{DATA_MAX, NET_ID};
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Server, ServerOptions};
+pub(crate) use within::{Held, Holder};
 
 /// The edition of the manual with this name: `en-1.05` or `de-1.051`.
 ///

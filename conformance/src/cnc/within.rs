@@ -1,0 +1,256 @@
+//! What a CNC holds, as the machine has it: nobody asks for it over ADS.
+
+use ads_cnc::address::Class;
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::{CncString, VariablePath, VariableType};
+
+use super::Cnc;
+use super::content::{self, Owner};
+use super::model::{Meaning, Model};
+
+/// Whose content it is: channels by their numbers, axes and places from 1, spindles from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Holder {
+    /// COM: the platform.
+    Platform,
+    /// COM: a channel.
+    Channel(u8),
+    /// COM: a platform axis.
+    PlatformAxis(u8),
+    /// COM: whatever axis is at a place of a channel.
+    ChannelAxis { channel: u8, place: u8 },
+    /// A class: a channel.
+    OfChannel { class: Class, channel: u8 },
+    /// A class: a platform axis.
+    OfAxis { class: Class, axis: u8 },
+    /// A class: whatever axis is at a place of a channel.
+    OfPlace { class: Class, channel: u8, place: u8 },
+    /// A spindle.
+    Spindle(u8),
+}
+
+/// A content of an object or an element, as it is at the moment.
+#[derive(Clone, Debug)]
+pub(crate) struct Held {
+    pub(crate) holder: Holder,
+    /// Its place among those of the holder.
+    pub(crate) element: u32,
+    pub(crate) name: CncString,
+    pub(crate) type_name: &'static str,
+    pub(crate) unit: CncString,
+    pub(crate) writable: bool,
+    pub(crate) value: Vec<u8>,
+    owner: Owner,
+    index: usize,
+}
+
+/// A variable of a channel by the name it has there, and the value it has at the moment.
+#[derive(Clone, Debug)]
+pub(crate) struct HeldVariable {
+    pub(crate) channel: u8,
+    pub(crate) name: CncString,
+    pub(crate) var_type: VariableType,
+    pub(crate) value: Vec<u8>,
+}
+
+/// A dynamic parameter that is there at the moment.
+#[derive(Clone, Debug)]
+pub(crate) struct HeldParameter {
+    pub(crate) channel: u8,
+    pub(crate) kind: DynamicKind,
+    pub(crate) name: CncString,
+    pub(crate) value: f64,
+}
+
+impl Cnc {
+    /// All contents that are what was put there last: none that says something of the
+    /// configuration, none where no axis is.
+    pub(crate) fn held(&self) -> Vec<Held> {
+        let mut all = Vec::new();
+        for (owner, holder) in self.owners() {
+            let elements = elements(self.model(), owner);
+            let state = self.state();
+            let values = state.values(owner).into_iter().flatten();
+            let items = content::items(self.model(), owner).iter().zip(elements).zip(values);
+            for (index, ((item, element), value)) in items.enumerate() {
+                if item.meaning == Meaning::Value {
+                    all.push(Held {
+                        holder,
+                        element,
+                        name: item.name.clone(),
+                        type_name: item.type_name,
+                        unit: item.unit.clone(),
+                        writable: item.writable,
+                        value: value.clone(),
+                        owner,
+                        index,
+                    });
+                }
+            }
+        }
+        all
+    }
+
+    /// Puts this value there; it has the size of the old one.
+    pub(crate) fn hold(&self, held: &Held, value: &[u8]) {
+        let mut state = self.state();
+        let content = state.values_mut(held.owner).and_then(|all| all.get_mut(held.index));
+        if let Some(content) = content.filter(|content| content.len() == value.len()) {
+            content.copy_from_slice(value);
+        }
+    }
+
+    /// All variables that can be listed, but for those of the Service Interface.
+    pub(crate) fn held_variables(&self) -> Vec<HeldVariable> {
+        let (model, state) = (self.model(), self.state());
+        let mut all = Vec::new();
+        for (at, one) in model.channels.iter().enumerate() {
+            let channel = one.number;
+            let values = state.variables(at).into_iter().flatten();
+            for (variable, value) in one.variables.list.iter().zip(values) {
+                if variable.service.is_none() && variable.handle.is_some() {
+                    all.push(HeldVariable {
+                        channel,
+                        name: variable.name.clone(),
+                        var_type: variable.var_type,
+                        value: value.clone(),
+                    });
+                }
+            }
+            for place in 0..one.places.len() {
+                let axis = state.axis_at(at, place).and_then(|axis| model.axes.get(axis));
+                let values = state.axis_variables(at, place).into_iter().flatten();
+                for (variable, value) in model.axis_variables.list.iter().zip(values) {
+                    let path = VariablePath::from_text(variable.name.as_cnc_str()).ok();
+                    let name = path
+                        .zip(axis)
+                        .and_then(|(path, axis)| path.with_axis(axis.name.as_cnc_str()).ok());
+                    all.extend(name.map(|name| HeldVariable {
+                        channel,
+                        name,
+                        var_type: variable.var_type,
+                        value: value.clone(),
+                    }));
+                }
+            }
+        }
+        all
+    }
+
+    /// All dynamic parameters that are there.
+    pub(crate) fn held_parameters(&self) -> Vec<HeldParameter> {
+        let (model, state) = (self.model(), self.state());
+        let mut all = Vec::new();
+        for (at, one) in model.channels.iter().enumerate() {
+            for kind in DynamicKind::ALL {
+                all.extend(state.parameters(at, kind).map(|parameter| HeldParameter {
+                    channel: one.number,
+                    kind,
+                    name: parameter.is.name.clone(),
+                    value: parameter.value.get(),
+                }));
+            }
+        }
+        all
+    }
+
+    fn owners(&self) -> Vec<(Owner, Holder)> {
+        let model = self.model();
+        let mut all = vec![(Owner::Platform, Holder::Platform)];
+        let axes = || (0_usize..).zip(1_u8..).take(model.axes.len());
+        all.extend(axes().map(|(at, axis)| (Owner::Axis(at), Holder::PlatformAxis(axis))));
+        for class in [Class::PositionController, Class::Hld] {
+            let of = axes()
+                .map(|(at, axis)| (Owner::ClassAxis(class, at), Holder::OfAxis { class, axis }));
+            all.extend(of);
+        }
+        for (at, one) in model.channels.iter().enumerate() {
+            let channel = one.number;
+            all.push((Owner::Channel(at), Holder::Channel(channel)));
+            for class in [Class::Hld, Class::Interpolator, Class::Decoder, Class::PathPreparation] {
+                all.push((Owner::ClassChannel(class, at), Holder::OfChannel { class, channel }));
+            }
+            for (index, place) in (0_usize..).zip(1_u8..).take(one.places.len()) {
+                let owner = Owner::Place { channel: at, place: index };
+                all.push((owner, Holder::ChannelAxis { channel, place }));
+                for class in [Class::Interpolator, Class::Decoder, Class::PathPreparation] {
+                    let owner = Owner::ClassPlace { class, channel: at, place: index };
+                    all.push((owner, Holder::OfPlace { class, channel, place }));
+                }
+            }
+        }
+        let spindles = (0_usize..).zip(0_u8..).take(model.spindles);
+        all.extend(spindles.map(|(at, index)| (Owner::Spindle(at), Holder::Spindle(index))));
+        all
+    }
+}
+
+/// The place of each item of an owner.
+fn elements(model: &Model, owner: Owner) -> Vec<u32> {
+    let objects = match owner {
+        Owner::Platform => Some(&model.platform),
+        Owner::Channel(channel) => model.channels.get(channel).map(|channel| &channel.objects),
+        Owner::Axis(_) => Some(&model.platform_axis),
+        Owner::Place { .. } => Some(&model.channel_axis),
+        _ => None,
+    };
+    match objects {
+        Some(objects) => objects.elements.clone(),
+        // The first says how many there are.
+        None => (1..).take(content::items(model, owner).len()).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_put_there_is_held() {
+        let cnc = Cnc::with_default_model().unwrap();
+        let all = cnc.held();
+        let of = |holder: Holder, name: &str| {
+            all.iter().find(|one| one.holder == holder && one.name.as_cnc_str() == name).unwrap()
+        };
+        let cycle = of(Holder::Platform, "example_platform_cycle_time_r");
+        assert_eq!((cycle.element, &cycle.value[..]), (0x251, &[0xE8, 3, 0, 0][..]));
+        let second = of(Holder::ChannelAxis { channel: 1, place: 2 }, "example_position_r");
+        assert_eq!((second.element, &second.value[..]), (1, &(-200.5_f64).to_le_bytes()[..]));
+        let speed = of(Holder::Spindle(1), "example.speed");
+        assert_eq!((speed.element, speed.writable), (1, true));
+        // The axis at the place holds it, and no place without an axis does.
+        assert!(
+            !all.iter().any(|one| {
+                matches!(one.holder, Holder::ChannelAxis { channel: 2, place: 2.. })
+            })
+        );
+
+        cnc.hold(speed, &[7; 8]);
+        cnc.hold(cycle, &[1; 3]);
+        let changed: Vec<(Holder, Vec<u8>)> = cnc
+            .held()
+            .into_iter()
+            .zip(&all)
+            .filter(|(new, old)| new.value != old.value)
+            .map(|(new, _)| (new.holder, new.value))
+            .collect();
+        assert_eq!(changed, [(Holder::Spindle(1), vec![7; 8])]);
+    }
+
+    #[test]
+    fn variables_and_parameters_are_held() {
+        let cnc = Cnc::with_default_model().unwrap();
+        let variables = cnc.held_variables();
+        let of = |channel: u8, name: &str| {
+            let mut mine = variables.iter().filter(|one| one.channel == channel);
+            mine.find(|one| one.name.as_cnc_str() == name).map(|one| one.value.clone())
+        };
+        assert_eq!(of(6, "V.E.channel"), Some(vec![6, 0, 0, 0]));
+        assert_eq!(of(1, "V.A.WCS.Y"), Some(1234.2_f64.to_le_bytes().to_vec()));
+        assert_eq!(of(1, "V.G.SERVICE.REQUEST"), None);
+        assert_eq!(of(1, "V.CYC.count"), None);
+        let parameters = cnc.held_parameters();
+        let first = &parameters[0];
+        assert_eq!((first.channel, first.kind, first.value), (1, DynamicKind::P, 4711.0));
+    }
+}
