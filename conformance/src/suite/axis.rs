@@ -1,19 +1,17 @@
-//! Cases of the axis interface, and of axes that change their place.
+//! Cases of the axis interface.
 
 use std::collections::HashMap;
 
-use ads_cnc::address::{Channel, ChannelAxis, Class};
+use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::{
-    AxisHandleByName, AxisReadByName, Call, ReadByHandle, ReadByName, ReadElement, Request,
+    AxisHandleByName, AxisReadByName, Call, ReadByHandle, ReadByName, Request,
 };
 use ads_cnc::{CncString, Decode as _, Description, Handle, Kind, Numbers, TextRef, VariablePath};
 use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Step, Stop, assumed};
 use super::declare;
-use super::inventory::OF_PLACES;
 use super::probe::{Probe, harness};
-use super::sda::length_of;
 use super::still::Still;
 use super::variable::name_of;
 
@@ -22,7 +20,7 @@ pub(super) fn cases() -> Vec<Case> {
         declare!(
             "axis-handles",
             "On the axis interface a name has the handle that its place is described with",
-            ["VAR-10", "VAR-26"],
+            ["VAR-10", "VAR-26", "ADR-7", "GEN-6"],
             Queries,
             handles
         ),
@@ -46,13 +44,6 @@ pub(super) fn cases() -> Vec<Case> {
             ["VAR-26"],
             Malformed,
             zero
-        ),
-        declare!(
-            "axis-exchange",
-            "An axis takes its values along to another place; the platform's place stays",
-            ["ADR-13", "SDA-13", "VAR-10"],
-            Embedded,
-            exchange
         ),
     ]
 }
@@ -119,6 +110,15 @@ pub(super) fn names(described: &[(CncString, Description)]) -> Vec<&CncString> {
     names
 }
 
+/// The name on the axis interface of a variable that some axis has.
+pub(super) fn name_on_axes(variables: &[Description]) -> Option<CncString> {
+    variables.iter().find_map(|variable| {
+        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
+        let of_axis = path.kind() == Kind::V_A && path.axis().is_some();
+        of_axis.then(|| path.without_axis().ok()).flatten()
+    })
+}
+
 /// A variable on the axis interface.
 struct At<'a> {
     channel: Channel,
@@ -141,6 +141,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
         let first = ChannelAxis::new(1).map_err(harness)?;
         // An axis is at one place at least of a channel that describes one.
         let mut any = described.is_empty();
+        let mut at_places: HashMap<u32, u32> = HashMap::new();
         for place in 1..=PLACES_MAX {
             let axis = ChannelAxis::new(place).map_err(harness)?;
             for name in names(&described) {
@@ -150,6 +151,15 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                 let handle = Handle::decode(&data);
                 let found = format!("{} for {name} of place {place}", Hex(data));
                 probe.check("VAR-26", handle.is_ok(), "a handle of 4 bytes", found);
+                let Ok(Handle(handle)) = handle else { continue };
+                // It belongs to the place; what no axis is at may have any.
+                let known = described.iter().any(|(_, variable)| variable.handle.0 == handle);
+                let other = at_places.insert(handle, place);
+                let other = other.filter(|other| known && *other != place);
+                let found = format!("the handle {handle:#x} of place {place} and of {other:?}");
+                for rule in ["VAR-10", "VAR-26", "ADR-7"] {
+                    probe.check(rule, other.is_none(), "a handle of each place", &found);
+                }
             }
             if !any && axis != first {
                 break;
@@ -157,6 +167,18 @@ fn handles(probe: &mut Probe<'_>) -> Step {
         }
         let found = format!("none answers in channel {}", channel.number());
         probe.check("VAR-26", any, "handles by name on the axis interface", found);
+        // That there is but one handle is said nowhere.
+        let handles = described.iter().map(|(_, variable)| variable.handle.0);
+        let is_one_number = handles.into_iter().any(|handle| at_places.contains_key(&handle));
+        for (_, variable) in &described {
+            // The place it belongs to is one of those counted from 1.
+            let name = &variable.name.text;
+            let has_place = !is_one_number || at_places.contains_key(&variable.handle.0);
+            let expected = format!("a place from 1 on with the handle of {name}");
+            for rule in ["VAR-26", "GEN-6"] {
+                probe.check(rule, has_place, &expected, "none has it");
+            }
+        }
     }
     each(probe, |probe, at, variable| {
         let found = format!("that of {} for {at}", variable.name.text);
@@ -241,76 +263,4 @@ fn zero(probe: &mut Probe<'_>) -> Step {
         }
         Ok(())
     })
-}
-
-/// The contents of all elements of instances; only what is there to be read.
-fn contents(
-    probe: &mut Probe<'_>,
-    classes: &[Class],
-    channel: u32,
-    axis: u32,
-) -> Step<Vec<Vec<u8>>> {
-    let mut all = Vec::new();
-    for instance in probe.instances()? {
-        if !classes.contains(&instance.class)
-            || (instance.channel, instance.axis) != (channel, axis)
-        {
-            continue;
-        }
-        for element in instance.elements() {
-            let Some(length) = length_of(probe, element)? else { continue };
-            let Ok(read) = ReadElement::new(element, length) else { continue };
-            all.push(probe.ask("ADR-13", read)?);
-        }
-    }
-    Ok(all)
-}
-
-const OF_PLATFORM: [Class; 2] = [Class::PositionController, Class::Hld];
-
-/// What the suite knows of the default model: the second place of channel 1 has the axis 2, the
-/// third the axis 3.
-fn exchange(probe: &mut Probe<'_>) -> Step {
-    let cnc = probe.cnc()?;
-    if (cnc.axis_at(1, 2), cnc.axis_at(1, 3)) != (2, 3) {
-        let why = "the places 2 and 3 of channel 1 have not the axes 2 and 3";
-        return Err(Stop::NotApplicable(why.to_owned()));
-    }
-    let places = |probe: &mut Probe<'_>, place| contents(probe, &OF_PLACES, 1, place);
-    let platform = |probe: &mut Probe<'_>| -> Step<Vec<Vec<u8>>> {
-        let mut all = contents(probe, &OF_PLATFORM, 0, 2)?;
-        all.extend(contents(probe, &OF_PLATFORM, 0, 3)?);
-        all.extend(contents(probe, &[Class::Hld], 1, 3)?);
-        Ok(all)
-    };
-    let handle_of = |probe: &mut Probe<'_>| {
-        let (channel, axis) =
-            (Channel::new(1).map_err(harness)?, ChannelAxis::new(2).map_err(harness)?);
-        probe.try_ask(AxisHandleByName::new(channel, axis, "V.A.WCS").map_err(harness)?)
-    };
-    let (before, of_platform, handle) = (places(probe, 3)?, platform(probe)?, handle_of(probe)?);
-    if cnc.exchange_axis(1, 2, 3).is_err() {
-        return Err(Stop::NotApplicable("channel 1 has no axis 3 to be exchanged".to_owned()));
-    }
-    let after = (places(probe, 2), places(probe, 3), platform(probe), handle_of(probe));
-    // In the order in which they do not get into each other's way.
-    cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3)).map_err(harness)?;
-    let (second, third, platform_after, handle_after) = after;
-    let moved = second? == before;
-    probe.check("ADR-13", moved, "the values of axis 3 at place 2 now", "others");
-    let blank = third?.iter().flatten().all(|&byte| byte == 0);
-    probe.check("ADR-13", blank, "nothing at place 3 any more", "values");
-    let platform_after = platform_after?;
-    for rule in ["ADR-13", "SDA-13"] {
-        let same = platform_after == of_platform;
-        probe.check(rule, same, "the platform's axes where they were", "others");
-    }
-    let handle_after = handle_after?;
-    let (same, expected) = (
-        handle_after.is_some() && handle_after == handle,
-        "the handle of the place, whichever axis is there",
-    );
-    probe.check("VAR-10", same, expected, "another");
-    let back = places(probe, 3)? == before;
-    probe.require(&["ADR-13".into()], back, "axis 3 at place 3 again", "others")
 }

@@ -13,6 +13,7 @@ mod device;
 mod dynamic;
 mod elements;
 mod handles;
+mod exchange;
 mod held;
 mod inventory;
 mod known;
@@ -99,6 +100,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(configured::cases());
     cases.extend(axis::cases());
     cases.extend(axis_place::cases());
+    cases.extend(exchange::cases());
     cases.extend(write::cases());
     cases.extend(write_elements::cases());
     cases.extend(write_refused::cases());

@@ -1,0 +1,116 @@
+//! Cases of axes that change their place.
+
+use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class, PlatformAxis};
+use ads_cnc::operation::{AxisHandleByName, ObjectList, ReadElement};
+
+use super::case::{Case, Step, Stop};
+use super::content::read_of;
+use super::declare;
+use super::inventory::OF_PLACES;
+use super::probe::{Probe, harness};
+use super::sda::length_of;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![declare!(
+        "axis-exchange",
+        "An axis takes its values along to another place; the platform's place stays",
+        ["ADR-13", "SDA-13", "VAR-10"],
+        Embedded,
+        exchange
+    )]
+}
+
+/// The contents of all elements of instances; only what is there to be read.
+fn contents(
+    probe: &mut Probe<'_>,
+    classes: &[Class],
+    channel: u32,
+    axis: u32,
+) -> Step<Vec<Vec<u8>>> {
+    let mut all = Vec::new();
+    for instance in probe.instances()? {
+        if !classes.contains(&instance.class)
+            || (instance.channel, instance.axis) != (channel, axis)
+        {
+            continue;
+        }
+        for element in instance.elements() {
+            let Some(length) = length_of(probe, element)? else { continue };
+            let Ok(read) = ReadElement::new(element, length) else { continue };
+            all.push(probe.ask("ADR-13", read)?);
+        }
+    }
+    Ok(all)
+}
+
+/// The contents of the objects of a list at an axis, by the stride that the CNC in this process
+/// has; of all of them without an axis.
+fn objects(probe: &mut Probe<'_>, list: ObjectList, axis: Option<u32>) -> Step<Vec<Vec<u8>>> {
+    let mut all = Vec::new();
+    for object in probe.objects()?.iter().filter(|object| object.list == list) {
+        let at = object.offset.axis_and_element(AxisStride::X10000).map_or(0, |(axis, _)| axis);
+        let Some(read) = read_of(object).filter(|_| axis.is_none_or(|axis| axis == at)) else {
+            continue;
+        };
+        all.push(probe.ask("ADR-13", read)?);
+    }
+    Ok(all)
+}
+
+const OF_PLATFORM: [Class; 2] = [Class::PositionController, Class::Hld];
+
+/// What the suite knows of the default model: the second place of channel 1 has the axis 2, the
+/// third the axis 3.
+fn exchange(probe: &mut Probe<'_>) -> Step {
+    let cnc = probe.cnc()?;
+    if (cnc.axis_at(1, 2), cnc.axis_at(1, 3)) != (2, 3) {
+        let why = "the places 2 and 3 of channel 1 have not the axes 2 and 3";
+        return Err(Stop::NotApplicable(why.to_owned()));
+    }
+    let places = |probe: &mut Probe<'_>, place| -> Step<Vec<Vec<u8>>> {
+        let mut all = contents(probe, &OF_PLACES, 1, place)?;
+        let list = ObjectList::from(probe.channel_of(1)?);
+        all.extend(objects(probe, list, Some(place))?);
+        Ok(all)
+    };
+    let platform = |probe: &mut Probe<'_>| -> Step<Vec<Vec<u8>>> {
+        let mut all = contents(probe, &OF_PLATFORM, 0, 2)?;
+        all.extend(contents(probe, &OF_PLATFORM, 0, 3)?);
+        all.extend(contents(probe, &[Class::Hld], 1, 3)?);
+        for place in [2, 3] {
+            let list = ObjectList::from(PlatformAxis::new(place).map_err(harness)?);
+            all.extend(objects(probe, list, None)?);
+        }
+        Ok(all)
+    };
+    let handle_of = |probe: &mut Probe<'_>| {
+        let (channel, axis) =
+            (Channel::new(1).map_err(harness)?, ChannelAxis::new(2).map_err(harness)?);
+        probe.try_ask(AxisHandleByName::new(channel, axis, "V.A.WCS").map_err(harness)?)
+    };
+    let (before, of_platform, handle) = (places(probe, 3)?, platform(probe)?, handle_of(probe)?);
+    if cnc.exchange_axis(1, 2, 3).is_err() {
+        return Err(Stop::NotApplicable("channel 1 has no axis 3 to be exchanged".to_owned()));
+    }
+    let after = (places(probe, 2), places(probe, 3), platform(probe), handle_of(probe));
+    // In the order in which they do not get into each other's way.
+    cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3)).map_err(harness)?;
+    let (second, third, platform_after, handle_after) = after;
+    let moved = second? == before;
+    probe.check("ADR-13", moved, "the values of axis 3 at place 2 now", "others");
+    let blank = third?.iter().flatten().all(|&byte| byte == 0);
+    probe.check("ADR-13", blank, "nothing at place 3 any more", "values");
+    let platform_after = platform_after?;
+    for rule in ["ADR-13", "SDA-13"] {
+        let same = platform_after == of_platform;
+        probe.check(rule, same, "the platform's axes where they were", "others");
+    }
+    let handle_after = handle_after?;
+    let (same, expected) = (
+        handle_after.is_some() && handle_after == handle,
+        "the handle of the place, whichever axis is there",
+    );
+    probe.check("VAR-10", same, expected, "another");
+    let back = places(probe, 3)? == before;
+    probe.require(&["ADR-13".into()], back, "axis 3 at place 3 again", "others")
+}
