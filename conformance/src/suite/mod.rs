@@ -2,6 +2,7 @@
 
 mod address;
 mod arrays;
+mod attributes;
 mod axis;
 mod axis_place;
 mod case;
@@ -14,6 +15,7 @@ mod dynamic;
 mod elements;
 mod handles;
 mod exchange;
+mod general;
 mod held;
 mod inventory;
 mod known;
@@ -82,6 +84,8 @@ pub fn cases() -> Vec<Case> {
     let mut cases = vectors::cases();
     cases.extend(address::cases());
     cases.extend(services::cases());
+    cases.extend(attributes::cases());
+    cases.extend(general::cases());
     cases.extend(numbers::cases());
     cases.extend(device::cases());
     cases.extend(com::cases());

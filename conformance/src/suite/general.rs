@@ -1,0 +1,301 @@
+//! Cases of what is common to all streams: tasks and their ports, where numbering starts, the
+//! sizes of types, the code page of texts.
+
+use ads_cnc::address::{Channel, ChannelAxis, Class, IndexGroup};
+use ads_cnc::ads::{AdsError, AmsPort};
+use ads_cnc::operation::{
+    AxisHandleByName, Call, CountObjects, CountVariables, FindInstance, HandleByName, ReadByHandle,
+    ReadElementName, ReadElementUnit, Request,
+};
+use ads_cnc::sda::{ElementText, ObjectAddress};
+use ads_cnc::{CncString, Decode as _, Kind, Numbers, TextRef, VariableType};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Rule, Step, Stop, assumed, online};
+use super::declare;
+use super::held::element_of;
+use super::probe::{Probe, harness};
+use super::variable::name_of;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "gen-ports-answer",
+            "At each port that is claimed a task is",
+            ["GEN-4"],
+            Queries,
+            ports_answer
+        ),
+        declare!(
+            "gen-tasks-apart",
+            "A task answers at its own port, and not at another's",
+            ["GEN-4"],
+            Malformed,
+            tasks_apart
+        ),
+        declare!(
+            "gen-type-sizes",
+            "A variable takes the bytes of its type for each of its elements",
+            ["GEN-5"],
+            Queries,
+            type_sizes
+        ),
+        declare!(
+            "gen-numbering",
+            "Channels are counted from 1, spindles from 0",
+            ["GEN-6", "ADR-2"],
+            Queries,
+            numbering
+        ),
+        declare!(
+            "gen-no-channel-0",
+            "No channel has the number 0, and none the rank 0; no place of a channel is place 0",
+            ["GEN-6"],
+            Malformed,
+            no_channel_0
+        ),
+        declare!(
+            "gen-names-found",
+            "A name is found by the characters it is described with, those beyond ASCII too",
+            ["GEN-3"],
+            Queries,
+            names_found
+        ),
+        declare!(
+            "gen-names-within",
+            "Names and units are CP1252, as the CNC has them within",
+            ["GEN-3"],
+            Embedded,
+            names_within
+        ),
+    ]
+}
+
+/// That nobody is at a port that is claimed; what its task answers is judged elsewhere.
+fn ports_answer(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    for port in [AmsPort::GEO, AmsPort::SDA, AmsPort::COM] {
+        if !probe.session.profile.has_port(port) {
+            continue;
+        }
+        let of_com = CountObjects::new(channel).into();
+        let of_class = FindInstance::new(Class::Decoder, channel.number().into(), 0).into();
+        let request: Request<'_> = if port == AmsPort::COM { of_com } else { of_class };
+        let mut buf = vec![0; request.encoded_len()];
+        let call = request.encode(&mut buf).map_err(harness)?;
+        let exchange = match probe.call(&Call { port, ..call }) {
+            Err(Stop::NotApplicable(_)) => continue,
+            exchange => exchange?,
+        };
+        let nobody = exchange.answer().is_some_and(|answer| {
+            [answer.ams_error, answer.result].contains(&AdsError::TARGET_PORT_NOT_FOUND)
+        });
+        // What is claimed has to be there, however little is documented of its number.
+        probe.check("GEN-4", !nobody, format!("a task at port {}", port.0), exchange.result());
+    }
+    Ok(())
+}
+
+fn tasks_apart(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let of_com: Request<'_> = CountObjects::new(channel).into();
+    let of_sda: Request<'_> = CountVariables::new(channel, Kind::V_E).into();
+    let mut any = false;
+    for (request, ports) in [(of_com, &[AmsPort::SDA, AmsPort::GEO][..]), (of_sda, &[AmsPort::COM])]
+    {
+        if !probe.may(request)? {
+            continue;
+        }
+        any = true;
+        let mut buf = vec![0; request.encoded_len()];
+        let good = request.encode(&mut buf).map_err(harness)?;
+        for &port in ports {
+            let what = format!("{} at port {}", request.function().spec().name, port.0);
+            probe.refused("GEN-4", &what, &Call { port, ..good }, &good)?;
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("neither COM nor SDA is claimed".to_owned())),
+    }
+}
+
+/// BOOLEAN's size is printed, those of the others follow from help pages.
+fn rule_of(var_type: VariableType) -> Rule {
+    if var_type == VariableType::BOOLEAN { "GEN-5".into() } else { online("GEN-5") }
+}
+
+fn type_sizes(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            let Some(size) = variable.var_type.element_size() else { continue };
+            let whole = variable.dimensions.iter().fold(size, |all, &n| all.saturating_mul(n));
+            let (rule, name) = (rule_of(variable.var_type), &variable.name.text);
+            let expected = format!("{whole} bytes for {:?}", variable.var_type);
+            let found = format!("{} bytes of {name}", variable.size);
+            probe.check(rule, variable.size == whole, &expected, found);
+            let read = ReadByHandle::new(channel, variable.handle, Numbers::EMPTY);
+            // That it is read at all is judged elsewhere.
+            let Some(value) = probe.try_ask(read)? else { continue };
+            let found = format!("{} bytes of {name} read", value.len());
+            probe.check(rule, u32::try_from(value.len()) == Ok(whole), expected, found);
+        }
+    }
+    Ok(())
+}
+
+fn numbering(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    let find = |probe: &mut Probe<'_>, class, channel| -> Step<Option<ObjectAddress>> {
+        match probe.address_of(class, channel, 0) {
+            Err(Stop::NotApplicable(_)) => Ok(None),
+            address => address,
+        }
+    };
+    // Of SDA is said that it has the decoder.
+    let first = u32::from(probe.channel()?.number());
+    if let Some(there) =
+        find(probe, Class::Decoder, first)?.filter(|one| *one != ObjectAddress::NONE)
+    {
+        any = true;
+        let zero = find(probe, Class::Decoder, 0)?;
+        let none = zero.is_none_or(|zero| zero == ObjectAddress::NONE);
+        let found = format!("{zero:?}, that of channel {first} being {there:?}");
+        probe.check("GEN-6", none, "no decoder of a channel 0", found);
+    }
+    if probe.session.profile.spindles.is_some_and(|spindles| spindles > 0) {
+        any = true;
+        let zero = find(probe, Class::Spindle, 0)?;
+        let there = zero.is_some_and(|zero| zero != ObjectAddress::NONE);
+        for rule in ["GEN-6", "ADR-2"] {
+            let found = format!("{zero:?}");
+            probe.check(rule, there, "a first spindle with the index 0", found);
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("the target names no instance".to_owned())),
+    }
+}
+
+fn no_channel_0(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let request: Request<'_> = CountVariables::new(channel, Kind::V_E).into();
+    let mut buf = vec![0; request.encoded_len()];
+    let good = request.encode(&mut buf).map_err(harness)?;
+    for group in [0x12_2300, 0x02_2300] {
+        let bad = Call { index_group: IndexGroup::new(group), ..good };
+        let what = format!("the variables of channel 0 in group {group:#x}");
+        probe.refused("GEN-6", &what, &bad, &good)?;
+    }
+    let variables = match probe.variables(channel) {
+        Ok(variables) => variables,
+        Err(Stop::NotApplicable(_) | Stop::Inconclusive(_)) => return Ok(()),
+        Err(stop) => return Err(stop),
+    };
+    let Some(name) = super::axis::name_on_axes(&variables) else { return Ok(()) };
+    let axis = ChannelAxis::new(1).map_err(harness)?;
+    let request: Request<'_> =
+        AxisHandleByName { channel, axis, name: name.as_cnc_str().into() }.into();
+    let mut buf = vec![0; request.encoded_len()];
+    let good = request.encode(&mut buf).map_err(harness)?;
+    let offset = ads_cnc::address::IndexOffset::new(good.index_offset.get() & 0xFFFF);
+    probe.refused("GEN-6", "a name at place 0", &Call { index_offset: offset, ..good }, &good)
+}
+
+/// Characters that a code page or a bit too few may have cost, and what stands in their place.
+fn is_telling(name: &[u8]) -> bool {
+    name.iter().any(|byte| !byte.is_ascii() || *byte == b'?')
+}
+
+/// Characters of two and more bytes, and no other beyond ASCII.
+fn is_utf_8(text: &[u8]) -> bool {
+    !text.is_ascii() && std::str::from_utf8(text).is_ok()
+}
+
+fn names_found(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            let name = variable.name.text.as_bytes();
+            if !is_telling(name) {
+                continue;
+            }
+            any = true;
+            let by_name = HandleByName { channel, name: name_of(&variable) };
+            let found = probe.try_ask(by_name)?.is_some();
+            let expected = format!("a handle of {}", variable.name.text);
+            probe.check("GEN-3", found, expected, "the name is not found");
+            // What looks like UTF-8 may be meant.
+            let text = Hex(name.to_vec());
+            probe.check(assumed("GEN-3"), !is_utf_8(name), "one byte a character", text);
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("no name has a character beyond ASCII".to_owned())),
+    }
+}
+
+/// A text that is not as it is held.
+fn text(probe: &mut Probe<'_>, held: &CncString, read: Option<Vec<u8>>) {
+    let text = read.and_then(|data| ElementText::decode(&data).ok()).map(|text| text.text.text);
+    if let (Some(text), true) = (text, is_telling(held.as_bytes())) {
+        let expected = format!("{held}: {}", Hex(held.as_bytes().to_vec()));
+        let same = text.as_bytes() == held.as_bytes();
+        probe.check("GEN-3", same, expected, Hex(text.as_bytes().to_vec()));
+    }
+}
+
+fn names_within(probe: &mut Probe<'_>) -> Step {
+    let cnc = probe.cnc()?;
+    let claimed: Vec<u8> = probe.channels()?.iter().map(|channel| channel.number()).collect();
+    let objects = match probe.objects() {
+        Ok(objects) => objects,
+        Err(Stop::NotApplicable(_)) => Vec::new(),
+        Err(stop) => return Err(stop),
+    };
+    for held in cnc.held() {
+        if let Some(element) = element_of(probe, &held)? {
+            let name = probe.try_ask(ReadElementName::new(element))?;
+            text(probe, &held.name, name);
+            let unit = probe.try_ask(ReadElementUnit::new(element))?;
+            text(probe, &held.unit, unit);
+        } else if is_telling(held.name.as_bytes()) {
+            let listed = objects.iter().any(|object| object.name == held.name);
+            let expected = format!("an object {}", held.name);
+            probe.check("GEN-3", listed || objects.is_empty(), expected, "none of this name");
+        }
+    }
+    for variable in cnc.held_variables() {
+        if !is_telling(variable.name.as_bytes()) || !claimed.contains(&variable.channel) {
+            continue;
+        }
+        let channel = Channel::new(variable.channel.into()).map_err(harness)?;
+        let described = match probe.variables(channel) {
+            Ok(described) => described,
+            Err(Stop::NotApplicable(_) | Stop::Inconclusive(_)) => continue,
+            Err(stop) => return Err(stop),
+        };
+        let listed = described.iter().any(|one| one.name.text == variable.name);
+        let expected = format!("a variable {}", variable.name);
+        probe.check("GEN-3", listed, expected, "none of this name");
+        let name = TextRef::from(variable.name.as_cnc_str());
+        let found = probe.try_ask(HandleByName { channel, name })?.is_some();
+        let expected = format!("a handle of {}", variable.name);
+        probe.check("GEN-3", found, expected, "the name is not found");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn characters_of_several_bytes_are_seen() {
+        assert!(is_utf_8("Länge".as_bytes()));
+        assert!(!is_utf_8(b"L\xE4nge") && !is_utf_8(b"Lange") && !is_utf_8(b"\xB0C"));
+        assert!(is_telling(b"L?nge") && is_telling(b"L\xE4nge") && !is_telling(b"Lange"));
+    }
+}
