@@ -1,11 +1,11 @@
 //! Cases of index groups and ports, and of the frames that carried all others.
 
-use ads_cnc::Kind;
 use ads_cnc::address::Channel;
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{
     Call, CountObjects, CountVariables, DescribeByIndex, ReadDescriptors, Request, Service,
 };
+use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Rule, Step, Stop, assumed, online};
@@ -18,14 +18,14 @@ pub(super) fn cases() -> Vec<Case> {
         declare!(
             "adr-com-object-access",
             "Each channel's object list is at 0x130100 + channel, on the port of COM",
-            ["ADR-3", "ADR-4", "GEN-4"],
+            ["ADR-1", "ADR-3", "ADR-4", "GEN-4"],
             Queries,
             com_object_access
         ),
         declare!(
             "adr-decoder-group",
             "Each channel's variables are at 0x122300 + channel, on the port of SDA",
-            ["ADR-5", "GEN-4", "GEN-6"],
+            ["ADR-1", "ADR-5", "GEN-4", "GEN-6"],
             Queries,
             decoder_group
         ),
@@ -42,6 +42,13 @@ pub(super) fn cases() -> Vec<Case> {
             ["ADR-11"],
             Queries,
             rank_among_active
+        ),
+        declare!(
+            "adr-rank-after-deactivation",
+            "When a channel is deactivated, those behind it move up by index, and not logically",
+            ["ADR-11"],
+            Embedded,
+            rank_after_deactivation
         ),
         declare!(
             "adr-geo-answers-too",
@@ -81,8 +88,16 @@ pub(super) fn frame_cases() -> Vec<Case> {
 
 fn com_object_access(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        let rules = ["ADR-3", "ADR-4", "GEN-4"].map(Rule::from);
-        probe.ask_for(&rules, CountObjects::new(channel))?;
+        // By its number, with the bit of logical addressing.
+        let rules = ["ADR-1", "ADR-3", "ADR-4", "GEN-4"].map(Rule::from);
+        let count = probe.ask_for(&rules, CountObjects::new(channel))?;
+        let none = ObjectCount::decode(&count) == Ok(ObjectCount(0));
+        let first = ReadDescriptors::new(channel, 1, 1).map_err(harness)?;
+        let Some(first) = probe.try_ask(first)?.filter(|_| !none) else { continue };
+        // Not the content of the element with the same number.
+        let described = DescriptorsRef::decode(&first).is_ok_and(|list| list.len() == 1);
+        let found = Hex(first);
+        probe.check("ADR-4", described, "a description under 0x30000", found);
     }
     Ok(())
 }
@@ -90,7 +105,8 @@ fn com_object_access(probe: &mut Probe<'_>) -> Step {
 fn decoder_group(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         // The group is stated, and that channels start at 1; that SDA has port 552 is online.
-        let rules = [Rule::from("ADR-5"), Rule::from("GEN-6"), online("GEN-4")];
+        let rules = ["ADR-1", "ADR-5", "GEN-6"].map(Rule::from);
+        let rules = [&rules[..], &[online("GEN-4")]].concat();
         probe.ask_for(&rules, CountVariables::new(channel, Kind::V_E))?;
     }
     Ok(())
@@ -158,6 +174,45 @@ fn rank_among_active(probe: &mut Probe<'_>) -> Step {
         "a rank beyond the last channel",
         CountVariables::new(beyond, Kind::V_E),
         CountVariables::new(rank, Kind::V_E),
+    )
+}
+
+/// Each channel in its turn; it is active again whatever comes of it.
+fn rank_after_deactivation(probe: &mut Probe<'_>) -> Step {
+    let cnc = probe.cnc()?;
+    let all = probe.channels()?;
+    if all.len() < 2 {
+        return Err(Stop::NotApplicable("there is but one channel".to_owned()));
+    }
+    for &gone in &all {
+        let left: Vec<Channel> = all.iter().filter(|one| **one != gone).copied().collect();
+        cnc.set_active(gone.number(), false).map_err(harness)?;
+        let judged = ranks_are(probe, &left);
+        cnc.set_active(gone.number(), true).map_err(harness)?;
+        judged?;
+    }
+    ranks_are(probe, &all)
+}
+
+/// These are the active channels, in the order of their ranks.
+fn ranks_are(probe: &mut Probe<'_>, channels: &[Channel]) -> Step {
+    let mut last = None;
+    for (rank, &number) in (1..).zip(channels) {
+        let logical = probe.try_ask(CountVariables::new(number, Kind::V_E))?.is_some();
+        let expected = format!("channel {} by its number", number.number());
+        probe.check("ADR-11", logical, expected, "an error");
+        let rank = Channel::by_index(rank).map_err(harness)?;
+        same_by_rank(probe, &["ADR-11".into()], rank, number)?;
+        last = Some(rank);
+    }
+    let Some(last) = last else { return Ok(()) };
+    let beyond = u32::from(last.number()).saturating_add(1);
+    let beyond = Channel::by_index(beyond).map_err(harness)?;
+    probe.refuses(
+        "ADR-11",
+        "a rank beyond the last channel",
+        CountVariables::new(beyond, Kind::V_E),
+        CountVariables::new(last, Kind::V_E),
     )
 }
 
