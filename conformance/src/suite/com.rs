@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use ads_cnc::address::{Access, Channel, ComGroup, ComTable, Group, PlatformAxis};
+use ads_cnc::address::{Access, ComGroup, ComTable, Group};
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
 use ads_cnc::{Decode, DescriptorRef, Descriptors, DescriptorsRef, ObjectCount};
 
@@ -48,27 +48,6 @@ pub(super) fn cases() -> Vec<Case> {
             Queries,
             odd_length
         ),
-        declare!(
-            "com-platform-objects",
-            "The platform's objects are in its own list and in that of the first channel",
-            ["COM-1", "COM-4", "ADR-3"],
-            Queries,
-            platform_objects
-        ),
-        declare!(
-            "com-platform-axes",
-            "Platform axes have object lists of their own",
-            ["COM-7", "ADR-3"],
-            Queries,
-            platform_axes
-        ),
-        declare!(
-            "com-printed-content-address",
-            "mc_command_single_block_w is where the manuals print it",
-            ["COM-6"],
-            PrintedExamples,
-            printed_content_address
-        ),
     ]
 }
 
@@ -88,7 +67,7 @@ fn read(
 }
 
 /// Every descriptor by a read of its own: that several come together is judged elsewhere.
-fn one_by_one(
+pub(super) fn one_by_one(
     probe: &mut Probe<'_>,
     rule: &'static str,
     list: ObjectList,
@@ -102,7 +81,7 @@ fn one_by_one(
     Ok(all)
 }
 
-fn number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
+pub(super) fn number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
     let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
     if number == 0 {
         return Err(Stop::NotApplicable("the list has no object".to_owned()));
@@ -111,7 +90,7 @@ fn number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
 }
 
 /// As [`number`], where it is not this case that judges it.
-fn known_number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
+pub(super) fn known_number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
     let exchange = probe.send(CountObjects::new(list))?;
     let data = exchange.answer().and_then(|answer| answer.success()).unwrap_or_default();
     match ObjectCount::decode(data) {
@@ -121,24 +100,46 @@ fn known_number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
     }
 }
 
-fn count(probe: &mut Probe<'_>) -> Step {
-    for channel in probe.channels()? {
-        let list = ObjectList::from(channel);
-        let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
-        let number = number.min(OBJECTS_MAX);
-        if number == 0 {
-            let first = ReadDescriptors::new(list, 1, 1).map_err(harness)?;
-            probe.refuses_alone("COM-2", "the first of no object", first)?;
-            continue;
+/// The platform's list and those of the channels; what of it is not there is judged elsewhere.
+fn lists(probe: &mut Probe<'_>) -> Step<Vec<ObjectList>> {
+    let mut all = Vec::new();
+    for list in probe.lists()? {
+        if list.parts().table == ComTable::Channel
+            && (list != ObjectList::PLATFORM || probe.try_ask(CountObjects::new(list))?.is_some())
+        {
+            all.push(list);
         }
-        read(probe, "COM-2", list, number, 1)?;
-        let (beyond, last) = (number.saturating_add(1), number);
-        probe.refuses(
-            "COM-2",
-            "the object behind the last",
-            ReadDescriptors::new(list, beyond, 1).map_err(harness)?,
-            ReadDescriptors::new(list, last, 1).map_err(harness)?,
-        )?;
+    }
+    Ok(all)
+}
+
+fn count(probe: &mut Probe<'_>) -> Step {
+    for list in lists(probe)? {
+        let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
+        let asked = number.min(OBJECTS_MAX);
+        let at = list.parts().index_group();
+        // Whichever of the two is wrong, the number or the list: they are one statement.
+        for rule in ["COM-1", "COM-2"] {
+            if asked == 0 {
+                let first = ReadDescriptors::new(list, 1, 1).map_err(harness)?;
+                probe.refuses_alone(rule, "the first of no object", first)?;
+                continue;
+            }
+            let last = ReadDescriptors::new(list, asked, 1).map_err(harness)?;
+            let there = probe.try_ask(last)?;
+            let there = there.is_some_and(|data| DescriptorsRef::decode(&data).is_ok());
+            let expected = format!("object {asked}, as {at} has {number}");
+            if !probe.check(rule, there, expected, "no descriptor") || asked < number {
+                continue;
+            }
+            let beyond = ReadDescriptors::new(list, number.saturating_add(1), 1);
+            let what = format!("the object behind the last of {number}");
+            probe.refuses(rule, &what, beyond.map_err(harness)?, last)?;
+        }
+        // They are static, and nothing that was asked meanwhile changes that.
+        let again: ObjectCount = probe.read("COM-1", CountObjects::new(list))?;
+        let found = format!("{} objects of {at}", again.0);
+        probe.check("COM-1", again.0 == number, format!("{number} as before"), found);
     }
     Ok(())
 }
@@ -182,22 +183,37 @@ pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: Descrip
 }
 
 fn in_sequence(probe: &mut Probe<'_>) -> Step {
-    let list = ObjectList::from(probe.channel()?);
-    let number = known_number(probe, list)?;
+    let mut any = false;
+    for list in lists(probe)? {
+        match known_number(probe, list) {
+            Ok(number) => sequence(probe, list, number)?,
+            Err(Stop::NotApplicable(_)) => continue,
+            Err(stop) => return Err(stop),
+        }
+        any = true;
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("no list has an object".to_owned())),
+    }
+}
+
+fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     let mut singles = Vec::new();
     for first in 1..=number {
         let request = ReadDescriptors::new(list, first, 1).map_err(harness)?;
         singles.push(probe.ask("COM-3", request)?);
     }
     let half = number.div_ceil(2);
-    let reads =
-        [(1, number), (1, 1), (1, 2), (half, 2), (2, number.saturating_sub(1)), (number, 1)];
+    let mut reads = vec![(1, number), (half, 3), (2, number.saturating_sub(1)), (number, 1)];
+    reads.extend((1..number).map(|first| (first, 2)));
     for (first, count) in reads {
         let skip = first.saturating_sub(1);
         if count == 0 || skip.saturating_add(count) > number {
             continue;
         }
-        let request = ReadDescriptors::new(list, first, count).map_err(harness)?;
+        // As many as ADS carries.
+        let Ok(request) = ReadDescriptors::new(list, first, count) else { continue };
         let together = probe.ask("COM-3", request)?;
         let alone = singles.iter().skip(usize_of(skip)).take(usize_of(count));
         let alone: Vec<u8> = alone.flatten().copied().collect();
@@ -245,79 +261,5 @@ fn odd_length(probe: &mut Probe<'_>) -> Step {
         let expected = format!("one descriptor for a read length of {read_length}");
         probe.check(assumed("COM-3"), kept, expected, exchange.result());
     }
-    Ok(())
-}
-
-fn platform_objects(probe: &mut Probe<'_>) -> Step {
-    let platform = number(probe, ObjectList::PLATFORM).map_err(|stop| match stop {
-        Stop::NotApplicable(_) => Stop::NotApplicable("the platform has no object".to_owned()),
-        other => other,
-    });
-    let platform = match platform {
-        // Nothing of it is this case's to judge but that the list is there.
-        Err(Stop::Judged) => {
-            probe.check("COM-4", false, "the platform's list under channel 0", "none");
-            return Err(Stop::Judged);
-        }
-        other => other?,
-    };
-    let own = one_by_one(probe, "COM-4", ObjectList::PLATFORM, platform)?;
-    let first = Channel::new(1).map_err(harness)?;
-    let all = known_number(probe, first.into())?;
-    let listed = one_by_one(probe, "COM-4", first.into(), all)?;
-    let names: HashSet<String> =
-        listed.as_ref().iter().map(|object| object.name().to_string()).collect();
-    for object in own.as_ref().iter() {
-        let name = object.name().to_string();
-        let expected = "each of the platform's objects in the list of channel 1";
-        let found = format!("{name} is not in it");
-        probe.check("COM-4", names.contains(&name), expected, found);
-        let com = matches!(object.index_group().parts(), Some(Group::Com(_)));
-        probe.check(assumed("ADR-3"), com, "a group of COM", object.index_group());
-    }
-    Ok(())
-}
-
-fn platform_axes(probe: &mut Probe<'_>) -> Step {
-    let axes = probe.session.profile.platform_axes;
-    if axes == 0 {
-        return Err(Stop::NotApplicable("no platform axis is claimed".to_owned()));
-    }
-    let mut seen: HashSet<u32> = HashSet::new();
-    for place in 1..=axes {
-        let axis = PlatformAxis::new(place).map_err(harness)?;
-        let data = probe.ask(assumed("COM-7"), CountObjects::new(axis))?;
-        let number = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
-        let expected = "the axis's objects";
-        probe.check(assumed("COM-7"), number > 0, expected, format!("{number} objects"));
-        if number == 0 {
-            continue;
-        }
-        let objects: Descriptors = probe
-            .read(assumed("COM-7"), ReadDescriptors::new(axis, 1, number).map_err(harness)?)?;
-        let ids: Vec<u32> = objects.as_ref().iter().map(|object| object.id()).collect();
-        let own = ids.iter().all(|&id| seen.insert(id));
-        let found = format!("IDs {ids:?}, some of them of another axis");
-        probe.check(assumed("COM-7"), own, format!("objects of axis {place} alone"), found);
-        for object in objects.as_ref().iter() {
-            let group = object.index_group();
-            let of_axes =
-                matches!(group.parts(), Some(Group::Com(ComGroup { table: ComTable::Axis, .. })));
-            let expected = "content in a group of platform axes";
-            probe.check(assumed("ADR-3"), of_axes, expected, group);
-        }
-    }
-    Ok(())
-}
-
-fn printed_content_address(probe: &mut Probe<'_>) -> Step {
-    let list = ObjectList::from(Channel::new(1).map_err(harness)?);
-    let number = known_number(probe, list)?;
-    let listed = one_by_one(probe, "COM-6", list, number)?;
-    let printed = "mc_command_single_block_w";
-    let object = listed.as_ref().iter().find(|object| object.name() == printed);
-    let address = object.map(|object| (object.index_group().get(), object.index_offset().get()));
-    let expected = format!("{printed} at (0x120101, 0x1)");
-    probe.check("COM-6", address == Some((0x12_0101, 1)), expected, format!("{address:#x?}"));
     Ok(())
 }

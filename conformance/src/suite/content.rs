@@ -3,9 +3,7 @@
 use std::collections::HashSet;
 
 use ads_cnc::address::{Addressing, ComGroup, ComTable, Group};
-use ads_cnc::operation::{
-    CountObjects, ObjectList, ReadDescriptors, ReadElementName, ReadObject, Request,
-};
+use ads_cnc::operation::{CountObjects, ReadDescriptors, ReadElementName, ReadObject, Request};
 use ads_cnc::{Descriptors, ErrorKind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
@@ -32,11 +30,11 @@ pub(super) fn cases() -> Vec<Case> {
             content_by_index
         ),
         declare!(
-            "com-platform-content",
-            "The platform's objects hold the same, whichever list named them",
-            ["COM-4"],
+            "com-content-room",
+            "With more room than it needs a content has no more bytes than its descriptor says",
+            ["COM-2", "COM-5"],
             Queries,
-            platform_content
+            room
         ),
         declare!(
             "com-places",
@@ -98,6 +96,32 @@ fn content(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
+/// More room than it takes may be refused, but is not to be filled.
+fn room(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    for object in probe.objects()? {
+        if read_of(&object).is_none() {
+            continue;
+        }
+        for more in [1, 7, 64] {
+            let size = object.size.saturating_add(more);
+            let Ok(read) = ReadObject::new(object.group, object.offset, size) else { continue };
+            let Some(content) = probe.try_ask(read)? else { continue };
+            any = true;
+            let expected = format!("the {} bytes of {}", object.size, object.name);
+            let found = format!("{} bytes in a room of {size}", content.len());
+            let sized = u32::try_from(content.len()) == Ok(object.size);
+            for rule in ["COM-2", "COM-5"] {
+                probe.check(rule, sized, &expected, &found);
+            }
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("no content is read with more room".to_owned())),
+    }
+}
+
 /// The same place by the rank of its channel; none if it is not a channel's.
 fn by_index(probe: &Probe<'_>, object: &Object) -> Option<ReadObject> {
     let Some(Group::Com(com)) = object.group.parts() else { return None };
@@ -123,33 +147,6 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
     match any {
         true => still.finish(),
         false => Err(Stop::NotApplicable("no object is in the group of a channel".to_owned())),
-    }
-}
-
-/// Channel 1 drives the platform: what both lists name has to be one thing.
-fn platform_content(probe: &mut Probe<'_>) -> Step {
-    let all = probe.objects()?;
-    let first = ObjectList::from(probe.channel_of(1)?);
-    let of = |list| all.iter().filter(move |one| one.list == list);
-    let mut still = Still::default();
-    let mut any = false;
-    for object in of(ObjectList::PLATFORM) {
-        let same = |one: &&Object| one.name == object.name && one.size == object.size;
-        let Some(other) = of(first).find(same) else { continue };
-        let (Some(one), Some(other)) = (read_of(object), read_of(other)) else { continue };
-        any = true;
-        let what = object.name.to_string();
-        still.same(probe, &["COM-4".into()], &what, one, other.into())?;
-        // And at the platform's own offset in the group of channel 1.
-        let group = first.parts();
-        let group = ComGroup { access: ads_cnc::address::Access::Element, ..group };
-        let of_channel = ReadObject::new(group.index_group(), object.offset, object.size);
-        let of_channel = of_channel.map_err(harness)?;
-        still.same(probe, &["COM-4".into()], &what, one, of_channel.into())?;
-    }
-    match any {
-        true => still.finish(),
-        false => Err(Stop::NotApplicable("the platform has no object".to_owned())),
     }
 }
 

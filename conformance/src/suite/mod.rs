@@ -24,6 +24,7 @@ mod names;
 mod numbers;
 mod outcome;
 mod place;
+mod platform;
 mod printed;
 mod probe;
 mod record;
@@ -90,6 +91,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(device::cases());
     cases.extend(com::cases());
     cases.extend(content::cases());
+    cases.extend(platform::cases());
     cases.extend(held::cases());
     cases.extend(sda::cases());
     cases.extend(elements::cases());

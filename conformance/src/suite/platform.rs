@@ -1,0 +1,177 @@
+//! Cases of the platform and its axes in the COM task.
+
+use std::collections::HashSet;
+
+use ads_cnc::address::{
+    Access, Channel, ComGroup, ComTable, Group, IndexGroup, IndexOffset, PlatformAxis,
+};
+use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject};
+use ads_cnc::{Decode as _, Descriptors, ObjectCount};
+
+use super::case::{Case, Step, Stop, assumed};
+use super::com::{known_number, number, one_by_one};
+use super::content::read_of;
+use super::declare;
+use super::inventory::{OBJECTS_MAX, Object};
+use super::probe::{Probe, harness};
+use super::still::Still;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "com-platform-objects",
+            "The platform's objects are in its own list and in that of the first channel",
+            ["COM-1", "COM-4", "ADR-3"],
+            Queries,
+            platform_objects
+        ),
+        declare!(
+            "com-platform-content",
+            "The platform's objects hold the same, whichever list named them",
+            ["COM-4", "ADR-3"],
+            Queries,
+            platform_content
+        ),
+        declare!(
+            "com-platform-axes",
+            "Platform axes have object lists of their own",
+            ["COM-7", "ADR-3"],
+            Queries,
+            platform_axes
+        ),
+        declare!(
+            "com-printed-content-address",
+            "Content is where the manuals print it",
+            ["COM-6"],
+            PrintedExamples,
+            printed_content_address
+        ),
+    ]
+}
+
+fn platform_objects(probe: &mut Probe<'_>) -> Step {
+    let platform = number(probe, ObjectList::PLATFORM).map_err(|stop| match stop {
+        Stop::NotApplicable(_) => Stop::NotApplicable("the platform has no object".to_owned()),
+        other => other,
+    });
+    let platform = match platform {
+        // Nothing of it is this case's to judge but that the list is there.
+        Err(Stop::Judged) => {
+            probe.check("COM-4", false, "the platform's list under channel 0", "none");
+            return Err(Stop::Judged);
+        }
+        other => other?,
+    };
+    let own = one_by_one(probe, "COM-4", ObjectList::PLATFORM, platform)?;
+    let first = Channel::new(1).map_err(harness)?;
+    let all = known_number(probe, first.into())?;
+    let listed = one_by_one(probe, "COM-4", first.into(), all)?;
+    let names: HashSet<String> =
+        listed.as_ref().iter().map(|object| object.name().to_string()).collect();
+    for object in own.as_ref().iter() {
+        let name = object.name().to_string();
+        let expected = "each of the platform's objects in the list of channel 1";
+        let found = format!("{name} is not in it");
+        probe.check("COM-4", names.contains(&name), expected, found);
+        let com = matches!(object.index_group().parts(), Some(Group::Com(_)));
+        probe.check(assumed("ADR-3"), com, "a group of COM", object.index_group());
+    }
+    Ok(())
+}
+
+fn platform_axes(probe: &mut Probe<'_>) -> Step {
+    let axes = probe.session.profile.platform_axes;
+    if axes == 0 {
+        return Err(Stop::NotApplicable("no platform axis is claimed".to_owned()));
+    }
+    let mut seen: HashSet<u32> = HashSet::new();
+    for place in 1..=axes {
+        let axis = PlatformAxis::new(place).map_err(harness)?;
+        let data = probe.ask(assumed("COM-7"), CountObjects::new(axis))?;
+        let number = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
+        let expected = "the axis's objects";
+        probe.check(assumed("COM-7"), number > 0, expected, format!("{number} objects"));
+        if number == 0 {
+            continue;
+        }
+        let objects: Descriptors = probe
+            .read(assumed("COM-7"), ReadDescriptors::new(axis, 1, number).map_err(harness)?)?;
+        let ids: Vec<u32> = objects.as_ref().iter().map(|object| object.id()).collect();
+        let own = ids.iter().all(|&id| seen.insert(id));
+        let found = format!("IDs {ids:?}, some of them of another axis");
+        probe.check(assumed("COM-7"), own, format!("objects of axis {place} alone"), found);
+        for object in objects.as_ref().iter() {
+            let group = object.index_group();
+            let of_axes =
+                matches!(group.parts(), Some(Group::Com(ComGroup { table: ComTable::Axis, .. })));
+            let expected = "content in a group of platform axes";
+            probe.check(assumed("ADR-3"), of_axes, expected, group);
+        }
+    }
+    Ok(())
+}
+
+/// Channel 1 drives the platform: what both lists name has to be one thing, under either channel.
+fn platform_content(probe: &mut Probe<'_>) -> Step {
+    let all = probe.objects()?;
+    let first = ObjectList::from(probe.channel_of(1)?);
+    let of = |list| all.iter().filter(move |one| one.list == list);
+    let mut still = Still::default();
+    let mut any = false;
+    for object in of(ObjectList::PLATFORM) {
+        let Some(one) = read_of(object) else { continue };
+        any = true;
+        let what = object.name.to_string();
+        let same = |one: &&Object| one.name == object.name && one.size == object.size;
+        if let Some(other) = of(first).find(same).and_then(read_of) {
+            still.same(probe, &["COM-4".into()], &what, one, other.into())?;
+        }
+        // And at its own offset in the groups of both.
+        for list in [ObjectList::PLATFORM, first] {
+            let group = ComGroup { access: Access::Element, ..list.parts() }.index_group();
+            let there = ReadObject::new(group, object.offset, object.size).map_err(harness)?;
+            let answered = probe.try_ask(there)?.is_some();
+            for rule in ["COM-4", "ADR-3"] {
+                let expected = format!("{what} in group {group}");
+                probe.check(rule, answered, expected, "an error");
+            }
+            still.same(probe, &["COM-4".into()], &what, one, there.into())?;
+        }
+    }
+    match any {
+        true => still.finish(),
+        false => Err(Stop::NotApplicable("the platform has no object".to_owned())),
+    }
+}
+
+/// What the manuals print.
+const PRINTED: [(&str, u32, u32); 4] = [
+    ("platform", 0x12_0100, 0x251),
+    ("axis", 0x12_0200, 0x1_0001),
+    ("channel", 0x12_0101, 0x1),
+    ("channel axis", 0x12_0101, 0x1_0001),
+];
+
+fn printed_content_address(probe: &mut Probe<'_>) -> Step {
+    for (what, group, offset) in PRINTED {
+        let (group, offset) = (IndexGroup::new(group), IndexOffset::new(offset));
+        let objects = probe.objects()?;
+        let named = objects.iter().find(|one| (one.group, one.offset) == (group, offset));
+        // One of another form of the address has its content here too.
+        let size = named.map_or(8, |object| object.size);
+        let exchange = probe.send(ReadObject::new(group, offset, size).map_err(harness)?)?;
+        let answered = exchange.answer().and_then(|answer| answer.success());
+        let answered = answered.is_some_and(|content| !content.is_empty());
+        let expected = format!("content of the {what} at ({group}, {offset})");
+        probe.check("COM-6", answered, expected, exchange.result());
+    }
+    let list = ObjectList::from(Channel::new(1).map_err(harness)?);
+    let number = known_number(probe, list)?;
+    let listed = one_by_one(probe, "COM-6", list, number)?;
+    let printed = "mc_command_single_block_w";
+    let object = listed.as_ref().iter().find(|object| object.name() == printed);
+    let address = object.map(|object| (object.index_group().get(), object.index_offset().get()));
+    let expected = format!("{printed} at (0x120101, 0x1)");
+    probe.check("COM-6", address == Some((0x12_0101, 1)), expected, format!("{address:#x?}"));
+    Ok(())
+}
