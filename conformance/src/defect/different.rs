@@ -284,6 +284,20 @@ const ROWS: &[Row] = &[
             false => cnc.answer(call),
         },
     ),
+    row(
+        "different.short-writes",
+        &[],
+        "a content is written with fewer bytes than it has: those behind become 0",
+        |cnc, call| match (is(call, &[Function::WriteObject]), cnc.answer(call)) {
+            (true, Err(AdsError::INVALID_SIZE)) => {
+                let old = cnc.read(call.port, group(call), offset(call))?;
+                let mut data = call.data.to_vec();
+                data.resize(old.len(), 0);
+                cnc.with(call, &data)
+            }
+            (_, answer) => answer,
+        },
+    ),
     row("different.kind-with-nul", &[], "the empty kind takes its NUL", |cnc, call| {
         match is(call, &[Function::CountVariables]) && call.data.is_empty() {
             true => Err(AdsError::INVALID_SIZE),

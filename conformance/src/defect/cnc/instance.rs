@@ -333,7 +333,7 @@ pub(super) const ROWS: &[Row] = &[
         &["GEN-4"],
         "nothing answers at the port 551",
         |cnc, call| match call.port {
-            AmsPort::GEO => Err(AdsError::INVALID_GROUP),
+            AmsPort::GEO => Err(AdsError::TARGET_PORT_NOT_FOUND),
             _ => cnc.answer(call),
         },
     ),

@@ -168,20 +168,6 @@ pub(super) const ROWS: &[Row] = &[
         }
     }),
     row(
-        "cnc.com.write-short-accepted",
-        &["COM-5"],
-        "a content is written with fewer bytes than it has: those behind become 0",
-        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
-            (true, Err(AdsError::INVALID_SIZE)) => {
-                let old = cnc.read(call.port, group(call), offset(call))?;
-                let mut data = call.data.to_vec();
-                data.resize(old.len(), 0);
-                cnc.with(call, &data)
-            }
-            (_, answer) => answer,
-        },
-    ),
-    row(
         "cnc.com.write-two",
         &["COM-5"],
         "a write to an object of one axis is one to that of every axis",
