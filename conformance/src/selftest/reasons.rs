@@ -2,6 +2,9 @@
 
 use super::{Group, Outcomes, Tried};
 
+const ANY_NUMBER: &str = "Which number an error has nobody documents: with its bytes in reverse \
+     order it is another, and nothing that was refused is accepted.";
+
 /// Group, beginning of the ID, and why nothing can tell.
 const REASONS: &[(Group, &str, &str)] = &[
     (
@@ -22,16 +25,10 @@ const REASONS: &[(Group, &str, &str)] = &[
         "That no kind asks for the sum is documented, how none is written is not. This codec refuses \
          one of the two ways and differs by that, which fails nobody.",
     ),
-    (
-        Group::Cnc,
-        "device-info-reply.",
-        "Any name and any version are right: nobody documents what a device says of itself.",
-    ),
-    (
-        Group::Cnc,
-        "device-state-reply.",
-        "Any state is right: nobody documents which a CNC has when.",
-    ),
+    (Group::Cnc, "ams-header.error.swap", ANY_NUMBER),
+    (Group::Cnc, "read-reply.result.swap", ANY_NUMBER),
+    (Group::Cnc, "write-reply.result.swap", ANY_NUMBER),
+    (Group::Cnc, "read-write-reply.result.swap", ANY_NUMBER),
     (
         Group::Cnc,
         "object-descriptor.write_access.swap",
