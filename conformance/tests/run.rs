@@ -210,3 +210,66 @@ fn exit_codes() {
         assert!(!output.stderr.is_empty(), "{args:?} says nothing");
     }
 }
+
+/// A report that nobody could write is refused before anybody is asked.
+#[test]
+fn a_place_for_each_report_is_looked_for_first() {
+    for form in ["--json", "--html", "--junit", "--markdown", "--badge"] {
+        let output = ads_cnc(&["run", form, "/no/such/folder/report"]);
+        assert_eq!(output.status.code(), Some(2), "{form}");
+        assert_eq!(text(&output.stdout), "", "{form}");
+        assert!(text(&output.stderr).contains("/no/such/folder/report: "), "{form}");
+    }
+    assert_eq!(ads_cnc(&["run", "--timeout", "0"]).status.code(), Some(2));
+}
+
+/// A dry run says what would be asked, and of a file for writes what may be written.
+#[test]
+fn a_dry_run_lists_what_would_be_asked() {
+    let folder = std::env::temp_dir().join(format!("ads-cnc-dry-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("allow.toml");
+    let target = ["--target", "192.0.2.10", "--net-id", "192.0.2.10.1.1"];
+    let dry = |more: &[&str]| ads_cnc(&[&["run", "--dry-run"], &target[..], more].concat());
+    let listed = text(&dry(&[]).stdout);
+    for part in [
+        "  Read       port 553  number of objects (COM-1)\n",
+        "  ReadWrite  port 552  read variable value by name (VAR-14)\n",
+        "It writes nothing without a file for --allow-write.\n",
+    ] {
+        assert!(listed.contains(part), "{part:?} is not in\n{listed}");
+    }
+    assert!(!listed.contains("write variable value by name"), "{listed}");
+    let entry = "[[variable]]\nchannel = 1\nname = \"V.E.test[4]\"\n";
+    let head = "target = \"192.0.2.10.1.1\"\nexpires = 9999-12-31T23:59:59Z\n";
+    std::fs::write(&file, format!("{head}{entry}")).unwrap();
+    let listed = text(&dry(&["--allow-write", file.to_str().unwrap()]).stdout);
+    assert!(listed.contains("  name = \"V.E.test[4]\"\n"), "{listed}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// Whoever believes that writes were tried is told that none were.
+#[test]
+fn a_file_that_lets_nothing_be_written_is_said() {
+    let folder = std::env::temp_dir().join(format!("ads-cnc-allow-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let serve = Serve::start(&[]);
+    let said = |target: &str, expires: &str, name: &str| {
+        let file = folder.join("allow.toml");
+        let entry = format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n");
+        let head = format!("target = \"{target}\"\nexpires = {expires}\n");
+        std::fs::write(&file, format!("{head}{entry}")).unwrap();
+        let args = ["run", "--only", "write-by-name", "--target", &serve.addr, "--net-id"];
+        let file = ["--allow-write", file.to_str().unwrap()];
+        text(&ads_cnc(&[&args[..], &[&serve.net_id], &file].concat()).stderr)
+    };
+    let (own, later) = (serve.net_id.as_str(), "9999-12-31T23:59:59Z");
+    let found = said(own, "2020-01-01T00:00:00Z", "V.E.Testvar");
+    assert!(found.contains("nothing is written: the file for --allow-write expired"), "{found}");
+    let found = said("192.0.2.77.1.1", later, "V.E.Testvar");
+    assert!(found.contains("is about 192.0.2.77.1.1, not about 127.0.0.1.1.1"), "{found}");
+    let found = said(own, later, "V.E.nothere");
+    assert!(found.contains("nothing was written: "), "{found}");
+    assert_eq!(said(own, later, "V.E.Testvar"), "");
+    std::fs::remove_dir_all(&folder).unwrap();
+}

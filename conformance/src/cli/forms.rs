@@ -1,6 +1,6 @@
 //! The forms of a report: options of `run` and `report`, and how they are written.
 
-use std::fs::File;
+use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -58,9 +58,14 @@ impl Forms {
         self.wanted().next().is_none()
     }
 
+    /// Where they go.
+    fn files(&self) -> impl Iterator<Item = &Path> {
+        self.wanted().map(|(file, _)| file)
+    }
+
     /// Two on stdout would be neither.
     pub(super) fn check(&self, json: Option<&Path>) -> Result<(), String> {
-        let files = json.into_iter().chain(self.wanted().map(|(file, _)| file));
+        let files = json.into_iter().chain(self.files());
         match files.filter(|file| is_stdout(file)).count() {
             0 | 1 => Ok(()),
             _ => Err("one report at most can go to stdout".to_owned()),
@@ -94,11 +99,12 @@ impl Reports {
         self.json.as_deref()
     }
 
-    /// The known failures, if the options do.
+    /// The known failures, if the options do, and there is a place for what they ask for.
     pub(super) fn waivers(&self) -> Result<Waivers, String> {
         let waivers = self.waivers.as_deref().map(Waivers::from_file).transpose();
         let waivers = waivers.map_err(|error| error.to_string())?;
         self.forms.check(self.json())?;
+        self.json().into_iter().chain(self.forms.files()).try_for_each(writable)?;
         Ok(waivers.unwrap_or_default())
     }
 
@@ -117,6 +123,21 @@ impl Reports {
         let shown = if quiet { Ok(()) } else { show(print) };
         written.and(shown).map_or_else(lost, |()| report.exit())
     }
+}
+
+/// Whether a report can go there, before anybody is asked anything; what is there stays.
+fn writable(file: &Path) -> Result<(), String> {
+    if is_stdout(file) {
+        return Ok(());
+    }
+    let was_there = file.exists();
+    let opened = OpenOptions::new().create(true).append(true).open(file);
+    opened.map_err(|error| format!("{}: {error}", file.display()))?;
+    if !was_there {
+        // The run may never come to its end.
+        let _gone = std::fs::remove_file(file);
+    }
+    Ok(())
 }
 
 /// Whether - is meant.

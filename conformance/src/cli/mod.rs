@@ -18,6 +18,7 @@ mod report;
 mod requirements;
 mod run;
 mod run_client;
+mod run_dry;
 mod run_testee;
 mod selftest;
 mod serve;

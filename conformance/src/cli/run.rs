@@ -11,16 +11,17 @@ use clap::Args;
 use super::forms::{Reports, show, write};
 use super::list;
 use super::run_client::ClientArgs;
-use super::run_testee;
 use super::target::{REACHING_A_DEVICE, TargetArgs};
-use super::{complain, find_defect};
+use super::{complain, find_defect, run_dry, run_testee};
 use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::Seed;
 use crate::gate::Moment;
 use crate::profile::{self, Claim, Profile};
 use crate::report::{self, About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
-use crate::suite::{self, Case, Needs, Plan, Selection, Session, Subject, Unmatched};
+use crate::suite::{
+    self, Case, Needs, Outcome, Plan, RequirementVerdict, Selection, Session, Subject, Unmatched,
+};
 use crate::verdict::Exit;
 use crate::waivers::Waivers;
 
@@ -283,6 +284,12 @@ impl Run {
         };
         match greeted {
             Ok(()) | Err(Trouble::Ads { .. } | Trouble::Reply(_)) => {}
+            Err(Trouble::NotSent) => {
+                let (client, _) = session.into_parts();
+                let listed = show(|out| run_dry::list(&profile, client.gate().allowed(), out));
+                listed.map_err(|error| Trouble::Internal(error.to_string()))?;
+                return Err(Trouble::NotSent.into());
+            }
             Err(trouble) => return Err(trouble.into()),
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
@@ -353,8 +360,18 @@ impl Run {
         defect: Option<&Seed>,
         about: About,
     ) -> Result<Report, Stopped> {
+        let (client, allow) = (&session.client, self.target.has_file());
+        let useless = client.gate().allowed().and_then(|one| one.useless(client.target().net_id));
+        if let Some(why) = &useless {
+            complain(format_args!("nothing is written: the file for --allow-write {why}"));
+        }
         let outcomes = suite::run(plan.cases.clone(), Some(&mut session), defect, about.seed);
         session.client.end_capture().map_err(|error| self.lost_capture(&error))?;
+        if allow && useless.is_none() && !outcomes.iter().any(has_written) {
+            complain(
+                "nothing was written: nothing that the file for --allow-write names was found",
+            );
+        }
         let (outcomes, left_out) = plan.finish(outcomes);
         let (frames, profile) = (session.frames, Some(session.profile));
         Ok(Report::new(About { frames, profile, ..about }, &outcomes, &left_out))
@@ -368,6 +385,12 @@ impl Run {
     fn write(&self, report: &Report) -> Exit {
         self.reports.write(report, |out| report::print(report, self.verbose, out))
     }
+}
+
+/// Whether it is a case that writes, and something came of it.
+fn has_written(outcome: &Outcome) -> bool {
+    let judged = |one: &RequirementVerdict| one.verdict.is_judged();
+    outcome.case.needs == Needs::Writes && outcome.verdicts.iter().any(judged)
 }
 
 /// What the target says of itself; it need not.

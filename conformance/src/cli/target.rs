@@ -56,7 +56,8 @@ pub(super) struct TargetArgs {
 
     /// How long to wait for a connection and for an answer, in milliseconds
     /// [default: 2000]
-    #[arg(long, help_heading = TARGET, value_name = "MS")]
+    #[arg(long, help_heading = TARGET, value_name = "MS",
+        value_parser = clap::value_parser!(u64).range(1..))]
     timeout: Option<u64>,
 
     /// The most requests in a second [default: as fast as they are answered]
@@ -210,7 +211,7 @@ impl TargetArgs {
             addr: resolve(host).map_err(|error| usage(format!("{host}: {error}")))?,
             net_id,
             source: self.source_net_id,
-            timeout: self.timeout.map_or(TIMEOUT, |timeout| Duration::from_millis(timeout.max(1))),
+            timeout: self.timeout.map_or(TIMEOUT, |timeout| Duration::from_millis(timeout)),
             pace: self.rate.unwrap_or_default(),
         }))
     }

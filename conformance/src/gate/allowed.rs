@@ -60,6 +60,18 @@ pub struct Allowed {
     pub entries: Vec<Entry>,
 }
 
+impl Allowed {
+    /// Why nothing may be written to this target now, whatever is named.
+    pub fn useless(&self, target: AmsNetId) -> Option<String> {
+        let over = self.expires <= Moment::now();
+        match (self.target == target, over) {
+            (false, _) => Some(format!("is about {}, not about {target}", self.target)),
+            (true, true) => Some(format!("expired at {}", self.expires)),
+            (true, false) => None,
+        }
+    }
+}
+
 /// One thing that may be written. Shown as the table that allows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Entry {

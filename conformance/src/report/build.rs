@@ -57,7 +57,10 @@ impl Report {
             outcomes.iter().map(|outcome| case(outcome, &waivers)).collect();
         let mut tally = Tally::default();
         for one in cases.iter().flat_map(|case| &case.requirements) {
-            tally.add(one.verdict, one.waived);
+            // Who keeps to the protocol and claims nothing has not been judged.
+            if one.verdict != Verdict::Pass || requirement(&one.requirement).is_some() {
+                tally.add(one.verdict, one.waived);
+            }
         }
         // The embedded CNC refuses nothing; a device for which the gate closed was not judged whole.
         tally.refused = outcomes.iter().any(|outcome| outcome.refused);
@@ -251,4 +254,40 @@ fn text(requirement: &Requirement, level: Option<Level>) -> String {
 /// Where a requirement stands; an assumed part of it stands nowhere.
 fn sources(requirement: &Requirement, level: Option<Level>) -> Vec<String> {
     if level == Some(Level::Info) { Vec::new() } else { explain::sources(&requirement.id) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::suite::RequirementVerdict;
+
+    /// Whoever claims nothing, and keeps to the protocol in that, has not passed.
+    #[test]
+    fn a_protocol_kept_is_nothing_judged() {
+        let outcome = |requirement, verdict| {
+            let case = crate::suite::cases().swap_remove(0);
+            let judged = RequirementVerdict { requirement, verdict, judgements: Vec::new() };
+            Outcome { case, verdicts: vec![judged], checks: 1, note: None, refused: false }
+        };
+        let exit = |verdicts: &[(&'static str, Verdict)]| {
+            let about = About {
+                time: Moment::now(),
+                edition: None,
+                seed: 1,
+                only: Vec::new(),
+                target: TargetReport::default(),
+                profile: None,
+                waivers: Waivers::default(),
+                frames: 0,
+            };
+            let all: Vec<Outcome> = verdicts.iter().map(|(id, one)| outcome(*id, *one)).collect();
+            Report::new(about, &all, &[]).exit_code
+        };
+        let unclaimed = ("VAR-11", Verdict::NotApplicable);
+        for protocol in ["TESTEE", "CLIENT"] {
+            assert_eq!(exit(&[unclaimed, (protocol, Verdict::Pass)]), 3, "{protocol}");
+            assert_eq!(exit(&[unclaimed, (protocol, Verdict::Fail)]), 1, "{protocol}");
+            assert_eq!(exit(&[("VAR-11", Verdict::Pass), (protocol, Verdict::Pass)]), 0);
+        }
+    }
 }

@@ -1,0 +1,44 @@
+//! `ads-cnc run --dry-run`: what a run would ask. The requests themselves depend on the answers.
+
+use std::io::{self, Write};
+
+use ads_cnc::operation::{Effect, Function};
+
+use crate::gate::Allowed;
+use crate::profile::{Claim, Profile};
+
+/// Lists the functions that a device with this profile is asked, and what may be written to it.
+pub(super) fn list(
+    profile: &Profile,
+    allowed: Option<&Allowed>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    writeln!(out)?;
+    writeln!(
+        out,
+        "The suite asks what the profile claims, as often as there is something to ask for:"
+    )?;
+    let claimed = || Function::ALL.iter().copied().filter(|one| profile.claims(*one) != Claim::No);
+    let queries = claimed().filter(|function| function.spec().effect == Effect::Query);
+    for spec in queries.map(Function::spec) {
+        let (service, port) = (spec.service.to_string(), spec.task.port().0);
+        writeln!(out, "  {service:<9}  port {port}  {} ({})", spec.name, spec.clause)?;
+    }
+    writeln!(out, "  and once at each of these ports ReadDeviceInfo and ReadState")?;
+    match allowed {
+        None => writeln!(out, "It writes nothing without a file for --allow-write.")?,
+        Some(allowed) => {
+            writeln!(out, "It writes, and restores, only what the file for --allow-write names:")?;
+            for entry in &allowed.entries {
+                for line in entry.to_string().lines() {
+                    writeln!(out, "  {line}")?;
+                }
+            }
+        }
+    }
+    writeln!(
+        out,
+        "Which requests that makes, the device's answers decide; to see them for the simulated CNC, \
+         run the\nsuite with --capture against ads-cnc serve."
+    )
+}
