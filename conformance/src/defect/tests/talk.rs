@@ -90,7 +90,8 @@ impl<'t> Talk<'t> {
         self.variables();
         self.writes();
         self.services();
-        let others: [fn(&mut Self); 3] = [Self::exchange, Self::streams, Self::scripts];
+        let others: [fn(&mut Self); 4] =
+            [Self::exchange, Self::changes, Self::streams, Self::scripts];
         for other in others {
             if !self.differs {
                 other(self);
@@ -141,7 +142,7 @@ impl<'t> Talk<'t> {
         for class in 0..6 {
             let group = if class == 5 { 0x02_5900 } else { 0x12_0900 | class << 12 };
             for channel in [0, 1, 2, 3, 6, 7, 257] {
-                for axis in (0..7).chain([0x1_0001]) {
+                for axis in (0..7).chain([0x1_0001, 0x100_0001]) {
                     let data = [channel, axis].map(u32::to_le_bytes).concat();
                     self.ask(group, 0, 8, &data);
                 }

@@ -11,12 +11,12 @@ use ads_cnc::operation::{
     DynamicNameByIndex, Function, ReadByHandle, ReadByName, ReadDescriptors, ReadElement, Request,
     Service,
 };
-use ads_cnc::sda::ElementCount;
 use ads_cnc::{Decode as _, Description, Numbers, ObjectCount, VariableCount, VariableType};
 
 use super::case::{Case, Rule, Step, Stop};
 use super::declare;
 use super::described::kinds;
+use super::inventory::number_of;
 use super::probe::{Probe, harness};
 use super::sda::length_of;
 use super::still::Still;
@@ -237,13 +237,13 @@ fn elements_agree(probe: &mut Probe<'_>, rules: &[Rule]) -> Step<bool> {
             let Some(first) = first else { continue };
             let Ok(count) = CountElements::new(first) else { continue };
             let data = maybe(probe, count)?;
-            let count = data.as_deref().and_then(|data| ElementCount::decode(data).ok());
+            let count = data.as_deref().and_then(number_of);
             any = true;
             for &rule in rules {
                 let expected = "a number of elements where the object address says";
                 probe.check(rule, count.is_some(), expected, format!("{data:02x?}"));
             }
-            for place in 1..=count.map_or(0, |count| count.0).min(SOME) {
+            for place in 1..=count.unwrap_or_default().min(SOME) {
                 let Ok(element) = first.following(place) else { break };
                 let Some(length) = length_of(probe, element)? else { continue };
                 let Ok(read) = ReadElement::new(element, length) else { continue };

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use ads_cnc::dynamic::DynamicKind;
+
 use super::{Talk, number, numbers};
 use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start, Wait};
 
@@ -30,10 +32,14 @@ impl Talk<'_> {
             (0x12_1301, 2, &[1, 2, 3, 4]),
             (0x12_3301, 2, &[9, 9]),
             (0x12_3301, 1, &[1]),
+            (0x12_3302, 2, &[3, 4]),
+            (0x12_4301, 0x1_0001, &[1, 2, 3, 4, 5, 6, 7, 8]),
             (0x02_5301, 1, &[1, 2, 3, 4, 5, 6, 7, 8]),
         ] {
             self.write(552, group, offset, data);
             self.read(552, group, offset, 64);
+            self.read(552, group & !0xFF | 1, offset, 64);
+            self.read(552, group, offset + 0x1_0000, 64);
         }
         for (name, value) in [
             ("V.E.Testvar[3]", &[9, 8, 7, 6][..]),
@@ -129,6 +135,17 @@ impl Talk<'_> {
     fn exchanged(&mut self, channel: u8, place: u8, axis: u32) {
         let done = self.cnc.exchange_axis(channel, place, axis);
         self.hear(format!("{done:?}").into_bytes());
+    }
+
+    pub(super) fn changes(&mut self) {
+        for first in [1_u32, 2] {
+            let all: Vec<_> = (first..300).map(|at| (format!("P{at}"), f64::from(at))).collect();
+            let all: Vec<_> = all.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+            self.cnc.set_parameters(6, DynamicKind::P, &all).unwrap();
+            self.read(552, 0x12_2306, 2, 4);
+            self.ask(0x12_2306, 0x1B, 96, &numbers(&[7]));
+            self.ask(0x12_2306, 0x1D, 8, &numbers(&[7]));
+        }
     }
 
     pub(super) fn streams(&mut self) {
