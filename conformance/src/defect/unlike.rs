@@ -143,12 +143,6 @@ pub(super) const ROWS: &[Row] = &[
         "axes of the position controller, the interpolator and path preparation take 0x1000",
         strided,
     ),
-    unprinted(row("different.units-empty", &[], "nothing has a unit", |cnc, call| {
-        match is(call, &[Function::ReadElementUnit]) {
-            true => cnc.answer(call).map(|_| Vec::new()),
-            false => cnc.answer(call),
-        }
-    })),
     row(
         "different.name-as-it-ends",
         &[],

@@ -76,9 +76,31 @@ fn value(held: &Held, number: u32, round: u32) -> Vec<u8> {
     }
 }
 
+/// The offset of an element of an axis as its object address has it: the stride is printed for the
+/// decoder and for the HLD, and of other classes nobody says it (ADR-7).
+fn told(probe: &mut Probe<'_>, held: &Held) -> Step<Option<IndexOffset>> {
+    let (class, channel, axis) = match held.holder {
+        Holder::OfAxis { class, axis } => (class, 0, axis),
+        Holder::OfPlace { class, channel, place } => (class, channel, place),
+        _ => return Ok(None),
+    };
+    if matches!(class, Class::Decoder | Class::Hld) {
+        return Ok(None);
+    }
+    let instances = match probe.instances() {
+        Err(Stop::NotApplicable(_)) => Vec::new(),
+        instances => instances?,
+    };
+    let wanted = (class, u32::from(channel), u32::from(axis));
+    let one = instances.iter().find(|one| (one.class, one.channel, one.axis) == wanted);
+    let element = one.and_then(|one| one.first.following(held.element).ok());
+    Ok(element.map(ElementAddress::index_offset))
+}
+
 /// Where a content is, by everything that is said of addresses, and by what rules.
-fn addresses(probe: &Probe<'_>, held: &Held) -> Step<Vec<(Place, Vec<Rule>)>> {
+fn addresses(probe: &mut Probe<'_>, held: &Held) -> Step<Vec<(Place, Vec<Rule>)>> {
     use Addressing::{Index, Logical};
+    let told = told(probe, held)?;
     let size = u32::try_from(held.value.len()).map_err(harness)?;
     let channels = &probe.session.profile.channels;
     let first = channels.first().copied();
@@ -141,10 +163,11 @@ fn addresses(probe: &Probe<'_>, held: &Held) -> Step<Vec<(Place, Vec<Rule>)>> {
             let stride = if class == Class::Hld { AxisStride::X1000 } else { AxisStride::X10000 };
             let mut rules = rules(&["ADR-5", "ADR-13", "GEN-6"]);
             rules.push(assumed("ADR-7"));
-            vec![(element(Logical, class, 0, offset(axis, stride)?), rules)]
+            let at = told.unwrap_or(offset(axis, stride)?);
+            vec![(element(Logical, class, 0, at), rules)]
         }
         Holder::OfPlace { class, channel, place } => {
-            let at = offset(place, AxisStride::X10000)?;
+            let at = told.unwrap_or(offset(place, AxisStride::X10000)?);
             let of = |addressing, instance| element(addressing, class, instance, at);
             let printed = if class == Class::Decoder { "ADR-7" } else { "ADR-5" };
             both(&of, channel, &[printed, "ADR-13", "GEN-6"])
@@ -161,7 +184,7 @@ fn same(held: &Held, one: &[u8], other: &[u8]) -> bool {
 }
 
 /// The element that a content is, if it is one, at its first address.
-pub(super) fn element_of(probe: &Probe<'_>, held: &Held) -> Step<Option<ElementAddress>> {
+pub(super) fn element_of(probe: &mut Probe<'_>, held: &Held) -> Step<Option<ElementAddress>> {
     let first = addresses(probe, held)?.into_iter().next();
     Ok(first.and_then(|(place, _)| match place {
         Place::Element { element, .. } => Some(element),
