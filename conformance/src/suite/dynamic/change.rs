@@ -58,8 +58,7 @@ fn stages(probe: &mut Probe<'_>, cnc: &Cnc, channel: Channel, kind: DynamicKind)
     set(cnc, channel, kind, &all)?;
     listed(probe, channel, kind, &all)?;
     let (gone, there) = (gone.0, all.first().map(|(name, _)| name.clone()).unwrap_or_default());
-    let by_name =
-        |name| DynamicValueByName::new(channel, kind, name).map_err(|error| harness(error));
+    let by_name = |name| DynamicValueByName::new(channel, kind, name).map_err(harness);
     let what = format!("{gone}, which is deleted");
     probe.refuses("DYN-3", &what, by_name(&gone)?, by_name(&there)?)?;
     // And one comes in front.
