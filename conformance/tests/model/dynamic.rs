@@ -54,8 +54,8 @@ fn every_kind_has_its_functions() {
         assert_eq!(sda.ask(CHANNEL_1, by_name, b"V.X.nobody\0"), Err(0x710));
         assert_eq!(sda.ask(CHANNEL_1, by_name, b"P\0"), Err(0x710));
         assert_eq!(sda.ask(CHANNEL_1, by_name, &[b'x'; 97]), Err(0x705));
-        // Channel 2 has none.
-        assert_eq!(sda.read(0x12_2302, count, 4), Ok(vec![0; 4]));
+        // Channel 6 has none.
+        assert_eq!(sda.read(0x12_2306, count, 4), Ok(vec![0; 4]));
         assert_eq!(sda.read(0x12_2303, count, 4), Err(0x702));
     }
     assert_eq!(sda.ask(CHANNEL_1, 0x1C, b"V.L.depth\0"), Err(0x710));

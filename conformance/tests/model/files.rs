@@ -219,8 +219,8 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("handle = 0x0100001B", "handle = 0x0101001B", "bits 8 to 23"),
     ("\"V.A.WCS\"", "\"V.E.WCS\"", "what each axis has is V.A"),
     // Parameters.
-    ("\"P1\"", "\"X1\"", "begins with P, V.L., V.P. or V.S."),
-    ("\"P1\"", "\"P\"", "begins with P, V.L., V.P. or V.S."),
+    ("\"P1\", value = 4711", "\"X1\", value = 4711", "begins with P, V.L., V.P. or V.S."),
+    ("\"P1\", value = 4711", "\"P\", value = 4711", "begins with P, V.L., V.P. or V.S."),
     ("name = \"V.P.offset\"", "name = \"V.P.count\"", "there twice"),
     ("while = \"example_subroutine_w\"", "while = \"nobody\"", "no object \"nobody\""),
     ("value = 4711 },\n  # While", "comes = \"2\" },\n  # While", "a number and its unit"),
