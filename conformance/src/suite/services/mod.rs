@@ -1,6 +1,7 @@
 //! Cases of the services themselves: each takes and gives what its numbers say, and what is asked
 //! by one agrees with what is asked by another.
 
+mod numbers;
 mod write;
 
 use ads_cnc::address::{Channel, Class};
@@ -52,6 +53,13 @@ pub(super) fn cases() -> Vec<Case> {
             ["ADS-1", "ADS-3"],
             Queries,
             lengths
+        ),
+        declare!(
+            "ads-numbers-of-errors",
+            "The embedded CNC's errors have the numbers on the wire that it gives them",
+            ["ADS-4", "ADS-5"],
+            Embedded,
+            numbers::of_errors
         ),
         declare!(
             "ads-write",

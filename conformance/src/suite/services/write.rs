@@ -43,7 +43,7 @@ pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
 
 fn objects(probe: &mut Probe<'_>) -> Step<bool> {
     let Ok(objects) = probe.objects() else { return Ok(false) };
-    let mut tried = 0;
+    let mut tried = 0_usize;
     for object in
         objects.iter().filter(|one| one.writable && one.type_name.as_cnc_str() != "STRING")
     {
@@ -62,7 +62,7 @@ fn objects(probe: &mut Probe<'_>) -> Step<bool> {
             continue;
         }
         at(probe, &place, &name, false, None)?;
-        tried += 1;
+        tried = tried.saturating_add(1);
     }
     Ok(tried > 0)
 }

@@ -107,6 +107,27 @@ pub(super) fn cases() -> Vec<Case> {
             stage::reset
         ),
         declare!(
+            "stream-many-packets",
+            "The interface holds packets of one line as long as they fit, however many",
+            ["STM-3", "STM-6", "STM-15"],
+            Embedded,
+            stage::many
+        ),
+        declare!(
+            "stream-comments",
+            "A comment ends where it ends: behind it the same word ends streaming",
+            ["STM-8", "STM-9"],
+            Embedded,
+            words::comments
+        ),
+        declare!(
+            "stream-ends",
+            "M2, M30, M17 and M29 end a program anywhere in a line, and no other word does",
+            ["STM-9", "STM-10"],
+            Embedded,
+            words::ends
+        ),
+        declare!(
             "stream-forbidden-words",
             "Each word of a loop ends streaming where it stands, unless it is in a comment",
             ["STM-8", "STM-9"],
@@ -137,7 +158,7 @@ fn object(probe: &mut Probe<'_>) -> Step {
         let parts = object.list.parts();
         let groups: Vec<_> = match parts.instance {
             0 => continue,
-            number => [0x12_0100, 0x02_0100].iter().map(|base| base + u32::from(number)).collect(),
+            number => [0x12_0100, 0x02_0100].iter().map(|base| base | u32::from(number)).collect(),
         };
         let of_channel = parts.table == ComTable::Channel;
         let here = groups.contains(&object.group.get()) && object.offset.get() == OFFSET;

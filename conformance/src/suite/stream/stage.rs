@@ -111,12 +111,12 @@ pub(super) fn taken(
 pub(super) fn too_long(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
         let most = comment(STREAM_PACKET_MAX);
-        let longer = comment(STREAM_PACKET_MAX.saturating_add(1));
         // Whether there is much room or little, and how often it is sent.
         for held in [0, most.len()] {
-            for _ in 0..2 {
-                let sent = send(probe, channel, &longer)?;
-                probe.check("STM-2", sent.is_refused(), "993 bytes refused", &sent);
+            for len in [993, 993, 994, 1024, 1984, 2048, HELD_MAX, 4096] {
+                let sent = send(probe, channel, &comment(len))?;
+                let expected = format!("{len} bytes refused");
+                probe.check("STM-2", sent.is_refused(), expected, &sent);
                 // That it is told by its number is assumed.
                 let good = sent.assumed() == Ack::Refused;
                 probe.check(assumed("STM-2"), good, "refused for good", &sent);
@@ -155,6 +155,37 @@ pub(super) fn full(probe: &mut Probe<'_>) -> Step {
         let mut all = packets.concat();
         all.extend(more);
         expect(probe, &["STM-12", "STM-15"], all, stage.executed()?);
+        Ok(())
+    })
+}
+
+/// Packets of one short line, as many as there is room for.
+pub(super) fn many(probe: &mut Probe<'_>) -> Step {
+    const LEN: usize = 20;
+    set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
+        let count = HELD_MAX / LEN;
+        let line = |number: usize| format!("N{number:05} (of many)  \r\n").into_bytes();
+        let mut all = Vec::new();
+        for number in 0..count {
+            let sent = taken(probe, &["STM-3"], channel, &line(number))?;
+            if !sent.is_taken() {
+                return Ok(());
+            }
+            all.extend(line(number));
+        }
+        expect(probe, &["STM-3"], all.len(), stage.held()?);
+        // There is room for a shorter one, and then for none of one line.
+        let left = HELD_MAX.saturating_sub(all.len());
+        let last = comment(left);
+        let sent = send(probe, channel, &line(count))?;
+        probe.check("STM-6", sent.is_refused(), "refused for now", &sent);
+        taken(probe, &["STM-3"], channel, &last)?;
+        expect(probe, &["STM-3"], HELD_MAX, stage.held()?);
+        all.extend(last);
+        stage.pace(Pace::Fast)?;
+        taken(probe, &["STM-6"], channel, &line(count))?;
+        all.extend(line(count));
+        expect(probe, &["STM-15"], all, stage.executed()?);
         Ok(())
     })
 }

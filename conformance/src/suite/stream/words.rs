@@ -58,3 +58,73 @@ pub(super) fn permitted_words(probe: &mut Probe<'_>) -> Step {
         probe.require(&rules, all, "every line run", "others")
     })
 }
+
+/// What is written, and whether it ends streaming.
+fn ends_streaming(probe: &mut Probe<'_>, rules: &[&'static str], text: &str, ends: bool) -> Step {
+    set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
+        taken(probe, rules, channel, text.as_bytes())?;
+        let state = stage.state()?;
+        let kept = matches!(state, State::Aborted(_)) == ends && (ends || state == State::Dry);
+        let expected = if ends { "the end of streaming" } else { "every line run" };
+        for &rule in rules {
+            let (expected, found) = (format!("{expected}: {text:?}"), format!("{state:?}"));
+            probe.check(rule, kept, expected, found);
+        }
+        Ok(())
+    })
+}
+
+pub(super) fn comments(probe: &mut Probe<'_>) -> Step {
+    for word in ["$FOR P1=0,9,1", "$ENDDO", "$REPEAT", "$WHILE P1==1"] {
+        for (text, ends) in [
+            (format!("X1 ({word})\r\n"), false),
+            (format!("X1 ({word}\r\nX2\r\n"), false),
+            (format!("X1 ;{word}\r\nX2\r\n"), false),
+            (format!("#COMMENT BEGIN\r\n{word}\r\nX9\r\n#COMMENT END\r\nX1\r\n"), false),
+            // Behind the comment, and in the line below.
+            (format!("(x) {word}\r\n"), true),
+            (format!("(x\r\n{word}\r\n"), true),
+            (format!(";x\r\n{word}\r\n"), true),
+            (format!("#COMMENT BEGIN\r\nX9\r\n#COMMENT END\r\n{word}\r\n"), true),
+            (format!("N10 {word}\r\n"), true),
+        ] {
+            ends_streaming(probe, &["STM-8", "STM-9"], &text, ends)?;
+        }
+    }
+    // To a label above in the same packet, and to one below.
+    ends_streaming(probe, &["STM-8"], "N10: X1\r\nX2\r\n$GOTO N10\r\n", true)?;
+    ends_streaming(probe, &["STM-8"], "$GOTO N10\r\nX2\r\nN10: X1\r\n", false)
+}
+
+pub(super) fn ends(probe: &mut Probe<'_>) -> Step {
+    for (line, ends) in [
+        ("M30", true),
+        ("M2", true),
+        ("M17", true),
+        ("M29", true),
+        ("N90 G00 X1 M30", true),
+        ("N90 M30 (end)", true),
+        ("N90 M30 ; end", true),
+        ("M3 S1000", false),
+        ("M20", false),
+        ("M170", false),
+        ("M300", false),
+        ("(M30)", false),
+        ("X1 ; M30", false),
+        ("(M2", false),
+    ] {
+        set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
+            let text = format!("X1\r\n{line}\r\nX2\r\n");
+            taken(probe, &["STM-10"], channel, text.as_bytes())?;
+            let state = stage.state()?;
+            let behind = stage.executed()?.windows(2).any(|two| two == b"X2");
+            let kept = (matches!(state, State::Ended(_)), behind) == (ends, !ends);
+            let expected = if ends { "ends the program" } else { "is a line as any" };
+            let rule = if line.contains(['(', ';']) && !ends { "STM-9" } else { "STM-10" };
+            let found = format!("{state:?}, the line behind it run: {behind}");
+            probe.check(rule, kept, format!("{line} {expected}"), found);
+            Ok(())
+        })?;
+    }
+    Ok(())
+}

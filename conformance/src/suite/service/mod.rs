@@ -1,5 +1,7 @@
 //! Cases of the Service Interface: its variables, and what writing them leads to.
 
+mod variables;
+
 use std::time::{Duration, Instant};
 
 use ads_cnc::address::Channel;
@@ -9,12 +11,12 @@ use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::{CncStr, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop, assumed};
-use super::declare;
-use super::probe::{Probe, harness};
-use super::stream::heard;
 use crate::cnc::program::{Outcome, Repeat, Script, ScriptConfig, ScriptState};
 use crate::profile::{Claim, Section};
+use crate::suite::case::{Case, Rule, Step, Stop, assumed};
+use crate::suite::declare;
+use crate::suite::probe::{Probe, harness};
+use crate::suite::stream::heard;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -37,7 +39,21 @@ pub(super) fn cases() -> Vec<Case> {
             "REQUEST and RESPONSE hold 128 bytes, and no more",
             ["SVC-1"],
             Embedded,
-            longest
+            variables::longest
+        ),
+        declare!(
+            "service-texts",
+            "A text of any length and of any characters is read as it was written",
+            ["SVC-1"],
+            Embedded,
+            variables::texts
+        ),
+        declare!(
+            "service-variables-apart",
+            "Each of the variables is its own, by name and by handle",
+            ["SVC-1", "SVC-3"],
+            Embedded,
+            variables::apart
         ),
         declare!(
             "service-asked-by-a-program",
@@ -230,27 +246,6 @@ fn within(
     empty()?;
     cnc.set_script(number, script).map_err(harness)?;
     done
-}
-
-fn longest(probe: &mut Probe<'_>) -> Step {
-    use ServiceVariable::{Request, Response};
-    within(probe, |probe, channel, _| {
-        for variable in [Request, Response] {
-            let mut value = vec![b'x'; 127];
-            value.push(0);
-            let taken = put(probe, channel, variable, &value)?;
-            probe.check("SVC-1", taken, "127 characters and a NUL taken", "an error");
-            let read = get(probe, channel, variable)?;
-            probe.check("SVC-1", read == value, "128 bytes as written", Hex(read));
-            let mut longer = vec![b'y'; 128];
-            longer.push(0);
-            let taken = put(probe, channel, variable, &longer)?;
-            probe.check("SVC-1", !taken, "129 bytes refused", "taken");
-            let read = get(probe, channel, variable)?;
-            probe.check("SVC-1", read == value, "what was there before", Hex(read));
-        }
-        Ok(())
-    })
 }
 
 fn asked(probe: &mut Probe<'_>) -> Step {

@@ -1,0 +1,117 @@
+//! What the five variables hold.
+
+use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::{Decode as _, Handle, Numbers, VariableType};
+use ads_cnc_vectors::Hex;
+
+use super::{NONE, WIDE, get, put, text, within};
+use crate::suite::case::Step;
+use crate::suite::probe::{Probe, harness};
+
+pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
+    use ServiceVariable::{Request, Response};
+    within(probe, |probe, channel, _| {
+        for variable in [Request, Response] {
+            let mut value = vec![b'x'; 127];
+            value.push(0);
+            let taken = put(probe, channel, variable, &value)?;
+            probe.check("SVC-1", taken, "127 characters and a NUL taken", "an error");
+            let read = get(probe, channel, variable)?;
+            probe.check("SVC-1", read == value, "128 bytes as written", Hex(read));
+            let mut longer = vec![b'y'; 128];
+            longer.push(0);
+            let taken = put(probe, channel, variable, &longer)?;
+            probe.check("SVC-1", !taken, "129 bytes refused", "taken");
+            let read = get(probe, channel, variable)?;
+            probe.check("SVC-1", read == value, "what was there before", Hex(read));
+        }
+        Ok(())
+    })
+}
+
+/// Bytes that are characters, so many from this one on.
+fn characters(first: u8, len: usize) -> Vec<u8> {
+    let no_character = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
+    let all = (b' '..=0xFF).filter(|byte| *byte != 0x7F && !no_character.contains(byte));
+    let mut all: Vec<u8> = all.collect();
+    let before = usize::from(first).checked_rem(all.len()).unwrap_or_default();
+    all.rotate_left(before);
+    all.into_iter().cycle().take(len).collect()
+}
+
+pub(super) fn texts(probe: &mut Probe<'_>) -> Step {
+    use ServiceVariable::{Request, Response};
+    within(probe, |probe, channel, _| {
+        for variable in [Request, Response] {
+            for len in [127, 0, 1, 20, 21, 32, 36, 63, 64, 80, 100, 126, 127] {
+                let mut value = characters(u8::try_from(len).unwrap_or_default(), len);
+                value.push(0);
+                let taken = put(probe, channel, variable, &value)?;
+                let what = format!("{len} characters of {}", variable.name());
+                probe.check("SVC-1", taken, format!("{what} taken"), "an error");
+                let read = get(probe, channel, variable)?;
+                let same = text(&read) == text(&value);
+                probe.check("SVC-1", same, format!("{what} as written"), Hex(read));
+            }
+        }
+        Ok(())
+    })
+}
+
+/// The square root's.
+const UUID: &[u8] = b"560AACBF-6335-44a9-895A-8B27F3ED5E47";
+
+/// What is written to one shows in no other, but for the states, which take each other back.
+pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
+    use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
+    within(probe, |probe, channel, _| {
+        let mut all: Vec<(ServiceVariable, Vec<u8>)> = Vec::new();
+        // In an order in which none takes back another.
+        for (variable, value) in [
+            (RequestState, NONE.to_vec()),
+            (Uuid, [UUID, b"\0"].concat()),
+            (Request, b"the request\0".to_vec()),
+            (Response, b"the response\0".to_vec()),
+            (ResponseState, WIDE.to_vec()),
+        ] {
+            put(probe, channel, variable, &value)?;
+            all.push((variable, value));
+            for (one, written) in &all {
+                let read = get(probe, channel, *one)?;
+                let is_text = one.var_type() == VariableType::STRING;
+                let same = read == *written || is_text && text(&read) == text(written);
+                let rule = if *one == ResponseState { "SVC-3" } else { "SVC-1" };
+                let expected = format!("{} of {}", Hex(written.clone()), one.name());
+                probe.check(rule, same, expected, Hex(read));
+            }
+        }
+        // Reading takes nothing back, nor does what is written besides.
+        for value in [&b"another\0"[..], b"the request\0"] {
+            put(probe, channel, Request, value)?;
+            put(probe, channel, Uuid, &[UUID, b"\0"].concat())?;
+            let read = get(probe, channel, ResponseState)?;
+            probe.check("SVC-3", read == WIDE, "the response state until the next", Hex(read));
+        }
+        for (variable, _) in all {
+            let name = HandleByName::new(channel, variable.name()).map_err(harness)?;
+            let handle = probe.try_ask(name)?.and_then(|data| Handle::decode(&data).ok());
+            let Some(handle) = handle else { continue };
+            let by_name = get(probe, channel, variable)?;
+            let request = ReadByHandle::new(channel, handle, Numbers::EMPTY);
+            let by_handle = probe.try_ask(request)?.unwrap_or_default();
+            let same = text(&by_handle) == text(&by_name);
+            let expected = format!("{} of {}", Hex(by_name), variable.name());
+            probe.check("SVC-1", same, expected, Hex(by_handle));
+            // And the other way round.
+            if variable == Response {
+                let write = WriteByHandle::new(channel, handle, Numbers::EMPTY, b"by handle\0");
+                probe.send(write)?;
+                let read = get(probe, channel, variable)?;
+                let same = text(&read) == b"by handle";
+                probe.check("SVC-1", same, "what was written by handle", Hex(read));
+            }
+        }
+        Ok(())
+    })
+}
