@@ -82,7 +82,9 @@ impl Session {
         };
         let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
         let server = Server::start(listener, Arc::new(cnc)).map_err(failed)?;
-        let target = Target::local(server.addr(), server.net_id());
+        // No network is in between: whoever is that late has not been let run by this machine.
+        let target =
+            Target { timeout: EMBEDDED_TIMEOUT, ..Target::local(server.addr(), server.net_id()) };
         let client = Client::connect(target, gate).map_err(failed)?;
         Ok(Self::over(client, Some(server)))
     }
@@ -329,6 +331,9 @@ impl fmt::Display for Shown<'_> {
         hex::annotated(stream, call.data).iter().try_for_each(|line| writeln!(f, "  {line}"))
     }
 }
+
+/// How long the embedded CNC is waited for.
+const EMBEDDED_TIMEOUT: Duration = Duration::from_secs(6);
 
 /// How long a tool waits for an answer unless told otherwise.
 pub const TIMEOUT: Duration = Duration::from_secs(2);
