@@ -189,8 +189,9 @@ fn a_run_writes_what_the_file_names_and_puts_it_back() {
             offset => panic!("{offset:#x}: {frame:02x?}"),
         }
     }
-    // By handle and by name, whole and two elements: the same, another, the same.
-    assert_eq!(writes.len(), 18);
+    // By handle and by name, whole and two elements, and for the service itself: the same, another,
+    // the same.
+    assert_eq!(writes.len(), 21);
 }
 
 /// What is streamed to a device are comments, and a service answers nobody: nothing moves.
