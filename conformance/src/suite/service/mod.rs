@@ -1,17 +1,15 @@
 //! Cases of the Service Interface: its variables, and what writing them leads to.
 
+mod program;
 mod variables;
 
-use std::time::{Duration, Instant};
-
+use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
 use ads_cnc::edition::Feature;
 use ads_cnc::operation::{HandleByName, ReadByName, WriteByName};
-use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
-use ads_cnc::{CncStr, VariableType};
+use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::Hex;
 
-use crate::cnc::program::{Outcome, Repeat, Script, ScriptConfig, ScriptState};
 use crate::profile::{Claim, Section};
 use crate::suite::case::{Case, Rule, Step, Stop, assumed};
 use crate::suite::declare;
@@ -67,14 +65,14 @@ pub(super) fn cases() -> Vec<Case> {
             "A program writes REQUEST_STATE when UUID and REQUEST are there, and not before",
             ["SVC-12"],
             Embedded,
-            asks_last
+            program::asks_last
         ),
         declare!(
             "service-square-root",
             "A program asks for square roots, waits, and has the answers of the service",
             ["SVC-4", "SVC-6", "SVC-8", "SVC-9", "SVC-12"],
             Embedded,
-            square_root
+            program::square_root
         ),
     ]
 }
@@ -273,108 +271,4 @@ fn asked(probe: &mut Probe<'_>) -> Step {
         probe.check("SVC-3", read == [2, 0, 0, 0], "the new request", Hex(read));
         Ok(())
     })
-}
-
-/// Looks at the variables after each step of a program.
-fn asks_last(probe: &mut Probe<'_>) -> Step {
-    use ServiceVariable::{Request, RequestState, Uuid};
-    within(probe, |probe, channel, cnc| {
-        let config = ScriptConfig::square_root().map_err(harness)?;
-        let Some(asked) = config.requests.first().cloned() else {
-            return Err(harness("no request"));
-        };
-        let mut script = cnc.as_run(Script::new(config).map_err(harness)?);
-        // Remains of another request.
-        for (variable, value) in [(Uuid, &b"other\0"[..]), (Request, b"other\0")] {
-            let done = cnc.with_service(channel.number(), |one| one.write(variable, value));
-            done.map_err(harness)?.map_err(harness)?;
-        }
-        while script.state() == ScriptState::Asking(0) {
-            let stepped =
-                cnc.with_service(channel.number(), |service| script.step(Duration::ZERO, service));
-            stepped.map_err(harness)?;
-            let state = get(probe, channel, RequestState)?;
-            let (uuid, request) = (get(probe, channel, Uuid)?, get(probe, channel, Request)?);
-            let own = CncStr::from_bytes(text(&uuid)).and_then(ServiceId::from_text);
-            let same = text(&request) == asked.text.as_bytes() && own == Ok(asked.uuid);
-            let found = format!("state {}, {} of {}", Hex(state.clone()), Hex(request), Hex(uuid));
-            let expected = "no request before it is all there";
-            probe.check("SVC-12", same || state == NONE, expected, found);
-        }
-        Ok(())
-    })
-}
-
-/// How long the program and the service may take over it.
-const PATIENCE: Duration = Duration::from_secs(1);
-
-fn square_root(probe: &mut Probe<'_>) -> Step {
-    within(probe, |probe, channel, cnc| {
-        let config = ScriptConfig::square_root().map_err(harness)?;
-        let ids: Vec<_> = config.requests.iter().map(|request| request.uuid).collect();
-        let (repeat, pause) = (Repeat::Times(1), Duration::ZERO);
-        let cycle = Duration::from_micros(100);
-        let script = Script::new(ScriptConfig { repeat, pause, cycle, ..config });
-        cnc.set_script(channel.number(), Some(script.map_err(harness)?)).map_err(harness)?;
-        let state = || cnc.with_script(channel.number(), |script| script.map(|one| one.state()));
-        let begun = Instant::now();
-        let mut host = Host::new(&ids);
-        while state().map_err(harness)? != Some(ScriptState::Finished) {
-            if begun.elapsed() > PATIENCE {
-                probe.check("SVC-6", false, "a program with its answers", "one that waits on");
-                return Ok(());
-            }
-            serve(probe, channel, &mut host)?;
-        }
-        let answers = cnc.with_script(channel.number(), |script| {
-            let answers =
-                script.into_iter().flat_map(|script| script.answers().cloned().collect::<Vec<_>>());
-            answers.map(|answer| answer.outcome).collect::<Vec<_>>()
-        });
-        let text = |text: &str| text.parse().map_err(harness);
-        let expected = vec![
-            Outcome::Response { state: 1, text: text("1.732051")? },
-            Outcome::Response { state: 99, text: text(NEGATIVE)? },
-        ];
-        let found = answers.map_err(harness)?;
-        for rule in ["SVC-6", "SVC-8", "SVC-9"] {
-            probe.check(rule, found == expected, format!("{expected:?}"), format!("{found:?}"));
-        }
-        let read = get(probe, channel, ServiceVariable::RequestState)?;
-        probe.check("SVC-4", read == NONE, "no request any more", Hex(read));
-        Ok(())
-    })
-}
-
-const NEGATIVE: &str = "ERROR: cannot calc square root of negative number -3.000000";
-
-/// A step of the service.
-fn serve(probe: &mut Probe<'_>, channel: Channel, host: &mut Host<'_>) -> Step {
-    match host.step() {
-        HostStep::Read(variable) => {
-            let value = get(probe, channel, variable)?;
-            let read = host.read(&value);
-            probe.check("SVC-6", read.is_ok(), "a value that fits", Hex(value));
-            if read.is_err() {
-                return Err(Stop::Judged);
-            }
-        }
-        HostStep::Write(variable, value) => {
-            let value = value.to_vec();
-            let taken = put(probe, channel, variable, &value)?;
-            probe.check("SVC-6", taken, "the answer taken", "an error");
-            host.written();
-        }
-        HostStep::Serve { request, request_state, .. } => {
-            // With the state there are UUID and request: they were written before it.
-            let (request, known) = (request.to_string(), ["3", "-3"]);
-            let whole = known.contains(&request.as_str()) && request_state == 1;
-            let found = format!("{request:?}, state {request_state}");
-            probe.check("SVC-12", whole, "3 or -3, with state 1", found);
-            let (answer, state) = if request == "3" { ("1.732051", 1) } else { (NEGATIVE, 99) };
-            host.answer(CncStr::new(answer).map_err(harness)?, state).map_err(harness)?;
-        }
-        _ => host.poll(),
-    }
-    Ok(())
 }

@@ -1,0 +1,79 @@
+//! What is wrong with frames themselves.
+
+use ads_cnc::ads::{AmsHeader, FrameRef, StateFlags};
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::Service;
+
+use super::Client;
+use crate::exchange::{Exchange, Fault, Violation};
+
+impl Client {
+    /// What is wrong with the frames themselves.
+    pub(super) fn judge(&mut self, asked: &AmsHeader, exchange: &mut Exchange) {
+        let mut broken = Vec::new();
+        match &exchange.outcome {
+            Ok((answer, header)) => {
+                broken.extend(violations(asked, header));
+                let mut add = |requirement, what: String| {
+                    broken.push(Violation { requirement, what });
+                };
+                let given = answer.data.as_ref().map_or(0, Vec::len);
+                let read = exchange.read_length;
+                if usize::try_from(read).is_ok_and(|read| given > read) {
+                    let of = if exchange.service == Service::Read { "ADS-1" } else { "ADS-3" };
+                    add(of, format!("{given} bytes of data for a read length of {read}"));
+                }
+                let payload = exchange.received.len() > FrameRef::HEADERS_LEN;
+                if payload && !answer.ams_error.is_none() && answer.result.is_none() {
+                    let error = answer.ams_error;
+                    add("ADS-5", format!("AMS error {error} before a reply of success"));
+                }
+            }
+            Err(fault) => {
+                let mut add = |requirement, what: String| {
+                    broken.push(Violation { requirement, what });
+                };
+                if let Fault::Malformed(error) = fault {
+                    let of = match error.field().stream() {
+                        Stream::ReadReply => "ADS-1",
+                        Stream::WriteReply => "ADS-2",
+                        Stream::ReadWriteReply => "ADS-3",
+                        _ => "ADS-5",
+                    };
+                    add(of, error.to_string());
+                    if of != "ADS-5" {
+                        // Its numbers do not stand where they stand with 4 bytes each.
+                        add("ADS-4", error.to_string());
+                    }
+                    if exchange.received.len() == FrameRef::HEADERS_LEN {
+                        add("ADS-5", "no data, and no error in the AMS header".to_owned());
+                    }
+                }
+                // What comes next on this connection cannot be told apart any more.
+                self.disconnect();
+            }
+        }
+        exchange.violations.append(&mut broken);
+    }
+}
+
+/// What of ADS-5 the response's header does not keep.
+pub(crate) fn violations(sent: &AmsHeader, got: &AmsHeader) -> Vec<Violation> {
+    let checks = [
+        (
+            got.command == sent.command,
+            format!("command {} answered by {}", sent.command.0, got.command.0),
+        ),
+        (
+            got.state_flags == StateFlags::RESPONSE,
+            format!("state flags {:#06x} instead of 0x0005", got.state_flags.0),
+        ),
+        (
+            got.target == sent.source,
+            format!("answered to {}, asked by {}", got.target, sent.source),
+        ),
+        (got.source == sent.target, format!("answered by {}, asked {}", got.source, sent.target)),
+    ];
+    let broken = checks.into_iter().filter(|(kept, _)| !kept);
+    broken.map(|(_, what)| Violation { requirement: "ADS-5", what }).collect()
+}
