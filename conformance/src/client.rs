@@ -74,7 +74,11 @@ pub struct Client {
     dry: bool,
     last: Option<Instant>,
     invoke_id: u32,
+    piece: Option<usize>,
 }
+
+/// Between the pieces of a frame that is sent in pieces.
+const PAUSE: Duration = Duration::from_millis(1);
 
 /// Before the first: no byte of it is 0 or like another, as a response has to have all four.
 const FIRST_INVOKE_ID: u32 = 0x5403_0201;
@@ -119,6 +123,7 @@ impl Client {
             dry: false,
             last: None,
             invoke_id: FIRST_INVOKE_ID,
+            piece: None,
         })
     }
 
@@ -158,6 +163,11 @@ impl Client {
     /// What of it could not be written.
     pub fn end_capture(&mut self) -> io::Result<()> {
         self.capture.take().map_or(Ok(()), Capture::finish)
+    }
+
+    /// Sends frames in pieces of so many bytes from now on, or whole again.
+    pub(crate) const fn set_piece(&mut self, piece: Option<usize>) {
+        self.piece = piece;
     }
 
     /// The gate in front of the target.
@@ -253,9 +263,11 @@ impl Client {
     }
 
     fn header(&self, port: AmsPort, command: Command) -> AmsHeader {
+        let low = u16::try_from(self.invoke_id & 0xF).unwrap_or_default();
         AmsHeader {
             target: AmsAddr { net_id: self.target.net_id, port },
-            source: AmsAddr { net_id: self.source, port: SOURCE_PORT },
+            // Not always the same: an answer goes to where its request came from.
+            source: AmsAddr { net_id: self.source, port: AmsPort(SOURCE_PORT.0 | low) },
             command,
             state_flags: StateFlags::REQUEST,
             data_length: 0,
@@ -301,7 +313,11 @@ impl Client {
             }
         };
         let wire = self.wire.insert(wire);
-        wire.send(permit).map_err(Fault::io)?;
+        let sent_all = match self.piece {
+            Some(piece) => wire.send_in_pieces(permit, piece, PAUSE),
+            None => wire.send(permit),
+        };
+        sent_all.map_err(Fault::io)?;
         if let Some(capture) = &mut self.capture {
             capture.sent(permit.frame());
         }

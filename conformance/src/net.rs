@@ -75,6 +75,23 @@ impl Wire {
         self.stream.write_all(permit.frame())
     }
 
+    /// As [`send`](Self::send), so many bytes at a time, one pause after the other.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub fn send_in_pieces(
+        &mut self,
+        permit: Permit<'_>,
+        piece: usize,
+        pause: Duration,
+    ) -> io::Result<()> {
+        for piece in permit.frame().chunks(piece.max(1)) {
+            self.stream.write_all(piece)?;
+            std::thread::sleep(pause);
+        }
+        Ok(())
+    }
+
     /// What has come, waiting at most so long; 0 bytes at the end.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! Cases of the services themselves: each takes and gives what its numbers say, and what is asked
 //! by one agrees with what is asked by another.
 
+mod lengths;
 mod numbers;
 mod write;
 
@@ -8,9 +9,8 @@ use ads_cnc::address::{Channel, Class};
 use ads_cnc::dynamic::{DynamicCount, DynamicKind};
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{
-    Call, CountDynamic, CountElements, CountObjects, CountVariables, DescribeByIndex,
-    DynamicNameByIndex, Function, ReadByHandle, ReadByName, ReadDescriptors, ReadElement, Request,
-    Service,
+    CountDynamic, CountElements, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex,
+    Function, ReadByHandle, ReadByName, ReadDescriptors, ReadElement, Request,
 };
 use ads_cnc::{Decode as _, Description, Numbers, ObjectCount, VariableCount, VariableType};
 
@@ -52,7 +52,14 @@ pub(super) fn cases() -> Vec<Case> {
             "A reply has no more bytes than are asked for, and no more than there are",
             ["ADS-1", "ADS-3"],
             Queries,
-            lengths
+            lengths::asked_for
+        ),
+        declare!(
+            "ads-in-pieces",
+            "A request is answered the same in whatever pieces it comes",
+            ["ADS-5"],
+            Queries,
+            lengths::in_pieces
         ),
         declare!(
             "ads-numbers-of-errors",
@@ -263,82 +270,4 @@ fn elements_agree(probe: &mut Probe<'_>, rules: &[Rule]) -> Step<bool> {
         }
     }
     Ok(any)
-}
-
-/// Whether a reply's length follows from what is documented, or a text ends where it ends.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Extent {
-    Fixed,
-    Open,
-}
-
-fn lengths(probe: &mut Probe<'_>) -> Step {
-    for channel in probe.channels()? {
-        for kind in DynamicKind::ALL {
-            lengths_of(probe, CountDynamic::new(channel, kind).into(), Extent::Fixed)?;
-            let name = DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?;
-            lengths_of(probe, name.into(), Extent::Open)?;
-        }
-        for (_, kind) in kinds(probe) {
-            lengths_of(probe, CountVariables::new(channel, kind).into(), Extent::Fixed)?;
-            for index in 0..2 {
-                let described = DescribeByIndex::new(channel, index, kind);
-                lengths_of(probe, described.into(), Extent::Open)?;
-            }
-        }
-        let Ok(variables) = probe.variables(channel) else { continue };
-        for variable in variables {
-            if variable.var_type != VariableType::STRING {
-                let read = ReadByName { channel, name: name_of(&variable) };
-                lengths_of(probe, read.into(), Extent::Fixed)?;
-            }
-        }
-    }
-    Ok(())
-}
-
-fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> Step {
-    if probe.claims(request.function()) != Claim::Yes {
-        return Ok(());
-    }
-    let mut buf = vec![0; request.encoded_len()];
-    let call = request.encode(&mut buf).map_err(harness)?;
-    let rule = if call.service == Service::Read { "ADS-1" } else { "ADS-3" };
-    let Some(whole) = maybe(probe, request)?.filter(|data| !data.is_empty()) else {
-        return Ok(());
-    };
-    let there = u32::try_from(whole.len()).unwrap_or(u32::MAX);
-    let answer = |probe: &mut Probe<'_>, read_length: u32| -> Step<Option<Option<usize>>> {
-        let call = Call { read_length, ..call };
-        // The gate may let no other lengths pass.
-        if probe.session.client.check(&call).is_err() {
-            return Ok(None);
-        }
-        let exchange = probe.call(&call)?;
-        Ok(Some(exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::len)))
-    };
-    let what = request.function().spec().name;
-    // Of a text that ends with the reply the CNC may want room for a NUL.
-    if extent == Extent::Fixed
-        && let Some(found) = answer(probe, there)?
-    {
-        let expected = format!("{there} bytes of {what}, as many as are asked for");
-        probe.check(rule, found == Some(whole.len()), expected, format!("{found:?}"));
-    }
-    // What it gives instead of an error, if it gives anything, fits.
-    if let Some(found) = answer(probe, there.saturating_sub(1))? {
-        let fits = found.is_none_or(|len| len < whole.len());
-        let expected = format!("fewer than {there} bytes of {what}");
-        probe.check(rule, fits, expected, format!("{found:?}"));
-    }
-    // Nothing is behind what there is.
-    if extent == Extent::Fixed
-        && probe.session.client.gate().lets_malformed_pass()
-        && let Some(found) = answer(probe, there.saturating_add(5))?
-    {
-        let fits = found.is_none_or(|len| len <= whole.len());
-        let expected = format!("{there} bytes of {what}, or an error");
-        probe.check(rule, fits, expected, format!("{found:?}"));
-    }
-    Ok(())
 }

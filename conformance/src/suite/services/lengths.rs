@@ -1,0 +1,118 @@
+//! How long replies are, and that it does not matter how frames are cut.
+
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::operation::{
+    Call, CountDynamic, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex,
+    ReadByName, Request, Service,
+};
+use ads_cnc::{Kind, VariableType};
+
+use super::maybe;
+use crate::profile::Claim;
+use crate::suite::case::{Step, Stop};
+use crate::suite::described::kinds;
+use crate::suite::probe::{Probe, harness};
+use crate::suite::variable::name_of;
+
+/// TCP may cut a frame anywhere: its length says where it ends.
+pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
+    let channel = probe.channel()?;
+    let requests: [Request<'_>; 2] =
+        [CountVariables::new(channel, Kind::V_G).into(), CountObjects::new(channel).into()];
+    let mut any = false;
+    for request in requests {
+        let Some(whole) = maybe(probe, request)? else { continue };
+        any = true;
+        for piece in [37, 6, 1] {
+            probe.session.client.set_piece(Some(piece));
+            let exchange = probe.send(request);
+            probe.session.client.set_piece(None);
+            let exchange = exchange?;
+            let same = exchange.answer().and_then(|answer| answer.success()) == Some(&whole[..]);
+            let expected = format!("the same to a frame in pieces of {piece} bytes");
+            probe.check("ADS-5", same, expected, exchange.result());
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("nothing to be asked is claimed".to_owned())),
+    }
+}
+
+/// Whether a reply's length follows from what is documented, or a text ends where it ends.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Extent {
+    Fixed,
+    Open,
+}
+
+pub(super) fn asked_for(probe: &mut Probe<'_>) -> Step {
+    for channel in probe.channels()? {
+        for kind in DynamicKind::ALL {
+            lengths_of(probe, CountDynamic::new(channel, kind).into(), Extent::Fixed)?;
+            let name = DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?;
+            lengths_of(probe, name.into(), Extent::Open)?;
+        }
+        for (_, kind) in kinds(probe) {
+            lengths_of(probe, CountVariables::new(channel, kind).into(), Extent::Fixed)?;
+            for index in 0..2 {
+                let described = DescribeByIndex::new(channel, index, kind);
+                lengths_of(probe, described.into(), Extent::Open)?;
+            }
+        }
+        let Ok(variables) = probe.variables(channel) else { continue };
+        for variable in variables {
+            if variable.var_type != VariableType::STRING {
+                let read = ReadByName { channel, name: name_of(&variable) };
+                lengths_of(probe, read.into(), Extent::Fixed)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> Step {
+    if probe.claims(request.function()) != Claim::Yes {
+        return Ok(());
+    }
+    let mut buf = vec![0; request.encoded_len()];
+    let call = request.encode(&mut buf).map_err(harness)?;
+    let rule = if call.service == Service::Read { "ADS-1" } else { "ADS-3" };
+    let Some(whole) = maybe(probe, request)?.filter(|data| !data.is_empty()) else {
+        return Ok(());
+    };
+    let there = u32::try_from(whole.len()).unwrap_or(u32::MAX);
+    let answer = |probe: &mut Probe<'_>, read_length: u32| -> Step<Option<Option<usize>>> {
+        let call = Call { read_length, ..call };
+        // The gate may let no other lengths pass.
+        if probe.session.client.check(&call).is_err() {
+            return Ok(None);
+        }
+        let exchange = probe.call(&call)?;
+        Ok(Some(exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::len)))
+    };
+    let what = request.function().spec().name;
+    // Of a text that ends with the reply the CNC may want room for a NUL.
+    if extent == Extent::Fixed
+        && let Some(found) = answer(probe, there)?
+    {
+        let expected = format!("{there} bytes of {what}, as many as are asked for");
+        probe.check(rule, found == Some(whole.len()), expected, format!("{found:?}"));
+    }
+    // What it gives instead of an error, if it gives anything, fits.
+    if let Some(found) = answer(probe, there.saturating_sub(1))? {
+        let fits = found.is_none_or(|len| len < whole.len());
+        let expected = format!("fewer than {there} bytes of {what}");
+        probe.check(rule, fits, expected, format!("{found:?}"));
+    }
+    // Nothing is behind what there is.
+    if extent == Extent::Fixed
+        && probe.session.client.gate().lets_malformed_pass()
+        && let Some(found) = answer(probe, there.saturating_add(5))?
+    {
+        let fits = found.is_none_or(|len| len <= whole.len());
+        let expected = format!("{there} bytes of {what}, or an error");
+        probe.check(rule, fits, expected, format!("{found:?}"));
+    }
+    Ok(())
+}
