@@ -158,8 +158,10 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
         let objects = probe.objects()?;
         let named = objects.iter().find(|one| (one.group, one.offset) == (group, offset));
         // One of another form of the address has its content here too.
-        let size = named.map_or(8, |object| object.size);
-        let exchange = probe.send(ReadObject::new(group, offset, size).map_err(harness)?)?;
+        let read = |size| ReadObject::new(group, offset, size);
+        let described = named.and_then(|object| read(object.size).ok());
+        let read = described.map_or_else(|| read(8).map_err(harness), Ok)?;
+        let exchange = probe.send(read)?;
         let answered = exchange.answer().and_then(|answer| answer.success());
         let answered = answered.is_some_and(|content| !content.is_empty());
         let expected = format!("content of the {what} at ({group}, {offset})");
