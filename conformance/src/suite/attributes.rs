@@ -7,9 +7,9 @@ use ads_cnc::operation::{
 };
 use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag};
 
+use super::addresses::Addresses;
 use super::case::{Case, Step, Stop};
 use super::declare;
-use super::held::element_of;
 use super::probe::Probe;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -82,9 +82,10 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
 
 fn within(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
+    let addresses = Addresses::new(probe)?;
     let mut any = false;
     for held in cnc.held() {
-        let Some(element) = element_of(probe, &held)? else { continue };
+        let Some(element) = addresses.element(&held)? else { continue };
         any = true;
         let at = format!("{} ({:?})", held.name, held.holder);
         let texts: [(Option<ElementText>, String, &str); 3] = [

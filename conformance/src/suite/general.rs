@@ -11,9 +11,9 @@ use ads_cnc::sda::{ElementText, ObjectAddress};
 use ads_cnc::{CncString, Decode as _, Kind, Numbers, TextRef, VariableType};
 use ads_cnc_vectors::Hex;
 
+use super::addresses::Addresses;
 use super::case::{Case, Rule, Step, Stop, assumed, online};
 use super::declare;
-use super::held::element_of;
 use super::probe::{Probe, harness};
 use super::variable::name_of;
 
@@ -252,13 +252,10 @@ fn text(probe: &mut Probe<'_>, held: &CncString, read: Option<Vec<u8>>) {
 fn names_within(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let claimed: Vec<u8> = probe.channels()?.iter().map(|channel| channel.number()).collect();
-    let objects = match probe.objects() {
-        Ok(objects) => objects,
-        Err(Stop::NotApplicable(_)) => Vec::new(),
-        Err(stop) => return Err(stop),
-    };
+    let addresses = Addresses::new(probe)?;
+    let objects = addresses.objects();
     for held in cnc.held() {
-        if let Some(element) = element_of(probe, &held)? {
+        if let Some(element) = addresses.element(&held)? {
             let name = probe.try_ask(ReadElementName::new(element))?;
             text(probe, &held.name, name);
             let unit = probe.try_ask(ReadElementUnit::new(element))?;

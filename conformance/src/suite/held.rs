@@ -1,17 +1,16 @@
 //! Cases that hold what is read and written over ADS against what the CNC has within: every
 //! content another value, so that none passes for another.
 
-use ads_cnc::address::{
-    Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable,
-    ElementAddress, IndexOffset,
-};
+use ads_cnc::address::{ComGroup, ComTable};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop, assumed};
+use super::addresses::{Addresses, At};
+use super::case::{Case, Rule, Step, Stop};
 use super::declare;
+use super::inventory::Object;
 use super::numbers::is_permuted;
 use super::place::Place;
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use crate::cnc::{Held, Holder};
 
 pub(super) fn cases() -> Vec<Case> {
@@ -30,11 +29,18 @@ pub(super) fn cases() -> Vec<Case> {
             "written-is-held",
             "What is written is held by what has the address, and by nothing else",
             [
-                "ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-4",
-                "COM-5", "GEN-1", "GEN-6"
+                "ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-5",
+                "GEN-1", "GEN-6"
             ],
             Embedded,
             is_held
+        ),
+        declare!(
+            "held-is-described",
+            "Every object that the CNC holds is in its list, with its name, type, size and access",
+            ["COM-2", "OBJ-1"],
+            Embedded,
+            is_described
         ),
     ]
 }
@@ -76,120 +82,9 @@ fn value(held: &Held, number: u32, round: u32) -> Vec<u8> {
     }
 }
 
-/// The offset of an element of an axis as its object address has it: the stride is printed for the
-/// decoder and for the HLD, and of other classes nobody says it (ADR-7).
-fn told(probe: &mut Probe<'_>, held: &Held) -> Step<Option<IndexOffset>> {
-    let (class, channel, axis) = match held.holder {
-        Holder::OfAxis { class, axis } => (class, 0, axis),
-        Holder::OfPlace { class, channel, place } => (class, channel, place),
-        _ => return Ok(None),
-    };
-    if matches!(class, Class::Decoder | Class::Hld) {
-        return Ok(None);
-    }
-    let instances = match probe.instances() {
-        Err(Stop::NotApplicable(_)) => Vec::new(),
-        instances => instances?,
-    };
-    let wanted = (class, u32::from(channel), u32::from(axis));
-    let one = instances.iter().find(|one| (one.class, one.channel, one.axis) == wanted);
-    let element = one.and_then(|one| one.first.following(held.element).ok());
-    Ok(element.map(ElementAddress::index_offset))
-}
-
-/// Where a content is, by everything that is said of addresses, and by what rules.
-fn addresses(probe: &mut Probe<'_>, held: &Held) -> Step<Vec<(Place, Vec<Rule>)>> {
-    use Addressing::{Index, Logical};
-    let told = told(probe, held)?;
-    let size = u32::try_from(held.value.len()).map_err(harness)?;
-    let channels = &probe.session.profile.channels;
-    let first = channels.first().copied();
-    let rank = |channel: u8| (1_u8..).zip(channels.iter()).find(|one| *one.1 == u32::from(channel));
-    let rank = |channel: u8| rank(channel).map(|(rank, _)| rank);
-    let offset =
-        |axis: u8, stride| IndexOffset::of_axis(stride, axis.into(), held.element).map_err(harness);
-    let object = |addressing, table, instance, offset| {
-        let group = ComGroup { addressing, access: Access::Element, table, instance };
-        Place::Object { group: group.index_group(), offset, size }
-    };
-    let element = |addressing, class, instance, offset| {
-        let attribute = Attribute::Content;
-        let group = ClassGroup { addressing, class, attribute, instance };
-        Place::Element { element: ElementAddress::new(group, offset), length: size }
-    };
-    let own = offset(0, AxisStride::X10000)?;
-    let rules = |ids: &[&'static str]| ids.iter().map(|&id| Rule::from(id)).collect::<Vec<_>>();
-    // Each in both forms of its group.
-    let both = |of: &dyn Fn(Addressing, u8) -> Place, channel: u8, logical: &[&'static str]| {
-        let by_rank = rank(channel).map(|rank| (of(Index, rank), rules(&["ADR-1", "ADR-12"])));
-        let logical = rank(channel).map(|_| (of(Logical, channel), rules(logical)));
-        logical.into_iter().chain(by_rank).collect::<Vec<_>>()
-    };
-    Ok(match held.holder {
-        Holder::Platform => {
-            let of = |addressing, instance| object(addressing, ComTable::Channel, instance, own);
-            let mut all = vec![
-                (of(Logical, 0), rules(&["COM-5", "COM-4", "ADR-3"])),
-                (of(Index, 0), rules(&["ADR-12"])),
-            ];
-            // Channel 1 drives it.
-            if first == Some(1) {
-                all.push((of(Logical, 1), rules(&["COM-4", "ADR-3"])));
-            }
-            all
-        }
-        Holder::Channel(channel) => {
-            let of = |addressing, instance| object(addressing, ComTable::Channel, instance, own);
-            both(&of, channel, &["COM-5", "ADR-3"])
-        }
-        Holder::PlatformAxis(axis) => {
-            let of = |addressing| object(addressing, ComTable::Axis, axis, own);
-            vec![
-                (of(Logical), rules(&["COM-5", "ADR-3", "ADR-13", "GEN-6"])),
-                (of(Index), rules(&["ADR-12"])),
-            ]
-        }
-        Holder::ChannelAxis { channel, place } => {
-            let at = offset(place, AxisStride::X10000)?;
-            let of = |addressing, instance| object(addressing, ComTable::Channel, instance, at);
-            both(&of, channel, &["COM-5", "ADR-13"])
-        }
-        Holder::OfChannel { class, channel } => {
-            let of = |addressing, instance| element(addressing, class, instance, own);
-            both(&of, channel, &["ADR-5", "ADR-6"])
-        }
-        Holder::OfAxis { class, axis } => {
-            // As printed, E-01.
-            let stride = if class == Class::Hld { AxisStride::X1000 } else { AxisStride::X10000 };
-            let mut rules = rules(&["ADR-5", "ADR-13", "GEN-6"]);
-            rules.push(assumed("ADR-7"));
-            let at = told.unwrap_or(offset(axis, stride)?);
-            vec![(element(Logical, class, 0, at), rules)]
-        }
-        Holder::OfPlace { class, channel, place } => {
-            let at = told.unwrap_or(offset(place, AxisStride::X10000)?);
-            let of = |addressing, instance| element(addressing, class, instance, at);
-            let printed = if class == Class::Decoder { "ADR-7" } else { "ADR-5" };
-            both(&of, channel, &[printed, "ADR-13", "GEN-6"])
-        }
-        Holder::Spindle(index) => {
-            vec![(element(Index, Class::Spindle, index, own), rules(&["ADR-2", "ADR-5", "GEN-6"]))]
-        }
-    })
-}
-
 fn same(held: &Held, one: &[u8], other: &[u8]) -> bool {
     let text = |bytes: &[u8]| bytes.split(|&byte| byte == 0).next().map(<[u8]>::to_vec);
     one == other || held.type_name == "STRING" && text(one) == text(other)
-}
-
-/// The element that a content is, if it is one, at its first address.
-pub(super) fn element_of(probe: &mut Probe<'_>, held: &Held) -> Step<Option<ElementAddress>> {
-    let first = addresses(probe, held)?.into_iter().next();
-    Ok(first.and_then(|(place, _)| match place {
-        Place::Element { element, .. } => Some(element),
-        _ => None,
-    }))
 }
 
 /// Judges a value that was read or is held now. One with its bytes in another order is of the
@@ -220,6 +115,7 @@ fn is_read(probe: &mut Probe<'_>) -> Step {
     if all.is_empty() {
         return Err(Stop::NotApplicable("the CNC holds nothing".to_owned()));
     }
+    let addresses = Addresses::new(probe)?;
     let mut done = Ok(());
     for round in 0..ROUNDS {
         let values: Vec<Vec<u8>> =
@@ -227,15 +123,15 @@ fn is_read(probe: &mut Probe<'_>) -> Step {
         all.iter().zip(&values).for_each(|(held, value)| cnc.hold(held, value));
         let of_round = |held: &Held| is_bit(held) || round < ROUNDS_OF_NUMBERS;
         for (held, value) in all.iter().zip(&values).filter(|(held, _)| of_round(held)) {
-            done = done.and_then(|()| read(probe, held, value));
+            done = done.and_then(|()| read(probe, &addresses, held, value));
         }
     }
     all.iter().for_each(|held| cnc.hold(held, &held.value));
     done
 }
 
-fn read(probe: &mut Probe<'_>, held: &Held, value: &[u8]) -> Step {
-    for (place, rules) in addresses(probe, held)? {
+fn read(probe: &mut Probe<'_>, addresses: &Addresses, held: &Held, value: &[u8]) -> Step {
+    for (place, rules) in addresses.of(held)? {
         // Of the program stream, and where functions are, nothing is read.
         let Ok(request) = place.read() else { continue };
         let exchange = probe.send(request)?;
@@ -248,21 +144,24 @@ fn read(probe: &mut Probe<'_>, held: &Held, value: &[u8]) -> Step {
 fn is_held(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let all = cnc.held();
+    let addresses = Addresses::new(probe)?;
     let mut done = Ok(());
     for (number, held) in (1..).zip(&all).filter(|(_, held)| held.writable) {
         let value = match is_bit(held) {
             true => held.value.iter().map(|bit| bit ^ 1).collect(),
             false => value(held, number, 0),
         };
-        done = done.and_then(|()| write(probe, &all, held, &value));
+        done = done.and_then(|()| write(probe, &all, held, &addresses.of(held)?, &value));
         all.iter().for_each(|held| cnc.hold(held, &held.value));
     }
     done
 }
 
-fn write(probe: &mut Probe<'_>, all: &[Held], held: &Held, value: &[u8]) -> Step {
+fn write(probe: &mut Probe<'_>, all: &[Held], held: &Held, addresses: &[At], value: &[u8]) -> Step {
     let cnc = probe.cnc()?;
-    for (place, rules) in addresses(probe, held)? {
+    for (place, rules) in addresses {
+        // The two homes of platform data are read.
+        let rules: Vec<Rule> = rules.iter().filter(|rule| rule.id != "COM-4").copied().collect();
         let Ok(request) = place.write(value) else { continue };
         if probe.session.profile.leaves(&held.name.to_string()) || !probe.may(request)? {
             continue;
@@ -286,6 +185,53 @@ fn write(probe: &mut Probe<'_>, all: &[Held], held: &Held, value: &[u8]) -> Step
             probe.check(rule, others.is_empty(), &expected, &found);
         }
         all.iter().for_each(|held| cnc.hold(held, &held.value));
+    }
+    Ok(())
+}
+
+/// Whether a list is that of what holds an object; of the platform's, channel 1 has them too.
+fn is_list_of(holder: Holder, parts: ComGroup) -> bool {
+    match (holder, parts.table) {
+        (Holder::Platform, ComTable::Channel) => parts.instance == 0,
+        (Holder::Channel(channel) | Holder::ChannelAxis { channel, .. }, ComTable::Channel) => {
+            parts.instance == channel
+        }
+        _ => false,
+    }
+}
+
+fn is_described(probe: &mut Probe<'_>) -> Step {
+    let cnc = probe.cnc()?;
+    let addresses = Addresses::new(probe)?;
+    let objects = addresses.objects();
+    for held in cnc.held() {
+        let mine = |object: &&Object| is_list_of(held.holder, object.list.parts());
+        // That platform axes have lists is assumed; what is not claimed has none.
+        if !objects.iter().any(|object| mine(&object)) {
+            continue;
+        }
+        let places = addresses.of(&held)?;
+        let at = |object: &&Object| {
+            places.iter().any(|(place, _)| {
+                let (group, offset) = (object.group, object.offset);
+                matches!(place, Place::Object { group: one, offset: other, .. }
+                    if (*one, *other) == (group, offset))
+            })
+        };
+        let listed = objects.iter().filter(mine).find(at);
+        let what = format!("{} ({:?})", held.name, held.holder);
+        for rule in ["COM-2", "OBJ-1"] {
+            probe.check(rule, listed.is_some(), format!("{what} in its list"), "it is not");
+        }
+        let Some(object) = listed else { continue };
+        let size = u32::try_from(held.value.len());
+        let same = object.name == held.name
+            && object.type_name.as_cnc_str() == held.type_name
+            && Ok(object.size) == size
+            && object.writable == held.writable;
+        let expected = format!("{what}, {} of {size:?} bytes", held.type_name);
+        let found = format!("{}, {} of {} bytes", object.name, object.type_name, object.size);
+        probe.check("COM-2", same, expected, format!("{found}, writable {}", object.writable));
     }
     Ok(())
 }

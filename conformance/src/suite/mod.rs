@@ -1,6 +1,7 @@
 //! The suite: what it tries, in which order, and what comes of it.
 
 mod address;
+mod addresses;
 mod arrays;
 mod attributes;
 mod axis;

@@ -1,0 +1,190 @@
+//! Where what a CNC holds is, by everything that is said of addresses.
+
+use ads_cnc::address::{
+    Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable,
+    ElementAddress, IndexGroup, IndexOffset,
+};
+
+use super::case::{Rule, Step, Stop, assumed};
+use super::inventory::{Instance, Object};
+use super::place::Place;
+use super::probe::{Probe, harness};
+use crate::cnc::{Held, Holder};
+
+/// What a target says itself of where things are, where no manual does.
+pub(super) struct Addresses {
+    /// Of the channels, in the order of their ranks.
+    channels: Vec<u32>,
+    objects: Vec<Object>,
+    instances: Vec<Instance>,
+}
+
+/// An address of a content, and by what rules it is one.
+pub(super) type At = (Place, Vec<Rule>);
+
+fn rules(ids: &[&'static str]) -> Vec<Rule> {
+    ids.iter().map(|&id| Rule::from(id)).collect()
+}
+
+fn object(held: &Held, group: IndexGroup, offset: IndexOffset) -> Step<Place> {
+    let size = u32::try_from(held.value.len()).map_err(harness)?;
+    Ok(Place::Object { group, offset, size })
+}
+
+fn com(addressing: Addressing, table: ComTable, instance: u8) -> IndexGroup {
+    ComGroup { addressing, access: Access::Element, table, instance }.index_group()
+}
+
+fn element(
+    held: &Held,
+    (addressing, class, instance): (Addressing, Class, u8),
+    offset: IndexOffset,
+) -> Step<Place> {
+    let length = u32::try_from(held.value.len()).map_err(harness)?;
+    let group = ClassGroup { addressing, class, attribute: Attribute::Content, instance };
+    Ok(Place::Element { element: ElementAddress::new(group, offset), length })
+}
+
+/// What is not there or not claimed says nothing.
+fn any<T>(found: Step<Vec<T>>) -> Step<Vec<T>> {
+    match found {
+        Err(Stop::NotApplicable(_)) => Ok(Vec::new()),
+        found => found,
+    }
+}
+
+impl Addresses {
+    pub(super) fn new(probe: &mut Probe<'_>) -> Step<Self> {
+        Ok(Self {
+            channels: probe.session.profile.channels.to_vec(),
+            objects: any(probe.objects())?,
+            instances: any(probe.instances())?,
+        })
+    }
+
+    /// Each address of a content that a manual prints or the target says.
+    pub(super) fn of(&self, held: &Held) -> Step<Vec<At>> {
+        use Addressing::{Index, Logical};
+        let at = |stride, axis: u8| {
+            IndexOffset::of_axis(stride, axis.into(), held.element).map_err(harness)
+        };
+        let own = at(AxisStride::X10000, 0)?;
+        match held.holder {
+            Holder::Platform => {
+                let of = |addressing, instance| {
+                    object(held, com(addressing, ComTable::Channel, instance), own)
+                };
+                let mut all = vec![
+                    (of(Logical, 0)?, rules(&["COM-5", "COM-4", "ADR-3"])),
+                    (of(Index, 0)?, rules(&["ADR-12"])),
+                ];
+                // Channel 1 drives it.
+                if self.channels.first() == Some(&1) {
+                    all.push((of(Logical, 1)?, rules(&["COM-4", "ADR-3"])));
+                }
+                Ok(all)
+            }
+            Holder::Channel(channel) => self.both(channel, &["COM-5", "ADR-3"], |by, instance| {
+                object(held, com(by, ComTable::Channel, instance), own)
+            }),
+            Holder::PlatformAxis(axis) => {
+                let of = |addressing| object(held, com(addressing, ComTable::Axis, axis), own);
+                Ok(vec![
+                    (of(Logical)?, rules(&["COM-5", "ADR-3", "ADR-13", "GEN-6"])),
+                    (of(Index)?, rules(&["ADR-12"])),
+                ])
+            }
+            Holder::ChannelAxis { channel, place } => {
+                let strides = [AxisStride::X10000, AxisStride::X1000];
+                let offsets = strides.map(|stride| at(stride, place));
+                let group = com(Logical, ComTable::Channel, channel);
+                // Both strides are printed: the descriptor tells which it is.
+                let described = |offset: &IndexOffset| {
+                    let here = |one: &&Object| (one.group, one.offset) == (group, *offset);
+                    self.objects.iter().find(here).is_some_and(|one| one.name == held.name)
+                };
+                let described = offsets.into_iter().flatten().find(described);
+                let offset = described.map_or_else(|| at(AxisStride::X10000, place), Ok)?;
+                self.both(channel, &["COM-5", "ADR-13"], |by, instance| {
+                    object(held, com(by, ComTable::Channel, instance), offset)
+                })
+            }
+            Holder::OfChannel { class, channel } => {
+                self.both(channel, &["ADR-5", "ADR-6"], |by, instance| {
+                    element(held, (by, class, instance), own)
+                })
+            }
+            Holder::OfAxis { class, axis } => {
+                let first = self.first(class, 0, axis);
+                // As printed, E-01.
+                let stride = match class {
+                    Class::Hld => AxisStride::X1000,
+                    _ => AxisStride::X10000,
+                };
+                let offset = first.map_or_else(|| at(stride, axis), |first| plus(first, held))?;
+                let mut rules = rules(&["ADR-5", "ADR-13", "GEN-6"]);
+                rules.push(assumed("ADR-7"));
+                Ok(vec![(element(held, (Logical, class, 0), offset)?, rules)])
+            }
+            Holder::OfPlace { class: Class::Decoder, channel, place } => {
+                let offset = at(AxisStride::X10000, place)?;
+                self.both(channel, &["ADR-7", "ADR-13", "GEN-6"], |by, instance| {
+                    element(held, (by, Class::Decoder, instance), offset)
+                })
+            }
+            Holder::OfPlace { class, channel, place } => {
+                let first = self.first(class, channel, place);
+                let offset = first
+                    .map_or_else(|| at(AxisStride::X10000, place), |first| plus(first, held))?;
+                self.both(channel, &["ADR-5", "ADR-13", "GEN-6"], |by, instance| {
+                    element(held, (by, class, instance), offset)
+                })
+            }
+            Holder::Spindle(index) => {
+                let place = element(held, (Index, Class::Spindle, index), own)?;
+                Ok(vec![(place, rules(&["ADR-2", "ADR-5", "GEN-6"]))])
+            }
+        }
+    }
+
+    /// The element that a content is, if it is one, at its first address.
+    pub(super) fn element(&self, held: &Held) -> Step<Option<ElementAddress>> {
+        let first = self.of(held)?.into_iter().next();
+        Ok(first.and_then(|(place, _)| match place {
+            Place::Element { element, .. } => Some(element),
+            _ => None,
+        }))
+    }
+
+    pub(super) fn objects(&self) -> &[Object] {
+        &self.objects
+    }
+
+    /// By the number of a channel and by its rank; nothing of one that is not claimed.
+    fn both(
+        &self,
+        channel: u8,
+        logical: &[&'static str],
+        of: impl Fn(Addressing, u8) -> Step<Place>,
+    ) -> Step<Vec<At>> {
+        let mut ranks = (1_u8..).zip(&self.channels);
+        let Some((rank, _)) = ranks.find(|(_, number)| **number == u32::from(channel)) else {
+            return Ok(Vec::new());
+        };
+        Ok(vec![
+            (of(Addressing::Logical, channel)?, rules(logical)),
+            (of(Addressing::Index, rank)?, rules(&["ADR-1", "ADR-12"])),
+        ])
+    }
+
+    /// Where the target says that an instance begins.
+    fn first(&self, class: Class, channel: u8, axis: u8) -> Option<IndexOffset> {
+        let asked = (class, u32::from(channel), u32::from(axis));
+        let found = self.instances.iter().find(|one| (one.class, one.channel, one.axis) == asked);
+        found.map(|one| one.first.index_offset())
+    }
+}
+
+fn plus(first: IndexOffset, held: &Held) -> Step<IndexOffset> {
+    Ok(IndexOffset::new(first.get().saturating_add(held.element)))
+}
