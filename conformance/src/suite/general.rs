@@ -8,7 +8,7 @@ use ads_cnc::operation::{
     ReadElementName, ReadElementUnit, Request,
 };
 use ads_cnc::sda::{ElementText, ObjectAddress};
-use ads_cnc::{CncString, Decode as _, Kind, Numbers, TextRef, VariableType};
+use ads_cnc::{CncString, Decode as _, Kind, Numbers, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::addresses::Addresses;
@@ -237,15 +237,31 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
     }
 }
 
-/// A text that is not as it is held.
-fn text(probe: &mut Probe<'_>, held: &CncString, read: Option<Vec<u8>>) {
-    let text = read.and_then(|data| ElementText::decode(&data).ok()).map(|text| text.text.text);
-    // That it is there at all, a unit for one, is no matter of characters.
-    let text = text.filter(|text| !text.as_bytes().is_empty());
-    if let (Some(text), true) = (text, is_telling(held.as_bytes())) {
-        let expected = format!("{held}: {}", Hex(held.as_bytes().to_vec()));
-        let same = text.as_bytes() == held.as_bytes();
-        probe.check("GEN-3", same, expected, Hex(text.as_bytes().to_vec()));
+/// The same text but for characters beyond ASCII. Another text altogether is no matter of
+/// characters.
+fn is_miswritten(held: &[u8], read: &[u8]) -> bool {
+    let plain = |text: &[u8]| -> Vec<u8> {
+        text.iter().copied().filter(u8::is_ascii_alphanumeric).collect()
+    };
+    let mut places = held.iter().zip(read);
+    let in_place =
+        held.len() == read.len() && places.all(|(held, read)| held == read || !held.is_ascii());
+    held != read && !read.is_empty() && (in_place || plain(held) == plain(read))
+}
+
+/// Judges a text that has a telling character by those it could be.
+fn text<'r>(probe: &mut Probe<'_>, held: &CncString, read: impl Iterator<Item = &'r [u8]>) {
+    let bytes = held.as_bytes();
+    if !is_telling(bytes) {
+        return;
+    }
+    let read: Vec<&[u8]> = read.collect();
+    let wrong = read.iter().find(|read| is_miswritten(bytes, read));
+    let kept = read.contains(&bytes);
+    if kept || wrong.is_some() {
+        let expected = format!("{held}: {}", Hex(bytes.to_vec()));
+        let found = Hex(wrong.copied().unwrap_or_default().to_vec());
+        probe.check("GEN-3", kept, expected, found);
     }
 }
 
@@ -255,15 +271,16 @@ fn names_within(probe: &mut Probe<'_>) -> Step {
     let addresses = Addresses::new(probe)?;
     let objects = addresses.objects();
     for held in cnc.held() {
-        if let Some(element) = addresses.element(&held)? {
-            let name = probe.try_ask(ReadElementName::new(element))?;
-            text(probe, &held.name, name);
-            let unit = probe.try_ask(ReadElementUnit::new(element))?;
-            text(probe, &held.unit, unit);
-        } else if is_telling(held.name.as_bytes()) {
-            let listed = objects.iter().any(|object| object.name == held.name);
-            let expected = format!("an object {}", held.name);
-            probe.check("GEN-3", listed || objects.is_empty(), expected, "none of this name");
+        let Some(element) = addresses.element(&held)? else {
+            text(probe, &held.name, objects.iter().map(|object| object.name.as_bytes()));
+            continue;
+        };
+        let of_name: Request<'_> = ReadElementName::new(element).into();
+        let of_unit = ReadElementUnit::new(element).into();
+        for (held, request) in [(&held.name, of_name), (&held.unit, of_unit)] {
+            let read = probe.try_ask(request)?.unwrap_or_default();
+            let read = ElementText::decode(&read).ok();
+            text(probe, held, read.iter().map(|read| read.text.text.as_bytes()));
         }
     }
     for variable in cnc.held_variables() {
@@ -276,13 +293,7 @@ fn names_within(probe: &mut Probe<'_>) -> Step {
             Err(Stop::NotApplicable(_) | Stop::Inconclusive(_)) => continue,
             Err(stop) => return Err(stop),
         };
-        let listed = described.iter().any(|one| one.name.text == variable.name);
-        let expected = format!("a variable {}", variable.name);
-        probe.check("GEN-3", listed, expected, "none of this name");
-        let name = TextRef::from(variable.name.as_cnc_str());
-        let found = probe.try_ask(HandleByName { channel, name })?.is_some();
-        let expected = format!("a handle of {}", variable.name);
-        probe.check("GEN-3", found, expected, "the name is not found");
+        text(probe, &variable.name, described.iter().map(|one| one.name.text.as_bytes()));
     }
     Ok(())
 }
@@ -295,6 +306,13 @@ mod tests {
     fn characters_of_several_bytes_are_seen() {
         assert!(is_utf_8("Länge".as_bytes()));
         assert!(!is_utf_8(b"L\xE4nge") && !is_utf_8(b"Lange") && !is_utf_8(b"\xB0C"));
+        let held = b"L\xE4nge";
+        for read in ["Länge".as_bytes(), b"L?nge", b"Ldnge", b"Lnge"] {
+            assert!(is_miswritten(held, read), "{read:?}");
+        }
+        for read in [&held[..], b"", b"Breite", b"Laenge"] {
+            assert!(!is_miswritten(held, read), "{read:?}");
+        }
         assert!(is_telling(b"L?nge") && is_telling(b"L\xE4nge") && !is_telling(b"Lange"));
     }
 }
