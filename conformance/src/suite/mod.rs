@@ -24,6 +24,7 @@ mod malformed;
 mod names;
 mod numbers;
 mod outcome;
+mod packed;
 mod place;
 mod platform;
 mod printed;
@@ -89,6 +90,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(attributes::cases());
     cases.extend(general::cases());
     cases.extend(numbers::cases());
+    cases.extend(packed::cases());
     cases.extend(device::cases());
     cases.extend(com::cases());
     cases.extend(content::cases());
@@ -113,7 +115,6 @@ pub fn cases() -> Vec<Case> {
     cases.extend(write_refused::cases());
     cases.extend(write_sizes::cases());
     cases.extend(write_all::cases());
-    cases.extend(write_texts::cases());
     cases.extend(write_content::cases());
     cases.extend(stream::cases());
     cases.extend(service::cases());

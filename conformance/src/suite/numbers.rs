@@ -1,6 +1,6 @@
-//! Cases of the bytes of numbers: their order, and that nothing stands between them.
+//! Cases of the order of the bytes of numbers.
 
-use ads_cnc::address::Channel;
+use ads_cnc::address::{Channel, Class, Group, IndexGroup};
 use ads_cnc::dynamic::{DynamicCount, DynamicKind};
 use ads_cnc::operation::{
     CountDynamic, CountElements, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex,
@@ -8,17 +8,14 @@ use ads_cnc::operation::{
     ReadElementName, Request,
 };
 use ads_cnc::sda::ElementCount;
-use ads_cnc::{
-    Decode, Description, DescriptorRef, DescriptorsRef, Handle, Kind, ObjectCount, VariableCount,
-};
+use ads_cnc::{Decode, Handle, Kind, ObjectCount, VariableCount};
 use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Step, Stop};
 use super::declare;
 use super::described::kinds;
-use super::inventory::{Instance, OBJECTS_MAX};
+use super::inventory::Instance;
 use super::probe::{Probe, harness};
-use super::survey::VARIABLES_MAX;
 use super::variable::name_of;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -31,25 +28,25 @@ pub(super) fn cases() -> Vec<Case> {
             number_order
         ),
         declare!(
+            "gen-field-order",
+            "Numbers in descriptors, descriptions and addresses come with their lowest byte first",
+            ["GEN-1"],
+            Queries,
+            field_order
+        ),
+        declare!(
             "gen-value-order",
             "Values of variables and parameters come with their lowest byte first",
             ["GEN-1"],
             Embedded,
             value_order
         ),
-        declare!(
-            "gen-packed",
-            "In descriptors and descriptions nothing stands between the fields",
-            ["GEN-2"],
-            Queries,
-            packed
-        ),
     ]
 }
 
 /// Something that is counted, and can be asked for by its number from 1.
 #[derive(Clone, Debug)]
-enum Counted {
+pub(super) enum Counted {
     Objects(ObjectList),
     Variables(Channel, &'static str, Kind<'static>),
     Parameters(Channel, DynamicKind),
@@ -73,7 +70,7 @@ impl std::fmt::Display for Counted {
 
 impl Counted {
     /// How many there are, as the target says.
-    fn number(&self, probe: &mut Probe<'_>) -> Step<Option<u32>> {
+    pub(super) fn number(&self, probe: &mut Probe<'_>) -> Step<Option<u32>> {
         fn read<T: for<'b> Decode<'b>>(
             probe: &mut Probe<'_>,
             request: Request<'_>,
@@ -177,6 +174,61 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
+/// A number that makes no sense, but does from behind.
+fn in_order(probe: &mut Probe<'_>, what: &str, number: u32, makes_sense: impl Fn(u32) -> bool) {
+    let swapped = !makes_sense(number) && makes_sense(number.swap_bytes());
+    let found = format!("{number:#x} for {what}");
+    probe.check("GEN-1", !swapped, "the lowest byte first", found);
+}
+
+fn field_order(probe: &mut Probe<'_>) -> Step {
+    let nothing = |stop| match stop {
+        Stop::NotApplicable(_) | Stop::Inconclusive(_) => Ok(()),
+        stop => Err(stop),
+    };
+    match probe.objects() {
+        Ok(objects) => {
+            let is_com = |group| matches!(IndexGroup::new(group).parts(), Some(Group::Com(_)));
+            for object in objects {
+                let name = object.name.to_string();
+                in_order(probe, &format!("the group of {name}"), object.group.get(), is_com);
+                let size = format!("the size of {name}");
+                in_order(probe, &size, object.size, |size| size <= 0x00FF_FFFF);
+            }
+        }
+        Err(stop) => nothing(stop)?,
+    }
+    for channel in probe.channels()? {
+        match probe.variables(channel) {
+            Ok(variables) => {
+                for one in variables {
+                    let name = one.name.text.to_string();
+                    let of_type = format!("the type of {name}");
+                    in_order(probe, &of_type, one.var_type.0, |code| (1..=9).contains(&code));
+                    let access = format!("the access of {name}");
+                    in_order(probe, &access, one.access.0, |code| (1..=2).contains(&code));
+                    let size = format!("the size of {name}");
+                    in_order(probe, &size, one.size, |size| size <= 0x00FF_FFFF);
+                }
+            }
+            Err(stop) => nothing(stop)?,
+        }
+        let number = u32::from(channel.number());
+        match probe.address_of(Class::Decoder, number, 0) {
+            Ok(Some(address)) => {
+                let of_class = |group| {
+                    matches!(IndexGroup::new(group).parts(), Some(Group::Class(_))) || group == 0
+                };
+                let what = format!("the group of the decoder of channel {number}");
+                in_order(probe, &what, address.index_group.get(), of_class);
+            }
+            Ok(None) => {}
+            Err(stop) => nothing(stop)?,
+        }
+    }
+    Ok(())
+}
+
 /// The same bytes in another order.
 pub(super) fn is_permuted(one: &[u8], other: &[u8]) -> bool {
     let sorted = |bytes: &[u8]| {
@@ -229,121 +281,9 @@ fn value_order(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-/// Whether the type that a descriptor names is one of the manual's.
-fn has_type(object: DescriptorRef<'_>) -> bool {
-    object.type_size().is_some() || object.type_name() == "STRING"
-}
-
-/// The bytes with some more zeros, or fewer bytes, at a place.
-fn shifted(bytes: &[u8], at: usize, by: isize) -> Vec<u8> {
-    let (head, tail) = bytes.split_at_checked(at).unwrap_or((bytes, &[]));
-    let count = by.unsigned_abs();
-    let mut all = head.to_vec();
-    if by > 0 {
-        all.resize(head.len().saturating_add(count), 0);
-        all.extend_from_slice(tail);
-    } else {
-        all.extend(tail.iter().skip(count));
-    }
-    all
-}
-
-/// By how much a field may be wider or narrower than printed: by little first.
-const SHIFTS: [isize; 10] = [-1, 1, -2, 2, -4, 4, -6, 6, -8, 8];
-
-fn packed(probe: &mut Probe<'_>) -> Step {
-    let mut any = false;
-    for list in probe.lists()? {
-        let Ok(Some(number)) = Counted::Objects(list).number(probe) else { continue };
-        for first in 1..=number.min(OBJECTS_MAX) {
-            let one = ReadDescriptors::new(list, first, 1).map_err(harness)?;
-            let Some(bytes) = probe.try_ask(one)? else { break };
-            any = true;
-            descriptor_is_packed(probe, &bytes);
-        }
-    }
-    for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
-            let counted = Counted::Variables(channel, name, kind);
-            let Ok(Some(number)) = counted.number(probe) else { continue };
-            for index in 0..number.min(VARIABLES_MAX) {
-                let describe = DescribeByIndex::new(channel, index, kind);
-                let Some(bytes) = probe.try_ask(describe)? else { break };
-                any = true;
-                description_is_packed(probe, &bytes, name);
-            }
-        }
-    }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing is described".to_owned())),
-    }
-}
-
-fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
-    let object = |bytes: &[u8], judge: fn(DescriptorRef<'_>) -> bool| {
-        DescriptorsRef::decode(bytes).ok().and_then(|list| list.get(0)).is_some_and(judge)
-    };
-    // An unknown type is none of the manual's, but a type.
-    let shift = match object(bytes, |one| one.name().is_empty() && one.type_name().is_empty()) {
-        true => unpacked(bytes, 52, |bytes| {
-            let mut bytes = bytes.to_vec();
-            bytes.resize(ads_cnc::limits::DESCRIPTOR_LEN, 0);
-            object(&bytes, |one| has_type(one) && !one.name().is_empty())
-        }),
-        false => None,
-    };
-    let found = format!("{} bytes more in between", shift.unwrap_or_default());
-    probe.check("GEN-2", shift.is_none(), "name and type at bytes 20 and 52", found);
-}
-
-fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
-    let of_kind = |one: &Description| {
-        let name = one.name.text.to_string();
-        name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'))
-    };
-    let decoded = Description::decode(bytes);
-    let shift = match decoded.is_ok_and(|one| of_kind(&one)) {
-        true => None,
-        false => unpacked(bytes, bytes.len(), |bytes| {
-            Description::decode(bytes)
-                .is_ok_and(|one| of_kind(&one) && one.var_type.name().is_some())
-        }),
-    };
-    let found = format!("{} bytes more in between", shift.unwrap_or_default());
-    probe.check("GEN-2", shift.is_none(), format!("a name of {kind} behind the dimensions"), found);
-}
-
-/// How many bytes too many stand somewhere before `end`, so that the stream makes sense without
-/// them; too few, if it is less than 0.
-fn unpacked(bytes: &[u8], end: usize, makes_sense: impl Fn(&[u8]) -> bool) -> Option<isize> {
-    let makes_sense = |by: isize| (0..end).any(|at| makes_sense(&shifted(bytes, at, by)));
-    SHIFTS.into_iter().find(|by| makes_sense(*by)).map(isize::saturating_neg)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    const DESCRIPTION: &[u8] =
-        b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
-
-    fn sense(bytes: &[u8]) -> bool {
-        Description::decode(bytes)
-            .is_ok_and(|one| one.name.text.to_string().starts_with("V.E.") && one.var_type.0 == 1)
-    }
-
-    #[test]
-    fn what_stands_between_fields_is_found() {
-        for (at, by) in [(4, 4), (8, 2), (24, 4), (24, 1)] {
-            let other = shifted(DESCRIPTION, at, by);
-            assert_eq!(unpacked(&other, DESCRIPTION.len(), sense), Some(by), "{at} {by}");
-        }
-        let narrow = shifted(DESCRIPTION, 10, -2);
-        assert!(unpacked(&narrow, DESCRIPTION.len(), sense).is_some());
-        // Other nonsense is another matter.
-        assert_eq!(unpacked(b"\x02\0\0\x02", 4, sense), None);
-    }
 
     #[test]
     fn another_order_is_told_from_other_bytes() {

@@ -1,0 +1,139 @@
+//! Cases of what stands between the fields of descriptors and descriptions: nothing.
+
+use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
+use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
+
+use super::case::{Case, Step, Stop};
+use super::declare;
+use super::described::kinds;
+use super::inventory::OBJECTS_MAX;
+use super::numbers::Counted;
+use super::probe::{Probe, harness};
+use super::survey::VARIABLES_MAX;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![declare!(
+        "gen-packed",
+        "In descriptors and descriptions nothing stands between the fields",
+        ["GEN-2"],
+        Queries,
+        packed
+    )]
+}
+
+/// Whether the type that a descriptor names is one of the manual's.
+fn has_type(object: DescriptorRef<'_>) -> bool {
+    object.type_size().is_some() || object.type_name() == "STRING"
+}
+
+/// The bytes with some more zeros, or fewer bytes, at a place.
+fn shifted(bytes: &[u8], at: usize, by: isize) -> Vec<u8> {
+    let (head, tail) = bytes.split_at_checked(at).unwrap_or((bytes, &[]));
+    let count = by.unsigned_abs();
+    let mut all = head.to_vec();
+    if by > 0 {
+        all.resize(head.len().saturating_add(count), 0);
+        all.extend_from_slice(tail);
+    } else {
+        all.extend(tail.iter().skip(count));
+    }
+    all
+}
+
+/// By how much a field may be wider or narrower than printed: by little first.
+const SHIFTS: [isize; 10] = [-1, 1, -2, 2, -4, 4, -6, 6, -8, 8];
+
+fn packed(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    for list in probe.lists()? {
+        let Ok(Some(number)) = Counted::Objects(list).number(probe) else { continue };
+        for first in 1..=number.min(OBJECTS_MAX) {
+            let one = ReadDescriptors::new(list, first, 1).map_err(harness)?;
+            let Some(bytes) = probe.try_ask(one)? else { break };
+            any = true;
+            descriptor_is_packed(probe, &bytes);
+        }
+    }
+    for channel in probe.channels()? {
+        for (name, kind) in kinds(probe) {
+            let counted = Counted::Variables(channel, name, kind);
+            let Ok(Some(number)) = counted.number(probe) else { continue };
+            for index in 0..number.min(VARIABLES_MAX) {
+                let describe = DescribeByIndex::new(channel, index, kind);
+                let Some(bytes) = probe.try_ask(describe)? else { break };
+                any = true;
+                description_is_packed(probe, &bytes, name);
+            }
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("nothing is described".to_owned())),
+    }
+}
+
+fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
+    let object = |bytes: &[u8], judge: fn(DescriptorRef<'_>) -> bool| {
+        DescriptorsRef::decode(bytes).ok().and_then(|list| list.get(0)).is_some_and(judge)
+    };
+    // An unknown type is none of the manual's, but a type.
+    let shift = match object(bytes, |one| one.name().is_empty() && one.type_name().is_empty()) {
+        true => unpacked(bytes, 52, |bytes| {
+            let mut bytes = bytes.to_vec();
+            bytes.resize(ads_cnc::limits::DESCRIPTOR_LEN, 0);
+            object(&bytes, |one| has_type(one) && !one.name().is_empty())
+        }),
+        false => None,
+    };
+    let found = format!("{} bytes more in between", shift.unwrap_or_default());
+    probe.check("GEN-2", shift.is_none(), "name and type at bytes 20 and 52", found);
+}
+
+fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
+    let of_kind = |one: &Description| {
+        let name = one.name.text.to_string();
+        name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'))
+    };
+    let decoded = Description::decode(bytes);
+    let shift = match decoded.is_ok_and(|one| of_kind(&one)) {
+        true => None,
+        false => unpacked(bytes, bytes.len(), |bytes| {
+            Description::decode(bytes)
+                .is_ok_and(|one| of_kind(&one) && one.var_type.name().is_some())
+        }),
+    };
+    let found = format!("{} bytes more in between", shift.unwrap_or_default());
+    probe.check("GEN-2", shift.is_none(), format!("a name of {kind} behind the dimensions"), found);
+}
+
+/// How many bytes too many stand somewhere before `end`, so that the stream makes sense without
+/// them; too few, if it is less than 0.
+fn unpacked(bytes: &[u8], end: usize, makes_sense: impl Fn(&[u8]) -> bool) -> Option<isize> {
+    let makes_sense = |by: isize| (0..end).any(|at| makes_sense(&shifted(bytes, at, by)));
+    SHIFTS.into_iter().find(|by| makes_sense(*by)).map(isize::saturating_neg)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DESCRIPTION: &[u8] =
+        b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
+
+    fn sense(bytes: &[u8]) -> bool {
+        Description::decode(bytes)
+            .is_ok_and(|one| one.name.text.to_string().starts_with("V.E.") && one.var_type.0 == 1)
+    }
+
+    #[test]
+    fn what_stands_between_fields_is_found() {
+        for (at, by) in [(4, 4), (8, 2), (24, 4), (24, 1)] {
+            let other = shifted(DESCRIPTION, at, by);
+            assert_eq!(unpacked(&other, DESCRIPTION.len(), sense), Some(by), "{at} {by}");
+        }
+        let narrow = shifted(DESCRIPTION, 10, -2);
+        assert!(unpacked(&narrow, DESCRIPTION.len(), sense).is_some());
+        // Other nonsense is another matter.
+        assert_eq!(unpacked(b"\x02\0\0\x02", 4, sense), None);
+    }
+}
