@@ -40,6 +40,7 @@ mod session;
 mod still;
 mod stream;
 mod survey;
+mod texts;
 mod values;
 mod variable;
 mod vectors;
@@ -115,7 +116,9 @@ pub fn cases() -> Vec<Case> {
     cases.extend(write_refused::cases());
     cases.extend(write_sizes::cases());
     cases.extend(write_all::cases());
+    cases.extend(write_texts::cases());
     cases.extend(write_content::cases());
+    cases.extend(texts::cases());
     cases.extend(stream::cases());
     cases.extend(service::cases());
     cases.extend(replay::cases());

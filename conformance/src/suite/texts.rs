@@ -1,0 +1,106 @@
+//! Cases of characters: what is written in them is read again.
+
+use ads_cnc::VariableType;
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Rule, Step, Stop, assumed};
+use super::declare;
+use super::place::{Place, Trial};
+use super::probe::Probe;
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![declare!(
+        "gen-characters-written",
+        "Every character of CP1252 that is written to a text is read again",
+        ["GEN-3"],
+        Writes,
+        written
+    )]
+}
+
+/// Bytes that have no character in CP1252.
+const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
+
+/// Texts that may be written, by what names them.
+fn texts(probe: &mut Probe<'_>) -> Step<Vec<(Place, String)>> {
+    let mut all = Vec::new();
+    match probe.objects() {
+        Ok(objects) => all.extend(objects.into_iter().filter_map(|object| {
+            let is_text = object.type_name.as_cnc_str() == "STRING" && object.writable;
+            let (group, offset, size) = (object.group, object.offset, object.size);
+            is_text.then(|| (Place::Object { group, offset, size }, object.name.to_string()))
+        })),
+        Err(Stop::NotApplicable(_)) => {}
+        Err(stop) => return Err(stop),
+    }
+    for channel in probe.channels()? {
+        let variables = match probe.variables(channel) {
+            Ok(variables) => variables,
+            Err(Stop::NotApplicable(_) | Stop::Inconclusive(_)) => continue,
+            Err(stop) => return Err(stop),
+        };
+        all.extend(variables.into_iter().filter_map(|variable| {
+            let is_text = variable.var_type == VariableType::STRING
+                && variable.dimensions.is_empty()
+                && variable.access == ads_cnc::VariableAccess::READ_WRITE;
+            let name = variable.name.text;
+            // Those of the Service Interface an NC program reads.
+            let own = !name.to_string().starts_with("V.G.SERVICE.");
+            let what = name.to_string();
+            (is_text && own).then_some((Place::Name { channel, name }, what))
+        }));
+    }
+    Ok(all)
+}
+
+fn written(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    for (place, what) in texts(probe)? {
+        if place.read().is_err() || !probe.may_write(&place, &what)? {
+            continue;
+        }
+        let Some(before) = probe.value_at(&place)?.filter(|value| value.len() > 1) else {
+            continue;
+        };
+        any = true;
+        let all: Vec<u8> = (0x80..=0xFF).filter(|byte| !UNASSIGNED.contains(byte)).collect();
+        let mut judged = Ok(());
+        for (bytes, rule) in [(&all[..], Rule::from("GEN-3")), (&UNASSIGNED, assumed("GEN-3"))] {
+            // One byte is left for the NUL.
+            for piece in bytes.chunks(before.len().saturating_sub(1)) {
+                // As long as what was there: a text of another length may be refused.
+                let mut value = piece.to_vec();
+                value.resize(before.len(), 0);
+                let at = (&place, what.as_str());
+                judged = judged.and_then(|()| is_read_again(probe, at, rule, &value));
+            }
+        }
+        let rules = [Rule::from("GEN-3")];
+        let trial = Trial { what: &what, rules: &rules, is_text: true };
+        probe.put(&trial, &place, &before)?;
+        judged?;
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("no text may be written".to_owned())),
+    }
+}
+
+fn is_read_again(
+    probe: &mut Probe<'_>,
+    (place, what): (&Place, &str),
+    rule: Rule,
+    value: &[u8],
+) -> Step {
+    // Which texts are taken is documented nowhere.
+    let taken = [assumed("GEN-3")];
+    if !probe.put(&Trial { what, rules: &taken, is_text: true }, place, value)? {
+        return Ok(());
+    }
+    let text = |bytes: &[u8]| bytes.split(|&byte| byte == 0).next().map(<[u8]>::to_vec);
+    let read = probe.value_at(place)?.unwrap_or_default();
+    let kept = text(&read) == text(value);
+    let expected = format!("{} of {what}, as written", Hex(value.to_vec()));
+    probe.check(rule, kept, expected, Hex(read));
+    Ok(())
+}
