@@ -177,11 +177,26 @@ impl Addresses {
         ])
     }
 
+    /// How many elements the target says that there are where this one is.
+    pub(super) fn count(&self, held: &Held) -> Option<u32> {
+        let found = match held.holder {
+            Holder::OfChannel { class, channel } => self.instance(class, channel, 0),
+            Holder::OfAxis { class, axis } => self.instance(class, 0, axis),
+            Holder::OfPlace { class, channel, place } => self.instance(class, channel, place),
+            Holder::Spindle(index) => self.instance(Class::Spindle, index, 0),
+            _ => None,
+        };
+        found.map(|one| one.count)
+    }
+
     /// Where the target says that an instance begins.
     fn first(&self, class: Class, channel: u8, axis: u8) -> Option<IndexOffset> {
+        self.instance(class, channel, axis).map(|one| one.first.index_offset())
+    }
+
+    fn instance(&self, class: Class, channel: u8, axis: u8) -> Option<&Instance> {
         let asked = (class, u32::from(channel), u32::from(axis));
-        let found = self.instances.iter().find(|one| (one.class, one.channel, one.axis) == asked);
-        found.map(|one| one.first.index_offset())
+        self.instances.iter().find(|one| (one.class, one.channel, one.axis) == asked)
     }
 }
 

@@ -1,15 +1,18 @@
 //! Cases of the attributes of elements: each in the group of its own.
 
 use ads_cnc::Decode;
+use ads_cnc::address::{Addressing, Channel, Class, ClassGroup, ElementAddress};
 use ads_cnc::operation::{
-    ReadElement, ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit, Request,
+    ReadElement, ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit,
+    ReadElementWriteFlag, Request,
 };
 use ads_cnc::sda::{ElementLength, ElementText};
 
 use super::addresses::Addresses;
-use super::case::{Case, Step, Stop};
+use super::case::{Case, Rule, Step, Stop};
 use super::declare;
 use super::probe::Probe;
+use super::still::Still;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -19,6 +22,13 @@ pub(super) fn cases() -> Vec<Case> {
             ["ADR-6"],
             Queries,
             attributes
+        ),
+        declare!(
+            "adr-attributes-by-index",
+            "By number and by rank of the channel, an element has the same attributes",
+            ["ADR-1", "ADR-12"],
+            Queries,
+            by_index
         ),
         declare!(
             "adr-attributes-within",
@@ -77,6 +87,36 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
         }
     }
     Ok(())
+}
+
+fn by_index(probe: &mut Probe<'_>) -> Step {
+    let ranks: Vec<(u8, Channel)> = (1_u8..).zip(probe.channels()?).collect();
+    let mut still = Still::default();
+    for instance in probe.instances()? {
+        let mut ranks = ranks.iter();
+        let rank = ranks.find(|(_, channel)| u32::from(channel.number()) == instance.channel);
+        let (Some((rank, _)), false) = (rank, instance.class == Class::Spindle) else { continue };
+        for element in std::iter::once(instance.first).chain(instance.elements()) {
+            let group = element.class_group();
+            let group = ClassGroup { addressing: Addressing::Index, instance: *rank, ..group };
+            let other = ElementAddress::new(group, element.index_offset());
+            let requests = |element| -> [Request<'static>; 5] {
+                [
+                    ReadElementName::new(element).into(),
+                    ReadElementType::new(element).into(),
+                    ReadElementLength::new(element).into(),
+                    ReadElementUnit::new(element).into(),
+                    ReadElementWriteFlag::new(element).into(),
+                ]
+            };
+            for (one, other) in requests(element).into_iter().zip(requests(other)) {
+                let what = one.function().spec().name;
+                let what = format!("{what} {} of {instance}", element.index_offset());
+                still.same(probe, &["ADR-1", "ADR-12"].map(Rule::from), &what, one, other)?;
+            }
+        }
+    }
+    still.finish()
 }
 
 fn within(probe: &mut Probe<'_>) -> Step {

@@ -154,6 +154,15 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
             let id = object.id();
             probe.check("COM-2", ids.insert(id), "an ID no other object has", format!("ID {id}"));
             descriptor_holds_together(probe, object);
+            // Objects are static.
+            let again = read(probe, "COM-2", list, first, 1)?;
+            let what = |one: DescriptorRef<'_>| {
+                let at = (one.index_group(), one.index_offset());
+                (one.id(), one.size(), at, one.name().to_string(), one.type_name().to_string())
+            };
+            let same = again.as_ref().get(0).map(what) == Some(what(object));
+            let found = format!("another for number {first} the second time");
+            probe.check("COM-2", same, format!("the descriptor of ID {id} again"), found);
         }
     }
     Ok(())

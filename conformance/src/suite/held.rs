@@ -37,7 +37,7 @@ pub(super) fn cases() -> Vec<Case> {
         ),
         declare!(
             "held-is-described",
-            "Every object that the CNC holds is in its list, with its own name and size",
+            "All that the CNC holds is in its list, an object with its own name and size",
             ["COM-2", "OBJ-1"],
             Embedded,
             is_described
@@ -207,6 +207,12 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
     let all = cnc.held();
     for held in &all {
         let mine = |object: &&Object| is_list_of(held.holder, object.list.parts());
+        // What instances there are is judged elsewhere.
+        if let Some(count) = addresses.count(held) {
+            let expected = format!("element {} of {:?}", held.element, held.holder);
+            let found = format!("{count} elements");
+            probe.check("OBJ-1", held.element <= count, expected, found);
+        }
         // That platform axes have lists is assumed; what is not claimed has none.
         if !objects.iter().any(|object| mine(&object)) {
             continue;
@@ -228,9 +234,10 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         let sized = u32::try_from(held.value.len()) == Ok(object.size);
         let expected = format!("{} bytes of {what}", held.value.len());
         probe.check("COM-2", sized, expected, format!("{} bytes", object.size));
-        // It may have another name there, but not another's.
+        // It may have another name there, but not another's, nor half of its own.
         let taken = all.iter().any(|one| one.name == object.name);
-        let named = object.name == held.name || !taken;
+        let cut = held.name.as_bytes().starts_with(object.name.as_bytes());
+        let named = object.name == held.name || !taken && !cut;
         probe.check("COM-2", named, format!("the name of {what}"), &object.name);
     }
     Ok(())
