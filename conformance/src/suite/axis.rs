@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::{
-    AxisHandleByName, AxisReadByName, Call, ReadByHandle, ReadByName, Request,
+    AxisHandleByName, AxisReadByName, Call, HandleByName, ReadByHandle, ReadByName, Request,
 };
 use ads_cnc::{CncString, Decode as _, Description, Handle, Kind, Numbers, TextRef, VariablePath};
 use ads_cnc_vectors::Hex;
@@ -239,6 +239,12 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let what = format!("{} on the axis interface", variable.name.text);
     probe.refuses("VAR-26", &what, handle(axis, with_axis), handle(axis, good))?;
     probe.refuses("VAR-26", &what, read(axis, with_axis), read(axis, good))?;
+    // On the channel interface they do.
+    let what = format!("{} on the channel interface", good.text());
+    let of_channel = |name| HandleByName { channel, name };
+    probe.refuses("VAR-26", &what, of_channel(good), of_channel(with_axis))?;
+    let of_channel = |name| ReadByName { channel, name };
+    probe.refuses("VAR-26", &what, of_channel(good), of_channel(with_axis))?;
     let far = ChannelAxis::new(0xFFFF).map_err(harness)?;
     let what = "a place that no channel has";
     probe.refuses("VAR-26", what, handle(far, good), handle(axis, good))?;

@@ -81,7 +81,7 @@ pub(super) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
 }
 
 /// Texts are the same up to their first NUL.
-fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
+pub(super) fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
     let text = |bytes: &[u8]| bytes.split(|&byte| byte == 0).next().map(<[u8]>::to_vec);
     one == other || is_text && text(one) == text(other)
 }

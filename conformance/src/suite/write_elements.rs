@@ -6,7 +6,7 @@ use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Rule, Step, assumed};
 use super::declare;
-use super::place::Place;
+use super::place::{Place, same};
 use super::probe::Probe;
 use super::write::{each, handle_of, trial};
 
@@ -80,8 +80,8 @@ fn elements(
                 // Wherever it lies, and whoever allows it: what it takes there it gives there.
                 let read = probe.value_at(&place)?.unwrap_or_default();
                 let is_text = variable.var_type == VariableType::STRING;
+                let kept = same(&read, new, is_text);
                 for rule in trial.rules.iter().map(|rule| Rule::from(rule.id)) {
-                    let kept = read == new || is_text;
                     let expected = format!("{} of {name}, as written", Hex(new.to_vec()));
                     probe.check(rule, kept, expected, Hex(read.clone()));
                 }

@@ -80,5 +80,25 @@ fn of_lengths(
         probe.check(id, same, &expected, &found);
         probe.check(online("VAR-25"), same, expected, found);
     }
+    shorter(probe, id, place, (name, size))
+}
+
+/// A text without what its variable has room for behind it: that it is taken is assumed. Then it
+/// ends where it was sent to end, whatever was there.
+fn shorter(
+    probe: &mut Probe<'_>,
+    id: &'static str,
+    place: &Place,
+    (name, size): (&CncString, usize),
+) -> Step {
+    let mut longest = vec![b'y'; size.saturating_sub(1)];
+    longest.push(0);
+    let short = b"zz\0".get(..size.min(3)).unwrap_or_default();
+    if short.last() != Some(&0) || !write(probe, place, &longest)? || !write(probe, place, short)? {
+        return Ok(());
+    }
+    let read = probe.value_at(place)?.unwrap_or_default();
+    let expected = format!("{:?} of {name}, as written", "zz");
+    probe.check(id, text(&read) == text(short), expected, Hex(read));
     Ok(())
 }

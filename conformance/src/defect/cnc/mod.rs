@@ -1,5 +1,6 @@
 //! What a CNC can get wrong: how it answers is changed around the simulated one.
 
+mod across;
 mod address;
 mod ads;
 mod area;
@@ -90,7 +91,8 @@ pub(super) const fn twisted(
 
 /// All rows.
 pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
-    let areas: [&'static [Row]; 24] = [
+    let areas: [&'static [Row]; 25] = [
+        across::ROWS,
         address::ROWS,
         ads::ROWS,
         area::ROWS,
