@@ -14,6 +14,9 @@ fn named(call: &Call<'_>) -> bool {
     matches!(of_decoder(call), Some(0x46 | 0x48 | 0x4A | 0x4C))
 }
 
+const WRITE: &[Function] =
+    &[Function::WriteByHandle, Function::WriteByName, Function::AxisWriteByName];
+
 pub(super) const ROWS: &[Row] = &[
     row("different.name-unended", &[], "names without a NUL are taken", |cnc, call| {
         match named(call) && !call.data.contains(&0) {
@@ -79,6 +82,19 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &[call.data, &[0]].concat())
             }
             _ => cnc.answer(call),
+        },
+    ),
+    row(
+        "different.short-values",
+        &[],
+        "a value of fewer bytes than the variable has is written, and zeros behind it, but to a service",
+        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
+            (true, Err(AdsError::INVALID_SIZE)) if !call.data.starts_with(b"V.G.SERVICE.") => {
+                let longer = (1..=8).map(|more| [call.data, &vec![0; more]].concat());
+                let done = longer.map(|data| cnc.with(call, &data)).find(Result::is_ok);
+                done.unwrap_or(Err(AdsError::INVALID_SIZE))
+            }
+            (_, answer) => answer,
         },
     ),
 ];

@@ -17,7 +17,7 @@ use super::write_refused::{taken, taken_first};
 pub(super) fn cases() -> Vec<Case> {
     vec![declare!(
         "write-wrong-size",
-        "A value of another size than the variable's is answered by an error, or is there as sent",
+        "A value of another size than the variable's is answered by an error, or is there as it was sent",
         ["VAR-12", "VAR-13", "VAR-25", "VAR-26"],
         MalformedWrites,
         wrong_size
@@ -134,8 +134,8 @@ struct Sent<'a> {
 
 impl Sent<'_> {
     /// That it is refused is assumed. An error that has written something is none, and a success
-    /// has written what was sent: of another size a variable cannot have it. How much a text
-    /// holds is known from help pages only.
+    /// has written what was sent, as far as that goes: of more bytes a variable cannot have it.
+    /// How much a text holds is known from help pages only.
     fn judge(&self, probe: &mut Probe<'_>, what: &str) -> Step {
         let Self { way, watched, is_text, value, other } = *self;
         let (bad, good) = (way.place.write(other), way.place.write(value));
@@ -148,16 +148,18 @@ impl Sent<'_> {
         let before = probe.value_at(watched)?;
         let is_taken = taken(probe, way.id.into(), what, bad)?;
         let evidence = probe.evidence();
-        let after = probe.value_at(watched)?;
+        let (read, after) = (probe.value_at(&way.place)?, probe.value_at(watched)?);
         probe.show(evidence);
         let rule = if is_text { of_size } else { assumed(way.id) };
-        let shown = Hex(after.clone().unwrap_or_default());
         probe.check(rule, !is_taken, format!("an error number for {what}"), "a success");
-        if !is_taken || other.is_empty() {
-            let expected = format!("the value of before {what}");
-            probe.check(way.id, after == before, expected, shown);
+        if is_taken {
+            let read = read.unwrap_or_default();
+            let expected = format!("an error, or {what} read back");
+            probe.check(of_size, read.starts_with(other), expected, Hex(read));
         } else {
-            probe.check(of_size, false, format!("an error, or {what} read back"), shown);
+            let expected = format!("the value of before {what}");
+            let shown = Hex(after.clone().unwrap_or_default());
+            probe.check(way.id, after == before, expected, shown);
         }
         probe.send(good).map(drop)
     }

@@ -106,19 +106,6 @@ pub(super) const ROWS: &[Row] = &[
         },
     ),
     row(
-        "cnc.var.write-short-accepted",
-        &["VAR-12", "VAR-13"],
-        "a value of fewer bytes than the variable has is written",
-        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
-            (true, Err(AdsError::INVALID_SIZE)) => {
-                let longer = (1..=8).map(|more| [call.data, &vec![0; more]].concat());
-                let done = longer.map(|data| cnc.with(call, &data)).find(Result::is_ok);
-                done.unwrap_or(Err(AdsError::INVALID_SIZE))
-            }
-            (_, answer) => answer,
-        },
-    ),
-    row(
         "cnc.var.write-long-accepted",
         &["VAR-12", "VAR-13"],
         "a value of more bytes than the variable has is cut and written",
