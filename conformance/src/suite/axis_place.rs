@@ -148,35 +148,36 @@ fn at_a_place(
     Ok(())
 }
 
-/// A name that answers, with its channel and place.
-fn one(probe: &mut Probe<'_>) -> Step<(Channel, ChannelAxis, CncString)> {
+/// A name that answers at a place where an axis is, with its handle there.
+fn one(probe: &mut Probe<'_>) -> Step<(Channel, At, CncString)> {
     for channel in probe.channels()? {
         let described = described(probe, channel)?;
+        let handles: HashSet<u32> = described.iter().map(|one| one.1.handle.0).collect();
         for name in names(&described) {
-            if let Some(at) = answering(probe, channel, name)?.first() {
-                return Ok((channel, at.axis, name.clone()));
+            let places = answering(probe, channel, name)?.into_iter();
+            if let Some(at) = places.filter(|at| handles.contains(&at.handle.0)).last() {
+                return Ok((channel, at, name.clone()));
             }
         }
     }
     Err(Stop::NotApplicable("no axis variable is on the axis interface".to_owned()))
 }
 
+/// What there is of places that are not there is not said, but that it is no axis.
 fn too_far(probe: &mut Probe<'_>) -> Step {
-    let (channel, axis, name) = one(probe)?;
-    let name = TextRef::from(name.as_cnc_str());
-    let handle = |axis| AxisHandleByName { channel, axis, name };
-    let read = |axis| AxisReadByName { channel, axis, name };
+    let (channel, At { axis, handle }, name) = one(probe)?;
     for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {
         let far = ChannelAxis::new(u32::from(axis.place()) | bit).map_err(harness)?;
-        let what = format!("{} of place {}", name.text(), far.place());
-        probe.refuses("VAR-26", &what, handle(far), handle(axis))?;
-        probe.refuses("VAR-26", &what, read(far), read(axis))?;
+        let request = AxisHandleByName { channel, axis: far, name: name.as_cnc_str().into() };
+        let given = probe.try_ask(request)?.and_then(|data| Handle::decode(&data).ok());
+        let expected = format!("not the handle of place {} at {}", axis.place(), far.place());
+        probe.check("VAR-26", given != Some(handle), expected, format!("{handle:?}"));
     }
     Ok(())
 }
 
 fn reserved(probe: &mut Probe<'_>) -> Step {
-    let (channel, axis, name) = one(probe)?;
+    let (channel, At { axis, .. }, name) = one(probe)?;
     let name = TextRef::from(name.as_cnc_str());
     let request = Request::from(AxisReadByName { channel, axis, name });
     let mut buf = [0; 256];

@@ -54,7 +54,7 @@ pub(super) fn whole(channel: Channel, handle: Handle) -> ReadByHandle<'static> {
 fn described(probe: &mut Probe<'_>) -> Step {
     let mut still = Still::default();
     for channel in probe.channels()? {
-        for variable in probe.variables(channel)? {
+        for variable in probe.readable(channel)? {
             let what = variable.name.text.to_string();
             let by_handle = whole(channel, variable.handle);
             let by_name = ReadByName { channel, name: name_of(&variable) };
@@ -89,7 +89,7 @@ fn handle_of(probe: &mut Probe<'_>, channel: Channel, name: TextRef<'_>) -> Step
 
 fn by_name(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        let variables = probe.variables(channel)?;
+        let variables = probe.readable(channel)?;
         let mut handles = HashSet::new();
         for variable in &variables {
             let name = name_of(variable);
@@ -113,7 +113,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
 fn stays(probe: &mut Probe<'_>) -> Step {
     let mut all: Vec<(Channel, Description, Handle)> = Vec::new();
     for channel in probe.channels()? {
-        for variable in probe.variables(channel)? {
+        for variable in probe.readable(channel)? {
             let asked = HandleByName { channel, name: name_of(&variable) };
             let data = probe.try_ask(asked)?;
             let handle = data.and_then(|data| Handle::decode(&data).ok());

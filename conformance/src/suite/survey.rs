@@ -1,7 +1,7 @@
 //! All descriptions of a channel, read once.
 
 use ads_cnc::address::Channel;
-use ads_cnc::limits::TEXT_MAX;
+use ads_cnc::limits::{TEXT_MAX, VARIABLE_MAX};
 use ads_cnc::operation::{CountVariables, DescribeByIndex, Request};
 use ads_cnc::{Decode, Description, Kind, VariableCount};
 
@@ -32,6 +32,14 @@ impl Probe<'_> {
             true => Err(Stop::NotApplicable("the target has no variable".to_owned())),
             false => Ok(all),
         }
+    }
+
+    /// Those whose whole value an answer has room for.
+    pub(super) fn readable(&mut self, channel: Channel) -> Step<Vec<Description>> {
+        let mut all = self.variables(channel)?;
+        let fits = |size: u32| usize::try_from(size).is_ok_and(|size| size <= VARIABLE_MAX);
+        all.retain(|variable| fits(variable.size));
+        Ok(all)
     }
 
     fn describe(&mut self, channel: Channel, kind: Kind<'_>) -> Step<Vec<Description>> {

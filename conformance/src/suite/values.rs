@@ -151,7 +151,7 @@ pub(super) fn each(
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step,
 ) -> Step {
     for channel in probe.channels()? {
-        for variable in probe.variables(channel)? {
+        for variable in probe.readable(channel)? {
             judge(probe, channel, &variable)?;
         }
     }
