@@ -24,7 +24,7 @@ pub(super) fn cases() -> Vec<Case> {
         ),
         declare!(
             "var-similar-name",
-            "A name that differs in a character or an index is not the variable's",
+            "A name with another character or index is not the variable's",
             ["VAR-9", "VAR-20"],
             Queries,
             similar_name

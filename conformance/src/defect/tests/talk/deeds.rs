@@ -60,6 +60,7 @@ impl Talk<'_> {
                 }
             }
         }
+        self.odd_writes();
         self.write(552, 0x12_2301, 0x4A, b"V.E.vartest\x01\x02\x03\x04");
         self.write(552, 0x12_2301, 0x4A, b"V.E.sgn32\x01\x02\x03\x04");
         let matrix = self.ask(0x12_2301, 0x46, 4, b"V.E.matrix\0");
@@ -83,6 +84,24 @@ impl Talk<'_> {
                 self.ask(0x12_2301, place << 16 | 5, 8, b"V.A.WCS\0");
             }
         }
+    }
+
+    /// Writes that are refused, or shorter than what is there; and names that nobody has.
+    fn odd_writes(&mut self) {
+        for (name, value) in [
+            ("V.E.vartest", &[7, 7, 7][..]),
+            ("V.E.channel", &[9, 9, 9, 9]),
+            ("V.E.text", b"a long text\0"),
+            ("V.E.text", b"b\0"),
+        ] {
+            let name = format!("{name}\0");
+            self.write(552, 0x12_2301, 0x4A, &[name.as_bytes(), value].concat());
+            self.ask(0x12_2301, 0x48, 64, name.as_bytes());
+        }
+        for name in ["V.A.WCS\0", "V.E.struct1[9].struct2[0].array_sgn32\0"] {
+            self.ask(0x12_2301, 0x46, 4, name.as_bytes());
+        }
+        self.ask(0x12_2301, 0x47, 64, &numbers(&[0x200_1234, 0x101, 1]));
     }
 
     pub(super) fn services(&mut self) {
