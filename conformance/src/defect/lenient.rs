@@ -4,10 +4,22 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::cnc::{Row, is, of_decoder, row, text};
+use super::cnc::{Row, function, group, is, number, of_decoder, offset, put, row, text, u32_at};
 
 const COUNT: &[Function] = &[Function::CountVariables];
 const INDEXED: &[Function] = &[Function::DescribeByIndex, Function::DescribeExtended];
+
+const OF_AXES: &[Function] =
+    &[Function::AxisHandleByName, Function::AxisReadByName, Function::AxisWriteByName];
+
+/// What handles of the axis interface have that those of the channel interface have not.
+const OF_AXIS_INTERFACE: u32 = 0x1000_0000;
+
+/// A row about something that does not answer as printed.
+const fn unprinted(mut row: Row) -> Row {
+    row.printed = false;
+    row
+}
 
 /// Whether it is a request of the channel interface that begins with a name.
 fn named(call: &Call<'_>) -> bool {
@@ -95,6 +107,35 @@ pub(super) const ROWS: &[Row] = &[
                 done.unwrap_or(Err(AdsError::INVALID_SIZE))
             }
             (_, answer) => answer,
+        },
+    ),
+    unprinted(row(
+        "different.axis-handles",
+        &[],
+        "the axis interface has handles of its own, that are understood as the others are",
+        |cnc, call| match function(call) {
+            Some(Function::AxisHandleByName) => {
+                number(cnc.answer(call), 0, |handle| handle | OF_AXIS_INTERFACE)
+            }
+            Some(Function::ReadByHandle | Function::WriteByHandle) => {
+                let mut data = call.data.to_vec();
+                let handle = u32_at(&data, 0).unwrap_or_default();
+                // Those of axes begin with 1.
+                if handle >> 24 == (OF_AXIS_INTERFACE >> 24) | 1 {
+                    put(&mut data, 0, handle & !OF_AXIS_INTERFACE);
+                }
+                cnc.with(call, &data)
+            }
+            _ => cnc.answer(call),
+        },
+    )),
+    row(
+        "different.empty-places-refused",
+        &[],
+        "on the axis interface a place where no axis is has no variables",
+        |cnc, call| match (is(call, OF_AXES), group(call), offset(call) >> 16) {
+            (true, 0x12_2302 | 0x12_2306, 2..) => Err(AdsError::SYMBOL_NOT_FOUND),
+            _ => cnc.answer(call),
         },
     ),
 ];
