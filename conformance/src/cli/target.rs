@@ -211,7 +211,7 @@ impl TargetArgs {
             addr: resolve(host).map_err(|error| usage(format!("{host}: {error}")))?,
             net_id,
             source: self.source_net_id,
-            timeout: self.timeout.map_or(TIMEOUT, |timeout| Duration::from_millis(timeout)),
+            timeout: self.timeout.map_or(TIMEOUT, Duration::from_millis),
             pace: self.rate.unwrap_or_default(),
         }))
     }

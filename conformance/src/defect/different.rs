@@ -1,7 +1,9 @@
 //! What a CNC may do otherwise: nothing of it is wrong.
 
+mod elements;
 mod further;
 mod models;
+mod requests;
 
 use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
@@ -61,7 +63,7 @@ fn or_short(cnc: &Right<'_>, call: &Call<'_>, answer: Answer) -> Answer {
 
 /// All rows.
 pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
-    [ROWS, further::ROWS, models::ROWS].into_iter().flatten()
+    [ROWS, elements::ROWS, further::ROWS, models::ROWS, requests::ROWS].into_iter().flatten()
 }
 
 const ROWS: &[Row] = &[

@@ -15,11 +15,9 @@ mod cnc;
 mod codec;
 mod different;
 mod field;
-mod lenient;
 
 #[cfg(test)]
 mod tests;
-mod unlike;
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -87,8 +85,7 @@ pub fn all() -> &'static [Seed] {
     ALL.get_or_init(|| {
         let fields = Defect::all().into_iter().map(Seed::from);
         let cnc = cnc::rows().map(|row| Seed::of_row(row, Kind::Cnc));
-        let different = different::rows().chain(lenient::ROWS).chain(unlike::ROWS);
-        let different = different.map(|row| Seed::of_row(row, Kind::Different));
+        let different = different::rows().map(|row| Seed::of_row(row, Kind::Different));
         fields.chain(codec::seeds()).chain(cnc).chain(different).collect()
     })
 }

@@ -4,7 +4,9 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::cnc::{Row, function, group, is, number, of_decoder, offset, put, row, text, u32_at};
+use crate::defect::cnc::{
+    Row, function, group, is, number, of_decoder, offset, put, row, text, u32_at,
+};
 
 const COUNT: &[Function] = &[Function::CountVariables];
 const INDEXED: &[Function] = &[Function::DescribeByIndex, Function::DescribeExtended];

@@ -4,7 +4,8 @@ use ads_cnc::address::{Attribute, Class};
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 
-use super::cnc::{
+use super::unprinted;
+use crate::defect::cnc::{
     Answer, Right, Row, Twist, class, fits, function, group, is, number, offset, put, row, text,
     twisted, u32_at,
 };
@@ -16,11 +17,6 @@ const ATTRIBUTES: &[Function] = &[
     Function::ReadElementUnit,
     Function::ReadElementWriteFlag,
 ];
-
-const fn unprinted(mut row: Row) -> Row {
-    row.printed = false;
-    row
-}
 
 /// Whether the number of elements is read: a multiple of the stride alone does not tell.
 fn is_number(call: &Call<'_>) -> bool {
