@@ -5,7 +5,9 @@ use std::time::Duration;
 
 use ads_cnc_conformance::defect;
 use ads_cnc_conformance::suite::{self, Case, Needs, Outcome, Subject};
-use ads_cnc_conformance::testee::{Judged, Miniature, Own, Process, TESTEE, Terms, Testee, judge};
+use ads_cnc_conformance::testee::{
+    Judged, Miniature, Own, Process, Question, Reaction, TESTEE, Terms, Testee, judge,
+};
 use ads_cnc_conformance::verdict::{Exit, Verdict};
 
 const OF_A_TESTEE: Terms<'static> =
@@ -167,5 +169,33 @@ fn what_cannot_be_started_fails_by_the_protocol_alone() {
         assert!(judged.hello.is_none());
         let fault = &judged.outcomes.last().unwrap().verdicts[0].judgements[0];
         assert!(fault.found.contains("crash"), "{}", fault.found);
+    }
+}
+
+/// What a testee in shell makes of the first case, whose number is 1.
+#[cfg(unix)]
+fn says(line: &str) -> Reaction {
+    let hello = r#"{"protocol":1,"testee":{"name":"sh"},"capabilities":{"ops":[],"streams":[]}}"#;
+    let command = format!("read l; echo '{hello}'; while read l; do printf '{line}\\n'; done");
+    Process::new(command, PATIENCE).ask(&Question::new("decode", "object-count", "en-1.05"))
+}
+
+/// An answer is one of the four, and text.
+#[cfg(unix)]
+#[test]
+fn two_answers_in_one_are_none() {
+    assert!(matches!(says(r#"{"seq":1,"reject":{"class":"x"}}"#), Reaction::Answer(_)));
+    for (line, why) in [
+        (r#"{"seq":1,"ok":{"hex":""},"reject":{"class":"x"}}"#, "both ok and reject are there"),
+        (r#"{"seq":1,"reject":{},"error":{"message":"x"}}"#, "both reject and error are there"),
+        (r#"{"seq":1,"error":{"message":"x"},"ok":{}}"#, "both ok and error are there"),
+        (r#"{"seq":1,"unsupported":{"what":"op"},"ok":{}}"#, "both ok and unsupported are there"),
+        (r#"{"seq":1,"ok":{},"reject":null}"#, "null"),
+        (r#"{"seq":1,"reject":{},"reject":{}}"#, "duplicate field"),
+        (r#"{"seq":1}"#, "none of ok, reject, unsupported and error is there"),
+        (r#"{"seq":1,"reject":{"class":"\377\376"}}"#, "not UTF-8 at byte 28"),
+    ] {
+        let Reaction::Garbled(found) = says(line) else { panic!("{line}") };
+        assert!(found.contains(why), "{line}: {found}");
     }
 }

@@ -45,8 +45,10 @@ pub enum Unheard {
     Silence,
     /// It has closed its stdout.
     Closed,
-    /// What came is no line.
+    /// What came is no line, and nothing behind it is read.
     Garbled(String),
+    /// A line that is no text.
+    NoText(String),
 }
 
 /// A command that runs; ended with all that it has started when it is dropped.
@@ -54,7 +56,7 @@ pub enum Unheard {
 pub struct Spoken {
     child: Child,
     to: Sender<Vec<u8>>,
-    from: Receiver<Result<String, String>>,
+    from: Receiver<Result<Vec<u8>, String>>,
     /// Its end has been seen: its number is nobody's or another's.
     is_over: bool,
 }
@@ -104,7 +106,7 @@ impl Spoken {
     /// What came instead.
     pub fn hear(&self, timeout: Duration) -> Result<String, Unheard> {
         match self.from.recv_timeout(timeout) {
-            Ok(Ok(line)) => Ok(line),
+            Ok(Ok(line)) => text(line),
             Ok(Err(why)) => Err(Unheard::Garbled(why)),
             Err(RecvTimeoutError::Timeout) => Err(Unheard::Silence),
             Err(RecvTimeoutError::Disconnected) => Err(Unheard::Closed),
@@ -142,7 +144,7 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
 }
 
 /// The next line without its end; none at the end of the stream.
-fn line(from: &mut impl BufRead) -> Option<Result<String, String>> {
+fn line(from: &mut impl BufRead) -> Option<Result<Vec<u8>, String>> {
     let limit = u64::try_from(LINE_MAX).unwrap_or(u64::MAX).saturating_add(2);
     let mut line = Vec::new();
     match from.take(limit).read_until(b'\n', &mut line) {
@@ -157,7 +159,15 @@ fn line(from: &mut impl BufRead) -> Option<Result<String, String>> {
     if line.last() == Some(&b'\r') {
         line.pop();
     }
-    Some(Ok(String::from_utf8_lossy(&line).into_owned()))
+    Some(Ok(line))
+}
+
+fn text(line: Vec<u8>) -> Result<String, Unheard> {
+    String::from_utf8(line).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let shown = cut(&String::from_utf8_lossy(error.as_bytes()));
+        Unheard::NoText(format!("a line that is not UTF-8 at byte {at}: {shown}"))
+    })
 }
 
 fn wait(child: &mut Child, limit: Duration) -> Option<ExitStatus> {

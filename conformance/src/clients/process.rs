@@ -41,7 +41,7 @@ impl Process {
     fn hear(&self, running: Spoken) -> Result<(String, Spoken), Reaction> {
         match running.hear(self.timeout) {
             Ok(line) => Ok((line, running)),
-            Err(Unheard::Garbled(why)) => Err(Reaction::Garbled(why)),
+            Err(Unheard::Garbled(why) | Unheard::NoText(why)) => Err(Reaction::Garbled(why)),
             Err(Unheard::Silence) => Err(Reaction::Hung(self.timeout)),
             Err(Unheard::Closed) => Err(Reaction::Died(match running.ended(GRACE) {
                 Some(status) => status.to_string(),

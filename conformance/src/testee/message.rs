@@ -1,7 +1,7 @@
 //! The lines that go to a testee and come from it.
 
 use ads_cnc_vectors::{Context, Fields, Type};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 
 /// Version of the protocol.
@@ -216,12 +216,63 @@ pub struct Rejection {
 
 /// A line from the testee that answers a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Keys")]
 pub struct Reply {
     /// Number of the case; none if the line of the case could not be read.
     pub seq: Option<u64>,
     /// The answer.
     #[serde(flatten)]
     pub answer: Answer,
+}
+
+/// The same with every key that an answer may have: who gives two has not answered.
+#[derive(Deserialize)]
+struct Keys {
+    seq: Option<u64>,
+    #[serde(default, deserialize_with = "there")]
+    ok: Option<Output>,
+    #[serde(default, deserialize_with = "there")]
+    reject: Option<Rejection>,
+    #[serde(default, deserialize_with = "there")]
+    unsupported: Option<Unsupported>,
+    #[serde(default, deserialize_with = "there")]
+    error: Option<OwnError>,
+}
+
+#[derive(Deserialize)]
+struct Unsupported {
+    what: String,
+}
+
+#[derive(Deserialize)]
+struct OwnError {
+    message: String,
+}
+
+/// A key that is there has a value; null is none of these.
+fn there<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(from).map(Some)
+}
+
+impl TryFrom<Keys> for Reply {
+    type Error = String;
+
+    fn try_from(keys: Keys) -> Result<Self, String> {
+        let Keys { seq, ok, reject, unsupported, error } = keys;
+        let given = [
+            ok.map(|output| ("ok", Answer::Ok(output))),
+            reject.map(|rejection| ("reject", Answer::Reject(rejection))),
+            unsupported.map(|Unsupported { what }| ("unsupported", Answer::Unsupported { what })),
+            error.map(|OwnError { message }| ("error", Answer::Error { message })),
+        ];
+        let mut given = given.into_iter().flatten();
+        let (first, answer) =
+            given.next().ok_or("none of ok, reject, unsupported and error is there")?;
+        match given.next() {
+            None => Ok(Self { seq, answer }),
+            Some((second, _)) => Err(format!("both {first} and {second} are there")),
+        }
+    }
 }
 
 /// Bytes as hex without spaces; spaces are read.

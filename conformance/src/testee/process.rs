@@ -73,6 +73,7 @@ impl Process {
                 self.received = Some(front(&line));
                 Ok(line)
             }
+            Err(Unheard::NoText(why)) => Err(Reaction::Garbled(why)),
             Err(Unheard::Garbled(why)) => {
                 self.running = None;
                 Err(Reaction::Garbled(why))
