@@ -73,7 +73,14 @@ fn json_keeps_to_its_schema_and_is_read_back() {
     let testee = format!("\"{}\" testee", env!("CARGO_BIN_EXE_ads-cnc"));
     let noisy = format!("{testee} --miniature noisy");
     let refusing = format!("{testee} --miniature refuses-all");
+    let client = format!("\"{}\" client", env!("CARGO_BIN_EXE_ads-cnc"));
+    let dying = format!("{client} --defect client.dies");
+    let dying = run(&["--client", &dying, "--only", "client-name-data-length-huge"]);
     let serve = Serve::start(&[]);
+    let capture = folder.path("run.pcapng");
+    run(&["--only", "VAR-11", "--capture", &capture]);
+    let checked = ads_cnc(&["check", &capture, "--any-port", "--json", "-"]);
+    let checked: Value = serde_json::from_slice(&checked.stdout).unwrap();
     let reports = [
         run(&[]),
         run(&["--testee", &noisy, "--only", "VAR-11"]),
@@ -84,6 +91,9 @@ fn json_keeps_to_its_schema_and_is_read_back() {
         run(&["--defect", "variable-value.value.invert", "--edition", "de-1.051"]),
         run(&["--defect", "variable-handle-read.index_count.flip"]),
         run(&["--edition", "en-1.05", "--only", "VAR-20"]),
+        run(&["--client", &client, "--only", "client-name-twice"]),
+        dying,
+        checked,
     ];
     for document in reports {
         let errors: Vec<String> =
@@ -91,6 +101,20 @@ fn json_keeps_to_its_schema_and_is_read_back() {
         assert!(errors.is_empty(), "{:?}", &errors[..errors.len().min(5)]);
         let read = Report::from_json(&document.to_string()).unwrap();
         assert_eq!(serde_json::to_value(&read).unwrap(), document);
+    }
+}
+
+/// A failure by the protocol names the one it is about.
+#[test]
+fn each_protocol_is_where_its_own_is() {
+    for (kind, id, text) in [("client", "CLIENT", "CLIENTS.md"), ("testee", "TESTEE", "README.md")]
+    {
+        let report = run(&[&format!("--{kind}"), "exit 3"]);
+        let cases = report["cases"].as_array().unwrap().iter();
+        let mut failed = cases.flat_map(|case| case["failures"].as_array().into_iter().flatten());
+        let failed = failed.find(|one| one["requirement"] == id).unwrap();
+        assert_eq!(failed["sources"], json!([format!("conformance/adapters/{text}")]));
+        assert!(failed["clause"].as_str().unwrap().ends_with(&format!("a {kind}.")), "{failed:#}");
     }
 }
 

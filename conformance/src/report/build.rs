@@ -8,6 +8,7 @@ use super::model::{
     RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
 };
 use super::{BytesReport, hex};
+use crate::clients::CLIENT;
 use crate::cnc;
 use crate::explain;
 use crate::gate::Moment;
@@ -201,16 +202,21 @@ fn case(outcome: &Outcome, waivers: &[WaiverReport]) -> CaseReport {
 
 fn failure(judgement: &Judgement, waived: bool) -> FailureReport {
     let clause = requirement(judgement.requirement);
+    // What is in no catalogue is of one of the protocols.
+    let protocol = match judgement.requirement {
+        CLIENT => ("The protocol between the suite and a client.", "CLIENTS.md"),
+        _ => ("The protocol between the suite and a testee.", "README.md"),
+    };
     FailureReport {
         requirement: judgement.requirement.to_owned(),
         level: judgement.level,
         clause: match clause {
             Some(clause) => text(clause, judgement.level),
-            None => "The protocol between the suite and a testee.".to_owned(),
+            None => protocol.0.to_owned(),
         },
         sources: match clause {
             Some(clause) => sources(clause, judgement.level),
-            None => vec!["conformance/adapters/README.md".to_owned()],
+            None => vec![format!("conformance/adapters/{}", protocol.1)],
         },
         verdict: judgement.verdict,
         waived,
