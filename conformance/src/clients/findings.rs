@@ -69,16 +69,20 @@ impl Findings {
 
 /// What a client sent and got, as a report shows it.
 pub(super) fn evidence(turn: &Turn) -> Evidence {
+    // What is wrong is with what the client has sent, and so are the bytes.
+    let fault = turn.fault.as_ref().map_or_else(String::new, |fault| format!(": {fault}"));
     let mut evidence = Evidence {
-        call: "bytes that are no request".to_owned(),
-        result: turn.fault.clone().unwrap_or_else(|| format!("{} bytes", turn.sent.len())),
+        call: format!("bytes that are no request{fault}"),
+        sent: turn.request.clone(),
+        result: format!("{} bytes", turn.sent.len()),
         frame_sent: turn.request.clone(),
         frame_received: turn.sent.clone(),
         ..Evidence::default()
     };
     let Ok(Some((frame, _))) = FrameRef::split(&turn.request, u32::MAX) else { return evidence };
-    evidence.call =
-        format!("command {} to port {}", frame.header().command.0, frame.header().target.port);
+    let header = frame.header();
+    evidence.call = format!("command {} to port {}{fault}", header.command.0, header.target.port);
+    evidence.sent = frame.data().to_vec();
     if let Ok(Some(call)) = call_of(&frame) {
         evidence.call = format!(
             "{} {}, {} at port {}",
@@ -104,4 +108,31 @@ pub(super) fn evidence(turn: &Turn) -> Evidence {
         evidence.received = data.map(<[u8]>::to_vec);
     }
     evidence
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is no request is shown as it came, with what is wrong with it at the same place.
+    #[test]
+    fn garbage_is_shown() {
+        let request = b"GET / HTTP/1.0\r\n\r\n".to_vec();
+        let fault = Some("a frame of 539959386 bytes".to_owned());
+        let shown = evidence(&Turn { request: request.clone(), fault, ..Turn::default() });
+        assert_eq!(shown.call, "bytes that are no request: a frame of 539959386 bytes");
+        assert_eq!((shown.sent, shown.result.as_str()), (request, "0 bytes"));
+    }
+
+    /// And so is the data of a request that no CNC knows.
+    #[test]
+    fn data_of_an_unknown_command_is_shown() {
+        let mut request =
+            vec![0, 0, 36, 0, 0, 0, 127, 0, 0, 1, 1, 1, 0x29, 2, 10, 0, 0, 9, 1, 1, 0, 0x80];
+        request.extend([77, 0, 4, 0, 4, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0xDE, 0xAD, 0xBE, 0xEF]);
+        let shown = evidence(&Turn { request, sent: vec![0; 38], ..Turn::default() });
+        assert_eq!(shown.call, "command 77 to port 553");
+        assert_eq!(shown.sent, [0xDE, 0xAD, 0xBE, 0xEF]);
+        assert_eq!(shown.result, "38 bytes");
+    }
 }
