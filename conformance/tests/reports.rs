@@ -224,10 +224,14 @@ fn text_stays_text() {
     let folder = Folder::new("text");
     let mut document = everything(&folder);
     let odd = "</script><script>alert(1)</script> | `x` ]]> & \u{1}\u{fffe}";
+    let acting = "C\u{1b}[31m\u{9b}2J\0\u{202e}\n\n# A heading";
     document["target"]["name"] = json!(odd);
+    document["target"]["language"] = json!(acting);
     let case = document["cases"].as_array_mut().unwrap();
     let failed = case.iter_mut().find(|case| case.get("failures").is_some()).unwrap();
-    failed["failures"][0]["found"] = json!(format!("{odd}\n```\n# no heading"));
+    failed["failures"][0]["found"] = json!(format!("{odd}\n```\n# no heading {acting}"));
+    failed["failures"][0]["evidence"]["result"] = json!(acting);
+    failed["note"] = json!(acting);
     failed["title"] = json!(odd);
     let report = Report::from_json(&document.to_string()).unwrap();
     let made = |make: fn(&Report, &mut dyn std::io::Write) -> std::io::Result<()>| {
@@ -235,6 +239,11 @@ fn text_stays_text() {
         make(&report, &mut text).unwrap();
         String::from_utf8(text).unwrap()
     };
+    let shown = made(|report, out| report::print(report, true, out));
+    for text in [shown, made(report::to_markdown), made(report::to_html), made(report::to_junit)] {
+        assert!(!text.contains(|one: char| one.is_control() && one != '\n'), "{text}");
+        assert!(!text.contains("\u{202e}") && !text.contains("\n# A heading"), "{text}");
+    }
     let html = made(report::to_html);
     assert!(!html.contains("<script>alert"), "a script of the target's");
     assert!(html.contains("&lt;script&gt;alert(1)"));

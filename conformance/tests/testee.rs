@@ -6,7 +6,8 @@ use std::time::Duration;
 use ads_cnc_conformance::defect;
 use ads_cnc_conformance::suite::{self, Case, Needs, Outcome, Subject};
 use ads_cnc_conformance::testee::{
-    Judged, Miniature, Own, Process, Question, Reaction, TESTEE, Terms, Testee, judge,
+    Judged, Miniature, Own, Process, Question, Reaction, TESTEE, Terms, Testee, check_protocol,
+    judge,
 };
 use ads_cnc_conformance::verdict::{Exit, Verdict};
 
@@ -172,12 +173,36 @@ fn what_cannot_be_started_fails_by_the_protocol_alone() {
     }
 }
 
-/// What a testee in shell makes of the first case, whose number is 1.
+/// A testee in shell that claims these ops and says a line to each case.
+#[cfg(unix)]
+fn shell(ops: &str, line: &str) -> Process {
+    let testee = r#""testee":{"name":"sh"}"#;
+    let hello =
+        format!(r#"{{"protocol":1,{testee},"capabilities":{{"ops":[{ops}],"streams":[]}}}}"#);
+    let command =
+        format!("read l; printf '%s\\n' '{hello}'; while read l; do printf '{line}\\n'; done");
+    Process::new(command, PATIENCE)
+}
+
+/// What it makes of the first case, whose number is 1.
 #[cfg(unix)]
 fn says(line: &str) -> Reaction {
-    let hello = r#"{"protocol":1,"testee":{"name":"sh"},"capabilities":{"ops":[],"streams":[]}}"#;
-    let command = format!("read l; echo '{hello}'; while read l; do printf '{line}\\n'; done");
-    Process::new(command, PATIENCE).ask(&Question::new("decode", "object-count", "en-1.05"))
+    shell("", line).ask(&Question::new("decode", "object-count", "en-1.05"))
+}
+
+/// Whoever tries an adapter at a terminal sees what it says, and nothing of it acts.
+#[cfg(unix)]
+#[test]
+fn the_protocol_is_checked_in_plain_text() {
+    let findings = check_protocol(&mut shell(r#""\u001b[2J\u0007""#, "\\033[31m"));
+    let all = format!("{findings:#?}");
+    assert!(findings.len() > 3, "{all}");
+    let shown = |text: &Option<String>| text.clone().unwrap_or_default();
+    for finding in &findings {
+        let text = [&finding.fault, &finding.received].map(shown).concat();
+        assert!(!text.contains(char::is_control), "{all}");
+    }
+    assert!(findings.iter().any(|one| shown(&one.fault).contains(r"\u{1b}[2J\u{7}")), "{all}");
 }
 
 /// An answer is one of the four, and text.

@@ -9,6 +9,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::{apart, end};
+use crate::report::tame_lines;
 
 /// The longest line that is taken.
 pub const LINE_MAX: usize = 32 << 20;
@@ -21,10 +22,10 @@ const STDERR_KEPT: usize = 64 << 10;
 pub struct Stderr(Arc<Mutex<VecDeque<u8>>>);
 
 impl Stderr {
-    /// It as text.
+    /// It as text that can be shown.
     pub fn text(&self) -> String {
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()).into_owned()
+        tame_lines(&String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()))
     }
 
     fn keep(&self, mut from: impl Read) {

@@ -94,6 +94,7 @@ impl Report {
             subjects,
             cases,
         }
+        .tamed()
     }
 }
 

@@ -10,6 +10,7 @@ mod html;
 mod junit;
 mod markdown;
 mod model;
+mod tame;
 
 use std::io::{self, Write};
 
@@ -25,6 +26,7 @@ pub use model::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
     RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
 };
+pub(crate) use tame::{tame, tame_lines};
 
 /// Writes the report as JSON.
 ///

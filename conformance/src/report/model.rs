@@ -294,7 +294,8 @@ impl Report {
         if format != FORMAT {
             return Err(format!("a report of format {format}; this version reads {FORMAT}"));
         }
-        serde_json::from_str(text).map_err(|error| error.to_string())
+        let report: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        Ok(report.tamed())
     }
 }
 

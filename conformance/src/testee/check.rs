@@ -5,6 +5,7 @@ use ads_cnc_vectors::{Expect, Vector, vector};
 use super::message::{Answer, Capabilities, Output, Question};
 use super::plan::{forms, of_vector};
 use super::{Process, Reaction, Testee, compare};
+use crate::report::tame;
 
 /// What a step of the protocol came to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,6 +82,8 @@ struct Steps<'p> {
 impl Steps<'_> {
     fn note(&mut self, what: impl Into<String>, fault: Option<String>) {
         let (sent, received) = self.process.last();
+        let [sent, received, fault] =
+            [sent, received, fault].map(|said| said.map(|said| tame(&said)));
         self.findings.push(Finding { what: what.into(), sent, received, fault });
     }
 
