@@ -3,8 +3,13 @@
 mod spoken;
 
 use std::process::{Child, Command};
+use std::time::Duration;
 
 pub use spoken::{LINE_MAX, Spoken, Stderr, Unheard, cut};
+
+/// How long a command has at least for its first word: some languages take longer for starting than
+/// for any answer.
+pub const START: Duration = Duration::from_secs(20);
 
 /// A command line as the user's shell understands it.
 pub fn shell(line: &str) -> Command {

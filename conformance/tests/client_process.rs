@@ -87,6 +87,17 @@ fn a_hang_is_told_and_ended() {
     assert!(failures(&report, "client-name-more").is_empty());
 }
 
+/// Starting takes longer than any action.
+#[cfg(unix)]
+#[test]
+fn hello_has_time_to_start() {
+    let client = format!("sleep 2; exec \"{}\" client", env!("CARGO_BIN_EXE_ads-cnc"));
+    let only = ["--only", "client-name-more", "--client-timeout", "1500"];
+    let output = ads_cnc(&[&["run", "--client", &client, "--json", "-"][..], &only].concat());
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{report:#}");
+}
+
 #[test]
 fn who_does_not_answer_fails_by_the_protocol_alone() {
     let output = ads_cnc(&["run", "--client", "no-such-client-anywhere", "--json", "-"]);

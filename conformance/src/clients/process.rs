@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::message::{Answer, Hello, PROTOCOL, Place, Reaction, environment, told};
 use super::{Action, Actor};
-use crate::child::{self, Spoken, Stderr, Unheard, cut};
+use crate::child::{self, START, Spoken, Stderr, Unheard, cut};
 
 /// How long it has for ending when all is said.
 const GRACE: Duration = Duration::from_secs(2);
@@ -38,11 +38,11 @@ impl Process {
     }
 
     /// The line it answers with; ended if there is none.
-    fn hear(&self, running: Spoken) -> Result<(String, Spoken), Reaction> {
-        match running.hear(self.timeout) {
+    fn hear(running: Spoken, timeout: Duration) -> Result<(String, Spoken), Reaction> {
+        match running.hear(timeout) {
             Ok(line) => Ok((line, running)),
             Err(Unheard::Garbled(why) | Unheard::NoText(why)) => Err(Reaction::Garbled(why)),
-            Err(Unheard::Silence) => Err(Reaction::Hung(self.timeout)),
+            Err(Unheard::Silence) => Err(Reaction::Hung(timeout)),
             Err(Unheard::Closed) => Err(Reaction::Died(match running.ended(GRACE) {
                 Some(status) => status.to_string(),
                 None => "it closed its stdout".to_owned(),
@@ -54,7 +54,7 @@ impl Process {
 impl Actor for Process {
     fn hello(&mut self, place: &Place) -> Result<Hello, Reaction> {
         let running = self.start(place, HELLO, HELLO)?;
-        let (line, running) = self.hear(running)?;
+        let (line, running) = Self::hear(running, START.max(self.timeout))?;
         let hello: Hello = serde_json::from_str(&line)
             .map_err(|error| Reaction::Garbled(format!("{error} in the hello {}", cut(&line))))?;
         if hello.protocol != PROTOCOL {
@@ -86,7 +86,7 @@ impl Actor for Process {
             if self.stays {
                 running.say(told(place, scenario, action).to_string().into_bytes());
             }
-            self.hear(running)
+            Self::hear(running, self.timeout)
         });
         let (line, running) = match heard {
             Ok(heard) => heard,

@@ -4,13 +4,10 @@ use std::time::Duration;
 
 use super::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use super::{Reaction, Testee};
-use crate::child::{self, Spoken, Stderr, Unheard, cut};
+use crate::child::{self, START, Spoken, Stderr, Unheard, cut};
 
 /// How long it has for ending after `bye`.
 const GRACE: Duration = Duration::from_secs(2);
-
-/// How long it has at least for starting: some languages take longer for that than for any answer.
-const START: Duration = Duration::from_secs(20);
 
 /// Who is started to be judged.
 #[derive(Debug)]
