@@ -115,6 +115,15 @@ fn each_protocol_is_where_its_own_is() {
         let failed = failed.find(|one| one["requirement"] == id).unwrap();
         assert_eq!(failed["sources"], json!([format!("conformance/adapters/{text}")]));
         assert!(failed["clause"].as_str().unwrap().ends_with(&format!("a {kind}.")), "{failed:#}");
+        // And is counted.
+        let subject = &report["subjects"][0];
+        assert_eq!(subject["totals"]["fail"], 1, "{subject:#}");
+        assert_eq!(subject["areas"].as_array().unwrap().last().unwrap()["area"], id);
+        let read = Report::from_json(&report.to_string()).unwrap();
+        let mut text = Vec::new();
+        report::print(&read, false, &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.contains(&format!("NOT PASSED  {kind}: 1 fail, ")), "{text}");
     }
 }
 

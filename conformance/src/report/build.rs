@@ -14,6 +14,7 @@ use crate::explain;
 use crate::gate::Moment;
 use crate::profile::Profile;
 use crate::suite::{Body, Evidence, Judgement, Outcome, Subject, gravest, names};
+use crate::testee::TESTEE;
 use crate::verdict::{Tally, Verdict};
 use crate::waivers::Waivers;
 
@@ -118,6 +119,15 @@ fn of_subject(subject: Subject, cases: &[&CaseReport], only: &[String]) -> Subje
         }
         if let Some(last) = areas.last_mut() {
             last.requirements.push(of_requirement(&requirement.id, cases, only));
+        }
+    }
+    // A protocol is in no catalogue; who breaks it fails all the same, and that has to be counted.
+    for protocol in [TESTEE, CLIENT] {
+        let all = cases.iter().flat_map(|case| &case.requirements);
+        if all.into_iter().any(|one| one.requirement == protocol) {
+            let (area, totals) = (protocol.to_owned(), Totals::new());
+            let requirements = vec![of_requirement(protocol, cases, only)];
+            areas.push(AreaReport { area, totals, requirements });
         }
     }
     for area in &mut areas {

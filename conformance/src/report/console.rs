@@ -200,10 +200,12 @@ fn show(lines: Option<Vec<String>>, out: &mut dyn Write) -> io::Result<()> {
 fn areas(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     for subject in &report.subjects {
         writeln!(out, "Requirements by area, the {}", subject.subject)?;
+        let width = subject.areas.iter().map(|area| area.area.len()).max().unwrap_or_default();
         for area in &subject.areas {
             let total: usize = area.totals.values().sum();
             let waived = area.requirements.iter().filter(|one| one.waived).count();
-            writeln!(out, "  {}  {total:3}: {}", area.area, counts(&area.totals, waived))?;
+            let counts = counts(&area.totals, waived);
+            writeln!(out, "  {:<width$}  {total:3}: {counts}", area.area)?;
             for verdict in Verdict::ALL.into_iter().filter(|verdict| *verdict != Verdict::Pass) {
                 let mine = area.requirements.iter().filter(|one| one.verdict == verdict);
                 let ids: Vec<&str> = mine.map(|one| one.requirement.as_str()).collect();

@@ -231,9 +231,10 @@ fn subject(report: &Report, who: Subject) -> SubjectView {
                     .iter()
                     .map(|one| RequirementView {
                         id: one.requirement.clone(),
-                        title: ads_cnc_vectors::requirement(&one.requirement)
-                            .map(|requirement| requirement.title.clone())
-                            .unwrap_or_default(),
+                        title: ads_cnc_vectors::requirement(&one.requirement).map_or_else(
+                            || "The protocol with the suite".to_owned(),
+                            |requirement| requirement.title.clone(),
+                        ),
                         verdict: one.verdict,
                         waived: one.waived,
                     })

@@ -167,11 +167,11 @@ pub struct SubjectReport {
     pub areas: Vec<AreaReport>,
 }
 
-/// One area of requirements.
+/// One area of requirements, or the protocol with a testee or a client.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AreaReport {
-    /// The area's letters.
+    /// The area's letters; of a protocol `TESTEE` or `CLIENT`.
     pub area: String,
     /// Verdicts of its requirements, each once and by its gravest.
     pub totals: Totals,
