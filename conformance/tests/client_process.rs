@@ -98,6 +98,36 @@ fn hello_has_time_to_start() {
     assert_eq!(output.status.code(), Some(0), "{report:#}");
 }
 
+/// One line is an answer, two are none; whether it stays or not.
+#[cfg(unix)]
+#[test]
+fn a_second_line_is_told() {
+    let told = |stays: bool, said: &str| {
+        let hello = format!(
+            r#"{{"protocol":1,"client":{{"name":"sh"}},"actions":["read-by-name"],"stays":{stays}}}"#
+        );
+        let hello = format!("printf '%s\\n' '{hello}'");
+        let client = match stays {
+            true => format!("{hello}; while read l; do test \"$l\" = '{BYE}' || {said}; done"),
+            false => format!("test $ADS_CNC_DO = hello && {hello} || {said}"),
+        };
+        let only = ["--only", "client-name-more", "--only", "client-name-closed"];
+        let output = ads_cnc(&[&["run", "--client", &client, "--json", "-"][..], &only].concat());
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let failed = failures(&report, "client-manners").into_iter();
+        failed.map(|(_, found, _)| found).collect::<Vec<_>>()
+    };
+    let [one, two] = ["echo '{\"error\":\"x\"}'", "printf '{\"error\":\"x\"}\\nmore\\n'"];
+    for stays in [false, true] {
+        assert_eq!(told(stays, one), [""; 0], "stays: {stays}");
+        assert_eq!(told(stays, two), ["\"more\" as well"; 2], "stays: {stays}");
+    }
+}
+
+/// What a client that stays is told in the end.
+#[cfg(unix)]
+const BYE: &str = r#"{"cmd":"bye"}"#;
+
 #[test]
 fn who_does_not_answer_fails_by_the_protocol_alone() {
     let output = ads_cnc(&["run", "--client", "no-such-client-anywhere", "--json", "-"]);

@@ -224,3 +224,19 @@ fn two_answers_in_one_are_none() {
         assert!(found.contains(why), "{line}: {found}");
     }
 }
+
+/// Behind the last answer too.
+#[cfg(unix)]
+#[test]
+fn what_nobody_asked_for_is_told() {
+    for (line, is_right) in
+        [(r#"{"seq":1,"ok":{}}"#, true), (r#"{"seq":1,"ok":{}}\n{"seq":1,"ok":{}}"#, false)]
+    {
+        let mut testee = shell("", &format!("{line}\\n' ; exit ; printf '"));
+        let answer = testee.ask(&Question::new("decode", "object-count", "en-1.05"));
+        assert!(matches!(answer, Reaction::Answer(_)), "{answer:?}");
+        let bye = testee.bye();
+        assert_eq!(bye.is_ok(), is_right, "{bye:?}");
+        assert!(is_right || bye.unwrap_err().contains("nobody asked for"));
+    }
+}

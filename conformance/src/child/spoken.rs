@@ -114,12 +114,54 @@ impl Spoken {
         }
     }
 
+    /// What it has said without being asked, if that is here already.
+    pub fn unasked(&self) -> Option<String> {
+        self.from.try_recv().ok().map(|line| show(&line))
+    }
+
     /// Closes its stdin and waits for its end; none if it does not end in time, and is ended then.
-    pub fn ended(mut self, limit: Duration) -> Option<ExitStatus> {
+    pub fn ended(self, limit: Duration) -> Option<ExitStatus> {
+        self.finish(limit).0
+    }
+
+    /// The same, with the first it says until then.
+    pub fn finish(mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
         self.to = mpsc::channel().0;
-        let status = wait(&mut self.child, limit);
+        let mut unasked = None;
+        // Who is not listened to may not come to its end.
+        let mut listen = |time| match self.from.recv_timeout(time) {
+            Ok(line) => {
+                unasked.get_or_insert_with(|| show(&line));
+                true
+            }
+            Err(RecvTimeoutError::Timeout) => true,
+            Err(RecvTimeoutError::Disconnected) => false,
+        };
+        let status = wait(&mut self.child, limit, || {
+            if !listen(POLL) {
+                thread::sleep(POLL);
+            }
+        });
+        let until = Instant::now().checked_add(LAST_WORDS);
+        // What it has started may hold its stdout open.
+        while status.is_some() && until.is_some_and(|until| Instant::now() < until) && listen(POLL)
+        {
+        }
         self.is_over = status.is_some();
-        status
+        (status, unasked)
+    }
+}
+
+/// How often is looked whether a command has ended.
+const POLL: Duration = Duration::from_millis(2);
+
+/// How long the last words of one that has ended are waited for.
+const LAST_WORDS: Duration = Duration::from_millis(200);
+
+fn show(line: &Result<Vec<u8>, String>) -> String {
+    match line {
+        Ok(line) => cut(&String::from_utf8_lossy(line)),
+        Err(why) => why.clone(),
     }
 }
 
@@ -171,12 +213,12 @@ fn text(line: Vec<u8>) -> Result<String, Unheard> {
     })
 }
 
-fn wait(child: &mut Child, limit: Duration) -> Option<ExitStatus> {
+fn wait(child: &mut Child, limit: Duration, mut meanwhile: impl FnMut()) -> Option<ExitStatus> {
     let until = Instant::now().checked_add(limit)?;
     loop {
         match child.try_wait() {
             Ok(Some(status)) => return Some(status),
-            Ok(None) if Instant::now() < until => thread::sleep(Duration::from_millis(2)),
+            Ok(None) if Instant::now() < until => meanwhile(),
             _ => return None,
         }
     }

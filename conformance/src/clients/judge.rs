@@ -83,14 +83,23 @@ pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Ju
         lost = if is_lost { lost.saturating_add(1) } else { 0 };
         requests = requests.saturating_add(count);
         outcomes.push(outcome);
+        one_line(actor, &mut manners);
     }
     if lost < LOST_MAX {
         let bye = actor.bye();
         let found = bye.clone().err().unwrap_or_default();
         manners.check(CLIENT, bye.is_ok(), None, "its end with exit code 0 after bye", found);
     }
+    one_line(actor, &mut manners);
     outcomes.push(of_manners(manners));
     Judged { hello: Some(hello), outcomes, requests }
+}
+
+/// Judges that it says one line each time, and no more.
+fn one_line(actor: &mut dyn Actor, manners: &mut Findings) {
+    for line in actor.unasked() {
+        manners.check(CLIENT, false, None, "one line for each action", format!("{line} as well"));
+    }
 }
 
 /// Puts this project's client with a defect through the scenarios that can judge what it is about,
@@ -250,7 +259,7 @@ impl std::fmt::Display for Expected {
 fn of_manners(findings: Findings) -> Outcome {
     let case = Case {
         id: "client-manners".to_owned(),
-        title: "It says who it is, and ends when it is told to".to_owned(),
+        title: "It says who it is, one line to each action, and ends when told to".to_owned(),
         subject: Subject::Client,
         requirements: vec![CLIENT],
         needs: Needs::Queries,

@@ -53,6 +53,11 @@ pub trait Actor {
     /// How it ended otherwise than it should.
     fn bye(&mut self) -> Result<(), String>;
 
+    /// The lines it has said beyond its answers since this was asked last.
+    fn unasked(&mut self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// What it had to say beside its answers.
     fn stderr(&self) -> String {
         String::new()

@@ -21,13 +21,16 @@ pub struct Process {
     running: Option<Spoken>,
     stays: bool,
     stderr: Stderr,
+    /// What it has said without being asked.
+    unasked: Vec<String>,
 }
 
 impl Process {
     /// A client with so much time for each action.
     pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
         let stderr = Stderr::default();
-        Self { line: line.into(), timeout, running: None, stays: false, stderr }
+        let (line, unasked) = (line.into(), Vec::new());
+        Self { line, timeout, running: None, stays: false, stderr, unasked }
     }
 
     fn start(&self, place: &Place, scenario: &str, action: &str) -> Result<Spoken, Reaction> {
@@ -65,12 +68,18 @@ impl Actor for Process {
         if hello.stays {
             self.running = Some(running);
         } else {
-            running.ended(GRACE);
+            self.unasked.extend(running.finish(GRACE).1);
         }
         Ok(hello)
     }
 
     fn act(&mut self, place: &Place, scenario: &str, action: &Action) -> Reaction {
+        // Of one that has said too much, what comes next cannot be told from an answer.
+        let unasked = self.running.as_ref().and_then(Spoken::unasked);
+        if unasked.is_some() {
+            self.running = None;
+            self.unasked.extend(unasked);
+        }
         let started = match self.running.take() {
             Some(running) => Ok(running),
             None if self.stays => match self.hello(place) {
@@ -95,8 +104,11 @@ impl Actor for Process {
         let answer = serde_json::from_str::<Answer>(&line);
         if self.stays {
             self.running = Some(running);
-        } else if running.ended(GRACE).is_none() {
-            return Reaction::Hung(GRACE);
+        } else {
+            match running.finish(GRACE) {
+                (None, _) => return Reaction::Hung(GRACE),
+                (_, unasked) => self.unasked.extend(unasked),
+            }
         }
         match answer {
             Ok(answer) => Reaction::Answer(answer),
@@ -107,11 +119,17 @@ impl Actor for Process {
     fn bye(&mut self) -> Result<(), String> {
         let Some(running) = self.running.take() else { return Ok(()) };
         running.say(b"{\"cmd\":\"bye\"}".to_vec());
-        match running.ended(GRACE.max(self.timeout)) {
+        let (status, unasked) = running.finish(GRACE.max(self.timeout));
+        self.unasked.extend(unasked);
+        match status {
             Some(status) if status.success() => Ok(()),
             Some(status) => Err(format!("it ended with {status} after bye")),
             None => Err("it did not end after bye".to_owned()),
         }
+    }
+
+    fn unasked(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.unasked)
     }
 
     fn stderr(&self) -> String {

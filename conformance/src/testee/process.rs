@@ -140,10 +140,11 @@ impl Testee for Process {
     fn bye(&mut self) -> Result<(), String> {
         let Some(running) = self.running.take() else { return Ok(()) };
         running.say(serde_json::to_vec(&Command::Bye).unwrap_or_default());
-        match running.ended(GRACE.max(self.timeout)) {
-            Some(status) if status.success() => Ok(()),
-            Some(status) => Err(format!("it ended with {status} after bye")),
-            None => Err("it did not end after bye".to_owned()),
+        match running.finish(GRACE.max(self.timeout)) {
+            (_, Some(unasked)) => Err(format!("it said {unasked}, which nobody asked for")),
+            (Some(status), _) if status.success() => Ok(()),
+            (Some(status), _) => Err(format!("it ended with {status} after bye")),
+            (None, _) => Err("it did not end after bye".to_owned()),
         }
     }
 
