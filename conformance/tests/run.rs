@@ -202,7 +202,7 @@ fn exit_codes() {
         (&["run", "--net-id", "10.0.0.1.1"], 2),
         (&["run", "--no-such-option"], 2),
         (&["run", "--defect", "no-such-defect"], 2),
-        (&["run", "--json", "/no/such/folder/report.json"], 70),
+        (&["run", "--json", "/no/such/folder/report.json"], 2),
     ];
     for (args, code) in cases {
         let output = ads_cnc(args);

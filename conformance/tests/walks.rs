@@ -27,7 +27,7 @@ fn few_requests_find_everything() {
     assert_eq!((exact.objects.len(), exact.requests), (179, 693));
     // Ten for the channels, seven numbers for each of them, one for each variable.
     let variables = found(default_cnc(), &Options { variables: true, ..Options::default() });
-    assert_eq!((variables.objects.len(), variables.requests), (164, 195));
+    assert_eq!((variables.objects.len(), variables.requests), (168, 199));
     assert!(all.notes.is_empty() && exact.notes.is_empty() && variables.notes.is_empty());
 
     let one = Options { lists: Some(Pattern::whole("COM channel 1")), ..Options::default() };

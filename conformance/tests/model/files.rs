@@ -208,7 +208,11 @@ const FAULTS: &[(&str, &str, &str)] = &[
         "6 values expected, 5",
     ),
     ("dimensions = [512]", "dimensions = [513]", "at most 2048 fit"),
-    ("synchronisation = \"NO_SYNC\"", "synchronisation = \"SYNC\"", "NO_SYNC and SYNCHRONIZED"),
+    (
+        "\"UNS32\", synchronisation = \"NO_SYNC\"",
+        "\"UNS32\", synchronisation = \"SYNC\"",
+        "NO_SYNC and SYNCHRONIZED",
+    ),
     ("validity = \"CHANNEL\"", "validity = \"LOCAL\"", "CHANNEL and GLOBAL"),
     (
         "\"V.CYC.count\", type = \"UNS32\"",
