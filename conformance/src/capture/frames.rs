@@ -30,6 +30,8 @@ pub(super) enum Found {
 pub(super) struct Span {
     pub(super) first: Mark,
     pub(super) last: Mark,
+    /// How far this direction had got with it.
+    pub(super) end: u64,
 }
 
 /// One direction of a connection.
@@ -38,6 +40,8 @@ pub(super) struct Frames {
     bytes: Vec<u8>,
     /// Where bytes from this place of the buffer on were captured.
     marks: VecDeque<(usize, Mark)>,
+    /// Bytes before those of the buffer.
+    place: u64,
     /// A frame may begin anywhere.
     is_lost: bool,
     skipped: usize,
@@ -61,19 +65,18 @@ impl Frames {
         while self.step(out) {}
     }
 
-    /// Bytes are missing here: a frame that has begun stays unfinished.
-    pub(super) fn gap(&mut self, out: &mut impl FnMut(Found)) {
-        if !self.bytes.is_empty() {
-            let span = self.span(self.bytes.len());
+    /// So many bytes are missing here: a frame that has begun stays unfinished.
+    pub(super) fn gap(&mut self, length: u64, out: &mut impl FnMut(Found)) {
+        let begun = self.bytes.len();
+        if begun > 0 {
             if self.is_lost {
-                self.skip(self.bytes.len());
-            } else if let Some(span) = span {
-                let bytes = std::mem::take(&mut self.bytes);
-                out(Found::Cut(bytes, span));
+                self.skipped = self.skipped.saturating_add(begun);
+            } else if let Some(span) = self.span(begun) {
+                out(Found::Cut(self.bytes.clone(), span));
             }
-            self.bytes.clear();
-            self.marks.clear();
+            self.drop(begun);
         }
+        self.place = self.place.saturating_add(length);
         self.is_lost = true;
     }
 
@@ -160,7 +163,9 @@ impl Frames {
     }
 
     fn drop(&mut self, length: usize) {
-        self.bytes.drain(..length.min(self.bytes.len()));
+        let length = length.min(self.bytes.len());
+        self.bytes.drain(..length);
+        self.place = self.place.saturating_add(u64::try_from(length).unwrap_or(u64::MAX));
         for (place, _) in &mut self.marks {
             *place = place.saturating_sub(length);
         }
@@ -177,7 +182,8 @@ impl Frames {
     fn span(&self, length: usize) -> Option<Span> {
         let inside = self.marks.iter().take_while(|(place, _)| *place < length);
         let first = self.marks.front().map(|(_, mark)| *mark)?;
-        Some(Span { first, last: inside.last().map_or(first, |(_, mark)| *mark) })
+        let end = self.place.saturating_add(u64::try_from(length).unwrap_or(u64::MAX));
+        Some(Span { first, last: inside.last().map_or(first, |(_, mark)| *mark), end })
     }
 }
 

@@ -45,6 +45,7 @@ pub use time::Time;
 pub use vectors::{Collector, VECTORS_MAX};
 pub use writer::Capture;
 
+use self::file::Packet;
 use self::judge::Judge;
 use self::link::Content;
 use self::table::Table;
@@ -95,7 +96,8 @@ pub fn check(input: impl Read + Send, options: Options) -> Result<Checked, FileE
         match link::segment(&packet) {
             Content::Tcp(segment) if table.wants(&segment) => {
                 count(&mut judge.tally.segments);
-                let mark = Mark { packet: packet.number, time: packet.time };
+                let Packet { number, time, .. } = packet;
+                let mark = Mark { packet: number, time, acknowledged: None };
                 table.push(&segment, mark, &mut events);
             }
             Content::Tcp(_) => count(&mut judge.tally.elsewhere),

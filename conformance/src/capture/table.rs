@@ -44,12 +44,22 @@ pub(super) enum Event {
     Gap(u64, Way, Mark),
     /// Bytes that were passed over to find a frame.
     Skipped(usize),
-    /// A connection that began before the capture did.
+    /// A connection whose beginning was not captured.
     Joined(u64),
     /// A frame of which nothing more came before the connection, or the capture, was over.
     Unfinished,
     /// The connection is over; no more comes of it.
-    Ended(u64),
+    Ended(Ending),
+}
+
+/// How a connection came to its end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ending {
+    pub(super) connection: u64,
+    /// Its last packet.
+    pub(super) last: u64,
+    /// The direction of which nothing was captured, not even an acknowledgement.
+    pub(super) unseen: Option<Way>,
 }
 
 #[derive(Debug)]
@@ -58,12 +68,15 @@ struct Connection {
     ends: [SocketAddr; 2],
     halves: [Half; 2],
     frames: [Frames; 2],
-    finished: [bool; 2],
     /// Whether it is known to be AMS: by its port, or by a frame that was found.
     speaks: bool,
-    /// Whether it began before the capture, and nobody was told.
+    /// Whether its beginning was captured.
+    is_whole: bool,
+    /// Whether it was not, and nobody was told.
     joined: bool,
+    /// Its last segment, and the packet of that.
     last: u64,
+    packet: u64,
 }
 
 /// All connections.
@@ -91,11 +104,17 @@ impl Table {
 
     /// Whether the direction from here is waiting for something that comes too late.
     pub(super) fn waits(&self, way: &Way) -> bool {
-        let connection = self.open.get(&key(way.from, way.to));
-        connection.is_some_and(|one| {
-            let side = usize::from(one.ends.first() != Some(&way.from));
-            one.halves.get(side).is_some_and(|half| half.held() > 0)
-        })
+        self.half(way).is_some_and(|half| half.held() > 0)
+    }
+
+    /// Whether the direction from here has got as far as this.
+    pub(super) fn has(&self, way: &Way, place: u64) -> bool {
+        self.half(way).is_some_and(|half| half.is_seen() && half.place() >= place)
+    }
+
+    fn half(&self, way: &Way) -> Option<&Half> {
+        let connection = self.open.get(&key(way.from, way.to))?;
+        connection.halves.get(connection.side(way.from))
     }
 
     /// Whether a segment is on one of the ports.
@@ -132,7 +151,7 @@ impl Table {
         let events = out.len();
         connection.push(segment, mark, self.ports == Ports::Any, out);
         self.held = self.held.saturating_sub(before).saturating_add(connection.held());
-        let over = segment.rst || connection.finished == [true; 2] && connection.held() == 0;
+        let over = segment.rst || connection.halves.iter().all(Half::is_over);
         if connection.speaks && std::mem::take(&mut connection.joined) {
             out.insert(events, Event::Joined(connection.number));
         }
@@ -140,7 +159,9 @@ impl Table {
         if over || self.held > HELD_MAX {
             self.end(key, out);
         } else if !connection.speaks {
-            // What is not AMS is not told of.
+            // What is not AMS is not told of; if it becomes that, it is known what was missing.
+            let lost = out.iter().skip(events).any(|event| matches!(event, Event::Gap(..)));
+            connection.joined |= lost && std::mem::take(&mut connection.is_whole);
             out.truncate(events);
         }
     }
@@ -188,10 +209,11 @@ impl Connection {
             ends,
             halves: Default::default(),
             frames: Default::default(),
-            finished: [false; 2],
             speaks,
+            is_whole: true,
             joined: false,
             last: 0,
+            packet: 0,
         }
     }
 
@@ -212,13 +234,17 @@ impl Connection {
 
     fn push(&mut self, segment: &Segment<'_>, mark: Mark, any: bool, out: &mut Vec<Event>) {
         let side = self.side(segment.from);
-        let first = self.halves.iter().all(Half::is_new);
+        let other = 1_usize.saturating_sub(side);
+        self.packet = self.packet.max(mark.packet);
+        let acknowledged = segment.acknowledged.filter(|_| !segment.rst);
+        let place = self.halves.get(other).zip(acknowledged);
+        let mark = Mark { acknowledged: place.and_then(|(half, at)| half.place_of(at)), ..mark };
         let Some(half) = self.halves.get_mut(side) else { return };
         let Some(frames) = self.frames.get_mut(side) else { return };
         if half.is_new() && !segment.syn && !segment.payload.is_empty() {
             frames.begin_anywhere();
-            self.joined = first;
-        } else if half.is_new() && any {
+            self.joined |= std::mem::take(&mut self.is_whole);
+        } else if !half.is_seen() && any {
             frames.begin_anywhere();
         }
         let way = Way { connection: self.number, from: segment.from, to: segment.to };
@@ -232,13 +258,15 @@ impl Connection {
         let speaks = &mut self.speaks;
         half.push(part, &mut |piece| feed(frames, piece, way, speaks, out));
         if segment.fin {
-            if let Some(finished) = self.finished.get_mut(side) {
-                *finished = true;
-            }
+            let length = segment.payload.len().saturating_add(segment.missing);
+            let length = u32::try_from(length).unwrap_or(u32::MAX);
+            half.end_at(segment.sequence.wrapping_add(length), mark);
         }
-        let other = self.halves.get_mut(1_usize.saturating_sub(side));
-        if let (Some(other), Some(number)) = (other, segment.acknowledged) {
-            other.acknowledge(number);
+        if let (Some(other), Some(number)) = (self.halves.get_mut(other), acknowledged) {
+            if self.is_whole {
+                other.begin_at(number);
+            }
+            other.acknowledge(number, mark);
         }
     }
 
@@ -255,7 +283,11 @@ impl Connection {
             half.flush(&mut |piece| feed(frames, piece, way, speaks, out));
             frames.end(&mut |found| tell(found, way, speaks, out));
         }
-        out.push(Event::Ended(self.number));
+        let (connection, last) = (self.number, self.packet);
+        let mut ways = [(one, other), (other, one)].into_iter().zip(&self.halves);
+        let unseen = ways.find(|(_, half)| !half.is_seen());
+        let unseen = unseen.map(|((from, to), _)| Way { connection, from, to });
+        out.push(Event::Ended(Ending { connection, last, unseen }));
     }
 }
 
@@ -265,7 +297,7 @@ fn feed(frames: &mut Frames, piece: Piece<'_>, way: Way, speaks: &mut bool, out:
             frames.push(bytes, mark, &mut |found| tell(found, way, speaks, out));
         }
         Piece::Gap(length, mark) => {
-            frames.gap(&mut |found| tell(found, way, speaks, out));
+            frames.gap(length, &mut |found| tell(found, way, speaks, out));
             out.push(Event::Gap(length, way, mark));
         }
     }

@@ -14,14 +14,20 @@ const SEGMENTS_MAX: usize = 4096;
 /// What may be between a segment and what is expected; more is another connection.
 const WINDOW: u32 = 0x4000_0000;
 
-/// Segments that may come behind a hole after the other side has acknowledged what is in it.
-const PATIENCE: u32 = 3;
+/// Segments that may come behind a hole after the other side has acknowledged what is in it: whoever
+/// records on several processors writes them down out of order.
+const PATIENCE: u32 = 64;
+
+/// Bytes that may have been captured before the SYN they follow.
+const BEFORE_SYN: u32 = 0x1_0000;
 
 /// Where bytes were captured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Mark {
     pub(super) packet: u64,
     pub(super) time: Option<Time>,
+    /// How far whoever sent them had got the other direction; none if that is not known.
+    pub(super) acknowledged: Option<u64>,
 }
 
 /// What comes out.
@@ -51,13 +57,18 @@ pub(super) struct Half {
     next: Option<u32>,
     /// That of its SYN.
     begin: Option<u32>,
+    /// Whether anything of this direction was captured.
+    seen: bool,
+    /// Where its FIN is.
+    end: Option<u64>,
     /// Bytes handed over, so that places do not wrap around.
     place: u64,
     /// What came too early, by its place.
     ahead: BTreeMap<u64, Held>,
     held: usize,
-    /// How far the other side has acknowledged.
+    /// How far the other side has acknowledged, and where it said so.
     acknowledged: u64,
+    told: Option<Mark>,
     waiting: u32,
     /// Segments that came once more.
     pub(super) repeated: u64,
@@ -78,9 +89,46 @@ impl Half {
         self.next.is_none()
     }
 
-    /// Whether this was the number of its SYN.
+    /// Whether anything of it was captured.
+    pub(super) const fn is_seen(&self) -> bool {
+        self.seen
+    }
+
+    /// Whether this may be the number of its SYN, once more or too late.
     pub(super) fn begins_with(&self, sequence: u32) -> bool {
-        self.begin == Some(sequence)
+        match (self.begin, self.next) {
+            (Some(begin), _) => begin == sequence,
+            (None, None) => true,
+            (None, Some(next)) => {
+                let sent = next.wrapping_sub(sequence.wrapping_add(1));
+                sent < BEFORE_SYN && u64::from(sent) >= self.place
+            }
+        }
+    }
+
+    /// Where a number is, if anything is known of this direction.
+    pub(super) fn place_of(&self, sequence: u32) -> Option<u64> {
+        let next = self.next?;
+        let (after, before) = (sequence.wrapping_sub(next), next.wrapping_sub(sequence));
+        Some(match after < before {
+            true => self.place.saturating_add(after.into()),
+            false => self.place.saturating_sub(before.into()),
+        })
+    }
+
+    /// Its first byte has this number: the other side said so before any was captured.
+    pub(super) fn begin_at(&mut self, sequence: u32) {
+        self.next.get_or_insert(sequence);
+    }
+
+    /// How far it was handed over.
+    pub(super) const fn place(&self) -> u64 {
+        self.place
+    }
+
+    /// Whether all up to its FIN was handed over.
+    pub(super) fn is_over(&self) -> bool {
+        self.end.is_some_and(|end| self.place >= end)
     }
 
     /// Bytes held back.
@@ -90,6 +138,7 @@ impl Half {
 
     /// Takes a segment and hands over what is in order.
     pub(super) fn push(&mut self, part: Part<'_>, out: &mut impl FnMut(Piece<'_>)) {
+        self.seen = true;
         let sequence = match part.syn {
             true => part.sequence.wrapping_add(1),
             false => part.sequence,
@@ -133,12 +182,21 @@ impl Half {
         }
     }
 
+    /// Its FIN has this number.
+    pub(super) fn end_at(&mut self, sequence: u32, mark: Mark) {
+        self.begin_at(sequence);
+        self.end = self.place_of(sequence);
+        self.told.get_or_insert(mark);
+    }
+
     /// The other side has got everything up to here.
-    pub(super) fn acknowledge(&mut self, sequence: u32) {
+    pub(super) fn acknowledge(&mut self, sequence: u32, mark: Mark) {
         let Some(next) = self.next else { return };
         let after = sequence.wrapping_sub(next);
-        if after < WINDOW {
-            self.acknowledged = self.acknowledged.max(self.place.saturating_add(after.into()));
+        let place = self.place.saturating_add(after.into());
+        if after < WINDOW && place > self.acknowledged {
+            self.acknowledged = place;
+            self.told = Some(mark);
         }
     }
 
@@ -146,6 +204,13 @@ impl Half {
     pub(super) fn flush(&mut self, out: &mut impl FnMut(Piece<'_>)) {
         while !self.ahead.is_empty() {
             self.leap(out);
+        }
+        // A FIN that was not captured is acknowledged like a byte.
+        let got = self.acknowledged.saturating_sub(1);
+        let missing = self.end.unwrap_or(got).saturating_sub(self.place);
+        if let (true, Some(mark)) = (missing > 0 && self.seen, self.told) {
+            out(Piece::Gap(missing, mark));
+            self.advance(usize::try_from(missing).unwrap_or(usize::MAX));
         }
     }
 
@@ -220,109 +285,4 @@ impl Half {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const MARK: Mark = Mark { packet: 1, time: None };
-
-    /// What comes out of segments: bytes, and `_` for each byte of a gap.
-    fn joined(half: &mut Half, parts: &[(u32, &[u8])], end: bool) -> String {
-        let mut all = String::new();
-        let mut out = |piece: Piece<'_>| match piece {
-            Piece::Data(bytes, _) => all.push_str(std::str::from_utf8(bytes).unwrap()),
-            Piece::Gap(length, _) => all.extend((0..length).map(|_| '_')),
-        };
-        for &(sequence, payload) in parts {
-            half.push(Part { sequence, syn: false, payload, missing: 0, mark: MARK }, &mut out);
-        }
-        if end {
-            half.flush(&mut out);
-        }
-        all
-    }
-
-    #[test]
-    fn segments_come_in_any_order() {
-        for start in [0_u32, 100, u32::MAX, u32::MAX - 3, u32::MAX - 6, 0x7FFF_FFFE] {
-            let at = |offset: u32| start.wrapping_add(offset);
-            let begun = || {
-                let mut half = Half::default();
-                let syn = Part {
-                    sequence: at(u32::MAX),
-                    syn: true,
-                    payload: &[],
-                    missing: 0,
-                    mark: MARK,
-                };
-                half.push(syn, &mut |_| panic!("there is nothing in it"));
-                half
-            };
-            let parts: [(u32, &[u8]); 4] =
-                [(at(0), b"abc"), (at(3), b"de"), (at(5), b"f"), (at(6), b"ghi")];
-            for order in [[0, 1, 2, 3], [3, 2, 1, 0], [1, 0, 3, 2], [2, 3, 0, 1]] {
-                let parts = order.map(|place: usize| parts[place]);
-                assert_eq!(joined(&mut begun(), &parts, false), "abcdefghi", "{start} {order:?}");
-            }
-            // Once more, in other pieces, and over one another.
-            let parts: [(u32, &[u8]); 7] = [
-                (at(0), b"abc"),
-                (at(0), b"abc"),
-                (at(5), b"fgh"),
-                (at(1), b"bcde"),
-                (at(4), b"efghi"),
-                (at(0), b"abcdefghi"),
-                (at(9), b"j"),
-            ];
-            assert_eq!(joined(&mut begun(), &parts, false), "abcdefghij");
-        }
-    }
-
-    #[test]
-    fn what_never_came_is_a_gap() {
-        let mut half = Half::default();
-        assert_eq!(joined(&mut half, &[(10, b"ab"), (15, b"fg")], false), "ab");
-        assert_eq!((half.held(), half.early), (2, 1));
-        assert_eq!(joined(&mut half, &[], true), "___fg");
-        assert_eq!(half.held(), 0);
-    }
-
-    /// The other side has it: it was sent, and not captured.
-    #[test]
-    fn what_is_acknowledged_is_not_waited_for() {
-        let mut half = Half::default();
-        assert_eq!(joined(&mut half, &[(10, b"ab"), (15, b"f"), (16, b"g")], false), "ab");
-        half.acknowledge(17);
-        let more: [(u32, &[u8]); 3] = [(17, b"h"), (18, b"i"), (19, b"j")];
-        assert_eq!(joined(&mut half, &more, false), "___fghij");
-    }
-
-    #[test]
-    fn no_more_is_held_back_than_a_limit() {
-        let mut half = Half::default();
-        let payload = vec![b'x'; 60_000];
-        let mut out = |_: Piece<'_>| {};
-        for place in 0..200_u32 {
-            let sequence = 10_u32.wrapping_add(place.wrapping_mul(70_000));
-            half.push(
-                Part { sequence, syn: false, payload: &payload, missing: 0, mark: MARK },
-                &mut out,
-            );
-            assert!(half.held() <= AHEAD_MAX + 60_000);
-        }
-    }
-
-    #[test]
-    fn what_was_cut_off_is_a_gap() {
-        let mut half = Half::default();
-        let mut all = Vec::new();
-        let mut out = |piece: Piece<'_>| all.push(format!("{piece:?}"));
-        let part = Part { sequence: 5, syn: false, payload: b"ab", missing: 3, mark: MARK };
-        half.push(part, &mut out);
-        half.push(Part { sequence: 10, payload: b"f", missing: 0, ..part }, &mut out);
-        half.push(Part { sequence: 8, payload: b"d", missing: 3, ..part }, &mut out);
-        let mark = "Mark { packet: 1, time: None }";
-        let gap = |length: u64| format!("Gap({length}, {mark})");
-        let data = |bytes: &[u8]| format!("Data({bytes:?}, {mark})");
-        assert_eq!(all, [data(b"ab"), gap(3), data(b"f"), gap(1)]);
-    }
-}
+mod tests;

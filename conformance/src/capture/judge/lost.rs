@@ -6,9 +6,10 @@ use ads_cnc::{Decode as _, Error};
 
 use super::super::book::{Scene, Topic};
 use super::super::frames::Span;
-use super::super::table::Way;
+use super::super::table::{Ending, Way};
 use super::super::tally::count;
 use super::super::tcp::Mark;
+use super::pair::REORDERED_MAX;
 use super::{Judge, Lost, PATIENCE, Seen, is_cnc, is_reply, service_clause, spot};
 use crate::exchange::call_of;
 use crate::suite::Checks as _;
@@ -52,7 +53,7 @@ impl Judge {
             }
             return;
         }
-        let asked = self.forget((way.connection, header.invoke_id));
+        let asked = self.forget((way.connection, header.invoke_id), 0);
         let asked = asked.filter(|asked| is_cnc(asked.header.target.port));
         let Some(asked) = asked else { return };
         let rule = service_clause(asked.header.command);
@@ -87,38 +88,62 @@ impl Judge {
     pub(super) fn gap(&mut self, length: u64, way: &Way, mark: Mark) {
         count(&mut self.tally.gaps);
         self.lost.entry(way.connection).or_default().gap = Some(mark.packet);
-        let span = Span { first: mark, last: mark };
+        self.gap = self.gap.max(Some(mark.packet));
+        self.lose();
+        let span = Span { first: mark, last: mark, end: 0 };
         let scene = Scene::Bytes(&[], spot(way, Some(span), None));
         let found = format!("{length} bytes before this packet were not captured");
         let topic = self.side(way);
         self.book.on(topic, &scene).open("ADS-5", found);
     }
 
-    pub(super) fn ended(&mut self, connection: u64) {
-        let lost = self.lost.get(&connection).copied().unwrap_or_default();
+    /// What was not captured may have changed whatever was known.
+    pub(super) fn lose(&mut self) {
+        self.cncs.clear();
+        self.is_lost = true;
+    }
+
+    pub(super) fn ended(&mut self, ending: Ending) {
+        let connection = ending.connection;
+        self.settle_all(connection);
+        let mut lost = self.lost.remove(&connection).unwrap_or_default();
+        if self.is_crossed {
+            lost.gap = lost.gap.max(self.gap);
+            lost.joined |= self.tally.joined > 0;
+        }
         let keys = self.waiting.range((connection, 0)..=(connection, u32::MAX));
         let keys: Vec<_> = keys.map(|(key, _)| *key).collect();
+        if let Some(way) = ending.unseen.filter(|_| !keys.is_empty() || !lost.unasked.is_empty()) {
+            self.one_sided(&way, !keys.is_empty());
+        }
         for key in keys {
-            while let Some(asked) = self.forget(key) {
-                self.unanswered(&asked, lost);
+            while let Some(asked) = self.forget(key, 0) {
+                self.unanswered(&asked, &lost, ending);
             }
         }
-        let (mine, others) = std::mem::take(&mut self.early)
-            .into_iter()
-            .partition(|one: &Seen| one.way.connection == connection);
-        self.early = others;
-        let mine: Vec<Seen> = mine;
-        for reply in mine {
-            self.unasked(&reply);
+        // What was asked before the capture is answered in it.
+        let unasked = lost.unasked.iter().filter(|_| !lost.joined);
+        for reply in unasked {
+            self.unasked(reply, lost.gap.is_some() || ending.unseen.is_some());
         }
-        self.lost.remove(&connection);
         self.waiting_of.remove(&connection);
     }
 
-    fn unanswered(&mut self, asked: &Seen, lost: Lost) {
+    /// Nothing was captured of one direction, that of the CNC or that of the client.
+    fn one_sided(&mut self, way: &Way, is_cnc: bool) {
+        let scene = Scene::Bytes(&[], spot(way, None, None));
+        let (topic, found) = match is_cnc {
+            true => (Topic::CncFrames, "nothing of what the CNC sent was captured"),
+            false => (Topic::ClientFrames, "nothing of what the client sent was captured"),
+        };
+        self.book.on(topic, &scene).open("ADS-5", found);
+    }
+
+    fn unanswered(&mut self, asked: &Seen, lost: &Lost, ending: Ending) {
         count(&mut self.tally.unanswered);
         let scene = Scene::Bytes(&asked.frame, spot(&asked.way, Some(asked.span), None));
-        if lost.gap.is_some_and(|packet| packet >= asked.span.last.packet) {
+        let packet = asked.span.last.packet;
+        if lost.gap.is_some_and(|gap| gap.saturating_add(REORDERED_MAX) >= packet) {
             self.open_function(asked, &scene, "the answer may be in a gap");
             return;
         }
@@ -126,7 +151,9 @@ impl Judge {
             (Some(now), Some(then)) => now.since(then),
             _ => return,
         };
-        if waited > PATIENCE && !lost.joined {
+        // Of a side that was not captured, or a connection that was not any more, none was to come.
+        let followed = ending.unseen.is_none() && ending.last > packet;
+        if waited > PATIENCE && !lost.joined && followed {
             let rule = service_clause(asked.header.command);
             let found = format!("none within {} s", waited.as_secs());
             let topic = if rule == "ADS-5" { Topic::CncFrames } else { Topic::CncServices };

@@ -3,6 +3,7 @@
 mod elements;
 mod lost;
 mod objects;
+mod pair;
 mod parameters;
 mod replies;
 mod requests;
@@ -19,6 +20,7 @@ use std::time::Duration;
 use ads_cnc::ads::{AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Request, Task};
 
+use self::pair::Early;
 use super::book::{Book, Scene, Spot, Topic};
 use super::frames::Span;
 use super::table::{Event, Table, Way};
@@ -28,12 +30,6 @@ use super::vectors::Collector;
 use crate::client::{answer, violations};
 use crate::exchange::{Exchange, Fault, call_of};
 use crate::suite::{Checks as _, Outcome, assumed};
-
-/// Requests of a connection that wait for their answers; of more the oldest are forgotten.
-const WAITING_MAX: usize = 4096;
-
-/// Answers that wait for their requests, of all connections.
-const EARLY_MAX: usize = 1024;
 
 /// CNCs that are told apart.
 const CNCS_MAX: usize = 64;
@@ -51,12 +47,14 @@ struct Seen {
 }
 
 /// What was lost of a connection.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Debug, Default)]
 struct Lost {
-    /// It began before the capture.
+    /// Its beginning was not captured.
     joined: bool,
     /// The last packet behind a gap.
     gap: Option<u64>,
+    /// The first answers to nothing.
+    unasked: Vec<Seen>,
 }
 
 /// What is known of one CNC.
@@ -70,6 +68,17 @@ struct Cnc {
     services: service::Services,
 }
 
+impl Cnc {
+    /// Of one to which more may have been said before.
+    fn new(is_lost: bool) -> Self {
+        Self {
+            streams: streaming::Streams::new(is_lost),
+            services: service::Services::new(is_lost),
+            ..Self::default()
+        }
+    }
+}
+
 /// Judges traffic.
 #[derive(Debug)]
 pub(super) struct Judge {
@@ -77,11 +86,19 @@ pub(super) struct Judge {
     pub(super) tally: Tally,
     waiting: BTreeMap<(u64, u32), VecDeque<Seen>>,
     waiting_of: BTreeMap<u64, usize>,
-    early: Vec<Seen>,
+    early: Early,
     lost: BTreeMap<u64, Lost>,
+    /// The last packet behind a gap of any connection.
+    gap: Option<u64>,
+    /// Whether requests and answers of one went over several connections.
+    is_crossed: bool,
     cncs: BTreeMap<AmsNetId, Cnc>,
+    /// Whether there may be more to know of a CNC than was captured.
+    is_lost: bool,
     vectors: Option<Collector>,
     now: Option<Time>,
+    /// The last packet of which a frame came.
+    newest: u64,
 }
 
 /// What a judgement of one exchange needs.
@@ -127,19 +144,20 @@ impl Judge {
             tally: Tally::default(),
             waiting: BTreeMap::new(),
             waiting_of: BTreeMap::new(),
-            early: Vec::new(),
+            early: Early::default(),
             lost: BTreeMap::new(),
+            gap: None,
+            is_crossed: false,
             cncs: BTreeMap::new(),
+            is_lost: false,
             vectors,
             now: None,
+            newest: 0,
         }
     }
 
     /// What came of everything.
     pub(super) fn finish(mut self) -> (Vec<Outcome>, Tally, Option<Collector>) {
-        for reply in std::mem::take(&mut self.early) {
-            self.unasked(&reply);
-        }
         for line in self.tally.lines().into_iter().skip(1) {
             self.book.note(Topic::CncFrames, line);
         }
@@ -166,9 +184,10 @@ impl Judge {
             Event::Joined(connection) => {
                 count(&mut self.tally.joined);
                 self.lost.entry(connection).or_default().joined = true;
+                self.lose();
             }
             Event::Unfinished => count(&mut self.tally.unfinished),
-            Event::Ended(connection) => self.ended(connection),
+            Event::Ended(ending) => self.ended(ending),
         }
     }
 
@@ -176,19 +195,16 @@ impl Judge {
         count(&mut self.tally.frames);
         let Ok(Some((whole, _))) = FrameRef::split(&frame, u32::MAX) else { return };
         let header = whole.header();
+        self.newest = self.newest.max(span.last.packet);
         let seen = Seen { header, way, span, frame };
-        if !is_reply(&header) {
-            self.request(seen);
-            // What came before it by mistake of the network.
-            for reply in std::mem::take(&mut self.early) {
-                self.reply(reply, table);
-            }
-        } else {
-            self.reply(seen, table);
+        match is_reply(&header) {
+            true => self.reply(seen),
+            false => self.request(seen, table),
         }
+        self.tidy(table);
     }
 
-    fn request(&mut self, seen: Seen) {
+    fn request(&mut self, seen: Seen, table: &Table) {
         let header = seen.header;
         if !is_cnc(header.target.port) {
             count_of(&mut self.tally.other_ports, header.target.port.0);
@@ -206,7 +222,7 @@ impl Judge {
             Some(exchange) => Scene::Exchange(exchange, place),
             None => Scene::Bytes(&seen.frame, place),
         };
-        let again = self.waiting.contains_key(&(seen.way.connection, header.invoke_id));
+        let again = self.is_repeated(&seen, table);
         requests::headers(&mut self.book, &scene, &header, again);
         match call {
             Err(error) => {
@@ -228,80 +244,9 @@ impl Judge {
         self.wait(seen);
     }
 
-    fn wait(&mut self, seen: Seen) {
-        let connection = seen.way.connection;
-        let number = self.waiting_of.entry(connection).or_default();
-        *number = number.saturating_add(1);
-        if *number > WAITING_MAX {
-            let oldest = self.waiting.range((connection, 0)..=(connection, u32::MAX));
-            let oldest = oldest.min_by_key(|(_, all)| all.front().map(|one| one.span.first.packet));
-            if let Some(key) = oldest.map(|(key, _)| *key) {
-                self.forget(key);
-                count(&mut self.tally.unanswered);
-                self.lost.entry(connection).or_default().joined = true;
-            }
-        }
-        self.waiting.entry((connection, seen.header.invoke_id)).or_default().push_back(seen);
-    }
-
-    /// The first request with this key, which waits no more.
-    fn forget(&mut self, key: (u64, u32)) -> Option<Seen> {
-        let all = self.waiting.get_mut(&key)?;
-        let first = all.pop_front();
-        if all.is_empty() {
-            self.waiting.remove(&key);
-        }
-        if let Some(number) = self.waiting_of.get_mut(&key.0) {
-            *number = number.saturating_sub(1);
-        }
-        first
-    }
-
-    fn reply(&mut self, reply: Seen, table: &Table) {
-        let header = reply.header;
-        let key = (reply.way.connection, header.invoke_id);
-        let answers = |asked: &Seen| {
-            asked.header.source == header.target && asked.header.target == header.source
-        };
-        // Two routers may answer each other on whichever of their connections.
-        let elsewhere = || {
-            let mut all = self.waiting.iter().filter(|((_, id), _)| *id == header.invoke_id);
-            all.find(|(_, all)| all.front().is_some_and(answers)).map(|(key, _)| *key)
-        };
-        let found = self.waiting.contains_key(&key).then_some(key).or_else(elsewhere);
-        match found.and_then(|key| self.forget(key)) {
-            Some(asked) => self.exchange(&asked, &reply),
-            None if !is_cnc(header.source.port) => {
-                count_of(&mut self.tally.other_ports, header.source.port.0);
-            }
-            None if service_clause(header.command) == "ADS-5" => {
-                count_of(&mut self.tally.commands, header.command.0);
-            }
-            None => {
-                let back = Way { from: reply.way.to, to: reply.way.from, ..reply.way };
-                match table.waits(&back) && self.early.len() < EARLY_MAX {
-                    true => self.early.push(reply),
-                    false => self.unasked(&reply),
-                }
-            }
-        }
-    }
-
-    /// An answer to nothing.
-    fn unasked(&mut self, reply: &Seen) {
-        count(&mut self.tally.unasked);
-        let lost = self.lost.get(&reply.way.connection).copied().unwrap_or_default();
-        if lost.joined || lost.gap.is_some() {
-            return;
-        }
-        let scene = Scene::Bytes(&reply.frame, spot(&reply.way, None, Some(reply.span)));
-        let found = format!("an answer with the invoke ID {:#x}", reply.header.invoke_id);
-        let expected = "an answer to a request that still waits for one";
-        self.book.on(Topic::CncFrames, &scene).check("ADS-5", false, expected, found);
-    }
-
     fn exchange(&mut self, asked: &Seen, reply: &Seen) {
         count(&mut self.tally.exchanges);
+        self.is_crossed |= asked.way.connection != reply.way.connection;
         let Ok(Some((sent, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
         let Ok(Some((received, _))) = FrameRef::split(&reply.frame, u32::MAX) else { return };
         // What is no request of a service may be answered in any way.
@@ -329,7 +274,7 @@ impl Judge {
         if !self.cncs.contains_key(&net_id) && self.cncs.len() >= CNCS_MAX {
             return;
         }
-        let cnc = self.cncs.entry(net_id).or_default();
+        let cnc = self.cncs.entry(net_id).or_insert_with(|| Cnc::new(self.is_lost));
         let mut bench = Bench { book: &mut self.book, cnc };
         replies::judge(&mut bench, &scene, &call, answer);
         if let (Some(vectors), Ok(request)) = (&mut self.vectors, call.dispatch()) {

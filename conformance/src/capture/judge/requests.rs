@@ -10,7 +10,7 @@ use super::super::book::{Book, Scene, Topic};
 use crate::suite::{Checks as _, Rule, assumed, online};
 
 /// What every request has in its headers.
-pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, header: &AmsHeader, again: bool) {
+pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, header: &AmsHeader, again: Option<bool>) {
     let mut page = book.on(Topic::ClientFrames, scene);
     let flags = header.state_flags;
     let found = format!("state flags {:#06x}", flags.0);
@@ -18,8 +18,10 @@ pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, header: &AmsHeader, ag
     let rule = assumed("ADS-5");
     let none = header.error == AdsError::NONE;
     page.check(rule, none, "no AMS error in a request", format!("AMS error {}", header.error));
-    let found = format!("the invoke ID {:#x} of one that still waits", header.invoke_id);
-    page.check(rule, !again, "an invoke ID of its own", found);
+    if let Some(again) = again {
+        let found = format!("the invoke ID {:#x} of one that still waits", header.invoke_id);
+        page.check(rule, !again, "an invoke ID of its own", found);
+    }
 }
 
 /// Judges what is asked, and returns what is asked if it is documented nowhere.

@@ -13,11 +13,23 @@ use crate::suite::{Checks as _, assumed};
 
 /// What is known of the Service Interface of each channel, by its index group.
 #[derive(Debug, Default)]
-pub(super) struct Services(BTreeMap<u32, Interface>);
+pub(super) struct Services {
+    known: BTreeMap<u32, Interface>,
+    /// Whether what was said before may not have been captured.
+    is_lost: bool,
+}
+
+impl Services {
+    pub(super) const fn new(is_lost: bool) -> Self {
+        Self { known: BTreeMap::new(), is_lost }
+    }
+}
 
 /// One channel's, as a client left it.
 #[derive(Debug, Default)]
 struct Interface {
+    /// More may have been read and written than was captured, for what is asked now.
+    is_lost: bool,
     /// A service has read that it is asked, and who is.
     read_state: bool,
     read_id: bool,
@@ -57,7 +69,9 @@ impl Bench<'_> {
             Request::ReadByHandle(_) | Request::ReadByName(_) => None,
             _ => return,
         };
-        let interface = self.cnc.services.0.entry(group).or_default();
+        let Services { known, is_lost } = &mut self.cnc.services;
+        let new = || Interface { is_lost: *is_lost, ..Interface::default() };
+        let interface = known.entry(group).or_insert_with(new);
         match (written, reply) {
             (Some(value), _) => {
                 let mut page = self.book.on(Topic::ClientService, scene);
@@ -120,7 +134,7 @@ impl Interface {
             ServiceVariable::RequestState if is_set(value) => {
                 // Who asks plays the program.
                 let found = "REQUEST_STATE before UUID and REQUEST";
-                let kept = self.wrote_id && self.wrote_request;
+                let kept = self.is_lost || self.wrote_id && self.wrote_request;
                 page.check("SVC-12", kept, "UUID and REQUEST before it", found);
                 *self = Self { asked: true, ..Self::default() };
             }
@@ -138,9 +152,10 @@ impl Interface {
                     return;
                 }
                 let found = "RESPONSE_STATE before RESPONSE";
-                page.check("SVC-5", self.response, "RESPONSE before it", found);
+                let kept = self.is_lost || self.response;
+                page.check("SVC-5", kept, "RESPONSE before it", found);
                 let found = "an answer to what was not read to be asked";
-                let kept = self.read_state && self.read_id;
+                let kept = self.is_lost || self.read_state && self.read_id;
                 page.check("SVC-2", kept, "UUID and REQUEST_STATE read before", found);
                 self.answered = true;
             }

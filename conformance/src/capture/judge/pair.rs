@@ -1,0 +1,215 @@
+//! Which answer belongs to which request, in whatever order they were captured.
+
+use std::collections::VecDeque;
+
+use super::super::book::{Scene, Topic};
+use super::super::table::{Table, Way};
+use super::super::tally::{count, count_of};
+use super::{Judge, Seen, is_cnc, service_clause, spot};
+use crate::suite::Checks as _;
+
+/// Requests of a connection that wait for their answers; of more the oldest are forgotten.
+const WAITING_MAX: usize = 4096;
+
+/// Answers that wait for their requests, of all connections, and their bytes.
+const EARLY_MAX: usize = 4096;
+const EARLY_BYTES_MAX: usize = 0x100_0000;
+
+/// Packets by which an answer may have been captured before its request.
+pub(super) const REORDERED_MAX: u64 = 256;
+
+/// Answers to nothing that are shown of a connection, and bytes of each; the others are counted.
+const SHOWN: usize = 4;
+const SHOWN_BYTES: usize = 0x400;
+
+/// Answers without a request, in the order of the capture.
+#[derive(Debug, Default)]
+pub(super) struct Early {
+    all: VecDeque<Seen>,
+    bytes: usize,
+}
+
+impl Early {
+    fn push(&mut self, reply: Seen) {
+        self.bytes = self.bytes.saturating_add(reply.frame.len());
+        self.all.push_back(reply);
+    }
+
+    fn remove(&mut self, place: usize) -> Option<Seen> {
+        let reply = self.all.remove(place)?;
+        self.bytes = self.bytes.saturating_sub(reply.frame.len());
+        Some(reply)
+    }
+
+    fn find(&self, what: impl Fn(&Seen) -> bool) -> Option<usize> {
+        self.all.iter().position(what)
+    }
+
+    fn is_full(&self) -> bool {
+        self.all.len() > EARLY_MAX || self.bytes > EARLY_BYTES_MAX
+    }
+}
+
+impl Seen {
+    /// Whether this goes from where a reply goes to, and back.
+    fn mirrors(&self, reply: &Self) -> bool {
+        self.header.source == reply.header.target && self.header.target == reply.header.source
+    }
+
+    /// Whether its sender had got a reply when it was sent: that answers something else. TCP says
+    /// so whatever the order in which both were captured.
+    fn follows(&self, reply: &Self) -> bool {
+        let got = self.span.last.acknowledged;
+        self.way.connection == reply.way.connection
+            && got.is_some_and(|place| place >= reply.span.end)
+    }
+}
+
+impl Judge {
+    /// A request that is to be answered, if it was not before it was captured.
+    pub(super) fn wait(&mut self, seen: Seen) {
+        let id = seen.header.invoke_id;
+        let answered = self.early.find(|reply| {
+            let last = reply.span.last.packet.saturating_add(REORDERED_MAX);
+            reply.header.invoke_id == id
+                && reply.header.command == seen.header.command
+                && seen.mirrors(reply)
+                && !seen.follows(reply)
+                && seen.span.last.packet <= last
+        });
+        if let Some(reply) = answered.and_then(|place| self.early.remove(place)) {
+            self.exchange(&seen, &reply);
+            return;
+        }
+        let connection = seen.way.connection;
+        let number = self.waiting_of.entry(connection).or_default();
+        *number = number.saturating_add(1);
+        if *number > WAITING_MAX {
+            let oldest = self.waiting.range((connection, 0)..=(connection, u32::MAX));
+            let oldest = oldest.min_by_key(|(_, all)| all.front().map(|one| one.span.first.packet));
+            if let Some(key) = oldest.map(|(key, _)| *key) {
+                self.forget(key, 0);
+                count(&mut self.tally.unanswered);
+                self.lost.entry(connection).or_default().joined = true;
+            }
+        }
+        self.waiting.entry((connection, id)).or_default().push_back(seen);
+    }
+
+    /// One of the requests with this key, which waits no more.
+    pub(super) fn forget(&mut self, key: (u64, u32), place: usize) -> Option<Seen> {
+        let all = self.waiting.get_mut(&key)?;
+        let one = all.remove(place)?;
+        if all.is_empty() {
+            self.waiting.remove(&key);
+        }
+        if let Some(number) = self.waiting_of.get_mut(&key.0) {
+            *number = number.saturating_sub(1);
+        }
+        Some(one)
+    }
+
+    /// Whether another request with this invoke ID still waits; none if its answer may only not
+    /// have been captured.
+    pub(super) fn is_repeated(&self, seen: &Seen, table: &Table) -> Option<bool> {
+        let lost = self.lost.get(&seen.way.connection);
+        let back = Way { from: seen.way.to, to: seen.way.from, ..seen.way };
+        let got = seen.span.last.acknowledged?;
+        let is_whole = lost.is_none_or(|lost| !lost.joined && lost.gap.is_none());
+        let known = is_whole && table.has(&back, got);
+        known.then(|| self.waiting.contains_key(&(seen.way.connection, seen.header.invoke_id)))
+    }
+
+    pub(super) fn reply(&mut self, reply: Seen) {
+        match self.asked(&reply) {
+            Some(asked) => self.exchange(&asked, &reply),
+            None => self.early.push(reply),
+        }
+    }
+
+    /// The request that a reply answers, from whom it goes to.
+    fn asked(&mut self, reply: &Seen) -> Option<Seen> {
+        let key = (reply.way.connection, reply.header.invoke_id);
+        let lost = self.lost.get(&key.0).is_some_and(|lost| lost.gap.is_some());
+        let fits = |asked: &Seen| asked.mirrors(reply) && !asked.follows(reply);
+        let here = self.waiting.get(&key).and_then(|all| match lost {
+            // Whoever uses an invoke ID once more has got the answer before, which was lost.
+            true => (0..all.len()).rev().find(|&place| all.get(place).is_some_and(fits)),
+            false => {
+                all.iter().position(fits).or_else(|| all.iter().position(|a| a.mirrors(reply)))
+            }
+        });
+        if let Some(place) = here {
+            return self.forget(key, place);
+        }
+        // Two routers may answer each other on whichever of their connections.
+        let mut all = self.waiting.iter().filter(|((_, id), _)| *id == reply.header.invoke_id);
+        let elsewhere = all.find_map(|(key, all)| Some((*key, all.iter().position(fits)?)));
+        let (key, place) = elsewhere?;
+        self.forget(key, place)
+    }
+
+    /// Gives up the requests of replies for which none will come any more.
+    pub(super) fn tidy(&mut self, table: &Table) {
+        while let Some(first) = self.early.all.front() {
+            let back = Way { from: first.way.to, to: first.way.from, ..first.way };
+            let last = first.span.last.packet.saturating_add(REORDERED_MAX);
+            let late = last < self.newest && !table.waits(&back);
+            if !late && !self.early.is_full() {
+                return;
+            }
+            let Some(reply) = self.early.remove(0) else { return };
+            self.settle(reply);
+        }
+    }
+
+    /// All that is left of a connection's.
+    pub(super) fn settle_all(&mut self, connection: u64) {
+        while let Some(place) = self.early.find(|reply| reply.way.connection == connection) {
+            let Some(reply) = self.early.remove(place) else { return };
+            self.settle(reply);
+        }
+    }
+
+    /// A reply of which no request goes from where it goes to.
+    fn settle(&mut self, reply: Seen) {
+        let header = reply.header;
+        let connection = reply.way.connection;
+        let key = (connection, header.invoke_id);
+        let is_whole = self.lost.get(&connection).is_none_or(|lost| lost.gap.is_none());
+        // One with wrong addresses is one all the same.
+        let place = self.waiting.get(&key).filter(|_| is_whole).and_then(|all| {
+            all.iter()
+                .position(|asked| asked.header.command == header.command && !asked.follows(&reply))
+        });
+        if let Some(asked) = place.and_then(|place| self.forget(key, place)) {
+            self.exchange(&asked, &reply);
+        } else if !is_cnc(header.source.port) {
+            count_of(&mut self.tally.other_ports, header.source.port.0);
+        } else if service_clause(header.command) == "ADS-5" {
+            count_of(&mut self.tally.commands, header.command.0);
+        } else {
+            count(&mut self.tally.unasked);
+            let shown = &mut self.lost.entry(connection).or_default().unasked;
+            if shown.len() < SHOWN {
+                let mut reply = reply;
+                reply.frame.truncate(SHOWN_BYTES);
+                reply.frame.shrink_to_fit();
+                shown.push(reply);
+            }
+        }
+    }
+
+    /// An answer to nothing, when all there is of its connection is known.
+    pub(super) fn unasked(&mut self, reply: &Seen, is_open: bool) {
+        let scene = Scene::Bytes(&reply.frame, spot(&reply.way, None, Some(reply.span)));
+        let mut page = self.book.on(Topic::CncFrames, &scene);
+        let found = format!("an answer with the invoke ID {:#x}", reply.header.invoke_id);
+        if is_open {
+            page.open("ADS-5", format!("{found}, whose request may not have been captured"));
+        } else {
+            let expected = "an answer to a request that still waits for one";
+            page.check("ADS-5", false, expected, found);
+        }
+    }
+}

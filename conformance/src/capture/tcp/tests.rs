@@ -1,0 +1,124 @@
+//! Segments in whatever order they come, and what never comes.
+
+use super::*;
+
+const MARK: Mark = Mark { packet: 1, time: None, acknowledged: None };
+
+/// What comes out of segments: bytes, and `_` for each byte of a gap.
+fn joined(half: &mut Half, parts: &[(u32, &[u8])], end: bool) -> String {
+    let mut all = String::new();
+    let mut out = |piece: Piece<'_>| match piece {
+        Piece::Data(bytes, _) => all.push_str(std::str::from_utf8(bytes).unwrap()),
+        Piece::Gap(length, _) => all.extend((0..length).map(|_| '_')),
+    };
+    for &(sequence, payload) in parts {
+        half.push(Part { sequence, syn: false, payload, missing: 0, mark: MARK }, &mut out);
+    }
+    if end {
+        half.flush(&mut out);
+    }
+    all
+}
+
+#[test]
+fn segments_come_in_any_order() {
+    for start in [0_u32, 100, u32::MAX, u32::MAX - 3, u32::MAX - 6, 0x7FFF_FFFE] {
+        let at = |offset: u32| start.wrapping_add(offset);
+        let begun = || {
+            let mut half = Half::default();
+            let syn =
+                Part { sequence: at(u32::MAX), syn: true, payload: &[], missing: 0, mark: MARK };
+            half.push(syn, &mut |_| panic!("there is nothing in it"));
+            half
+        };
+        let parts: [(u32, &[u8]); 4] =
+            [(at(0), b"abc"), (at(3), b"de"), (at(5), b"f"), (at(6), b"ghi")];
+        for order in [[0, 1, 2, 3], [3, 2, 1, 0], [1, 0, 3, 2], [2, 3, 0, 1]] {
+            let parts = order.map(|place: usize| parts[place]);
+            assert_eq!(joined(&mut begun(), &parts, false), "abcdefghi", "{start} {order:?}");
+        }
+        // Once more, in other pieces, and over one another.
+        let parts: [(u32, &[u8]); 7] = [
+            (at(0), b"abc"),
+            (at(0), b"abc"),
+            (at(5), b"fgh"),
+            (at(1), b"bcde"),
+            (at(4), b"efghi"),
+            (at(0), b"abcdefghi"),
+            (at(9), b"j"),
+        ];
+        assert_eq!(joined(&mut begun(), &parts, false), "abcdefghij");
+    }
+}
+
+#[test]
+fn what_never_came_is_a_gap() {
+    let mut half = Half::default();
+    assert_eq!(joined(&mut half, &[(10, b"ab"), (15, b"fg")], false), "ab");
+    assert_eq!((half.held(), half.early), (2, 1));
+    assert_eq!(joined(&mut half, &[], true), "___fg");
+    assert_eq!(half.held(), 0);
+}
+
+/// The other side has it: it was sent, and not captured.
+#[test]
+fn what_is_acknowledged_is_not_waited_for() {
+    let mut half = Half::default();
+    assert_eq!(joined(&mut half, &[(10, b"ab"), (15, b"f"), (16, b"g")], false), "ab");
+    half.acknowledge(17, MARK);
+    let more: Vec<u8> = (0..PATIENCE).map(|_| b'h').collect();
+    let more: Vec<(u32, &[u8])> = (17_u32..).zip(more.chunks(1)).collect();
+    let all = joined(&mut half, &more, false);
+    assert!(all.starts_with("___fghhhhh"), "{all}");
+}
+
+/// The last of it never came, and the other side has it, or there is a FIN behind it.
+#[test]
+fn what_is_missing_at_the_end_is_a_gap() {
+    let begun = || {
+        let mut half = Half::default();
+        assert_eq!(joined(&mut half, &[(10, b"ab")], false), "ab");
+        half
+    };
+    let mut half = begun();
+    half.acknowledge(13, MARK);
+    assert_eq!(joined(&mut half, &[], true), "", "that may be a FIN");
+    let mut half = begun();
+    half.acknowledge(20, MARK);
+    assert_eq!(joined(&mut half, &[], true), "_______");
+    let mut half = begun();
+    half.acknowledge(12, MARK);
+    half.end_at(15, MARK);
+    assert!(!half.is_over());
+    assert_eq!(joined(&mut half, &[], true), "___");
+}
+
+#[test]
+fn no_more_is_held_back_than_a_limit() {
+    let mut half = Half::default();
+    let payload = vec![b'x'; 60_000];
+    let mut out = |_: Piece<'_>| {};
+    for place in 0..200_u32 {
+        let sequence = 10_u32.wrapping_add(place.wrapping_mul(70_000));
+        half.push(
+            Part { sequence, syn: false, payload: &payload, missing: 0, mark: MARK },
+            &mut out,
+        );
+        assert!(half.held() <= AHEAD_MAX + 60_000);
+    }
+}
+
+#[test]
+fn what_was_cut_off_is_a_gap() {
+    let mut half = Half::default();
+    let mut all = Vec::new();
+    let mut out = |piece: Piece<'_>| all.push(format!("{piece:?}"));
+    let part = Part { sequence: 5, syn: false, payload: b"ab", missing: 3, mark: MARK };
+    half.push(part, &mut out);
+    half.push(Part { sequence: 10, payload: b"f", missing: 0, ..part }, &mut out);
+    half.push(Part { sequence: 8, payload: b"d", missing: 3, ..part }, &mut out);
+    let mark = format!("{MARK:?}");
+    let gap = |length: u64| format!("Gap({length}, {mark})");
+    let data = |bytes: &[u8]| format!("Data({bytes:?}, {mark})");
+    assert_eq!(all, [data(b"ab"), gap(3), data(b"f"), gap(1)]);
+}
