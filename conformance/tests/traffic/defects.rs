@@ -179,7 +179,7 @@ fn printed_examples_pass() {
 }
 
 /// A write of a channel's group, and the answer with this result.
-fn written(offset: u32, data: &[u8], result: u32) -> [Message; 2] {
+pub(crate) fn written(offset: u32, data: &[u8], result: u32) -> [Message; 2] {
     let (group, port) = if offset == 0x90 { (0x12_0101_u32, 553_u16) } else { (0x12_2301, 552) };
     let mut asked = Vec::new();
     for number in [group, offset, u32::try_from(data.len()).unwrap()] {

@@ -3,5 +3,6 @@
 mod cli;
 mod defects;
 mod maker;
+mod missing;
 mod talk;
 mod wire;

@@ -202,8 +202,13 @@ pub(crate) fn segments(messages: &[Message], most: usize, begin: (u32, u32)) -> 
     all
 }
 
-/// A pcap file of segments.
+/// A pcap file of segments, one each millisecond.
 pub(crate) fn pcap(segments: &[Segment], link: Link) -> Vec<u8> {
+    pcap_every(segments, link, 1)
+}
+
+/// A pcap file of segments, one each so many milliseconds.
+pub(crate) fn pcap_every(segments: &[Segment], link: Link, millis: u32) -> Vec<u8> {
     let mut file = Vec::new();
     file.extend(0xA1B2_C3D4_u32.to_le_bytes());
     file.extend([2, 0, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
@@ -212,8 +217,9 @@ pub(crate) fn pcap(segments: &[Segment], link: Link) -> Vec<u8> {
     for (place, segment) in (0_u32..).zip(segments) {
         let packet = link.wrap(segment);
         let kept = segment.snap.map_or(packet.len(), |snap| snap.min(packet.len()));
-        file.extend((1_700_000_000_u32 + place / 1000).to_le_bytes());
-        file.extend((place % 1000 * 1000).to_le_bytes());
+        let time = place * millis;
+        file.extend((1_700_000_000_u32 + time / 1000).to_le_bytes());
+        file.extend((time % 1000 * 1000).to_le_bytes());
         file.extend(u32::try_from(kept).unwrap().to_le_bytes());
         file.extend(u32::try_from(packet.len()).unwrap().to_le_bytes());
         file.extend(&packet[..kept]);
