@@ -162,7 +162,8 @@ impl Display for Spot {
             f.write_str(if self.asked.is_some() { ", answered in " } else { "" })?;
             packets(f, answered)?;
         }
-        write!(f, ", {} to {}", self.from, self.to)
+        let is_known = self.asked.or(self.answered).is_some();
+        write!(f, "{}{} to {}", if is_known { ", " } else { "" }, self.from, self.to)
     }
 }
 

@@ -28,7 +28,7 @@ pub struct Tally {
     pub elsewhere: u64,
     /// TCP connections on the ports that were looked at.
     pub connections: u64,
-    /// Connections that began before the capture did.
+    /// Connections whose beginning was not captured.
     pub joined: u64,
     /// Segments that came once more.
     pub repeated: u64,
@@ -84,7 +84,7 @@ impl Tally {
         )];
         let told = [
             (self.refused, "requests answered by an error number"),
-            (self.joined, "connections that began before the capture"),
+            (self.joined, "connections whose beginning was not captured"),
             (self.repeated, "segments that came once more"),
             (self.early, "segments that came out of order"),
             (self.gaps, "gaps: what they touch is inconclusive"),
