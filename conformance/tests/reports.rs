@@ -270,6 +270,24 @@ fn text_stays_text() {
     assert_eq!(badge["schemaVersion"], 1);
 }
 
+/// A row that takes much of a page may be parted, or the page before it stays empty.
+#[test]
+fn long_rows_are_parted_in_print() {
+    let folder = Folder::new("print");
+    let mut document = everything(&folder);
+    let case = document["cases"].as_array_mut().unwrap();
+    let failed = case.iter_mut().find(|case| case.get("failures").is_some()).unwrap();
+    let row = |offset, count| json!({"offset": offset, "hex": vec!["6e"; count].join(" "), "field": "name"});
+    failed["failures"][0]["evidence"]["sent"] =
+        json!({"length": 321, "fields": [row(0, 256), row(256, 65), row(321, 64)]});
+    let report = Report::from_json(&document.to_string()).unwrap();
+    let mut html = Vec::new();
+    report::to_html(&report, &mut html).unwrap();
+    let html = String::from_utf8(html).unwrap();
+    assert_eq!(html.matches("<tr class=\" long\">").count(), 2);
+    assert!(html.contains("tr:not(.long), blockquote, .area { break-inside: avoid; }"));
+}
+
 /// It can be sent around: nothing is fetched, and what is judged can be read without a script.
 #[test]
 fn html_needs_nothing_else() {
