@@ -2,9 +2,6 @@
 
 use super::{Group, Outcomes, Tried};
 
-const ANY_NUMBER: &str = "Which number an error has nobody documents: with its bytes in reverse \
-     order it is another, and nothing that was refused is accepted.";
-
 /// Group, beginning of the ID, and why nothing can tell.
 const REASONS: &[(Group, &str, &str)] = &[
     (
@@ -25,10 +22,6 @@ const REASONS: &[(Group, &str, &str)] = &[
         "That no kind asks for the sum is documented, how none is written is not. This codec refuses \
          one of the two ways and differs by that, which fails nobody.",
     ),
-    (Group::Cnc, "ams-header.error.swap", ANY_NUMBER),
-    (Group::Cnc, "read-reply.result.swap", ANY_NUMBER),
-    (Group::Cnc, "write-reply.result.swap", ANY_NUMBER),
-    (Group::Cnc, "read-write-reply.result.swap", ANY_NUMBER),
     (
         Group::Cnc,
         "object-descriptor.write_access.swap",
