@@ -275,11 +275,16 @@ fn text_stays_text() {
 fn long_rows_are_parted_in_print() {
     let folder = Folder::new("print");
     let mut document = everything(&folder);
-    let case = document["cases"].as_array_mut().unwrap();
-    let failed = case.iter_mut().find(|case| case.get("failures").is_some()).unwrap();
+    let case = document["cases"].as_array().unwrap();
+    let mut failed = case.iter().find(|case| case.get("failures").is_some()).unwrap().clone();
     let row = |offset, count| json!({"offset": offset, "hex": vec!["6e"; count].join(" "), "field": "name"});
-    failed["failures"][0]["evidence"]["sent"] =
-        json!({"length": 321, "fields": [row(0, 256), row(256, 65), row(321, 64)]});
+    let mut failure = failed["failures"][0].clone();
+    failure["evidence"] = json!({"call": "", "result": "", "sent": {
+        "length": 385,
+        "fields": [row(0, 256), row(256, 65), row(321, 64)],
+    }});
+    failed["failures"] = json!([failure]);
+    document["cases"] = json!([failed]);
     let report = Report::from_json(&document.to_string()).unwrap();
     let mut html = Vec::new();
     report::to_html(&report, &mut html).unwrap();
