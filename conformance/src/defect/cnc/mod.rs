@@ -5,6 +5,7 @@ mod address;
 mod ads;
 mod area;
 mod axis;
+mod border;
 mod code;
 mod com;
 mod content;
@@ -16,11 +17,16 @@ mod frame;
 mod handle;
 mod indices;
 mod instance;
+mod lasting;
+mod look;
 mod name;
+mod neighbour;
 mod number;
 mod object;
 mod program;
+mod repeated;
 mod running;
+mod seldom;
 mod service;
 mod value;
 mod variable;
@@ -91,12 +97,13 @@ pub(super) const fn twisted(
 
 /// All rows.
 pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
-    let areas: [&'static [Row]; 25] = [
+    let areas: [&'static [Row]; 30] = [
         across::ROWS,
         address::ROWS,
         ads::ROWS,
         area::ROWS,
         axis::ROWS,
+        border::ROWS,
         code::ROWS,
         com::ROWS,
         content::ROWS,
@@ -108,11 +115,15 @@ pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
         handle::ROWS,
         indices::ROWS,
         instance::ROWS,
+        lasting::ROWS,
         name::ROWS,
+        neighbour::ROWS,
         number::ROWS,
         object::ROWS,
         program::ROWS,
+        repeated::ROWS,
         running::ROWS,
+        seldom::ROWS,
         service::ROWS,
         value::ROWS,
         variable::ROWS,

@@ -1,6 +1,7 @@
 //! All that a CNC is asked, to see whether it says anything else than another.
 
 mod deeds;
+mod further;
 
 use ads_cnc::ads::{
     AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags,
@@ -36,11 +37,21 @@ impl<'t> Talk<'t> {
     }
 
     fn frame(&mut self, port: AmsPort, command: Command, data: &[u8]) -> Vec<u8> {
+        self.frame_from(AmsPort(32905), port, command, data)
+    }
+
+    fn frame_from(
+        &mut self,
+        from: AmsPort,
+        port: AmsPort,
+        command: Command,
+        data: &[u8],
+    ) -> Vec<u8> {
         if self.differs {
             return Vec::new();
         }
         self.count += 1;
-        let client = AmsAddr { net_id: AmsNetId([10, 0, 0, 1, 1, 1]), port: AmsPort(32905) };
+        let client = AmsAddr { net_id: AmsNetId([10, 0, 0, 1, 1, 1]), port: from };
         let header = AmsHeader {
             target: AmsAddr { net_id: NET_ID, port },
             source: client,
@@ -90,8 +101,8 @@ impl<'t> Talk<'t> {
         self.variables();
         self.writes();
         self.services();
-        let others: [fn(&mut Self); 4] =
-            [Self::exchange, Self::changes, Self::streams, Self::scripts];
+        let others: [fn(&mut Self); 5] =
+            [Self::further, Self::exchange, Self::changes, Self::streams, Self::scripts];
         for other in others {
             if !self.differs {
                 other(self);

@@ -241,7 +241,7 @@ impl Talk<'_> {
     }
 
     /// What programs have run, and where they stand.
-    fn tell(&mut self) {
+    pub(super) fn tell(&mut self) {
         for channel in [1, 2] {
             let said = self.cnc.with_program(channel, |program| {
                 let lines = program.executed().kept().to_vec();
