@@ -1,6 +1,7 @@
 //! What a CNC may do otherwise: nothing of it is wrong.
 
 mod elements;
+mod freely;
 mod further;
 mod models;
 mod requests;
@@ -9,8 +10,8 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
-    Answer, Right, Row, Twist, dimensions, fits, function, group, is, measured, number, offset,
-    put, records_mut, row, text, twisted, u32_at,
+    Answer, Right, Row, Twist, behind, dimensions, fits, function, group, is, measured, number,
+    offset, put, records_mut, row, text, twisted, u32_at,
 };
 
 /// A row about something that does not answer as printed.
@@ -63,7 +64,8 @@ fn or_short(cnc: &Right<'_>, call: &Call<'_>, answer: Answer) -> Answer {
 
 /// All rows.
 pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
-    [ROWS, elements::ROWS, further::ROWS, models::ROWS, requests::ROWS].into_iter().flatten()
+    let areas = [ROWS, elements::ROWS, freely::ROWS, further::ROWS, models::ROWS, requests::ROWS];
+    areas.into_iter().flatten()
 }
 
 const ROWS: &[Row] = &[
