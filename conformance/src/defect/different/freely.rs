@@ -1,7 +1,7 @@
 //! Further ways: what the manuals leave to the CNC, done as another might.
 
 use ads_cnc::ads::{AdsError, FrameRef};
-use ads_cnc::operation::{Call, Function};
+use ads_cnc::operation::{Call, Function, Service};
 
 use super::{
     Answer, Right, Row, Twist, function, group, is, offset, put, records_mut, row, text, twisted,
@@ -118,12 +118,18 @@ pub(super) const ROWS: &[Row] = &[
         },
     )),
     row(
-        "different.stream-not-read",
+        "different.stream-read-empty",
         &[],
-        "the object of the stream is written, and refused when it is read",
-        |cnc, call| match is(call, &[Function::ReadObject]) && offset(call) == 0x90 {
-            true => Err(AdsError::INVALID_ACCESS),
-            false => cnc.answer(call),
+        "the object of the stream is read as an empty text",
+        |cnc, call| {
+            let stream = group(call) & 0xEF_FF00 == 0x02_0100 && offset(call) == 0x90;
+            match (stream && call.service == Service::Read, cnc.answer(call)) {
+                (true, Err(_)) => {
+                    let len = call.read_length.min(4094);
+                    Ok(vec![0; usize::try_from(len).unwrap_or_default()])
+                }
+                (_, answer) => answer,
+            }
         },
     ),
     row(

@@ -102,7 +102,7 @@ impl<'t> Talk<'t> {
         self.writes();
         self.services();
         let others: [fn(&mut Self); 5] =
-            [Self::further, Self::exchange, Self::changes, Self::streams, Self::scripts];
+            [Self::exchange, Self::changes, Self::streams, Self::scripts, Self::further];
         for other in others {
             if !self.differs {
                 other(self);

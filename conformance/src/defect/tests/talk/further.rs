@@ -61,6 +61,7 @@ impl Talk<'_> {
         }
         self.put(553, 0x12_0101, 0x1D, b"a longer text\0");
         self.put(553, 0x12_0101, 0x1D, b"short\0");
+        self.put(553, 0x12_0101, 0x14, &[9]);
         self.put(553, 0x12_0101, 0x1A, &1.1_f64.to_le_bytes());
         self.put(553, 0x02_0101, 1, &[1]);
         self.put(553, 0x12_0101, 1, &[0]);
@@ -84,6 +85,7 @@ impl Talk<'_> {
         self.ask(one, 0x48, 64, b"V.E.Variable_2\0");
         self.put_named(one, b"V.E.text\0", b"abc\0");
         self.put_named(one, b"V.E.text\0", b"abc");
+        self.put_named(one, b"V.E.texts[2]\0", b"another text\0");
         self.put_named(one, b"V.CYC.count\0", &[1, 2, 3, 4]);
         self.ask(one, 0x48, 4, b"V.E.largest[12]\0");
         let long = format!("V.E.name_of_255_characters_{}\0", "x".repeat(228));
