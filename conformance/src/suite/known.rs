@@ -100,8 +100,9 @@ fn other_structures(name: &str) -> Vec<String> {
 fn similar_name(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let mut variables = probe.variables(channel)?;
+        // Whether upper and lower case are told apart is not said.
         let is_there = |name: &[u8], variables: &[Description]| {
-            variables.iter().any(|one| one.name.text.as_bytes() == name)
+            variables.iter().any(|one| one.name.text.as_bytes().eq_ignore_ascii_case(name))
         };
         variables.sort_by_key(|one| std::cmp::Reverse(one.name.text.as_bytes().len()));
         for known in variables.iter().take(NAMES_MAX) {

@@ -245,7 +245,10 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let near = [longer.as_str(), shorter.unwrap_or_default()];
     for unknown in ["V.E.no such variable", ""].into_iter().chain(near) {
         let unknown: CncString = unknown.parse().map_err(harness)?;
-        if variables.iter().any(|one| one.name.text == unknown) {
+        let is_there =
+            |one: &Description| one.name.text.as_bytes().eq_ignore_ascii_case(unknown.as_bytes());
+        // Whether upper and lower case are told apart is not said.
+        if variables.iter().any(is_there) {
             continue;
         }
         let what = format!("a write to the name \"{unknown}\"");
