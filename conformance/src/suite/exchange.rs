@@ -1,7 +1,7 @@
 //! Cases of axes that change their place.
 
 use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class, PlatformAxis};
-use ads_cnc::operation::{AxisHandleByName, ObjectList, ReadElement};
+use ads_cnc::operation::{AxisHandleByName, ObjectList, ReadElement, Request};
 
 use super::case::{Case, Step, Stop};
 use super::content::read_of;
@@ -20,13 +20,31 @@ pub(super) fn cases() -> Vec<Case> {
     )]
 }
 
+/// A content, if it stands still: an axis may move where it is, from one place to another or not.
+type Content = Option<Vec<u8>>;
+
+/// A content that is the same when it is read again.
+fn still(probe: &mut Probe<'_>, read: impl Into<Request<'static>>) -> Step<Content> {
+    let read = read.into();
+    let first = probe.ask("ADR-13", read)?;
+    Ok(Some(first.clone()).filter(|_| probe.try_ask(read).is_ok_and(|now| now == Some(first))))
+}
+
+/// Whether all that stood still both times is the same; none if nothing did.
+fn alike(before: &[Content], after: &[Content]) -> Option<bool> {
+    let both = before.iter().zip(after).filter_map(|(one, other)| one.as_ref().zip(other.as_ref()));
+    let same: Vec<bool> = both.map(|(one, other)| one == other).collect();
+    let judged = before.is_empty() || !same.is_empty();
+    judged.then(|| before.len() == after.len() && same.iter().all(|same| *same))
+}
+
 /// The contents of all elements of instances; only what is there to be read.
 fn contents(
     probe: &mut Probe<'_>,
     classes: &[Class],
     channel: u32,
     axis: u32,
-) -> Step<Vec<Vec<u8>>> {
+) -> Step<Vec<Content>> {
     let mut all = Vec::new();
     for instance in probe.instances()? {
         if !classes.contains(&instance.class)
@@ -37,7 +55,7 @@ fn contents(
         for element in instance.elements() {
             let Some(length) = length_of(probe, element)? else { continue };
             let Ok(read) = ReadElement::new(element, length) else { continue };
-            all.push(probe.ask("ADR-13", read)?);
+            all.push(still(probe, read)?);
         }
     }
     Ok(all)
@@ -45,14 +63,14 @@ fn contents(
 
 /// The contents of the objects of a list at an axis, by the stride that the CNC in this process
 /// has; of all of them without an axis.
-fn objects(probe: &mut Probe<'_>, list: ObjectList, axis: Option<u32>) -> Step<Vec<Vec<u8>>> {
+fn objects(probe: &mut Probe<'_>, list: ObjectList, axis: Option<u32>) -> Step<Vec<Content>> {
     let mut all = Vec::new();
     for object in probe.objects()?.iter().filter(|object| object.list == list) {
         let at = object.offset.axis_and_element(AxisStride::X10000).map_or(0, |(axis, _)| axis);
         let Some(read) = read_of(object).filter(|_| axis.is_none_or(|axis| axis == at)) else {
             continue;
         };
-        all.push(probe.ask("ADR-13", read)?);
+        all.push(still(probe, read)?);
     }
     Ok(all)
 }
@@ -67,13 +85,13 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
         let why = "the places 2 and 3 of channel 1 have not the axes 2 and 3";
         return Err(Stop::NotApplicable(why.to_owned()));
     }
-    let places = |probe: &mut Probe<'_>, place| -> Step<Vec<Vec<u8>>> {
+    let places = |probe: &mut Probe<'_>, place| -> Step<Vec<Content>> {
         let mut all = contents(probe, &OF_PLACES, 1, place)?;
         let list = ObjectList::from(probe.channel_of(1)?);
         all.extend(objects(probe, list, Some(place))?);
         Ok(all)
     };
-    let platform = |probe: &mut Probe<'_>| -> Step<Vec<Vec<u8>>> {
+    let platform = |probe: &mut Probe<'_>| -> Step<Vec<Content>> {
         let mut all = contents(probe, &OF_PLATFORM, 0, 2)?;
         all.extend(contents(probe, &OF_PLATFORM, 0, 3)?);
         all.extend(contents(probe, &[Class::Hld], 1, 3)?);
@@ -96,13 +114,14 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
     // In the order in which they do not get into each other's way.
     cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3)).map_err(harness)?;
     let (second, third, platform_after, handle_after) = after;
-    let moved = second? == before;
-    probe.check("ADR-13", moved, "the values of axis 3 at place 2 now", "others");
-    let blank = third?.iter().flatten().all(|&byte| byte == 0);
+    if let Some(moved) = alike(&before, &second?) {
+        probe.check("ADR-13", moved, "the values of axis 3 at place 2 now", "others");
+    }
+    let blank = third?.iter().flatten().flatten().all(|&byte| byte == 0);
     probe.check("ADR-13", blank, "nothing at place 3 any more", "values");
     let platform_after = platform_after?;
-    for rule in ["ADR-13", "SDA-13"] {
-        let same = platform_after == of_platform;
+    let same = alike(&of_platform, &platform_after);
+    for (rule, same) in ["ADR-13", "SDA-13"].into_iter().filter_map(|rule| Some((rule, same?))) {
         probe.check(rule, same, "the platform's axes where they were", "others");
     }
     let handle_after = handle_after?;
@@ -111,6 +130,8 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
         "the handle of the place, whichever axis is there",
     );
     probe.check("VAR-10", same, expected, "another");
-    let back = places(probe, 3)? == before;
-    probe.require(&["ADR-13".into()], back, "axis 3 at place 3 again", "others")
+    match alike(&before, &places(probe, 3)?) {
+        Some(back) => probe.require(&["ADR-13".into()], back, "axis 3 at place 3 again", "others"),
+        None => Err(Stop::Inconclusive("no axis stands still".to_owned())),
+    }
 }

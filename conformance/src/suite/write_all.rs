@@ -68,7 +68,7 @@ impl One {
     }
 }
 
-/// All that has a value.
+/// All that has a value, and one that stands still: what moves by itself is not changed by a write.
 fn all(probe: &mut Probe<'_>) -> Step<Vec<One>> {
     let mut all = Vec::new();
     for channel in probe.channels()? {
@@ -81,7 +81,17 @@ fn all(probe: &mut Probe<'_>) -> Step<Vec<One>> {
             }
         }
     }
-    Ok(all)
+    // Looked at again when everything else was.
+    let mut still = Vec::new();
+    for one in all {
+        if probe.value_at(&one.handled())?.as_ref() == Some(&one.start) {
+            still.push(one);
+        }
+    }
+    match still.is_empty() {
+        true => Err(Stop::Inconclusive("no variable stands still".to_owned())),
+        false => Ok(still),
+    }
 }
 
 /// Another value, in which every byte is another if the type allows it.
@@ -142,8 +152,13 @@ fn pass(
         }
     }
     for one in all {
-        let read = probe.value_at(&look(one))?.unwrap_or_default();
+        let place = look(one);
+        let read = probe.value_at(&place)?.unwrap_or_default();
         let evidence = probe.evidence().filter(|_| read != one.value);
+        // It has come to move meanwhile.
+        if read != one.value && probe.moves(&place)? {
+            continue;
+        }
         one.seen.push(Seen { expected: one.value.clone(), read, evidence });
     }
     Ok(())
