@@ -1,6 +1,6 @@
 //! Cases of index groups and ports, and of the frames that carried all others.
 
-use ads_cnc::address::Channel;
+use ads_cnc::address::{Addressing, Channel, ComGroup, Group};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{
     Call, CountObjects, CountVariables, DescribeByIndex, ReadDescriptors, Request, Service,
@@ -137,12 +137,27 @@ fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
     Ok(requests)
 }
 
+/// Whether both describe the same object: by rank its group may have the rank as well.
+fn same_object(logical: &[u8], found: &[u8], rank: Channel) -> bool {
+    let one = |bytes| Some(DescriptorsRef::decode(bytes).ok()?.get(0)?.to_owned());
+    let (Some(logical), Some(found)) = (one(logical), one(found)) else { return false };
+    let Some(Group::Com(com)) = logical.index_group().parts() else { return false };
+    let by_rank = ComGroup { addressing: Addressing::Index, instance: rank.number(), ..com };
+    let content = (by_rank.index_group(), logical.index_offset());
+    (found.index_group(), found.index_offset()) == content
+        && found == logical.with_content(content.0, content.1)
+}
+
 fn same_by_rank(probe: &mut Probe<'_>, rules: &[Rule], rank: Channel, number: Channel) -> Step {
     for (logical, by_index) in known_by(number)?.into_iter().zip(known_by(rank)?) {
         let function = logical.function().spec().name;
+        let is_object = matches!(logical, Request::ReadDescriptors(_));
         let Some(logical) = probe.try_ask(logical)? else { continue };
         let exchange = probe.send(by_index)?;
-        let same = exchange.answer().and_then(|answer| answer.success()) == Some(&logical[..]);
+        let found = exchange.answer().and_then(|answer| answer.success());
+        let same = found.is_some_and(|found| {
+            found == logical || is_object && same_object(&logical, found, rank)
+        });
         let (by, expected) = (number.number(), Hex(logical.clone()));
         let expected = format!("{function}: {expected}, the answer of channel {by}");
         for &rule in rules {
