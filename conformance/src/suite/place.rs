@@ -63,8 +63,12 @@ pub(super) fn is_sendable(request: &Request<'_>) -> bool {
     request.encode(&mut buf).is_ok()
 }
 
-/// The nearest other value: one bit of the first byte. A text gets another first character.
+/// The nearest other value: one bit of the first byte. A text gets another first character; one of
+/// a single byte has no room for that and its NUL.
 pub(super) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
+    if is_text && value.len() < 2 {
+        return value.to_vec();
+    }
     let mut other = value.to_vec();
     if let Some(first) = other.first_mut() {
         *first = match (is_text, *first) {
