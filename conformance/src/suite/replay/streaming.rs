@@ -12,7 +12,7 @@ use crate::cnc::Cnc;
 use crate::cnc::program::{Message, Pace, Program, ProgramConfig, Start, State};
 use crate::suite::case::{Stop, assumed};
 use crate::suite::probe::{Probe, harness};
-use crate::suite::stream::{HELD_MAX, Sent, send};
+use crate::suite::stream::{HELD_MAX, Sent, send, send_until_taken};
 
 /// Who plays, and before whom.
 struct Scene<'s, 'p> {
@@ -107,7 +107,10 @@ fn write(
         None => true,
     };
     let held = scene.with(|program| program.held())?;
-    let sent = send(scene.probe, scene.channel, &data)?;
+    let sent = match stated {
+        StreamAck::Accepted => send_until_taken(scene.probe, scene.channel, &data)?,
+        StreamAck::Later | StreamAck::Refused => send(scene.probe, scene.channel, &data)?,
+    };
     // Whether it is taken, everybody sees. Whether a refusal is one for now or for good only what
     // was stated says: that its number tells is assumed.
     let ack = match stated {

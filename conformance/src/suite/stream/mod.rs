@@ -5,7 +5,7 @@ mod sent;
 mod stage;
 mod words;
 
-pub(super) use sent::{Sent, heard, send};
+pub(super) use sent::{Sent, heard, send, send_until_taken};
 pub(super) use stage::HELD_MAX;
 
 use std::thread;

@@ -1,6 +1,8 @@
 //! What came of a write to a stream.
 
 use std::fmt;
+use std::thread;
+use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::ads::AdsError;
@@ -54,6 +56,27 @@ pub(in crate::suite) fn heard(exchange: Exchange) -> Step<Exchange> {
         Err(fault @ Fault::Silence(_)) => Err(Stop::Inconclusive(format!("{exchange}: {fault}"))),
         _ => Ok(exchange),
     }
+}
+
+/// How often what is refused is written again, where it has to be taken in the end.
+const TRIES: usize = 8;
+
+/// As [`send`], and again while it is refused: when a CNC is unable to accept new data is said
+/// nowhere, so that room for them need not be all it takes. In silence nothing is repeated.
+pub(in crate::suite) fn send_until_taken(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    data: &[u8],
+) -> Step<Sent> {
+    let mut sent = send(probe, channel, data)?;
+    for _ in 1..TRIES {
+        if !sent.is_refused() {
+            break;
+        }
+        thread::sleep(Duration::from_millis(1));
+        sent = send(probe, channel, data)?;
+    }
+    Ok(sent)
 }
 
 /// Sends bytes to the stream as they are, whether a client may or not.

@@ -6,7 +6,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::Ack;
 
-use super::{Sent, comment, send};
+use super::{Sent, comment, send, send_until_taken};
 use crate::cnc::Cnc;
 use crate::cnc::program::{Pace, Program, ProgramConfig, Start, State};
 use crate::suite::case::{Step, Stop, assumed};
@@ -101,7 +101,7 @@ pub(super) fn taken(
     channel: Channel,
     data: &[u8],
 ) -> Step<Sent> {
-    let sent = send(probe, channel, data)?;
+    let sent = send_until_taken(probe, channel, data)?;
     for &rule in rules {
         probe.check(rule, sent.is_taken(), format!("{} bytes taken", data.len()), &sent);
     }
@@ -225,7 +225,7 @@ pub(super) fn dry(probe: &mut Probe<'_>) -> Step {
         stage.start(probe)?;
         expect(probe, &["STM-14", "STM-7"], first.to_vec(), stage.executed()?);
         expect(probe, &["STM-16"], State::Dry, stage.state()?);
-        send(probe, channel, second)?;
+        send_until_taken(probe, channel, second)?;
         let both = [&first[..], second].concat();
         expect(probe, &["STM-16", "STM-7"], both, stage.executed()?);
         Ok(())
@@ -234,10 +234,10 @@ pub(super) fn dry(probe: &mut Probe<'_>) -> Step {
 
 pub(super) fn reset(probe: &mut Probe<'_>) -> Step {
     set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
-        send(probe, channel, b"N10 X1\r\n")?;
+        send_until_taken(probe, channel, b"N10 X1\r\n")?;
         stage.with(|program| program.reset(Duration::ZERO))?;
         expect(probe, &["STM-11"], (0, State::Stopped), (stage.held()?, stage.state()?));
-        send(probe, channel, b"N10 Y1\r\n")?;
+        send_until_taken(probe, channel, b"N10 Y1\r\n")?;
         stage.pace(Pace::Fast)?;
         expect(probe, &["STM-14"], Vec::new(), stage.executed()?);
         stage.start(probe)?;

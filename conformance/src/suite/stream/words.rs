@@ -1,6 +1,6 @@
 //! Words that end streaming, and words that do not.
 
-use super::send;
+use super::send_until_taken;
 use super::stage::{expect, set_up, taken};
 use crate::cnc::program::{Pace, Start, State};
 use crate::suite::case::{Rule, Step};
@@ -19,10 +19,10 @@ pub(super) fn forbidden_words(probe: &mut Probe<'_>) -> Step {
         "$GOTO N10",
     ] {
         set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
-            send(probe, channel, b"N10: X1\r\n")?;
-            send(probe, channel, format!("({word})\r\nX2 ; {word}\r\n").as_bytes())?;
+            send_until_taken(probe, channel, b"N10: X1\r\n")?;
+            send_until_taken(probe, channel, format!("({word})\r\nX2 ; {word}\r\n").as_bytes())?;
             expect(probe, &["STM-9"], State::Dry, stage.state()?);
-            send(probe, channel, format!("{word}\r\nX3\r\n").as_bytes())?;
+            send_until_taken(probe, channel, format!("{word}\r\nX3\r\n").as_bytes())?;
             let state = stage.state()?;
             let aborted = matches!(state, State::Aborted(_));
             let found = format!("{state:?}");
