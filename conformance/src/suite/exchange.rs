@@ -135,3 +135,18 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
         None => Err(Stop::Inconclusive("no axis stands still".to_owned())),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_stands_still_is_held_against_each_other() {
+        let still = |byte: u8| Some(vec![byte]);
+        assert_eq!(alike(&[still(1), None], &[still(1), still(2)]), Some(true));
+        assert_eq!(alike(&[still(1), None], &[still(2), None]), Some(false));
+        assert_eq!(alike(&[still(1)], &[still(1), still(2)]), Some(false));
+        assert_eq!(alike(&[None, still(1)], &[still(1), None]), None);
+        assert_eq!(alike(&[], &[]), Some(true));
+    }
+}
