@@ -50,7 +50,7 @@ pub(super) fn indexed(name: &[u8]) -> (&[u8], Vec<u32>) {
     let (mut name, mut indices) = (name, Vec::new());
     while let Some(open) = name.strip_suffix(b"]") {
         let Some(at) = open.iter().rposition(|&byte| byte == b'[') else { break };
-        let digits = open.get(at.saturating_add(1)..).and_then(|all| str::from_utf8(all).ok());
+        let digits = open.get(at.saturating_add(1)..).and_then(|all| std::str::from_utf8(all).ok());
         let Some(index) = digits.and_then(|digits| digits.parse().ok()) else { break };
         indices.insert(0, index);
         name = open.get(..at).unwrap_or_default();

@@ -44,7 +44,7 @@ fn zero_behind(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
 
 /// Kinds of parameters in the order of their functions, from one on.
 fn behind_kind(cnc: &Right<'_>, call: &Call<'_>, at: u32, index: u32) -> Answer {
-    let count = cnc.read(call.port, group(call), at.wrapping_sub(0x1B) / 3 + 2)?;
+    let count = cnc.read(call.port, group(call), (at.wrapping_sub(0x1B) / 3).saturating_add(2))?;
     let count = u32_at(&count, 0).unwrap_or_default();
     cnc.at(
         &Call { data: &index.wrapping_sub(count).to_le_bytes(), ..*call },
