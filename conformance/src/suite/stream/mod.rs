@@ -1,5 +1,6 @@
 //! Cases of data streaming. What goes to a device are comments alone: they move nothing.
 
+mod apart;
 mod course;
 mod sent;
 mod stage;
@@ -112,6 +113,27 @@ pub(super) fn cases() -> Vec<Case> {
             ["STM-3", "STM-6", "STM-15"],
             Embedded,
             stage::many
+        ),
+        declare!(
+            "stream-room-of-channels",
+            "The interface of each channel has all its room, however full another's is",
+            ["STM-3", "STM-12"],
+            Embedded,
+            apart::channels
+        ),
+        declare!(
+            "stream-refused-whole",
+            "Of a packet that is refused no line is taken, though some would fit",
+            ["STM-3", "STM-6"],
+            Embedded,
+            apart::in_part
+        ),
+        declare!(
+            "stream-lengths",
+            "A packet is run whole, whatever its length up to 992 bytes",
+            ["STM-2", "STM-4"],
+            Embedded,
+            apart::lengths
         ),
         declare!(
             "stream-comments",

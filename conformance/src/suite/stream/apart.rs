@@ -1,0 +1,88 @@
+//! Room: each channel has its own, and what is refused takes none of it.
+
+use super::stage::{HELD_MAX, expect, set_up, set_up_at, taken};
+use super::{comment, send};
+use crate::cnc::program::{Pace, Start};
+use crate::suite::case::{Step, Stop};
+use crate::suite::probe::Probe;
+
+/// Packets that fill an interface.
+const FILLING: [usize; 5] = [992, 992, 992, 992, 126];
+
+/// While the interface of one channel is full, those of the others have all their room.
+pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
+    let all = probe.channels()?;
+    let mut any = false;
+    for &full in &all {
+        for &other in all.iter().filter(|other| **other != full) {
+            any = true;
+            set_up_at(probe, full, Pace::Hold, Start::Once, |probe, full, first| {
+                set_up_at(probe, other, Pace::Hold, Start::Once, |probe, other, second| {
+                    for len in FILLING {
+                        taken(probe, &["STM-3"], full, &comment(len))?;
+                    }
+                    expect(probe, &["STM-3"], (HELD_MAX, 0), (first.held()?, second.held()?));
+                    for len in FILLING {
+                        taken(probe, &["STM-3"], other, &comment(len))?;
+                    }
+                    expect(probe, &["STM-3"], HELD_MAX, second.held()?);
+                    // What is run in one makes no room in the other.
+                    second.pace(Pace::Fast)?;
+                    expect(probe, &["STM-12"], (HELD_MAX, 0), (first.held()?, second.held()?));
+                    Ok(())
+                })
+            })?;
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("there is one channel".to_owned())),
+    }
+}
+
+/// Packets of several lines that do not fit, though some of their lines would.
+pub(super) fn in_part(probe: &mut Probe<'_>) -> Step {
+    for room in [4, 40, 500, 988] {
+        set_up(probe, Pace::Hold, Start::Once, |probe, channel, stage| {
+            let mut all = Vec::new();
+            let last = HELD_MAX.saturating_sub(4 * 700).saturating_sub(room);
+            for len in [700, 700, 700, 700, last.min(992), last.saturating_sub(992)] {
+                if len > 0 {
+                    taken(probe, &["STM-3"], channel, &comment(len))?;
+                    all.extend(comment(len));
+                }
+            }
+            // The first line would fit, the second not.
+            let packet = [&b"X1\r\n"[..], &comment(room)].concat();
+            for _ in 0..2 {
+                let sent = send(probe, channel, &packet)?;
+                probe.check("STM-6", sent.is_refused(), "refused for now", &sent);
+                expect(probe, &["STM-6"], all.len(), stage.held()?);
+            }
+            stage.pace(Pace::Fast)?;
+            expect(probe, &["STM-6"], all.clone(), stage.executed()?);
+            taken(probe, &["STM-6"], channel, &packet)?;
+            all.extend(packet);
+            expect(probe, &["STM-6"], all, stage.executed()?);
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
+/// Lengths at which a number of one byte begins anew, and others beside them.
+pub(super) fn lengths(probe: &mut Probe<'_>) -> Step {
+    set_up(probe, Pace::Fast, Start::Once, |probe, channel, stage| {
+        let mut all = Vec::new();
+        for len in [3_usize, 127, 128, 255, 256, 257, 511, 512, 513, 767, 768, 769, 991, 992] {
+            let packet = match len {
+                0..=8 => b";\r\n".to_vec(),
+                _ => [b"X1\r\n".to_vec(), comment(len.saturating_sub(4))].concat(),
+            };
+            taken(probe, &["STM-2", "STM-4"], channel, &packet)?;
+            all.extend(packet);
+            expect(probe, &["STM-2", "STM-4"], all.clone(), stage.executed()?);
+        }
+        Ok(())
+    })
+}
