@@ -2,6 +2,7 @@
 
 mod program;
 mod variables;
+mod ways;
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
@@ -52,6 +53,20 @@ pub(super) fn cases() -> Vec<Case> {
             ["SVC-1", "SVC-3"],
             Embedded,
             variables::apart
+        ),
+        declare!(
+            "service-texts-by-handle",
+            "A text of any length is written and read by its handle as by its name",
+            ["SVC-1"],
+            Embedded,
+            ways::by_handle
+        ),
+        declare!(
+            "service-channels-apart",
+            "What is answered in one channel changes nothing that is asked in another",
+            ["SVC-1", "SVC-4"],
+            Embedded,
+            ways::channels_apart
         ),
         declare!(
             "service-asked-by-a-program",
@@ -229,9 +244,18 @@ fn within(
     probe: &mut Probe<'_>,
     then: impl FnOnce(&mut Probe<'_>, Channel, &crate::cnc::Cnc) -> Step,
 ) -> Step {
-    let cnc = probe.cnc()?;
     let lacks = || Stop::NotApplicable("no channel has the Service Interface".to_owned());
     let channel = channels(probe)?.into_iter().next().ok_or_else(lacks)?;
+    within_at(probe, channel, then)
+}
+
+/// As [`within`], of any channel.
+fn within_at(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    then: impl FnOnce(&mut Probe<'_>, Channel, &crate::cnc::Cnc) -> Step,
+) -> Step {
+    let cnc = probe.cnc()?;
     let number = channel.number();
     // What asks there of itself asks nothing meanwhile.
     let script = cnc.with_script(number, |script| script.cloned()).map_err(harness)?;

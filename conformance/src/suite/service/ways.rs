@@ -1,0 +1,105 @@
+//! The five variables by handle as by name, and those of one channel apart from another's.
+
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::{Decode as _, Handle, Numbers};
+use ads_cnc_vectors::Hex;
+
+use super::{NONE, ONE, WIDE, channels, get, put, text, within, within_at};
+use crate::suite::case::{Step, Stop};
+use crate::suite::probe::{Probe, harness};
+
+fn handle_of(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    variable: ServiceVariable,
+) -> Step<Option<Handle>> {
+    let name = HandleByName::new(channel, variable.name()).map_err(harness)?;
+    Ok(probe.try_ask(name)?.and_then(|data| Handle::decode(&data).ok()))
+}
+
+/// Texts of any length, written one way and read the other.
+pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
+    use ServiceVariable::{Request, Response};
+    within(probe, |probe, channel, _| {
+        for variable in [Request, Response] {
+            let Some(handle) = handle_of(probe, channel, variable)? else { continue };
+            for len in [127_usize, 0, 1, 20, 21, 64, 126, 127] {
+                let letters = (b'a'..=b'z').cycle().skip(len);
+                let value: Vec<u8> = letters.take(len).chain([0]).collect();
+                let name = variable.name();
+                let expected = format!("{len} characters of {name} by its handle");
+                put(probe, channel, variable, &value)?;
+                let read = ReadByHandle::new(channel, handle, Numbers::EMPTY);
+                let read = probe.try_ask(read)?.unwrap_or_default();
+                let same = text(&read) == text(&value);
+                probe.check("SVC-1", same, &expected, Hex(read));
+                put(probe, channel, variable, b"\0")?;
+                let write = WriteByHandle::new(channel, handle, Numbers::EMPTY, &value);
+                probe.send(write)?;
+                let read = get(probe, channel, variable)?;
+                let same = text(&read) == text(&value);
+                probe.check("SVC-1", same, expected, Hex(read));
+            }
+        }
+        Ok(())
+    })
+}
+
+/// A service answers in one channel, while a program asks in another.
+pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
+    use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
+    let all = channels(probe)?;
+    let mut any = false;
+    for &asking in &all {
+        let Some(&answered) = all.iter().find(|other| **other != asking) else { continue };
+        any = true;
+        within_at(probe, asking, |probe, asking, cnc| {
+            within_at(probe, answered, |probe, answered, _| {
+                let held: [(ServiceVariable, &[u8]); 4] = [
+                    (Uuid, b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0"),
+                    (Request, b"asked here\0"),
+                    (Response, b"answered here\0"),
+                    (RequestState, &ONE),
+                ];
+                for number in [asking.number(), answered.number()] {
+                    for (variable, value) in held {
+                        let done =
+                            cnc.with_service(number, |service| service.write(variable, value));
+                        done.map_err(harness)?.map_err(harness)?;
+                    }
+                }
+                let others: [(ServiceVariable, &[u8]); 5] = [
+                    (Uuid, b"other\0"),
+                    (Request, b"other\0"),
+                    (Response, b"other\0"),
+                    (ResponseState, &WIDE),
+                    (RequestState, &NONE),
+                ];
+                for (written, value) in others {
+                    put(probe, answered, written, value)?;
+                    for (variable, value) in held {
+                        let read = get(probe, asking, variable)?;
+                        let expected = format!(
+                            "{} of {} in channel {}, whatever is written in channel {}",
+                            Hex(value.to_vec()),
+                            variable.name(),
+                            asking.number(),
+                            answered.number()
+                        );
+                        let same = text(&read) == text(value);
+                        for rule in ["SVC-1", "SVC-4"] {
+                            probe.check(rule, same, &expected, Hex(read.clone()));
+                        }
+                    }
+                }
+                Ok(())
+            })
+        })?;
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("one channel has the Service Interface".to_owned())),
+    }
+}
