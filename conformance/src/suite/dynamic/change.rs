@@ -5,6 +5,8 @@ use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicKind, DynamicName, DynamicValue};
 use ads_cnc::operation::{DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName};
 
+use ads_cnc_vectors::Hex;
+
 use super::super::case::Step;
 use super::super::probe::{Probe, harness};
 use super::{number, prefix};
@@ -41,7 +43,14 @@ fn one(kind: DynamicKind, place: u32) -> (String, f64) {
         let digits = name.len();
         name = format!("{name}{}", "x".repeat(95_usize.saturating_sub(digits)));
     }
-    (name, f64::from(place) + 0.125)
+    // Of any size, and with more digits than are usually shown.
+    let value = match place % 4 {
+        0 => f64::from(place) * 1e-300,
+        1 => f64::from(place) / 3.0,
+        2 => f64::from(place) * -1e200,
+        _ => f64::from(place) + 0.125,
+    };
+    (name, value)
 }
 
 fn set(cnc: &Cnc, channel: Channel, kind: DynamicKind, all: &[(String, f64)]) -> Step {
@@ -89,6 +98,13 @@ fn listed(
         for rule in ["DYN-2", "DYN-5"] {
             probe.check(rule, same, format!("{name:?}"), &found);
         }
+        // A refusal leaves nothing behind.
+        let beyond = DynamicNameByIndex::new(channel, kind, count.saturating_add(1));
+        probe.try_ask(beyond.map_err(harness)?)?;
+        let again = probe.try_ask(by_index)?.unwrap_or_default();
+        let found = Hex(again.clone());
+        let expected = format!("{name:?} behind an index that was refused");
+        probe.check("DYN-2", again == data, expected, found);
         let by_name = DynamicValueByName::new(channel, kind, name).map_err(harness)?;
         let by_name = value_of(probe.try_ask(by_name)?);
         let found = format!("{by_name:?} of {name:?}");

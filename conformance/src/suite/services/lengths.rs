@@ -42,19 +42,21 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
 /// Whether a reply's length follows from what is documented, or a text ends where it ends.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Extent {
-    Fixed,
+    /// By this requirement.
+    Fixed(&'static str),
     Open,
 }
 
 pub(super) fn asked_for(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
-            lengths_of(probe, CountDynamic::new(channel, kind).into(), Extent::Fixed)?;
+            lengths_of(probe, CountDynamic::new(channel, kind).into(), Extent::Fixed("DYN-1"))?;
             let name = DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?;
             lengths_of(probe, name.into(), Extent::Open)?;
         }
         for (_, kind) in kinds(probe) {
-            lengths_of(probe, CountVariables::new(channel, kind).into(), Extent::Fixed)?;
+            let count = CountVariables::new(channel, kind);
+            lengths_of(probe, count.into(), Extent::Fixed("VAR-2"))?;
             for index in 0..2 {
                 let described = DescribeByIndex::new(channel, index, kind);
                 lengths_of(probe, described.into(), Extent::Open)?;
@@ -64,7 +66,7 @@ pub(super) fn asked_for(probe: &mut Probe<'_>) -> Step {
         for variable in variables {
             if variable.var_type != VariableType::STRING {
                 let read = ReadByName { channel, name: name_of(&variable) };
-                lengths_of(probe, read.into(), Extent::Fixed)?;
+                lengths_of(probe, read.into(), Extent::Fixed("VAR-14"))?;
             }
         }
     }
@@ -93,11 +95,13 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     };
     let what = request.function().spec().name;
     // Of a text that ends with the reply the CNC may want room for a NUL.
-    if extent == Extent::Fixed
+    if let Extent::Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
         let expected = format!("{there} bytes of {what}, as many as are asked for");
-        probe.check(rule, found == Some(whole.len()), expected, format!("{found:?}"));
+        for rule in [rule, own] {
+            probe.check(rule, found == Some(whole.len()), &expected, format!("{found:?}"));
+        }
     }
     // What it gives instead of an error, if it gives anything, fits.
     if let Some(found) = answer(probe, there.saturating_sub(1))? {
@@ -105,14 +109,28 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
         let expected = format!("fewer than {there} bytes of {what}");
         probe.check(rule, fits, expected, format!("{found:?}"));
     }
+    let Extent::Fixed(own) = extent else { return Ok(()) };
+    if !probe.session.client.gate().lets_malformed_pass() {
+        return Ok(());
+    }
     // Nothing is behind what there is.
-    if extent == Extent::Fixed
-        && probe.session.client.gate().lets_malformed_pass()
-        && let Some(found) = answer(probe, there.saturating_add(5))?
-    {
+    if let Some(found) = answer(probe, there.saturating_add(5))? {
         let fits = found.is_none_or(|len| len <= whole.len());
         let expected = format!("{there} bytes of {what}, or an error");
-        probe.check(rule, fits, expected, format!("{found:?}"));
+        for rule in [rule, own] {
+            probe.check(rule, fits, &expected, format!("{found:?}"));
+        }
+    }
+    // Where much room is taken, a byte less of it makes no difference.
+    let much = there.saturating_add(0x1_0000);
+    if own != "VAR-14"
+        && let Some(Some(len)) = answer(probe, much)?
+        && let Some(found) = answer(probe, much.saturating_sub(1))?
+    {
+        let expected = format!("{len} bytes of {what}, as with more room");
+        for rule in [rule, "ADS-4"] {
+            probe.check(rule, found == Some(len), &expected, format!("{found:?}"));
+        }
     }
     Ok(())
 }

@@ -50,7 +50,7 @@ pub(super) fn cases() -> Vec<Case> {
         declare!(
             "ads-read-lengths",
             "A reply has no more bytes than are asked for, and no more than there are",
-            ["ADS-1", "ADS-3"],
+            ["ADS-1", "ADS-3", "ADS-4", "DYN-1", "VAR-2", "VAR-14"],
             Queries,
             lengths::asked_for
         ),
