@@ -8,6 +8,7 @@ use ads_cnc_vectors::{Hex, Level};
 
 use super::case::{Case, Evidence, Rule, Step, Stop, assumed};
 use super::declare;
+use super::place::same;
 use super::probe::Probe;
 use super::variable::name_of;
 use crate::explain::{Values, type_by_name};
@@ -41,7 +42,7 @@ pub(super) fn cases() -> Vec<Case> {
         declare!(
             "val-whole-by-name",
             "A name gives the same bytes as its handle",
-            ["VAR-9", "VAR-14"],
+            ["VAR-9", "VAR-14", "GEN-2"],
             Queries,
             whole_by_name
         ),
@@ -210,6 +211,16 @@ fn whole_by_name(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::new();
     each(probe, |probe, channel, variable| {
         let request = ReadByName { channel, name: name_of(variable) };
+        if variable.var_type.element_size().is_some()
+            && let Some(value) = probe.try_ask(request)?
+        {
+            let same = u32::try_from(value.len()) == Ok(variable.size);
+            let expected = format!("the {} bytes of its description", variable.size);
+            let found = format!("{} bytes of {}", value.len(), variable.name.text);
+            for rule in ["VAR-14", "GEN-2"] {
+                probe.check(rule, same, &expected, &found);
+            }
+        }
         let at = (channel, variable);
         steady.compare(probe, "VAR-9".into(), at, request.into(), <[u8]>::to_vec)
     })?;
@@ -260,12 +271,39 @@ fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
                 let sized = element.len() == size;
                 probe.check("VAR-14", sized, format!("{size} bytes of one element"), found);
             }
+            if let ([_], VariableType::STRING) = (&place[..], variable.var_type) {
+                text_by_name(probe, channel, variable, &place)?;
+            }
             let (at, part) = ((channel, variable), part(number, size));
             steady.compare(probe, order(variable), at, request.into(), part)?;
         }
         Ok(())
     })?;
     steady.finish()
+}
+
+/// However texts lie in an array: an index means the same by handle and by name.
+fn text_by_name(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    variable: &Description,
+    place: &[u32],
+) -> Step {
+    let Some(name) = element_name(variable, place)? else { return Ok(()) };
+    let by_name = ReadByName { channel, name: name.as_cnc_str().into() };
+    let by_handle = ReadByHandle::new(channel, variable.handle, place.into());
+    for left in (0..TRIES).rev() {
+        let (before, read) = (probe.try_ask(by_name)?, probe.try_ask(by_handle)?);
+        let (Some(before), Some(read)) = (before, read) else { return Ok(()) };
+        let kept = same(&read, &before, true);
+        let stood = probe.try_ask(by_name)?.as_ref() == Some(&before);
+        if kept || stood && left == 0 {
+            let expected = format!("{} of {name}, by handle too", Hex(before));
+            probe.check("VAR-11", kept, expected, Hex(read));
+            return Ok(());
+        }
+    }
+    Ok(())
 }
 
 /// A variable's name with indices behind it; none if that is too long to be asked for.
