@@ -238,6 +238,8 @@ fn attributes_of(
     let ty: ElementText = attribute(probe, "SDA-7", ReadElementType::new(element))?;
     let length: ElementLength = attribute(probe, "SDA-8", ReadElementLength::new(element))?;
     let unit: ElementText = attribute(probe, "SDA-6", ReadElementUnit::new(element))?;
+    let flag = probe.try_ask(ReadElementWriteFlag::new(element))?;
+    probe.check("ADR-6", flag.is_some(), format!("a write flag of {at}"), "an error");
     let flag: ElementWriteFlag = attribute(probe, "SDA-9", ReadElementWriteFlag::new(element))?;
     for one in [&name, &unit, &ty] {
         let readable = !text(one).chars().any(char::is_control);

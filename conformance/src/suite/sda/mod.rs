@@ -43,7 +43,7 @@ pub(super) fn cases() -> Vec<Case> {
         declare!(
             "sda-far-instance",
             "A number that fits no group or no offset is that of no instance",
-            ["SDA-2", "SDA-5"],
+            ["SDA-2", "SDA-5", "ADR-7"],
             Malformed,
             range::far
         ),

@@ -1,14 +1,14 @@
 //! Which instances there are, and which there cannot be.
 
 use ads_cnc::Decode as _;
-use ads_cnc::address::Class;
-use ads_cnc::operation::{FindInstance, Request};
+use ads_cnc::address::{Class, ElementAddress, IndexOffset};
+use ads_cnc::operation::{CountElements, FindInstance, Request};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc_vectors::Hex;
 
 use super::super::case::{Rule, Step, Stop, assumed};
 use super::super::inventory::{INSTANCES_MAX, Instance, OF_PLACES, class_name};
-use super::super::probe::Probe;
+use super::super::probe::{Probe, harness};
 
 /// Asks for what has to be there. Another task may serve a class: who refuses to say is not judged
 /// but for the decoder, which SDA has.
@@ -35,6 +35,14 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
         let expected =
             format!("the {} ({channel}, {axis}) in a group of its own", class_name(class));
         probe.check("SDA-1", same, expected, found);
+        // What is there is read there, its number of elements first of all.
+        let count = CountElements::new(first).map_err(harness)?;
+        let exchange = probe.send(count)?;
+        let read = exchange.answer().is_some_and(|answer| answer.success().is_some());
+        let expected = format!("the elements of the {} ({channel}, {axis})", class_name(class));
+        for &rule in rules.iter().filter(|rule| rule.id == "SDA-5") {
+            probe.check(rule, read, &expected, exchange.result());
+        }
     }
     Ok(())
 }
@@ -207,6 +215,19 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
         for &bit in channels {
             let channel = one.channel.wrapping_add(bit);
             is_nowhere(probe, &["SDA-5"], one.class, channel, one.axis)?;
+        }
+        // Nor is anything read there. Of the decoder's axes it is printed where they are.
+        if one.class == Class::Decoder && one.axis < 0x100 {
+            let group = one.first.class_group();
+            for bit in [0x100_0000, 0x8000_0000_u32] {
+                let offset = IndexOffset::new(one.first.index_offset().get() | bit);
+                let there = CountElements::new(one.first).map_err(harness)?;
+                let far = CountElements::new(ElementAddress::new(group, offset));
+                let what = format!("an axis {:#x} beyond {one}", bit >> 16);
+                for rule in ["ADR-7", "SDA-5"] {
+                    probe.refuses(rule, &what, far.map_err(harness)?, there)?;
+                }
+            }
         }
         // The axis of a spindle has no meaning.
         if one.class != Class::Spindle {
