@@ -137,6 +137,14 @@ impl Cnc {
         all
     }
 
+    /// Variables of a channel that have no handle and may be written.
+    pub(crate) fn written_by_name_only(&self, number: u8) -> Vec<CncString> {
+        let channels = self.model().channels.iter().filter(|channel| channel.number == number);
+        let all = channels.flat_map(|channel| channel.variables.list.iter());
+        let own = all.filter(|one| one.handle.is_none() && one.is_writable());
+        own.map(|one| one.name.clone()).collect()
+    }
+
     /// All dynamic parameters that are there.
     pub(crate) fn held_parameters(&self) -> Vec<HeldParameter> {
         let (model, state) = (self.model(), self.state());

@@ -45,12 +45,14 @@ mod values;
 mod variable;
 mod vectors;
 mod write;
+mod write_after;
 mod write_all;
 mod write_content;
 mod write_elements;
 mod write_refused;
 mod write_sizes;
 mod write_texts;
+mod write_ways;
 
 pub use case::{
     Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, Subject, assumed, online,
@@ -118,6 +120,8 @@ pub fn cases() -> Vec<Case> {
     cases.extend(write_all::cases());
     cases.extend(write_texts::cases());
     cases.extend(write_content::cases());
+    cases.extend(write_after::cases());
+    cases.extend(write_ways::cases());
     cases.extend(texts::cases());
     cases.extend(stream::cases());
     cases.extend(service::cases());

@@ -62,14 +62,14 @@ pub(super) fn cases() -> Vec<Case> {
     ]
 }
 
-fn nothing(any: bool) -> Step {
+pub(super) fn nothing(any: bool) -> Step {
     match any {
         true => Ok(()),
         false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
     }
 }
 
-fn place_of(object: &Object) -> Place {
+pub(super) fn place_of(object: &Object) -> Place {
     Place::Object { group: object.group, offset: object.offset, size: object.size }
 }
 
@@ -129,16 +129,16 @@ fn read_only_objects(probe: &mut Probe<'_>) -> Step {
 }
 
 /// An element with its name and whether it is a text.
-struct Named {
-    instance: Instance,
-    element: ElementAddress,
-    place: Place,
-    what: String,
-    is_text: bool,
+pub(super) struct Named {
+    pub(super) instance: Instance,
+    pub(super) element: ElementAddress,
+    pub(super) place: Place,
+    pub(super) what: String,
+    pub(super) is_text: bool,
 }
 
 /// Elements that may be written, by what their flags say of that.
-fn flagged(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Named>> {
+pub(super) fn flagged(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Named>> {
     let mut all = Vec::new();
     for instance in probe.instances()? {
         if is_empty_place(probe, &instance) {

@@ -53,14 +53,14 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 /// A variable with the value it has, to hold a refusal against.
-struct Known {
-    channel: Channel,
-    variable: Description,
-    value: Vec<u8>,
+pub(super) struct Known {
+    pub(super) channel: Channel,
+    pub(super) variable: Description,
+    pub(super) value: Vec<u8>,
 }
 
 impl Known {
-    fn place(&self) -> Place {
+    pub(super) fn place(&self) -> Place {
         Place::Name { channel: self.channel, name: self.variable.name.text.clone() }
     }
 
@@ -79,7 +79,7 @@ impl Known {
 
 /// Numbers that may be written, the first of each type; those that read as they are described, as
 /// anything else is judged elsewhere.
-fn writable(probe: &mut Probe<'_>) -> Step<Vec<Known>> {
+pub(super) fn writable(probe: &mut Probe<'_>) -> Step<Vec<Known>> {
     let mut all: Vec<Known> = Vec::new();
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {

@@ -1,0 +1,182 @@
+//! Cases of writes that were refused: nothing of them is there, and the next one is done.
+
+use ads_cnc::Decode as _;
+use ads_cnc::address::ComTable;
+use ads_cnc::operation::{ReadElementType, WriteByName};
+use ads_cnc::sda::ElementText;
+use ads_cnc_vectors::Hex;
+
+use super::case::{Case, Rule, Step, Stop};
+use super::declare;
+use super::inventory::OF_PLACES;
+use super::place::{Place, another, is_sendable};
+use super::probe::{Probe, harness};
+use super::sda::length_of;
+use super::write_content::{is_blank, nothing, place_of};
+use super::write_refused::{Known, writable};
+
+pub(super) fn cases() -> Vec<Case> {
+    vec![
+        declare!(
+            "write-after-refusal",
+            "Behind a write that was refused the next one is done, and its result is its own",
+            ["ADS-2", "ADS-4", "VAR-12", "VAR-13"],
+            MalformedWrites,
+            after_refusal
+        ),
+        declare!(
+            "write-objects-of-wrong-size",
+            "Of a write of another size that is refused nothing is in the object",
+            ["COM-5"],
+            MalformedWrites,
+            objects_of_wrong_size
+        ),
+        declare!(
+            "write-empty-places",
+            "A place without an axis reads as blank, whatever was written there",
+            ["SDA-11"],
+            MalformedWrites,
+            empty_places
+        ),
+    ]
+}
+
+fn after_refusal(probe: &mut Probe<'_>) -> Step {
+    for known in writable(probe)? {
+        let Known { channel, variable, value } = &known;
+        let unknown = WriteByName::new(*channel, "V.E.no such variable", value).map_err(harness)?;
+        let handle =
+            Place::Handle { channel: *channel, handle: variable.handle, indices: Vec::new() };
+        for (id, place) in [("VAR-13", known.place()), ("VAR-12", handle)] {
+            let other = another(value, false);
+            let (good, back) = (place.write(&other), place.write(value));
+            let (good, back) = (good.map_err(harness)?, back.map_err(harness)?);
+            // As it is taken without a refusal before it.
+            let taken = |probe: &mut Probe<'_>, request| -> Step<bool> {
+                Ok(probe.try_ask(request)?.is_some())
+            };
+            if !probe.may(back)? || !taken(probe, back)? || !taken(probe, back)? {
+                continue;
+            }
+            // What is held against it is refused.
+            if probe.try_ask(unknown)?.is_some() {
+                continue;
+            }
+            let exchange = probe.send(good)?;
+            let done = exchange.answer().is_some_and(|answer| answer.success().is_some());
+            let name = &variable.name.text;
+            for rule in [id, "ADS-2", "ADS-4"] {
+                let expected = format!("{name} written behind a refusal");
+                probe.check(rule, done, expected, exchange.result());
+            }
+            let after = probe.value_at(&place)?.unwrap_or_default();
+            // What never takes another value is judged elsewhere.
+            let (again, read) = (taken(probe, good)?, probe.value_at(&place)?);
+            if again && read.as_ref() == Some(&other) {
+                let expected = format!("{} of {name}, as written", Hex(other.clone()));
+                for rule in [id, "ADS-2"] {
+                    probe.check(rule, after == other, &expected, Hex(after.clone()));
+                }
+            }
+            taken(probe, back)?;
+        }
+    }
+    Ok(())
+}
+
+/// That another size is refused is assumed; that what is refused is not done is not.
+fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
+    let mut any = false;
+    for object in probe.objects()? {
+        let (place, name) = (place_of(&object), object.name.to_string());
+        let is_text = object.type_name.as_cnc_str() == "STRING";
+        let is_tried = object.writable && !is_text && !is_blank(probe, &object);
+        if !is_tried || place.read().is_err() || !probe.may_write(&place, &name)? {
+            continue;
+        }
+        let Some(value) = probe.value_at(&place)?.filter(|value| !value.is_empty()) else {
+            continue;
+        };
+        let other = another(&value, false);
+        let longer = [&other[..], &[1]].concat();
+        let shorter = (1..other.len()).filter_map(|len| other.get(..len));
+        for data in shorter.chain([&longer[..]]) {
+            let Some(bad) = place.write(data).ok().filter(is_sendable) else { continue };
+            any = true;
+            let exchange = probe.send(bad)?;
+            if exchange.answer().is_some_and(|answer| answer.success().is_none()) {
+                let after = probe.value_at(&place)?.unwrap_or_default();
+                let there = data.get(..after.len()).unwrap_or(data);
+                let kept = after == value || !after.starts_with(there);
+                let expected = format!(
+                    "{} of {name}, as {} bytes were refused",
+                    Hex(value.clone()),
+                    data.len()
+                );
+                probe.check("COM-5", kept, expected, Hex(after));
+            }
+            probe.send(place.write(&value).map_err(harness)?)?;
+        }
+    }
+    nothing(any)
+}
+
+/// By an integer the place may get an axis: its logical number is written there.
+fn may_be_a_number(type_name: &str) -> bool {
+    !matches!(type_name, "BOOLEAN" | "BOOL" | "REAL32" | "REAL64" | "REAL" | "LREAL")
+}
+
+/// Whether such a write is refused nobody says.
+fn empty_places(probe: &mut Probe<'_>) -> Step {
+    let mut all: Vec<(Place, String)> = Vec::new();
+    let empty = probe.session.profile.empty_places.clone();
+    for instance in probe.instances()? {
+        let is_empty = empty.contains(&(instance.channel, instance.axis));
+        if !is_empty || !OF_PLACES.contains(&instance.class) {
+            continue;
+        }
+        for element in instance.elements() {
+            let ty = probe.try_ask(ReadElementType::new(element))?.unwrap_or_default();
+            let ty = ElementText::decode(&ty).map(|ty| ty.text.text.to_string());
+            if !may_be_a_number(&ty.unwrap_or_default())
+                && let Some(length) = length_of(probe, element)?
+            {
+                let what = format!("element {} of {instance}", element.index_offset());
+                all.push((Place::Element { element, length }, what));
+            }
+        }
+    }
+    for object in probe.objects()? {
+        let is_of_channel =
+            object.list.parts().table == ComTable::Channel && object.group.get() & 0xFF00 == 0x0100;
+        let number = may_be_a_number(&object.type_name.to_string());
+        if object.writable && is_of_channel && !number && is_blank(probe, &object) {
+            all.push((place_of(&object), object.name.to_string()));
+        }
+    }
+    let mut any = false;
+    for (place, what) in all {
+        if place.read().is_err() || !probe.may_write(&place, &what)? {
+            continue;
+        }
+        let Some(blank) = probe.value_at(&place)?.filter(|value| !value.is_empty()) else {
+            continue;
+        };
+        any = true;
+        let other = another(&blank, false);
+        probe.send(place.write(&other).map_err(harness)?)?;
+        let evidence = probe.evidence();
+        let after = probe.value_at(&place)?.unwrap_or_default();
+        probe.show(evidence);
+        let kept = after != other;
+        let expected = format!("{} of {what}, blank as before", Hex(blank.clone()));
+        probe.check(Rule::from("SDA-11"), kept, expected, Hex(after));
+        if !kept {
+            probe.send(place.write(&blank).map_err(harness)?)?;
+        }
+    }
+    match any {
+        true => Ok(()),
+        false => Err(Stop::NotApplicable("no place is known to be empty".to_owned())),
+    }
+}
