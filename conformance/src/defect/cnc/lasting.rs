@@ -276,15 +276,6 @@ pub(super) const ROWS: &[Row] = &[
         },
     ),
     row(
-        "cnc.sda.instance-name-of-channel",
-        &["SDA-4"],
-        "the name of element 0 of an axis is that of its channel",
-        |cnc, call| match is(call, &[Function::ReadElementName]) && offset(call) & 0xFFFF == 0 {
-            true => cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call)),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
         "cnc.sda.found-not-read",
         &["SDA-5", "ADR-7"],
         "of the position controller three axes are read, though all of them are found",

@@ -233,15 +233,6 @@ pub(super) const ROWS: &[Row] = &[
         },
     ),
     row(
-        "cnc.svc.by-handle-resets-not",
-        &["SVC-3"],
-        "a write of REQUEST_STATE by its handle leaves RESPONSE_STATE as it is",
-        |cnc, call| {
-            let now = by_handle(cnc, call, Function::WriteByHandle, REQUEST_STATE);
-            stays(cnc, call, now)
-        },
-    ),
-    row(
         "cnc.svc.response-runs-on",
         &["SVC-1", "SVC-5"],
         "a RESPONSE that is shorter than the one before runs on with the rest of that",

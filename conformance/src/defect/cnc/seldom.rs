@@ -76,7 +76,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row(
         "cnc.gen.real32-8-bytes",
-        &["GEN-5", "SDA-7"],
+        &["GEN-5", "SDA-7", "SDA-8"],
         "a REAL32 of SDA and GEO is read as 8 bytes",
         |cnc, call| match is(call, &[Function::ReadElement]) && element_is(cnc, call, b"REAL32") {
             true => fits(

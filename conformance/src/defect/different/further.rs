@@ -8,7 +8,8 @@ use ads_cnc::operation::Function;
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    Row, TEXTS, function, group, is, measured, or_short, put, row, sent, text, u32_at, unprinted,
+    Row, TEXTS, function, group, is, measured, offset, or_short, put, row, sent, text, u32_at,
+    unprinted,
 };
 
 pub(super) const ROWS: &[Row] = &[
@@ -24,6 +25,15 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &state)?;
             }
             done
+        },
+    ),
+    row(
+        "different.instances-named-alike",
+        &[],
+        "the name of element 0 of an axis is that of its channel",
+        |cnc, call| match is(call, &[Function::ReadElementName]) && offset(call) & 0xFFFF == 0 {
+            true => cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call)),
+            false => cnc.answer(call),
         },
     ),
     sent("different.errors-in-both", "errors stand in both headers", |_, _, mut bytes| {
