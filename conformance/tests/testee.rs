@@ -5,10 +5,7 @@ use std::time::Duration;
 
 use ads_cnc_conformance::defect;
 use ads_cnc_conformance::suite::{self, Case, Needs, Outcome, Subject};
-use ads_cnc_conformance::testee::{
-    Judged, Miniature, Own, Process, Question, Reaction, TESTEE, Terms, Testee, check_protocol,
-    judge,
-};
+use ads_cnc_conformance::testee::{Judged, Miniature, Own, Process, TESTEE, Terms, Testee, judge};
 use ads_cnc_conformance::verdict::{Exit, Verdict};
 
 const OF_A_TESTEE: Terms<'static> =
@@ -173,70 +170,76 @@ fn what_cannot_be_started_fails_by_the_protocol_alone() {
     }
 }
 
-/// A testee in shell that claims these ops and says a line to each case.
+/// Testees that are a line of shell.
 #[cfg(unix)]
-fn shell(ops: &str, line: &str) -> Process {
-    let testee = r#""testee":{"name":"sh"}"#;
-    let hello =
-        format!(r#"{{"protocol":1,{testee},"capabilities":{{"ops":[{ops}],"streams":[]}}}}"#);
-    let command =
-        format!("read l; printf '%s\\n' '{hello}'; while read l; do printf '{line}\\n'; done");
-    Process::new(command, PATIENCE)
-}
+mod shell {
+    use ads_cnc_conformance::testee::{Process, Question, Reaction, Testee as _, check_protocol};
 
-/// What it makes of the first case, whose number is 1.
-#[cfg(unix)]
-fn says(line: &str) -> Reaction {
-    shell("", line).ask(&Question::new("decode", "object-count", "en-1.05"))
-}
+    use super::PATIENCE;
 
-/// Whoever tries an adapter at a terminal sees what it says, and nothing of it acts.
-#[cfg(unix)]
-#[test]
-fn the_protocol_is_checked_in_plain_text() {
-    let findings = check_protocol(&mut shell(r#""\u001b[2J\u0007""#, "\\033[31m"));
-    let all = format!("{findings:#?}");
-    assert!(findings.len() > 3, "{all}");
-    let shown = |text: &Option<String>| text.clone().unwrap_or_default();
-    for finding in &findings {
-        let text = [&finding.fault, &finding.received].map(shown).concat();
-        assert!(!text.contains(char::is_control), "{all}");
+    /// A testee in shell that claims these ops and says a line to each case.
+    fn shell(ops: &str, line: &str) -> Process {
+        let testee = r#""testee":{"name":"sh"}"#;
+        let hello =
+            format!(r#"{{"protocol":1,{testee},"capabilities":{{"ops":[{ops}],"streams":[]}}}}"#);
+        let command =
+            format!("read l; printf '%s\\n' '{hello}'; while read l; do printf '{line}\\n'; done");
+        Process::new(command, PATIENCE)
     }
-    assert!(findings.iter().any(|one| shown(&one.fault).contains(r"\u{1b}[2J\u{7}")), "{all}");
-}
 
-/// An answer is one of the four, and text.
-#[cfg(unix)]
-#[test]
-fn two_answers_in_one_are_none() {
-    assert!(matches!(says(r#"{"seq":1,"reject":{"class":"x"}}"#), Reaction::Answer(_)));
-    for (line, why) in [
-        (r#"{"seq":1,"ok":{"hex":""},"reject":{"class":"x"}}"#, "both ok and reject are there"),
-        (r#"{"seq":1,"reject":{},"error":{"message":"x"}}"#, "both reject and error are there"),
-        (r#"{"seq":1,"error":{"message":"x"},"ok":{}}"#, "both ok and error are there"),
-        (r#"{"seq":1,"unsupported":{"what":"op"},"ok":{}}"#, "both ok and unsupported are there"),
-        (r#"{"seq":1,"ok":{},"reject":null}"#, "null"),
-        (r#"{"seq":1,"reject":{},"reject":{}}"#, "duplicate field"),
-        (r#"{"seq":1}"#, "none of ok, reject, unsupported and error is there"),
-        (r#"{"seq":1,"reject":{"class":"\377\376"}}"#, "not UTF-8 at byte 28"),
-    ] {
-        let Reaction::Garbled(found) = says(line) else { panic!("{line}") };
-        assert!(found.contains(why), "{line}: {found}");
+    /// What it makes of the first case, whose number is 1.
+    fn says(line: &str) -> Reaction {
+        shell("", line).ask(&Question::new("decode", "object-count", "en-1.05"))
     }
-}
 
-/// Behind the last answer too.
-#[cfg(unix)]
-#[test]
-fn what_nobody_asked_for_is_told() {
-    for (line, is_right) in
-        [(r#"{"seq":1,"ok":{}}"#, true), (r#"{"seq":1,"ok":{}}\n{"seq":1,"ok":{}}"#, false)]
-    {
-        let mut testee = shell("", &format!("{line}\\n' ; exit ; printf '"));
-        let answer = testee.ask(&Question::new("decode", "object-count", "en-1.05"));
-        assert!(matches!(answer, Reaction::Answer(_)), "{answer:?}");
-        let bye = testee.bye();
-        assert_eq!(bye.is_ok(), is_right, "{bye:?}");
-        assert!(is_right || bye.unwrap_err().contains("nobody asked for"));
+    /// Whoever tries an adapter at a terminal sees what it says, and nothing of it acts.
+    #[test]
+    fn the_protocol_is_checked_in_plain_text() {
+        let findings = check_protocol(&mut shell(r#""\u001b[2J\u0007""#, "\\033[31m"));
+        let all = format!("{findings:#?}");
+        assert!(findings.len() > 3, "{all}");
+        let shown = |text: &Option<String>| text.clone().unwrap_or_default();
+        for finding in &findings {
+            let text = [&finding.fault, &finding.received].map(shown).concat();
+            assert!(!text.contains(char::is_control), "{all}");
+        }
+        assert!(findings.iter().any(|one| shown(&one.fault).contains(r"\u{1b}[2J\u{7}")), "{all}");
+    }
+
+    /// An answer is one of the four, and text.
+    #[test]
+    fn two_answers_in_one_are_none() {
+        assert!(matches!(says(r#"{"seq":1,"reject":{"class":"x"}}"#), Reaction::Answer(_)));
+        for (line, why) in [
+            (r#"{"seq":1,"ok":{"hex":""},"reject":{"class":"x"}}"#, "both ok and reject are there"),
+            (r#"{"seq":1,"reject":{},"error":{"message":"x"}}"#, "both reject and error are there"),
+            (r#"{"seq":1,"error":{"message":"x"},"ok":{}}"#, "both ok and error are there"),
+            (
+                r#"{"seq":1,"unsupported":{"what":"op"},"ok":{}}"#,
+                "both ok and unsupported are there",
+            ),
+            (r#"{"seq":1,"ok":{},"reject":null}"#, "null"),
+            (r#"{"seq":1,"reject":{},"reject":{}}"#, "duplicate field"),
+            (r#"{"seq":1}"#, "none of ok, reject, unsupported and error is there"),
+            (r#"{"seq":1,"reject":{"class":"\377\376"}}"#, "not UTF-8 at byte 28"),
+        ] {
+            let Reaction::Garbled(found) = says(line) else { panic!("{line}") };
+            assert!(found.contains(why), "{line}: {found}");
+        }
+    }
+
+    /// Behind the last answer too.
+    #[test]
+    fn what_nobody_asked_for_is_told() {
+        for (line, is_right) in
+            [(r#"{"seq":1,"ok":{}}"#, true), (r#"{"seq":1,"ok":{}}\n{"seq":1,"ok":{}}"#, false)]
+        {
+            let mut testee = shell("", &format!("{line}\\n' ; exit ; printf '"));
+            let answer = testee.ask(&Question::new("decode", "object-count", "en-1.05"));
+            assert!(matches!(answer, Reaction::Answer(_)), "{answer:?}");
+            let bye = testee.bye();
+            assert_eq!(bye.is_ok(), is_right, "{bye:?}");
+            assert!(is_right || bye.unwrap_err().contains("nobody asked for"));
+        }
     }
 }
