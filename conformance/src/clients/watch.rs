@@ -10,6 +10,7 @@ use super::scenario::Scenario;
 use super::script::Script;
 use super::stage::Turn;
 use crate::suite::assumed;
+use crate::values::until_nul;
 
 /// What is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -162,11 +163,6 @@ fn is_set(access: &Access<'_>) -> bool {
     access.value.as_ref().is_some_and(|value| value.iter().any(|&byte| byte != 0))
 }
 
-/// The text of a STRING.
-fn text(value: &[u8]) -> &[u8] {
-    value.split(|&byte| byte == 0).next().unwrap_or_default()
-}
-
 fn host(script: &Script, turns: &[Turn], findings: &mut Findings) {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
     let all = accesses(script, turns);
@@ -201,8 +197,8 @@ fn host(script: &Script, turns: &[Turn], findings: &mut Findings) {
         let fits = value.len() <= 128;
         let len = value.len();
         findings.check("SVC-1", fits, Some(answer.turn), "at most 128 bytes", len);
-        let right = text(value) == REQUEST.as_bytes();
-        let found = String::from_utf8_lossy(text(value)).into_owned();
+        let right = until_nul(value) == REQUEST.as_bytes();
+        let found = String::from_utf8_lossy(until_nul(value)).into_owned();
         findings.check("SVC-1", right, Some(answer.turn), REQUEST, found);
     }
     if let Some(cleared) =

@@ -8,6 +8,7 @@ use ads_cnc::{Decode, DescriptorRef, Descriptors, DescriptorsRef, ObjectCount};
 
 use super::case::{Case, Step, Stop, assumed, online};
 use super::declare;
+use super::inventory::OBJECTS_MAX;
 use super::probe::{Probe, harness};
 use super::record::Checks;
 
@@ -50,9 +51,6 @@ pub(super) fn cases() -> Vec<Case> {
         ),
     ]
 }
-
-/// The most objects of a list that are looked at, whatever number the target gives.
-const OBJECTS_MAX: u32 = 10_000;
 
 /// Asks for descriptors and takes at most as many as were asked for.
 fn read(

@@ -8,6 +8,7 @@ use super::declare;
 use super::probe::Probe;
 use crate::client::{Inquired, Inquiry, Said};
 use crate::cnc;
+use crate::values::until_nul;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -48,7 +49,7 @@ impl Probe<'_> {
 
 fn device_info(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, info: DeviceInfoReply| {
-        let name = info.name.split(|&byte| byte == 0).next().unwrap_or_default();
+        let name = until_nul(&info.name);
         let is_text = !name.is_empty() && !name.iter().any(u8::is_ascii_control);
         probe.check(DeviceInfoReply::CLAUSE, is_text, "a name", format!("{:02x?}", info.name));
         Ok(())

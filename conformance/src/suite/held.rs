@@ -9,7 +9,7 @@ use super::case::{Case, Rule, Step, Stop};
 use super::declare;
 use super::inventory::Object;
 use super::numbers::is_permuted;
-use super::place::Place;
+use super::place::{self, Place};
 use super::probe::Probe;
 use crate::cnc::{Held, Holder};
 
@@ -83,8 +83,7 @@ fn value(held: &Held, number: u32, round: u32) -> Vec<u8> {
 }
 
 fn same(held: &Held, one: &[u8], other: &[u8]) -> bool {
-    let text = |bytes: &[u8]| bytes.split(|&byte| byte == 0).next().map(<[u8]>::to_vec);
-    one == other || held.type_name == "STRING" && text(one) == text(other)
+    place::same(one, other, held.type_name == "STRING")
 }
 
 /// Judges a value that was read or is held now. One with its bytes in another order is of the

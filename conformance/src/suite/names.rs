@@ -14,6 +14,7 @@ use super::probe::{Probe, harness};
 use super::still::Still;
 use super::variable::name_of;
 use crate::profile::Claim;
+use crate::values::until_nul;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -173,7 +174,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             let fits = u32::try_from(value.len()).is_ok_and(|len| len <= variable.size);
             let expected = format!("at most the {} bytes it is described with", variable.size);
             probe.check(assumed("VAR-22"), fits, expected, found);
-            let text = value.split(|&byte| byte == 0).next().unwrap_or_default();
+            let text = until_nul(&value);
             let readable = text.iter().all(|&byte| byte >= b' ' || byte == b'\t');
             let found = format!("{text:02x?} of {}", variable.name.text);
             probe.check(assumed("VAR-22"), readable, "characters up to the first NUL", found);

@@ -10,6 +10,7 @@ use ads_cnc_vectors::Hex;
 
 use super::case::{Rule, Step, Stop};
 use super::probe::Probe;
+use crate::values::until_nul;
 
 /// A value by one way to it.
 #[derive(Clone, Debug)]
@@ -86,8 +87,7 @@ pub(super) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
 
 /// Texts are the same up to their first NUL.
 pub(super) fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
-    let text = |bytes: &[u8]| bytes.split(|&byte| byte == 0).next().map(<[u8]>::to_vec);
-    one == other || is_text && text(one) == text(other)
+    one == other || is_text && until_nul(one) == until_nul(other)
 }
 
 /// What a write is judged by, and what it is about.

@@ -5,7 +5,7 @@ use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Rule, Step, Stop, assumed};
 use super::declare;
-use super::place::{Place, Trial};
+use super::place::{Place, Trial, same};
 use super::probe::Probe;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -97,9 +97,8 @@ fn is_read_again(
     if !probe.put(&Trial { what, rules: &taken, is_text: true }, place, value)? {
         return Ok(());
     }
-    let text = |bytes: &[u8]| bytes.split(|&byte| byte == 0).next().map(<[u8]>::to_vec);
     let read = probe.value_at(place)?.unwrap_or_default();
-    let kept = text(&read) == text(value);
+    let kept = same(&read, value, true);
     let expected = format!("{} of {what}, as written", Hex(value.to_vec()));
     probe.check(rule, kept, expected, Hex(read));
     Ok(())

@@ -9,6 +9,7 @@ use super::place::Place;
 use super::probe::Probe;
 use super::write::each;
 use super::write_all::write;
+use crate::values::until_nul;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![declare!(
@@ -18,11 +19,6 @@ pub(super) fn cases() -> Vec<Case> {
         Writes,
         texts
     )]
-}
-
-/// Up to the first NUL.
-fn text(value: &[u8]) -> &[u8] {
-    value.split(|&byte| byte == 0).next().unwrap_or_default()
 }
 
 fn texts(probe: &mut Probe<'_>) -> Step {
@@ -46,7 +42,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             let tried = of_lengths(probe, id, &place, (&name, variable.size));
             write(probe, &place, &before)?;
             let after = probe.value_at(&place)?.unwrap_or_default();
-            let kept = text(&after) == text(&before);
+            let kept = until_nul(&after) == until_nul(&before);
             probe.check(id, kept, format!("{} of {name} again", Hex(before)), Hex(after));
             tried?;
         }
@@ -74,7 +70,7 @@ fn of_lengths(
             continue;
         }
         let read = probe.value_at(place)?.unwrap_or_default();
-        let same = text(&read) == text(&value);
+        let same = until_nul(&read) == until_nul(&value);
         let expected = format!("{len} characters of {name}, as written");
         let found = format!("{} bytes: {}", read.len(), Hex(read.clone()));
         probe.check(id, same, &expected, &found);
@@ -99,6 +95,6 @@ fn shorter(
     }
     let read = probe.value_at(place)?.unwrap_or_default();
     let expected = format!("{:?} of {name}, as written", "zz");
-    probe.check(id, text(&read) == text(short), expected, Hex(read));
+    probe.check(id, until_nul(&read) == until_nul(short), expected, Hex(read));
     Ok(())
 }

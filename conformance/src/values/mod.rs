@@ -15,6 +15,11 @@ use std::fmt;
 use ads_cnc::value::{DataType, Shape};
 use ads_cnc::{CncStr, Elements, Error, Numbers, VariableType};
 
+/// The text of a STRING: what stands before the first NUL, or all.
+pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
+    value.split(|&byte| byte == 0).next().unwrap_or_default()
+}
+
 /// What is known of a value: its type, its dimensions, its size.
 ///
 /// ```

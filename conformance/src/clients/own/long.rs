@@ -13,6 +13,7 @@ use serde_json::Value;
 
 use super::wire::{Fail, Wire};
 use super::{DONE, Flaw};
+use crate::values::until_nul;
 
 /// From one look to the next.
 const PAUSE: Duration = Duration::from_millis(10);
@@ -106,11 +107,6 @@ fn write(
     wire.call(&write, &mut Vec::new()).map(drop)
 }
 
-/// A text to its first NUL.
-fn text(value: &[u8]) -> &[u8] {
-    value.split(|&byte| byte == 0).next().unwrap_or_default()
-}
-
 /// A service that answers with what it is asked.
 pub(super) fn serve(
     wire: &mut Wire,
@@ -127,13 +123,14 @@ pub(super) fn serve(
         let state = read(wire, channel, RequestState)?;
         let is_request = state.iter().any(|&byte| byte != 0) || wire.has(Flaw::ServiceIdle);
         let asked = read(wire, channel, Uuid)?;
-        let asked = std::str::from_utf8(text(&asked)).ok().and_then(|id| ServiceId::new(id).ok());
+        let asked =
+            std::str::from_utf8(until_nul(&asked)).ok().and_then(|id| ServiceId::new(id).ok());
         if !is_request || asked != Some(own) && !wire.has(Flaw::ServiceAny) {
             thread::sleep(PAUSE);
             continue;
         }
         let request = read(wire, channel, Request)?;
-        let mut response = text(&request).to_vec();
+        let mut response = until_nul(&request).to_vec();
         let mut len = response.len().saturating_add(1);
         if wire.has(Flaw::ServiceText) {
             len = 200;
@@ -184,5 +181,5 @@ pub(super) fn ask(
         thread::sleep(PAUSE);
     }
     let response = read(wire, channel, Response)?;
-    Ok(String::from_utf8_lossy(text(&response)).into_owned().into())
+    Ok(String::from_utf8_lossy(until_nul(&response)).into_owned().into())
 }

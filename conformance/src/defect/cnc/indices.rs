@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::handle::{joined, parts};
-use super::variable::{described, element};
+use super::variable::{described, element, first_element};
 use super::{Answer, Right, Row, dimensions, fits, is, of_decoder, put, row, u32_at};
 
 const READ: &[Function] = &[Function::ReadByHandle];
@@ -40,13 +40,7 @@ pub(super) const ROWS: &[Row] = &[
         &["VAR-11", "VAR-14"],
         "n = 0 reads the first element of an array",
         |cnc, call| match (is(call, READ), u32_at(call.data, 4)) {
-            (true, Some(0)) => {
-                let len = described(cnc, call).map_or(usize::MAX, |found| element(&found));
-                cnc.answer(call).map(|mut bytes| {
-                    bytes.truncate(len.max(1));
-                    bytes
-                })
-            }
+            (true, Some(0)) => first_element(cnc, call),
             _ => cnc.answer(call),
         },
     ),

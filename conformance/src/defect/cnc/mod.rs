@@ -32,6 +32,7 @@ mod value;
 mod variable;
 mod write;
 
+pub(in crate::defect) use crate::values::until_nul as text;
 pub(in crate::defect) use frame::measured;
 
 use std::fmt;
@@ -93,6 +94,16 @@ pub(super) const fn twisted(
     twist: Twist,
 ) -> Row {
     Row { id, breaks, what, twist, edition: None, printed: true }
+}
+
+/// A row about the NC program.
+pub(super) const fn habit(
+    id: &'static str,
+    breaks: &'static [&'static str],
+    what: &'static str,
+    habit: Habit,
+) -> Row {
+    twisted(id, breaks, what, Twist::Program(habit))
 }
 
 /// All rows.
@@ -332,9 +343,11 @@ pub(super) fn number(answer: Answer, place: usize, other: fn(u32) -> u32) -> Ans
     })
 }
 
-/// Up to the first NUL.
-pub(super) fn text(bytes: &[u8]) -> &[u8] {
-    bytes.split(|&byte| byte == 0).next().unwrap_or_default()
+/// Keeps the write for the next one, and does that which was kept before.
+pub(super) fn put_off(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
+    let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
+    before.iter().for_each(|one| _ = cnc.late(one));
+    Ok(Vec::new())
 }
 
 /// From behind the first NUL on.

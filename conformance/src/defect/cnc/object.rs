@@ -5,7 +5,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::com::set;
-use super::{LOGICAL, Row, at, com_group, group, is, later, offset, records_mut, row};
+use super::{LOGICAL, Row, at, com_group, group, is, offset, put_off, records_mut, row};
 
 const READ: &[Function] = &[Function::ReadObject];
 const WRITE: &[Function] = &[Function::WriteObject];
@@ -127,11 +127,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     row("cnc.com.write-late", &["COM-5"], "a write takes effect with the next one", |cnc, call| {
         match is(call, WRITE) && writable(cnc, call) {
-            true => {
-                let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
-                before.iter().for_each(|one| _ = cnc.late(one));
-                Ok(Vec::new())
-            }
+            true => put_off(cnc, call),
             false => cnc.answer(call),
         }
     }),

@@ -1,17 +1,7 @@
 //! What streamed programs do (STM).
 
-use super::{Row, Twist, twisted};
+use super::{Row, habit};
 use crate::cnc::program::Habit;
-
-/// A row about the NC program.
-const fn habit(
-    id: &'static str,
-    breaks: &'static [&'static str],
-    what: &'static str,
-    habit: Habit,
-) -> Row {
-    twisted(id, breaks, what, Twist::Program(habit))
-}
 
 pub(super) const ROWS: &[Row] = &[
     habit("cnc.stm.room-8188", &["STM-3"], "the interface holds up to 8188 bytes", Habit::Roomy),

@@ -5,8 +5,8 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    Answer, Right, Row, Twist, behind, dimensions, function, group, is, number, offset, row, text,
-    twisted, u32_at,
+    Answer, Right, Row, behind, dimensions, function, group, habit, is, number, offset, row, text,
+    u32_at,
 };
 use crate::cnc::program::Habit;
 
@@ -41,15 +41,6 @@ fn read(cnc: &Right<'_>, call: &Call<'_>, name: &str) -> Answer {
 
 fn state(cnc: &Right<'_>, call: &Call<'_>, name: &str) -> u32 {
     read(cnc, call, name).ok().and_then(|bytes| u32_at(&bytes, 0)).unwrap_or_default()
-}
-
-const fn habit(
-    id: &'static str,
-    breaks: &'static [&'static str],
-    what: &'static str,
-    habit: Habit,
-) -> Row {
-    twisted(id, breaks, what, Twist::Program(habit))
 }
 
 pub(super) const ROWS: &[Row] = &[

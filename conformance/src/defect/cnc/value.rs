@@ -3,7 +3,7 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
-use super::variable::{described, element};
+use super::variable::{described, element, first_element};
 use super::{
     Row, dimensions, fits, function, group, is, number, offset, put, reply, row, text, u32_at,
 };
@@ -19,13 +19,7 @@ pub(super) const ROWS: &[Row] = &[
         &["VAR-14"],
         "a read by name without an index gives the first element",
         |cnc, call| match (is(call, &[Function::ReadByName]), text(call.data).ends_with(b"]")) {
-            (true, false) => {
-                let len = described(cnc, call).map_or(usize::MAX, |found| element(&found));
-                cnc.answer(call).map(|mut bytes| {
-                    bytes.truncate(len.max(1));
-                    bytes
-                })
-            }
+            (true, false) => first_element(cnc, call),
             _ => cnc.answer(call),
         },
     ),

@@ -4,7 +4,9 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::number::count;
-use super::{Right, Row, dimensions, fits, function, group, is, put, reply, row, text, u32_at};
+use super::{
+    Answer, Right, Row, dimensions, fits, function, group, is, put, reply, row, text, u32_at,
+};
 
 const DESCRIBE: &[Function] = &[Function::DescribeByIndex];
 const BOTH: &[Function] = &[Function::DescribeByIndex, Function::DescribeByName];
@@ -38,6 +40,15 @@ pub(super) fn without_indices(mut name: &[u8]) -> &[u8] {
         name = name.get(..at).unwrap_or_default();
     }
     name
+}
+
+/// The answer cut behind the first element of the variable it is about.
+pub(super) fn first_element(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
+    let len = described(cnc, call).map_or(usize::MAX, |found| element(&found));
+    cnc.answer(call).map(|mut bytes| {
+        bytes.truncate(len.max(1));
+        bytes
+    })
 }
 
 /// Bytes of one element.

@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::variable::without_indices;
-use super::{Answer, Right, Row, behind, function, group, is, later, of_decoder, row, text};
+use super::{Answer, Right, Row, behind, function, group, is, of_decoder, put_off, row, text};
 
 const WRITE: &[Function] =
     &[Function::WriteByHandle, Function::WriteByName, Function::AxisWriteByName];
@@ -51,11 +51,7 @@ pub(super) const ROWS: &[Row] = &[
         &["VAR-12", "VAR-13"],
         "a write takes effect with the next one",
         |cnc, call| match is(call, WRITE) {
-            true => {
-                let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
-                before.iter().for_each(|one| _ = cnc.late(one));
-                Ok(Vec::new())
-            }
+            true => put_off(cnc, call),
             false => cnc.answer(call),
         },
     ),

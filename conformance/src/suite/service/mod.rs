@@ -16,6 +16,7 @@ use crate::suite::case::{Case, Rule, Step, Stop, assumed};
 use crate::suite::declare;
 use crate::suite::probe::{Probe, harness};
 use crate::suite::stream::heard;
+use crate::values::until_nul;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -174,11 +175,6 @@ fn put(
     Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
 }
 
-/// Up to the first NUL, which fills up what is longer.
-fn text(value: &[u8]) -> &[u8] {
-    value.split(|&byte| byte == 0).next().unwrap_or_default()
-}
-
 const ONE: [u8; 4] = [1, 0, 0, 0];
 const NONE: [u8; 4] = [0; 4];
 /// Each byte another.
@@ -205,7 +201,7 @@ fn response(probe: &mut Probe<'_>) -> Step {
         put(probe, channel, ResponseState, &before.1)?;
         tried?;
         let after = (get(probe, channel, Response)?, get(probe, channel, ResponseState)?);
-        let same = (text(&after.0), &after.1) == (text(&before.0), &before.1);
+        let same = (until_nul(&after.0), &after.1) == (until_nul(&before.0), &before.1);
         probe.check("SVC-1", same, "the old response again", format!("{after:02x?}"));
     }
     match any {
@@ -220,7 +216,7 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     let taken = put(probe, channel, Response, b"nobody asked\0")?;
     probe.check("SVC-1", taken, "a response taken", "an error");
     let read = get(probe, channel, Response)?;
-    let same = text(&read) == b"nobody asked";
+    let same = until_nul(&read) == b"nobody asked";
     probe.check("SVC-1", same, "the response as written", Hex(read));
     // Any number: it is between the program and the service.
     for state in [ONE, WIDE, [0, 0, 0, 0x80]] {

@@ -7,10 +7,11 @@ use ads_cnc::address::Channel;
 use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc_vectors::Hex;
 
-use super::{NONE, get, put, text, within};
+use super::{NONE, get, put, within};
 use crate::cnc::program::{Outcome, Repeat, Script, ScriptConfig, ScriptState};
 use crate::suite::case::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
+use crate::values::until_nul;
 
 /// Looks at the variables after each step of a program.
 pub(super) fn asks_last(probe: &mut Probe<'_>) -> Step {
@@ -32,8 +33,8 @@ pub(super) fn asks_last(probe: &mut Probe<'_>) -> Step {
             stepped.map_err(harness)?;
             let state = get(probe, channel, RequestState)?;
             let (uuid, request) = (get(probe, channel, Uuid)?, get(probe, channel, Request)?);
-            let own = CncStr::from_bytes(text(&uuid)).and_then(ServiceId::from_text);
-            let same = text(&request) == asked.text.as_bytes() && own == Ok(asked.uuid);
+            let own = CncStr::from_bytes(until_nul(&uuid)).and_then(ServiceId::from_text);
+            let same = until_nul(&request) == asked.text.as_bytes() && own == Ok(asked.uuid);
             let found = format!("state {}, {} of {}", Hex(state.clone()), Hex(request), Hex(uuid));
             let expected = "no request before it is all there";
             probe.check("SVC-12", same || state == NONE, expected, found);

@@ -5,9 +5,10 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Decode as _, Handle, Numbers, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::{NONE, WIDE, get, put, text, within};
+use super::{NONE, WIDE, get, put, within};
 use crate::suite::case::Step;
 use crate::suite::probe::{Probe, harness};
+use crate::values::until_nul;
 
 pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, Response};
@@ -51,7 +52,7 @@ pub(super) fn texts(probe: &mut Probe<'_>) -> Step {
                 let what = format!("{len} characters of {}", variable.name());
                 probe.check("SVC-1", taken, format!("{what} taken"), "an error");
                 let read = get(probe, channel, variable)?;
-                let same = text(&read) == text(&value);
+                let same = until_nul(&read) == until_nul(&value);
                 probe.check("SVC-1", same, format!("{what} as written"), Hex(read));
             }
         }
@@ -80,7 +81,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
             for (one, written) in &all {
                 let read = get(probe, channel, *one)?;
                 let is_text = one.var_type() == VariableType::STRING;
-                let same = read == *written || is_text && text(&read) == text(written);
+                let same = read == *written || is_text && until_nul(&read) == until_nul(written);
                 let rule = if *one == ResponseState { "SVC-3" } else { "SVC-1" };
                 let expected = format!("{} of {}", Hex(written.clone()), one.name());
                 probe.check(rule, same, expected, Hex(read));
@@ -100,7 +101,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
             let by_name = get(probe, channel, variable)?;
             let request = ReadByHandle::new(channel, handle, Numbers::EMPTY);
             let by_handle = probe.try_ask(request)?.unwrap_or_default();
-            let same = text(&by_handle) == text(&by_name);
+            let same = until_nul(&by_handle) == until_nul(&by_name);
             let expected = format!("{} of {}", Hex(by_name), variable.name());
             probe.check("SVC-1", same, expected, Hex(by_handle));
             // And the other way round.
@@ -108,7 +109,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
                 let write = WriteByHandle::new(channel, handle, Numbers::EMPTY, b"by handle\0");
                 probe.send(write)?;
                 let read = get(probe, channel, variable)?;
-                let same = text(&read) == b"by handle";
+                let same = until_nul(&read) == b"by handle";
                 probe.check("SVC-1", same, "what was written by handle", Hex(read));
             }
         }

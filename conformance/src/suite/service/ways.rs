@@ -6,9 +6,10 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Decode as _, Handle, Numbers};
 use ads_cnc_vectors::Hex;
 
-use super::{NONE, ONE, WIDE, channels, get, put, text, within, within_at};
+use super::{NONE, ONE, WIDE, channels, get, put, within, within_at};
 use crate::suite::case::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
+use crate::values::until_nul;
 
 fn handle_of(
     probe: &mut Probe<'_>,
@@ -33,13 +34,13 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
                 put(probe, channel, variable, &value)?;
                 let read = ReadByHandle::new(channel, handle, Numbers::EMPTY);
                 let read = probe.try_ask(read)?.unwrap_or_default();
-                let same = text(&read) == text(&value);
+                let same = until_nul(&read) == until_nul(&value);
                 probe.check("SVC-1", same, &expected, Hex(read));
                 put(probe, channel, variable, b"\0")?;
                 let write = WriteByHandle::new(channel, handle, Numbers::EMPTY, &value);
                 probe.send(write)?;
                 let read = get(probe, channel, variable)?;
-                let same = text(&read) == text(&value);
+                let same = until_nul(&read) == until_nul(&value);
                 probe.check("SVC-1", same, expected, Hex(read));
             }
         }
@@ -88,7 +89,7 @@ pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
                             asking.number(),
                             answered.number()
                         );
-                        let same = text(&read) == text(value);
+                        let same = until_nul(&read) == until_nul(value);
                         for rule in ["SVC-1", "SVC-4"] {
                             probe.check(rule, same, &expected, Hex(read.clone()));
                         }
