@@ -9,6 +9,7 @@ use ads_cnc::operation::{
 use ads_cnc::{CncString, Decode as _, Description, Handle, Kind, Numbers, TextRef, VariablePath};
 use ads_cnc_vectors::Hex;
 
+use super::axis_interface::{self, PLACES_MAX, answering};
 use super::case::{Case, Step, Stop, assumed};
 use super::declare;
 use super::probe::{Probe, harness};
@@ -48,9 +49,6 @@ pub(super) fn cases() -> Vec<Case> {
     ]
 }
 
-/// The most places of a channel that are looked at.
-const PLACES_MAX: u32 = 64;
-
 /// The axis variables of a channel as described, with their names on the axis interface.
 pub(super) fn described(
     probe: &mut Probe<'_>,
@@ -78,22 +76,13 @@ fn each(
         let described = described(probe, channel)?;
         let by_handle: HashMap<u32, &(CncString, Description)> =
             described.iter().map(|one| (one.1.handle.0, one)).collect();
-        for place in 1..=PLACES_MAX {
-            let axis = ChannelAxis::new(place).map_err(harness)?;
-            let mut answered = false;
-            for name in names(&described) {
-                let request = AxisHandleByName { channel, axis, name: name.as_cnc_str().into() };
-                let Some(data) = probe.try_ask(request)? else { continue };
-                answered = true;
-                let Ok(handle) = Handle::decode(&data) else { continue };
+        for name in names(&described) {
+            for axis_interface::At { axis, handle } in answering(probe, channel, name)? {
                 // Where no axis is nothing is described.
                 let Some((own, variable)) = by_handle.get(&handle.0) else { continue };
                 any = true;
                 let at = At { channel, axis, name, own };
                 judge(probe, at, variable)?;
-            }
-            if !answered {
-                break;
             }
         }
     }

@@ -10,6 +10,7 @@ use ads_cnc::{CncString, Decode as _, Description, Handle, Numbers, TextRef};
 use ads_cnc_vectors::Hex;
 
 use super::axis::{described, names};
+use super::axis_interface::{At, answering};
 use super::case::{Case, Step, Stop, assumed};
 use super::declare;
 use super::probe::{Probe, harness};
@@ -46,38 +47,6 @@ pub(super) fn cases() -> Vec<Case> {
             exchanged
         ),
     ]
-}
-
-/// The most places of a channel that are looked at.
-const PLACES_MAX: u32 = 64;
-/// The most places without an axis in between.
-const GAP_MAX: u32 = 4;
-
-/// A place at which a name answers.
-struct At {
-    axis: ChannelAxis,
-    handle: Handle,
-}
-
-fn answering(probe: &mut Probe<'_>, channel: Channel, name: &CncString) -> Step<Vec<At>> {
-    let mut all = Vec::new();
-    let mut gap = 0_u32;
-    for place in 1..=PLACES_MAX {
-        let axis = ChannelAxis::new(place).map_err(harness)?;
-        let name = name.as_cnc_str().into();
-        let handle = probe.try_ask(AxisHandleByName { channel, axis, name })?;
-        match handle.and_then(|data| Handle::decode(&data).ok()) {
-            Some(handle) => {
-                all.push(At { axis, handle });
-                gap = 0;
-            }
-            None => gap = gap.saturating_add(1),
-        }
-        if gap > GAP_MAX {
-            break;
-        }
-    }
-    Ok(all)
 }
 
 fn places(probe: &mut Probe<'_>) -> Step {

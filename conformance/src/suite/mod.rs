@@ -5,6 +5,7 @@ mod addresses;
 mod arrays;
 mod attributes;
 mod axis;
+mod axis_interface;
 mod axis_place;
 mod case;
 mod com;

@@ -1,13 +1,12 @@
 //! Cases that write variables, and undo it.
 
-use ads_cnc::address::{Channel, ChannelAxis};
-use ads_cnc::operation::{AxisHandleByName, HandleByName};
+use ads_cnc::address::Channel;
+use ads_cnc::operation::HandleByName;
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{
-    CncString, Decode as _, Description, Handle, VariableAccess, VariablePath, VariableType,
-};
+use ads_cnc::{CncString, Decode as _, Description, Handle, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
+use super::axis_interface::place_of;
 use super::case::{Case, Rule, Step, Stop, assumed};
 use super::declare;
 use super::names::dynamic_among_variables;
@@ -143,9 +142,6 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// The most places of a channel that are looked at.
-const PLACES_MAX: u32 = 64;
-
 /// Every axis variable of this access, at the place whose handle it is described with.
 fn each_of_axes(
     probe: &mut Probe<'_>,
@@ -153,25 +149,13 @@ fn each_of_axes(
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, &Place, &str) -> Step,
 ) -> Step {
     each(probe, access, |probe, channel, variable| {
-        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
-        let path = path.filter(|path| path.axis().is_some());
-        let Some(name) = path.and_then(|path| path.without_axis().ok()) else { return Ok(false) };
-        for place in 1..=PLACES_MAX {
-            let axis = ChannelAxis::new(place).map_err(harness)?;
-            let request = AxisHandleByName { channel, axis, name: name.as_cnc_str().into() };
-            let Some(data) = probe.try_ask(request)? else { break };
-            if Handle::decode(&data) != Ok(variable.handle) {
-                continue;
-            }
-            let at = Place::Axis { channel, axis, name: name.clone() };
-            if !probe.may_write(&at, &name.to_string())? {
-                break;
-            }
-            let what = format!("{name} of place {place}");
-            judge(probe, channel, variable, &at, &what)?;
-            return Ok(true);
+        let Some(at) = place_of(probe, channel, variable)? else { return Ok(false) };
+        let what = format!("{} on the axis interface", variable.name.text);
+        if !probe.may_write(&at, &what)? {
+            return Ok(false);
         }
-        Ok(false)
+        judge(probe, channel, variable, &at, &what)?;
+        Ok(true)
     })
 }
 

@@ -1,16 +1,15 @@
 //! Cases that write all there is, one behind the other, and look at what that has done to the rest.
 
 use ads_cnc::VariableType;
-use ads_cnc::address::{Channel, ChannelAxis};
-use ads_cnc::operation::AxisHandleByName;
-use ads_cnc::{Decode as _, Description, Handle, VariableAccess};
+use ads_cnc::address::Channel;
+use ads_cnc::{Description, VariableAccess};
 use ads_cnc_vectors::Hex;
 
-use super::axis::{described, names};
+use super::axis_interface::place_of;
 use super::case::{Case, Evidence, Rule, Step, Stop};
 use super::declare;
 use super::place::{Place, is_sendable};
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use super::write::is_of_service;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -248,26 +247,10 @@ fn by_handle(probe: &mut Probe<'_>) -> Step {
     both_ways(probe, "VAR-12".into(), all, |one| Some(one.handled()), One::named)
 }
 
-/// The most places of a channel that are looked at.
-const PLACES_MAX: u32 = 64;
-
 fn of_axes(probe: &mut Probe<'_>) -> Step {
     let mut all = all(probe)?;
-    for channel in probe.channels()? {
-        let described = described(probe, channel)?;
-        for name in names(&described) {
-            for place in 1..=PLACES_MAX {
-                let axis = ChannelAxis::new(place).map_err(harness)?;
-                let request = AxisHandleByName { channel, axis, name: name.as_cnc_str().into() };
-                let Some(data) = probe.try_ask(request)? else { break };
-                let Ok(handle) = Handle::decode(&data) else { break };
-                let at = Place::Axis { channel, axis, name: name.clone() };
-                let own = all
-                    .iter_mut()
-                    .find(|one| one.channel == channel && one.variable.handle == handle);
-                own.into_iter().for_each(|one| one.at = Some(at.clone()));
-            }
-        }
+    for one in &mut all {
+        one.at = place_of(probe, one.channel, &one.variable)?;
     }
     if all.iter().all(|one| one.at.is_none()) {
         return Err(Stop::NotApplicable("no axis variable is on the axis interface".to_owned()));
@@ -278,7 +261,7 @@ fn of_axes(probe: &mut Probe<'_>) -> Step {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ads_cnc::Text;
+    use ads_cnc::{Handle, Text};
 
     fn of_type(var_type: VariableType, dimensions: &[u32]) -> Description {
         Description {

@@ -1,12 +1,10 @@
 //! Cases of values of another size than a variable's.
 
-use ads_cnc::address::{Channel, ChannelAxis};
-use ads_cnc::operation::AxisHandleByName;
-use ads_cnc::{
-    CncString, Decode as _, Description, Handle, VariableAccess, VariablePath, VariableType,
-};
+use ads_cnc::address::Channel;
+use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
+use super::axis_interface::place_of;
 use super::case::{Case, Rule, Step, assumed, online};
 use super::declare;
 use super::place::{Place, another, is_sendable};
@@ -40,33 +38,9 @@ fn ways(probe: &mut Probe<'_>, channel: Channel, variable: &Description) -> Step
         all.push(by_handle(vec![0]));
         all.push(by_name(format!("{name}[0]").parse().map_err(harness)?));
     }
-    if let Some((axis, name)) = on_axis_interface(probe, channel, variable)? {
-        all.push(Way { id: "VAR-26", place: Place::Axis { channel, axis, name } });
-    }
+    let of_axis = place_of(probe, channel, variable)?;
+    all.extend(of_axis.map(|place| Way { id: "VAR-26", place }));
     Ok(all)
-}
-
-/// The most places of a channel that are looked at.
-const PLACES_MAX: u32 = 64;
-
-fn on_axis_interface(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-    variable: &Description,
-) -> Step<Option<(ChannelAxis, CncString)>> {
-    let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
-    let path = path.filter(|path| path.axis().is_some());
-    let Some(name) = path.and_then(|path| path.without_axis().ok()) else { return Ok(None) };
-    for place in 1..=PLACES_MAX {
-        let axis = ChannelAxis::new(place).map_err(harness)?;
-        let request = AxisHandleByName { channel, axis, name: name.as_cnc_str().into() };
-        match probe.try_ask(request)?.map(|data| Handle::decode(&data)) {
-            Some(Ok(handle)) if handle == variable.handle => return Ok(Some((axis, name))),
-            Some(_) => {}
-            None => break,
-        }
-    }
-    Ok(None)
 }
 
 /// Of each type the first variable and the first array, and whatever an axis has.
