@@ -6,7 +6,7 @@ mod common;
 
 use ads_cnc::ads::*;
 use ads_cnc::*;
-use common::{SUBJECTS, made};
+use common::{Bend, SUBJECTS, made};
 use proptest::prelude::*;
 
 proptest! {
@@ -15,7 +15,9 @@ proptest! {
     /// Values of all streams encode, whatever bytes they are made of.
     #[test]
     fn values_encode(bytes in prop::collection::vec(any::<u8>(), 0..4000)) {
-        SUBJECTS.iter().for_each(|subject| (subject.made)(&bytes));
+        for subject in SUBJECTS {
+            (subject.made)(&bytes, &Bend::NONE);
+        }
     }
 }
 

@@ -1,41 +1,112 @@
 //! The corpora, on stable Rust and without a fuzzer.
 
 use std::collections::HashSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use ads_cnc_fuzz::{TARGETS, replay, seeds};
+use ads_cnc_fuzz::{
+    Defect, Folder, TARGETS, corpus, dictionaries, dictionary, regressions, replay, seeds,
+};
 
-fn corpus(target: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(target)
+/// What was asked for when this is set: to write what else is compared.
+fn write() -> bool {
+    std::env::var_os("ADS_CNC_WRITE_SEEDS").is_some()
 }
 
-/// Every input of every corpus keeps the laws of its target.
+/// Every input of every corpus keeps the laws of its target, and there are some that got behind
+/// its first checks.
 #[test]
 fn corpora_keep_the_laws() {
-    for (target, body) in TARGETS {
-        let inputs = replay(&corpus(target), body);
-        assert!(inputs >= seeds(target).len(), "{target}: {inputs} inputs");
+    for target in TARGETS {
+        let (mut inputs, mut accepted) = (0, 0);
+        replay(target, |_, outcome| {
+            inputs += 1;
+            accepted += usize::from(outcome.accepted);
+        });
+        assert!(inputs >= seeds::seeds(target).len(), "{}: {inputs} inputs", target.name);
+        assert!(accepted > 0, "{}: nothing is accepted of {inputs} inputs", target.name);
     }
 }
 
-/// Every sample of the codec is an input of its corpus, under its own name.
+/// An input leads to the same whenever it is tried.
 #[test]
-fn corpora_hold_the_seeds() {
-    let write = std::env::var_os("ADS_CNC_WRITE_SEEDS").is_some();
-    let mut stale = Vec::new();
-    for (target, _) in TARGETS {
-        let seeds = seeds(target);
-        let names: HashSet<_> = seeds.iter().map(|(name, _)| name).collect();
-        assert_eq!(names.len(), seeds.len(), "{target}: two seeds of one name");
-        for (name, bytes) in &seeds {
-            let path = corpus(target).join(name);
-            if write {
-                std::fs::create_dir_all(corpus(target)).unwrap();
-                std::fs::write(path, bytes).unwrap();
-            } else if std::fs::read(&path).ok().as_ref() != Some(bytes) {
-                stale.push(path);
-            }
+fn outcomes_are_repeatable() {
+    for target in TARGETS {
+        for (path, bytes) in Folder::new(&corpus(target.name)).files() {
+            let run = || target.run(&bytes, Defect::NONE);
+            assert_eq!(run(), run(), "{}", path.display());
         }
     }
+}
+
+/// Every vector and sample is an input of its corpus, under its own name; dictionaries are those
+/// that are made of them.
+#[test]
+fn corpora_and_dictionaries_are_up_to_date() {
+    let mut stale = Vec::new();
+    let mut compare = |path: &Path, bytes: &[u8]| {
+        if write() {
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, bytes).unwrap();
+        } else if std::fs::read(path).ok().as_deref() != Some(bytes) {
+            stale.push(path.to_owned());
+        }
+    };
+    for target in TARGETS {
+        let seeds = seeds::seeds(target);
+        let names: HashSet<_> = seeds.iter().map(|(name, _)| name).collect();
+        assert_eq!(names.len(), seeds.len(), "{}: two seeds of one name", target.name);
+        for (name, bytes) in &seeds {
+            compare(&corpus(target.name).join(name), bytes);
+        }
+    }
+    for (family, dictionary) in dictionary::dictionaries() {
+        assert!(!dictionary.is_empty(), "{family}");
+        compare(&dictionaries().join(format!("{family}.dict")), dictionary.as_bytes());
+    }
     assert!(stale.is_empty(), "run with ADS_CNC_WRITE_SEEDS=1 to rewrite {stale:#?}");
+}
+
+/// Nothing lies about that no target reads, and a family's targets have its dictionary.
+#[test]
+fn folders_are_those_of_the_targets() {
+    let names = |folder: &Path| -> Vec<String> {
+        let entries = std::fs::read_dir(folder).into_iter().flatten();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    };
+    let is_target = |name: &String| TARGETS.iter().any(|target| target.name == *name);
+    for folder in [corpus(""), regressions("")] {
+        for name in names(&folder) {
+            assert!(is_target(&name) || name == "README.md", "{}", folder.join(name).display());
+        }
+    }
+    for target in TARGETS {
+        let dictionary = dictionaries().join(format!("{}.dict", target.family()));
+        assert!(dictionary.is_file(), "{}", dictionary.display());
+    }
+}
+
+/// Corpora stay small enough to be kept beside the sources.
+#[test]
+fn corpora_are_small() {
+    let files = |target: &str| {
+        let folder = Folder::new(&corpus(target));
+        folder.files().map(|(_, bytes)| bytes.len()).sum::<usize>()
+    };
+    let sum: usize = TARGETS.iter().map(|target| files(target.name)).sum();
+    assert!(sum <= 2 << 20, "{sum} bytes");
+}
+
+/// Every target has its binary, of one line, and `cargo fuzz` knows it.
+#[test]
+fn binaries_are_those_of_the_targets() {
+    let manifest = include_str!("../Cargo.toml");
+    assert_eq!(manifest.matches("[[bin]]").count(), TARGETS.len());
+    for target in TARGETS {
+        let path = format!("fuzz_targets/{}.rs", target.name);
+        assert!(manifest.contains(&format!("name = \"{}\"\npath = \"{path}\"", target.name)));
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+        let source = std::fs::read_to_string(&source).expect("the binary's source");
+        let line = format!("ads_cnc_fuzz::targets::{}.fuzz(data)", target.name.to_uppercase());
+        assert!(source.contains(&line), "{}", target.name);
+    }
 }

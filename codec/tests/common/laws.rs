@@ -12,22 +12,44 @@ use super::{Reading, Subject};
 /// What a buffer holds where nothing was written.
 const UNTOUCHED: u8 = 0x55;
 
+/// What a codec does that is wrong in one thing, put around one that is right: so it can be seen
+/// that the laws find it.
+#[derive(Clone, Copy)]
+pub(crate) struct Bend {
+    /// To the length that is announced, or the error.
+    pub(crate) len: fn(Result<usize, Error>) -> Result<usize, Error>,
+    /// To the bytes that were written.
+    pub(crate) written: fn(&mut [u8]),
+    /// To the answer whether both readings hold the same.
+    pub(crate) same: fn(&[u8], bool) -> bool,
+}
+
+impl Bend {
+    /// Nothing is wrong.
+    pub(crate) const NONE: Self = Self { len: |len| len, written: |_| (), same: |_, same| same };
+}
+
 /// All readings and the walk agree, errors included, and what they accept they encode to the same
 /// bytes. Returns their common verdict.
 pub(crate) fn check(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
+    check_bent(stream, bytes, &Bend::NONE)
+}
+
+/// The same of a codec that may be wrong.
+pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     let subject = Subject::of(stream);
     let verdict = walk(stream, bytes);
     for reading in subject.readings() {
-        let len = (reading.len)(bytes);
+        let len = (bend.len)((reading.len)(bytes));
         assert_eq!(len.map(drop), verdict, "{stream}: {} and walk of {bytes:x?}", reading.name);
         if let Ok(len) = len {
             assert_eq!(len, bytes.len(), "{stream}: encoded_len of {bytes:x?}");
-            check_encode(reading, bytes);
+            check_encode(reading, bytes, bend);
         }
     }
     #[cfg(feature = "alloc")]
     {
-        let same = (subject.same)(bytes);
+        let same = (subject.same)(bytes).map(|same| (bend.same)(bytes, same));
         assert_eq!(same, verdict.map(|()| true), "{stream}: view and owned of {bytes:x?}");
         let vec = (subject.to_vec)(bytes);
         assert_eq!(vec, verdict.map(|()| bytes.to_vec()), "{stream}: to_vec of {bytes:x?}");
@@ -45,11 +67,22 @@ pub(crate) fn check_value<T>(value: &T)
 where
     T: Encode + PartialEq + Debug + for<'a> Decode<'a>,
 {
-    let bytes = value.to_vec().unwrap_or_else(|error| panic!("{value:?}: {error}"));
-    assert_eq!(bytes.len(), value.encoded_len(), "{value:?}");
+    check_value_bent(value, &Bend::NONE);
+}
+
+/// The same of a codec that may be wrong. Returns the bytes.
+#[cfg(feature = "alloc")]
+pub(crate) fn check_value_bent<T>(value: &T, bend: &Bend) -> Vec<u8>
+where
+    T: Encode + PartialEq + Debug + for<'a> Decode<'a>,
+{
+    let mut bytes = value.to_vec().unwrap_or_else(|error| panic!("{value:?}: {error}"));
+    (bend.written)(&mut bytes);
+    assert_eq!(Ok(bytes.len()), (bend.len)(Ok(value.encoded_len())), "{value:?}");
     check_too_small(bytes.len(), |buf| value.encode(buf).map(drop));
     assert_eq!(T::decode(&bytes).as_ref(), Ok(value));
-    assert_eq!(check(T::STREAM, &bytes), Ok(()), "{value:?}");
+    assert_eq!(check_bent(T::STREAM, &bytes, bend), Ok(()), "{value:?}");
+    bytes
 }
 
 /// Segments of accepted bytes tile them; an error lies inside the stream that it names.
@@ -72,9 +105,10 @@ fn walk(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
 
 /// Encodes what `bytes` are read as: into too small a buffer nothing, else the same bytes and
 /// nothing behind them.
-fn check_encode(reading: Reading, bytes: &[u8]) {
+fn check_encode(reading: Reading, bytes: &[u8], bend: &Bend) {
     let mut large = vec![UNTOUCHED; bytes.len() + 3];
     assert_eq!((reading.encode)(bytes, &mut large), Ok(bytes.len()));
+    (bend.written)(&mut large[..bytes.len()]);
     assert_eq!(large[..bytes.len()], *bytes);
     assert_eq!(large[bytes.len()..], [UNTOUCHED; 3]);
 
@@ -97,9 +131,18 @@ fn check_too_small<T: Debug>(len: usize, encode: impl Fn(&mut [u8]) -> Result<T,
 
 /// What a call is dispatched to encodes to the same call, and that is dispatched to the same.
 pub(crate) fn check_call(call: &Call<'_>) -> Result<(), Refusal> {
+    check_call_bent(call, |_| ())
+}
+
+/// The same where `bend` puts something wrong into the call that is encoded.
+pub(crate) fn check_call_bent(
+    call: &Call<'_>,
+    bend: impl Fn(&mut Call<'_>),
+) -> Result<(), Refusal> {
     let request = call.dispatch()?;
     let mut buf = vec![0; request.encoded_len()];
-    let again = request.encode(&mut buf).unwrap_or_else(|error| panic!("{request:?}: {error}"));
+    let mut again = request.encode(&mut buf).unwrap_or_else(|error| panic!("{request:?}: {error}"));
+    bend(&mut again);
 
     let address = |call: &Call<'_>| (call.service, call.index_group, call.index_offset);
     assert_eq!(address(&again), address(call), "{request:?}");

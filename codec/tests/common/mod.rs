@@ -13,9 +13,11 @@ mod subjects;
 mod typed;
 
 pub(crate) use calls::{CALLS, CallSample};
+pub(crate) use laws::{
+    Bend, Fault, check, check_bent, check_call, check_call_bent, check_reply, check_request,
+};
 #[cfg(feature = "alloc")]
-pub(crate) use laws::check_value;
-pub(crate) use laws::{Fault, check, check_call, check_reply, check_request};
+pub(crate) use laws::{check_value, check_value_bent};
 pub(crate) use samples::{SAMPLES, Sample, each_sample};
 #[cfg(feature = "arbitrary")]
 pub(crate) use subjects::made;

@@ -1,0 +1,7 @@
+//! Prints a line for each target: its name, its family, how many seeded defects it has.
+
+fn main() {
+    for target in ads_cnc_fuzz::TARGETS {
+        println!("{}\t{}\t{}", target.name, target.family(), target.defects.len());
+    }
+}

@@ -1,5 +1,0 @@
-//! See [`ads_cnc_fuzz::streams`].
-
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(|data: &[u8]| ads_cnc_fuzz::streams(data));
