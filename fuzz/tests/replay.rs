@@ -110,3 +110,14 @@ fn binaries_are_those_of_the_targets() {
         assert!(source.contains(&line), "{}", target.name);
     }
 }
+
+/// The targets that the suite's matrix names are there.
+#[test]
+fn the_matrix_names_targets_that_there_are() {
+    let rows = ads_cnc_conformance::matrix::matrix();
+    let named: HashSet<_> = rows.iter().flat_map(|row| &row.fuzz_targets).copied().collect();
+    assert!(named.len() > 10);
+    for name in named {
+        assert!(TARGETS.iter().any(|target| target.name == name), "{name}");
+    }
+}
