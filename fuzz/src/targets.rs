@@ -73,24 +73,24 @@ targets! {
         |data, defect| bytes::check(bytes::STREAMING, data, defect), bytes::DEFECTS,
         "data streaming: the same";
     #[cfg(feature = "arbitrary")]
-    ADS_VALUE: "ads_value", |data, defect| values::check(bytes::ADS, data, defect), bytes::DEFECTS,
+    ADS_VALUE: "ads_value", |data, defect| values::check(bytes::ADS, data, defect), values::DEFECTS,
         "any value of these streams encodes to as many bytes as announced, into no smaller buffer, \
          and every reading reads it back from them";
     #[cfg(feature = "arbitrary")]
-    COM_VALUE: "com_value", |data, defect| values::check(bytes::COM, data, defect), bytes::DEFECTS,
+    COM_VALUE: "com_value", |data, defect| values::check(bytes::COM, data, defect), values::DEFECTS,
         "the same";
     #[cfg(feature = "arbitrary")]
     VARIABLE_VALUE: "variable_value", |data, defect| values::check(bytes::VARIABLE, data, defect),
-        bytes::DEFECTS, "the same";
+        values::DEFECTS, "the same";
     #[cfg(feature = "arbitrary")]
-    SDA_VALUE: "sda_value", |data, defect| values::check(bytes::SDA, data, defect), bytes::DEFECTS,
+    SDA_VALUE: "sda_value", |data, defect| values::check(bytes::SDA, data, defect), values::DEFECTS,
         "the same";
     #[cfg(feature = "arbitrary")]
     DYNAMIC_VALUE: "dynamic_value", |data, defect| values::check(bytes::DYNAMIC, data, defect),
-        bytes::DEFECTS, "the same";
+        values::DEFECTS, "the same";
     #[cfg(feature = "arbitrary")]
     STREAMING_VALUE: "streaming_value",
-        |data, defect| values::check(bytes::STREAMING, data, defect), bytes::DEFECTS, "the same";
+        |data, defect| values::check(bytes::STREAMING, data, defect), values::DEFECTS, "the same";
     OPERATION_DISPATCH: "operation_dispatch", operation::dispatch, operation::DISPATCH_DEFECTS,
         "a server's dispatch of any service, index group, index offset and data never panics; what \
          it takes encodes to the same call and is dispatched to the same request";

@@ -39,6 +39,7 @@ pub(crate) const DEFECTS: &[&str] = &[
     "an error is one byte off if it is behind the first eight bytes",
     "the length of what has eight bytes or more is announced one too long",
     "the readings differ if the last byte is odd",
+    "of more than 32 bytes one of 0xB5 becomes 0xB4 when it is encoded",
 ];
 
 pub(crate) fn bend(defect: Defect) -> Bend {
@@ -58,6 +59,14 @@ pub(crate) fn bend(defect: Defect) -> Bend {
     }
     if defect.is(4) {
         bend.same = |bytes, same| same && bytes.last().is_none_or(|last| last % 2 == 0);
+    }
+    if defect.is(5) {
+        bend.written = |bytes| {
+            let long = bytes.len() > 32;
+            if let Some(byte) = bytes.iter_mut().find(|byte| long && **byte == 0xB5) {
+                *byte = 0xB4;
+            }
+        };
     }
     bend
 }
