@@ -1,8 +1,12 @@
 //! Code page 1252 (GEN-3), judged by another implementation of it.
 
+mod common;
+
 use ads_cnc::CncStr;
 use ads_cnc::text::{char_to_cp1252, cp1252_to_char};
+use common::text::{CncStrBend, check_cp1252, check_utf8};
 use encoding_rs::WINDOWS_1252;
+use proptest::prelude::*;
 
 /// Every byte is the character that encoding_rs says.
 #[test]
@@ -67,4 +71,18 @@ fn owned_texts_are_the_borrowed_ones() {
     assert_eq!(wire.to_string().parse(), Ok(owned.clone()));
     assert_eq!(format!("{owned} {owned:?}"), format!("{wire} {wire:?}"));
     assert!("V.E.Ω".parse::<CncString>().is_err());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..40)) {
+        let _ = check_cp1252(&bytes, CncStrBend::NONE);
+    }
+
+    #[test]
+    fn any_characters(text in "[\\PCaä€\0\u{81}]{0,20}") {
+        let _ = check_utf8(&text, CncStrBend::NONE);
+    }
 }

@@ -13,7 +13,7 @@ use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::*;
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc::{Encode as _, ErrorKind, Handle, Kind, Numbers};
-use common::{CALLS, check_call};
+use common::{CALLS, Parameters, check_call, check_made, check_operation};
 use proptest::prelude::*;
 
 /// Each call reaches the function that a person says, and encodes to itself; every function is
@@ -112,26 +112,6 @@ fn read_lengths_of_descriptors() {
             (Err(refusal), None) => assert_eq!(refusal.ads_error(), AdsError::INVALID_SIZE),
             (other, _) => panic!("{read_length}: {other:?}"),
         }
-    }
-}
-
-/// What a client means reaches the server as it was meant, and encodes to the same call.
-fn check_operation<'a, O: Operation + Into<Request<'a>>>(operation: O) {
-    let (group, offset) = (operation.index_group(), operation.index_offset());
-    let (length, len) = (operation.read_length(), operation.encoded_len());
-    let meant: Request<'_> = operation.into();
-    assert_eq!(meant.function(), O::FUNCTION);
-
-    let mut buf = vec![0; len];
-    let call = meant.encode(&mut buf).unwrap();
-    assert_eq!((call.index_group, call.index_offset, call.read_length), (group, offset, length));
-    assert_eq!(call.data.len(), len);
-    assert_eq!(call.dispatch(), Ok(meant));
-    assert_eq!(check_call(&call), Ok(()));
-    if let Some(less) = len.checked_sub(1) {
-        let mut small = vec![0x55; less];
-        assert_eq!(meant.encode(&mut small).unwrap_err().kind(), ErrorKind::BufferTooSmall);
-        assert!(small.iter().all(|&byte| byte == 0x55));
     }
 }
 
@@ -279,6 +259,34 @@ proptest! {
             }
         }
         check_operation(WriteProgramStream::new(channel, &content));
+    }
+
+    /// dispatch(encode(op)) = op, whichever the function is.
+    #[test]
+    fn operations_of_every_function(
+        channel in channel(),
+        (platform_axis, axis, spindle) in (1..=255_u32, 1..=0xFFFF_u32, 0..=255_u32),
+        (class, dynamic) in (prop::sample::select(&Class::ALL[..]), prop::sample::select(&DynamicKind::ALL[..])),
+        (place, element) in (any::<u8>(), 0..=0xFFFF_u32),
+        (number, count) in (1..=u32::MAX, 1..=ReadDescriptors::COUNT_MAX),
+        text in "[A-Za-zäß€.]{0,95}",
+        indices in prop::collection::vec(any::<u32>(), 0..=250),
+        bytes in prop::collection::vec(any::<u8>(), 1..=992),
+    ) {
+        let of = Parameters {
+            channel, class, dynamic, place, element, number, count,
+            platform_axis: PlatformAxis::new(platform_axis).unwrap(),
+            axis: ChannelAxis::new(axis).unwrap(),
+            spindle: Spindle::new(spindle).unwrap(),
+            text: &text, indices: &indices, bytes: &bytes,
+        };
+        for &function in Function::ALL {
+            if let Err(error) = check_made(function, &of, &|_| ()) {
+                // It is another function that is there.
+                prop_assert_eq!(error.kind(), ErrorKind::Function, "{:?}: {}", function, error);
+                prop_assert!(function.spec().is_content() || function == Function::CountElements);
+            }
+        }
     }
 
     /// Whatever is called: a refusal, or a request that encodes to the same call. Near the calls

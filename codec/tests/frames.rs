@@ -5,22 +5,10 @@ mod common;
 use ads_cnc::ErrorKind::{self, *};
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::{Decode as _, Encode as _};
-use common::{Fault, SAMPLES};
+use common::{
+    Fault, SPLIT, check_frames, check_split, check_verdicts_stay, frame, frame_header as header,
+};
 use proptest::prelude::*;
-
-/// Header of the Read sample: 12 bytes follow it.
-fn header() -> [u8; 32] {
-    let (_, samples) = SAMPLES.iter().find(|(stream, _)| *stream == AmsHeader::STREAM).unwrap();
-    samples[0].bytes().try_into().unwrap()
-}
-
-/// A frame by hand: both headers and data, lengths right.
-fn frame(data: &[u8]) -> Vec<u8> {
-    let length = |more: usize| u32::try_from(data.len() + more).unwrap().to_le_bytes();
-    let mut header = header();
-    header[20..24].copy_from_slice(&length(0));
-    [&[0, 0][..], &length(32), &header, data].concat()
-}
 
 /// A frame comes out when its last byte is there, not before, and comes back byte for byte.
 #[test]
@@ -89,25 +77,17 @@ proptest! {
     #[test]
     fn frames_come_out_in_order(
         datas in prop::collection::vec(prop::collection::vec(any::<u8>(), 0..40), 1..5),
-        cut in any::<prop::sample::Index>(),
+        cuts in prop::collection::vec(any::<prop::sample::Index>(), 0..6),
+        left in 0..38_usize,
     ) {
         let frames: Vec<_> = datas.iter().map(|data| frame(data)).collect();
-        let bytes = frames.concat();
-        let mut rest = &bytes[..cut.index(bytes.len() + 1)];
-        for whole in &frames {
-            match FrameRef::split(rest, 64).unwrap() {
-                Some((frame, len)) => {
-                    prop_assert_eq!(&rest[..len], &whole[..]);
-                    prop_assert_eq!(frame.data(), &whole[38..]);
-                    rest = &rest[len..];
-                }
-                None => {
-                    prop_assert!(rest.len() < whole.len());
-                    break;
-                }
-            }
-        }
-        prop_assert!(rest.is_empty() || whole_is_missing(rest, &frames));
+        let bytes = [&frames.concat()[..], &frame(b"")[..left]].concat();
+        let mut cuts: Vec<_> = cuts.iter().map(|cut| cut.index(bytes.len() + 1)).collect();
+        cuts.extend([0, bytes.len()]);
+        cuts.sort_unstable();
+        let pieces = cuts.windows(2).map(|cut| &bytes[cut[0]..cut[1]]);
+        let (found, rest) = check_frames(pieces, 64, SPLIT);
+        prop_assert_eq!((found, rest), (frames, Ok(bytes[bytes.len() - left..].to_vec())));
     }
 
     /// More bytes never take back what fewer have shown, be it a frame or a fault.
@@ -119,22 +99,9 @@ proptest! {
         if let Some((at, byte)) = change {
             bytes[at] = byte;
         }
-        let mut verdict = Ok(None);
-        for cut in 0..=bytes.len() {
-            let now = FrameRef::split(&bytes[..cut], 64);
-            prop_assert!(verdict == Ok(None) || verdict == now);
-            if let Ok(Some((frame, len))) = now {
-                let mut buf = [0; 128];
-                prop_assert_eq!(frame.encode(&mut buf), Ok(&bytes[..len]));
-            }
-            verdict = now;
-        }
+        check_verdicts_stay(&bytes, 64, SPLIT);
+        let _ = check_split(&bytes, 8, SPLIT);
     }
-}
-
-/// What is left is the beginning of one of the frames.
-fn whole_is_missing(rest: &[u8], frames: &[Vec<u8>]) -> bool {
-    frames.iter().any(|whole| rest.len() < whole.len() && whole.starts_with(rest))
 }
 
 /// The longest frame can be split, put together again and encoded; one byte more cannot.

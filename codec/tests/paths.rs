@@ -7,6 +7,7 @@ use ads_cnc::layout::Stream;
 use ads_cnc::limits::NAME_MAX;
 use ads_cnc::*;
 use common::Fault;
+use common::names::*;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -16,43 +17,6 @@ fn path(name: &str) -> VariablePath<'_> {
 
 fn fault(kind: ErrorKind, field: &'static str, offset: usize, numbers: (usize, usize)) -> Fault {
     Fault { kind, field, offset, expected: numbers.0, found: numbers.1 }
-}
-
-/// A name in pieces, to compare with and to build from.
-#[derive(Clone, Debug, PartialEq)]
-struct Pieces {
-    kind: String,
-    parts: Vec<(String, Vec<u32>)>,
-}
-
-impl Pieces {
-    fn new(kind: &str, parts: &[(&str, &[u32])]) -> Self {
-        let part = |&(name, indices): &(&str, &[u32])| (name.to_string(), indices.to_vec());
-        Self { kind: kind.to_string(), parts: parts.iter().map(part).collect() }
-    }
-
-    fn of(path: VariablePath<'_>) -> Self {
-        let part = |part: PathPart<'_>| (part.name.to_string(), part.indices.iter().collect());
-        Self { kind: path.kind().text().to_string(), parts: path.parts().map(part).collect() }
-    }
-
-    fn write<'b>(&self, buf: &'b mut [u8]) -> Result<VariablePath<'b>, Error> {
-        let parts = self.parts.iter().map(|(name, indices)| PathPart {
-            name: CncStr::new(name).unwrap(),
-            indices: Numbers::from(&indices[..]),
-        });
-        VariablePath::write(Kind::new(&self.kind).unwrap(), parts, buf)
-    }
-
-    /// The name, by the standard library alone.
-    fn name(&self) -> String {
-        let mut name = self.kind.clone();
-        for (part, indices) in &self.parts {
-            name += &format!(".{part}");
-            indices.iter().for_each(|index| name += &format!("[{index}]"));
-        }
-        name
-    }
 }
 
 /// VAR-20: the names printed in section 4.1 of `ads-en` 1.05 and `ads-de` 1.051, and those of the
@@ -366,29 +330,6 @@ fn owned_names_are_the_written_ones() {
     assert_eq!(name.without_axis().unwrap_err().kind(), Missing);
 }
 
-/// A name's pieces by splitting strings, for names of 255 characters at most.
-fn split(name: &str) -> Option<Pieces> {
-    let mut parts = name.split('.');
-    let (v, kind) = (parts.next()?, parts.next()?);
-    if v != "V" || kind.is_empty() || kind.contains(['[', ']']) {
-        return None;
-    }
-    let part = |part: &str| {
-        let (name, brackets) = part.split_at(part.find('[').unwrap_or(part.len()));
-        let mut indices = Vec::new();
-        let mut rest = brackets;
-        while !rest.is_empty() {
-            let (digits, after) = rest.strip_prefix('[')?.split_once(']')?;
-            let number = digits.bytes().all(|byte| byte.is_ascii_digit()).then_some(digits)?;
-            indices.push(number.parse().ok().filter(|&index| index < u32::MAX)?);
-            rest = after;
-        }
-        (!name.is_empty() && !name.contains(']')).then(|| (name.to_string(), indices))
-    };
-    let parts = parts.map(part).collect::<Option<Vec<_>>>()?;
-    (!parts.is_empty()).then(|| Pieces { kind: format!("V.{kind}"), parts })
-}
-
 fn pieces() -> impl Strategy<Value = Pieces> {
     let name = "[A-Za-z_0-9äß€ ]{1,9}";
     let index = prop_oneof![0..12_u32, any::<u32>().prop_map(|index| index.min(u32::MAX - 1))];
@@ -425,18 +366,10 @@ proptest! {
         }
     }
 
-    /// Any text: the same verdict and the same pieces as by splitting strings; a variable is named
-    /// by what its name begins with.
+    /// Any text.
     #[test]
     fn any_text_comes_apart_as_split(text in "(V\\.[EA]\\.)?[VEaä.\\[\\]019]{0,24}") {
-        let wanted = split(&text);
-        let found = VariablePath::new(&text).ok();
-        prop_assert_eq!(found.map(Pieces::of), wanted.clone());
-        if let (Some(found), Some(mut pieces)) = (found, wanted) {
-            prop_assert!(text.starts_with(&found.variable().to_string()));
-            pieces.parts.last_mut().unwrap().1.clear();
-            prop_assert_eq!(Pieces::of(found.variable()), pieces);
-            prop_assert_eq!(found.variable().variable(), found.variable());
-        }
+        let text: Vec<u8> = CncStr::new(&text).unwrap().bytes().collect();
+        let _ = check_name(&text, NameBend::NONE);
     }
 }

@@ -1,34 +1,14 @@
 //! The checks of a text that comes packet by packet, held against those of the whole text.
 #![cfg(feature = "alloc")]
 
-use ads_cnc::streaming::{Checker, Finding, FindingKind, Found, NcText, ProgramEnd};
+mod common;
+
+use ads_cnc::streaming::{Checker, ProgramEnd};
+use common::checker::{CheckedLots, check_any_lots, check_lines as check};
+use common::findings::findings_of as whole;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
-
-/// Findings but for the last, which is no event but what is missing, and program ends.
-fn check(checker: &mut Checker, lines: &[u8]) -> (Vec<Finding>, Vec<(ProgramEnd, u32, u32)>) {
-    let (mut findings, mut ends) = (Vec::new(), Vec::new());
-    for found in checker.check(lines) {
-        match found {
-            Found::Finding(finding) => findings.push(finding),
-            Found::End { end, line, column } => ends.push((end, line, column)),
-        }
-    }
-    (findings, ends)
-}
-
-fn whole(text: &[u8]) -> Vec<Finding> {
-    NcText::new(text).expect("a text that can be streamed").findings().collect()
-}
-
-/// By the one-shot form: a line more is behind the end.
-fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
-    whole(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| match finding.kind {
-        FindingKind::BehindEnd { end, of } => Some((end, of)),
-        _ => None,
-    })
-}
 
 /// The example of 2.3.6, packet by packet, and with its last jump turned round.
 #[test]
@@ -156,24 +136,16 @@ proptest! {
 /// After each lot: what is found in it is what the one-shot form finds there in all that came.
 #[test]
 fn lot_by_lot_is_as_the_whole_so_far(lots in lots()) {
-    let (mut checker, mut so_far, mut ended) = (Checker::new(), Vec::new(), None);
+    let mut checked = CheckedLots::new(|_, _| ());
     for lot in lots {
-        let (before, lot) = (checker.lines(), lot.concat());
-        so_far.extend_from_slice(&lot);
-        let (findings, ends) = check(&mut checker, &lot);
-        let mut wanted = whole(&so_far);
-        let open = wanted.iter().find(|found| found.kind == FindingKind::OpenComment).copied();
-        prop_assert_eq!(checker.open_comment(), open);
-        wanted.retain(|finding| Some(*finding) != open);
-        wanted.retain(|finding| finding.line > before);
-        prop_assert_eq!(findings, wanted);
-        prop_assert!(ends.is_sorted_by_key(|(_, line, column)| (*line, *column)));
-        ended = ended.or(ends.first().map(|(end, line, _)| (*end, *line)));
-        if checker.open_comment().is_none() {
-            prop_assert_eq!(ended, first_end(&so_far));
-        }
-        prop_assert_eq!(checker.lines() as usize, NcText::new(&so_far).unwrap().line_count());
+        checked.lot(&lot.concat());
     }
+}
+
+/// Any bytes, in any lots.
+#[test]
+fn any_bytes(lots in vec(vec(any::<u8>(), 0..60), 0..6)) {
+    check_any_lots(lots.iter().map(Vec::as_slice));
 }
 
 /// Where each label is there once, it does not matter at all where the text is cut.

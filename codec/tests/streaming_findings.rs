@@ -1,6 +1,9 @@
 //! What a streamed text may contain.
 
-use ads_cnc::streaming::{Finding, FindingKind, LoopWord, NcText};
+mod common;
+
+use ads_cnc::streaming::{FindingKind, LoopWord, NcText};
+use common::findings::check_findings;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -399,30 +402,7 @@ fn jumps_back_are_found_as_defined(program in program()) {
 /// lines end; the text as a comment has none.
 #[test]
 fn findings_of_any_text(text in pieces()) {
-    let all: Vec<Finding> = NcText::new(text.as_bytes()).unwrap().findings().collect();
-    let lines: Vec<&[u8]> = NcText::new(text.as_bytes()).unwrap().lines().collect();
-    for finding in &all {
-        let line = &lines[finding.line as usize - 1];
-        let at = &line[finding.column as usize - 1..];
-        let is = match finding.kind {
-            FindingKind::Loop(_) | FindingKind::BackwardJump { .. } => at[0] == b'$',
-            FindingKind::OpenComment => at[0] == b'#',
-            _ => !b" \t(;".contains(&at[0]),
-        };
-        prop_assert!(is, "{finding}");
-    }
-    let places: Vec<_> = all
-        .iter()
-        .filter(|at| at.kind != FindingKind::OpenComment)
-        .map(|at| (at.line, at.column))
-        .collect();
-    prop_assert!(places.is_sorted());
-    for end in ["\n", "\r\n", "\r"] {
-        let ended: String =
-            lines.iter().map(|line| format!("{}{end}", String::from_utf8_lossy(line))).collect();
-        let again: Vec<Finding> = NcText::new(ended.as_bytes()).unwrap().findings().collect();
-        prop_assert_eq!(&again, &all);
-    }
+    check_findings(text.as_bytes(), |_, _| ());
     let comment = text.replace("#COMMENT END", "");
     let hidden = format!("#COMMENT BEGIN\n{comment}\n#COMMENT END");
     prop_assert_eq!(NcText::new(hidden.as_bytes()).unwrap().findings().count(), 0);

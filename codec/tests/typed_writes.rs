@@ -6,6 +6,7 @@ use address::{Channel, ChannelAxis};
 use ads_cnc::operation::{AxisWriteByName, Operation, WriteByHandle, WriteByName};
 use ads_cnc::value::*;
 use ads_cnc::*;
+use common::shapes::{Described, ShapeBend, check_shape};
 use common::{Fault, check_typed};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -259,9 +260,15 @@ proptest! {
     #[test]
     fn shapes_hold(
         pick in 0..DataType::ALL.len(), bytes in vec(any::<u8>(), 0..64), size in any::<u32>(),
-        dimensions in vec(prop_oneof![Just(0), 1..5_u32, any::<u32>()], 0..5),
+        given in vec(prop_oneof![1 => Just(0), 8 => 1..5_u32, 1 => any::<u32>()], 0..5),
+        picks in vec(0..5_u32, 5),
     ) {
-        let (data_type, dimensions) = (DataType::ALL[pick], Numbers::from(dimensions.as_slice()));
+        let (data_type, dimensions) = (DataType::ALL[pick], Numbers::from(given.as_slice()));
+        for size in [size, bytes.len() as u32] {
+            let (dimensions, indices) = (&given[..], &picks[..given.len()]);
+            let of = Described { data_type, dimensions, size, indices, bytes: &bytes };
+            let _ = check_shape(&of, ShapeBend::NONE);
+        }
         for size in [size, bytes.len() as u32] {
             let Ok(shape) = Shape::new(data_type, dimensions, size) else { continue };
             prop_assert_eq!(shape.size(), size);

@@ -173,24 +173,38 @@ pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), R
 /// A request takes for a reply what the stream of its function's reply takes, as long as it is no
 /// longer than was asked for; that encodes to the same bytes.
 pub(crate) fn check_reply(call: &Call<'_>, bytes: &[u8]) -> Result<(), Error> {
+    check_reply_bent(call, bytes, &Bend::NONE)
+}
+
+/// The same of a codec that may be wrong.
+pub(crate) fn check_reply_bent(call: &Call<'_>, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     let request = call.dispatch().expect("a call that is answered");
     let reply = request.decode_reply(bytes);
     let wanted = match request.function().spec().reply {
         Some(stream) => check(stream, bytes),
         None => NoData::decode(bytes).map(drop),
     };
-    let verdict = reply.map(drop);
+    let verdict = (bend.len)(reply.map(|reply| reply.encoded_len()));
     // A length that is no multiple of a descriptor's asks for one of them (COM-3).
     let asked = match (request, call.read_length as usize) {
         (Request::ReadDescriptors(_), length) if length % DESCRIPTOR_LEN != 0 => DESCRIPTOR_LEN,
         (_, length) => length,
     };
+    // The most that the function has, or what it was asked for.
+    let mut buf = vec![0; request.encoded_len()];
+    let most = request.encode(&mut buf).map(|call| call.read_length as usize);
+    if let Ok(len) = verdict {
+        assert_eq!(len, bytes.len(), "{request:?}: {bytes:x?}");
+        assert!(most.is_ok_and(|most| bytes.len() <= most), "{request:?}: {bytes:x?}");
+    }
     if bytes.len() <= asked || verdict.is_ok() {
-        assert_eq!(verdict, wanted, "{request:?}: {bytes:x?}");
+        assert_eq!(verdict.map(drop), wanted, "{request:?}: {bytes:x?}");
     }
     let reply = reply?;
     let mut large = vec![UNTOUCHED; bytes.len() + 3];
-    assert_eq!((reply.encoded_len(), reply.encode(&mut large)), (bytes.len(), Ok(bytes)));
+    assert_eq!(reply.encode(&mut large).map(<[u8]>::len), Ok(bytes.len()));
+    (bend.written)(&mut large[..bytes.len()]);
+    assert_eq!(large[..bytes.len()], *bytes);
     assert_eq!(large[bytes.len()..], [UNTOUCHED; 3]);
     check_too_small(bytes.len(), |buf| reply.encode(buf).map(drop));
     Ok(())

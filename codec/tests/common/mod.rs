@@ -5,19 +5,36 @@
 #![allow(unexpected_cfgs, reason = "the fuzz targets have not all features of the codec")]
 
 mod calls;
+#[cfg(feature = "alloc")]
+pub(crate) mod checker;
+pub(crate) mod findings;
+mod frames;
 mod laws;
+pub(crate) mod machines;
+pub(crate) mod machines_cnc;
+pub(crate) mod names;
+mod operations;
 mod samples;
 mod samples_ads;
 mod samples_elements;
+pub(crate) mod service;
+pub(crate) mod shapes;
+pub(crate) mod streaming;
 mod subjects;
+pub(crate) mod text;
 mod typed;
 
 pub(crate) use calls::{CALLS, CallSample};
+pub(crate) use frames::{
+    Frames, SPLIT, Split, check_frames, check_split, check_verdicts_stay, frame, frame_header,
+};
 pub(crate) use laws::{
-    Bend, Fault, check, check_bent, check_call, check_call_bent, check_reply, check_request,
+    Bend, Fault, check, check_bent, check_call, check_call_bent, check_reply, check_reply_bent,
+    check_request,
 };
 #[cfg(feature = "alloc")]
 pub(crate) use laws::{check_value, check_value_bent};
+pub(crate) use operations::{Parameters, check_made, check_operation};
 pub(crate) use samples::{SAMPLES, Sample, each_sample};
 #[cfg(feature = "arbitrary")]
 pub(crate) use subjects::made;

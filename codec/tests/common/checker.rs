@@ -1,0 +1,84 @@
+//! What holds for the findings in a program that comes packet by packet.
+
+use ads_cnc::streaming::{Checker, Finding, FindingKind, Found, NcText, ProgramEnd};
+
+use super::findings::{FindingsBend, findings_of};
+use super::streaming::reference_lines;
+
+/// Findings but for the last, which is no event but what is missing, and program ends.
+pub(crate) fn check_lines(
+    checker: &mut Checker,
+    lines: &[u8],
+) -> (Vec<Finding>, Vec<(ProgramEnd, u32, u32)>) {
+    let (mut findings, mut ends) = (Vec::new(), Vec::new());
+    for found in checker.check(lines) {
+        match found {
+            Found::Finding(finding) => findings.push(finding),
+            Found::End { end, line, column } => ends.push((end, line, column)),
+        }
+    }
+    (findings, ends)
+}
+
+/// By the one-shot form: a line more is behind the end.
+fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
+    findings_of(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| {
+        match finding.kind {
+            FindingKind::BehindEnd { end, of } => Some((end, of)),
+            _ => None,
+        }
+    })
+}
+
+/// A program that comes in lots of whole lines: after each, what is found in it is what the
+/// one-shot form finds there in all that came.
+pub(crate) struct CheckedLots {
+    checker: Checker,
+    so_far: Vec<u8>,
+    ended: Option<(ProgramEnd, u32)>,
+    bend: FindingsBend,
+}
+
+impl CheckedLots {
+    pub(crate) fn new(bend: FindingsBend) -> Self {
+        Self { checker: Checker::new(), so_far: Vec::new(), ended: None, bend }
+    }
+
+    /// Lines that can be streamed.
+    pub(crate) fn lot(&mut self, lot: &[u8]) -> Vec<Finding> {
+        let before = self.checker.lines();
+        self.so_far.extend_from_slice(lot);
+        let (mut findings, ends) = check_lines(&mut self.checker, lot);
+        (self.bend)(&mut findings, before);
+        let mut wanted = findings_of(&self.so_far);
+        let open = wanted.iter().find(|found| found.kind == FindingKind::OpenComment).copied();
+        assert_eq!(self.checker.open_comment(), open);
+        wanted.retain(|finding| Some(*finding) != open);
+        wanted.retain(|finding| finding.line > before);
+        assert_eq!(findings, wanted, "{:?}", String::from_utf8_lossy(&self.so_far));
+        assert!(ends.is_sorted_by_key(|(_, line, column)| (*line, *column)));
+        self.ended = self.ended.or(ends.first().map(|(end, line, _)| (*end, *line)));
+        if open.is_none() {
+            assert_eq!(self.ended, first_end(&self.so_far));
+        }
+        let lines = NcText::new(&self.so_far).unwrap().line_count();
+        assert_eq!(self.checker.lines() as usize, lines);
+        findings
+    }
+}
+
+/// Any bytes, as they come through the interface: what is found is in its order, and lines are
+/// counted.
+pub(crate) fn check_any_lots<'l>(lots: impl IntoIterator<Item = &'l [u8]>) {
+    let (mut checker, mut lines) = (Checker::new(), 0);
+    for lot in lots {
+        let (findings, ends) = check_lines(&mut checker, lot);
+        lines += reference_lines(lot).len();
+        assert_eq!(checker.lines() as usize, lines);
+        assert!(findings.is_sorted_by_key(|at| (at.line, at.column)));
+        assert!(ends.is_sorted_by_key(|(_, line, column)| (*line, *column)));
+        let places = findings.iter().map(|at| at.line).chain(ends.iter().map(|(_, line, _)| *line));
+        assert!(places.into_iter().all(|line| line as usize <= lines));
+        assert!(checker.open_comment().is_none_or(|at| at.line as usize <= lines));
+    }
+}

@@ -1,0 +1,40 @@
+//! What holds for the findings in a program.
+
+use ads_cnc::streaming::{Finding, FindingKind, NcText};
+
+use super::streaming::reference_lines;
+
+/// What is wrong in one thing with what is found in some lines, behind so many others.
+pub(crate) type FindingsBend = fn(&mut Vec<Finding>, u32);
+
+pub(crate) fn findings_of(text: &[u8]) -> Vec<Finding> {
+    NcText::new(text).expect("a text that can be streamed").findings().collect()
+}
+
+/// Any text: the findings are in the text and in its order, and do not depend on how lines end.
+pub(crate) fn check_findings(text: &[u8], bend: FindingsBend) -> Vec<Finding> {
+    let mut all = findings_of(text);
+    bend(&mut all, 0);
+    let lines = reference_lines(text);
+    for finding in &all {
+        let line = &lines[finding.line as usize - 1];
+        let at = &line[finding.column as usize - 1..];
+        let is = match finding.kind {
+            FindingKind::Loop(_) | FindingKind::BackwardJump { .. } => at[0] == b'$',
+            FindingKind::OpenComment => at[0] == b'#',
+            _ => !b" \t(;".contains(&at[0]),
+        };
+        assert!(is, "{finding}");
+    }
+    let places = || {
+        let in_order = all.iter().filter(|at| at.kind != FindingKind::OpenComment);
+        in_order.map(|at| (at.line, at.column))
+    };
+    assert!(places().is_sorted());
+    for end in ["\n", "\r\n", "\r"] {
+        let ended: Vec<u8> =
+            lines.iter().flat_map(|line| [line, end.as_bytes()].concat()).collect();
+        assert_eq!(findings_of(&ended), all);
+    }
+    all
+}

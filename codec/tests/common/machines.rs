@@ -1,0 +1,187 @@
+//! A host of the Service Interface, whatever it is told.
+
+use ads_cnc::CncStr;
+use ads_cnc::service::*;
+
+/// Of a value the text, up to its NUL.
+pub(super) fn text(value: &[u8]) -> &[u8] {
+    value.split(|&byte| byte == 0).next().unwrap_or(value)
+}
+
+pub(super) fn state(value: &[u8]) -> Option<u32> {
+    value.try_into().ok().map(u32::from_le_bytes)
+}
+
+pub(super) fn is_text(variable: ServiceVariable) -> bool {
+    !matches!(variable, ServiceVariable::RequestState | ServiceVariable::ResponseState)
+}
+
+/// What is wrong in one thing around a host.
+#[derive(Clone, Copy)]
+pub(crate) struct HostBend {
+    /// The value a host is told, of what was read and what was read of the variable before that.
+    pub(crate) read: for<'v> fn(&'v [u8], Option<&'v [u8]>) -> &'v [u8],
+    pub(crate) state: fn(u32) -> u32,
+    pub(crate) failed: fn(&mut Host<'_>),
+    pub(crate) poll: fn(&mut Host<'_>),
+}
+
+impl HostBend {
+    pub(crate) const NONE: Self = Self {
+        read: |value, _| value,
+        state: |state| state,
+        failed: |host| host.failed(),
+        poll: |host| host.poll(),
+    };
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Step {
+    Read(ServiceVariable),
+    Write(ServiceVariable, Vec<u8>),
+    Serve(ServiceId, Vec<u8>, u32),
+    Wait,
+}
+
+/// A host, and all that it was told.
+pub(crate) struct CheckedHost<'s> {
+    host: Host<'s>,
+    ids: &'s [ServiceId],
+    /// What was read, one behind the other.
+    reads: Vec<(ServiceVariable, Vec<u8>)>,
+    asked: Option<Step>,
+    answer: (Vec<u8>, u32),
+    bend: HostBend,
+}
+
+impl<'s> CheckedHost<'s> {
+    pub(crate) fn new(ids: &'s [ServiceId], bend: HostBend) -> Self {
+        let (reads, answer) = (Vec::new(), (Vec::new(), 0));
+        Self { host: Host::new(ids), ids, reads, asked: None, answer, bend }
+    }
+
+    pub(crate) fn step(&self) -> Step {
+        match self.host.step() {
+            HostStep::Read(variable) => Step::Read(variable),
+            HostStep::Write(variable, value) => Step::Write(variable, value.to_vec()),
+            HostStep::Serve { uuid, request, request_state } => {
+                Step::Serve(*uuid, request.bytes().collect(), request_state)
+            }
+            HostStep::Wait => Step::Wait,
+        }
+    }
+
+    /// Values that are none are errors; what is no request is none.
+    pub(crate) fn read(&mut self, value: &[u8]) {
+        let before = self.step();
+        let Step::Read(variable) = before else {
+            assert_eq!((self.host.read(value), self.step()), (Ok(()), before));
+            return;
+        };
+        let last = self.reads.iter().rev().find(|(of, _)| *of == variable);
+        let told = (self.bend.read)(value, last.map(|(_, value)| &value[..]));
+        let read = self.host.read(told);
+        if let Err(error) = read {
+            let valid = if is_text(variable) { text(value).len() < 128 } else { value.len() == 4 };
+            assert!(!valid, "{error}: {value:x?}");
+            assert!(self.step() == Step::Wait || self.step() == before);
+            return;
+        }
+        self.reads.push((variable, value.to_vec()));
+        match self.step() {
+            Step::Read(_) | Step::Wait => {}
+            // SVC-2: found twice, one behind the other.
+            Step::Serve(id, request, asked) => {
+                assert!(asked != 0 && request.len() < 128 && self.ids.contains(&id));
+                assert!(self.found(2, &id, &request, asked), "{:x?}", self.reads);
+                self.asked = Some(self.step());
+            }
+            // Found once more; or it looked after a write that failed.
+            Step::Write(ServiceVariable::Response, value) => {
+                assert_eq!(value, [&self.answer.0[..], b"\0"].concat());
+                let Some(Step::Serve(id, request, asked)) = &self.asked else { unreachable!() };
+                assert!(self.found(1, id, request, *asked), "{:x?}", self.reads);
+            }
+            Step::Write(variable, value) => {
+                assert_eq!(variable, ServiceVariable::ResponseState);
+                assert_eq!(value, self.answer.1.to_le_bytes());
+            }
+        }
+    }
+
+    /// Whether the last that was read is a request, so many times.
+    fn found(&self, times: usize, id: &ServiceId, request: &[u8], asked: u32) -> bool {
+        let values =
+            [ServiceVariable::RequestState, ServiceVariable::Uuid, ServiceVariable::Request];
+        let of_id = |value: &[u8]| ServiceId::from_text(CncStr::from_bytes(text(value)).unwrap());
+        let is = |reads: &[(ServiceVariable, Vec<u8>)]| {
+            reads.iter().map(|(variable, _)| *variable).eq(values)
+                && state(&reads[0].1) == Some(asked)
+                && of_id(&reads[1].1).as_ref() == Ok(id)
+                && text(&reads[2].1) == request
+        };
+        let from = self.reads.len().checked_sub(3 * times);
+        from.is_some_and(|from| self.reads[from..].chunks(3).all(is))
+    }
+
+    /// RESPONSE, REQUEST_STATE, RESPONSE_STATE.
+    pub(crate) fn written(&mut self) {
+        let before = self.step();
+        self.host.written();
+        let wanted = match &before {
+            Step::Write(ServiceVariable::Response, _) => {
+                Step::Write(ServiceVariable::RequestState, vec![0; 4])
+            }
+            Step::Write(ServiceVariable::RequestState, _) => {
+                Step::Write(ServiceVariable::ResponseState, self.answer.1.to_le_bytes().into())
+            }
+            Step::Write(..) => {
+                assert_eq!(self.host.outcome(), Some(Outcome::Answered));
+                Step::Wait
+            }
+            _ => before,
+        };
+        assert_eq!(self.step(), wanted);
+    }
+
+    /// After a write it looks, any other step stays.
+    pub(crate) fn failed(&mut self) {
+        let before = self.step();
+        (self.bend.failed)(&mut self.host);
+        match before {
+            Step::Write(..) => assert!(matches!(self.step(), Step::Read(_))),
+            _ => assert_eq!(self.step(), before),
+        }
+    }
+
+    pub(crate) fn poll(&mut self) {
+        let before = self.step();
+        (self.bend.poll)(&mut self.host);
+        let waited = before == Step::Wait;
+        let looks = Step::Read(ServiceVariable::RequestState);
+        assert_eq!(self.step(), if waited { looks } else { before });
+    }
+
+    pub(crate) fn restart(&mut self) {
+        self.host.restart();
+        self.reads.clear();
+        assert_eq!(self.step(), Step::Read(ServiceVariable::RequestState));
+    }
+
+    /// Taken if it is one and there is a request.
+    pub(crate) fn answer(&mut self, response: &[u8], response_state: u32) {
+        let before = self.step();
+        let response = text(response);
+        let told = (self.bend.state)(response_state);
+        let taken = self.host.answer(CncStr::from_bytes(response).unwrap(), told);
+        let valid = response.len() < 128 && response_state != 0;
+        assert_eq!(taken.is_ok(), valid, "{response:x?}, {response_state}");
+        if valid && matches!(before, Step::Serve(..)) {
+            self.answer = (response.to_vec(), response_state);
+            assert_eq!(self.step(), Step::Read(ServiceVariable::RequestState));
+            assert_eq!(self.host.outcome(), None);
+        } else {
+            assert_eq!(self.step(), before);
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! The CNC's side of the Service Interface, whatever it is told: a program's request and the five
+//! variables.
+
+use std::time::Duration;
+
+use ads_cnc::service::*;
+use ads_cnc::{CncStr, Error};
+
+use super::machines::{is_text, state, text};
+
+#[derive(Clone, Debug, PartialEq)]
+enum Phase {
+    Write(usize),
+    Read,
+    Wait,
+    Response(u32),
+    Done(u32, Vec<u8>),
+    TimedOut,
+}
+
+/// A program's request beside what it should be.
+pub(crate) struct CheckedCall {
+    call: Call,
+    values: [(ServiceVariable, Vec<u8>); 3],
+    keep_waiting: u32,
+    /// How long it waits, and from when on until when.
+    longest: Option<Duration>,
+    until: Option<Duration>,
+    phase: Phase,
+}
+
+impl CheckedCall {
+    /// Of @P1, @P2 and @P3.
+    pub(crate) fn new(
+        id: ServiceId,
+        request: &[u8],
+        asked: u32,
+        [p1, p2, p3]: [Option<u32>; 3],
+    ) -> Result<Self, Error> {
+        let wait = SysServiceWait::from_parameters(p1, p2, p3);
+        assert_eq!(wait.is_err(), p2.is_some() && p3.is_none());
+        let request = text(request);
+        let call = Call::with_state(id, CncStr::from_bytes(request).unwrap(), asked, wait?);
+        assert_eq!(call.is_ok(), request.len() < 128 && asked != 0);
+        let ended = |text: &[u8]| [text, b"\0"].concat();
+        let values = [
+            (ServiceVariable::Uuid, ended(id.to_string().as_bytes())),
+            (ServiceVariable::Request, ended(request)),
+            (ServiceVariable::RequestState, asked.to_le_bytes().into()),
+        ];
+        let longest = p2.map(|millis| Duration::from_millis(millis.into()));
+        let (keep_waiting, phase) = (p1.unwrap_or(0), Phase::Write(0));
+        let checked = Self { call: call?, values, keep_waiting, longest, until: None, phase };
+        checked.check();
+        Ok(checked)
+    }
+
+    fn check(&self) {
+        let wanted = match &self.phase {
+            Phase::Write(place) => {
+                let (variable, value) = &self.values[*place];
+                CallStep::Write(*variable, value)
+            }
+            Phase::Read => CallStep::Read(ServiceVariable::ResponseState),
+            Phase::Wait => CallStep::Wait { until: self.until },
+            Phase::Response(_) => CallStep::Read(ServiceVariable::Response),
+            Phase::Done(state, text) => {
+                CallStep::Done { state: *state, response: CncStr::from_bytes(text).unwrap() }
+            }
+            Phase::TimedOut => CallStep::TimedOut,
+        };
+        assert_eq!(self.call.step(), wanted);
+    }
+
+    pub(crate) fn written(&mut self, now: Duration) {
+        self.call.written(now);
+        self.phase = match self.phase {
+            Phase::Write(2) => {
+                self.until = self.longest.map(|longest| now + longest);
+                Phase::Read
+            }
+            Phase::Write(place) => Phase::Write(place + 1),
+            ref other => other.clone(),
+        };
+        self.check();
+    }
+
+    /// `told` is what the call is told: of another value, at another time.
+    pub(crate) fn read(&mut self, value: &[u8], now: Duration, told: (&[u8], Duration)) {
+        let taken = self.call.read(told.0, told.1);
+        let (phase, valid) = match (&self.phase, state(value)) {
+            (Phase::Read, Some(state)) if state != self.keep_waiting => {
+                (Phase::Response(state), true)
+            }
+            (Phase::Read, Some(_)) if self.until.is_some_and(|until| now >= until) => {
+                (Phase::TimedOut, true)
+            }
+            (Phase::Read, Some(_)) => (Phase::Wait, true),
+            (Phase::Read, None) => (Phase::Read, false),
+            (Phase::Response(state), _) if text(value).len() < 128 => {
+                (Phase::Done(*state, text(value).to_vec()), true)
+            }
+            (phase, _) => (phase.clone(), !matches!(phase, Phase::Response(_))),
+        };
+        assert_eq!(taken.is_ok(), valid, "{value:x?}");
+        self.phase = phase;
+        self.check();
+    }
+
+    pub(crate) fn poll(&mut self) {
+        self.call.poll();
+        if self.phase == Phase::Wait {
+            self.phase = Phase::Read;
+        }
+        self.check();
+    }
+}
+
+/// An interface beside five vectors.
+pub(crate) struct CheckedVariables {
+    interface: Interface,
+    clears: Clears,
+    values: [Vec<u8>; 5],
+}
+
+impl CheckedVariables {
+    pub(crate) fn new(clears: Clears) -> Self {
+        Self { interface: Interface::with(clears), clears, values: Self::start() }
+    }
+
+    fn start() -> [Vec<u8>; 5] {
+        ServiceVariable::ALL.map(|variable| vec![0; if is_text(variable) { 1 } else { 4 }])
+    }
+
+    fn value(&mut self, of: ServiceVariable) -> &mut Vec<u8> {
+        let place = ServiceVariable::ALL.iter().position(|variable| *variable == of);
+        &mut self.values[place.expect("it is one")]
+    }
+
+    /// `told` is what the interface is told.
+    pub(crate) fn write(&mut self, variable: ServiceVariable, value: &[u8], told: &[u8]) {
+        let taken = self.interface.write(variable, told);
+        let valid = if is_text(variable) { text(value).len() < 128 } else { value.len() == 4 };
+        assert_eq!(taken.is_ok(), valid, "{variable}: {value:x?}");
+        if valid {
+            let is_text = is_text(variable);
+            *self.value(variable) =
+                if is_text { [text(value), b"\0"].concat() } else { value.to_vec() };
+            match variable {
+                // SVC-3.
+                ServiceVariable::RequestState => self.value(ServiceVariable::ResponseState).fill(0),
+                // SVC-4.
+                ServiceVariable::ResponseState if self.clears == Clears::OnResponseState => {
+                    self.value(ServiceVariable::RequestState).fill(0);
+                }
+                _ => {}
+            }
+        }
+        self.check();
+    }
+
+    pub(crate) fn reset(&mut self) {
+        self.interface.reset();
+        self.values = Self::start();
+        self.check();
+    }
+
+    fn check(&self) {
+        let found = ServiceVariable::ALL.map(|variable| self.interface.read(variable).to_vec());
+        assert_eq!(found, self.values);
+    }
+}

@@ -1,0 +1,167 @@
+//! What holds for any operation, of any function.
+
+use ads_cnc::address::{
+    Access, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis,
+    Spindle,
+};
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::operation::*;
+use ads_cnc::{Error, ErrorKind, Handle, Kind, Numbers};
+
+use super::check_call;
+
+/// What operations are made of; each takes what it needs.
+#[derive(Clone, Debug)]
+pub(crate) struct Parameters<'a> {
+    pub(crate) channel: Channel,
+    pub(crate) platform_axis: PlatformAxis,
+    pub(crate) axis: ChannelAxis,
+    pub(crate) spindle: Spindle,
+    pub(crate) class: Class,
+    pub(crate) dynamic: DynamicKind,
+    /// Which of the lists, groups or elements that there are.
+    pub(crate) place: u8,
+    pub(crate) element: u32,
+    pub(crate) number: u32,
+    pub(crate) count: u32,
+    pub(crate) text: &'a str,
+    pub(crate) indices: &'a [u32],
+    pub(crate) bytes: &'a [u8],
+}
+
+impl Parameters<'_> {
+    fn list(&self) -> ObjectList {
+        match self.place % 3 {
+            0 => ObjectList::PLATFORM,
+            1 => self.channel.into(),
+            _ => self.platform_axis.into(),
+        }
+    }
+
+    fn object(&self) -> (IndexGroup, IndexOffset) {
+        let group = match self.place % 4 {
+            0 => IndexGroup::new(0x12_0100),
+            // With the axis in the offset (E-04).
+            1 => IndexGroup::new(0x12_0200),
+            2 => self.platform_axis.com(Access::Element),
+            _ => self.channel.com(Access::Element),
+        };
+        (group, IndexOffset::new(self.number))
+    }
+
+    fn address(&self) -> Result<ElementAddress, Error> {
+        match self.place % 3 {
+            0 => ElementAddress::of_channel(self.channel, self.class, self.element),
+            1 => ElementAddress::of_axis(self.channel, self.class, self.axis, self.element),
+            _ => ElementAddress::of_spindle(self.spindle, self.element),
+        }
+    }
+}
+
+/// An operation of this function reaches the server as it was meant, if it can be made of these
+/// parameters; `bend` puts something wrong into the call that is encoded.
+pub(crate) fn check_made(
+    function: Function,
+    of: &Parameters<'_>,
+    bend: &dyn Fn(&mut Call<'_>),
+) -> Result<(), Error> {
+    let Parameters { channel, axis, class, dynamic, number, count, text, bytes, .. } = *of;
+    let indices = Numbers::from(of.indices);
+    let kind = || Kind::new(text);
+    match function {
+        Function::CountObjects => made(CountObjects::new(of.list()), bend),
+        Function::ReadDescriptors => made(ReadDescriptors::new(of.list(), number, count)?, bend),
+        Function::CountVariables => made(CountVariables::new(channel, kind()?), bend),
+        Function::DescribeByIndex => made(DescribeByIndex::new(channel, number, kind()?), bend),
+        Function::HandleByName => made(HandleByName::new(channel, text)?, bend),
+        Function::ReadByHandle => made(ReadByHandle::new(channel, Handle(number), indices), bend),
+        Function::ReadByName => made(ReadByName::new(channel, text)?, bend),
+        Function::WriteByHandle => {
+            made(WriteByHandle::new(channel, Handle(number), indices, bytes), bend)
+        }
+        Function::WriteByName => made(WriteByName::new(channel, text, bytes)?, bend),
+        Function::DescribeExtended => made(DescribeExtended::new(channel, number, kind()?), bend),
+        Function::DescribeByName => made(DescribeByName::new(channel, text)?, bend),
+        Function::AxisHandleByName => made(AxisHandleByName::new(channel, axis, text)?, bend),
+        Function::AxisReadByName => made(AxisReadByName::new(channel, axis, text)?, bend),
+        Function::AxisWriteByName => made(AxisWriteByName::new(channel, axis, text, bytes)?, bend),
+        Function::CountDynamic => made(CountDynamic::new(channel, dynamic), bend),
+        Function::DynamicNameByIndex => {
+            made(DynamicNameByIndex::new(channel, dynamic, number)?, bend)
+        }
+        Function::DynamicValueByName => {
+            made(DynamicValueByName::new(channel, dynamic, text)?, bend)
+        }
+        Function::DynamicValueByIndex => {
+            made(DynamicValueByIndex::new(channel, dynamic, number)?, bend)
+        }
+        Function::FindInstance => {
+            let find = FindInstance::new(class, number, count);
+            // Spindles have no logical form.
+            let by_index = class != Class::Spindle && of.place % 2 == 1;
+            made(if by_index { find.by_index() } else { find }, bend)
+        }
+        Function::CountElements => made(CountElements::new(of.address()?)?, bend),
+        Function::ReadElement => made(ReadElement::new(of.address()?, count)?, bend),
+        Function::WriteElement => made(WriteElement::new(of.address()?, bytes)?, bend),
+        Function::ReadElementName => made(ReadElementName::new(of.address()?), bend),
+        Function::ReadElementType => made(ReadElementType::new(of.address()?), bend),
+        Function::ReadElementLength => made(ReadElementLength::new(of.address()?), bend),
+        Function::ReadElementUnit => made(ReadElementUnit::new(of.address()?), bend),
+        Function::ReadElementWriteFlag => made(ReadElementWriteFlag::new(of.address()?), bend),
+        Function::WriteProgramStream => made(WriteProgramStream::new(channel, bytes), bend),
+        Function::ReadObject => {
+            let (group, offset) = of.object();
+            made(ReadObject::new(group, offset, count)?, bend)
+        }
+        Function::WriteObject => {
+            let (group, offset) = of.object();
+            made(WriteObject::new(group, offset, bytes)?, bend)
+        }
+        other => panic!("{other:?} is made of nothing here"),
+    }
+}
+
+/// What a client means reaches the server as it was meant, and encodes to the same call.
+pub(crate) fn check_operation<'a, O: Operation + Into<Request<'a>>>(operation: O) {
+    assert_eq!(made(operation, &|_| ()), Ok(()));
+}
+
+/// The same of one that may not be encoded: then nothing is written.
+fn made<'a, O: Operation + Into<Request<'a>>>(
+    operation: O,
+    bend: &dyn Fn(&mut Call<'_>),
+) -> Result<(), Error> {
+    let (group, offset) = (operation.index_group(), operation.index_offset());
+    let (length, len) = (operation.read_length(), operation.encoded_len());
+    let meant: Request<'_> = operation.into();
+    assert_eq!(meant.function(), O::FUNCTION);
+    let (spec, wanted) = (O::FUNCTION.spec(), (group, offset, length, len));
+
+    let mut buf = vec![0x55; len];
+    let mut call = match meant.encode(&mut buf) {
+        Ok(call) => call,
+        Err(error) => {
+            assert!(buf.iter().all(|&byte| byte == 0x55), "{error}: {meant:?}");
+            return Err(error);
+        }
+    };
+    bend(&mut call);
+    let found = (call.index_group, call.index_offset, call.read_length, call.data.len());
+    assert_eq!(found, wanted, "{meant:?}");
+    assert_eq!((call.port, call.service), (spec.task.port(), spec.service), "{meant:?}");
+    match call.dispatch() {
+        // A server cannot tell these two apart where the strides differ (E-01).
+        Ok(read @ Request::ReadElement(_)) if O::FUNCTION == Function::CountElements => {
+            assert_eq!(read.encode(&mut []), Ok(call));
+        }
+        dispatched => assert_eq!(dispatched, Ok(meant)),
+    }
+    assert_eq!(check_call(&call), Ok(()));
+    if let Some(less) = len.checked_sub(1) {
+        let mut small = vec![0x55; less];
+        assert_eq!(meant.encode(&mut small).unwrap_err().kind(), ErrorKind::BufferTooSmall);
+        assert!(small.iter().all(|&byte| byte == 0x55));
+    }
+    Ok(())
+}

@@ -1,0 +1,244 @@
+//! The Service Interface in any order of steps: a program that asks, one host or two, writes and
+//! reads that fail, against a model that counts.
+
+use std::time::Duration;
+
+use ads_cnc::CncStr;
+use ads_cnc::service::*;
+
+const NOW: Duration = Duration::ZERO;
+
+pub(crate) fn service_ids() -> [ServiceId; 2] {
+    [
+        ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47").unwrap(),
+        ServiceId::new("19719079-ba06-4740-bc02-de5215211751").unwrap(),
+    ]
+}
+
+/// How a step goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Luck {
+    Fine,
+    /// Nothing arrives.
+    Fails,
+    /// A write arrives, and the host is not told.
+    FailsLate,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Action {
+    Program,
+    Host(usize, Luck),
+    /// The program gives up.
+    GiveUp,
+    ResetCnc,
+    Restart(usize),
+}
+
+/// A request: which service, and which of a few texts, so that requests repeat.
+pub(crate) type Asked = (usize, u8);
+
+/// What is wrong in one thing around hosts and the interface.
+#[derive(Clone, Copy)]
+pub(crate) struct ServiceBend {
+    /// A host is told that a step failed.
+    pub(crate) failed: fn(&mut Host<'_>),
+    pub(crate) restart: fn(&mut Host<'_>),
+    /// Whoever writes.
+    pub(crate) write: fn(&mut Interface, ServiceVariable, &[u8]),
+    /// Which service the host says is asked.
+    pub(crate) asked: fn(usize, &str) -> usize,
+}
+
+impl ServiceBend {
+    pub(crate) const NONE: Self = Self {
+        failed: |host| host.failed(),
+        restart: |host| host.restart(),
+        write: |interface, variable, value| interface.write(variable, value).unwrap(),
+        asked: |service, _| service,
+    };
+}
+
+/// All that takes part, and the model: how often each service was asked and has served.
+pub(crate) struct World<'s> {
+    interface: Interface,
+    hosts: Vec<Host<'s>>,
+    ids: &'s [ServiceId],
+    call: Option<(Asked, Call)>,
+    asked: Vec<usize>,
+    served: Vec<usize>,
+    /// Whether each answer is the right one; chaos makes wrong ones.
+    strict: bool,
+    bend: ServiceBend,
+}
+
+impl<'s> World<'s> {
+    /// One host for all services, or one for each.
+    pub(crate) fn new(
+        ids: &'s [ServiceId],
+        together: bool,
+        clears: Clears,
+        strict: bool,
+        bend: ServiceBend,
+    ) -> Self {
+        let hosts = match together {
+            true => vec![Host::new(ids)],
+            false => ids.chunks(1).map(Host::new).collect(),
+        };
+        let (interface, count) = (Interface::with(clears), vec![0; ids.len()]);
+        Self {
+            interface,
+            hosts,
+            ids,
+            call: None,
+            asked: count.clone(),
+            served: count,
+            strict,
+            bend,
+        }
+    }
+
+    /// How often each service has served.
+    pub(crate) fn served(&self) -> &[usize] {
+        &self.served
+    }
+
+    /// What a service answers: who it is, what it was asked, how often it has served.
+    fn answer(service: usize, request: &str, times: usize) -> String {
+        format!("{service} {request} {times}")
+    }
+
+    fn program(&mut self, next: &mut impl Iterator<Item = Asked>) {
+        let Some(((service, text), call)) = &mut self.call else {
+            let Some((service, text)) = next.next() else { return };
+            let request = format!("{service}{text}");
+            let (id, request) = (self.ids[service], CncStr::new(&request).unwrap());
+            let call = Call::new(id, request, SysServiceWait::default()).unwrap();
+            self.asked[service] += 1;
+            self.call = Some(((service, text), call));
+            return;
+        };
+        match call.step() {
+            CallStep::Read(variable) => call.read(self.interface.read(variable), NOW).unwrap(),
+            CallStep::Write(variable, value) => {
+                (self.bend.write)(&mut self.interface, variable, value);
+                call.written(NOW);
+            }
+            CallStep::Wait { .. } => call.poll(),
+            CallStep::Done { state, response } => {
+                if self.strict {
+                    let (service, times) = (*service, self.asked[*service]);
+                    let wanted = Self::answer(service, &format!("{service}{text}"), times);
+                    assert_eq!((state, response), (7, CncStr::new(&wanted).unwrap()));
+                    assert_eq!(self.served, self.asked);
+                }
+                self.call = None;
+            }
+            CallStep::TimedOut => unreachable!("it has no longest wait"),
+        }
+    }
+
+    fn host(&mut self, place: usize, luck: Luck) {
+        let place = place % self.hosts.len();
+        let host = &mut self.hosts[place];
+        match host.step() {
+            HostStep::Read(_) | HostStep::Wait if luck != Luck::Fine => (self.bend.failed)(host),
+            HostStep::Read(variable) => host.read(self.interface.read(variable)).unwrap(),
+            HostStep::Wait => host.poll(),
+            HostStep::Write(variable, value) => {
+                if luck != Luck::Fails {
+                    (self.bend.write)(&mut self.interface, variable, value);
+                }
+                if luck == Luck::Fine { host.written() } else { (self.bend.failed)(host) }
+            }
+            HostStep::Serve { uuid, request, .. } => {
+                let service = self.ids.iter().position(|id| id == uuid).unwrap();
+                let request = request.to_string();
+                let service = (self.bend.asked)(service, &request);
+                if self.strict {
+                    // SVC-2: asked by the program, of this service, just now.
+                    let ((asked, text), _) = self.call.as_ref().expect("somebody asks");
+                    assert_eq!((*asked, format!("{asked}{text}")), (service, request.clone()));
+                }
+                self.served[service] += 1;
+                let answer = Self::answer(service, &request, self.served[service]);
+                host.answer(CncStr::new(&answer).unwrap(), 7).unwrap();
+            }
+        }
+    }
+
+    pub(crate) fn act(&mut self, action: Action, next: &mut impl Iterator<Item = Asked>) {
+        match action {
+            Action::Program => self.program(next),
+            Action::Host(place, luck) => self.host(place, luck),
+            Action::GiveUp => self.call = None,
+            Action::ResetCnc => {
+                self.call = None;
+                self.interface.reset();
+            }
+            Action::Restart(place) => {
+                let place = place % self.hosts.len();
+                (self.bend.restart)(&mut self.hosts[place]);
+            }
+        }
+    }
+
+    /// A write of RESPONSE_STATE that fails does not arrive where two hosts know nothing of each
+    /// other: a host that looks whether it has cannot tell its own request from a later one while
+    /// the other host is about to answer that.
+    pub(crate) fn luck_of_two(&self, action: Action) -> Action {
+        let Action::Host(place, Luck::FailsLate) = action else { return action };
+        match self.hosts[place % self.hosts.len()].step() {
+            HostStep::Write(ServiceVariable::ResponseState, _) => Action::Host(place, Luck::Fails),
+            _ => action,
+        }
+    }
+
+    /// The program gives up, and all hosts step in turn until they have nothing to do. From then
+    /// on each answer has to be the right one.
+    pub(crate) fn settle(&mut self) {
+        self.call = None;
+        // A host at rest reads one state and waits; all steps before that are some twenty.
+        let mut calm = 0;
+        for round in 0.. {
+            assert!(round < 200, "the hosts do not come to rest");
+            let before = (self.interface.clone(), self.served.clone());
+            for place in 0..self.hosts.len() {
+                self.host(place, Luck::Fine);
+            }
+            let same = before == (self.interface.clone(), self.served.clone());
+            calm = if same { calm + 1 } else { 0 };
+            // Longer than any host only reads.
+            if calm > 12 {
+                break;
+            }
+        }
+        for place in 0..self.hosts.len() {
+            let steps = (0..10).find(|_| {
+                let waits = self.hosts[place].step() == HostStep::Wait;
+                if !waits {
+                    self.host(place, Luck::Fine);
+                }
+                waits
+            });
+            assert!(steps.is_some(), "host {place} does not come to rest");
+        }
+        (self.strict, self.asked) = (true, self.served.clone());
+    }
+
+    /// Everyone steps in turn until the program has all its answers.
+    pub(crate) fn finish(&mut self, next: &mut impl Iterator<Item = Asked>) {
+        let mut idle = 0;
+        for _ in 0..2000 {
+            self.program(next);
+            (0..self.hosts.len()).for_each(|place| self.host(place, Luck::Fine));
+            // It asks as soon as it has its answer; a host may have the end of that before it.
+            idle = if self.call.is_none() { idle + 1 } else { 0 };
+            if idle > 12 {
+                break;
+            }
+        }
+        assert!(self.call.is_none(), "the program still waits");
+        assert!(next.next().is_none());
+    }
+}

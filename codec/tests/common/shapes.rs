@@ -1,0 +1,144 @@
+//! What holds for a value of any type, dimensions and size (VAR-8, VAR-21).
+
+use ads_cnc::value::{DataType, Element, Elements, EncodeValue as _, Shape};
+use ads_cnc::{ErrorKind, Numbers};
+
+use super::Fault;
+
+/// A value as it may be described, and an element of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Described<'a> {
+    pub(crate) data_type: DataType,
+    pub(crate) dimensions: &'a [u32],
+    pub(crate) size: u32,
+    pub(crate) indices: &'a [u32],
+    pub(crate) bytes: &'a [u8],
+}
+
+/// What is wrong in one thing with values.
+#[derive(Clone, Copy)]
+pub(crate) struct ShapeBend {
+    /// The indices that are asked for.
+    pub(crate) indices: fn(&mut [u32]),
+    pub(crate) place: fn(Result<u32, Fault>) -> Result<u32, Fault>,
+    pub(crate) written: fn(&mut [u8]),
+    pub(crate) size: fn(u32) -> u32,
+}
+
+impl ShapeBend {
+    pub(crate) const NONE: Self =
+        Self { indices: |_| (), place: |place| place, written: |_| (), size: |size| size };
+}
+
+/// How many bytes each element has, if the size is that of so many.
+fn each(of: &Described<'_>) -> Option<u32> {
+    let size = u128::from(of.size);
+    // Four factors of 32 bits fit.
+    let count = of.dimensions.iter().map(|&dimension| u128::from(dimension)).product::<u128>();
+    match (of.data_type.size(), count) {
+        (Some(each), _) => (count.checked_mul(each.into()) == Some(size)).then_some(each),
+        (None, 0) => (size == 0).then_some(0),
+        (None, 1) => Some(of.size),
+        (None, _) => (size > 0 && size % count == 0).then(|| (size / count) as u32),
+    }
+}
+
+/// The place of the element, or what is wrong with the indices, by the sizes of the inner arrays.
+fn place(of: &Described<'_>) -> Result<u128, Fault> {
+    let fault = |kind, field, offset, expected: usize, found: u32| {
+        Err(Fault { kind, field, offset, expected, found: found as usize })
+    };
+    let (indices, dimensions) = (of.indices, of.dimensions);
+    if indices.len() != dimensions.len() {
+        let given = indices.len() as u32;
+        return fault(ErrorKind::Mismatch, "index_count", 0, dimensions.len(), given);
+    }
+    let mut place = 0;
+    for (at, (&index, &dimension)) in indices.iter().zip(dimensions).enumerate() {
+        if dimension == 0 {
+            return fault(ErrorKind::Missing, "dimension", at, 0, 0);
+        }
+        if index >= dimension {
+            return fault(ErrorKind::OutOfRange, "index", at, dimension as usize - 1, index);
+        }
+        let inner = dimensions[at + 1..].iter().map(|&dimension| u128::from(dimension));
+        place += u128::from(index) * inner.product::<u128>();
+    }
+    Ok(place)
+}
+
+/// A shape is taken if its size is that of its elements; an element is where the sizes of the
+/// inner arrays say, and all is written back as it was.
+pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, ErrorKind> {
+    let dimensions = Numbers::from(of.dimensions);
+    let shape = Shape::new(of.data_type, dimensions, (bend.size)(of.size));
+    let wanted = each(of);
+    assert_eq!(shape.map(|shape| shape.element_size()).ok(), wanted, "{of:?}");
+    let shape = shape.map_err(|error| error.kind())?;
+    assert_eq!(
+        (shape.size(), shape.data_type(), shape.dimensions()),
+        (of.size, of.data_type, dimensions)
+    );
+
+    let mut indices = of.indices.to_vec();
+    (bend.indices)(&mut indices);
+    let indices = Numbers::from(&indices[..]);
+    let found = (bend.place)(shape.place(indices).map_err(Fault::of));
+    let wanted = place(of);
+    assert_eq!(found.map(u128::from), wanted, "{of:?}");
+
+    let elements = shape.elements(of.bytes);
+    let open = of.data_type == DataType::String && shape.count() == 1;
+    let fits = open || of.bytes.len() == of.size as usize;
+    assert_eq!(elements.is_ok(), fits, "{of:?}");
+    let elements = elements.map_err(|error| error.kind())?;
+    // A single text may be shorter than there is room.
+    let (count, each) =
+        (shape.count() as usize, if open { of.bytes.len() } else { shape.element_size() as usize });
+    assert_eq!((elements.len(), elements.iter().len()), (count, count));
+    if let Ok(place) = wanted {
+        let at = place as usize * each;
+        let bytes = &of.bytes[at..at + each];
+        let element = elements.element(indices).expect("an element");
+        check_element(shape, element, bytes, bend);
+        check_element(shape, elements.get(place as usize).expect("it is there"), bytes, bend);
+    } else {
+        assert_eq!(elements.element(indices).map_err(Fault::of).err(), wanted.err());
+    }
+    check_written(shape, elements, of.bytes, bend);
+    Ok(shape.count())
+}
+
+/// An element is written as it is read, by itself too.
+fn check_element(shape: Shape<'_>, element: Element<'_>, bytes: &[u8], bend: ShapeBend) {
+    let mut buf = vec![0x55; bytes.len()];
+    assert_eq!(element.encode_value(&mut buf), Ok(bytes));
+    if bytes.len() <= shape.element_size() as usize {
+        let mut buf = vec![0x55; bytes.len() + 1];
+        assert_eq!(shape.one().encode(&element, &mut buf), Ok(bytes));
+        (bend.written)(&mut buf[..bytes.len()]);
+        assert_eq!((&buf[..bytes.len()], buf[bytes.len()]), (bytes, 0x55));
+    }
+}
+
+fn check_written(shape: Shape<'_>, elements: Elements<'_>, bytes: &[u8], bend: ShapeBend) {
+    let mut buf = vec![0x55; bytes.len() + 1];
+    let written = shape.encode(&elements, &mut buf).map(<[u8]>::len);
+    if bytes.len() > shape.size() as usize {
+        assert_eq!(written.map_err(|error| error.kind()), Err(ErrorKind::TooLong));
+        assert!(buf.iter().all(|&byte| byte == 0x55));
+        return;
+    }
+    (bend.written)(&mut buf[..bytes.len()]);
+    assert_eq!((written, &buf[..bytes.len()], buf[bytes.len()]), (Ok(bytes.len()), bytes, 0x55));
+    if let Some(less) = bytes.len().checked_sub(1) {
+        let error = shape.encode(&elements, &mut buf[..less]).expect_err("a byte too few");
+        assert_eq!(error.kind(), ErrorKind::BufferTooSmall);
+    }
+    #[cfg(feature = "alloc")]
+    {
+        let values = ads_cnc::value::Values::from(elements);
+        assert_eq!((values.len(), values.value_to_vec().as_deref()), (elements.len(), Ok(bytes)));
+        assert_eq!(shape.encode(&values, &mut buf), Ok(bytes));
+    }
+}

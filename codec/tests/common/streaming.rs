@@ -1,0 +1,282 @@
+//! What holds for NC text and its packets, and for both ends of the stream.
+
+use ads_cnc::limits::{NC_LINE_MAX, STREAM_MAX, STREAM_PACKET_MAX};
+use ads_cnc::streaming::*;
+
+/// Another way to the lines: by replacing, on a copy.
+pub(crate) fn reference_lines(bytes: &[u8]) -> Vec<Vec<u8>> {
+    let text: String = bytes.iter().map(|&byte| char::from(byte)).collect();
+    let text = text.replace("\r\n", "\n").replace('\r', "\n");
+    let mut lines: Vec<&str> = text.split('\n').collect();
+    if lines.last() == Some(&"") {
+        lines.pop();
+    }
+    lines.into_iter().map(|line| line.chars().map(|at| at as u8).collect()).collect()
+}
+
+fn ended(lines: &[Vec<u8>]) -> Vec<u8> {
+    lines.iter().flat_map(|line| [line, &b"\r\n"[..]].concat()).collect()
+}
+
+pub(crate) fn reference_wire(bytes: &[u8]) -> Vec<u8> {
+    ended(&reference_lines(bytes))
+}
+
+/// Line, column and kind of what is wrong.
+pub(crate) type TextFault = (usize, usize, LineErrorKind);
+
+fn fault_of(error: LineError) -> TextFault {
+    (error.line() as usize, error.column() as usize, error.kind())
+}
+
+/// The first fault, looked for byte by byte.
+fn reference_fault(bytes: &[u8]) -> Option<TextFault> {
+    let (mut line, mut column) = (1, 0);
+    for (at, &byte) in bytes.iter().enumerate() {
+        match byte {
+            b'\n' if at > 0 && bytes[at - 1] == b'\r' => continue,
+            b'\r' | b'\n' => (line, column) = (line + 1, 0),
+            _ => column += 1,
+        }
+        let kind = match byte {
+            _ if column > NC_LINE_MAX => {
+                let more = bytes[at + 1..].iter().take_while(|byte| !b"\r\n".contains(byte));
+                LineErrorKind::TooLong { length: (column + more.count()) as u32 }
+            }
+            0 => LineErrorKind::Nul,
+            0x80.. => LineErrorKind::NotAscii { byte },
+            _ => continue,
+        };
+        return Some((line, column, kind));
+    }
+    None
+}
+
+/// What packets are made of a text that are wrong in one thing.
+#[derive(Clone, Copy)]
+pub(crate) struct TextBend {
+    pub(crate) packets: fn(&mut Vec<Vec<u8>>),
+    pub(crate) fault: fn(TextFault) -> Option<TextFault>,
+}
+
+impl TextBend {
+    pub(crate) const NONE: Self = Self { packets: |_| (), fault: Some };
+}
+
+pub(crate) fn packets(bytes: &[u8]) -> Vec<Vec<u8>> {
+    let mut packets = NcText::new(bytes).expect("text that can be streamed").packets();
+    let mut buf = [0xEE; STREAM_PACKET_MAX];
+    std::iter::from_fn(|| packets.next_into(&mut buf).map(<[u8]>::to_vec)).collect()
+}
+
+/// Any bytes: the first fault is found, or packets are made of the text.
+pub(crate) fn check_text(bytes: &[u8], bend: TextBend) -> Result<Vec<Vec<u8>>, TextFault> {
+    let verdict = NcText::new(bytes).map(drop).map_err(fault_of);
+    let found = verdict.err().and_then(bend.fault);
+    assert_eq!(found, reference_fault(bytes), "{bytes:x?}");
+    verdict.map(|()| check_packets_bent(bytes, bend))
+}
+
+/// The laws of packets.
+pub(crate) fn check_packets(bytes: &[u8]) {
+    check_packets_bent(bytes, TextBend::NONE);
+}
+
+fn check_packets_bent(bytes: &[u8], bend: TextBend) -> Vec<Vec<u8>> {
+    let text = NcText::new(bytes).unwrap();
+    let lines = reference_lines(bytes);
+    let mut packets = packets(bytes);
+    (bend.packets)(&mut packets);
+    let wire = packets.concat();
+    assert_eq!(wire, ended(&lines), "all packets together");
+    assert_eq!((text.wire_len(), text.line_count()), (wire.len(), lines.len()));
+    assert_eq!(text.is_wire(), wire == bytes);
+    assert!(text.lines().eq(lines));
+    for packet in &packets {
+        assert!((2..=STREAM_PACKET_MAX).contains(&packet.len()) && packet.ends_with(b"\r\n"));
+    }
+    for pair in packets.windows(2) {
+        let next = pair[1].iter().position(|&byte| byte == b'\n').unwrap() + 1;
+        assert!(pair[0].len() + next > STREAM_PACKET_MAX, "a line more would have fitted");
+    }
+    if text.is_wire() {
+        let mut borrowed = text.packets();
+        assert!(std::iter::from_fn(|| borrowed.next_borrowed()).eq(&packets), "zero-copy");
+        assert!(borrowed.rest().is_empty());
+    }
+    packets
+}
+
+/// What is wrong in one thing around a sender or an interface.
+#[derive(Clone, Copy)]
+pub(crate) struct EndsBend {
+    /// What the sender is told.
+    pub(crate) ack: fn(Ack) -> Ack,
+    /// What it says to have sent.
+    pub(crate) sent: fn(Progress) -> Progress,
+    /// What the interface is given.
+    pub(crate) write: fn(&mut Interface, &[u8]) -> Ack,
+    pub(crate) reset: fn(&mut Interface),
+}
+
+impl EndsBend {
+    pub(crate) const NONE: Self = Self {
+        ack: |ack| ack,
+        sent: |sent| sent,
+        write: Interface::write,
+        reset: Interface::reset,
+    };
+}
+
+/// A sender beside what it should be.
+pub(crate) struct CheckedSender<'t> {
+    sender: Sender<'t>,
+    wire: Vec<u8>,
+    packets: Vec<Vec<u8>>,
+    sent: Progress,
+    state: SenderState,
+    refusals: u32,
+    bend: EndsBend,
+}
+
+impl<'t> CheckedSender<'t> {
+    pub(crate) fn new(text: &'t [u8], bend: EndsBend) -> Self {
+        let packets = packets(text);
+        let state = if packets.is_empty() { SenderState::Done } else { SenderState::Ready };
+        let sender = Sender::new(NcText::new(text).unwrap());
+        let (wire, sent) = (packets.concat(), Progress::default());
+        let checked = Self { sender, wire, packets, sent, state, refusals: 0, bend };
+        checked.check();
+        checked
+    }
+
+    /// The next packet, the same until it is acknowledged.
+    pub(crate) fn packet(&mut self) -> Option<Vec<u8>> {
+        let ended = matches!(self.state, SenderState::Stopped | SenderState::Done);
+        let wanted = if ended { None } else { self.packets.get(self.sent.packets) };
+        assert_eq!(self.sender.packet(), wanted.map(Vec::as_slice));
+        let packet = wanted.cloned();
+        if packet.is_some() {
+            self.state = SenderState::Out;
+        }
+        self.check();
+        packet
+    }
+
+    /// Takes one acknowledgement for one packet, and none else.
+    pub(crate) fn acknowledge(&mut self, ack: Ack) {
+        let out = self.state == SenderState::Out;
+        let taken = self.sender.acknowledge((self.bend.ack)(ack));
+        assert_eq!(taken, if out { Ok(()) } else { Err(NoPacketOut) });
+        match ack {
+            _ if !out => {}
+            Ack::Refused => self.state = SenderState::Stopped,
+            Ack::Later => {
+                self.state = SenderState::Waiting;
+                self.refusals += 1;
+            }
+            Ack::Accepted => {
+                let packet = &self.packets[self.sent.packets];
+                self.sent.packets += 1;
+                self.sent.lines += packet.iter().filter(|&&byte| byte == b'\n').count();
+                self.sent.bytes += packet.len();
+                self.refusals = 0;
+                let all = self.sent.packets == self.packets.len();
+                self.state = if all { SenderState::Done } else { SenderState::Ready };
+            }
+        }
+        self.check();
+    }
+
+    /// What was accepted is the text from its start on, without gap and without repetition, and
+    /// the counts agree.
+    fn check(&self) {
+        let sender = &self.sender;
+        let found = ((self.bend.sent)(sender.sent()), sender.state(), sender.refusals());
+        assert_eq!(found, (self.sent, self.state, self.refusals));
+        assert_eq!(sender.left_bytes(), self.wire.len() - self.sent.bytes);
+    }
+
+    /// What is not accepted is the rest of the text.
+    pub(crate) fn check_left(&self) {
+        let left = reference_lines(self.sender.left());
+        assert_eq!(self.sender.left_lines(), left.len());
+        assert_eq!(ended(&left), self.wire[self.sent.bytes..]);
+    }
+
+    /// What was accepted.
+    pub(crate) fn taken(&self) -> &[u8] {
+        &self.wire[..self.sent.bytes]
+    }
+}
+
+/// An interface beside a vector of bytes.
+pub(crate) struct CheckedInterface {
+    interface: Interface,
+    held: Vec<u8>,
+    bend: EndsBend,
+}
+
+impl CheckedInterface {
+    pub(crate) fn new(bend: EndsBend) -> Self {
+        Self { interface: Interface::new(), held: Vec::new(), bend }
+    }
+
+    /// All or nothing is taken.
+    pub(crate) fn write(&mut self, data: &[u8]) -> Ack {
+        let wanted = match data.len() {
+            0 | 993.. => Ack::Refused,
+            len if self.held.len() + len > STREAM_MAX => Ack::Later,
+            _ => Ack::Accepted,
+        };
+        assert_eq!((self.bend.write)(&mut self.interface, data), wanted);
+        if wanted == Ack::Accepted {
+            self.held.extend_from_slice(data);
+        }
+        self.check();
+        wanted
+    }
+
+    /// All that was written comes out, or the first line that is not ended as it has to be.
+    pub(crate) fn read(&mut self) -> Result<Vec<u8>, TextFault> {
+        let held = std::mem::take(&mut self.held);
+        let wanted = match missing_end(&held) {
+            None => Ok(held),
+            Some(fault) => Err(fault),
+        };
+        let found = self.interface.read().map_err(fault_of);
+        assert_eq!(found, wanted.as_deref().map_err(|fault| *fault));
+        self.check();
+        wanted
+    }
+
+    pub(crate) fn reset(&mut self) {
+        (self.bend.reset)(&mut self.interface);
+        self.held.clear();
+        self.check();
+    }
+
+    fn check(&self) {
+        let (len, is_empty) = (self.interface.len(), self.interface.is_empty());
+        assert_eq!((len, is_empty), (self.held.len(), self.held.is_empty()));
+    }
+}
+
+/// The first line that does not end in CR LF, looked for byte by byte.
+fn missing_end(bytes: &[u8]) -> Option<TextFault> {
+    let (mut line, mut column) = (1, 1);
+    for (at, &byte) in bytes.iter().enumerate() {
+        match byte {
+            b'\r' if bytes.get(at + 1) != Some(&b'\n') => {
+                return Some((line, column, LineErrorKind::CrAlone));
+            }
+            b'\n' if at == 0 || bytes[at - 1] != b'\r' => {
+                return Some((line, column, LineErrorKind::LfAlone));
+            }
+            b'\n' => (line, column) = (line + 1, 1),
+            b'\r' => {}
+            _ => column += 1,
+        }
+    }
+    (column > 1).then_some((line, column, LineErrorKind::NoLineEnd))
+}

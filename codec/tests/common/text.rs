@@ -1,0 +1,119 @@
+//! What holds for any text, judged by another implementation of CP1252 (GEN-3).
+
+use std::hash::{DefaultHasher, Hash, Hasher as _};
+
+use ads_cnc::text::{TextRef, char_to_cp1252, cp1252_to_char};
+use ads_cnc::{CncStr, Error, ErrorKind};
+use encoding_rs::{EncoderResult, WINDOWS_1252};
+
+/// What is wrong in one thing with a text.
+#[derive(Clone, Copy)]
+pub(crate) struct CncStrBend {
+    pub(crate) shown: fn(String) -> String,
+    pub(crate) bytes: fn(&mut Vec<u8>),
+    /// The length, of what is shown so.
+    pub(crate) len: fn(usize, &str) -> usize,
+    pub(crate) fault: fn(Fault) -> Option<Fault>,
+}
+
+impl CncStrBend {
+    pub(crate) const NONE: Self =
+        Self { shown: |text| text, bytes: |_| (), len: |len, _| len, fault: Some };
+}
+
+/// Kind, offset and what was found.
+type Fault = (ErrorKind, usize, u32);
+
+fn fault_of(error: Error) -> Fault {
+    (error.kind(), error.offset() as usize, error.found())
+}
+
+/// Any bytes as CP1252: text if there is no NUL, of the characters that encoding_rs says.
+pub(crate) fn check_cp1252(bytes: &[u8], bend: CncStrBend) -> Result<String, Fault> {
+    let found = CncStr::from_bytes(bytes).map_err(fault_of);
+    let nul = bytes.iter().position(|&byte| byte == 0);
+    let wanted = nul.map(|at| (ErrorKind::InnerNul, at, at as u32));
+    assert_eq!(found.err().and_then(bend.fault), wanted, "{bytes:x?}");
+    let text = found?;
+    let (characters, faulty) = WINDOWS_1252.decode_without_bom_handling(bytes);
+    assert!(!faulty);
+    let shown = check_both(text, &characters, bytes, bend);
+    for (&byte, character) in bytes.iter().zip(characters.chars()) {
+        assert_eq!((cp1252_to_char(byte), char_to_cp1252(character)), (character, Some(byte)));
+    }
+    check_field(bytes);
+    Ok(shown)
+}
+
+/// Any Rust string: text of the bytes that encoding_rs says, or the first character without one.
+pub(crate) fn check_utf8(utf8: &str, bend: CncStrBend) -> Result<String, Fault> {
+    let found = CncStr::new(utf8).map_err(fault_of);
+    let mut bytes = Vec::new();
+    let mut fault = None;
+    for (at, character) in utf8.chars().enumerate() {
+        let theirs = encoded(character);
+        assert_eq!(char_to_cp1252(character), theirs, "{character:?}");
+        match theirs {
+            Some(0) => fault = fault.or(Some((ErrorKind::InnerNul, at, at as u32))),
+            Some(byte) => bytes.push(byte),
+            None => fault = fault.or(Some((ErrorKind::NotCp1252, at, character.into()))),
+        }
+    }
+    assert_eq!(found.err().and_then(bend.fault), fault, "{utf8:?}");
+    let text = found?;
+    Ok(check_both(text, utf8, &bytes, bend))
+}
+
+fn encoded(character: char) -> Option<u8> {
+    let (mut utf8, mut byte) = ([0; 4], [0; 1]);
+    let text = character.encode_utf8(&mut utf8);
+    let mut encoder = WINDOWS_1252.new_encoder();
+    let (result, _, written) = encoder.encode_from_utf8_without_replacement(text, &mut byte, true);
+    (result == EncoderResult::InputEmpty && written == 1).then_some(byte[0])
+}
+
+/// Text from these characters is text from these bytes, whichever it is made of.
+fn check_both(text: CncStr<'_>, characters: &str, bytes: &[u8], bend: CncStrBend) -> String {
+    let shown = (bend.shown)(text.to_string());
+    assert_eq!(shown, characters);
+    assert!(text.chars().eq(characters.chars()) && text == *characters);
+    let mut again: Vec<u8> = text.bytes().collect();
+    (bend.bytes)(&mut again);
+    assert_eq!(again, bytes);
+    let len = (bend.len)(text.len(), characters);
+    assert_eq!((len, text.is_empty()), (bytes.len(), bytes.is_empty()));
+
+    let wire = CncStr::from_bytes(bytes).expect("text without NUL");
+    let typed = CncStr::new(characters).expect("text in CP1252");
+    let hash = |text: CncStr<'_>| {
+        let mut hasher = DefaultHasher::new();
+        text.hash(&mut hasher);
+        hasher.finish()
+    };
+    assert!(wire == typed && hash(wire) == hash(typed));
+    assert_eq!((format!("{wire} {wire:?}")), format!("{typed} {typed:?}"));
+    // A character more or less is another text.
+    let longer = [bytes, b"x"].concat();
+    assert!(CncStr::from_bytes(&longer).unwrap() != typed);
+    #[cfg(feature = "alloc")]
+    {
+        let owned = ads_cnc::CncString::from(typed);
+        assert_eq!((owned.as_bytes(), owned.as_cnc_str()), (bytes, wire));
+        assert_eq!(characters.parse(), Ok(owned.clone()));
+        assert_eq!(format!("{owned} {owned:?}"), format!("{wire} {wire:?}"));
+    }
+    shown
+}
+
+/// A field is its text and its end, whichever that is; the text decides what it shows.
+fn check_field(bytes: &[u8]) {
+    let text = CncStr::from_bytes(bytes).expect("text without NUL");
+    for (tail, len) in [(None, 0), (Some(&[][..]), 1), (Some(&[0, 0][..]), 3)] {
+        let field = TextRef::with_tail(text, tail);
+        assert_eq!((field.text(), field.tail()), (text, tail));
+        assert_eq!(field.field_len(), bytes.len() + len);
+        assert_eq!(field == TextRef::from(text), len == 1);
+        #[cfg(feature = "alloc")]
+        assert_eq!(ads_cnc::Text::from(field).as_ref(), field);
+    }
+}
