@@ -12,7 +12,8 @@ const LONGEST: usize = 64;
 
 /// Family and content of every dictionary, in libFuzzer's and AFL's common format.
 pub fn dictionaries() -> Vec<(&'static str, String)> {
-    let families = FAMILIES.iter().map(|&(family, _)| family).chain(["operation"]);
+    let families =
+        FAMILIES.iter().map(|&(family, _)| family).chain(["operation", "service", "text"]);
     families.map(|family| (family, written(&entries(family)))).collect()
 }
 
@@ -29,6 +30,8 @@ fn entries(family: &str) -> BTreeSet<Vec<u8>> {
                 entries.insert(call.data.to_vec());
             }
         }
+        "text" => entries.extend(HIGH.chars().map(|character| character.to_string().into_bytes())),
+        "service" => entries.extend(EVENTS.iter().map(|events| events.to_vec())),
         _ => {
             // The fields of the vectors: codes, texts, types.
             let streams =
@@ -40,9 +43,73 @@ fn entries(family: &str) -> BTreeSet<Vec<u8>> {
             }
         }
     }
+    let more: &[&[u8]] = match family {
+        "streaming" => WORDS,
+        "variable" => NAMES,
+        _ => &[],
+    };
+    entries.extend(more.iter().map(|entry| entry.to_vec()));
     entries.retain(|entry| (2..=LONGEST).contains(&entry.len()));
     entries
 }
+
+/// Characters of CP1252 that have more than a byte of UTF-8, some from each corner.
+const HIGH: &str =
+    "\u{81}\u{9D}\u{A0}\u{E4}\u{FF}\u{152}\u{178}\u{192}\u{2C6}\u{2013}\u{20AC}\u{2122}\u{3A9}";
+
+/// A request that a host finds, an answer, writes; what the program and hosts do in turn.
+const EVENTS: &[&[u8]] = &[
+    b"\x00\x0A\x00\x03\x00\x1D",
+    b"\x0E\x01\x0D",
+    b"\x09\x09\x09\x0C",
+    b"\x70\x72\x7A",
+    b"\x06\x12\x05\x12",
+    b"\x0D\x1A\x0E\x1A",
+];
+
+/// What the checks of a program know.
+const WORDS: &[&[u8]] = &[
+    b"$FOR",
+    b"$ENDFOR",
+    b"$WHILE",
+    b"$ENDWHILE",
+    b"$DO",
+    b"$ENDDO",
+    b"$REPEAT",
+    b"$UNTIL",
+    b"$IF",
+    b"$GOTO N1",
+    b"$GOTO [A]",
+    b"N1:",
+    b"N01 :",
+    b"[A]",
+    b"#COMMENT BEGIN",
+    b"#COMMENT END",
+    b"M30",
+    b"M2",
+    b"M17",
+    b"M29",
+    b"\r\n",
+    b"\n%",
+    b"\xFF\n",
+    b"\r\nN10 G01 X200 F1000\r\n",
+];
+
+/// Pieces of names.
+const NAMES: &[&[u8]] = &[
+    b"V.A.",
+    b"V.E.",
+    b"V.G.",
+    b"V.CYC.",
+    b"[0]",
+    b"[258]",
+    b"][",
+    b"].",
+    b"[4294967294]",
+    b"[4294967295]",
+    b"[007]",
+    b"..",
+];
 
 fn written(entries: &BTreeSet<Vec<u8>>) -> String {
     entries.iter().map(|entry| format!("\"{}\"\n", escaped(entry))).collect()

@@ -1,6 +1,11 @@
 //! What fuzzers start from: the vectors, and the samples of the codec's own tests.
 
+mod events;
+mod operations;
+mod texts;
+
 use ads_cnc::layout::Stream;
+use ads_cnc::value::DataType;
 use ads_cnc_vectors::vectors;
 
 use crate::bodies::bytes::FAMILIES;
@@ -21,6 +26,17 @@ pub fn seeds(target: &Target) -> Vec<Seed> {
     let law = target.name.split_once('_').map_or("", |(_, law)| law);
     let mut seeds = match (target.family(), law) {
         ("operation", "dispatch") => calls(),
+        ("operation", "request") => operations::requests(),
+        ("operation", "reply") => operations::replies(),
+        ("ads", "frames") => events::frames(),
+        ("streaming", "packets") => texts::programs(),
+        ("streaming", "sender") => events::senders(),
+        ("streaming", "checker") => texts::lots(),
+        ("service", "host") => events::worlds(),
+        ("service", "machines") => events::machines(),
+        ("text", "cp1252") => texts::texts(),
+        ("variable", "path") => texts::names(),
+        ("variable", "typed") => values(),
         (family, "bytes") => {
             let family = family_of(family);
             samples(family).chain(of_vectors(family)).collect()
@@ -69,4 +85,32 @@ fn calls() -> Vec<Seed> {
     let write =
         |sample: &common::CallSample| (sample.slug.into(), operation::write_call(&sample.call));
     common::CALLS.iter().map(write).collect()
+}
+
+/// Type, dimensions, indices, size (0: what there is), value.
+fn values() -> Vec<Seed> {
+    let of = |name: &str, before: &[u8], value: &[u8]| (name.to_string(), [before, value].concat());
+    let mut seeds: Vec<_> = (0..)
+        .zip(DataType::ALL)
+        .flat_map(|(pick, data_type)| {
+            let each = data_type.size().unwrap_or(4);
+            let bytes: Vec<u8> = (0..each * 12).map(|at| (at * 5) as u8).collect();
+            let name = format!("{data_type:?}").to_lowercase();
+            [
+                of(&format!("{name}-one"), &[pick, 0, 0], &bytes[..each as usize]),
+                of(&format!("{name}-list"), &[pick, 1, 12, 9, 0], &bytes),
+                of(&format!("{name}-rows"), &[pick, 2, 3, 4, 2, 1, 0], &bytes),
+                of(&format!("{name}-beyond"), &[pick, 2, 3, 4, 2, 4, 0], &bytes),
+            ]
+        })
+        .collect();
+    let most = [0xFF; 5];
+    seeds.extend([
+        of("cube", &[2, 3, 2, 3, 2, 1, 2, 1, 0], b"twelve bytes"),
+        of("no-element", &[3, 2, 4, 0, 1, 0, 0], b""),
+        of("index-too-many", &[2, 0xF2, 12, 3, 3, 0], b"twelve bytes"),
+        of("size-of-another", &[4, 1, 3, 2, 13], b"twelve bytes"),
+        of("product-overflows", &[&[2, 4][..], &most, &most, &most, &most, &[0; 5]].concat(), b""),
+    ]);
+    seeds
 }

@@ -1,8 +1,10 @@
 //! Every target.
 
+#[cfg(feature = "alloc")]
+use crate::bodies::checker;
 #[cfg(feature = "arbitrary")]
 use crate::bodies::values;
-use crate::bodies::{bytes, operation};
+use crate::bodies::{bytes, frames, names, operation, service, shapes, streaming, text};
 use crate::{Defect, Outcome};
 
 /// A target: named `<family>_<law>`, as its binary and its corpus are.
@@ -94,4 +96,40 @@ targets! {
     OPERATION_DISPATCH: "operation_dispatch", operation::dispatch, operation::DISPATCH_DEFECTS,
         "a server's dispatch of any service, index group, index offset and data never panics; what \
          it takes encodes to the same call and is dispatched to the same request";
+    OPERATION_REQUEST: "operation_request", operation::request, operation::REQUEST_DEFECTS,
+        "an operation of any function, made of any parameters, is encoded to a call that a server \
+         dispatches to that operation, or is refused; within the documented ranges it is refused \
+         only where another function is";
+    OPERATION_REPLY: "operation_reply", operation::reply, operation::REPLY_DEFECTS,
+        "a request takes for a reply what its function's stream takes, no more than was asked \
+         for, and encodes it to the same bytes";
+    ADS_FRAMES: "ads_frames", frames::frames, frames::DEFECTS,
+        "a stream of AMS frames, whole or damaged, cut anywhere, gives the frames that it gives \
+         uncut, one by one, and then the same fault or rest; each shows with its last byte and \
+         stays";
+    STREAMING_PACKETS: "streaming_packets", streaming::packets, streaming::PACKETS_DEFECTS,
+        "of any bytes the first fault is found, or the packets together are the text with CR LF \
+         behind each line, each legal and as full as can be";
+    STREAMING_SENDER: "streaming_sender", streaming::ends, streaming::ENDS_DEFECTS,
+        "whatever is acknowledged, repeated, read and reset: a sender loses and repeats nothing \
+         and counts right, the interface is a bounded queue, and what comes out is the text";
+    #[cfg(feature = "alloc")]
+    STREAMING_CHECKER: "streaming_checker", checker::lots, checker::DEFECTS,
+        "a program that comes in any lots of lines: in each is found what is found there in the \
+         whole, in the text's order, however lines end; any bytes can be checked";
+    SERVICE_HOST: "service_host", service::world, service::WORLD_DEFECTS,
+        "a program, one host or two, and the Service Interface in any order of steps, whatever \
+         fails: each request is served once and gets the answer to itself, after chaos too";
+    SERVICE_MACHINES: "service_machines", service::machines, service::MACHINES_DEFECTS,
+        "a host, a program's request and the five variables, told anything: no request is served \
+         that was not found twice, writes keep their order, errors change nothing";
+    TEXT_CP1252: "text_cp1252", text::cp1252, text::DEFECTS,
+        "text of any bytes and of any characters is what encoding_rs makes of it, faults \
+         included, and comes back both ways";
+    VARIABLE_PATH: "variable_path", names::path, names::DEFECTS,
+        "a name has the parts that splitting the string finds, from CP1252 and from UTF-8, is put \
+         together again, and is refused where it is wrong";
+    VARIABLE_TYPED: "variable_typed", shapes::typed, shapes::DEFECTS,
+        "type, dimensions and size are taken for a shape if they agree; an element is where nested \
+         arrays have it, and what was read is written back as it was";
 }

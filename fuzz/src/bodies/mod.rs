@@ -1,7 +1,16 @@
 //! The bodies: each reads an input its own way and holds what it finds to a law.
 
 pub(crate) mod bytes;
+#[cfg(feature = "alloc")]
+pub(crate) mod checker;
+pub(crate) mod frames;
+pub(crate) mod input;
+pub(crate) mod names;
 pub(crate) mod operation;
+pub(crate) mod service;
+pub(crate) mod shapes;
+pub(crate) mod streaming;
+pub(crate) mod text;
 #[cfg(feature = "arbitrary")]
 pub(crate) mod values;
 

@@ -1,10 +1,17 @@
-//! What a server makes of a call.
+//! What goes out as a call, what a server makes of it, and what it answers.
 
-use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ErrorKind;
+use ads_cnc::address::{
+    Channel, ChannelAxis, Class, IndexGroup, IndexOffset, PlatformAxis, Spindle,
+};
 use ads_cnc::ads::AmsPort;
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::operation::{Call, Function, ReadDescriptors, Service};
+use ads_cnc::text::cp1252_to_char;
 
-use crate::common;
+use super::bytes::{bend, shown};
+use super::input::Input;
+use crate::common::{self, Parameters};
 use crate::{Defect, Outcome};
 
 /// A call: port (2 bytes), service (1), group, offset and read length (4 each), data.
@@ -31,6 +38,139 @@ pub(crate) const DISPATCH_DEFECTS: &[&str] = &[
     "a logical group is encoded as one by index",
     "what is behind the eighth byte of a request is lost",
 ];
+
+/// The first byte picks the function, of the rest its operation is made: see [`parameters`].
+///
+/// It reaches the server as it was meant, or it is refused; within the documented ranges only where
+/// another function is.
+pub(crate) fn request(data: &[u8], defect: Defect) -> Outcome {
+    let Some((&pick, bytes)) = data.split_first() else { return Outcome::unread() };
+    let Some(&function) = Function::ALL.get(usize::from(pick)) else { return Outcome::unread() };
+    let (mut text, mut indices) = (String::new(), Vec::new());
+    let Some(of) = parameters(bytes, &mut text, &mut indices) else { return Outcome::unread() };
+    let made = common::check_made(function, &of, &|call| {
+        if defect.is(1) {
+            call.index_group = IndexGroup::new(call.index_group.get() & !0x10_0000);
+        }
+        if defect.is(2) && call.data.len() > 8 {
+            call.data = &call.data[..8];
+        }
+        if defect.is(3) && call.index_offset.get() > 0x1_0000 {
+            call.index_offset = IndexOffset::new(call.index_offset.get() & 0xFFFF);
+        }
+        if defect.is(4) && call.read_length > 0x100 {
+            call.read_length &= 0xFF;
+        }
+        if defect.is(5) && call.data.len() > 60 {
+            call.port = AmsPort::COM;
+        }
+    });
+    match made {
+        // It encodes to itself.
+        Ok(()) => Outcome::accepted(data),
+        Err(error) => {
+            let refused = error.kind() != ErrorKind::Function || defect.is(6);
+            assert!(!(refused && is_documented(&of)), "{function:?}, {of:?}: {error}");
+            Outcome::refused(shown(error))
+        }
+    }
+}
+
+pub(crate) const REQUEST_DEFECTS: &[&str] = &[
+    "a logical group is encoded as one by index",
+    "what is behind the eighth byte of a request is lost",
+    "the axis in an offset is lost",
+    "a read length over a byte is cut",
+    "a long request goes to another port",
+    "an element that is another function is refused for something else",
+];
+
+/// Channel, axes, spindle, class, kind of dynamic parameter, place (a byte each), element (2),
+/// number and count (4 each); text and indices, both behind a byte that says how long they are;
+/// what is left is content.
+fn parameters<'a>(
+    bytes: &'a [u8],
+    text: &'a mut String,
+    indices: &'a mut Vec<u32>,
+) -> Option<Parameters<'a>> {
+    let mut input = Input::new(bytes);
+    let (channel, by_index) = (input.byte(), input.byte() % 2 == 1);
+    let number = u32::from(channel);
+    let channel = if by_index { Channel::by_index(number) } else { Channel::new(number) };
+    let (platform_axis, axis) = (input.byte(), input.word());
+    let parameters = Parameters {
+        channel: channel.ok()?,
+        platform_axis: PlatformAxis::new(platform_axis.into()).ok()?,
+        axis: ChannelAxis::new(axis.into()).ok()?,
+        spindle: Spindle::new(input.byte().into()).ok()?,
+        class: *input.choose(&Class::ALL),
+        dynamic: *input.choose(&DynamicKind::ALL),
+        place: input.byte(),
+        element: input.word().into(),
+        number: input.long(),
+        count: input.long(),
+        text: {
+            text.extend(input.piece().iter().map(|&byte| cp1252_to_char(byte)));
+            text
+        },
+        indices: {
+            let count = input.byte();
+            // As many as there are bytes for.
+            indices.extend((0..count).map_while(|_| (!input.is_empty()).then(|| input.long())));
+            indices
+        },
+        bytes: input.bytes(usize::MAX),
+    };
+    Some(parameters)
+}
+
+/// Whether every function takes these.
+fn is_documented(of: &Parameters<'_>) -> bool {
+    let text = !of.text.contains('\0') && of.text.chars().count() <= 95;
+    let count = (1..=ReadDescriptors::COUNT_MAX).contains(&of.count);
+    text && count && of.number > 0 && (1..=992).contains(&of.bytes.len())
+}
+
+/// A call with two bytes for the length of its data ([`dispatch`]), and what is answered.
+///
+/// A request takes for a reply what its function's stream takes, but no more than was asked for;
+/// it encodes to the same bytes.
+pub(crate) fn reply(data: &[u8], defect: Defect) -> Outcome {
+    let mut input = Input::new(data);
+    let call = input.long_piece();
+    let Some(call) = read_call(call) else { return Outcome::unread() };
+    if let Err(refusal) = call.dispatch() {
+        return Outcome::refused(format!("{refusal:?}"));
+    }
+    let bytes = input.bytes(usize::MAX);
+    let mut bend = bend(defect);
+    if defect.is(4) {
+        bend.len = |len| {
+            len.or_else(|error| match error.kind() {
+                ErrorKind::TooLong | ErrorKind::TooMany => Ok(error.found() as usize),
+                _ => Err(error),
+            })
+        };
+    }
+    match common::check_reply_bent(&call, bytes, &bend) {
+        Ok(()) => Outcome::accepted(data),
+        Err(error) => Outcome::refused(shown(error)),
+    }
+}
+
+pub(crate) const REPLY_DEFECTS: &[&str] = &[
+    "the last byte loses its top bit when it is encoded",
+    "an error is one byte off if it is behind the first eight bytes",
+    "the length of what has eight bytes or more is announced one too long",
+    "more than was asked for is taken",
+];
+
+/// Writes what [`reply`] reads.
+pub(crate) fn write_reply(call: &Call<'_>, bytes: &[u8]) -> Vec<u8> {
+    let call = write_call(call);
+    let len = u16::try_from(call.len()).expect("a sample is short");
+    [&len.to_le_bytes()[..], &call, bytes].concat()
+}
 
 /// Reads a call as [`dispatch`] has it.
 pub(crate) fn read_call(bytes: &[u8]) -> Option<Call<'_>> {

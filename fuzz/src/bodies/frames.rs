@@ -1,0 +1,111 @@
+//! AMS frames on a stream, however its bytes arrive.
+
+use ads_cnc::ErrorKind;
+use ads_cnc::ads::FrameRef;
+
+use super::input::Input;
+use crate::common::{SPLIT, Split, check_frames, check_verdicts_stay, frame};
+use crate::{Defect, Outcome};
+
+/// The longest data that is permitted, how many cuts there are, the cuts (2 bytes each); then
+/// frames: length of the data, place and change of a byte in the headers, data. Places behind the
+/// headers change nothing.
+///
+/// Cut anywhere, the stream gives the frames that it gives uncut, one by one, and then the same
+/// fault or the same rest. Each frame comes out with its last byte, each fault with its own.
+pub(crate) fn frames(data: &[u8], defect: Defect) -> Outcome {
+    let mut input = Input::new(data);
+    let (max_data, count) = (input.byte().into(), input.byte() % 16);
+    let cuts: Vec<usize> = (0..count).map(|_| input.word().into()).collect();
+    let (mut stream, mut whole) = (Vec::new(), Vec::new());
+    let mut damaged = false;
+    while !input.is_empty() {
+        let (len, place, change) = (input.byte(), input.byte(), input.byte());
+        let mut bytes = frame(input.bytes(len.into()));
+        damaged |= bytes.len() > FrameRef::HEADERS_LEN + max_data as usize;
+        if let Some(byte) = bytes[..FrameRef::HEADERS_LEN].get_mut(usize::from(place)) {
+            *byte ^= change;
+            damaged |= change != 0;
+        }
+        stream.extend_from_slice(&bytes);
+        if !damaged {
+            whole.push(bytes);
+        }
+    }
+
+    let split = split(defect);
+    let uncut = check_frames([&stream[..]], max_data, split);
+    // The frames before the first that is damaged; a change may be one that nothing says against.
+    assert!(uncut.0.starts_with(&whole), "{stream:x?}");
+    let mut places: Vec<usize> = cuts.iter().map(|&cut| cut % (stream.len() + 1)).collect();
+    places.extend([0, stream.len()]);
+    places.sort_unstable();
+    let pieces = places.windows(2).map(|cut| &stream[cut[0]..cut[1]]);
+    assert_eq!(check_frames(pieces, max_data, split), uncut, "cut at {places:?}: {stream:x?}");
+    // What is behind the frames, byte by byte.
+    let taken: usize = uncut.0.iter().map(Vec::len).sum();
+    let behind = &stream[taken..];
+    check_verdicts_stay(&behind[..behind.len().min(64)], max_data, split);
+
+    let frames = uncut.0.len();
+    match uncut.1 {
+        Ok(rest) => Outcome::accepted((stream, rest)),
+        Err(fault) => Outcome::refused((frames, format!("{fault:?}"))),
+    }
+}
+
+pub(crate) const DEFECTS: &[&str] = &[
+    "a frame of more than eight bytes of data takes a byte too few of the stream",
+    "a fault shows only with the bytes behind the headers",
+    "a fault is forgotten when sixty bytes are there",
+    "data one byte longer than permitted is taken",
+    "a frame loses its last byte of data if there are more than sixteen",
+    "no frame comes out as long as there are just three bytes behind it",
+];
+
+fn split(defect: Defect) -> Split {
+    let defects: [Split; 6] = [
+        |bytes, max| {
+            let found = FrameRef::split(bytes, max)?;
+            Ok(found.map(|(frame, len)| (frame, len - usize::from(len > 46))))
+        },
+        |bytes, max| match FrameRef::split(bytes, max) {
+            Err(_) if bytes.len() < 40 => Ok(None),
+            found => found,
+        },
+        |bytes, max| match FrameRef::split(bytes, max) {
+            Err(_) if bytes.len() > 60 => Ok(None),
+            found => found,
+        },
+        |bytes, max| match FrameRef::split(bytes, max) {
+            Err(error) if error.kind() == ErrorKind::TooLong => FrameRef::split(bytes, max + 1),
+            found => found,
+        },
+        |bytes, max| match FrameRef::split(bytes, max)? {
+            Some((frame, len)) if frame.data().len() > 16 => {
+                let data = &frame.data()[..frame.data().len() - 1];
+                Ok(Some((FrameRef::new(frame.header(), data)?, len)))
+            }
+            found => Ok(found),
+        },
+        |bytes, max| match FrameRef::split(bytes, max)? {
+            Some((_, len)) if bytes.len() == len + 3 => Ok(None),
+            found => Ok(found),
+        },
+    ];
+    (1..)
+        .zip(defects)
+        .find_map(|(number, split)| defect.is(number).then_some(split))
+        .unwrap_or(SPLIT)
+}
+
+/// Writes what [`frames`] reads: cuts, then frames by their data, place and change.
+pub(crate) fn write(max_data: u8, cuts: &[u16], frames: &[(&[u8], u8, u8)]) -> Vec<u8> {
+    let mut bytes = vec![max_data, cuts.len() as u8];
+    bytes.extend(cuts.iter().flat_map(|cut| cut.to_le_bytes()));
+    for &(data, place, change) in frames {
+        bytes.extend([data.len() as u8, place, change]);
+        bytes.extend(data);
+    }
+    bytes
+}

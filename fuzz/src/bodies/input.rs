@@ -1,0 +1,67 @@
+//! Inputs that stand for numbers, choices and events: each byte has a meaning where it is.
+
+/// What is left of an input.
+#[derive(Clone, Copy)]
+pub(crate) struct Input<'a>(&'a [u8]);
+
+impl<'a> Input<'a> {
+    pub(crate) const fn new(bytes: &'a [u8]) -> Self {
+        Self(bytes)
+    }
+
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The next byte; behind the end 0.
+    pub(crate) fn byte(&mut self) -> u8 {
+        self.next().unwrap_or(0)
+    }
+
+    pub(crate) fn number<const N: usize>(&mut self) -> [u8; N] {
+        std::array::from_fn(|_| self.byte())
+    }
+
+    pub(crate) fn word(&mut self) -> u16 {
+        u16::from_le_bytes(self.number())
+    }
+
+    pub(crate) fn long(&mut self) -> u32 {
+        u32::from_le_bytes(self.number())
+    }
+
+    /// So many bytes, or as many as there are.
+    pub(crate) fn bytes(&mut self, len: usize) -> &'a [u8] {
+        let (bytes, rest) = self.0.split_at(len.min(self.0.len()));
+        self.0 = rest;
+        bytes
+    }
+
+    /// As many bytes as the next byte says.
+    pub(crate) fn piece(&mut self) -> &'a [u8] {
+        let len = self.byte().into();
+        self.bytes(len)
+    }
+
+    /// As many bytes as the next two say.
+    pub(crate) fn long_piece(&mut self) -> &'a [u8] {
+        let len = self.word().into();
+        self.bytes(len)
+    }
+
+    /// One of these, the same for the same byte.
+    pub(crate) fn choose<'t, T>(&mut self, of: &'t [T]) -> &'t T {
+        &of[usize::from(self.byte()) % of.len()]
+    }
+}
+
+/// Each byte that is left.
+impl Iterator for Input<'_> {
+    type Item = u8;
+
+    fn next(&mut self) -> Option<u8> {
+        let (&byte, rest) = self.0.split_first()?;
+        self.0 = rest;
+        Some(byte)
+    }
+}

@@ -1,0 +1,56 @@
+//! Names of variables.
+
+use crate::common::names::{NameBend, check_name};
+use crate::{Defect, Outcome};
+
+/// The input is a name in CP1252, up to its first NUL.
+///
+/// From CP1252 and from UTF-8 it has the same parts, which are those that splitting the string
+/// finds, or the same fault; it is put together again; and before the place of its fault nothing
+/// is wrong.
+pub(crate) fn path(data: &[u8], defect: Defect) -> Outcome {
+    let text = data.split(|&byte| byte == 0).next().unwrap_or(data);
+    match check_name(text, bend(defect)) {
+        Ok(pieces) => Outcome::accepted(format!("{pieces:?}")),
+        Err(fault) => Outcome::refused(format!("{fault:?}")),
+    }
+}
+
+pub(crate) const DEFECTS: &[&str] = &[
+    "an index over a byte is cut",
+    "the kind V.CYC is read as V.C",
+    "the fourth part is lost",
+    "an error is a character off behind the tenth",
+    "a name of more than thirty characters is written without its last one",
+];
+
+fn bend(defect: Defect) -> NameBend {
+    let mut bend = NameBend::NONE;
+    if defect.is(1) {
+        bend.pieces = |pieces| {
+            let indices = pieces.parts.iter_mut().flat_map(|(_, indices)| indices);
+            indices.for_each(|index| *index &= 0xFF);
+        };
+    }
+    if defect.is(2) {
+        bend.pieces = |pieces| pieces.kind = pieces.kind.replace("CYC", "C");
+    }
+    if defect.is(3) {
+        bend.pieces = |pieces| pieces.parts.truncate(3);
+    }
+    if defect.is(4) {
+        bend.fault = |mut fault| {
+            fault.offset -= usize::from(fault.offset > 10);
+            fault
+        };
+    }
+    if defect.is(5) {
+        bend.written = |mut name| {
+            if name.chars().count() > 30 {
+                name.pop();
+            }
+            name
+        };
+    }
+    bend
+}

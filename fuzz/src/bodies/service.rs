@@ -1,0 +1,247 @@
+//! The Service Interface: all that takes part, and each on its own.
+
+use std::time::Duration;
+
+use ads_cnc::service::{Clears, ServiceId, ServiceVariable};
+
+use super::input::Input;
+use crate::common::machines::{CheckedHost, HostBend};
+use crate::common::machines_cnc::{CheckedCall, CheckedVariables};
+use crate::common::service::{Action, Asked, Luck, ServiceBend, World, service_ids};
+use crate::{Defect, Outcome};
+
+/// A byte for what there is: one host for both services (bit 0), whether the interface clears
+/// REQUEST_STATE (1), chaos (2). How many requests there are and a byte each; behind chaos the
+/// same once more. Then what happens, a byte each: see [`actions`].
+///
+/// Whatever fails, every request is served once, by the service it is for, and gets the answer to
+/// itself; after chaos, all come to rest and it is so again.
+pub(crate) fn world(data: &[u8], defect: Defect) -> Outcome {
+    let mut input = Input::new(data);
+    let what = input.byte();
+    let (together, chaos) = (what & 1 != 0, what & 4 != 0);
+    let clears = if what & 2 != 0 { Clears::Never } else { Clears::OnResponseState };
+    let (requests, after) =
+        (requests(&mut input), if chaos { requests(&mut input) } else { vec![] });
+
+    let ids = service_ids();
+    let mut world = World::new(&ids, together, clears, !chaos, world_bend(defect));
+    let mut next = requests.into_iter();
+    for action in input.take(200).flat_map(|byte| actions(byte, chaos)) {
+        let action = if together || chaos { action } else { world.luck_of_two(action) };
+        world.act(action, &mut next);
+    }
+    if chaos {
+        world.settle();
+        next = after.into_iter();
+    }
+    world.finish(&mut next);
+    Outcome::accepted((what, world.served()))
+}
+
+/// Which service is asked (bit 0), and what (bit 1).
+fn requests(input: &mut Input<'_>) -> Vec<Asked> {
+    let count = input.byte() % 8;
+    (0..count).map(|_| input.byte()).map(|byte| (usize::from(byte & 1), byte >> 1 & 1)).collect()
+}
+
+/// The lower three bits: the program steps, or a host, which fourth bit says. The rest: how often,
+/// or what fails, or what else there is in chaos.
+fn actions(byte: u8, chaos: bool) -> impl Iterator<Item = Action> {
+    let (place, more) = (usize::from(byte >> 3 & 1), byte >> 4);
+    let (action, times) = match byte & 7 {
+        0..2 => (Action::Program, more % 8 + 1),
+        2..5 => (Action::Host(place, Luck::Fine), more % 8 + 1),
+        5 => (Action::Host(place, Luck::Fails), 1),
+        6 => (Action::Host(place, Luck::FailsLate), 1),
+        _ if !chaos => (Action::Program, 1),
+        _ => match more {
+            0..4 => (Action::GiveUp, 1),
+            4..8 => (Action::ResetCnc, 1),
+            _ => (Action::Restart(place), 1),
+        },
+    };
+    std::iter::repeat_n(action, times.into())
+}
+
+pub(crate) const WORLD_DEFECTS: &[&str] = &[
+    "a write that failed counts as done",
+    "a step that failed lets the host begin anew",
+    "RESPONSE_STATE stays when REQUEST_STATE is written",
+    "a host that is begun anew knows no service",
+    "the other service is said to be asked if it was asked the second text",
+    "a response loses its last character if it has six",
+];
+
+fn world_bend(defect: Defect) -> ServiceBend {
+    let mut bend = ServiceBend::NONE;
+    if defect.is(1) {
+        bend.failed = |host| host.written();
+    }
+    if defect.is(2) {
+        bend.failed = |host| host.restart();
+    }
+    if defect.is(3) {
+        bend.write = |interface, variable, value| {
+            let before = interface.read(ServiceVariable::ResponseState).to_vec();
+            interface.write(variable, value).unwrap();
+            if variable == ServiceVariable::RequestState && value != [0; 4] && before != [0; 4] {
+                let asked = Clears::Never;
+                let mut other = ads_cnc::service::Interface::with(asked);
+                for variable in ServiceVariable::ALL {
+                    other.write(variable, interface.read(variable)).unwrap();
+                }
+                other.write(ServiceVariable::ResponseState, &before).unwrap();
+                *interface = other;
+            }
+        };
+    }
+    if defect.is(4) {
+        bend.restart = |host| *host = ads_cnc::service::Host::new(&[]);
+    }
+    if defect.is(5) {
+        bend.asked = |service, text| if text.ends_with('1') { 1 - service } else { service };
+    }
+    if defect.is(6) {
+        bend.write = |interface, variable, value| {
+            let long = variable == ServiceVariable::Response && value.len() == 7;
+            interface.write(variable, if long { &value[..5] } else { value }).unwrap();
+        };
+    }
+    bend
+}
+
+/// A byte that picks who it is, then what it is told: see [`value`] and the events of each.
+///
+/// A host serves what it found twice, answers what it found once more, writes in its order, and
+/// does nothing that it was not asked for; a program's request and the variables do what the
+/// manual says.
+pub(crate) fn machines(data: &[u8], defect: Defect) -> Outcome {
+    let mut input = Input::new(data);
+    match input.byte() % 3 {
+        0 => host(input, defect),
+        1 => call(input, defect),
+        _ => variables(input, defect),
+    }
+}
+
+/// More events are more of the same.
+const EVENTS: usize = 300;
+
+fn host(mut input: Input<'_>, defect: Defect) -> Outcome {
+    let ids = service_ids();
+    let mut host = CheckedHost::new(&ids, host_bend(defect));
+    let (mut steps, mut last) = (Vec::new(), Vec::new());
+    while !input.is_empty() && steps.len() < EVENTS {
+        match input.byte() % 16 {
+            0..9 => host.read(value(&mut input, &mut last)),
+            9..11 => host.written(),
+            11 => host.failed(),
+            12..14 => host.poll(),
+            14 => {
+                let state = input.byte().into();
+                host.answer(value(&mut input, &mut last), state);
+            }
+            _ => host.restart(),
+        }
+        steps.push(format!("{:?}", host.step()));
+    }
+    Outcome::accepted(steps)
+}
+
+fn call(mut input: Input<'_>, defect: Defect) -> Outcome {
+    let mut last = Vec::new();
+    let id = *input.choose(&service_ids());
+    let (asked, given) = (input.byte().into(), input.byte());
+    let parameters = [0, 1, 2].map(|bit| (given >> bit & 1 != 0).then(|| u32::from(input.byte())));
+    let request = value(&mut input, &mut last).to_vec();
+    let mut call = match CheckedCall::new(id, &request, asked, parameters) {
+        Ok(call) => call,
+        Err(error) => return Outcome::refused(super::bytes::shown(error)),
+    };
+    let (mut now, mut events) = (Duration::ZERO, 0);
+    while !input.is_empty() && events < EVENTS {
+        events += 1;
+        let event = input.byte();
+        now += Duration::from_millis((event >> 4).into());
+        match event % 8 {
+            0..3 => call.written(now),
+            3 => call.poll(),
+            _ => {
+                let value = value(&mut input, &mut last);
+                let told = match value {
+                    [first, ..] if defect.is(5) && value.len() == 4 => &[*first & 0x0F, 0, 0, 0],
+                    _ => value,
+                };
+                call.read(value, now, (told, if defect.is(6) { now * 2 } else { now }));
+            }
+        }
+    }
+    Outcome::accepted((events, now))
+}
+
+fn variables(mut input: Input<'_>, defect: Defect) -> Outcome {
+    let clears = *input.choose(&[Clears::OnResponseState, Clears::Never]);
+    let mut variables = CheckedVariables::new(clears);
+    let (mut events, mut last) = (0, Vec::new());
+    while !input.is_empty() && events < EVENTS {
+        events += 1;
+        match input.byte() {
+            0xFF => variables.reset(),
+            variable => {
+                let variable = ServiceVariable::ALL[usize::from(variable % 5)];
+                let value = value(&mut input, &mut last);
+                let told = if defect.is(7) && value.len() == 5 { &value[..4] } else { value };
+                variables.write(variable, value, told);
+            }
+        }
+    }
+    Outcome::accepted(events)
+}
+
+/// The lower three bits of a byte: which value. That of one is all that it says, or the last one.
+fn value<'v>(input: &mut Input<'_>, last: &'v mut Vec<u8>) -> &'v [u8] {
+    let ids: [ServiceId; 2] = service_ids();
+    let pick = input.byte();
+    match pick & 7 {
+        0 => {}
+        1 => *last = vec![0; 4],
+        2 => *last = vec![pick >> 3, 0, 0, 0],
+        3 => *last = ids[usize::from(pick >> 3 & 1)].to_string().to_lowercase().into_bytes(),
+        4 => *last = [ids[usize::from(pick >> 3 & 1)].to_string().as_bytes(), b"\0"].concat(),
+        5 => *last = vec![b'0' + (pick >> 3), 0],
+        6 => *last = vec![b'x'; 112 + usize::from(pick >> 3)],
+        _ => *last = input.bytes((pick >> 3).into()).to_vec(),
+    }
+    last
+}
+
+pub(crate) const MACHINES_DEFECTS: &[&str] = &[
+    "a text that has changed is taken for what it was",
+    "a response state of 0 is taken",
+    "a write that failed counts as done",
+    "a poll begins anew whatever there is to do",
+    "a response state loses its upper four bits",
+    "the time runs twice as fast",
+    "the fifth byte of a state is overlooked",
+];
+
+fn host_bend(defect: Defect) -> HostBend {
+    let mut bend = HostBend::NONE;
+    if defect.is(1) {
+        bend.read = |value, last| match last {
+            Some(last) if value.len() != 4 => last,
+            _ => value,
+        };
+    }
+    if defect.is(2) {
+        bend.state = |state| state.max(1);
+    }
+    if defect.is(3) {
+        bend.failed = |host| host.written();
+    }
+    if defect.is(4) {
+        bend.poll = |host| host.restart();
+    }
+    bend
+}

@@ -1,0 +1,75 @@
+//! Values of any type and dimensions.
+
+use ads_cnc::value::DataType;
+
+use super::input::Input;
+use crate::common::shapes::{Described, ShapeBend, check_shape};
+use crate::{Defect, Outcome};
+
+/// Type, number of dimensions, each dimension, each index, as many of them or one more; 0 for the
+/// size that there is, or another size: a byte each, 0xFF before four of them. The rest is the
+/// value.
+///
+/// A shape is taken if its size is that of its elements; an element is where nested arrays have
+/// it, and what was read is written back as it was.
+pub(crate) fn typed(data: &[u8], defect: Defect) -> Outcome {
+    let mut input = Input::new(data);
+    let data_type = *input.choose(&DataType::ALL);
+    let count = input.byte();
+    let dimensions: Vec<u32> = (0..count % 5).map(|_| number(&mut input)).collect();
+    let more = usize::from(count >= 0xF0);
+    let indices: Vec<u32> = (0..dimensions.len() + more).map(|_| number(&mut input)).collect();
+    let size = number(&mut input);
+    let bytes = input.bytes(usize::MAX);
+    let size = if size == 0 { u32::try_from(bytes.len()).unwrap_or(u32::MAX) } else { size };
+    let of = Described { data_type, dimensions: &dimensions, size, indices: &indices, bytes };
+    match check_shape(&of, bend(defect)) {
+        // What is read is the bytes.
+        Ok(count) => Outcome::accepted((count, data)),
+        Err(kind) => Outcome::refused(format!("{kind:?}")),
+    }
+}
+
+fn number(input: &mut Input<'_>) -> u32 {
+    match input.byte() {
+        0xFF => input.long(),
+        byte => byte.into(),
+    }
+}
+
+pub(crate) const DEFECTS: &[&str] = &[
+    "the first index runs fastest",
+    "an index beyond a later dimension is refused for the first one",
+    "the top bit of the second byte is lost when it is written",
+    "the size may be one byte more than that of the elements",
+    "a place behind the ninth is one too far",
+];
+
+fn bend(defect: Defect) -> ShapeBend {
+    let mut bend = ShapeBend::NONE;
+    if defect.is(1) {
+        bend.indices = <[u32]>::reverse;
+    }
+    if defect.is(2) {
+        bend.place = |place| {
+            place.map_err(|mut fault| {
+                fault.offset = 0;
+                fault
+            })
+        };
+    }
+    if defect.is(3) {
+        bend.written = |bytes| {
+            if let Some(second) = bytes.get_mut(1) {
+                *second &= 0x7F;
+            }
+        };
+    }
+    if defect.is(4) {
+        bend.size = |size| if size > 8 && size % 2 == 1 { size - 1 } else { size };
+    }
+    if defect.is(5) {
+        bend.place = |place| place.map(|place| place + u32::from(place > 8));
+    }
+    bend
+}
