@@ -1,0 +1,232 @@
+# Read by fuzz/nightly: how a target is built and run, what its log says, tables.
+# shellcheck shell=bash disable=SC2154 # the variables are those of fuzz/nightly
+
+# Builds the targets for a sanitizer, each in a folder of its own: they would undo one another.
+build() {
+    local sanitizer="$1" names=("")
+    [ ${#chosen[@]} -eq 0 ] || names=("${chosen[@]}")
+    for name in "${names[@]}"; do
+        # Lines in a backtrace are worth their size.
+        CARGO_PROFILE_RELEASE_DEBUG=line-tables-only cargo "+$toolchain" fuzz build \
+            --fuzz-dir fuzz --features libfuzzer --release --debug-assertions \
+            --sanitizer "$sanitizer" --target-dir "$target_dir/fuzz-$sanitizer" ${name:+"$name"} ||
+            broken "the targets don't build (sanitizer: $sanitizer)"
+    done
+}
+
+binary() { echo "$target_dir/fuzz-$2/$triple/release/$1"; }
+
+# Calls a function for each target, so many at once as there are jobs.
+each() {
+    local running=0
+    for target in "${targets[@]}"; do
+        if [ "$running" -ge "$jobs" ]; then
+            wait -n || broken "$1 gave up"
+            running=$((running - 1))
+        fi
+        "$1" "$target" &
+        running=$((running + 1))
+    done
+    for ((; running > 0; running--)); do
+        wait -n || broken "$1 gave up"
+    done
+}
+
+# The folders there are of those that hold inputs for a target, the committed ones first.
+inputs() {
+    local folder
+    for folder in "fuzz/corpus/$1" "fuzz/regressions/$1" "$corpus/$1"; do
+        if [ -d "$folder" ]; then realpath "$folder"; fi
+    done | awk '!seen[$0]++'
+}
+
+# What depends on the target alone: its dictionary, and how large an input gets.
+options() {
+    local dictionary="fuzz/dictionaries/${1%%_*}.dict" folders
+    if [ -f "$dictionary" ]; then echo "-dict=$dictionary"; fi
+    mapfile -t folders < <(inputs "$1")
+    { echo "$MAX_LEN"; [ ${#folders[@]} -eq 0 ] || find "${folders[@]}" -type f -printf '%s\n'; } |
+        sort -n | sed -n '$s/^/-max_len=/p'
+}
+
+# libFuzzer with what holds for every run, stopped if it doesn't stop by itself.
+libfuzzer() {
+    local program="$1" bound="$2"
+    shift 2
+    ASAN_OPTIONS="detect_odr_violation=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}" \
+        timeout -k 10 $((bound * 2 + 300)) "$program" "${LIMITS[@]}" \
+        -stop_file="$output/stop" -print_final_stats=1 "$@"
+}
+
+files() { find "$@" -type f 2>/dev/null | wc -l; }
+statistic() { sed -n "s/^stat::$2: *//p" "$1" | tail -n 1; }
+# Edges (cov) or features (ft): how many at the end, and how many more than the inputs had reached.
+covered() {
+    awk -v what="$2:" '/^#[0-9]+\t/ {
+        for (i = 2; i < NF; i++) if ($i == what) { last = $(i + 1); if ($2 == "INITED") first = last }
+    } END { printf "%d (+%d)", last, first ? last - first : 0 }' "$1"
+}
+
+fuzz_target() {
+    [ "$seconds" -eq 0 ] || fuzz "$1" none "$seconds"
+    [ "$asan_seconds" -eq 0 ] || fuzz "$1" address "$asan_seconds"
+}
+
+# One run of a target: its log, and a row for the summary.
+fuzz() {
+    local target="$1" sanitizer="$2" bound="$3" log="$output/logs/$1.$2.log" status=0
+    local found="$output/found/$target" findings="$output/findings/$sanitizer/$target"
+    local options folders executions rate new result=ok
+    mkdir -p "$found" "$findings"
+    mapfile -t options < <(options "$target")
+    mapfile -t folders < <(inputs "$target")
+    libfuzzer "$(binary "$target" "$sanitizer")" "$bound" "${options[@]}" \
+        -max_total_time="$bound" -artifact_prefix="$findings/" \
+        "$found" ${folders[@]+"${folders[@]}"} >"$log" 2>&1 || status=$?
+    executions="$(statistic "$log" number_of_executed_units)"
+    rate="$(statistic "$log" average_exec_per_sec)"
+    new="$(statistic "$log" new_units_added)"
+    if [ "$(files "$findings")" -gt 0 ]; then
+        result=finding
+    elif [ "$status" -ne 0 ]; then
+        result="exit code $status"
+    elif [ "${executions:-0}" -eq 0 ]; then
+        result="tried nothing"
+    fi
+    row "$target" "$target" "$sanitizer" "$bound" "${executions:-0}" "${rate:-0}" \
+        "$(covered "$log" cov)" "$(covered "$log" ft)" "${new:-0}" "$(files "$findings")" "$result"
+    say "$target, sanitizer $sanitizer: ${executions:-0} executions, $result"
+}
+
+row() {
+    local name="$1"
+    shift
+    (IFS=$'\t'; echo "$*") >>"$output/rows/$name"
+}
+rows() { for target in "${targets[@]}"; do cat "$output/rows/$target"; done; }
+# How many rows have something else in a column.
+other_than() {
+    rows | awk -F'\t' -v column="$1" -v wanted="^($2)\$" '$column !~ wanted { n++ } END { print n + 0 }'
+}
+
+# Rows with a head as Markdown, as wide as they have to be.
+markdown() {
+    awk -F'\t' '{
+        for (i = 1; i <= NF; i++) { cell[NR, i] = $i; if (length($i) > width[i]) width[i] = length($i) }
+        columns = NF
+    } END {
+        for (row = 1; row <= NR; row++) {
+            line = "|"; rule = "|"
+            for (i = 1; i <= columns; i++) {
+                line = line sprintf(" %-" width[i] "s |", cell[row, i])
+                dashes = sprintf("%" width[i] "s", ""); gsub(/ /, "-", dashes)
+                rule = rule " " dashes " |"
+            }
+            print line
+            if (row == 1) print rule
+        }
+    }'
+}
+
+# One finding a line: target, sanitizer, path. What both runs found is named once.
+findings() {
+    local target sanitizer
+    for target in "${targets[@]}"; do
+        for sanitizer in none address; do
+            find "$output/findings/$sanitizer/$target" -type f 2>/dev/null | sort |
+                sed "s|^|$target\t$sanitizer\t|"
+        done | awk -F/ '!seen[$NF]++'
+    done
+}
+
+# The table on the screen and in two files, and how to see each finding again.
+summary() {
+    { printf 'target\tsanitizer\tseconds\texecutions\texec/s\tedges\tfeatures\tnew inputs\tfindings\tresult\n'
+      rows; } >"$output/summary.tsv"
+    {
+        markdown <"$output/summary.tsv"
+        printf '\n%s executions with %s; edges and features: at the end (gained).\n' \
+            "$(rows | awk -F'\t' '{ n += $4 } END { print n + 0 }')" "$toolchain"
+        findings | while IFS=$'\t' read -r target sanitizer path; do
+            local fuzz="--fuzz-dir fuzz --features libfuzzer --sanitizer $sanitizer $target"
+            printf '\n%s found %s\n\n' "$target" "$(basename "$path")"
+            printf '    cargo +%s fuzz run %s %q -- %s\n' "$toolchain" "$fuzz" "$path" "${LIMITS[*]}"
+            printf '    cargo +%s fuzz tmin %s %q\n' "$toolchain" "$fuzz" "$path"
+        done
+    } | tee "$output/summary.md"
+    echo "left in $output"
+}
+
+# A name that libFuzzer gave: the digest of the bytes. All others were given by hand.
+digests() { find "$1" -maxdepth 1 -type f 2>/dev/null | grep -E '/[0-9a-f]{40}$' || true; }
+
+# What adds something to the committed inputs, of those kept and those found. Committed inputs with
+# a name of their own stay in any case: seeds, and what somebody thought worth one.
+minimise() {
+    local target="$1" base into="$output/corpus/$1" path before options folders status=0
+    base="$(mktemp -d)"
+    mkdir -p "$into"
+    if [ -d "fuzz/corpus/$target" ]; then cp -r "fuzz/corpus/$target/." "$base"; fi
+    if committed; then digests "$base" | tr '\n' '\0' | xargs -0 -r rm; fi
+    before="$(find "$base" -type f -printf '%f\n' | sort)"
+    mapfile -t folders < <(inputs "$target")
+    mapfile -t -O "${#folders[@]}" folders < <(echo "$output/found/$target")
+    mapfile -t options < <(options "$target")
+    libfuzzer "$(binary "$target" "$merging")" 3600 "${options[@]}" -merge=1 "$base" \
+        "${folders[@]}" >"$output/logs/$target.merge.log" 2>&1 || status=$?
+    if [ "$status" -ne 0 ]; then
+        say "$target: not minimised, see $output/logs/$target.merge.log"
+        rm -rf "$base" "$into"
+        return 0
+    fi
+    find "$base" -type f -printf '%f\n' | sort | comm -13 <(echo "$before") - |
+        while read -r path; do mv "$base/$path" "$into/"; done
+    rm -rf "$base"
+    say "$target: $(files "$into") inputs beside the committed ones"
+}
+
+committed() { [ "$(realpath -m "$corpus")" = "$PWD/fuzz/corpus" ]; }
+
+# New inputs into the corpus; minimised ones take the place of what was there.
+keep_inputs() {
+    local from="$output/found/$1"
+    mkdir -p "$corpus/$1"
+    if [ -d "$output/corpus/$1" ]; then
+        from="$output/corpus/$1"
+        if committed; then digests "$corpus/$1"; else find "$corpus/$1" -type f; fi |
+            tr '\n' '\0' | xargs -0 -r rm
+    fi
+    cp -r "$from/." "$corpus/$1"
+}
+
+# One target against the defect seeded for it. What it finds has to pass without the defect, or it
+# would be no proof of anything.
+prove_target() {
+    local target="$1" log="$output/logs/$1.log" scratch start took verdict options folders program
+    program="$(binary "$target" none)"
+    scratch="$(mktemp -d)"
+    mkdir -p "$scratch"/{found,artifacts}
+    mapfile -t options < <(options "$target")
+    mapfile -t folders < <(inputs "$target")
+    start="$EPOCHREALTIME"
+    ADS_CNC_SEEDED_DEFECT=1 libfuzzer "$program" "$seconds" "${options[@]}" \
+        -max_total_time="$seconds" -artifact_prefix="$scratch/artifacts/" \
+        "$scratch/found" ${folders[@]+"${folders[@]}"} >"$log" 2>&1 || true
+    took="$(awk -v a="$start" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - a }')"
+    if [ "$(files "$scratch/artifacts")" -gt 0 ]; then
+        verdict=found
+        find "$scratch/artifacts" -type f -exec "$program" "${LIMITS[@]}" {} + >>"$log" 2>&1 ||
+            verdict="fails without it, too"
+    elif [ -n "$(statistic "$log" number_of_executed_units)" ]; then
+        verdict="not found"
+    else
+        verdict=broken
+        tail -n 20 "$log" >&2
+    fi
+    row "$target" "$target" "$verdict" "$took" "$(statistic "$log" number_of_executed_units)"
+    rm -rf "$scratch"
+}
+
+table_of_proofs() {
+    { printf 'target\tdefect\tseconds\texecutions\n'; rows; } | markdown
+}
