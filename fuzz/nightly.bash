@@ -172,7 +172,7 @@ minimise() {
     mapfile -t folders < <(inputs "$target")
     mapfile -t -O "${#folders[@]}" folders < <(echo "$output/found/$target")
     mapfile -t options < <(options "$target")
-    libfuzzer "$(binary "$target" "$merging")" 3600 "${options[@]}" -merge=1 "$base" \
+    libfuzzer "$(binary "$target" "$steady")" 3600 "${options[@]}" -merge=1 "$base" \
         "${folders[@]}" >"$output/logs/$target.merge.log" 2>&1 || status=$?
     if [ "$status" -ne 0 ]; then
         say "$target: not minimised, see $output/logs/$target.merge.log"
@@ -199,34 +199,46 @@ keep_inputs() {
     cp -r "$from/." "$corpus/$1"
 }
 
-# One target against the defect seeded for it. What it finds has to pass without the defect, or it
-# would be no proof of anything.
+# How many defects are seeded for each target, as the library says: name, family, number.
+seeded_defects() { cargo run --quiet --locked -p ads-cnc-fuzz --example targets; }
+
 prove_target() {
-    local target="$1" log="$output/logs/$1.log" scratch start took verdict options folders program
-    program="$(binary "$target" none)"
+    local number defects
+    defects="$(awk -F'\t' -v target="$1" '$1 == target { print $3 }' "$output/defects.tsv")"
+    for ((number = 1; number <= ${defects:-0}; number++)); do prove "$1" "$number"; done
+    [ "${defects:-0}" -gt 0 ] || row "$1" "$1" - "none seeded" - -
+}
+
+# One target against one defect. What it finds has to pass without the defect, or it would be no
+# proof of anything.
+prove() {
+    local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took
+    local verdict program options folders executions bound=$((seconds > 0 ? seconds : asan_seconds))
+    program="$(binary "$target" "$steady")"
     scratch="$(mktemp -d)"
-    mkdir -p "$scratch"/{found,artifacts}
+    mkdir "$scratch"/{found,artifacts}
     mapfile -t options < <(options "$target")
     mapfile -t folders < <(inputs "$target")
     start="$EPOCHREALTIME"
-    ADS_CNC_SEEDED_DEFECT=1 libfuzzer "$program" "$seconds" "${options[@]}" \
-        -max_total_time="$seconds" -artifact_prefix="$scratch/artifacts/" \
+    ADS_CNC_SEEDED_DEFECT="$number" libfuzzer "$program" "$bound" "${options[@]}" \
+        -max_total_time="$bound" -artifact_prefix="$scratch/artifacts/" \
         "$scratch/found" ${folders[@]+"${folders[@]}"} >"$log" 2>&1 || true
     took="$(awk -v a="$start" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - a }')"
+    executions="$(statistic "$log" number_of_executed_units)"
     if [ "$(files "$scratch/artifacts")" -gt 0 ]; then
         verdict=found
         find "$scratch/artifacts" -type f -exec "$program" "${LIMITS[@]}" {} + >>"$log" 2>&1 ||
-            verdict="fails without it, too"
-    elif [ -n "$(statistic "$log" number_of_executed_units)" ]; then
+            verdict="fails without it"
+    elif [ "${executions:-0}" -gt 0 ]; then
         verdict="not found"
     else
         verdict=broken
         tail -n 20 "$log" >&2
     fi
-    row "$target" "$target" "$verdict" "$took" "$(statistic "$log" number_of_executed_units)"
+    row "$target" "$target" "$number" "$verdict" "$took" "${executions:-0}"
     rm -rf "$scratch"
 }
 
 table_of_proofs() {
-    { printf 'target\tdefect\tseconds\texecutions\n'; rows; } | markdown
+    { printf 'target\tdefect\tverdict\tseconds\texecutions\n'; rows; } | markdown
 }
