@@ -1,5 +1,5 @@
-# Read by fuzz/nightly: how a target is built and run, what its log says, tables.
 # shellcheck shell=bash disable=SC2154 # the variables are those of fuzz/nightly
+# Read by fuzz/nightly: how a target is built and run, what its log says, tables.
 
 # Builds the targets for a sanitizer, each in a folder of its own: they would undo one another.
 build() {
@@ -128,14 +128,26 @@ markdown() {
     }'
 }
 
-# One finding a line: target, sanitizer, path. What both runs found is named once.
-findings() {
-    local target sanitizer
+# What failed and where, as far as a log tells: the same for other inputs that run into the same.
+signature() {
+    local what place
+    what="$(basename "$3")"
+    place="$(sed -n -e 's/.*panicked at \(.*\):$/\1/p' -e 's/^SUMMARY: \(.*\)/\1/p' \
+        "$output/logs/$1.$2.log" | head -n 1)"
+    echo "$1 ${what%%-*} ${place:-somewhere}"
+}
+
+# One finding a line: target, sanitizer, path, signature. What both runs found is named once.
+list_findings() {
+    local target sanitizer path
     for target in "${targets[@]}"; do
         for sanitizer in none address; do
-            find "$output/findings/$sanitizer/$target" -type f 2>/dev/null | sort |
-                sed "s|^|$target\t$sanitizer\t|"
-        done | awk -F/ '!seen[$NF]++'
+            { find "$output/findings/$sanitizer/$target" -type f 2>/dev/null || true; } | sort |
+                while read -r path; do
+                    printf '%s\t%s\t%s\t%s\n' "$target" "$sanitizer" "$path" \
+                        "$(signature "$target" "$sanitizer" "$path")"
+                done
+        done | awk -F'\t' '!seen[$4]++'
     done
 }
 
@@ -143,16 +155,17 @@ findings() {
 summary() {
     { printf 'target\tsanitizer\tseconds\texecutions\texec/s\tedges\tfeatures\tnew inputs\tfindings\tresult\n'
       rows; } >"$output/summary.tsv"
+    list_findings >"$output/findings.tsv"
     {
         markdown <"$output/summary.tsv"
         printf '\n%s executions with %s; edges and features: at the end (gained).\n' \
             "$(rows | awk -F'\t' '{ n += $4 } END { print n + 0 }')" "$toolchain"
-        findings | while IFS=$'\t' read -r target sanitizer path; do
+        while IFS=$'\t' read -r target sanitizer path signature; do
             local fuzz="--fuzz-dir fuzz --features libfuzzer --sanitizer $sanitizer $target"
-            printf '\n%s found %s\n\n' "$target" "$(basename "$path")"
+            printf '\n%s (%s)\n\n' "$signature" "$(basename "$path")"
             printf '    cargo +%s fuzz run %s %q -- %s\n' "$toolchain" "$fuzz" "$path" "${LIMITS[*]}"
             printf '    cargo +%s fuzz tmin %s %q\n' "$toolchain" "$fuzz" "$path"
-        done
+        done <"$output/findings.tsv"
     } | tee "$output/summary.md"
     echo "left in $output"
 }
