@@ -112,6 +112,11 @@ fn encoders_refuse_what_decoders_would() {
 
     let indices = HandleReadRef { handle: Handle(1), indices: Numbers::from(&numbers) };
     assert_eq!(refusal(&indices), fault(TooMany, "index_count", 4, (510, 511)));
+    let indices =
+        HandleWriteRef { handle: Handle(1), indices: Numbers::from(&numbers), value: &[] };
+    assert_eq!(refusal(&indices), fault(TooMany, "index_count", 4, (510, 511)));
+    let named = NameWriteRef { name: text(&long).unwrap(), value: b"1" };
+    assert_eq!(refusal(&named), fault(TooLong, "name", 0, (256, 257)));
 
     let description = |dimensions, name| DescriptionRef {
         handle: Handle(1),

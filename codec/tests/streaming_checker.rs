@@ -66,6 +66,30 @@ fn what_is_not_asked_for_counts() {
     assert_eq!(found, [3, 3]);
 }
 
+/// What is found is told with its line, and behind a program end there is what the CNC discards.
+#[test]
+fn what_is_below_an_end_is_at_hand() {
+    let lines = b"N10 X1\r\nN20 $DO X\r\nN30 M30\r\nN40 X2\r\nN50 X3\r\n";
+    let mut checker = Checker::new();
+    checker.check(b"%main\r\n").for_each(drop);
+    let mut checked = checker.check(lines);
+    assert_eq!(checked.below(), lines);
+    let mut seen = Vec::new();
+    while let Some(found) = checked.next() {
+        let is_end = matches!(found, Found::End { end: ProgramEnd::M30, .. });
+        seen.push((found.line(), is_end, checked.below()));
+    }
+    drop(checked);
+    let behind_end = &b"N40 X2\r\nN50 X3\r\n"[..];
+    assert!(seen.contains(&(4, true, behind_end)), "{seen:?}");
+    for (line, _, below) in seen {
+        let first = 2 + lines.split_inclusive(|&byte| byte == b'\n').count() as u32;
+        let left = below.split_inclusive(|&byte| byte == b'\n').count() as u32;
+        assert_eq!(line, first - left - 1);
+    }
+    assert_eq!(checker.lines(), 6);
+}
+
 /// Any bytes are taken, as they come through the interface.
 #[test]
 fn bytes_that_no_text_has() {

@@ -219,6 +219,28 @@ fn indices() {
     assert_eq!(elements.shape().place(path.elements()), Ok(5));
 }
 
+/// However one comes by an element, it is the one of that place.
+#[test]
+fn elements_in_their_order() {
+    let bytes: Vec<u8> = (0..24).collect();
+    let dimensions = [3, 4];
+    let elements = elements(DataType::Uns16, &dimensions, &bytes);
+    assert_eq!(elements.shape().dimensions(), Numbers::from(&dimensions));
+    let all: Vec<_> = elements.into_iter().collect();
+    assert_eq!(all.len(), 12);
+    for place in 0..14 {
+        let wanted = all.get(place).copied();
+        assert_eq!((elements.get(place), elements.iter().nth(place)), (wanted, wanted));
+        assert_eq!(elements.iter().rev().nth(place), all.iter().rev().nth(place).copied());
+        let mut iter = elements.iter();
+        iter.nth(place);
+        assert_eq!(iter.len(), 11_usize.saturating_sub(place));
+        assert_eq!(iter.next(), all.get(place + 1).copied());
+    }
+    let every_fifth: Vec<_> = elements.iter().step_by(5).collect();
+    assert_eq!(every_fifth, [all[0], all[5], all[10]]);
+}
+
 /// A dimension of 0 has no element, whatever the others are.
 #[test]
 fn no_elements() {

@@ -75,10 +75,7 @@ impl<'a> Decode<'a> for DescriptorsRef<'a> {
         match <[DescriptorLayout]>::ref_from_bytes_with_elems(bytes, count) {
             Ok(layouts) if !layouts.is_empty() => Ok(Self(layouts)),
             // The table finds the place, off the fast path.
-            _ => match Self::STREAM.walk(bytes, |_| ()) {
-                Err(error) => Err(error),
-                Ok(()) => Ok(Self(&[])),
-            },
+            _ => Self::STREAM.walk(bytes, |_| ()).map(|()| Self(&[])),
         }
     }
 }

@@ -1,0 +1,115 @@
+"""Holds the lines that no test ran against uncovered.txt: `uncovered.py <lcov file> [--renew]`.
+
+A line is known by its file, the function it is in and its text, so that the list outlives edits
+elsewhere in the file. An entry that is run by now, or gone, has to leave the list.
+"""
+
+import collections
+import pathlib
+import re
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+LIST = HERE / "uncovered.txt"
+LEAST = 98.0
+HEAD = """\
+# Lines of codec/src that no test of the codec runs. codec/coverage/run holds this list against what
+# is counted; codec/coverage/run --renew writes it anew. Above each group stands why nobody can run
+# it.
+"""
+WANTED = "# (no reason yet)"
+FUNCTION = re.compile(r"^(\s*)(?:pub(?:\([^)]*\))? )?(?:const )?fn (\w+|\$\w+)")
+
+
+def function(source, number):
+    """The function that line `number` is in: the last that began further out, or on the line."""
+    depth = len(source[number - 1]) - len(source[number - 1].lstrip())
+    for at in range(number, 0, -1):
+        found = FUNCTION.match(source[at - 1])
+        if found and (len(found[1]) < depth or at == number):
+            return found[2]
+        # Its closing brace stands as far out as its first line.
+        if found and len(found[1]) == depth and source[number - 1].strip() == "}":
+            return found[2]
+    return "-"
+
+
+def counted(path):
+    """How many lines there are, and those not run: (file, function, text) in their order."""
+    total, missed, file, source = 0, [], "", []
+    for line in path.read_text(encoding="utf-8").splitlines():
+        key, _, rest = line.partition(":")
+        if key == "SF":
+            # Of another system they have other separators.
+            file = rest.replace("\\", "/").split("/codec/src/")[-1]
+            source = pathlib.Path(rest).read_text(encoding="utf-8").splitlines()
+        elif key == "DA":
+            number, count = map(int, rest.split(",")[:2])
+            total += 1
+            if not count:
+                missed.append((file, function(source, number), source[number - 1].strip()))
+    return total, sorted(missed, key=lambda line: line[0])
+
+
+def listed(text):
+    """The entries, each with its reason."""
+    entries, reason, place = [], "", None
+    for line in text.removeprefix(HEAD).splitlines():
+        if line.startswith("#"):
+            # A reason of more lines than one.
+            reason = f"{reason}\n{line}" if place == "reason" else line
+            place = "reason"
+        elif line.startswith(" "):
+            entries.append(((*place, line.strip()), reason))
+        elif line:
+            place = tuple(line.rsplit(" ", 1))
+    return entries
+
+
+def written(entries):
+    """The text of the list: by reason, then in the order given."""
+    groups = collections.defaultdict(list)
+    for key, reason in entries:
+        groups[reason].append(key)
+    text = HEAD
+    for reason, keys in groups.items():
+        text += f"\n{reason}\n"
+        place = None
+        for file, name, line in keys:
+            if place != (file, name):
+                text += f"{file} {name}\n"
+            place = (file, name)
+            text += f"    {line}\n"
+    return text
+
+
+def renewed(missed, entries):
+    reasons = collections.defaultdict(list)
+    for key, reason in entries:
+        reasons[key].append(reason)
+    return [(key, reasons[key].pop(0) if reasons[key] else WANTED) for key in missed]
+
+
+def main(path, renew):
+    total, missed = counted(path)
+    entries = listed(LIST.read_text(encoding="utf-8")) if LIST.exists() else []
+    if renew:
+        entries = renewed(missed, entries)
+        LIST.write_text(written(entries), encoding="utf-8")
+    there, known = (collections.Counter(keys) for keys in (missed, [key for key, _ in entries]))
+    faults = [f"not run, not listed: {': '.join(key)}" for key in (there - known).elements()]
+    faults += [f"listed, but run or gone: {': '.join(key)}" for key in (known - there).elements()]
+    faults += [f"why? {': '.join(key)}" for key, reason in entries if reason in ("", WANTED)]
+    if faults:
+        faults.append("write a test; or codec/coverage/run --renew, and the reason into the list")
+    percent = 100 * (total - len(missed)) / max(total, 1)
+    print(f"{total - len(missed)} of {total} lines run: {percent:.2f} %, {len(missed)} listed")
+    if percent < LEAST:
+        faults.append(f"that is less than {LEAST} %")
+    return faults
+
+
+if __name__ == "__main__":
+    faults = main(pathlib.Path(sys.argv[1]), renew=sys.argv[2:] == ["--renew"])
+    print(*faults, sep="\n", end="\n" if faults else "")
+    sys.exit(bool(faults))

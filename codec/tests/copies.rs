@@ -1,0 +1,58 @@
+//! Owned copies hold what they were made of, and lists grow.
+
+#![cfg(feature = "alloc")]
+
+use ads_cnc::*;
+
+const DESCRIPTION: &[u8] =
+    b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
+
+/// A copy outlives the bytes, and is written as they were.
+#[test]
+fn descriptions() {
+    let (whole, nameless) = {
+        let bytes = DESCRIPTION.to_vec();
+        let whole = Description::decode(&bytes).unwrap();
+        let nameless = DescriptionByNameRef::decode(&bytes[..24]).unwrap();
+        assert_eq!(nameless.to_owned(), DescriptionByName::decode(&bytes[..24]).unwrap());
+        (whole, nameless.to_owned())
+    };
+    assert_eq!(whole.to_vec(), Ok(DESCRIPTION.to_vec()));
+    assert_eq!(nameless.to_vec(), Ok(DESCRIPTION[..24].to_vec()));
+    assert_eq!(nameless.dimensions, whole.dimensions);
+    assert_eq!((nameless.handle, nameless.size), (whole.handle, whole.size));
+}
+
+/// A list has what was added, in that order, and nothing behind it.
+#[test]
+fn lists_of_descriptors() {
+    let names = ["first", "zweite Größe", "third"];
+    let mut list = Descriptors::default();
+    assert!(list.as_ref().is_empty() && list.to_vec().is_err());
+    for (place, name) in names.into_iter().enumerate() {
+        list.push(Descriptor::new(name, "UDINT").unwrap());
+        assert_eq!(list.as_ref().len(), place + 1);
+        assert_eq!(
+            list.to_vec().map(|bytes| bytes.len()),
+            Ok((place + 1) * limits::DESCRIPTOR_LEN)
+        );
+    }
+    for (place, name) in names.into_iter().enumerate() {
+        let object = list.as_ref().get(place).unwrap();
+        assert!(object.name() == name && object.type_name() == "UDINT", "{object:?}");
+    }
+    assert_eq!(list.as_ref().get(names.len()), None);
+    let bytes = list.to_vec().unwrap();
+    assert_eq!(Descriptors::decode(&bytes).as_ref(), Ok(&list));
+}
+
+/// Text from a program is CP1252 with its NUL, or refused.
+#[test]
+fn texts() {
+    let text: Text = "größer".parse().unwrap();
+    assert_eq!(text, Text::from("größer".parse::<CncString>().unwrap()));
+    assert_eq!((text.text.as_bytes(), text.tail), (&b"gr\xF6\xDFer"[..], Some(vec![])));
+    for wrong in ["a\0b", "☃"] {
+        assert_eq!(wrong.parse::<Text>().unwrap_err(), CncStr::new(wrong).unwrap_err());
+    }
+}

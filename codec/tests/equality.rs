@@ -1,0 +1,81 @@
+//! What is equal has the same hash, and what is not, is not.
+
+use std::collections::HashSet;
+use std::hash::{BuildHasher, Hash, RandomState};
+
+use ads_cnc::service::ServiceId;
+use ads_cnc::value::{Boolean, Items};
+use ads_cnc::*;
+
+/// All of `same` are equal, and none equals `other`.
+#[track_caller]
+fn check<T: Hash + Eq + std::fmt::Debug>(same: &[T], other: T) {
+    let state = RandomState::new();
+    for one in same {
+        for another in same {
+            assert_eq!(one, another);
+            assert_eq!(state.hash_one(one), state.hash_one(another), "{one:?} {another:?}");
+        }
+        assert_ne!(*one, other);
+    }
+    let distinct: HashSet<&T> = same.iter().chain([&other]).collect();
+    assert_eq!(distinct.len(), 2);
+}
+
+/// A text is its characters, from UTF-8 or from CP1252.
+#[test]
+fn texts() {
+    let given =
+        [CncStr::new("größer €").unwrap(), CncStr::from_bytes(b"gr\xF6\xDFer \x80").unwrap()];
+    check(&given, CncStr::new("groesser €").unwrap());
+    check(&[CncStr::EMPTY, CncStr::new("").unwrap()], CncStr::new(" ").unwrap());
+    assert_eq!(CncStr::new("V.E"), Ok(CncStr::from_bytes(b"V.E").unwrap()));
+    assert!(given[1] == *"größer €" && given[1] != *"größer");
+}
+
+/// A name is its text; it is read with the case it has.
+#[test]
+fn names() {
+    let path = |text| VariablePath::new(text).unwrap();
+    let from_text = VariablePath::from_text(CncStr::from_bytes(b"V.E.test[4]").unwrap()).unwrap();
+    let mut buf = [0; 32];
+    let element = path("V.E.test").write_element(Numbers::from(&[4]), &mut buf).unwrap();
+    check(&[path("V.E.test[4]"), from_text, element], path("V.E.TEST[4]"));
+}
+
+/// A UUID is the same in capitals.
+#[test]
+fn service_ids() {
+    let id = |text: &str| ServiceId::new(text).unwrap();
+    check(
+        &[
+            id("560AACBF-6335-44a9-895A-8B27F3ED5E47"),
+            id("560aacbf-6335-44A9-895a-8b27f3ed5e47"),
+            id("560AACBF-6335-44A9-895A-8B27F3ED5E47"),
+        ],
+        id("560AACBF-6335-44a9-895A-8B27F3ED5E48"),
+    );
+}
+
+/// Items are equal as numbers: two zeros are, a NaN is not.
+#[test]
+fn items() {
+    let bytes = |numbers: [f32; 2]| numbers.map(f32::to_le_bytes).concat();
+    let (plus, minus, nan) = (bytes([0.0, 1.0]), bytes([-0.0, 1.0]), bytes([f32::NAN, 1.0]));
+    let of = |bytes| Items::<f32>::new(bytes).unwrap();
+    assert_eq!(of(&plus), of(&minus));
+    assert_ne!(of(&plus).as_bytes(), of(&minus).as_bytes());
+    assert_ne!(of(&nan), of(&nan));
+    assert_ne!(of(&plus), of(&plus[..4]));
+    assert_ne!(of(&plus[..4]), of(&plus));
+}
+
+/// Of the bytes that are TRUE, one is written.
+#[test]
+fn truth() {
+    for byte in 0..=u8::MAX {
+        assert_eq!(Boolean(byte).is_true(), byte != 0);
+        assert_eq!(Boolean(byte) == Boolean::TRUE, byte == 1);
+    }
+    assert_eq!([false, true].map(Boolean::from), [Boolean::FALSE, Boolean::TRUE]);
+}

@@ -1,0 +1,63 @@
+//! NetIds as text.
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use ads_cnc::ErrorKind::{self, *};
+use ads_cnc::ads::{AmsAddr, AmsNetId, AmsPort};
+use common::Fault;
+
+fn fault(kind: ErrorKind, field: &'static str, offset: usize, numbers: (usize, usize)) -> Fault {
+    Fault { kind, field, offset, expected: numbers.0, found: numbers.1 }
+}
+
+/// Every byte in every place, as it is written and with zeros before it.
+#[test]
+fn what_is_written_is_read() {
+    for place in 0..6 {
+        for byte in 0..=u8::MAX {
+            let mut id = AmsNetId([1, 20, 255, 0, 100, 9]);
+            id.0[place] = byte;
+            assert_eq!(id.to_string().parse(), Ok(id));
+            let padded = id.0.map(|number| format!("{number:03}")).join(".");
+            assert_eq!(padded.parse(), Ok(id), "{padded}");
+        }
+    }
+}
+
+/// Six numbers, dots between, digits only.
+#[test]
+fn what_is_no_net_id_is_refused() {
+    for (text, wanted) in [
+        ("", fault(Digits, "number", 0, (3, 0))),
+        ("1..3.4.5.6", fault(Digits, "number", 1, (3, 0))),
+        ("1.2.3.4.5.", fault(Digits, "number", 5, (3, 0))),
+        ("1.2.3.0004.5.6", fault(Digits, "number", 3, (3, 4))),
+        ("1.2.3.4.5", fault(Mismatch, "numbers", 0, (6, 5))),
+        ("1.2.3.4.5.6.7", fault(Mismatch, "numbers", 0, (6, 7))),
+        ("1.2.3.4.5.6.", fault(Mismatch, "numbers", 0, (6, 7))),
+        ("1.2.3.4.5.6..x", fault(Mismatch, "numbers", 0, (6, 8))),
+        ("1.256.3.4.5.6", fault(OutOfRange, "number", 1, (255, 256))),
+        ("1.2.3.4.5.999", fault(OutOfRange, "number", 5, (255, 999))),
+        ("+1.2.3.4.5.6", fault(NotDecimal, "number", 0, (0, '+' as usize))),
+        ("1.2.3.4.5.6 ", fault(NotDecimal, "number", 5, (0, ' ' as usize))),
+        ("1.2.٣.4.5.6", fault(NotDecimal, "number", 2, (0, '٣' as usize))),
+        ("1,2.3.4.5.6", fault(NotDecimal, "number", 0, (0, ',' as usize))),
+    ] {
+        assert_eq!(text.parse::<AmsNetId>().map_err(Fault::of), Err(wanted), "{text:?}");
+    }
+}
+
+/// Ends of a conversation differ in device or port, and are shown as they are written.
+#[test]
+fn addresses_show_device_and_port() {
+    let net_id: AmsNetId = "192.0.2.7.1.1".parse().unwrap();
+    let texts: BTreeSet<_> = [AmsPort::GEO, AmsPort::SDA, AmsPort::COM]
+        .map(|port| AmsAddr { net_id, port })
+        .map(|address| (address.to_string(), format!("{address:?}")))
+        .into();
+    let wanted = ["192.0.2.7.1.1:551", "192.0.2.7.1.1:552", "192.0.2.7.1.1:553"];
+    assert_eq!(texts, wanted.map(|text| (text.to_string(), text.to_string())).into());
+    assert_eq!(format!("{net_id:?} {:?} {}", AmsPort(9), AmsPort(10)), "192.0.2.7.1.1 9 10");
+}

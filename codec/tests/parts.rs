@@ -1,0 +1,188 @@
+//! What operations and replies are made of is what they were made from, at both ends.
+
+use ads_cnc::address::{
+    Access, Attribute, Channel, ChannelAxis, Class, ClassGroup, ComGroup, ComTable, ElementAddress,
+    Group, IndexGroup, IndexOffset, PlatformAxis,
+};
+use ads_cnc::ads::{AdsError, AmsPort};
+use ads_cnc::dynamic::*;
+use ads_cnc::operation::*;
+use ads_cnc::sda::*;
+use ads_cnc::streaming::Ack;
+use ads_cnc::*;
+
+/// The request that a server gets of this operation.
+fn dispatched<'b>(request: Request<'_>, buf: &'b mut [u8]) -> Request<'b> {
+    let call = request.encode(buf).unwrap();
+    call.dispatch().unwrap_or_else(|refusal| panic!("{request:?}: {refusal}"))
+}
+
+fn channel(number: u32) -> Channel {
+    Channel::new(number).unwrap()
+}
+
+/// An instance is asked for by class, channel and axis, and by number or by rank.
+#[test]
+fn instances() {
+    for class in Class::ALL {
+        let op = FindInstance::new(class, 3, 7);
+        let mut buf = [0; 8];
+        let there = dispatched(op.into(), &mut buf);
+        let Request::FindInstance(there) = there else { panic!("{there:?}") };
+        assert_eq!(there.query(), ObjectAddressQuery { channel: 3, axis: 7 });
+        assert_eq!(there.class_group(), ClassGroup::object_address(class));
+        assert_eq!(there.by_index().class_group().addressing, address::Addressing::Index);
+        assert_eq!(there.by_index().class_group().class, class);
+    }
+}
+
+/// What answers where an instance is has the address of its first element, and of no attribute.
+#[test]
+fn elements() {
+    let axis = ChannelAxis::new(2).unwrap();
+    for class in [Class::Decoder, Class::Interpolator] {
+        let first = ElementAddress::of_axis(channel(1), class, axis, 0).unwrap();
+        let found = ObjectAddress::from(first);
+        assert_eq!(found.index_group, first.group(Attribute::Content));
+        assert_eq!(found.index_offset, first.index_offset());
+        assert_eq!(found.first_element(), Ok(Some(first)));
+
+        let counted = CountElements::new(first).unwrap();
+        assert_eq!(counted.element(), first);
+        let second = first.following(1).unwrap();
+        let read = ReadElement::new(second, 4).unwrap();
+        let write = WriteElement::new(second, b"1234").unwrap();
+        assert_eq!((read.element(), write.element()), (second, second));
+        let mut buf = [0; 16];
+        let there = dispatched(write.into(), &mut buf);
+        let Request::WriteElement(there) = there else { panic!("{there:?}") };
+        assert_eq!((there.element(), there.content().bytes), (second, &b"1234"[..]));
+    }
+}
+
+/// A list of objects keeps what it is of, its objects their group and offset.
+#[test]
+fn objects() {
+    for (list, table, instance) in [
+        (ObjectList::PLATFORM, ComTable::Channel, 0),
+        (channel(4).into(), ComTable::Channel, 4),
+        (PlatformAxis::new(2).unwrap().into(), ComTable::Axis, 2),
+    ] {
+        let ComGroup { access, table: of, instance: number, .. } = list.parts();
+        assert_eq!((access, of, number), (Access::Object, table, instance), "{list:?}");
+        let read = ReadDescriptors::new(list, 5, 3).unwrap();
+        assert_eq!((read.list(), read.first(), read.count()), (list, 5, 3));
+        let there = dispatched(read.into(), &mut []);
+        let Request::ReadDescriptors(there) = there else { panic!("{there:?}") };
+        assert_eq!((there.list(), there.first(), there.count()), (list, 5, 3));
+
+        let group = ComGroup { access: Access::Element, ..list.parts() };
+        let offset = IndexOffset::new(0x17);
+        let read = ReadObject::new(group.index_group(), offset, 8).unwrap();
+        let write = WriteObject::new(group.index_group(), offset, b"12345678").unwrap();
+        assert_eq!((read.place(), write.place()), ((group, offset), (group, offset)));
+        assert_eq!(write.content().bytes, b"12345678");
+    }
+}
+
+/// Objects are counted from 1, and are as many as fit into one answer.
+#[test]
+fn descriptors_that_cannot_be_asked_for() {
+    const MOST: u32 = ReadDescriptors::COUNT_MAX;
+    let ask = |first, count| {
+        let read = ReadDescriptors::new(ObjectList::PLATFORM, first, count);
+        read.map_err(|error| (error.kind(), error.field().name(), error.expected(), error.found()))
+    };
+    assert_eq!(ask(0, 1), Err((ErrorKind::OutOfRange, "id", 1, 0)));
+    assert_eq!(ask(1, 0), Err((ErrorKind::OutOfRange, "stream", 1, 0)));
+    assert_eq!(ask(1, MOST + 1), Err((ErrorKind::TooMany, "stream", MOST, MOST + 1)));
+    let most = ask(1, MOST).unwrap();
+    assert!(most.read_length() as usize <= limits::ADS_DATA_MAX);
+    assert!(most.read_length() as usize + limits::DESCRIPTOR_LEN > limits::ADS_DATA_MAX);
+}
+
+/// A server's answer is the same stream whether it is made of its type or taken as a reply.
+#[test]
+fn replies() {
+    fn check<'a, T: Encode + Decode<'a> + Copy + Into<Reply<'a>>>(bytes: &'a [u8]) -> Reply<'a> {
+        let mut buf = [0; 2048];
+        let reply: Reply<'a> = T::decode(bytes).unwrap().into();
+        assert_eq!(reply.encoded_len(), bytes.len(), "{reply:?}");
+        assert_eq!(reply.encode(&mut buf), Ok(bytes), "{reply:?}");
+        reply
+    }
+    const DESCRIPTION: &[u8] =
+        b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
+    assert!(matches!(check::<ObjectCount>(&[7, 0, 0, 0]), Reply::ObjectCount(_)));
+    assert!(matches!(check::<DescriptorsRef<'_>>(&[1; 168]), Reply::Descriptors(_)));
+    assert!(matches!(check::<VariableCount>(&[7, 0, 0, 0]), Reply::VariableCount(_)));
+    assert!(matches!(check::<DescriptionRef<'_>>(DESCRIPTION), Reply::Description(_)));
+    let nameless = &DESCRIPTION[..24];
+    assert!(matches!(check::<DescriptionByNameRef<'_>>(nameless), Reply::DescriptionByName(_)));
+    assert!(matches!(check::<Handle>(&[4, 0, 0, 2]), Reply::Handle(Handle(0x0200_0004))));
+    assert!(matches!(check::<ValueRef<'_>>(&[4, 0]), Reply::Value(_)));
+    assert!(matches!(check::<ExtendedReply>(&[1, 0, 0, 0, 1, 0, 0, 0]), Reply::Extended(_)));
+    assert!(matches!(check::<ExtendedReply>(&[]), Reply::Extended(_)));
+    assert!(matches!(check::<DynamicCount>(&[7, 0, 0, 0]), Reply::DynamicCount(_)));
+    assert!(matches!(check::<DynamicNameRef<'_>>(b"P1\0"), Reply::DynamicName(_)));
+    assert!(matches!(check::<DynamicValue>(&[1; 8]), Reply::DynamicValue(_)));
+    assert!(matches!(check::<ObjectAddress>(&[0; 8]), Reply::ObjectAddress(ObjectAddress::NONE)));
+    assert!(matches!(check::<ElementCount>(&[7, 0, 0, 0]), Reply::ElementCount(_)));
+    assert!(matches!(check::<ElementTextRef<'_>>(b"mm\0"), Reply::ElementText(_)));
+    assert!(matches!(check::<ElementLength>(&[8, 0, 0, 0]), Reply::ElementLength(_)));
+    assert!(matches!(check::<ElementWriteFlag>(&[1]), Reply::ElementWriteFlag(_)));
+    assert!(matches!(check::<ContentRef<'_>>(&[1, 2, 3]), Reply::Content(_)));
+    assert!(matches!(check::<NoData>(&[]), Reply::NoData(_)));
+}
+
+/// The bits of a dynamic parameter's value survive, those of every NaN too.
+#[test]
+fn dynamic_values_keep_their_bits() {
+    for value in [4711.0, -0.0, f64::INFINITY, f64::MIN_POSITIVE / 2.0, f64::NAN] {
+        let stored = DynamicValue::from(value);
+        assert_eq!(stored.to_bits(), value.to_bits());
+        assert_eq!(stored.get().to_bits(), value.to_bits());
+        assert_eq!(DynamicValue::from_bits(stored.to_bits()), stored);
+        let mut buf = [0; 8];
+        assert_eq!(stored.encode(&mut buf), Ok(&value.to_le_bytes()[..]));
+    }
+}
+
+/// What will never be taken is not written again; what nobody knows is (STM-6).
+#[test]
+fn results_of_writes() {
+    assert_eq!(Ack::of(AdsError::NONE), Ack::Accepted);
+    let (port, group, offset) = (AmsPort(1), IndexGroup::new(0), IndexOffset::new(0));
+    let error = Handle::decode(&[]).unwrap_err();
+    let service = Refusal::Service { takes: Service::Write, asked: Service::Read };
+    for refusal in [
+        Refusal::Port(port),
+        Refusal::Group(group),
+        Refusal::Offset(offset),
+        service,
+        Refusal::Stream(error),
+    ] {
+        assert_eq!(Ack::of(refusal.ads_error()), Ack::Refused, "{refusal}");
+    }
+    for error in [AdsError::TARGET_MACHINE_NOT_FOUND, AdsError::INVALID_ACCESS] {
+        assert_eq!(Ack::of(error), Ack::Refused, "{error}");
+    }
+    for error in [AdsError::INVALID_DATA, AdsError::SYMBOL_NOT_FOUND, AdsError(1), AdsError(!0)] {
+        assert_eq!(Ack::of(error), Ack::Later, "{error}");
+    }
+}
+
+/// Every axis has a list of its own; none is the platform's or the channel's.
+#[test]
+fn no_list_is_another() {
+    let groups = [ObjectList::PLATFORM, channel(1).into(), channel(2).into()];
+    let axes = [1, 2].map(|place| PlatformAxis::new(place).unwrap().into());
+    let all: std::collections::BTreeSet<_> =
+        groups.into_iter().chain(axes).map(|list: ObjectList| list.index_group().get()).collect();
+    assert_eq!(all.len(), 5);
+    for group in all {
+        assert!(
+            matches!(IndexGroup::new(group).parts(), Some(Group::Com(com)) if com.index_group().get() == group)
+        );
+    }
+}
