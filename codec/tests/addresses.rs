@@ -1,5 +1,7 @@
 //! Every index group and index offset that the manuals print, put together and taken apart.
 
+mod kept;
+
 use ads_cnc::address::Addressing::{Index, Logical};
 use ads_cnc::address::*;
 use ads_cnc::operation::{FindInstance, Operation as _};
@@ -289,7 +291,7 @@ fn groups_never_carry() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(1000, file!()))]
 
     /// ADR-9: axis and element come back from the offset, or one of them is refused.
     #[test]

@@ -3,6 +3,7 @@
 #![cfg(feature = "arbitrary")]
 
 mod common;
+mod kept;
 
 use ads_cnc::ads::*;
 use ads_cnc::*;
@@ -10,7 +11,7 @@ use common::{Bend, SUBJECTS, made};
 use proptest::prelude::*;
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(200, file!()))]
 
     /// Values of all streams encode, whatever bytes they are made of.
     #[test]

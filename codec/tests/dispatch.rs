@@ -1,6 +1,7 @@
 //! From a client's operation over the wire to a server's request, and what is refused on the way.
 
 mod common;
+mod kept;
 
 use std::collections::BTreeSet;
 
@@ -129,7 +130,7 @@ fn text() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(256, file!()))]
 
     /// dispatch(encode(op)) = op: the functions of the COM task, of each kind of list.
     #[test]

@@ -1,6 +1,7 @@
 //! Editions and versions: what each has, and how versions are printed.
 
 mod common;
+mod kept;
 
 use ads_cnc::ErrorKind::*;
 use ads_cnc::edition::{Answer, CncVersion, Edition, Feature};
@@ -317,7 +318,7 @@ fn editions_are_documents_of_the_vectors() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(256, file!()))]
 
     #[test]
     fn versions_come_back(

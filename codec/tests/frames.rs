@@ -1,6 +1,7 @@
 //! Frames on a TCP stream, however their bytes arrive (ADS-5).
 
 mod common;
+mod kept;
 
 use ads_cnc::ErrorKind::{self, *};
 use ads_cnc::ads::{AmsHeader, FrameRef};
@@ -67,7 +68,7 @@ fn lengths_do_not_wrap() {
 }
 
 fn config() -> ProptestConfig {
-    ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() }
+    kept::cases(256, file!())
 }
 
 proptest! {

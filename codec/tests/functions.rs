@@ -2,6 +2,7 @@
 
 mod common;
 mod damage;
+mod kept;
 
 use std::collections::BTreeSet;
 
@@ -79,7 +80,7 @@ fn replies_are_those_of_the_table() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(2000, file!()))]
 
     /// The same for damaged requests and replies.
     #[test]

@@ -2,6 +2,7 @@
 //! reads that fail, against a model that counts.
 
 mod common;
+mod kept;
 
 use ads_cnc::service::*;
 use common::service::*;
@@ -45,7 +46,7 @@ fn chaos() -> impl Strategy<Value = Vec<Action>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(1500, file!()))]
 
     /// One host for two services, whatever fails: every request is served once, by the service it
     /// is for, and gets the answer to itself.

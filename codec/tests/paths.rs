@@ -1,6 +1,7 @@
 //! Names of variables: taken apart, put together, refused.
 
 mod common;
+mod kept;
 
 use ads_cnc::ErrorKind::*;
 use ads_cnc::layout::Stream;
@@ -339,7 +340,7 @@ fn pieces() -> impl Strategy<Value = Pieces> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(4000, file!()))]
 
     /// What is built is taken apart into what it was built of, and looks as it should.
     #[test]

@@ -2,6 +2,7 @@
 
 mod common;
 mod damage;
+mod kept;
 
 use std::collections::BTreeSet;
 
@@ -57,7 +58,7 @@ fn samples_and_vectors_obey() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(4000, file!()))]
 
     /// Random bytes: view, owned and walk agree, and what they accept comes back.
     #[test]

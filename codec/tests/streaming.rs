@@ -1,6 +1,7 @@
 //! Data streaming: text to packets, and both ends.
 
 mod common;
+mod kept;
 
 use ads_cnc::limits::{NC_LINE_MAX, STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::*;
@@ -199,7 +200,7 @@ fn text() -> impl Strategy<Value = Vec<u8>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(1000, file!()))]
 
     #[test]
     fn packets_are_the_text_and_maximal(text in text()) {

@@ -2,6 +2,7 @@
 #![cfg(feature = "alloc")]
 
 mod common;
+mod kept;
 
 use ads_cnc::streaming::{Checker, ProgramEnd};
 use common::checker::{CheckedLots, check_any_lots, check_lines as check};
@@ -155,7 +156,7 @@ fn lots() -> impl Strategy<Value = Vec<Vec<Vec<u8>>>> {
 }
 
 proptest! {
-#![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..Default::default() })]
+#![proptest_config(kept::cases(2000, file!()))]
 
 /// After each lot: what is found in it is what the one-shot form finds there in all that came.
 #[test]

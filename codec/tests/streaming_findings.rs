@@ -1,6 +1,7 @@
 //! What a streamed text may contain.
 
 mod common;
+mod kept;
 
 use ads_cnc::streaming::{FindingKind, LoopWord, NcText};
 use common::findings::check_findings;
@@ -385,7 +386,7 @@ fn pieces() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-#![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..Default::default() })]
+#![proptest_config(kept::cases(1000, file!()))]
 
 #[test]
 fn jumps_back_are_found_as_defined(program in program()) {

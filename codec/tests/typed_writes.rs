@@ -1,6 +1,7 @@
 //! Values to bytes and back: what is written, what a shape refuses, and random ones of every type.
 
 mod common;
+mod kept;
 
 use address::{Channel, ChannelAxis};
 use ads_cnc::operation::{AxisWriteByName, Operation, WriteByHandle, WriteByName};
@@ -187,7 +188,7 @@ fn all_indices(dimensions: &[u32]) -> Vec<Vec<u32>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(256, file!()))]
 
     /// Every value of every type comes back, bit for bit.
     #[test]

@@ -3,6 +3,7 @@
 #![cfg(feature = "alloc")]
 
 mod common;
+mod kept;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::*;
@@ -76,7 +77,7 @@ fn descriptor() -> impl Strategy<Value = Descriptor> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 128, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(128, file!()))]
 
     /// Every value of a stream that is one number comes back.
     #[test]

@@ -1,5 +1,8 @@
 //! What holds of the explanation of any bytes whatever.
 
+#[path = "../../codec/tests/kept/mod.rs"]
+mod kept;
+
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::layout::Stream;
@@ -178,7 +181,7 @@ fn frames() -> impl Strategy<Value = Vec<u8>> {
 thread_local!(static SCHEMA: Validator = schema());
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(kept::cases(256, file!()))]
 
     #[test]
     fn any_bytes_to_any_question(subject in subjects(), values in values(), bytes in bytes()) {

@@ -1,6 +1,8 @@
 //! Nothing passes the gate that is not allowed, whatever the bytes are.
 
 mod common;
+#[path = "../../codec/tests/kept/mod.rs"]
+mod kept;
 
 use ads_cnc_conformance::gate::{self, Allowed, Gate, Moment};
 use common::harmless::{is_harmless, number};
@@ -163,11 +165,7 @@ fn moment(text: &str) -> Moment {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 10_000,
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(kept::cases(10_000, file!()))]
 
     #[test]
     fn only_what_is_harmless_passes_by_default(frame in frames()) {

@@ -9,6 +9,8 @@ use ads_cnc_conformance::cnc::program::{
 };
 use proptest::prelude::*;
 
+use crate::kept;
+
 const ZERO: Duration = Duration::ZERO;
 
 fn ms(milliseconds: u64) -> Duration {
@@ -276,7 +278,7 @@ fn any_pace() -> impl Strategy<Value = Pace> {
 }
 
 proptest! {
-#![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..Default::default() })]
+#![proptest_config(kept::cases(300, file!()))]
 
 /// How often it is advanced does not matter.
 #[test]

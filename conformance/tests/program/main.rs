@@ -3,6 +3,8 @@
 mod decoder;
 mod golden_service;
 mod golden_streaming;
+#[path = "../../../codec/tests/kept/mod.rs"]
+mod kept;
 mod script;
 mod sender;
 

@@ -10,6 +10,7 @@ use ads_cnc_conformance::cnc::program::{
 use proptest::prelude::*;
 
 use crate::golden_service::square_root;
+use crate::kept;
 
 const ZERO: Duration = Duration::ZERO;
 const SET: [u8; 4] = [1, 0, 0, 0];
@@ -196,7 +197,7 @@ fn any_wait() -> impl Strategy<Value = Wait> {
 }
 
 proptest! {
-#![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..Default::default() })]
+#![proptest_config(kept::cases(300, file!()))]
 
 /// How often it is advanced does not matter.
 #[test]

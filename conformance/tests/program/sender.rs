@@ -6,6 +6,8 @@ use ads_cnc::streaming::{Ack, NcText, RETRY_AFTER, Sender};
 use ads_cnc_conformance::cnc::program::{Pace, Program, ProgramConfig, State, digest};
 use proptest::prelude::*;
 
+use crate::kept;
+
 /// Streams a text; `between` is what passes before each write, and whether it is refused on the
 /// way without having got there.
 fn stream(
@@ -77,7 +79,7 @@ fn lines() -> impl Strategy<Value = Vec<String>> {
 }
 
 proptest! {
-#![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..Default::default() })]
+#![proptest_config(kept::cases(200, file!()))]
 
 #[test]
 fn what_is_run_is_the_text(
