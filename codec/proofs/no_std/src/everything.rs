@@ -18,6 +18,8 @@ use ads_cnc::*;
 use core::hint::black_box;
 use core::time::Duration;
 
+use crate::named;
+
 /// Reads, and writes what was read.
 fn both<'a, T: Decode<'a> + Encode>(bytes: &'a [u8]) -> bool {
     let mut buf = [0; 2200];
@@ -35,6 +37,7 @@ fn readings(bytes: &[u8]) -> bool {
         & both::<ReadWriteRequestRef<'_>>(bytes)
         & both::<ReadWriteReplyRef<'_>>(bytes)
         & both::<ObjectCount>(bytes)
+        & both::<Descriptor>(bytes)
         & both::<DescriptorRef<'_>>(bytes)
         & both::<DescriptorsRef<'_>>(bytes)
         & both::<VariableKindRef<'_>>(bytes)
@@ -64,6 +67,7 @@ fn readings(bytes: &[u8]) -> bool {
         & both::<ProgramStreamRef<'_>>(bytes)
         & both::<DeviceInfoReply>(bytes)
         & both::<DeviceStateReply>(bytes)
+        & both::<NoData>(bytes)
 }
 
 fn walks(bytes: &[u8]) -> usize {
@@ -237,5 +241,6 @@ pub(crate) fn runs(bytes: &[u8]) -> bool {
         walks(bytes),
     ];
     black_box(numbers);
+    named::runs(bytes);
     readings(bytes)
 }

@@ -1,0 +1,98 @@
+//! The Service Interface and data streaming, step by step.
+
+use core::time::Duration;
+
+use ads_cnc::service::{CallStep, Clears, HostStep, ServiceVariable};
+use ads_cnc::streaming::{Ack, LineError};
+use ads_cnc::*;
+
+use super::{any, cnc, seen, text};
+
+const NOW: Duration = Duration::from_millis(7);
+
+pub(super) fn service(bytes: &[u8]) -> Result<(), Error> {
+    seen(service::ServiceId::from_text(cnc(bytes)));
+    let ids = [service::ServiceId::new(text(bytes, "560AACBF-6335-44a9-895A-8B27F3ED5E47"))?];
+    seen(service::ServiceId::text(&ids[0]));
+    let variable = any(ServiceVariable::Request);
+    seen((service::ServiceVariable::name(variable), service::ServiceVariable::var_type(variable)));
+    seen(service::ServiceVariable::by_name(text(bytes, "V.E.a")));
+
+    let wait = service::SysServiceWait::from_parameters(any(Some(1)), any(Some(9)), any(Some(1)))?;
+    let mut waiting = service::SysServiceWait::start(wait, any(NOW));
+    seen(service::Waiting::read(&mut waiting, bytes, any(NOW)));
+    service::Waiting::poll(&mut waiting);
+    seen(service::Waiting::step(&waiting));
+
+    let mut interface = service::Interface::with(any(Clears::Never));
+    if any(true) {
+        interface = service::Interface::new();
+    }
+    seen(service::Interface::write(&mut interface, variable, bytes));
+    seen(service::Call::new(ids[0], cnc(bytes), wait));
+    let mut call = service::Call::with_state(ids[0], cnc(bytes), any(1), wait)?;
+    let mut host = service::Host::new(&ids);
+    for _ in 0..any(9) {
+        match service::Call::step(&call) {
+            CallStep::Read(variable) => {
+                let value = service::Interface::read(&interface, variable);
+                seen(service::Call::read(
+                    &mut call,
+                    if any(true) { value } else { bytes },
+                    any(NOW),
+                ));
+            }
+            CallStep::Write(..) => service::Call::written(&mut call, any(NOW)),
+            _ => service::Call::poll(&mut call),
+        }
+        match service::Host::step(&host) {
+            HostStep::Read(variable) => {
+                let value = service::Interface::read(&interface, variable);
+                seen(service::Host::read(&mut host, if any(true) { value } else { bytes }));
+            }
+            HostStep::Write(..) if any(true) => service::Host::written(&mut host),
+            HostStep::Write(..) => service::Host::failed(&mut host),
+            HostStep::Serve { .. } => seen(service::Host::answer(&mut host, cnc(bytes), any(1))),
+            HostStep::Wait => service::Host::poll(&mut host),
+        }
+        seen(service::Host::outcome(&host));
+    }
+    service::Host::restart(&mut host);
+    service::Interface::reset(&mut interface);
+    Ok(())
+}
+
+pub(super) fn streaming(bytes: &[u8]) -> Result<(), LineError> {
+    let mut interface = streaming::Interface::new();
+    seen(streaming::Interface::write(&mut interface, bytes));
+    seen((streaming::Interface::len(&interface), streaming::Interface::is_empty(&interface)));
+    if let Err(error) = streaming::Interface::read(&mut interface) {
+        seen((streaming::LineError::line(&error), streaming::LineError::column(&error)));
+        seen(streaming::LineErrorKind::clause(streaming::LineError::kind(&error)));
+    }
+    streaming::Interface::reset(&mut interface);
+    seen(streaming::Ack::of(ads::AdsError(any(0))));
+
+    let text = streaming::NcText::new(bytes)?;
+    seen((streaming::NcText::bytes(&text), streaming::NcText::is_wire(&text)));
+    seen((streaming::NcText::line_count(&text), streaming::NcText::wire_len(&text)));
+    streaming::NcText::lines(&text).for_each(seen);
+    for finding in streaming::NcText::findings(&text) {
+        seen(streaming::FindingKind::clause(finding.kind));
+        seen(streaming::FindingKind::ends_streaming(finding.kind));
+    }
+    let mut packets = streaming::NcText::packets(&text);
+    seen(streaming::Packets::next_into(&mut packets, &mut [0; limits::STREAM_PACKET_MAX]));
+    seen(streaming::Packets::next_borrowed(&mut packets));
+    seen(streaming::Packets::rest(&packets));
+
+    let mut sender = streaming::Sender::new(text);
+    while let Some(packet) = streaming::Sender::packet(&mut sender) {
+        seen(packet);
+        seen(streaming::Sender::acknowledge(&mut sender, any(Ack::Accepted)));
+        seen((streaming::Sender::left(&sender), streaming::Sender::left_bytes(&sender)));
+        seen((streaming::Sender::left_lines(&sender), streaming::Sender::refusals(&sender)));
+        seen((streaming::Sender::sent(&sender), streaming::Sender::state(&sender)));
+    }
+    Ok(())
+}
