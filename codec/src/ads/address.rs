@@ -47,7 +47,7 @@ impl FromStr for AmsNetId {
     /// Reads six numbers of one byte with dots between; the offset in an error counts the numbers.
     fn from_str(text: &str) -> Result<Self, Error> {
         let mut id = [0; 6];
-        let mut parts = text.split('.');
+        let mut parts = parts(text);
         for (at, byte) in (0_u32..).zip(&mut id) {
             let part = parts.next().ok_or(Error::new(ErrorKind::Mismatch, NUMBERS, 0, 6, at))?;
             // The number parser would take a sign and any number of zeros.
@@ -67,6 +67,18 @@ impl FromStr for AmsNetId {
             more => Err(Error::new(ErrorKind::Mismatch, NUMBERS, 0, 6, more.saturating_add(6))),
         }
     }
+}
+
+/// What stands between the dots; `str::split` would leave the compiler with a panic.
+fn parts(text: &str) -> impl Iterator<Item = &str> {
+    let mut rest = Some(text);
+    core::iter::from_fn(move || {
+        let text = rest?;
+        let dot = text.bytes().position(|byte| byte == b'.').unwrap_or(text.len());
+        let (part, behind) = text.split_at_checked(dot)?;
+        rest = behind.get(1..);
+        Some(part)
+    })
 }
 
 /// An AMS port.

@@ -3,6 +3,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod counting;
+#[path = "../everything/mod.rs"]
+mod everything;
 mod inputs;
 #[cfg(feature = "alloc")]
 mod owned;
@@ -71,6 +73,18 @@ fn views_walks_and_encoders_allocate_nothing() {
         });
         assert_eq!(count, 0, "{stream}: {:x?}", start(bytes));
     });
+}
+
+/// Nor does any public function that borrows: all that the no-panic proof links, which is held
+/// against the list of the public API, on every vector.
+#[test]
+fn what_is_linked_without_an_allocator_allocates_nothing() {
+    for (stream, bytes) in each_vector().filter(|(_, bytes)| bytes.len() <= 4096) {
+        let count = allocations(|| {
+            black_box(everything::runs(&bytes));
+        });
+        assert_eq!(count, 0, "{stream}: {:x?}", start(&bytes));
+    }
 }
 
 /// Nor do dispatch, the encoding of requests and replies, and the reading of replies: for every

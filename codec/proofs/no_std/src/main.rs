@@ -13,8 +13,8 @@ use ads_cnc::{Decode, DescriptionRef, DescriptorsRef, Encode, Error, HandleReadR
 
 #[cfg(feature = "alloc")]
 mod bump;
+#[path = "../../../tests/everything/mod.rs"]
 mod everything;
-mod named;
 
 // The kernel enters with a stack that calls have to find aligned.
 global_asm!(".globl _start", "_start:", "and rsp, -16", "call {main}", "ud2", main = sym main);

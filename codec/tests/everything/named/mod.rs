@@ -4,6 +4,7 @@
 mod address;
 mod machines;
 mod operation;
+mod shown;
 mod streams;
 mod value;
 
@@ -38,6 +39,7 @@ pub(crate) fn runs(bytes: &[u8]) {
     seen(streams::runs(bytes));
     seen(streams::tables(bytes));
     seen(address::runs());
+    seen(shown::runs(bytes));
     seen(operation::makers(bytes));
     seen(operation::rules(bytes));
     seen(value::runs(bytes));

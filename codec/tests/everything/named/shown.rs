@@ -1,0 +1,99 @@
+//! What is written for people, into nothing. Not what shows while debugging: core writes that, and
+//! keeps a panic in it for text.
+
+use core::fmt::{self, Display, Write as _};
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::{AmsNetId, AmsPort};
+use ads_cnc::*;
+
+use super::{any, cnc, seen, text};
+
+struct Nothing;
+
+impl fmt::Write for Nothing {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        seen(text);
+        if any(true) { Ok(()) } else { Err(fmt::Error) }
+    }
+}
+
+fn show<T: Display>(value: T) {
+    seen(write!(Nothing, "{value}"));
+}
+
+pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
+    if let Err(error) = Handle::decode(bytes) {
+        show::<Error>(error);
+        show::<layout::Field>(error.field());
+    }
+    for stream in layout::Stream::all() {
+        show::<layout::Stream>(stream);
+        for spec in stream.layout().fields {
+            show::<layout::Type>(spec.ty);
+        }
+    }
+    show::<CncStr<'_>>(cnc(bytes));
+    show::<address::IndexGroup>(IndexGroup::new(any(1)));
+    show::<address::IndexOffset>(IndexOffset::new(any(1)));
+    show::<ads::AdsError>(ads::AdsError(any(1)));
+    let (net_id, port) = (AmsNetId(any([1; 6])), AmsPort(any(1)));
+    show::<ads::AmsAddr>(ads::AmsAddr { net_id, port });
+    show::<ads::AmsNetId>(text(bytes, "1.2.3.4.5.6").parse().unwrap_or(net_id));
+    show::<ads::AmsPort>(port);
+    show::<dynamic::DynamicKind>(any(dynamic::DynamicKind::VS));
+    show::<operation::Service>(any(operation::Service::Write));
+    show::<service::ServiceVariable>(any(service::ServiceVariable::Uuid));
+    show::<streaming::LoopWord>(any(streaming::LoopWord::For));
+    show::<streaming::ProgramEnd>(any(streaming::ProgramEnd::M2));
+    show::<streaming::NoPacketOut>(any(streaming::NoPacketOut));
+    refusals(bytes);
+    programs(bytes);
+    names(bytes)
+}
+
+fn refusals(bytes: &[u8]) {
+    let call = operation::Call {
+        port: AmsPort(any(552)),
+        service: any(operation::Service::Write),
+        index_group: IndexGroup::new(any(1)),
+        index_offset: IndexOffset::new(any(1)),
+        read_length: any(1),
+        data: bytes,
+    };
+    if let Err(refusal) = call.dispatch() {
+        show::<operation::Refusal>(refusal);
+    }
+}
+
+fn programs(bytes: &[u8]) {
+    match streaming::NcText::new(bytes) {
+        Ok(program) => {
+            for finding in program.findings() {
+                show::<streaming::FindingKind>(finding.kind);
+                show::<streaming::Finding>(finding);
+            }
+        }
+        Err(error) => {
+            show::<streaming::LineErrorKind>(error.kind());
+            show::<streaming::LineError>(error);
+        }
+    }
+}
+
+fn names(bytes: &[u8]) -> Result<(), Error> {
+    let name = text(bytes, "V.A.AX[1].a");
+    let version: edition::CncVersion = name.parse()?;
+    show::<edition::CncVersion>(version);
+    for edition in edition::Edition::ALL {
+        let function = any(operation::Function::ReadByName);
+        show::<edition::Edition>(edition);
+        show::<edition::Answer>(edition.permits(function, Kind::V_E, Some(version)));
+    }
+    let id: service::ServiceId = name.parse()?;
+    show::<service::ServiceId>(id);
+    let path = VariablePath::new(name)?;
+    show::<VariablePath<'_>>(path);
+    path.parts().for_each(show::<PathPart<'_>>);
+    Ok(())
+}
