@@ -384,3 +384,21 @@ fn descriptions_by_name() {
     assert_answer(may(Edition::German, Kind::V_P, Some(version("V4.18.0"))), NO, "VAR-28");
     assert_answer(may(Edition::English, Kind::V_P, new), NO_ASSUMED, "VAR-19");
 }
+
+/// What is not about variables is there in each edition, whatever kind stands beside it.
+#[test]
+fn kinds_have_no_part_in_other_functions() {
+    let about_variables = |function: &&Function| function.spec().clause.starts_with("VAR");
+    let others: Vec<_> = Function::ALL.iter().filter(|of| !about_variables(of)).collect();
+    assert!(
+        others.contains(&&Function::CountElements) && others.contains(&&Function::CountDynamic)
+    );
+    for &&function in &others {
+        for kind in [Kind::ALL, Kind::V_E, Kind::V_CYC, Kind::V_S, Kind::new("V.X").unwrap()] {
+            for edition in Edition::ALL {
+                let answer = edition.permits(function, kind, Some(version("V1.0.0")));
+                assert_answer(answer, YES, function.spec().clause);
+            }
+        }
+    }
+}
