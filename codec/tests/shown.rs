@@ -9,7 +9,9 @@ use ads_cnc::layout::{Field, Stream};
 use ads_cnc::limits::STREAM_MAX;
 use ads_cnc::operation::*;
 use ads_cnc::service::{ServiceId, ServiceVariable, SysServiceWait};
-use ads_cnc::streaming::{Ack, Checker, Interface, NcText, Sender};
+#[cfg(feature = "alloc")]
+use ads_cnc::streaming::Checker;
+use ads_cnc::streaming::{Ack, Interface, NcText, Sender};
 use ads_cnc::value::{Boolean, DataType, Elements, Items, StringsRef};
 use ads_cnc::*;
 
@@ -247,7 +249,10 @@ fn streaming_shows_where_it_stands() {
         ready.replace("Ready", "Waiting").replace("refusals: 0", "refusals: 1")
     );
     assert_eq!(format!("{:?}", text.findings()), "Findings { .. }");
-    let mut checker = Checker::default();
-    assert_eq!(format!("{:?}", checker.check(text.bytes())), "CheckedLines { .. }");
-    assert_eq!(format!("{checker:?}"), "Checker(3 lines)");
+    #[cfg(feature = "alloc")]
+    {
+        let mut checker = Checker::default();
+        assert_eq!(format!("{:?}", checker.check(text.bytes())), "CheckedLines { .. }");
+        assert_eq!(format!("{checker:?}"), "Checker(3 lines)");
+    }
 }
