@@ -37,6 +37,7 @@ mod vectors;
 mod writer;
 
 use std::io::Read;
+use std::net::SocketAddr;
 
 pub use file::{End, FileError, RECORD_MAX};
 pub use table::Ports;
@@ -48,7 +49,7 @@ pub use writer::Capture;
 use self::file::Packet;
 use self::judge::Judge;
 use self::link::Content;
-use self::table::Table;
+use self::table::{Event, Table};
 use self::tally::{count, count_of};
 use self::tcp::Mark;
 use crate::suite::Outcome;
@@ -82,6 +83,105 @@ pub struct Checked {
     pub vectors: Option<Collector>,
 }
 
+/// What comes out of a capture before it is judged.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Piece {
+    /// A whole frame.
+    Frame {
+        /// Who sent it.
+        from: SocketAddr,
+        /// Whom it was sent to.
+        to: SocketAddr,
+        /// All of it.
+        bytes: Vec<u8>,
+    },
+    /// Bytes that were not captured; how many, if that is known.
+    Gap {
+        /// Who sent them.
+        from: SocketAddr,
+        /// Whom they were sent to.
+        to: SocketAddr,
+        /// How many; 0 if nobody can say.
+        length: u64,
+    },
+    /// So many bytes that are no frame, or only the beginning of one.
+    Rest(usize),
+}
+
+/// Puts together what went over the connections of a file, pcap or pcapng, and hands over the frames
+/// in it and what is missing between them. Nothing is judged.
+///
+/// ```
+/// use ads_cnc_conformance::capture::{End, Ports, frames};
+///
+/// let file = b"\xd4\xc3\xb2\xa1\x02\0\x04\0\0\0\0\0\0\0\0\0\xff\xff\0\0\x01\0\0\0";
+/// let mut pieces = Vec::new();
+/// let end = frames(&file[..], Ports::Any, |piece| pieces.push(piece))?;
+/// assert_eq!((end, pieces.len()), (End::Whole, 0));
+/// # Ok::<(), ads_cnc_conformance::capture::FileError>(())
+/// ```
+///
+/// # Errors
+/// If it is no such file. One that ends too early is read as far as it goes, and its end says so.
+pub fn frames(
+    input: impl Read + Send,
+    ports: Ports,
+    mut each: impl FnMut(Piece),
+) -> Result<End, FileError> {
+    let mut table = Table::new(ports);
+    read(input, &mut table, |step| {
+        if let Step::Event(event, _) = step
+            && let Some(piece) = Piece::of(event)
+        {
+            each(piece);
+        }
+    })
+}
+
+impl Piece {
+    fn of(event: Event) -> Option<Self> {
+        Some(match event {
+            Event::Frame(bytes, way, _) => Self::Frame { from: way.from, to: way.to, bytes },
+            Event::Gap(length, way, _) => Self::Gap { from: way.from, to: way.to, length },
+            Event::Cut(bytes, ..) | Event::Broken(_, bytes, ..) => Self::Rest(bytes.len()),
+            Event::Skipped(length) => Self::Rest(length),
+            Event::Unfinished => Self::Rest(0),
+            Event::Router | Event::Joined(_) | Event::Ended(_) => return None,
+        })
+    }
+}
+
+/// What is found while a file is read.
+enum Step<'s> {
+    /// The next packet; whether its segment is looked at.
+    Packet(&'s Packet<'s>, Content<'s>, bool),
+    /// Something on a connection.
+    Event(Event, &'s Table),
+}
+
+/// Reads a file to its end.
+fn read(
+    input: impl Read + Send,
+    table: &mut Table,
+    mut each: impl FnMut(Step<'_>),
+) -> Result<End, FileError> {
+    let mut events = Vec::new();
+    let end = file::packets(input, |packet| {
+        let content = link::segment(&packet);
+        let wanted = matches!(&content, Content::Tcp(segment) if table.wants(segment));
+        each(Step::Packet(&packet, content, wanted));
+        if let (Content::Tcp(segment), true) = (content, wanted) {
+            let Packet { number, time, .. } = packet;
+            let mark = Mark { packet: number, time, acknowledged: None };
+            table.push(&segment, mark, &mut events);
+        }
+        events.drain(..).for_each(|event| each(Step::Event(event, table)));
+    })?;
+    table.finish(&mut events);
+    events.drain(..).for_each(|event| each(Step::Event(event, table)));
+    Ok(end)
+}
+
 /// Judges a file of captured packets, pcap or pcapng.
 ///
 /// # Errors
@@ -89,27 +189,21 @@ pub struct Checked {
 pub fn check(input: impl Read + Send, options: Options) -> Result<Checked, FileError> {
     let mut table = Table::new(options.ports);
     let mut judge = Judge::new(options.vectors);
-    let mut events = Vec::new();
-    let end = file::packets(input, |packet| {
-        count(&mut judge.tally.packets);
-        judge.at(packet.time);
-        match link::segment(&packet) {
-            Content::Tcp(segment) if table.wants(&segment) => {
-                count(&mut judge.tally.segments);
-                let Packet { number, time, .. } = packet;
-                let mark = Mark { packet: number, time, acknowledged: None };
-                table.push(&segment, mark, &mut events);
+    let end = read(input, &mut table, |step| match step {
+        Step::Packet(packet, content, wanted) => {
+            count(&mut judge.tally.packets);
+            judge.at(packet.time);
+            match content {
+                Content::Tcp(_) if wanted => count(&mut judge.tally.segments),
+                Content::Tcp(_) => count(&mut judge.tally.elsewhere),
+                Content::Other => {}
+                Content::Fragment => count(&mut judge.tally.fragments),
+                Content::Unreadable => count(&mut judge.tally.unreadable),
+                Content::Link(link) => count_of(&mut judge.tally.links, link),
             }
-            Content::Tcp(_) => count(&mut judge.tally.elsewhere),
-            Content::Other => {}
-            Content::Fragment => count(&mut judge.tally.fragments),
-            Content::Unreadable => count(&mut judge.tally.unreadable),
-            Content::Link(link) => count_of(&mut judge.tally.links, link),
         }
-        events.drain(..).for_each(|event| judge.take(event, &table));
+        Step::Event(event, table) => judge.take(event, table),
     })?;
-    table.finish(&mut events);
-    events.drain(..).for_each(|event| judge.take(event, &table));
     judge.tally.connections = table.connections();
     judge.tally.repeated = table.repeated;
     judge.tally.early = table.early;
