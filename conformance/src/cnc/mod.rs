@@ -41,7 +41,7 @@ pub(crate) use model::Configured;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
 pub(crate) use respond::INFO;
 pub use respond::{DATA_MAX, NET_ID};
-pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Server, ServerOptions};
+pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
 pub(crate) use within::{Held, Holder};
 
 /// The edition of the manual with this name: `en-1.05` or `de-1.051`.

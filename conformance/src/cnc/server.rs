@@ -15,6 +15,8 @@ use ads_cnc::ads::AmsNetId;
 use super::{Cnc, NET_ID};
 use crate::net;
 
+pub use connection::Received;
+
 /// The most connections at a time; one more is closed at once.
 pub const CONNECTIONS_MAX: usize = 64;
 

@@ -4,7 +4,7 @@ use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-use ads_cnc::ads::FrameRef;
+use ads_cnc::ads::{AmsNetId, FrameRef};
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 
 use super::ServerOptions;
@@ -24,20 +24,118 @@ const GATHERED_MAX: usize = 32 * 1024;
 /// The most bytes that a connection holds of what it receives and of what it is about to send.
 pub(super) const HELD_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
 
+/// The bytes of a connection, without it: what was received and is not answered yet.
+///
+/// ```
+/// use ads_cnc_conformance::cnc::{Cnc, NET_ID, Received};
+///
+/// // ReadState of the COM task, in two pieces.
+/// let state = b"\0\0\x20\0\0\0\x7f\0\0\x01\x01\x01\x29\x02\x7f\0\0\x01\x01\x02\0\x80\
+///               \x04\0\x04\0\0\0\0\0\0\0\0\0\x01\0\0\0";
+/// let cnc = Cnc::with_default_model()?;
+/// let (mut received, mut answers) = (Received::new(), Vec::new());
+/// for piece in [&state[..7], &state[7..]] {
+///     received.room()[..piece.len()].copy_from_slice(piece);
+///     received.take(piece.len(), &cnc, NET_ID, |answer| {
+///         answers.extend(answer);
+///         Ok(())
+///     })?;
+/// }
+/// assert_eq!((answers.len(), received.held()), (46, 0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Received {
+    bytes: Vec<u8>,
+    held: usize,
+    answers: Vec<u8>,
+}
+
+impl Default for Received {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Received {
+    /// Nothing yet.
+    pub fn new() -> Self {
+        // Pages nobody writes to take no memory.
+        Self { bytes: vec![0; RECEIVED_MAX], held: 0, answers: Vec::with_capacity(GATHERED_MAX) }
+    }
+
+    /// Where the next bytes go; never empty.
+    pub fn room(&mut self) -> &mut [u8] {
+        self.bytes.get_mut(self.held..).unwrap_or_default()
+    }
+
+    /// Bytes of a frame whose rest is awaited.
+    pub const fn held(&self) -> usize {
+        self.held
+    }
+
+    /// The most bytes that were ever held, answers included.
+    pub fn capacity(&self) -> usize {
+        self.bytes.capacity().saturating_add(self.answers.capacity())
+    }
+
+    /// So many bytes came into the room: all frames that are whole now are answered in their order,
+    /// several answers at a time. How many bytes the frames had that were whole.
+    ///
+    /// # Errors
+    /// A frame that does not hold together: what follows it cannot be found. And those of `send`.
+    pub fn take(
+        &mut self,
+        count: usize,
+        cnc: &Cnc,
+        net_id: AmsNetId,
+        mut send: impl FnMut(&[u8]) -> io::Result<()>,
+    ) -> io::Result<usize> {
+        self.held = self.held.saturating_add(count).min(self.bytes.len());
+        let held = self.bytes.get(..self.held).unwrap_or_default();
+        let mut rest = held;
+        let broken = loop {
+            match split(rest) {
+                Ok(Some((frame, len))) => {
+                    cnc.respond(net_id, &frame, &mut self.answers);
+                    rest = rest.get(len..).unwrap_or_default();
+                }
+                Ok(None) => break Ok(()),
+                Err(error) => break Err(error),
+            }
+            if self.answers.len() >= GATHERED_MAX {
+                send(&self.answers)?;
+                self.answers.clear();
+            }
+        };
+        // Whoever asked before it came apart has the answers.
+        if !self.answers.is_empty() {
+            send(&self.answers)?;
+            self.answers.clear();
+        }
+        broken?;
+        let answered = held.len().saturating_sub(rest.len());
+        if answered > 0 {
+            self.bytes.copy_within(answered..self.held, 0);
+            self.held = self.held.saturating_sub(answered);
+        }
+        Ok(answered)
+    }
+}
+
 /// Answers frames in their order, however they are cut, until the client closes, says nothing for
 /// too long, or sends one that does not hold together: what follows it cannot be found.
 pub(super) fn serve(cnc: &Cnc, options: &ServerOptions, mut stream: &TcpStream) -> io::Result<()> {
-    // Pages nobody writes to take no memory.
-    let mut received = vec![0; RECEIVED_MAX];
-    let mut held = 0;
-    let mut answers = Vec::with_capacity(GATHERED_MAX);
+    let mut received = Received::new();
     let mut limit = Limit::new(options);
     limit.set(stream)?;
     loop {
-        let room = received.get_mut(held..).unwrap_or_default();
-        let count = match stream.read(room) {
-            Ok(0) if held == 0 => return Ok(()),
-            Ok(0) => return Err(io::Error::other(format!("closed {held} bytes into a frame"))),
+        let count = match stream.read(received.room()) {
+            Ok(0) if received.held() == 0 => return Ok(()),
+            Ok(0) => {
+                let held = received.held();
+                return Err(io::Error::other(format!("closed {held} bytes into a frame")));
+            }
             Ok(count) => count,
             Err(error) => match error.kind() {
                 io::ErrorKind::Interrupted => continue,
@@ -45,25 +143,10 @@ pub(super) fn serve(cnc: &Cnc, options: &ServerOptions, mut stream: &TcpStream) 
                 _ => return Err(error),
             },
         };
-        held = held.saturating_add(count);
-        let mut rest = received.get(..held).unwrap_or_default();
-        while let Some((frame, len)) = split(rest)? {
-            cnc.respond(options.net_id, &frame, &mut answers);
-            rest = rest.get(len..).unwrap_or_default();
-            if answers.len() >= GATHERED_MAX {
-                send(cnc, stream, &answers)?;
-                answers.clear();
-            }
-        }
-        if !answers.is_empty() {
-            send(cnc, stream, &answers)?;
-            answers.clear();
-        }
-        let left = rest.len();
-        if left < held {
-            received.copy_within(held.saturating_sub(left)..held, 0);
-            held = left;
-            limit.asked(held > 0);
+        let answered =
+            received.take(count, cnc, options.net_id, |answers| send(cnc, stream, answers))?;
+        if answered > 0 {
+            limit.asked(received.held() > 0);
         } else {
             limit.received();
         }

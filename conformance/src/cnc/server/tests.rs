@@ -96,6 +96,21 @@ fn pipelined_requests_are_answered_in_their_order() {
     expect(&stream, &ids().flat_map(|id| with_id(ANSWER, id)).collect::<Vec<_>>());
 }
 
+/// However the network has put them together, what comes behind a request takes no answer away.
+#[test]
+fn what_was_asked_before_a_malformed_frame_is_answered() {
+    let cnc = Cnc::with_default_model().unwrap();
+    let (mut received, mut answers) = (Received::new(), Vec::new());
+    let bytes = [COUNT, COUNT, b"GET / HTTP/1.1\r\n\r\n and more than a header"].concat();
+    received.room()[..bytes.len()].copy_from_slice(&bytes);
+    let taken = received.take(bytes.len(), &cnc, NET_ID, |more| {
+        answers.extend(more);
+        Ok(())
+    });
+    assert!(taken.is_err());
+    assert_eq!(answers, [ANSWER, ANSWER].concat());
+}
+
 #[test]
 fn a_malformed_frame_ends_its_own_connection_only() {
     let server = server();
