@@ -145,24 +145,24 @@ impl Frames<'_> {
         };
         let mut part = part::of_stream(stream, at, data, self.values);
         let inside = inside(stream, data);
-        if let (Some(row), Some(_)) = (part.rows.last_mut(), inside) {
-            row.below = row.field == "data" && row.length > 0;
-            if row.below {
-                row.value = format!("{}, below", in_words(row.length));
-            }
-        }
         let failed = reply && number(stream, data, "result").is_some_and(|result| result != 0);
         let faulty = !part.faults.is_empty();
         let length = match service {
             Service::Read => number(stream, data, "length"),
             _ => number(stream, data, "read_length"),
         };
-        self.parts.push(part);
         let place = if reply {
             self.answered(header, service)
         } else {
             self.asks(header, (stream, service), data)
         };
+        if let (Some(row), Some(_), Some(_)) = (part.rows.last_mut(), inside, place) {
+            row.below = row.field == "data" && row.length > 0;
+            if row.below {
+                row.value = format!("{}, below", in_words(row.length));
+            }
+        }
+        self.parts.push(part);
         let Some(place) = place else {
             if reply && stream != Stream::WriteReply && !failed {
                 self.note(

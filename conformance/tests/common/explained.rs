@@ -1,0 +1,70 @@
+//! What holds of the explanation of any bytes whatever. The fuzz targets hold it to the same.
+
+use ads_cnc_conformance::explain::{Explanation, Outcome, Paint, Part, parse_hex, print};
+
+/// Rows and what was not read are all of the part's bytes, in their order, without a gap.
+fn check_part(part: &Part, bytes: &[u8]) {
+    let given = &bytes[part.at..part.at + part.length];
+    let mut end = 0;
+    for row in &part.rows {
+        assert_eq!(row.offset, end, "{part:?}");
+        assert_eq!(parse_hex(&row.hex).unwrap(), given[end..end + row.length]);
+        end += row.length;
+    }
+    if let Some(unread) = &part.unread {
+        assert_eq!((unread.offset, unread.length), (end, part.length - end), "{part:?}");
+        assert_eq!(parse_hex(&unread.hex).unwrap(), given[end..]);
+        assert!(!part.faults.is_empty(), "not read without a reason: {part:?}");
+        end = part.length;
+    }
+    assert_eq!(end, part.length, "{part:?}");
+    for fault in &part.faults {
+        assert!(fault.offset <= part.length, "{part:?}");
+    }
+}
+
+/// No byte is left out of all parts; where nothing is wrong, none is shown twice.
+fn check_whole(explanation: &Explanation, bytes: &[u8]) {
+    let mut shown = vec![0; bytes.len()];
+    for part in &explanation.parts {
+        // What is a part of its own is shown there.
+        let rows = part.rows.iter().filter(|row| !row.below).map(|row| (row.offset, row.length));
+        let unread = part.unread.iter().map(|unread| (unread.offset, unread.length));
+        for (offset, length) in rows.chain(unread) {
+            let begin = part.at + offset;
+            shown[begin..begin + length].iter_mut().for_each(|times| *times += 1);
+        }
+    }
+    let right = |times: &i32| match explanation.outcome {
+        Outcome::Faulty => *times >= 1,
+        _ => *times == 1,
+    };
+    assert!(shown.iter().all(right), "{shown:?} of {explanation:#?}");
+}
+
+/// Whatever the bytes are, a terminal gets nothing to act on.
+pub(crate) fn check_printed(printed: &[u8]) {
+    let controls = |byte: &&u8| byte.is_ascii_control() && **byte != b'\n';
+    assert_eq!(printed.iter().find(controls), None);
+    let printed = std::str::from_utf8(printed).unwrap();
+    assert!(!printed.chars().any(|one| one.is_control() && one != '\n'));
+}
+
+/// All of it.
+pub(crate) fn check_explanation(explanation: &Explanation, bytes: &[u8]) {
+    assert_eq!(explanation.length, bytes.len());
+    for part in &explanation.parts {
+        check_part(part, bytes);
+    }
+    check_whole(explanation, bytes);
+    let faulty = explanation.parts.iter().any(|part| !part.faults.is_empty());
+    assert_eq!(explanation.outcome == Outcome::Faulty, faulty);
+    print(explanation, Paint::Colour, &mut Vec::new()).unwrap();
+}
+
+/// The same, as people see it.
+pub(crate) fn printed(explanation: &Explanation) -> Vec<u8> {
+    let mut plain = Vec::new();
+    print(explanation, Paint::Plain, &mut plain).unwrap();
+    plain
+}
