@@ -79,7 +79,7 @@ impl Spoken {
         if let Some(stdout) = child.stdout.take() {
             let tell = move || {
                 let mut stdout = BufReader::new(stdout);
-                while let Some(line) = line(&mut stdout) {
+                while let Some(line) = read_line(&mut stdout, LINE_MAX) {
                     let over = line.is_err();
                     if tell.send(line).is_err() || over {
                         break;
@@ -187,8 +187,22 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
 }
 
 /// The next line without its end; none at the end of the stream.
-fn line(from: &mut impl BufRead) -> Option<Result<Vec<u8>, String>> {
-    let limit = u64::try_from(LINE_MAX).unwrap_or(u64::MAX).saturating_add(2);
+///
+/// ```
+/// use ads_cnc_conformance::child::read_line;
+///
+/// let mut said = &b"{}\r\nthe last"[..];
+/// assert_eq!(read_line(&mut said, 8), Some(Ok(b"{}".to_vec())));
+/// assert_eq!(read_line(&mut said, 8), Some(Ok(b"the last".to_vec())));
+/// assert_eq!(read_line(&mut said, 8), None);
+/// assert!(read_line(&mut &b"too long\r\n"[..], 7).unwrap().is_err());
+/// ```
+///
+/// # Errors
+/// What is said of a line with more bytes than `most`, its end not counted; no more of it is kept,
+/// and nothing behind it can be read as a line.
+pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>, String>> {
+    let limit = u64::try_from(most).unwrap_or(u64::MAX).saturating_add(2);
     let mut line = Vec::new();
     match from.take(limit).read_until(b'\n', &mut line) {
         Err(_) | Ok(0) => return None,
@@ -196,16 +210,21 @@ fn line(from: &mut impl BufRead) -> Option<Result<Vec<u8>, String>> {
     }
     if line.last() == Some(&b'\n') {
         line.pop();
-    } else if line.len() > LINE_MAX {
-        return Some(Err(format!("a line of more than {LINE_MAX} bytes")));
     }
     if line.last() == Some(&b'\r') {
         line.pop();
     }
+    if line.len() > most {
+        return Some(Err(format!("a line of more than {most} bytes")));
+    }
     Some(Ok(line))
 }
 
-fn text(line: Vec<u8>) -> Result<String, Unheard> {
+/// A line as text.
+///
+/// # Errors
+/// What is said of one that is not UTF-8.
+pub fn text(line: Vec<u8>) -> Result<String, Unheard> {
     String::from_utf8(line).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let shown = cut(&String::from_utf8_lossy(error.as_bytes()));

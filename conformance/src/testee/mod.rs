@@ -28,7 +28,7 @@ pub use miniature::{Act, Miniature};
 pub use own::Own;
 #[cfg(test)]
 pub(crate) use plan::questions;
-pub use process::Process;
+pub use process::{Process, answered, greeted};
 
 /// Who is judged by the golden vectors.
 pub trait Testee {

@@ -101,13 +101,7 @@ impl Testee for Process {
         self.start()?;
         let line =
             self.exchange(&Command::Hello { protocol: PROTOCOL }, START.max(self.timeout))?;
-        let hello: Hello = serde_json::from_str(&line).map_err(|error| {
-            Reaction::Garbled(format!("{error} in the answer to hello: {}", cut(&line)))
-        })?;
-        match hello.protocol {
-            PROTOCOL => Ok(hello),
-            other => Err(Reaction::Garbled(format!("it speaks protocol {other}, not {PROTOCOL}"))),
-        }
+        greeted(&line)
     }
 
     fn ask(&mut self, question: &Question) -> Reaction {
@@ -122,19 +116,11 @@ impl Testee for Process {
             Ok(line) => line,
             Err(reaction) => return reaction,
         };
-        match serde_json::from_str::<Reply>(&line) {
-            Ok(Reply { seq, answer }) if seq == Some(self.seq) => Reaction::Answer(answer),
-            Ok(Reply { seq: None, answer: Answer::Error { message } }) => {
-                Reaction::Garbled(format!("it could not read the case: {message}"))
-            }
-            Ok(Reply { seq, .. }) => {
-                // What it says from now on cannot be told from what it has said too late.
-                self.running = None;
-                let seq = seq.map_or_else(|| "none".to_owned(), |seq| seq.to_string());
-                Reaction::Garbled(format!("seq {seq} answers seq {}", self.seq))
-            }
-            Err(error) => Reaction::Garbled(format!("{error}: {}", cut(&line))),
+        let (reaction, in_step) = answered(&line, self.seq);
+        if !in_step {
+            self.running = None;
         }
+        reaction
     }
 
     fn bye(&mut self) -> Result<(), String> {
@@ -150,6 +136,45 @@ impl Testee for Process {
 
     fn stderr(&self) -> String {
         Process::stderr(self)
+    }
+}
+
+/// What a testee says of itself with the line that answers `hello`.
+///
+/// # Errors
+/// That this is no answer to it.
+pub fn greeted(line: &str) -> Result<Hello, Reaction> {
+    let hello: Hello = serde_json::from_str(line).map_err(|error| {
+        Reaction::Garbled(format!("{error} in the answer to hello: {}", cut(line)))
+    })?;
+    match hello.protocol {
+        PROTOCOL => Ok(hello),
+        other => Err(Reaction::Garbled(format!("it speaks protocol {other}, not {PROTOCOL}"))),
+    }
+}
+
+/// What the line is that came for the case of this number; and whether the next line may answer the
+/// next case. After the answer to another case it cannot be told from what was said too late.
+///
+/// ```
+/// use ads_cnc_conformance::testee::{Answer, Output, Reaction, answered};
+///
+/// let ok = Reaction::Answer(Answer::Ok(Output::default()));
+/// assert_eq!(answered(r#"{"seq": 7, "ok": {}}"#, 7), (ok, true));
+/// assert!(matches!(answered(r#"{"seq": 6, "ok": {}}"#, 7), (Reaction::Garbled(_), false)));
+/// assert!(matches!(answered("Hello!", 7), (Reaction::Garbled(_), true)));
+/// ```
+pub fn answered(line: &str, seq: u64) -> (Reaction, bool) {
+    match serde_json::from_str::<Reply>(line) {
+        Ok(reply) if reply.seq == Some(seq) => (Reaction::Answer(reply.answer), true),
+        Ok(Reply { seq: None, answer: Answer::Error { message } }) => {
+            (Reaction::Garbled(format!("it could not read the case: {message}")), true)
+        }
+        Ok(reply) => {
+            let found = reply.seq.map_or_else(|| "none".to_owned(), |seq| seq.to_string());
+            (Reaction::Garbled(format!("seq {found} answers seq {seq}")), false)
+        }
+        Err(error) => (Reaction::Garbled(format!("{error}: {}", cut(line))), true),
     }
 }
 
