@@ -14,13 +14,17 @@ const LONGEST: usize = 64;
 pub fn dictionaries() -> Vec<(&'static str, String)> {
     let families =
         FAMILIES.iter().map(|&(family, _)| family).chain(["operation", "service", "text"]);
+    #[cfg(feature = "tools")]
+    let families = families.chain(["tools", "cnc"]);
     families.map(|family| (family, written(&entries(family)))).collect()
 }
 
 fn entries(family: &str) -> BTreeSet<Vec<u8>> {
     let mut entries = BTreeSet::new();
     match family {
-        "operation" => {
+        #[cfg(feature = "tools")]
+        "tools" => entries.extend(crate::seeds::tools::words()),
+        "operation" | "cnc" => {
             for sample in common::CALLS {
                 let call = &sample.call;
                 for number in [call.index_group.get(), call.index_offset.get()] {

@@ -3,6 +3,10 @@
 mod events;
 mod operations;
 mod texts;
+#[cfg(feature = "tools")]
+mod connections;
+#[cfg(feature = "tools")]
+pub(crate) mod tools;
 
 use ads_cnc::layout::Stream;
 use ads_cnc::value::DataType;
@@ -37,6 +41,8 @@ pub fn seeds(target: &Target) -> Vec<Seed> {
         ("text", "cp1252") => texts::texts(),
         ("variable", "path") => texts::names(),
         ("variable", "typed") => values(),
+        #[cfg(feature = "tools")]
+        ("tools" | "cnc", _) => tools::seeds(target.name),
         (family, "bytes") => {
             let family = family_of(family);
             samples(family).chain(of_vectors(family)).collect()

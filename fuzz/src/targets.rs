@@ -2,6 +2,8 @@
 
 #[cfg(feature = "alloc")]
 use crate::bodies::checker;
+#[cfg(feature = "tools")]
+use crate::bodies::tools;
 #[cfg(feature = "arbitrary")]
 use crate::bodies::values;
 use crate::bodies::{bytes, frames, names, operation, service, shapes, streaming, text};
@@ -132,4 +134,41 @@ targets! {
     VARIABLE_TYPED: "variable_typed", shapes::typed, shapes::DEFECTS,
         "type, dimensions and size are taken for a shape if they agree; an element is where nested \
          arrays have it, and what was read is written back as it was";
+    #[cfg(feature = "tools")]
+    TOOLS_EXPLAIN: "tools_explain", tools::explain::check, tools::explain::DEFECTS,
+        "bytes of anything are explained without a panic: all of them are shown, none twice where \
+         nothing is wrong; a stream is faulty if and only if the codec refuses it; a terminal gets \
+         nothing to act on; hex is read as what it says";
+    #[cfg(feature = "tools")]
+    TOOLS_CAPTURE: "tools_capture", tools::capture::check, tools::capture::DEFECTS,
+        "any file is read as a capture to its end, or it is said that it is cut; out of segments in \
+         any order, several times or in other pieces comes what was sent, and what is missing is told";
+    #[cfg(feature = "tools")]
+    TOOLS_TESTEE: "tools_testee", tools::testee::check, tools::testee::DEFECTS,
+        "whatever a testee says is lines of a bounded length, each of which is one answer to the \
+         case it was asked or none";
+    #[cfg(feature = "tools")]
+    TOOLS_WAIVER: "tools_waiver", tools::toml::waiver, tools::toml::WAIVER_DEFECTS,
+        "any file is waivers or an error with its line, wherever in the file it stands";
+    #[cfg(feature = "tools")]
+    TOOLS_PROFILE: "tools_profile", tools::toml::profile, tools::toml::PROFILE_DEFECTS,
+        "any file is a profile or an error with its line; a profile that is shown is read as the \
+         same, and claims nothing at a port that does not answer";
+    #[cfg(feature = "tools")]
+    TOOLS_ALLOW: "tools_allow", tools::toml::allow, tools::toml::ALLOW_DEFECTS,
+        "any file allows something or is an error with its line; its entries are read as they are \
+         shown";
+    #[cfg(feature = "tools")]
+    TOOLS_MODEL: "tools_model", tools::model::check, tools::model::DEFECTS,
+        "any file is a model or an error with its line; a CNC that is made of it answers what the \
+         codec reads, as often as it is asked the same";
+    #[cfg(feature = "tools")]
+    TOOLS_GATE: "tools_gate", tools::gate::check, tools::gate::DEFECTS,
+        "nothing passes the gate that does not only ask, is not named by the file for this target \
+         and time, or is never sent";
+    #[cfg(feature = "tools")]
+    CNC_SESSION: "cnc_session", tools::session::check, tools::session::DEFECTS,
+        "of whatever comes over a connection each good frame is answered once, with its invoke ID \
+         and what the codec reads, in bounded buffers; a write that is refused changes nothing, \
+         another is read back";
 }

@@ -11,6 +11,8 @@ pub(crate) mod service;
 pub(crate) mod shapes;
 pub(crate) mod streaming;
 pub(crate) mod text;
+#[cfg(feature = "tools")]
+pub(crate) mod tools;
 #[cfg(feature = "arbitrary")]
 pub(crate) mod values;
 

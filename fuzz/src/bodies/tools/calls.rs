@@ -1,0 +1,67 @@
+//! Calls to the simulated CNC, and their frames.
+
+use ads_cnc::Encode as _;
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::{
+    AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadRequest, ReadWriteRequestRef, StateFlags,
+    WriteRequestRef,
+};
+use ads_cnc::operation::{Call, Service};
+use ads_cnc_conformance::cnc::NET_ID;
+
+use super::Input;
+
+/// A call: port, service, group, offset, read length, and data behind their length.
+pub(super) fn call<'a>(input: &mut Input<'a>) -> Call<'a> {
+    let port = AmsPort(input.pick(&[552, 553, 551, 851]));
+    let service = input.pick(&[Service::Read, Service::Write, Service::ReadWrite]);
+    let index_group = IndexGroup::new(input.word());
+    let index_offset = IndexOffset::new(input.word());
+    let read_length = input.small().into();
+    let data = input.bytes();
+    let data = if service == Service::Read { &[] } else { data };
+    Call { port, service, index_group, index_offset, read_length, data }
+}
+
+/// Writes a call as [`call`] reads it, as a record of a session: alone (1), or looked at (6).
+pub(crate) fn write_call(kind: u8, call: &Call<'_>) -> Vec<u8> {
+    let port = [552, 553, 551, 851].iter().position(|port| *port == call.port.0).unwrap_or(3);
+    let service = match call.service {
+        Service::Read => 0,
+        Service::Write => 1,
+        Service::ReadWrite => 2,
+    };
+    let mut bytes = vec![kind, port as u8, service];
+    bytes.extend(call.index_group.get().to_le_bytes());
+    bytes.extend(call.index_offset.get().to_le_bytes());
+    bytes.extend(&call.read_length.to_le_bytes()[..2]);
+    bytes.push(call.data.len() as u8);
+    bytes.extend(call.data);
+    if kind == 1 {
+        bytes.extend(7_u32.to_le_bytes());
+    }
+    bytes
+}
+
+/// The frame of a call to the CNC.
+pub(crate) fn frame(call: &Call<'_>, invoke_id: u32) -> Vec<u8> {
+    let Call { service, index_group, index_offset, read_length, data, .. } = *call;
+    let payload = match service {
+        Service::Read => ReadRequest { index_group, index_offset, length: read_length }.to_vec(),
+        Service::Write => WriteRequestRef { index_group, index_offset, data }.to_vec(),
+        Service::ReadWrite => {
+            ReadWriteRequestRef { index_group, index_offset, read_length, data }.to_vec()
+        }
+    };
+    let payload = payload.expect("short data");
+    let header = AmsHeader {
+        target: AmsAddr { net_id: NET_ID, port: call.port },
+        source: AmsAddr { net_id: AmsNetId([127, 0, 0, 1, 1, 2]), port: AmsPort(0x8001) },
+        command: service.command(),
+        state_flags: StateFlags::REQUEST,
+        data_length: u32::try_from(payload.len()).expect("short data"),
+        error: ads_cnc::ads::AdsError::NONE,
+        invoke_id,
+    };
+    FrameRef::new(header, &payload).and_then(|frame| frame.to_vec()).expect("a frame")
+}

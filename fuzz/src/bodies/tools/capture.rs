@@ -1,0 +1,135 @@
+//! Captured traffic: files of anything, and conversations that came in pieces.
+
+use ads_cnc_conformance::capture::{
+    Collector, End, FileError, Options, Piece, Ports, check as judge, frames,
+};
+
+use super::Input;
+use super::conversation::Conversation;
+use crate::{Defect, Outcome};
+
+pub(crate) const DEFECTS: &[&str] = &[
+    "what came twice is sent twice",
+    "segments come out in the order they were captured in",
+    "what is missing is not told",
+    "a file that ends within a record is whole",
+    "the judge counts a frame less if there are more than three",
+];
+
+/// The first byte picks a file, looked at on the port of AMS (0) or on all (1), or a conversation
+/// (2).
+pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
+    let mut input = Input::new(data);
+    match input.byte() {
+        0 => file(input.rest(), Ports::Of(vec![48898]), defect),
+        1 => file(input.rest(), Ports::Any, defect),
+        2 => conversation(&mut input, defect),
+        _ => Outcome::unread(),
+    }
+}
+
+fn read(file: &[u8], ports: Ports, defect: Defect) -> (Result<End, FileError>, Vec<Piece>) {
+    let mut pieces = Vec::new();
+    let mut end = frames(file, ports, |piece| pieces.push(piece));
+    if let (true, Ok(end)) = (defect.is(4), &mut end) {
+        *end = End::Whole;
+    }
+    if defect.is(3) {
+        pieces.retain(|piece| matches!(piece, Piece::Frame { .. }));
+    }
+    (end, pieces)
+}
+
+/// Any file: it is read to its end, or it is said where it is cut; what is judged is what was read.
+fn file(bytes: &[u8], ports: Ports, defect: Defect) -> Outcome {
+    let (end, pieces) = read(bytes, ports.clone(), defect);
+    let options = Options { ports: ports.clone(), vectors: Some(Collector::new(false)) };
+    let judged = judge(bytes, options);
+    let end = match (end, judged) {
+        (Ok(end), Ok(judged)) => {
+            let found = pieces.iter().filter(|piece| matches!(piece, Piece::Frame { .. })).count();
+            let counted = judged.tally.frames + u64::from(defect.is(5) && found > 3);
+            assert_eq!(counted, found as u64);
+            let told = judged.tally.end.clone();
+            let told = if defect.is(4) { Some(End::Whole) } else { told };
+            assert_eq!(told.as_ref(), Some(&end));
+            let is_told =
+                judged.tally.lines().iter().any(|line| line.contains("a cut of the file"));
+            assert_eq!(is_told, judged.tally.end != Some(End::Whole));
+            end
+        }
+        (Err(end), Err(judged)) => {
+            assert_eq!(end.to_string(), judged.to_string());
+            return Outcome::refused(end.to_string());
+        }
+        other => panic!("{other:?}"),
+    };
+    if let (End::Whole, Some((_, shorter))) = (&end, bytes.split_last()) {
+        let (cut, _) = read(shorter, ports, defect);
+        assert!(!matches!(cut, Ok(End::Whole)), "the last byte is nobody's");
+    }
+    let bytes: Vec<_> = pieces.iter().map(|piece| format!("{piece:?}")).collect();
+    match end {
+        End::Whole => Outcome::accepted(bytes),
+        End::Cut(why) => Outcome::refused((why, bytes)),
+    }
+}
+
+/// A conversation: what comes out is what was sent, or it is told that something is missing.
+fn conversation(input: &mut Input<'_>, defect: Defect) -> Outcome {
+    let mut conversation = Conversation::new(input);
+    if defect.is(2) {
+        sort(&mut conversation);
+    }
+    let file = conversation.pcap();
+    let (end, pieces) = read(&file, Ports::Of(vec![48898]), defect);
+    assert_eq!(end.expect("a file"), End::Whole);
+    let mut found = [Vec::new(), Vec::new()];
+    let mut is_lost = false;
+    for piece in pieces {
+        match piece {
+            Piece::Frame { from, bytes, .. } => {
+                found[usize::from(from.port() == 48898)].push(bytes);
+            }
+            Piece::Gap { .. } | Piece::Rest(_) => is_lost = true,
+        }
+    }
+    if defect.is(1) && conversation.is_twice {
+        for side in &mut found {
+            side.extend(side.last().cloned());
+        }
+    }
+    match conversation.is_whole {
+        true => {
+            assert_eq!(found, conversation.sent);
+            assert!(!is_lost, "all was there");
+        }
+        false => {
+            assert!(is_lost, "something was missing");
+            for (found, sent) in found.iter().zip(&conversation.sent) {
+                // Nothing is made up, and the order is that in which it was sent.
+                let mut sent = sent.iter();
+                assert!(found.iter().all(|frame| sent.any(|one| one == frame)));
+            }
+        }
+    }
+    Outcome::accepted(found)
+}
+
+/// Gives the segments of a side the sequence numbers that they would have in the order they are in.
+fn sort(conversation: &mut Conversation) {
+    for side in [true, false] {
+        let mut all: Vec<_> =
+            conversation.segments.iter_mut().filter(|one| one.is_client == side).collect();
+        let Some(mut sequence) = all.iter().map(|one| one.sequence).min() else { continue };
+        for one in &mut all {
+            one.sequence = sequence;
+            sequence = sequence.wrapping_add(one.payload.len() as u32);
+        }
+    }
+}
+
+/// A file with a conversation in it.
+pub(crate) fn sample() -> Vec<u8> {
+    Conversation::new(&mut Input::new(&[2, 1, 4, 9, 0, 1, 0, 200, 200])).pcap()
+}

@@ -1,0 +1,158 @@
+//! A conversation as captured: frames of both sides, cut into segments, in whatever order.
+
+use ads_cnc::Encode as _;
+use ads_cnc::ads::{AmsHeader, FrameRef, ReadReplyRef, StateFlags, WriteReply};
+
+use super::{Input, calls};
+use crate::common::CALLS;
+
+/// A captured segment.
+#[derive(Clone)]
+pub(super) struct Segment {
+    /// Of the client, or of the CNC.
+    pub(super) is_client: bool,
+    pub(super) sequence: u32,
+    pub(super) payload: Vec<u8>,
+}
+
+/// What was sent, and what was captured of it.
+pub(super) struct Conversation {
+    /// The frames of the client and of the CNC.
+    pub(super) sent: [Vec<Vec<u8>>; 2],
+    begin: [u32; 2],
+    pub(super) segments: Vec<Segment>,
+    /// Whether nothing was left out.
+    pub(super) is_whole: bool,
+    pub(super) is_twice: bool,
+}
+
+/// Sequence numbers of the SYN, some of which wrap around soon.
+const BEGINS: [u32; 4] = [0, u32::MAX - 50, 0x7FFF_FFF0, u32::MAX];
+
+impl Conversation {
+    /// The number of requests and each of them, by its place; where sequence numbers begin; the
+    /// lengths of segments; then what becomes of them: one changes its place (0), comes twice (1),
+    /// is left out (2), or comes in one with the next (3).
+    pub(super) fn new(input: &mut Input<'_>) -> Self {
+        let mut sent = [Vec::new(), Vec::new()];
+        for id in 0..u32::from(input.byte() % 8) {
+            let call = CALLS[usize::from(input.byte()) % CALLS.len()].call;
+            let request = calls::frame(&call, id);
+            sent[1].push(reply(&request, input.byte()));
+            sent[0].push(request);
+        }
+        let begin = [input.pick(&BEGINS), input.pick(&BEGINS)];
+        let lengths = [usize::from(input.byte()).max(4), usize::from(input.byte()).max(4)];
+        let mut segments = Vec::new();
+        for side in 0..2 {
+            let mut sequence = begin[side].wrapping_add(1);
+            for payload in sent[side].concat().chunks(lengths[side]) {
+                segments.push(Segment {
+                    is_client: side == 0,
+                    sequence,
+                    payload: payload.to_vec(),
+                });
+                sequence = sequence.wrapping_add(payload.len() as u32);
+            }
+        }
+        let mut conversation = Self { sent, begin, segments, is_whole: true, is_twice: false };
+        for _ in 0..64 {
+            if input.is_empty() || conversation.segments.is_empty() {
+                break;
+            }
+            let (what, place, other) = (input.byte(), input.byte(), input.byte());
+            conversation.disturb(what, place.into(), other.into());
+        }
+        conversation
+    }
+
+    fn disturb(&mut self, what: u8, place: usize, other: usize) {
+        let all = &mut self.segments;
+        let (place, other) = (place % all.len(), other % all.len());
+        match what % 4 {
+            0 => all.swap(place, other),
+            1 => {
+                self.is_twice = true;
+                let again = all[place].clone();
+                all.insert(other, again);
+            }
+            2 => {
+                let gone = all.remove(place);
+                let is_same = |one: &Segment| {
+                    one.is_client == gone.is_client
+                        && one.sequence == gone.sequence
+                        && one.payload.len() >= gone.payload.len()
+                };
+                self.is_whole &= all.iter().any(is_same);
+            }
+            _ => {
+                let (first, second) = (all[place].clone(), all[other].clone());
+                let end = first.sequence.wrapping_add(first.payload.len() as u32);
+                if first.is_client == second.is_client && end == second.sequence {
+                    all[place].payload.extend(second.payload);
+                }
+            }
+        }
+    }
+
+    /// A pcap file: both SYN, the segments, and both FIN.
+    pub(super) fn pcap(&self) -> Vec<u8> {
+        let mut file =
+            b"\xd4\xc3\xb2\xa1\x02\0\x04\0\0\0\0\0\0\0\0\0\xff\xff\0\0\x65\0\0\0".to_vec();
+        let mut packet = |is_client: bool, sequence: u32, flags: u8, payload: &[u8]| {
+            let packet = packet(is_client, sequence, flags, payload);
+            let length = (packet.len() as u32).to_le_bytes();
+            file.extend([&[0; 8], &length[..], &length, &packet].concat());
+        };
+        packet(true, self.begin[0], 2, &[]);
+        packet(false, self.begin[1], 2, &[]);
+        for one in &self.segments {
+            packet(one.is_client, one.sequence, 8, &one.payload);
+        }
+        for side in 0..2 {
+            let length = self.sent[side].concat().len() as u32;
+            packet(side == 0, self.begin[side].wrapping_add(1).wrapping_add(length), 1, &[]);
+        }
+        file
+    }
+}
+
+/// An answer to a request, with some data.
+fn reply(request: &[u8], kind: u8) -> Vec<u8> {
+    let Ok(Some((frame, _))) = FrameRef::split(request, u32::MAX) else { panic!("a frame") };
+    let header = frame.header();
+    let data = vec![kind; usize::from(kind)];
+    let result = ads_cnc::ads::AdsError(0);
+    let payload = match header.command.0 {
+        3 => WriteReply { result }.to_vec(),
+        // Those of a Read and of a ReadWrite are alike.
+        _ => ReadReplyRef { result, data: Some(&data) }.to_vec(),
+    };
+    let payload = payload.expect("a reply");
+    let header = AmsHeader {
+        target: header.source,
+        source: header.target,
+        state_flags: StateFlags::RESPONSE,
+        data_length: payload.len() as u32,
+        ..header
+    };
+    FrameRef::new(header, &payload).and_then(|frame| frame.to_vec()).expect("a frame")
+}
+
+/// Raw IP, without checksums, and TCP.
+fn packet(is_client: bool, sequence: u32, flags: u8, payload: &[u8]) -> Vec<u8> {
+    let (client, cnc) = (([192, 0, 2, 20], 50000_u16), ([192, 0, 2, 10], 48898_u16));
+    let (from, to) = if is_client { (client, cnc) } else { (cnc, client) };
+    let length = (40 + payload.len()) as u16;
+    let mut packet = vec![0x45, 0];
+    packet.extend(length.to_be_bytes());
+    packet.extend([0, 0, 0x40, 0, 64, 6, 0, 0]);
+    packet.extend(from.0);
+    packet.extend(to.0);
+    packet.extend(from.1.to_be_bytes());
+    packet.extend(to.1.to_be_bytes());
+    packet.extend(sequence.to_be_bytes());
+    packet.extend([0, 0, 0, 0, 0x50, flags, 0xFF, 0xFF, 0, 0, 0, 0]);
+    packet.extend(payload);
+    packet
+}

@@ -1,0 +1,199 @@
+//! Bytes of anything, explained, and hex as somebody types it.
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::{AmsPort, FrameRef};
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::{Call, Service};
+use ads_cnc::streaming::{Interface, NcText};
+use ads_cnc::value::DataType;
+use ads_cnc_conformance::explain::{
+    Explanation, Outcome as Found, Place, Question, Subject, Values, explain, parse_hex,
+};
+
+use super::Input;
+use crate::common::{self, Bend};
+use crate::{Defect, Outcome};
+
+#[path = "../../../../conformance/tests/common/explained.rs"]
+mod explained;
+
+use explained::{check_explanation, check_printed, printed};
+
+pub(crate) const DEFECTS: &[&str] = &[
+    "the last field of a stream is not shown if it is behind the sixteenth byte",
+    "a fault behind the eighth byte is no fault",
+    "the last byte of hex with a hyphen in it is lost",
+    "a text with an escape is printed as it is",
+    "of several frames only the first is shown",
+];
+
+/// The first byte picks what is explained: a stream (0), data of a place (1), a place (2), frames
+/// (3), frames with a place for replies (4), hex (5).
+///
+/// Behind it the stream's place in the list, the type and two dimensions; then the place; the rest
+/// are the bytes, or the text.
+pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
+    let mut input = Input::new(data);
+    let what = input.byte();
+    if what == 5 {
+        return hex(input.rest(), defect);
+    }
+    let streams: Vec<Stream> = Stream::all().collect();
+    let stream = input.pick(&streams);
+    let values = values(&mut input);
+    let place = (what != 0 && what != 3).then(|| place(&mut input));
+    let bytes = input.rest();
+    let subject = match (what, place) {
+        (0, _) => Subject::Stream(stream),
+        (1, Some(place)) => Subject::Place(place),
+        (2, Some(place)) if bytes.is_empty() => Subject::Address(place),
+        (3 | 4, place) => Subject::Frames(place),
+        _ => return Outcome::unread(),
+    };
+    let typed = values.ty.is_some();
+    let mut explanation = explain(&Question { subject, values }, bytes);
+    bend(&mut explanation, defect);
+    check_explanation(&explanation, bytes);
+    let mut plain = printed(&explanation);
+    if defect.is(4) && explanation.parts.iter().any(has_escape) {
+        plain.push(0x1B);
+    }
+    check_printed(&plain);
+    let late = |at: usize| defect.is(2) && at > 8;
+    let told = explanation.parts.iter().flat_map(|part| &part.faults);
+    let faulty = told.filter(|fault| !late(fault.offset)).count() > 0;
+    match what {
+        0 => accepts(stream, bytes, typed, faulty),
+        1 => place.iter().for_each(|place| dispatches(place, bytes, &explanation, faulty)),
+        3 | 4 => assert!(faulty || are_frames(bytes), "{explanation:#?}"),
+        _ => {}
+    }
+    match explanation.outcome {
+        Found::Explained => Outcome::accepted(plain),
+        _ => Outcome::refused(plain),
+    }
+}
+
+fn has_escape(part: &ads_cnc_conformance::explain::Part) -> bool {
+    part.rows.iter().any(|row| row.ty == "STRING" && row.hex.contains("1b"))
+}
+
+fn bend(explanation: &mut Explanation, defect: Defect) {
+    if defect.is(1) {
+        for part in &mut explanation.parts {
+            if part.rows.last().is_some_and(|last| last.offset > 16) {
+                part.rows.pop();
+            }
+        }
+    }
+    if defect.is(5)
+        && explanation.parts.iter().filter(|part| part.title.contains("AMS/TCP")).count() > 1
+    {
+        explanation.parts.truncate(3);
+    }
+}
+
+/// An explanation finds a fault if, and only if, the codec does.
+fn accepts(stream: Stream, bytes: &[u8], typed: bool, faulty: bool) {
+    let refused = common::check_bent(stream, bytes, &Bend::NONE).is_err()
+        || stream == Stream::ProgramStream && !is_nc(bytes);
+    assert!(faulty || !refused, "{stream} takes what the codec does not");
+    // A value may be of another type than the one that was named.
+    assert!(typed || faulty == refused, "{stream} does not take what the codec does");
+}
+
+/// Whether a CNC reads these bytes to their end.
+fn is_nc(bytes: &[u8]) -> bool {
+    let mut cnc = Interface::new();
+    cnc.write(bytes);
+    let read = cnc.read().is_ok();
+    read && NcText::new(bytes)
+        .is_ok_and(|text| !text.findings().any(|finding| finding.kind.ends_streaming()))
+}
+
+/// What the codec finds at a place is what is said to be there.
+fn dispatches(place: &Place, bytes: &[u8], explanation: &Explanation, faulty: bool) {
+    let (Some(port), Some(service), false) = (place.port, place.service, place.reply) else {
+        return;
+    };
+    let call = Call {
+        port,
+        service,
+        index_group: place.group,
+        index_offset: place.offset,
+        read_length: 0xFFFF,
+        data: bytes,
+    };
+    let Ok(request) = call.dispatch() else { return };
+    let spec = request.function().spec();
+    let part = &explanation.parts[0];
+    let named = part.address.as_ref().and_then(|address| address.function.as_ref());
+    assert_eq!(named.map(|function| function.name), Some(spec.name), "{call:?}");
+    let is_nc = part.stream == Some(Stream::ProgramStream.layout().name);
+    assert!(!faulty || is_nc || service == Service::Read, "{explanation:#?}");
+}
+
+/// Whether the codec reads frames to the end of these bytes.
+fn are_frames(mut bytes: &[u8]) -> bool {
+    loop {
+        match FrameRef::split(bytes, u32::MAX) {
+            Ok(Some((_, len))) => bytes = &bytes[len..],
+            _ => return false,
+        }
+        if bytes.is_empty() {
+            return true;
+        }
+    }
+}
+
+fn values(input: &mut Input<'_>) -> Values {
+    let ty = usize::from(input.byte()).checked_sub(1).and_then(|ty| DataType::ALL.get(ty).copied());
+    let (count, length) = (input.byte(), input.byte());
+    // With the highest bit it is many.
+    let length = u32::from(length & 0x7F) << if length & 0x80 == 0 { 0 } else { 25 };
+    let dimensions = [length, 2, 1][..usize::from(count % 4)].to_vec();
+    Values { ty, dimensions }
+}
+
+fn place(input: &mut Input<'_>) -> Place {
+    let services = [None, Some(Service::Read), Some(Service::Write), Some(Service::ReadWrite)];
+    let ports = [None, Some(551), Some(552), Some(553), Some(851)];
+    Place {
+        port: input.pick(&ports).map(AmsPort),
+        service: input.pick(&services),
+        reply: input.byte() & 1 == 1,
+        group: IndexGroup::new(input.word()),
+        offset: IndexOffset::new(input.word()),
+    }
+}
+
+/// Hex is read as what it says: words of pairs of digits, each of which may begin with 0x.
+fn hex(bytes: &[u8], defect: Defect) -> Outcome {
+    let text = String::from_utf8_lossy(bytes);
+    let mut read = parse_hex(&text);
+    if let (true, true, Ok(read)) = (defect.is(3), text.contains('-'), &mut read) {
+        read.pop();
+    }
+    let is_between = |one: char| one.is_whitespace() || [',', ';', ':', '-'].contains(&one);
+    let words = text.split(is_between);
+    let digits = words.map(|word| {
+        let prefix = word.strip_prefix("0x").or_else(|| word.strip_prefix("0X"));
+        let digits = prefix.unwrap_or(word);
+        let pairs = digits.len() % 2 == 0 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+        pairs.then_some(digits)
+    });
+    let digits: Option<String> = digits.collect();
+    match &read {
+        Ok(bytes) => {
+            let shown: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+            assert_eq!(Some(shown), digits.map(|digits| digits.to_ascii_lowercase()), "{text:?}");
+        }
+        Err(error) => {
+            assert_eq!(digits, None, "{text:?} is refused: {error}");
+            let line = text.split('\n').nth(error.line - 1).expect("a line of the text");
+            let there = line.chars().nth(error.column - 1).expect("a column of it");
+            assert!(error.found.is_none_or(|found| found == there), "{text:?}: {error}");
+        }
+    }
+    Outcome::of(read.map_err(|error| error.to_string()))
+}

@@ -1,0 +1,255 @@
+//! What passes the gate, judged by the bytes of frames alone.
+
+use ads_cnc::CncString;
+use ads_cnc::address::{Channel, ChannelAxis, IndexGroup, IndexOffset, PlatformAxis};
+use ads_cnc::ads::{AmsNetId, AmsPort};
+use ads_cnc::operation::{Call, Service};
+use ads_cnc_conformance::gate::{self, Allowed, Entry, Gate, List, Moment};
+
+use super::Input;
+use crate::{Defect, Outcome};
+
+#[path = "../../../../conformance/tests/common/harmless.rs"]
+mod harmless;
+mod rule;
+
+use rule::Rule;
+
+pub(crate) const DEFECTS: &[&str] = &[
+    "a write of the decoder of channel 2 passes without an entry",
+    "an entry is good for any target",
+    "an entry is good for ever",
+    "names are the same in small letters",
+    "a handle is good for the first channel too",
+    "a frame with a byte behind it passes",
+    "what is forgotten still holds",
+    "WriteControl passes where malformed frames do",
+    "an entry is shown with another channel",
+];
+
+/// When files are good, and from when on they are not any more.
+const NOW: &str = "2026-05-04T17:29:59Z";
+const END: &str = "2026-05-04T17:30:00Z";
+
+/// The file is about this one.
+const TARGET: [u8; 6] = [192, 0, 2, 7, 1, 1];
+
+/// The first byte has the settings (bit 0: malformed frames pass, bit 1: a file allows writes, bit 2:
+/// it is over). Behind the number of entries and the entries of the file come answers to learn from
+/// (0), oblivion (1), bytes to be sent (2) and frames to be sent (3 and more).
+pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
+    let mut input = Input::new(data);
+    let settings = input.byte();
+    let (malformed, file, over) = (settings & 1 != 0, settings & 2 != 0, settings & 4 != 0);
+    let entries = entries(&mut input, defect);
+    let mut gate = Gate::queries();
+    if file {
+        let (target, expires) = (AmsNetId(TARGET), moment(END));
+        gate = gate.with_allowed(Some(Allowed { target, expires, entries: entries.clone() }));
+    }
+    if malformed {
+        gate = gate.and_malformed();
+    }
+    let mut rule = Rule::new(if file && !over { &entries } else { &[] });
+    let now = moment(if over && !defect.is(3) { END } else { NOW });
+    let mut passed = Vec::new();
+    while !input.is_empty() {
+        let kind = input.byte();
+        let frame = match kind {
+            0 => {
+                let (mut call, reply) = (call(&mut input), input.bytes());
+                rule.learn(&call, reply);
+                gate.learn(&call, reply);
+                if defect.is(5) {
+                    call.index_group = IndexGroup::new(call.index_group.get() & !0xFF | 1);
+                    gate.learn(&call, reply);
+                }
+                continue;
+            }
+            1 => {
+                rule.forget();
+                if !defect.is(7) {
+                    gate.forget();
+                }
+                continue;
+            }
+            2 => input.bytes().to_vec(),
+            _ => frame(&mut input, kind),
+        };
+        let passes = passes(&gate, &frame, now, defect);
+        assert!(!passes || rule.permits(&frame, TARGET, malformed), "{settings:#x} {frame:02x?}");
+        // What passes by default passes with whatever is allowed besides.
+        assert!(passes || gate::check(&frame).is_err(), "{frame:02x?}");
+        passed.push(passes);
+    }
+    match passed.contains(&true) {
+        true => Outcome::accepted(passed),
+        false => Outcome::refused(passed),
+    }
+}
+
+fn passes(gate: &Gate, frame: &[u8], now: Moment, defect: Defect) -> bool {
+    let check = |frame: &[u8]| gate.check(frame, now).is_ok();
+    let mut other = frame.to_vec();
+    let is_long = frame.len() > 54;
+    check(frame)
+        || match () {
+            () if defect.is(1) && is_long => frame[22] == 3 && frame[38..41] == [2, 0x23, 0x12],
+            () if defect.is(2) && is_long => {
+                other[6..12].copy_from_slice(&TARGET);
+                check(&other)
+            }
+            () if defect.is(4) && is_long => {
+                other[50..].make_ascii_uppercase();
+                check(&other)
+            }
+            () if defect.is(6) => other.pop().is_some() && check(&other),
+            () if defect.is(8) && is_long => {
+                other[22] = 4;
+                frame[22] == 5 && check(&other)
+            }
+            () => false,
+        }
+}
+
+fn moment(text: &str) -> Moment {
+    Moment::from_rfc3339(text).expect("a moment")
+}
+
+const NAMES: [&str; 8] = [
+    "V.E.A",
+    "V.E.A[1]",
+    "V.E.a",
+    "V.G.SERVICE.RESPONSE",
+    "V.A.\u{c4}\u{7f}\"\\",
+    "V.E.A[1][2]",
+    "V.E.A[1",
+    "b_w",
+];
+
+/// The entries of a file: those of them that one can have, as they are read from it.
+fn entries(input: &mut Input<'_>, defect: Defect) -> Vec<Entry> {
+    let count = input.byte() % 5;
+    let mut entries = Vec::new();
+    for _ in 0..count {
+        let kind = input.byte();
+        let Some(entry) = entry(input, kind) else { continue };
+        let text = format!("target = \"192.0.2.7.1.1\"\nexpires = {END}\n\n{entry}");
+        let text = if defect.is(9) { text.replace("= 3\n", "= 4\n") } else { text };
+        match Allowed::from_toml(&text) {
+            Ok(read) => {
+                assert_eq!(read.entries, [entry], "{text}");
+                entries.extend(read.entries);
+            }
+            // Of addresses not all are taken.
+            Err(error) => {
+                assert!(matches!(entry, Entry::Content { .. }), "{text}\n{error}");
+                assert!(error.to_string().contains("line "), "{error}");
+            }
+        }
+    }
+    entries
+}
+
+fn entry(input: &mut Input<'_>, kind: u8) -> Option<Entry> {
+    let channel = |input: &mut Input<'_>| match input.byte() {
+        rank @ 0x80.. => Channel::by_index(u32::from(rank) & 0x7F).ok(),
+        number => Channel::new(number.into()).ok(),
+    };
+    let name = |input: &mut Input<'_>| input.pick(&NAMES).parse::<CncString>().ok();
+    Some(match kind % 8 {
+        0 => Entry::Variable { channel: channel(input)?, axis: None, name: name(input)? },
+        1 => {
+            let axis = ChannelAxis::new(input.byte().into()).ok()?;
+            Entry::Variable { channel: channel(input)?, axis: Some(axis), name: name(input)? }
+        }
+        2 => Entry::Content {
+            group: IndexGroup::new(input.word()),
+            offset: IndexOffset::new(input.word()),
+        },
+        3 => Entry::Object { list: List::Platform, name: name(input)? },
+        4 => Entry::Object { list: List::Channel(channel(input)?), name: name(input)? },
+        5 => {
+            let axis = PlatformAxis::new(input.byte().into()).ok()?;
+            Entry::Object { list: List::Axis(axis), name: name(input)? }
+        }
+        6 => Entry::Stream(channel(input)?),
+        _ => Entry::Service(channel(input)?),
+    })
+}
+
+/// A call: port, service, group, offset, read length, and data behind their length.
+fn call<'a>(input: &mut Input<'a>) -> Call<'a> {
+    let port = input.pick(&PORTS);
+    let service = input.pick(&[Service::Read, Service::Write, Service::ReadWrite]);
+    let (group, offset) = (input.word(), input.word());
+    let read_length = input.small().into();
+    let data = input.bytes();
+    Call {
+        port: AmsPort(port),
+        service,
+        index_group: IndexGroup::new(group),
+        index_offset: IndexOffset::new(offset),
+        read_length,
+        data: if service == Service::Read { &[] } else { data },
+    }
+}
+
+const PORTS: [u16; 5] = [552, 553, 551, 851, 10000];
+
+/// A frame with the call behind it; by the kind, with another target (bit 2), other flags (bit 3),
+/// an error (bit 4), another command (bit 5) and another length (bit 6).
+fn frame(input: &mut Input<'_>, kind: u8) -> Vec<u8> {
+    let odd = |bit: u8| kind >> bit & 1;
+    let Call { port, service, index_group, index_offset, read_length, data } = call(input);
+    let mut command = u32::from(service.command().0);
+    if odd(5) == 1 {
+        command = input.byte().into();
+    }
+    let length = u32::try_from(data.len()).unwrap_or(u32::MAX);
+    let length = (length + u32::from(odd(6))).to_le_bytes();
+    let (group, offset) = (index_group.get().to_le_bytes(), index_offset.get().to_le_bytes());
+    let read_length = read_length.to_le_bytes();
+    let payload = match command {
+        1 | 4 => data.to_vec(),
+        2 => [group, offset, read_length].concat(),
+        3 => [&[group, offset, length].concat(), data].concat(),
+        _ => [&[group, offset, read_length, length].concat(), data].concat(),
+    };
+    let behind = u32::try_from(payload.len()).unwrap_or(u32::MAX);
+    let mut target = TARGET;
+    target[5] += odd(2);
+    let mut frame = vec![0, 0];
+    frame.extend((behind + 32).to_le_bytes());
+    frame.extend(target);
+    frame.extend(port.0.to_le_bytes());
+    frame.extend([192, 0, 2, 1, 1, 1, 0, 0x80]);
+    frame.extend(&command.to_le_bytes()[..2]);
+    frame.extend([4 + odd(3), 0]);
+    frame.extend(behind.to_le_bytes());
+    frame.extend([odd(4), 0, 0, 0, 7, 0, 0, 0]);
+    frame.extend(payload);
+    frame
+}
+
+/// Writes a call as [`check`] reads it: learnt from a reply, or sent.
+pub(crate) fn write_call(kind: u8, call: &Call<'_>, reply: &[u8]) -> Vec<u8> {
+    let place = |all: &[u16]| all.iter().position(|one| *one == call.port.0).unwrap_or(0);
+    let service = match call.service {
+        Service::Read => 0,
+        Service::Write => 1,
+        Service::ReadWrite => 2,
+    };
+    let byte = |len: usize| u8::try_from(len).expect("short data");
+    let mut bytes = vec![kind, byte(place(&PORTS)), service];
+    bytes.extend(call.index_group.get().to_le_bytes());
+    bytes.extend(call.index_offset.get().to_le_bytes());
+    bytes.extend(&call.read_length.to_le_bytes()[..2]);
+    bytes.push(byte(call.data.len()));
+    bytes.extend(call.data);
+    if kind == 0 {
+        bytes.push(byte(reply.len()));
+        bytes.extend(reply);
+    }
+    bytes
+}

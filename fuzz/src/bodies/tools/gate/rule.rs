@@ -1,0 +1,203 @@
+//! What may pass, by the bytes of frames and the entries of a file: no codec stands in between.
+
+use ads_cnc::address::{Addressing, Channel};
+use ads_cnc::operation::Call;
+use ads_cnc_conformance::gate::{Entry, List};
+
+use super::harmless::{is_harmless, number};
+
+/// A channel as index groups have it: the bit of logical numbers, and the number.
+type At = (bool, u32);
+
+/// What a session may do.
+pub(super) struct Rule<'e> {
+    entries: &'e [Entry],
+    /// By channel, axis and handle: the name that was asked for.
+    handles: Vec<(At, u32, u32, Vec<u8>)>,
+    /// Descriptors that were seen, with the list's index group.
+    objects: Vec<(u32, Vec<u8>)>,
+}
+
+/// The names that a host of the Service Interface writes.
+const SERVICE: [&[u8]; 3] =
+    [b"V.G.SERVICE.REQUEST_STATE", b"V.G.SERVICE.RESPONSE_STATE", b"V.G.SERVICE.RESPONSE"];
+
+fn at(channel: Channel) -> At {
+    (channel.addressing() == Addressing::Logical, channel.number().into())
+}
+
+/// Whether a group is of decoders, and of which channel.
+fn decoder(group: u32) -> Option<At> {
+    (group & !0x10_00FF == 0x2_2300).then_some((group >> 20 == 1, group & 0xFF))
+}
+
+fn is_in(asked: &[u8], name: &[u8]) -> bool {
+    let Some(rest) = asked.strip_prefix(name) else { return false };
+    let rest = std::str::from_utf8(rest).unwrap_or("?");
+    rest.is_empty()
+        || rest.starts_with('[') && rest.ends_with(']') && {
+            let inside = rest[1..rest.len() - 1].split("][");
+            inside.into_iter().all(|one| !one.is_empty() && one.bytes().all(|b| b.is_ascii_digit()))
+        }
+}
+
+fn until_nul(data: &[u8]) -> Option<&[u8]> {
+    data.iter().position(|&byte| byte == 0).map(|end| &data[..end])
+}
+
+impl<'e> Rule<'e> {
+    pub(super) const fn new(entries: &'e [Entry]) -> Self {
+        Self { entries, handles: Vec::new(), objects: Vec::new() }
+    }
+
+    pub(super) fn forget(&mut self) {
+        (self.handles, self.objects) = (Vec::new(), Vec::new());
+    }
+
+    /// An answer came.
+    pub(super) fn learn(&mut self, call: &Call<'_>, reply: &[u8]) {
+        let (group, offset) = (call.index_group.get(), call.index_offset.get());
+        let axis = offset >> 16;
+        if let (Some(at), Ok(handle)) = (decoder(group), <[u8; 4]>::try_from(reply)) {
+            let is_asked = offset == 0x46 || axis > 0 && offset & 0xFFFF == 4;
+            if let (true, Some(name)) = (is_asked, until_nul(call.data)) {
+                self.handles.push((at, axis, u32::from_le_bytes(handle), name.to_vec()));
+            }
+        }
+        if group & !0x10_FFFF == 0x3_0000 && !reply.is_empty() && reply.len() % 84 == 0 {
+            self.objects.extend(reply.chunks(84).map(|one| (group, one.to_vec())));
+        }
+    }
+
+    /// Whether a variable is named by the file.
+    fn names(&self, channel: At, on: u32, asked: &[u8], whole: bool) -> bool {
+        self.entries.iter().any(|entry| match entry {
+            Entry::Variable { channel: of, axis, name } => {
+                at(*of) == channel
+                    && axis.map_or(0, |axis| axis.place().into()) == on
+                    && is_in(asked, name.as_bytes())
+                    && !(whole && name.as_bytes().ends_with(b"]"))
+            }
+            Entry::Service(of) => at(*of) == channel && on == 0 && SERVICE.contains(&asked),
+            _ => false,
+        })
+    }
+
+    /// Whether an object of a name that the file has was seen there, and none elsewhere.
+    fn is_object(&self, group: u32, offset: u32) -> bool {
+        self.entries.iter().any(|entry| {
+            let Entry::Object { list, name } = entry else { return false };
+            let of = match list {
+                List::Platform => 0x13_0100,
+                List::Channel(channel) => match at(*channel) {
+                    (true, number) => 0x13_0100 | number,
+                    (false, number) => 0x3_0100 | number,
+                },
+                List::Axis(axis) => 0x13_0200 | u32::from(axis.place()),
+            };
+            let seen = self.objects.iter().filter(|(group, object)| {
+                let told = &object[20..52];
+                let told = told.split(|&byte| byte == 0).next().unwrap_or(told);
+                *group == of && told == name.as_bytes()
+            });
+            let places: Vec<_> =
+                seen.map(|(_, object)| (number(object, 12), number(object, 16))).collect();
+            !places.is_empty() && places.iter().all(|place| *place == (group, offset))
+        })
+    }
+
+    /// Whether the frame is a write of something that the file names.
+    fn is_named(&self, frame: &[u8]) -> bool {
+        if frame.len() < 50 || frame[22..26] != [3, 0, 4, 0] || frame[30..34] != [0; 4] {
+            return false;
+        }
+        let (group, offset, data) = (number(frame, 38), number(frame, 42), &frame[50..]);
+        if number(frame, 46) as usize != data.len() {
+            return false;
+        }
+        let is_com = group & 0xFFFF < 0x300;
+        if u16::from_le_bytes([frame[12], frame[13]]) != if is_com { 553 } else { 552 } {
+            return false;
+        }
+        if let Some(channel) = decoder(group).filter(|(_, number)| *number > 0) {
+            let axis = offset >> 16;
+            match (axis, offset & 0xFFFF) {
+                (0, 0x49) => {
+                    let Some(handle) = data.first_chunk().map(|four| u32::from_le_bytes(*four))
+                    else {
+                        return false;
+                    };
+                    let mut asked = self.handles.iter();
+                    return asked.any(|(at, axis, told, name)| {
+                        (*at, *told) == (channel, handle) && self.names(channel, *axis, name, true)
+                    });
+                }
+                (0, 0x4A) | (1.., 6) => {
+                    let name = until_nul(data);
+                    return name.is_some_and(|name| self.names(channel, axis, name, false));
+                }
+                _ => {}
+            }
+        }
+        if is_com && group & !0x10_00FF == 0x2_0100 && offset == 0x90 {
+            let channel = (group >> 20 == 1, group & 0xFF);
+            let of = |entry: &Entry| matches!(entry, Entry::Stream(of) if at(*of) == channel);
+            return self.entries.iter().any(of);
+        }
+        let content = |entry: &Entry| match entry {
+            Entry::Content { group: of, offset: here } => (of.get(), here.get()) == (group, offset),
+            _ => false,
+        };
+        self.entries.iter().any(content) || self.is_object(group, offset)
+    }
+
+    /// Whether a frame may be sent.
+    pub(super) fn permits(&self, frame: &[u8], target: [u8; 6], malformed: bool) -> bool {
+        if !is_whole(frame) {
+            return malformed;
+        }
+        let named = frame[6..12] == target && self.is_named(frame);
+        if !malformed {
+            return is_harmless(frame) || named;
+        }
+        let command = u16::from_le_bytes([frame[22], frame[23]]);
+        let call = frame.len() >= 50 && [2, 3, 9].contains(&command);
+        let place = call.then(|| (number(frame, 38), number(frame, 42)));
+        let sums = place.is_some_and(|(group, _)| (0xF080..=0xF08F).contains(&group));
+        let stream =
+            place.is_some_and(|(group, offset)| group & !0x10_00FF == 0x2_0100 && offset == 0x90);
+        let held = [5, 6, 7, 8].contains(&command)
+            || call && is_said(frame, command) && (sums || stream || is_write(frame, command));
+        named || !held
+    }
+}
+
+/// Whether the lengths inside a service say that it is whole.
+fn is_said(frame: &[u8], command: u16) -> bool {
+    match command {
+        2 => frame.len() == 50,
+        3 => number(frame, 46) as usize + 50 == frame.len(),
+        _ => frame.len() >= 54 && number(frame, 50) as usize + 54 == frame.len(),
+    }
+}
+
+/// Whether this is a write of a variable by its name, or of a content, at its own port.
+fn is_write(frame: &[u8], command: u16) -> bool {
+    let (group, offset, data) = (number(frame, 38), number(frame, 42), &frame[50..]);
+    let port = u16::from_le_bytes([frame[12], frame[13]]);
+    let by_name = decoder(group).is_some_and(|(_, number)| number > 0)
+        && offset == 0x4A
+        && until_nul(data).is_some_and(|name| {
+            (1..=200).contains(&name.len()) && data.len() > name.len() + 1 && name.is_ascii()
+        });
+    let content = group == 0x12_3301 && offset == 1 && !data.is_empty();
+    command == 3 && port == 552 && (by_name || content)
+}
+
+/// Whether the lengths say that this is one frame, and no more of them.
+fn is_whole(frame: &[u8]) -> bool {
+    frame.len() >= 38
+        && frame[..2] == [0, 0]
+        && number(frame, 2) as usize + 6 == frame.len()
+        && number(frame, 26) as usize + 38 == frame.len()
+}

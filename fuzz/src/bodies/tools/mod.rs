@@ -1,0 +1,14 @@
+//! What reads bytes from outside beside the codec.
+
+pub(crate) mod calls;
+pub(crate) mod capture;
+pub(crate) mod conversation;
+pub(crate) mod explain;
+pub(crate) mod gate;
+mod input;
+pub(crate) mod model;
+pub(crate) mod session;
+pub(crate) mod testee;
+pub(crate) mod toml;
+
+pub(crate) use input::Input;

@@ -1,0 +1,280 @@
+//! A connection with the simulated CNC, without a socket.
+
+use std::sync::OnceLock;
+use std::time::Duration;
+
+use ads_cnc::Decode as _;
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::{AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags, WriteReply};
+use ads_cnc::operation::{Call, Request, Service};
+use ads_cnc_conformance::cnc::{CONNECTION_BYTES_MAX, Cnc, Model, NET_ID, Received};
+
+use super::Input;
+use super::calls::{call, frame};
+use crate::common::CALLS;
+use crate::{Defect, Outcome};
+
+pub(crate) const DEFECTS: &[&str] = &[
+    "an answer has the last invoke ID once more if that was large",
+    "the second answer of a piece is lost",
+    "an answer with data has a byte less than it says",
+    "of a write that is refused the first byte is kept",
+    "a write of several bytes keeps what was there",
+    "what waits for its rest is kept a thousand times",
+];
+
+/// A CNC with something of everything.
+pub(crate) const MODEL: &str = include_str!("small.toml");
+
+fn cnc() -> Cnc {
+    static READ: OnceLock<Model> = OnceLock::new();
+    let model = READ.get_or_init(|| Model::from_toml(MODEL, "a model").expect("a model"));
+    Cnc::new(model.clone()).with_standing_clock()
+}
+
+/// A session: every good frame gets one answer, which the codec reads; a frame that does not hold
+/// together ends it.
+struct Session {
+    cnc: Cnc,
+    received: Received,
+    /// What was sent, to the last byte.
+    sent: Vec<u8>,
+    answers: Vec<u8>,
+    /// What waits to be sent with the next piece.
+    piece: Vec<u8>,
+    is_over: bool,
+    defect: Defect,
+}
+
+/// Records: a call that a CNC knows (0, its place, invoke ID), a call (1), any bytes behind their
+/// length (2), another byte in what was not sent yet (3), the end of a piece (4), time that passes
+/// (5), a call at its own piece whose effect is looked at (6 and more).
+pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
+    let mut input = Input::new(data);
+    let mut session = Session {
+        cnc: cnc(),
+        received: Received::new(),
+        sent: Vec::new(),
+        answers: Vec::new(),
+        piece: Vec::new(),
+        is_over: false,
+        defect,
+    };
+    while !input.is_empty() && !session.is_over {
+        match input.byte() {
+            0 => {
+                let call = CALLS[usize::from(input.byte()) % CALLS.len()].call;
+                session.piece.extend(frame(&call, input.word()));
+            }
+            1 => {
+                let call = call(&mut input);
+                session.piece.extend(frame(&call, input.word()));
+            }
+            2 => session.piece.extend(input.bytes()),
+            3 => {
+                let (place, bits) = (usize::from(input.small()), input.byte());
+                if let Some(byte) = session.piece.get_mut(place) {
+                    *byte ^= bits;
+                }
+            }
+            4 => session.send(),
+            5 => session.cnc.pass(Duration::from_millis(input.small().into())),
+            _ => {
+                session.send();
+                let call = call(&mut input);
+                session.change(&call);
+            }
+        }
+    }
+    session.send();
+    session.judge()
+}
+
+impl Session {
+    fn send(&mut self) {
+        let piece = std::mem::take(&mut self.piece);
+        if self.is_over {
+            return;
+        }
+        for piece in piece.chunks(self.received.room().len()) {
+            self.received.room()[..piece.len()].copy_from_slice(piece);
+            self.sent.extend(piece);
+            let before = self.answers.len();
+            let answers = &mut self.answers;
+            let taken = self.received.take(piece.len(), &self.cnc, NET_ID, |more| {
+                answers.extend(more);
+                Ok(())
+            });
+            bend(&mut self.answers, before, self.defect);
+            self.is_over = taken.is_err();
+            let kept = if self.defect.is(6) { self.received.held() * 1000 } else { 0 };
+            assert!(self.received.capacity() + kept <= CONNECTION_BYTES_MAX);
+            assert!(!self.received.room().is_empty());
+        }
+    }
+
+    /// Sends a call, and looks whether what is there then is what was there or what was written.
+    fn change(&mut self, call: &Call<'_>) {
+        let read = reading(call);
+        let before = read.as_ref().map(|read| self.cnc.answer(&read.call()));
+        let begin = self.answers.len();
+        if self.received.held() > 0 {
+            return;
+        }
+        self.piece.extend(frame(call, 1));
+        self.send();
+        let Some(answer) = self.answers.get(begin..).filter(|answer| answer.len() >= 42) else {
+            return;
+        };
+        let refused = answer[38..42] != [0; 4];
+        let (Some(read), Some(before)) = (read, before) else { return };
+        let mut after = self.cnc.answer(&read.call());
+        if let (Ok(after), true) = (&mut after, self.defect.is(4) && refused) {
+            after.iter_mut().zip(read.value).take(1).for_each(|(byte, new)| *byte = *new);
+        }
+        if self.defect.is(5) && !refused && read.value.len() > 1 {
+            after.clone_from(&before);
+        }
+        match refused {
+            true => assert_eq!(before, after, "{call:?}"),
+            false => check_written(&read, &after),
+        }
+    }
+
+    /// Each good frame has its answer, in their order, and nothing else was said.
+    fn judge(&self) -> Outcome {
+        let (mut sent, mut answers) = (&self.sent[..], &self.answers[..]);
+        let mut count = 0_usize;
+        let broken = loop {
+            match FrameRef::split(sent, 0x1_0000) {
+                Err(_) => break true,
+                Ok(None) => break false,
+                Ok(Some((frame, len))) => {
+                    sent = &sent[len..];
+                    if frame.header().state_flags.0 & 1 == 0 {
+                        answers = &answers[answered(&frame, answers)..];
+                        count += 1;
+                    }
+                }
+            }
+        };
+        assert_eq!(answers.len(), 0, "{} bytes that nobody asked for", answers.len());
+        assert_eq!(broken, self.is_over, "after {count} frames");
+        match (broken, count) {
+            (false, 1..) => Outcome::accepted(&self.answers),
+            _ => Outcome::refused(&self.answers),
+        }
+    }
+}
+
+fn bend(answers: &mut Vec<u8>, begin: usize, defect: Defect) {
+    let first = answers[begin..].first_chunk().map_or(0, |six: &[u8; 6]| usize::from(six[2]) + 6);
+    let second = begin + first;
+    if defect.is(2) && answers.len() > second + 38 {
+        answers.truncate(second);
+    }
+    let large = answers.len() > begin + 38 && answers[begin + 37] > 0;
+    if defect.is(1) && large {
+        answers[begin + 37] = 0;
+    }
+    if defect.is(3) && answers.len() > begin + 46 {
+        answers.pop();
+    }
+}
+
+/// Holds the next answer to its request; how many bytes it has.
+fn answered(request: &FrameRef<'_>, answers: &[u8]) -> usize {
+    let Ok(Some((answer, len))) = FrameRef::split(answers, u32::MAX) else {
+        panic!("no answer to {request:?}");
+    };
+    let (asked, header) = (request.header(), answer.header());
+    assert_eq!(header.invoke_id, asked.invoke_id);
+    assert_eq!((header.command, header.target), (asked.command, asked.source));
+    assert_eq!((header.source, header.state_flags), (asked.target, StateFlags::RESPONSE));
+    if !header.error.is_none() {
+        assert!(answer.data().is_empty());
+        return len;
+    }
+    let call = ads_cnc_conformance::exchange::call_of(request);
+    let data = match header.command.0 {
+        2 => ReadReplyRef::decode(answer.data()).map(|reply| (reply.result, reply.data)),
+        3 => WriteReply::decode(answer.data()).map(|reply| (reply.result, None)),
+        9 => ReadWriteReplyRef::decode(answer.data()).map(|reply| (reply.result, reply.data)),
+        _ => return len,
+    };
+    let (result, data) = data.expect("a reply of the service");
+    if let (Ok(Some(call)), true) = (call, result.is_none()) {
+        let data = data.unwrap_or_default();
+        assert!(data.len() <= call.read_length as usize);
+        let request = call.dispatch().expect("what is no function is refused");
+        assert!(request.decode_reply(data).is_ok(), "{call:?}: {data:02x?}");
+    }
+    len
+}
+
+/// What reads that which a call writes.
+struct Reading<'c> {
+    port: AmsPort,
+    service: Service,
+    group: IndexGroup,
+    offset: IndexOffset,
+    data: Vec<u8>,
+    /// What is written.
+    value: &'c [u8],
+    /// Whether that is what is read then: not of what has a meaning of its own.
+    is_plain: bool,
+}
+
+impl Reading<'_> {
+    fn call(&self) -> Call<'_> {
+        Call {
+            port: self.port,
+            service: self.service,
+            index_group: self.group,
+            index_offset: self.offset,
+            read_length: 0xFFF8,
+            data: &self.data,
+        }
+    }
+}
+
+fn reading<'c>(call: &Call<'c>) -> Option<Reading<'c>> {
+    let (service, offset, data, value): (_, u32, &[u8], &[u8]) = match call.dispatch().ok()? {
+        Request::WriteByName(_) => {
+            let end = call.data.iter().position(|&byte| byte == 0)? + 1;
+            let (name, value) = call.data.split_at(end);
+            (Service::ReadWrite, 0x48, name, value)
+        }
+        Request::AxisWriteByName(_) => {
+            let end = call.data.iter().position(|&byte| byte == 0)? + 1;
+            let (name, value) = call.data.split_at(end);
+            (Service::ReadWrite, call.index_offset.get() - 1, name, value)
+        }
+        Request::WriteByHandle(op) => {
+            let value = op.value;
+            let (handle, _) = call.data.split_at(call.data.len() - value.len());
+            (Service::ReadWrite, 0x47, handle, value)
+        }
+        Request::WriteObject(_) | Request::WriteElement(_) => {
+            (Service::Read, call.index_offset.get(), &[], call.data)
+        }
+        _ => return None,
+    };
+    // The number of an axis says who is there; the Service Interface and texts go their own ways.
+    let is_number = call.index_offset.get() & 0xFFFF == 3;
+    Some(Reading {
+        port: call.port,
+        service,
+        group: call.index_group,
+        offset: IndexOffset::new(offset),
+        data: data.to_vec(),
+        value,
+        is_plain: !is_number && !data.starts_with(b"V.G.SERVICE"),
+    })
+}
+
+fn check_written(read: &Reading<'_>, after: &Result<Vec<u8>, ads_cnc::ads::AdsError>) {
+    if read.is_plain {
+        assert_eq!(after.as_deref(), Ok(read.value), "{:?}", read.call());
+    }
+}

@@ -1,0 +1,147 @@
+//! The files of the tools, in TOML.
+
+use std::fmt::Debug;
+
+use ads_cnc::operation::Function;
+use ads_cnc_conformance::gate::Allowed;
+use ads_cnc_conformance::profile::{Claim, Profile, Section};
+use ads_cnc_conformance::waivers::Waivers;
+use serde_json::Value;
+
+use crate::{Defect, Outcome};
+
+/// The first two defects of each.
+macro_rules! placed {
+    ($($more:literal),*) => {
+        &["a file is read otherwise behind a comment", "the line of an error is that before", $($more),*]
+    };
+}
+
+pub(crate) const WAIVER_DEFECTS: &[&str] = placed!("a waiver is taken twice");
+pub(crate) const PROFILE_DEFECTS: &[&str] = placed!(
+    "a profile is shown without its last channel",
+    "functions of a port that is not there are claimed"
+);
+pub(crate) const ALLOW_DEFECTS: &[&str] =
+    placed!("an entry of a rank is shown as one of a channel");
+
+/// A file of waivers.
+pub(crate) fn waiver(data: &[u8], defect: Defect) -> Outcome {
+    let Some(text) = text(data) else { return Outcome::unread() };
+    let read = placed(text, LINE, defect, Waivers::from_toml, alike);
+    if let Ok(waivers) = &read {
+        let again = if defect.is(3) { text.replace("\"VAR-8", "\"VAR-9") } else { text.to_owned() };
+        // Of one failure one waiver is enough.
+        let twice = Waivers::from_toml(&format!("{text}\n{again}"));
+        assert_eq!(twice.is_err(), !waivers.is_empty(), "{text}");
+    }
+    Outcome::of(read.map(|waivers| format!("{waivers:?}")))
+}
+
+/// A profile.
+pub(crate) fn profile(data: &[u8], defect: Defect) -> Outcome {
+    let Some(text) = text(data) else { return Outcome::unread() };
+    let read = placed(text, LINE, defect, Profile::from_toml, alike);
+    if let Ok(profile) = &read {
+        let mut shown = shown(profile);
+        if defect.is(3) && profile.channels.len() > 2 {
+            let channels = serde_json::to_string(&profile.channels).expect("JSON");
+            let fewer = serde_json::to_string(&profile.channels[1..]).expect("JSON");
+            shown = shown.replace(&channels, &fewer);
+        }
+        let again = Profile::from_toml(&shown).unwrap_or_else(|error| panic!("{error}\n{shown}"));
+        assert_eq!(format!("{again:?}"), format!("{profile:?}"), "{shown}");
+        for &function in Function::ALL {
+            let there = profile.ports.contains(&function.spec().task.port().0);
+            let there = there && profile.sections.contains(&Section::of(function));
+            let claims = profile.claims(function);
+            let claims = if defect.is(4) && claims == Claim::No { Claim::Open } else { claims };
+            assert!(there || claims == Claim::No, "{} in {profile:?}", function.spec().name);
+        }
+    }
+    Outcome::of(read.map(|profile| format!("{profile:?}")))
+}
+
+/// A file of `--allow-write`.
+pub(crate) fn allow(data: &[u8], defect: Defect) -> Outcome {
+    let Some(text) = text(data) else { return Outcome::unread() };
+    let read = placed(text, LINE, defect, Allowed::from_toml, alike);
+    if let Ok(allowed) = &read {
+        let Allowed { target, expires, entries } = allowed;
+        let mut shown = format!("target = \"{target}\"\nexpires = {expires}\n");
+        for entry in entries {
+            let table = entry.to_string();
+            let table = if defect.is(3) { table.replace("rank", "channel") } else { table };
+            shown.push_str(&format!("{table}\n"));
+        }
+        // What is no date cannot be shown as one.
+        if expires.to_string().len() == "2026-05-04T17:30:00Z".len() {
+            let again =
+                Allowed::from_toml(&shown).unwrap_or_else(|error| panic!("{error}\n{shown}"));
+            assert_eq!((again.target, again.expires), (*target, *expires), "{shown}");
+            assert_eq!(&again.entries, entries, "{shown}");
+        }
+    }
+    Outcome::of(read.map(|allowed| format!("{allowed:?}")))
+}
+
+/// A profile as a file: a report has the same, with other keys.
+fn shown(profile: &Profile) -> String {
+    let Value::Object(all) = serde_json::to_value(profile).expect("JSON") else { panic!("a map") };
+    let lines = all.iter().filter(|(_, value)| !value.is_null()).map(|(key, value)| {
+        // TOML takes strings as JSON has them, but for this one character.
+        let value = value.to_string().replace('\u{7F}', "\\u007f");
+        format!("{} = {value}\n", key.replace('_', "-"))
+    });
+    lines.collect()
+}
+
+pub(super) fn text(data: &[u8]) -> Option<&str> {
+    // A mark of the byte order is one at the beginning only.
+    std::str::from_utf8(data).ok().filter(|text| !text.starts_with('\u{FEFF}'))
+}
+
+/// Reads a file, and once more behind two lines: it says the same, and errors name the line, behind
+/// this word.
+pub(super) fn placed<T, E: ToString>(
+    text: &str,
+    word: &str,
+    defect: Defect,
+    read: impl Fn(&str) -> Result<T, E>,
+    same: impl Fn(&T, &T) -> bool,
+) -> Result<T, String> {
+    let said = |result: Result<T, E>| result.map_err(|error| error.to_string());
+    let mut behind = format!("# A comment.\n\n{text}");
+    if defect.is(1) {
+        behind = behind.replace("2027", "2029").replace("= 1\n", "= 2\n").replace("[1, ", "[3, ");
+    }
+    let (one, other) = (said(read(text)), said(read(&behind)));
+    let moved = if defect.is(2) && text.lines().count() > 2 { 1 } else { 2 };
+    match (&one, &other) {
+        (Ok(value), Ok(again)) => assert!(same(value, again), "read otherwise: {text}"),
+        (Err(error), Err(again)) => {
+            let at = line(error, word).unwrap_or_else(|| panic!("no line: {error}"));
+            assert!(at as usize <= text.matches('\n').count() + 1, "{error}");
+            // What is missing in the file is missing in its first line.
+            let first = at == 1 && line(again, word) == Some(1) && !defect.is(2);
+            assert!(first || line(again, word) == Some(at + moved), "{error}\n{again}");
+        }
+        (one, other) => panic!("{:?} {:?}: {text}", one.as_ref().err(), other.as_ref().err()),
+    }
+    one
+}
+
+/// Whether two values are shown alike.
+fn alike<T: Debug>(one: &T, other: &T) -> bool {
+    format!("{one:?}") == format!("{other:?}")
+}
+
+/// What is before the line that an error names.
+const LINE: &str = "line ";
+
+/// The line that an error names.
+fn line(error: &str, word: &str) -> Option<u32> {
+    let (_, rest) = error.split_once(word)?;
+    let end = rest.find(|one: char| !one.is_ascii_digit()).unwrap_or(rest.len());
+    rest[..end].parse().ok()
+}
