@@ -1,5 +1,6 @@
 //! The cases of captured traffic, and what was found of each.
 
+use std::collections::BTreeSet;
 use std::fmt::{self, Display};
 use std::net::SocketAddr;
 
@@ -125,10 +126,9 @@ fn of_area(area: &str, subject: Subject, also: Vec<&'static str>) -> Vec<&'stati
         all.push(spec.clause);
         all.extend(stream.into_iter().flat_map(clauses));
     }
-    all.retain(|id| requirements().iter().any(|known| known.id == *id));
-    all.sort_by_key(|id| requirements().iter().position(|known| known.id == *id));
-    all.dedup();
-    all
+    // As the catalogue has them, and only those.
+    let all: BTreeSet<&str> = all.into_iter().collect();
+    requirements().iter().filter_map(|known| all.get(known.id.as_str()).copied()).collect()
 }
 
 /// The requirements of a stream and its fields.
