@@ -63,6 +63,7 @@ impl Conversation {
             let (what, place, other) = (input.byte(), input.byte(), input.byte());
             conversation.disturb(what, place.into(), other.into());
         }
+        conversation.is_whole = conversation.is_captured();
         conversation
     }
 
@@ -77,13 +78,7 @@ impl Conversation {
                 all.insert(other, again);
             }
             2 => {
-                let gone = all.remove(place);
-                let is_same = |one: &Segment| {
-                    one.is_client == gone.is_client
-                        && one.sequence == gone.sequence
-                        && one.payload.len() >= gone.payload.len()
-                };
-                self.is_whole &= all.iter().any(is_same);
+                all.remove(place);
             }
             _ => {
                 let (first, second) = (all[place].clone(), all[other].clone());
@@ -93,6 +88,18 @@ impl Conversation {
                 }
             }
         }
+    }
+
+    /// Whether every byte of both sides was captured.
+    fn is_captured(&self) -> bool {
+        (0..2).all(|side| {
+            let mut there = vec![false; self.sent[side].concat().len()];
+            for one in self.segments.iter().filter(|one| one.is_client == (side == 0)) {
+                let begin = one.sequence.wrapping_sub(self.begin[side]).wrapping_sub(1) as usize;
+                there[begin..begin + one.payload.len()].fill(true);
+            }
+            there.iter().all(|there| *there)
+        })
     }
 
     /// A pcap file: both SYN, the segments, and both FIN.

@@ -64,7 +64,9 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let faulty = told.filter(|fault| !late(fault.offset)).count() > 0;
     match what {
         0 => accepts(stream, bytes, typed, faulty),
-        1 => place.iter().for_each(|place| dispatches(place, bytes, &explanation, faulty)),
+        1 => {
+            place.iter().for_each(|place| dispatches(place, bytes, &explanation, faulty && !typed))
+        }
         3 | 4 => assert!(faulty || are_frames(bytes), "{explanation:#?}"),
         _ => {}
     }

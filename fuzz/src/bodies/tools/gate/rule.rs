@@ -164,8 +164,12 @@ impl<'e> Rule<'e> {
         let call = frame.len() >= 50 && [2, 3, 9].contains(&command);
         let place = call.then(|| (number(frame, 38), number(frame, 42)));
         let sums = place.is_some_and(|(group, _)| (0xF080..=0xF08F).contains(&group));
-        let stream =
-            place.is_some_and(|(group, offset)| group & !0x10_00FF == 0x2_0100 && offset == 0x90);
+        // A write of nothing, or of too much, is none that anybody documents.
+        let stream = place.is_some_and(|(group, offset)| {
+            let is_there = group & !0x10_00FF == 0x2_0100 && offset == 0x90;
+            let is_sent = command != 3 || group & 0xFF == 0;
+            is_there && (is_sent || (1..=992).contains(&(frame.len() - 50)))
+        });
         let held = [5, 6, 7, 8].contains(&command)
             || call && is_said(frame, command) && (sums || stream || is_write(frame, command));
         named || !held
