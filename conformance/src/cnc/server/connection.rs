@@ -33,7 +33,7 @@ pub(super) const HELD_MAX: usize = RECEIVED_MAX + GATHERED_MAX + FRAME_MAX;
 /// let state = b"\0\0\x20\0\0\0\x7f\0\0\x01\x01\x01\x29\x02\x7f\0\0\x01\x01\x02\0\x80\
 ///               \x04\0\x04\0\0\0\0\0\0\0\0\0\x01\0\0\0";
 /// let cnc = Cnc::with_default_model()?;
-/// let (mut received, mut answers) = (Received::new(), Vec::new());
+/// let (mut received, mut answers) = (Received::new(), Vec::<u8>::new());
 /// for piece in [&state[..7], &state[7..]] {
 ///     received.room()[..piece.len()].copy_from_slice(piece);
 ///     received.take(piece.len(), &cnc, NET_ID, |answer| {
