@@ -4,7 +4,7 @@
 mod common;
 mod kept;
 
-use ads_cnc::streaming::{Checker, ProgramEnd};
+use ads_cnc::streaming::{Checker, Found, ProgramEnd};
 use common::checker::{CheckedLots, check_any_lots, check_lines as check};
 use common::findings::findings_of as whole;
 use proptest::collection::vec;

@@ -1,10 +1,10 @@
 //! What fuzzers start from: the vectors, and the samples of the codec's own tests.
 
+#[cfg(feature = "tools")]
+mod connections;
 mod events;
 mod operations;
 mod texts;
-#[cfg(feature = "tools")]
-mod connections;
 #[cfg(feature = "tools")]
 pub(crate) mod tools;
 
