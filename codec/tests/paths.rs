@@ -235,6 +235,18 @@ fn both_encodings_are_one_name() {
     assert_eq!(format!("{utf8:?}"), format!("{:?}", wire));
 }
 
+/// Equal names have one hash, whatever their encoding, and others another.
+#[test]
+fn names_are_keys() {
+    use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher};
+
+    let hash =
+        |path: VariablePath<'_>| BuildHasherDefault::<DefaultHasher>::default().hash_one(path);
+    let wire = VariablePath::from_text(CncStr::from_bytes(b"V.G.Gr\xF6\xDFe").unwrap()).unwrap();
+    assert_eq!(hash(path("V.G.Größe")), hash(wire));
+    assert_ne!(hash(path("V.G.Größe")), hash(path("V.G.Grösse")));
+}
+
 /// The axis of the channel interface, and the way to the axis interface and back.
 #[test]
 fn axes() {

@@ -170,6 +170,24 @@ fn a_sender_takes_one_acknowledgement_for_one_packet() {
     }
 }
 
+/// Refusals for now are counted for each packet anew.
+#[test]
+fn a_sender_counts_refusals() {
+    let line = [&[b'X'; NC_LINE_MAX][..], b"\r\n"].concat();
+    let two = line.repeat(2);
+    let mut sender = Sender::new(NcText::new(&two).unwrap());
+    for _ in 0..2 {
+        for refusals in 0..3 {
+            assert_eq!(sender.packet(), Some(&line[..]));
+            assert_eq!(sender.refusals(), refusals);
+            assert_eq!(sender.acknowledge(Ack::Later), Ok(()));
+        }
+        assert_eq!(sender.packet(), Some(&line[..]));
+        assert_eq!((sender.refusals(), sender.acknowledge(Ack::Accepted)), (3, Ok(())));
+    }
+    assert_eq!((sender.refusals(), sender.packet()), (0, None));
+}
+
 /// Lines of many lengths, ended in all ways, the last perhaps open.
 fn text() -> impl Strategy<Value = Vec<u8>> {
     let len = prop_oneof![8 => 0..60_usize, 1 => 60..=990_usize, 1 => 980..=990_usize];

@@ -230,3 +230,15 @@ fn both_forms_of_no_kind_stay_apart() {
     assert_eq!(VariableKindRef { kind: Kind::ALL }.to_vec(), Ok(vec![0]));
     assert_eq!(VariableKind::decode(&[]).map(|kind| kind.to_vec()), Ok(Ok(vec![])));
 }
+
+/// A list grows at its end, and is then what is read back.
+#[test]
+fn a_list_grows_at_its_end() {
+    let object = |name| Descriptor::new(name, "UNS32").unwrap();
+    let mut list: Descriptors = [object("mc_a")].into_iter().collect();
+    list.push(object("mc_b"));
+    assert_eq!(list, [object("mc_a"), object("mc_b")].into_iter().collect());
+    check_value(&list);
+    let names: Vec<_> = list.as_ref().iter().map(|object| object.name().to_string()).collect();
+    assert_eq!(names, ["mc_a", "mc_b"]);
+}
