@@ -117,3 +117,24 @@ impl Filter {
         self.0.get(word).is_some_and(|word| word & bit != 0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A label that has not been passed is taken for one that has only if its place is taken: else
+    /// a text would be read again for nothing.
+    #[test]
+    fn a_filter_tells_all_places_apart() {
+        let places = || (0..64_u32).flat_map(|high| (0..64).map(move |low| high << 8 | low));
+        for added in [0, 0x3F, 0x3F00, 0x1234, 0x2A15] {
+            let mut filter = Filter::new();
+            filter.add(added | 0xFFFF_C0C0);
+            for place in places() {
+                assert_eq!(filter.may_have(place), place == added & 0x3F3F, "{added:x} {place:x}");
+            }
+            filter.add(0x0102);
+            assert!(filter.may_have(added) && filter.may_have(0x0102));
+        }
+    }
+}

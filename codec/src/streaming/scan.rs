@@ -341,3 +341,20 @@ impl<'a> Iterator for Scan<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// FNV-1a as published, begun differently for each program and sort of label.
+    #[test]
+    fn labels_are_hashed_by_all_they_are() {
+        let hash = |program, named, text: &[u8]| Label { program, named, text }.hash();
+        assert_eq!(hash(0, false, b"a"), 0xE40C_292C);
+        assert_eq!(hash(0, false, b"foobar"), 0xBF9C_F968);
+        assert_eq!(hash(0, false, b"FooBar"), 0xBF9C_F968);
+        assert_eq!(hash(0, true, b""), 0x811C_9DC4);
+        assert_eq!(hash(6, false, b""), 0x811C_9DC9);
+        assert_eq!(hash(6, true, b""), 0x811C_9DC8);
+    }
+}
