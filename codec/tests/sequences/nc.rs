@@ -4,7 +4,7 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::{Ack, FindingKind, LineErrorKind, NcText, Sender};
 use ads_cnc_vectors::{Given, Pieces, SequenceExpect, SequenceReject};
 
-use crate::cases;
+use super::cases;
 
 #[test]
 fn texts_become_packets() {

@@ -7,7 +7,7 @@ use ads_cnc::service::*;
 use ads_cnc::{CncStr, Error, ErrorKind};
 use ads_cnc_vectors::{Given, Pieces, ServiceAction, ServiceInterface, ServiceStep};
 
-use crate::{cases, stated_fault};
+use super::{cases, stated_fault};
 
 /// The cases that say when the interface sets REQUEST_STATE to 0 of itself.
 const ABOUT_CLEARING: [&str; 2] = ["interface-clears", "interface-clears-not"];

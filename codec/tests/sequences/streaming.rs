@@ -3,7 +3,7 @@
 use ads_cnc::streaming::{Ack, FindingKind, Interface, LINE_END_ERROR, NcText, ProgramEnd, Sender};
 use ads_cnc_vectors::{Given, Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
-use crate::{cases, stated_fault};
+use super::{cases, stated_fault};
 
 #[test]
 fn streams_go_as_stated() {

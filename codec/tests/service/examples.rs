@@ -8,8 +8,8 @@ use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, Respons
 use ads_cnc::service::*;
 use ads_cnc::{CncStr, VariablePath};
 
-use crate::channel::*;
-use crate::common::Fault;
+use super::channel::*;
+use super::common::Fault;
 
 /// SVC-1: the names, which are well-formed, and the types.
 #[test]

@@ -3,7 +3,7 @@
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;
 
-use crate::channel::*;
+use super::channel::*;
 
 /// A write that failed may have arrived: the host looks, and writes what is missing, no more.
 #[test]

@@ -4,8 +4,8 @@ use ads_cnc::ErrorKind::*;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;
 
-use crate::channel::*;
-use crate::common::Fault;
+use super::channel::*;
+use super::common::Fault;
 
 /// SVC-1: 128 bytes with the NUL, of each text and on each side; what is longer is refused before
 /// anything is written.

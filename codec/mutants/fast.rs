@@ -1,0 +1,65 @@
+//! The tests that are quick, as one binary: a mutant costs one link instead of one for each file.
+//! Tests that draw many cases are left out; what survives here meets them too.
+
+#![allow(clippy::duplicate_mod, reason = "each file has what is common as a module of its own")]
+
+#[path = "../tests/addresses.rs"]
+mod addresses;
+#[path = "../tests/arbitrary.rs"]
+mod arbitrary;
+#[path = "../tests/containers.rs"]
+mod containers;
+#[path = "../tests/content.rs"]
+mod content;
+#[path = "../tests/contradictions.rs"]
+mod contradictions;
+#[path = "../tests/cp1252.rs"]
+mod cp1252;
+#[path = "../tests/cuts.rs"]
+mod cuts;
+#[path = "../tests/dispatch.rs"]
+mod dispatch;
+#[path = "../tests/editions.rs"]
+mod editions;
+#[path = "../tests/frames.rs"]
+mod frames;
+#[path = "../tests/limits.rs"]
+mod limits;
+#[path = "../tests/paths.rs"]
+mod paths;
+#[path = "../tests/samples.rs"]
+mod samples;
+#[path = "../tests/sequences/main.rs"]
+mod sequences;
+#[path = "../tests/service/main.rs"]
+mod service;
+#[path = "../tests/shown.rs"]
+mod shown;
+#[path = "../tests/streaming.rs"]
+mod streaming;
+#[path = "../tests/streaming_checker.rs"]
+mod streaming_checker;
+#[path = "../tests/streaming_findings.rs"]
+mod streaming_findings;
+#[path = "../tests/table.rs"]
+mod table;
+#[path = "../tests/tables.rs"]
+mod tables;
+#[path = "../tests/typed.rs"]
+mod typed;
+#[path = "../tests/typed_writes.rs"]
+mod typed_writes;
+#[path = "../tests/values.rs"]
+mod values;
+#[path = "../tests/vectors.rs"]
+mod vectors;
+
+/// The first failure is enough: nothing is drawn again to shrink it, no other test is waited for.
+#[test]
+fn a_failure_ends_the_run() {
+    let shown = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        shown(info);
+        std::process::exit(101);
+    }));
+}
