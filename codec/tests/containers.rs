@@ -108,6 +108,21 @@ fn keys() {
     assert_eq!(HashSet::from([upper, lower, other]).len(), 2);
 }
 
+/// Numbers are equal wherever they come from, if all are, and all are there.
+#[test]
+fn numbers() {
+    let name = VariablePath::new("V.E.a[3][0]").unwrap();
+    let named = name.parts().next().unwrap().indices;
+    let wire = b"\x01\0\0\0\x02\0\0\0\x03\0\0\0\0\0\0\0";
+    let wire = HandleReadRef::decode(wire).unwrap().indices;
+    assert_eq!((named, wire), (Numbers::from(&[3, 0]), Numbers::from(&[3, 0])));
+    assert_eq!(named, wire);
+    for other in [&[3, 1][..], &[2, 0], &[3], &[3, 0, 0], &[]] {
+        assert_ne!(named, Numbers::from(other));
+        assert_ne!(wire, Numbers::from(other));
+    }
+}
+
 /// 0 is FALSE and any other byte TRUE.
 #[test]
 fn truth() {

@@ -118,6 +118,26 @@ fn encoders_refuse_what_decoders_would() {
     let named = NameWriteRef { name: text(&long).unwrap(), value: b"1" };
     assert_eq!(refusal(&named), fault(TooLong, "name", 0, (256, 257)));
 
+    let write = |count, value| HandleWriteRef {
+        handle: Handle(1),
+        indices: Numbers::from(&numbers[..count]),
+        value,
+    };
+    let value = [0; 2041];
+    for (count, bytes) in [(511, 0), (511, 1)] {
+        let wanted = fault(TooMany, "index_count", 4, (510, 511));
+        assert_eq!(refusal(&write(count, &value[..bytes])), wanted);
+    }
+    for (count, most) in [(510, 0), (0, 2040)] {
+        assert!(write(count, &value[..most]).encode(&mut [0; 2048]).is_ok());
+        let wanted = fault(TooLong, "stream", 2048, (2048, 2049));
+        assert_eq!(refusal(&write(count, &value[..most + 1])), wanted);
+    }
+    let named = |len, value| NameWriteRef { name: text(&full[..len]).unwrap(), value };
+    assert!(named(255, &value[..1]).encode(&mut [0; 257]).is_ok());
+    let long_named = NameWriteRef { name: text(&long).unwrap(), value: &[] };
+    assert_eq!(refusal(&long_named), fault(TooLong, "name", 0, (256, 257)));
+
     let description = |dimensions, name| DescriptionRef {
         handle: Handle(1),
         var_type: VariableType::SGN32,
@@ -171,6 +191,16 @@ fn encoders_refuse_what_decoders_would() {
     assert_eq!(refusal(&value), fault(TooLong, "stream", 2048, (2048, 2049)));
     let none = DescriptorsRef::decode(&[0; 84]).unwrap().slice(1, 1);
     assert_eq!(refusal(&none), fault(Truncated, "id", 0, (4, 0)));
+}
+
+/// DYN-5: parameters are counted from 1, however the index is read.
+#[test]
+fn there_is_no_parameter_0() {
+    let error = check(Stream::DynamicIndex, &[0; 4]).unwrap_err();
+    assert_eq!(Fault::of(error), fault(OutOfRange, "index", 0, (1, 0)));
+    for index in [1_u32, 0x100, 0x1_0000, 0x100_0000] {
+        check(Stream::DynamicIndex, &index.to_le_bytes()).unwrap();
+    }
 }
 
 /// A descriptor's texts have 32 bytes, all of which may be used.
