@@ -44,6 +44,13 @@ fn none_one_and_several() {
         let items = Items::<u16>::new(bytes).unwrap();
         assert_eq!((items.len(), items.is_empty(), items.get(count)), (count, count == 0, None));
         counts_down(items.iter(), count);
+        let others =
+            [&bytes[..bytes.len() - bytes.len().min(2)], &[9; 6], &[1, 0, 2, 0, 3, 0, 4, 0]];
+        for other in others.into_iter().filter(|other| *other != bytes) {
+            assert_ne!(items, Items::new(other).unwrap());
+        }
+        let copy = bytes.to_vec();
+        assert_eq!(items, Items::new(&copy).unwrap());
 
         let texts = b"a\0b\0c\0";
         let texts = StringsRef::new(&texts[..2 * count], count as u32).unwrap();
