@@ -131,7 +131,10 @@ def check():
         function = re.findall(r"[A-Za-z_0-9]+", re.sub(r" with .*", "", place))[-1]
         if not source.is_file():
             faults.append(f"the file is gone: {name}")
-        elif not re.search(rf"\bfn {function}\b", source.read_text(encoding="utf-8")):
+            continue
+        text = source.read_text(encoding="utf-8")
+        # A constant's mutant names no function.
+        if function != "replace" and not re.search(rf"\bfn {function}\b", text):
             faults.append(f"no function {function} any more: {name}")
     return faults
 
