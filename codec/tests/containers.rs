@@ -87,6 +87,7 @@ fn owned() {
         let list = list.as_ref();
         assert_eq!((list.len(), list.is_empty(), list.get(count)), (count, count == 0, None));
         counts_down(list.iter(), count);
+        assert!((0..count).filter_map(|place| list.get(place)).eq(list.iter()));
         for first in 0..=4 {
             for most in 0..=4 {
                 let some: Vec<_> = list.iter().skip(first).take(most).collect();

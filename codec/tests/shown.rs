@@ -169,7 +169,7 @@ fn owned() {
     let object = Descriptor::new("mc_x", "UNS32").unwrap();
     let shown = "Descriptor { id: 0, size: 0, write_access: WriteAccess(0), not_assigned: 0, \
                  index_group: 0x0, index_offset: 0x0, name: \"mc_x\", type_name: \"UNS32\" }";
-    debugs(&object, shown);
+    debugs(object, shown);
     debugs(object.as_ref(), shown);
     let list: Descriptors = [object].into_iter().collect();
     debugs(list.as_ref(), &format!("[{shown}]"));
