@@ -13,6 +13,8 @@
 //! | [`seeds`], [`dictionary`] | what a fuzzer starts from, made of vectors and samples |
 //! | [`replay`] | a corpus through a target's body |
 
+// The codec's minimum supported Rust version is older than that of this crate.
+#[allow(clippy::manual_is_multiple_of, clippy::collapsible_if)]
 #[path = "../../codec/tests/common/mod.rs"]
 mod common;
 

@@ -186,13 +186,14 @@ fn meanings(place: &Place, function: Function, notes: &mut Vec<String>) {
     if spec.is_content() {
         let others = others.map(|other| format!("with {}: {}", other.service, other.name));
         notes.extend(others);
-    } else if spec.group == GroupRule::ChannelOf(Class::Decoder) && others.next().is_some() {
-        if let Some((axis, element)) = axis_and_element(place.offset, AxisStride::X10000) {
-            notes.push(format!(
+    } else if spec.group == GroupRule::ChannelOf(Class::Decoder)
+        && others.next().is_some()
+        && let Some((axis, element)) = axis_and_element(place.offset, AxisStride::X10000)
+    {
+        notes.push(format!(
                 "also the place of {}element {element:#x} of the decoder; the function is what is there (SDA-12)",
                 of_axis(axis),
             ));
-        }
     }
 }
 

@@ -62,11 +62,11 @@ impl Frames<'_> {
         let split = FrameRef::split(bytes, DATA_MAX);
         let (tcp, rest) = halves(bytes, AMS_TCP_HEADER_LEN);
         let whole = self.header(Stream::AmsTcpHeader, at, tcp);
-        if let (true, Err(error)) = (whole, &split) {
-            if error.field().stream() == Stream::AmsTcpHeader {
-                self.fault(error, 0, rest);
-                return None;
-            }
+        if let (true, Err(error)) = (whole, &split)
+            && error.field().stream() == Stream::AmsTcpHeader
+        {
+            self.fault(error, 0, rest);
+            return None;
         }
         if !whole {
             return None;

@@ -115,10 +115,10 @@ fn documented(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>, request: &Req
     let topic = Topic::of_request(function);
     let mut page = book.on(topic, scene);
     page.pass(spec.clause);
-    if let Some(clause) = spec.request.map(|stream| stream.layout().clause) {
-        if requirement(clause).is_some() {
-            page.pass(clause);
-        }
+    if let Some(clause) = spec.request.map(|stream| stream.layout().clause)
+        && requirement(clause).is_some()
+    {
+        page.pass(clause);
     }
     if let Request::DynamicValueByName(request) = request {
         let ended = request.name.tail().is_some();

@@ -39,7 +39,7 @@ pub(super) fn come_and_go(probe: &mut Probe<'_>) -> Step {
 fn one(kind: DynamicKind, place: u32) -> (String, f64) {
     let mut name = format!("{}{place}", prefix(kind));
     // Each tenth is as long as a name may be, its NUL counted.
-    if place % 10 == 0 {
+    if place.is_multiple_of(10) {
         let digits = name.len();
         name = format!("{name}{}", "x".repeat(95_usize.saturating_sub(digits)));
     }

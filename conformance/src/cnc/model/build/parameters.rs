@@ -60,10 +60,10 @@ pub(in crate::cnc) fn kind(name: &CncString) -> Result<DynamicKind, String> {
             "a parameter's name has at most {DYNAMIC_NAME_MAX} bytes with its NUL"
         ));
     }
-    if let Some(rest) = name.as_bytes().strip_prefix(b"P") {
-        if !rest.is_empty() {
-            return Ok(DynamicKind::P);
-        }
+    if let Some(rest) = name.as_bytes().strip_prefix(b"P")
+        && !rest.is_empty()
+    {
+        return Ok(DynamicKind::P);
     }
     let kind = [DynamicKind::VL, DynamicKind::VP, DynamicKind::VS].into_iter().find(|kind| {
         let path = VariablePath::from_text(name.as_cnc_str());

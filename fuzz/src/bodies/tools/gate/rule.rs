@@ -64,7 +64,7 @@ impl<'e> Rule<'e> {
                 self.handles.push((at, axis, u32::from_le_bytes(handle), name.to_vec()));
             }
         }
-        if group & !0x10_FFFF == 0x3_0000 && !reply.is_empty() && reply.len() % 84 == 0 {
+        if group & !0x10_FFFF == 0x3_0000 && !reply.is_empty() && reply.len().is_multiple_of(84) {
             self.objects.extend(reply.chunks(84).map(|one| (group, one.to_vec())));
         }
     }
