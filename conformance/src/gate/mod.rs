@@ -256,8 +256,11 @@ fn never(call: &Call<'_>) -> Result<(), Refusal> {
     let stream = call.index_offset == streaming::INDEX_OFFSET
         && com.access == Access::Element
         && com.table == ComTable::Channel;
-    // As channel 0 the platform may be what channel 1 is, and what a read does nobody says.
-    match stream && (call.service != Service::Write || com.instance == 0) {
+    // As channel 0 the platform may be what channel 1 is, and what a read does nobody says, nor what a
+    // write does at another port than COM's.
+    let documented =
+        call.service == Service::Write && com.instance != 0 && call.port == AmsPort::COM;
+    match stream && !documented {
         true => Err(Reason::Stream.into()),
         false => Ok(()),
     }

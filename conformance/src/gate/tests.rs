@@ -174,6 +174,8 @@ fn what_is_never_sent_no_opt_in_sends() {
         at(AmsPort::COM, Service::Read, 0x12_0100, 0x90, &[]),
         at(AmsPort::COM, Service::ReadWrite, 0x12_0101, 0x90, &[1]),
         at(AmsPort::COM, Service::Write, 0x12_0100, 0x90, b"M30\r\n"),
+        // Written where it is not
+        at(AmsPort::SDA, Service::Write, 0x12_0101, 0x90, b"M30\r\n"),
     ];
     for frame in never {
         assert!(check(&frame).is_err());
