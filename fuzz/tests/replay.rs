@@ -121,3 +121,14 @@ fn the_matrix_names_targets_that_there_are() {
         assert!(TARGETS.iter().any(|target| target.name == name), "{name}");
     }
 }
+
+/// The table of the README has every target, and nothing else.
+#[test]
+fn the_readme_has_the_targets() {
+    let readme = include_str!("../README.md");
+    // Its other tables have fewer columns.
+    let rows = readme.lines().filter(|line| line.matches(" | ").count() == 4);
+    let names = rows.filter_map(|line| line.strip_prefix("| `")?.split_once("` | "));
+    let names: Vec<_> = names.map(|(name, _)| name).collect();
+    assert_eq!(names, TARGETS.iter().map(|target| target.name).collect::<Vec<_>>());
+}
