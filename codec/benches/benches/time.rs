@@ -1,0 +1,17 @@
+//! Time of every case, for people; `results.py` makes ratios of it.
+
+use ads_cnc_benches::all;
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+
+fn time(criterion: &mut Criterion) {
+    for case in all() {
+        let mut work = (case.prepare)();
+        let mut group = criterion.benchmark_group(case.subject);
+        group.throughput(Throughput::Elements(work.units));
+        group.bench_function(case.who, |bencher| bencher.iter(|| (work.run)()));
+        group.finish();
+    }
+}
+
+criterion_group!(benches, time);
+criterion_main!(benches);

@@ -1,0 +1,9 @@
+//! What the codec costs beside code written by hand, other libraries and a plain copy.
+
+mod case;
+mod cases;
+mod hand;
+mod plain;
+
+pub use case::{Case, Limit, Work};
+pub use cases::all;

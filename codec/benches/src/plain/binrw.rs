@@ -1,0 +1,29 @@
+//! binrw, over its own cursor.
+
+use binrw::io::Cursor;
+use binrw::{BinRead, BinResult, binread, helpers::until_eof};
+
+#[allow(dead_code, reason = "what is read is only looked at by the optimiser")]
+#[binread]
+#[br(little)]
+pub(crate) struct Descriptor {
+    pub(crate) id: u32,
+    pub(crate) size: u32,
+    pub(crate) write_access: u16,
+    pub(crate) not_assigned: u16,
+    pub(crate) index_group: u32,
+    pub(crate) index_offset: u32,
+    pub(crate) name: [u8; 32],
+    pub(crate) type_name: [u8; 32],
+}
+
+#[binread]
+#[br(little)]
+struct Descriptors {
+    #[br(parse_with = until_eof)]
+    list: Vec<Descriptor>,
+}
+
+pub(crate) fn descriptors(bytes: &[u8]) -> BinResult<Vec<Descriptor>> {
+    Descriptors::read(&mut Cursor::new(bytes)).map(|Descriptors { list }| list)
+}
