@@ -1,33 +1,48 @@
 //! Instructions of every case, counted by callgrind: the same on every run.
 
-use ads_cnc_benches::{Work, all};
+use ads_cnc_benches::{Case, Work, gate, others};
 use gungraun::{LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 
-fn prepare(at: usize) -> Work {
-    let case = all().nth(at).expect("a case");
+/// Large copies that are one instruction of the processor are counted byte by byte; the C library
+/// is told to do them as it does smaller ones.
+fn config() -> LibraryBenchmarkConfig {
+    let thresholds =
+        ["movsb", "stosb"].map(|it| format!("glibc.cpu.x86_rep_{it}_threshold=0x7fffffff"));
+    let mut config = LibraryBenchmarkConfig::default();
+    config.env("GLIBC_TUNABLES", thresholds.join(":"));
+    config
+}
+
+fn prepare_gated(at: usize) -> Work {
+    prepare(gate().nth(at).expect("a case"))
+}
+
+fn prepare_other(at: usize) -> Work {
+    prepare(others().nth(at).expect("a case"))
+}
+
+fn prepare(case: Case) -> Work {
     let mut work = (case.prepare)();
     // What is done once only, such as resolving a symbol, is done by now.
     (work.run)();
     work
 }
 
-/// Large copies that are one instruction of the processor are counted byte by byte; the C library
-/// is told to do them as it does smaller ones.
-fn config() -> LibraryBenchmarkConfig {
-    let tunable =
-        "glibc.cpu.x86_rep_movsb_threshold=0x7fffffff:glibc.cpu.x86_rep_stosb_threshold=0x7fffffff";
-    let mut config = LibraryBenchmarkConfig::default();
-    config.env("GLIBC_TUNABLES", tunable);
-    config
-}
-
 // The work is given back so that tidying up is not counted.
 #[library_benchmark(config = config())]
-#[benches::case(iter = 0..all().len(), setup = prepare)]
-fn count(mut work: Work) -> Work {
+#[benches::case(iter = 0..gate().count(), setup = prepare_gated)]
+fn gated(mut work: Work) -> Work {
     (work.run)();
     work
 }
 
-library_benchmark_group!(name = cases; benchmarks = count);
-main!(library_benchmark_groups = cases);
+#[library_benchmark(config = config())]
+#[benches::case(iter = 0..others().count(), setup = prepare_other)]
+fn other(mut work: Work) -> Work {
+    (work.run)();
+    work
+}
+
+library_benchmark_group!(name = gate_group; benchmarks = gated);
+library_benchmark_group!(name = others_group; benchmarks = other);
+main!(library_benchmark_groups = gate_group, others_group);

@@ -26,6 +26,18 @@ pub enum Limit {
     Each(f64),
 }
 
+impl Limit {
+    /// The other case, if there is one.
+    pub fn against(&self) -> Option<&'static str> {
+        match self {
+            Self::Instructions(other, _) | Self::Time(other, _) | Self::Over(other, _) => {
+                Some(other)
+            }
+            Self::Each(_) => None,
+        }
+    }
+}
+
 /// Work that may be done again and again.
 pub struct Work {
     /// How many records, bytes or calls a go has; figures are for one of them.
@@ -49,8 +61,11 @@ impl Case {
         Self { limits, ..self }
     }
 
-    pub fn name(&self) -> String {
-        format!("{}/{}", self.subject, self.who)
+    /// Whether something depends on what this costs.
+    pub(crate) fn is_gated(&self) -> bool {
+        let is_named = |limit: &Limit| limit.against() == Some(self.who);
+        !self.limits.is_empty()
+            || crate::all().any(|it| it.subject == self.subject && it.limits.iter().any(is_named))
     }
 }
 

@@ -2,8 +2,9 @@
 
 mod case;
 mod cases;
+pub mod clients;
 mod hand;
 mod plain;
 
 pub use case::{Case, Limit, Work};
-pub use cases::all;
+pub use cases::{all, gate, others};

@@ -1,18 +1,22 @@
-//! Lists the cases in their order, for `results.py`: what each is, its units, its limits.
+//! Lists the cases in their order, for `results.py`: group, what each is, its units, its limits.
 
-use ads_cnc_benches::{Limit, all};
+use ads_cnc_benches::{Case, Limit, gate, others};
 
 fn main() {
-    for case in all() {
-        print!("{}\t{}\t{}", case.subject, case.who, (case.prepare)().units);
-        for limit in case.limits {
-            match limit {
-                Limit::Instructions(other, times) => print!("\tinstructions\t{other}\t{times}"),
-                Limit::Time(other, times) => print!("\ttime\t{other}\t{times}"),
-                Limit::Over(other, most) => print!("\tover\t{other}\t{most}"),
-                Limit::Each(most) => print!("\teach\t\t{most}"),
-            }
-        }
-        println!();
+    gate().for_each(|case| show("gated", &case));
+    others().for_each(|case| show("other", &case));
+}
+
+fn show(group: &str, case: &Case) {
+    print!("{group}\t{}\t{}\t{}", case.subject, case.who, (case.prepare)().units);
+    for limit in case.limits {
+        let (kind, most) = match limit {
+            Limit::Instructions(_, times) => ("instructions", times),
+            Limit::Time(_, times) => ("time", times),
+            Limit::Over(_, most) => ("over", most),
+            Limit::Each(most) => ("each", most),
+        };
+        print!("\t{kind}\t{}\t{most}", limit.against().unwrap_or_default());
     }
+    println!();
 }

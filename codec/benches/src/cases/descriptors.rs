@@ -54,7 +54,7 @@ fn lists(count: u64) -> Vec<Vec<u8>> {
 }
 
 /// Object number `at` as a manual would list it.
-fn record(at: u64) -> [u8; 84] {
+pub(crate) fn record(at: u64) -> [u8; 84] {
     let mut bytes = [0; 84];
     bytes[..4].copy_from_slice(&(at as u32).to_le_bytes());
     bytes[4..8].copy_from_slice(&4_u32.to_le_bytes());

@@ -1,0 +1,232 @@
+"""Instructions of the cases against their limits and the committed counts; tables for the README.
+
+    results.py read GUNGRAUN CASES    counts of one build, from what gungraun has left
+    results.py check RESULTS          against limits and instructions.tsv
+    results.py --renew RESULTS        writes instructions.tsv, then as check
+    results.py time RESULTS           writes time.tsv and says what is missed
+"""
+
+import json
+import platform
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+COUNTS, TIMES = HERE / "instructions.tsv", HERE / "time.tsv"
+MISSED, README = HERE / "missed.tsv", HERE / "README.md"
+BUILDS = ("no_std", "std")
+SLACK = 1.05
+
+
+def rows(path):
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return [line.split("\t") for line in lines if not line.startswith("#")]
+
+
+def toolchain():
+    """What the counts depend on."""
+    def first(*command):
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split("\n")[0]
+    libc = " ".join(platform.libc_ver())
+    return f"{first('rustc', '-V')}, {first('valgrind', '--version')}, {libc}, {platform.machine()}"
+
+
+class Case:
+    """A line of the list of cases."""
+
+    def __init__(self, group, subject, who, units, *limits):
+        self.group, self.key, self.units = group, (subject, who), int(units)
+        self.limits = [
+            (limits[at], (subject, limits[at + 1]), float(limits[at + 2]))
+            for at in range(0, len(limits), 3)
+        ]
+
+
+def read(gungraun, cases):
+    """Prints subject, who, units and instructions of each case that was counted."""
+    at = {"gated": 0, "other": 0}
+    for case in (Case(*row) for row in rows(cases)):
+        found = list(gungraun.glob(f"**/{case.group}.case_{at[case.group]}/summary.json"))
+        at[case.group] += 1
+        if len(found) != 1:
+            if case.group == "gated":
+                sys.exit(f"{case.key}: {len(found)} results")
+            continue
+        [profile] = json.loads(found[0].read_text(encoding="utf-8"))["profiles"]
+        count = profile["data"]["total"]["metrics"]["Ir"]["values"]["new"]
+        print(*case.key, case.units, count, sep="\t")
+
+
+def counted(results):
+    """{key: {build: (units, instructions)}}"""
+    counts = {}
+    for build in BUILDS:
+        for subject, who, units, instructions in rows(results / f"{build}.tsv"):
+            counts.setdefault((subject, who), {})[build] = (int(units), int(instructions))
+    return counts
+
+
+def each(counts, key, build):
+    units, instructions = counts[key][build]
+    return instructions / units
+
+
+def missed(cases, counts, build):
+    """What costs more than its limit allows: key, text."""
+    for case in cases:
+        for kind, other, most in case.limits:
+            here = each(counts, case.key, build)
+            if kind == "instructions":
+                figure, unit = here / each(counts, other, build), f"times {other[1]}"
+            elif kind == "over":
+                figure, unit = here - each(counts, other, build), f"instructions over {other[1]}"
+            elif kind == "each":
+                figure, unit = here, "instructions"
+            else:
+                continue
+            if figure > most:
+                yield case.key, f"{named(case.key)} ({build}): {figure:.2f} {unit}, {most:g} allowed"
+
+
+def named(key):
+    return ": ".join(key)
+
+
+def committed():
+    """The toolchain that the committed counts are for, and the counts."""
+    head = COUNTS.read_text(encoding="utf-8").split("\n")[0].removeprefix("# ")
+    counts = {}
+    for subject, who, units, *builds in rows(COUNTS):
+        counts[subject, who] = {b: (int(units), int(count)) for b, count in zip(BUILDS, builds)}
+    return head, counts
+
+
+def listed(results):
+    return [Case(*row) for row in rows(results / f"{BUILDS[0]}.cases")]
+
+
+def check(results):
+    """Fails where a limit is missed that MISSED does not explain, or more is counted than before."""
+    counts, cases, faults = counted(results), listed(results), []
+    known = {(subject, who) for subject, who, _ in rows(MISSED)}
+    beyond = set()
+    for build in BUILDS:
+        for key, text in missed(cases, counts, build):
+            beyond.add(key)
+            print(f"known: {text}") if key in known else faults.append(text)
+    faults += [f"{named(key)}: within its limits now, but in {MISSED.name}" for key in known - beyond]
+    head, before = committed()
+    if head == toolchain():
+        faults += grown(counts, before)
+        gone = {case.key for case in cases} ^ before.keys()
+        faults += [f"{named(key)}: only in the cases or only in {COUNTS.name}" for key in sorted(gone)]
+    else:
+        print(f"skipped: {COUNTS.name} is for {head}; here is {toolchain()}; limits alone were held")
+    for fault in faults:
+        print(fault)
+    if faults:
+        sys.exit(f"{len(faults)} faults; where a cost has to be: codec/benches/run --renew")
+    print(f"{len(counts)} cases, with std and without: within limits, none costs more than before")
+
+
+def grown(counts, before):
+    for key, builds in counts.items():
+        for build, (_, count) in builds.items():
+            then = before.get(key, {}).get(build, (0, count))[1]
+            if count > then * SLACK:
+                yield f"{named(key)} ({build}): {count} instructions, {then} before"
+
+
+def renew(results):
+    counts = counted(results)
+    lines = [f"# {toolchain()}", "# subject, who, units, instructions without std, with std"]
+    for case in listed(results):
+        both = [str(counts[case.key][build][1]) for build in BUILDS]
+        lines.append("\t".join([*case.key, str(case.units), *both]))
+    COUNTS.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    tables(results)
+
+
+def time(results):
+    """Keeps the ratios of time, and says which are beyond their limits; nothing fails by time."""
+    limits = {(case.key, other[1]): most for case in listed(results) for kind, other, most in case.limits
+              if kind == "time"}
+    builds = [{tuple(row[:3]): row[3:] for row in rows(results / f"{build}.time")} for build in BUILDS]
+    lines = ["# subject, who, against whom; median, least, greatest ratio without std, then with std"]
+    for key in builds[0]:
+        ratios = [f"{float(ratio):.2f}" for build in builds for ratio in build[key]]
+        lines.append("\t".join([*key, *ratios]))
+        for build, ratio in zip(BUILDS, (ratios[0], ratios[3])):
+            most = limits[key[:2], key[2]]
+            if float(ratio) > most:
+                print(f"{named(key[:2])} ({build}): {ratio} times the time of {key[2]}, {most:g} wanted")
+    TIMES.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    tables(results)
+
+
+def tables(results):
+    """Writes what was measured between the marks in the README."""
+    _, counts = committed()
+    times = {tuple(row[:3]): row[3:] for row in rows(TIMES)} if TIMES.exists() else {}
+    subjects = {}
+    for case in listed(results):
+        subjects.setdefault(case.key[0], []).append(case)
+    lines = []
+    for subject, cases in subjects.items():
+        lines += ["", f"| {subject} | `no_std` | `std` | against | instructions | time | wanted |",
+                  "|---|--:|--:|---|--:|--:|---|"]
+        lines += [line for case in cases for line in lines_of(case, counts, times)]
+    put("counts", "\n".join(lines[1:]))
+
+
+WANTED = {"instructions": "≤ {:g} ×", "time": "time ≤ {:g} ×", "over": "≤ {:g} more", "each": "≤ {:g}"}
+
+
+def lines_of(case, counts, times):
+    """A line of the table for each case that this one is held against, or one."""
+    if case.key not in counts:
+        return
+    figures = " | ".join(f"{each(counts, case.key, build):,.1f}" for build in BUILDS)
+    against = {}
+    for kind, other, most in case.limits:
+        against.setdefault(other, {})[kind] = most
+    for other, wanted in against.items() or [(None, {})]:
+        ratio = spent = ""
+        if other in counts:
+            pairs = [(each(counts, case.key, build), each(counts, other, build)) for build in BUILDS]
+            ratio = [f"{a - b:+,.1f}" if "over" in wanted else f"{a / b:.2f}" for a, b in pairs]
+            ratio = " / ".join(ratio)
+        name = other[1] if other else ""
+        if row := times.get((*case.key, name)):
+            spent = f"{row[0]} / {row[3]}"
+        goal = ", ".join(WANTED[kind].format(most) for kind, most in wanted.items())
+        yield f"| {case.key[1]} | {figures} | {name} | {ratio} | {spent} | {goal} |"
+
+
+def put(mark, text):
+    readme = README.read_text(encoding="utf-8")
+    place = re.compile(rf"(<!-- {mark} -->\n).*?(<!-- /{mark} -->)", re.DOTALL)
+    if not place.search(readme):
+        sys.exit(f"no place for {mark} in {README.name}")
+    README.write_text(place.sub(lambda at: f"{at[1]}{text}\n{at[2]}", readme), encoding="utf-8")
+
+
+def main():
+    match sys.argv[1:]:
+        case ["read", gungraun, cases]:
+            read(Path(gungraun), Path(cases))
+        case ["check", results]:
+            check(Path(results))
+        case ["--renew", results]:
+            renew(Path(results))
+            check(Path(results))
+        case ["time", results]:
+            time(Path(results))
+        case _:
+            sys.exit(__doc__)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,50 @@
+//! Times each case against those it is held against, in turns, so that what else the machine does
+//! meets both. Prints subject, who, against whom, and the median, least and greatest of the ratios.
+
+use std::time::{Duration, Instant};
+
+use ads_cnc_benches::{Limit, Work, gate};
+
+const PAIRS: usize = 41;
+const TURN: Duration = Duration::from_millis(4);
+
+fn main() {
+    for case in gate() {
+        for limit in case.limits {
+            let Limit::Time(other, _) = *limit else { continue };
+            let other = gate()
+                .find(|it| (it.subject, it.who) == (case.subject, other))
+                .unwrap_or_else(|| panic!("{}: no case {other}", case.subject));
+            let [middle, least, most] = ratios((case.prepare)(), (other.prepare)());
+            println!("{}\t{}\t{}\t{middle}\t{least}\t{most}", case.subject, case.who, other.who);
+        }
+    }
+}
+
+fn ratios(mut one: Work, mut other: Work) -> [f64; 3] {
+    let goes = [goes(&mut one), goes(&mut other)];
+    let mut ratios: Vec<f64> =
+        (0..PAIRS).map(|_| time(&mut one, goes[0]) / time(&mut other, goes[1])).collect();
+    ratios.sort_by(f64::total_cmp);
+    [ratios[PAIRS / 2], ratios[0], ratios[PAIRS - 1]]
+}
+
+/// How many goes make a turn; warms up on the way.
+fn goes(work: &mut Work) -> u32 {
+    let start = Instant::now();
+    let mut goes = 0_u32;
+    while start.elapsed() < TURN * 4 {
+        (work.run)();
+        goes += 1;
+    }
+    goes.div_ceil(4)
+}
+
+/// Nanoseconds for each unit.
+fn time(work: &mut Work, goes: u32) -> f64 {
+    let start = Instant::now();
+    for _ in 0..goes {
+        (work.run)();
+    }
+    start.elapsed().as_nanos() as f64 / f64::from(goes) / work.units as f64
+}
