@@ -14,7 +14,7 @@ use zerocopy::{FromBytes, IntoBytes};
 use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
-use crate::text::{CncStr, CncString, Text, TextRef};
+use crate::text::{CncString, Text};
 
 /// Reads what a view of `stream` has accepted.
 pub(crate) fn read<T>(stream: Stream, accepted: &[u8]) -> Result<T, Error>
@@ -92,21 +92,37 @@ pub(crate) fn counted_unless_end() -> BinResult<Option<Vec<u8>>> {
 /// Text to the end of the stream; the view has found its end to be allowed.
 #[binrw::parser(reader, endian)]
 pub(crate) fn text() -> BinResult<Text> {
-    Ok(TextRef::split(&rest(reader, endian, ())?).into())
+    let text = before_nul(reader)?;
+    let ended = reader.read(&mut [0])? > 0;
+    let tail = if ended { Some(rest(reader, endian, ())?) } else { None };
+    Ok(Text { text, tail })
 }
 
 /// Text to the NUL that the view has found, and the NUL.
 #[binrw::parser(reader)]
 pub(crate) fn leading_text() -> BinResult<CncString> {
-    let mut text = Vec::new();
-    let mut byte = [0_u8];
+    let text = before_nul(reader)?;
+    reader.read_exact(&mut [0])?;
+    Ok(text)
+}
+
+/// Text to the next NUL or to the end; looked for first, so that the text is allocated once.
+fn before_nul<R: Read + Seek>(reader: &mut R) -> BinResult<CncString> {
+    let start = reader.stream_position()?;
+    let (mut len, mut window) = (0_usize, [0; 32]);
     loop {
-        reader.read_exact(&mut byte)?;
-        match byte {
-            [0] => return Ok(CncStr::without_nul(&text).into()),
-            [byte] => text.push(byte),
+        let read = reader.read(&mut window)?;
+        let part = window.get(..read).unwrap_or_default();
+        let text = part.iter().take_while(|&&byte| byte != 0).count();
+        len = len.saturating_add(text);
+        if text < part.len() || part.is_empty() {
+            break;
         }
     }
+    reader.seek(SeekFrom::Start(start))?;
+    let mut text = alloc::vec![0; len];
+    reader.read_exact(&mut text)?;
+    Ok(CncString::without_nul(text))
 }
 
 /// All bytes that are left.

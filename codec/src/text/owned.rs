@@ -20,6 +20,11 @@ use crate::error::Error;
 pub struct CncString(Vec<u8>);
 
 impl CncString {
+    /// Of bytes that are known to have no NUL.
+    pub(crate) fn without_nul(bytes: Vec<u8>) -> Self {
+        Self(bytes)
+    }
+
     /// The text, borrowed.
     pub fn as_cnc_str(&self) -> CncStr<'_> {
         CncStr::without_nul(&self.0)

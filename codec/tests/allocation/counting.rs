@@ -10,6 +10,7 @@ thread_local! {
     static LIVE: Cell<usize> = const { Cell::new(0) };
     static PEAK: Cell<usize> = const { Cell::new(0) };
     static COUNT: Cell<usize> = const { Cell::new(0) };
+    static BYTES: Cell<usize> = const { Cell::new(0) };
 }
 
 // SAFETY: passes every call on to the system's allocator; the counters neither allocate nor are
@@ -19,6 +20,7 @@ unsafe impl GlobalAlloc for Counting {
         LIVE.set(LIVE.get().saturating_add(layout.size()));
         PEAK.set(PEAK.get().max(LIVE.get()));
         COUNT.set(COUNT.get() + 1);
+        BYTES.set(BYTES.get() + layout.size());
         // SAFETY: the caller keeps the contract, which is the same.
         unsafe { System.alloc(layout) }
     }
@@ -47,11 +49,18 @@ pub(crate) fn allocations(run: impl FnOnce()) -> usize {
     measure(run).1
 }
 
+/// How often this thread has allocated, and how many bytes in all, whether or not they are held.
+#[cfg(feature = "alloc")]
+pub(crate) fn allocated() -> (usize, usize) {
+    (COUNT.get(), BYTES.get())
+}
+
 /// The counters count: without this, no test here could fail.
 #[test]
 fn the_counters_count() {
+    let before = BYTES.get();
     let held = measure(|| drop(std::hint::black_box(vec![0_u8; 1000])));
-    assert_eq!(held, (1000, 1));
+    assert_eq!((held, BYTES.get() - before), ((1000, 1), 1000));
     let (grown, _) = measure(|| {
         let mut bytes = std::hint::black_box(vec![0_u8; 1000]);
         bytes.reserve_exact(1000);

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::hint::black_box;
 
-use ads_cnc::layout::Stream;
+use ads_cnc::layout::{FieldSpec, Size, Stream};
 
 use crate::common::Subject;
-use crate::counting::allocations;
+use crate::counting::{allocated, allocations};
 use crate::inputs::{LONG, each_input};
 use crate::{excess, start};
 
@@ -35,6 +35,62 @@ fn owned_readings_hold_no_more_than_the_input_warrants() {
         let long = (stream.layout().max as usize).min(LONG) / 2;
         assert!(refused > 0 && accepted > 0 && longest >= long, "{stream}: {:?}", seen[&stream]);
     }
+}
+
+/// What a reading allocated and what a copy of it did, each as how often and how many bytes.
+fn decoded_and_copied(twice: fn(&[u8], &mut dyn FnMut()), bytes: &[u8]) -> [(usize, usize); 2] {
+    let mut marks = [allocated(); 3];
+    let mut next = 1;
+    twice(bytes, &mut || {
+        marks[next] = allocated();
+        next += 1;
+    });
+    assert_eq!(next, 3);
+    [0, 1].map(|at| (marks[at + 1].0 - marks[at].0, marks[at + 1].1 - marks[at].1))
+}
+
+/// An owned reading allocates what it returns and no more: as often as a copy of it, and as many
+/// bytes. Nothing grows, nothing is thrown away, and what is refused has allocated nothing.
+#[test]
+fn owned_readings_allocate_what_they_return() {
+    let mut most: BTreeMap<Stream, (usize, usize)> = BTreeMap::new();
+    each_input(|stream, bytes| {
+        let [decoded, copied] = decoded_and_copied(Subject::of(stream).twice, bytes);
+        assert_eq!(decoded, copied, "{stream}: {} bytes: {:x?}", bytes.len(), start(bytes));
+        let most = most.entry(stream).or_default();
+        *most = (*most).max(decoded);
+    });
+    let numbers = |row: &FieldSpec| {
+        use Size::{Fixed, FixedOrNothing, FromOne, OneTwoOrFour, Padded};
+        matches!(row.size, Fixed(_) | FixedOrNothing(_) | FromOne | OneTwoOrFour | Padded(_))
+    };
+    for stream in Stream::all() {
+        let layout = stream.layout();
+        let holds = layout.repeats || !layout.fields.iter().all(numbers);
+        assert_eq!(most[&stream].0 > 0, holds, "{stream}");
+    }
+}
+
+/// A reading that grows, or that reads into what it throws away, is told from its copy.
+#[test]
+fn growth_and_waste_are_found_out() {
+    let grown: fn(&[u8], &mut dyn FnMut()) = |bytes, call| {
+        let mut text = Vec::new();
+        bytes.iter().for_each(|&byte| text.push(black_box(byte)));
+        call();
+        drop(black_box(text.clone()));
+        call();
+    };
+    let wasted: fn(&[u8], &mut dyn FnMut()) = |bytes, call| {
+        let text = black_box(bytes.to_vec()).to_vec();
+        call();
+        drop(black_box(text.clone()));
+        call();
+    };
+    let [decoded, copied] = decoded_and_copied(grown, &[1; 20]);
+    assert!(decoded.1 > copied.1, "{decoded:?} {copied:?}");
+    let [decoded, copied] = decoded_and_copied(wasted, &[1; 20]);
+    assert_eq!((decoded, copied), ((2, 40), (1, 20)));
 }
 
 /// To encode an owned reading allocates nothing on top of what it took to decode it.

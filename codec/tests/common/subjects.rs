@@ -32,6 +32,9 @@ pub(crate) struct Subject {
     /// Decodes the bytes, owned, and encodes them into a vector.
     #[cfg(feature = "alloc")]
     pub(crate) to_vec: fn(&[u8]) -> Result<Vec<u8>, Error>,
+    /// Decodes the bytes, owned, calls, copies what was read if any was, and calls again.
+    #[cfg(feature = "alloc")]
+    pub(crate) twice: fn(&[u8], &mut dyn FnMut()),
     /// Makes a value of the bytes, holds it to the laws, and says what it encodes to.
     #[cfg(feature = "arbitrary")]
     pub(crate) made: fn(&[u8], &Bend) -> Vec<u8>,
@@ -61,6 +64,14 @@ where
     value.expect("bytes never run out")
 }
 
+#[cfg(feature = "alloc")]
+fn decoded_and_copied<T: Clone>(decoded: Result<T, Error>, call: &mut dyn FnMut()) {
+    call();
+    let copy = std::hint::black_box(&decoded).clone();
+    call();
+    drop(std::hint::black_box((decoded, copy)));
+}
+
 macro_rules! reading {
     ($name:literal, $reading:ty) => {
         Reading {
@@ -81,6 +92,8 @@ macro_rules! subjects {
         same: subjects!(@same $view $( , $owned )?),
         #[cfg(feature = "alloc")]
         to_vec: subjects!(@to_vec $view $( , $owned )?),
+        #[cfg(feature = "alloc")]
+        twice: subjects!(@twice $view $( , $owned )?),
         #[cfg(feature = "arbitrary")]
         made: subjects!(@made $view $( , $owned )?),
     }, )+] };
@@ -93,6 +106,8 @@ macro_rules! subjects {
     };
     (@to_vec $both:ty) => { |bytes| <$both>::decode(bytes)?.to_vec() };
     (@to_vec $view:ty, $owned:ty) => { |bytes| <$owned>::decode(bytes)?.to_vec() };
+    (@twice $both:ty) => { |bytes, call| decoded_and_copied(<$both>::decode(bytes), call) };
+    (@twice $view:ty, $owned:ty) => { |bytes, call| decoded_and_copied(<$owned>::decode(bytes), call) };
     (@made $both:ty) => { |bytes, bend| super::check_value_bent(&made::<$both>(bytes), bend) };
     (@made $view:ty, $owned:ty) => { |bytes, bend| super::check_value_bent(&made::<$owned>(bytes), bend) };
 }
