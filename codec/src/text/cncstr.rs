@@ -137,12 +137,15 @@ impl<'a> CncStr<'a> {
         }
     }
 
+    /// The CP1252 bytes in a vector with room for so many more.
     #[cfg(feature = "alloc")]
-    pub(crate) fn to_bytes(self) -> alloc::vec::Vec<u8> {
+    pub(crate) fn to_bytes(self, more: usize) -> alloc::vec::Vec<u8> {
+        let mut all = alloc::vec::Vec::with_capacity(self.len().saturating_add(more));
         match self.0 {
-            Source::Bytes(bytes) => bytes.into(),
-            Source::Str(_) => self.bytes().collect(),
+            Source::Bytes(bytes) => all.extend_from_slice(bytes),
+            Source::Str(_) => all.extend(self.bytes()),
         }
+        all
     }
 }
 

@@ -38,7 +38,7 @@ impl CncString {
 
 impl From<CncStr<'_>> for CncString {
     fn from(text: CncStr<'_>) -> Self {
-        Self(text.to_bytes())
+        Self(text.to_bytes(0))
     }
 }
 

@@ -133,7 +133,7 @@ mod owned {
     /// One text and its NUL.
     impl From<CncStr<'_>> for Strings {
         fn from(text: CncStr<'_>) -> Self {
-            let mut bytes = text.to_bytes();
+            let mut bytes = text.to_bytes(1);
             bytes.push(0);
             Self { each: bytes.len(), bytes, count: 1 }
         }

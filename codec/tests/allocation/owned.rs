@@ -71,6 +71,26 @@ fn owned_readings_allocate_what_they_return() {
     }
 }
 
+/// Texts are allocated once, with no room to spare, also those that are made of UTF-8.
+#[test]
+fn owned_texts_are_allocated_once() {
+    use ads_cnc::value::Strings;
+    use ads_cnc::{CncStr, CncString, Text, TextRef};
+
+    for text in [CncStr::new("V.E.Größe_und_Länge"), CncStr::from_bytes(b"V.E.L\xE4nge")] {
+        let text = text.unwrap();
+        let of = |make: &dyn Fn()| {
+            let before = allocated();
+            make();
+            let after = allocated();
+            (after.0 - before.0, after.1 - before.1)
+        };
+        assert_eq!(of(&|| drop(black_box(CncString::from(text)))), (1, text.len()));
+        assert_eq!(of(&|| drop(black_box(Text::from(TextRef::from(text))))), (1, text.len()));
+        assert_eq!(of(&|| drop(black_box(Strings::from(text)))), (1, text.len() + 1));
+    }
+}
+
 /// A reading that grows, or that reads into what it throws away, is told from its copy.
 #[test]
 fn growth_and_waste_are_found_out() {
