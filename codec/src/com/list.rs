@@ -6,9 +6,9 @@ use zerocopy::{FromBytes as _, IntoBytes as _};
 
 use super::DescriptorRef;
 use super::descriptor::DescriptorLayout;
-use crate::bytes::{Reader, Writer};
+use crate::bytes::{Reader, Writer, to_u32};
 use crate::error::Error;
-use crate::layout::Stream;
+use crate::layout::{Field, Stream};
 use crate::limits::DESCRIPTOR_LEN;
 use crate::stream::{Decode, Encode};
 
@@ -70,12 +70,16 @@ impl<'a> Decode<'a> for DescriptorsRef<'a> {
     const STREAM: Stream = Stream::ObjectDescriptors;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::new(Self::STREAM, bytes)?;
+        let mut input = Reader::new(Self::STREAM, bytes)?;
         let count = bytes.len() / DESCRIPTOR_LEN;
         match <[DescriptorLayout]>::ref_from_bytes_with_elems(bytes, count) {
             Ok(layouts) if !layouts.is_empty() => Ok(Self(layouts)),
-            // The table finds the place, off the fast path.
-            _ => Self::STREAM.walk(bytes, |_| ()).map(|()| Self(&[])),
+            // Behind the whole records is one that is cut, or none.
+            _ => {
+                let whole = to_u32(count.saturating_mul(DESCRIPTOR_LEN));
+                input.take(Field::whole(Self::STREAM), whole)?;
+                input.fixed::<DescriptorLayout>().map(|_| Self(&[]))
+            }
         }
     }
 }
@@ -88,7 +92,7 @@ impl Encode for DescriptorsRef<'_> {
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         if self.is_empty() {
             // No descriptor is no stream: nobody would decode it.
-            Self::STREAM.walk(&[], |_| ())?;
+            Self::decode(&[])?;
         }
         Writer::run(Self::STREAM, self.encoded_len(), buf, |out| out.put(self.0.as_bytes()))
     }
