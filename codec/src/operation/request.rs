@@ -110,17 +110,17 @@ macro_rules! requests {
             /// # Errors
             /// Those of [`Operation::encode`].
             pub fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<Call<'b>, Error> {
+                let data = match self { $(
+                    Self::$function(operation) => operation.encode(buf),
+                )+ }?;
+                let (index_group, index_offset, read_length) = match self { $(
+                    Self::$function(operation) => {
+                        (operation.index_group(), operation.index_offset(), operation.read_length())
+                    }
+                )+ };
                 let spec = self.function().spec();
-                match self { $(
-                    Self::$function(operation) => Ok(Call {
-                        port: spec.task.port(),
-                        service: spec.service,
-                        index_group: operation.index_group(),
-                        index_offset: operation.index_offset(),
-                        read_length: operation.read_length(),
-                        data: operation.encode(buf)?,
-                    }),
-                )+ }
+                let (port, service) = (spec.task.port(), spec.service);
+                Ok(Call { port, service, index_group, index_offset, read_length, data })
             }
 
             /// How many bytes the data of the call has.
@@ -140,6 +140,8 @@ macro_rules! requests {
                 )+ }
             }
 
+            // In one body with the search for the function, both would be larger.
+            #[inline(never)]
             pub(super) fn decode(
                 function: Function,
                 group: Group,
