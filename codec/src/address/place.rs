@@ -54,7 +54,12 @@ impl Channel {
         Self::with_addressing(rank, Addressing::Index)
     }
 
-    pub(crate) fn with_addressing(number: u32, addressing: Addressing) -> Result<Self, Error> {
+    /// That of a group that has been found to be one of a channel: none has the number 0.
+    pub(crate) fn of(instance: u8, addressing: Addressing) -> Self {
+        Self { number: NonZeroU8::new(instance).unwrap_or(NonZeroU8::MIN), addressing }
+    }
+
+    fn with_addressing(number: u32, addressing: Addressing) -> Result<Self, Error> {
         let fits = NonZeroU8::new(instance(number, 1)?);
         let number = fits.ok_or(Error::new(ErrorKind::OutOfRange, INSTANCE, 0, 1, number))?;
         Ok(Self { number, addressing })

@@ -341,7 +341,7 @@ impl<'a> WriteProgramStream<'a> {
 
     pub(super) fn dispatched(group: Group, call: &Call<'a>) -> Result<Self, Error> {
         let packet = ProgramStreamRef::decode(call.data)?;
-        Ok(Self { channel: super::variable::channel(group)?, packet })
+        Ok(Self { channel: super::variable::channel(group), packet })
     }
 }
 

@@ -14,13 +14,9 @@ use crate::stream::{Decode, Encode, NoData};
 use crate::text::TextRef;
 
 /// Which channel and kind the dispatcher has found a function of.
-fn place(
-    offsets: [u32; 4],
-    group: Group,
-    call: &Call<'_>,
-) -> Result<(Channel, DynamicKind), Error> {
+fn place(offsets: [u32; 4], group: Group, call: &Call<'_>) -> (Channel, DynamicKind) {
     let kind = DynamicKind::of_offset(offsets, call.index_offset);
-    Ok((channel(group)?, kind.unwrap_or(DynamicKind::P)))
+    (channel(group), kind.unwrap_or(DynamicKind::P))
 }
 
 /// Declares an operation: its offsets, what it is about, the stream that says so.
@@ -46,7 +42,7 @@ macro_rules! dynamic {
                 group: Group,
                 call: &dynamic!(@call $($lifetime)?),
             ) -> Result<Self, Error> {
-                let (channel, kind) = place(DynamicKind::$offsets, group, call)?;
+                let (channel, kind) = place(DynamicKind::$offsets, group, call);
                 $( let $field = $decode(call.data)?; )?
                 Ok(Self { channel, kind $(, $field)? })
             }

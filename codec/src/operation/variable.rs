@@ -12,12 +12,10 @@ use crate::variable::{
 };
 
 /// The channel of a group that the dispatcher has found to be one of a channel.
-pub(super) fn channel(group: Group) -> Result<Channel, Error> {
+pub(super) fn channel(group: Group) -> Channel {
     match group {
-        Group::Class(ClassGroup { addressing, instance, .. }) => {
-            Channel::with_addressing(instance.into(), addressing)
-        }
-        Group::Com(com) => Channel::with_addressing(com.instance.into(), com.addressing),
+        Group::Class(ClassGroup { addressing, instance, .. }) => Channel::of(instance, addressing),
+        Group::Com(com) => Channel::of(com.instance, com.addressing),
     }
 }
 
@@ -49,7 +47,7 @@ macro_rules! operation {
             pub(super) fn dispatched(group: Group, call: &Call<'a>) -> Result<Self, Error> {
                 let $stream { $( $field, )+ } = $stream::decode(call.data)?;
                 $( let $axis = ChannelAxis::of_offset(call.index_offset)?; )?
-                Ok(Self { channel: channel(group)?, $( $axis, )? $( $field, )+ })
+                Ok(Self { channel: channel(group), $( $axis, )? $( $field, )+ })
             }
         }
 
