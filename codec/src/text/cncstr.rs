@@ -81,7 +81,8 @@ impl<'a> CncStr<'a> {
     pub fn len(&self) -> usize {
         match self.0 {
             Source::Bytes(bytes) => bytes.len(),
-            Source::Str(text) => text.chars().count(),
+            // One byte of each character is none that continues.
+            Source::Str(text) => text.bytes().filter(|byte| byte & 0xC0 != 0x80).count(),
         }
     }
 
