@@ -34,6 +34,37 @@ impl<'a> Reader<'a> {
         Ok(Self { stream, bytes, at: 0 })
     }
 
+    /// The fixed fields `T` that are all of `stream`, whose end they tell.
+    pub(crate) fn all<T>(stream: Stream, bytes: &'a [u8]) -> Result<&'a T, Error>
+    where
+        T: FromBytes + KnownLayout + Immutable + Unaligned,
+    {
+        let mut input = Self { stream, bytes, at: 0 };
+        let fixed = input.fixed()?;
+        input.finish()?;
+        Ok(fixed)
+    }
+
+    /// The number that is all of the stream of `field`.
+    #[inline]
+    pub(crate) fn number(field: Field, bytes: &'a [u8]) -> Result<u32, Error> {
+        let mut input = Self { stream: field.stream(), bytes, at: 0 };
+        let number = input.u32(field)?;
+        input.finish()?;
+        Ok(number)
+    }
+
+    /// The bytes that are all of the stream of `field`, between `min` and `max` of them.
+    #[inline]
+    pub(crate) fn bytes(
+        field: Field,
+        min: u32,
+        max: u32,
+        bytes: &'a [u8],
+    ) -> Result<&'a [u8], Error> {
+        Self::new(field.stream(), bytes)?.rest(field, min, max)
+    }
+
     pub(crate) fn at(&self) -> u32 {
         self.at
     }
@@ -141,16 +172,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Eight bytes.
-    pub(crate) fn u64(&mut self, field: Field) -> Result<u64, Error> {
-        let Some((le, rest)) = self.bytes.split_first_chunk() else {
-            return Err(self.error(ErrorKind::Truncated, field, 8));
-        };
-        self.bytes = rest;
-        self.at = self.at.saturating_add(8);
-        Ok(u64::from_le_bytes(*le))
-    }
-
     /// All that is left, between `min` and `max` bytes.
     pub(crate) fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<&'a [u8], Error> {
         let left = self.left();
@@ -253,6 +274,12 @@ impl<'b> Writer<'b> {
             return Err(too_long(Field::whole(stream), layout.max, to_u32(len)));
         }
         Self::fill(stream, len, buf, write)
+    }
+
+    /// Writes these bytes, which are all of the stream.
+    #[inline]
+    pub(crate) fn copy(stream: Stream, bytes: &[u8], buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        Self::run(stream, bytes.len(), buf, |out| out.put(bytes))
     }
 
     /// As [`run`](Self::run), for more than the stream that errors are told of.

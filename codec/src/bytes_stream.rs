@@ -20,9 +20,8 @@ macro_rules! bytes_stream {
             const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
-                let mut input = $crate::bytes::Reader::new(Self::STREAM, bytes)?;
-                let bytes = input.rest($field, $min, $crate::bytes::to_u32($max))?;
-                Ok(Self { bytes })
+                let max = $crate::bytes::to_u32($max);
+                $crate::bytes::Reader::bytes($field, $min, max, bytes).map(|bytes| Self { bytes })
             }
         }
 
@@ -33,11 +32,8 @@ macro_rules! bytes_stream {
 
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
                 use $crate::stream::Decode as _;
-                let mut written = $crate::bytes::Reader::new(Self::STREAM, self.bytes)?;
-                written.rest($field, $min, $crate::bytes::to_u32($max))?;
-                $crate::bytes::Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-                    out.put(self.bytes);
-                })
+                Self::decode(self.bytes)?;
+                $crate::bytes::Writer::copy(Self::STREAM, self.bytes, buf)
             }
         }
 

@@ -15,10 +15,7 @@ macro_rules! number_stream {
             const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
-                let mut input = $crate::bytes::Reader::new(Self::STREAM, bytes)?;
-                let number = input.u32($field)?;
-                input.finish()?;
-                Ok(Self(number))
+                $crate::bytes::Reader::number($field, bytes).map(Self)
             }
         }
 
@@ -29,7 +26,7 @@ macro_rules! number_stream {
 
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
                 use $crate::stream::Decode;
-                $crate::bytes::Writer::run(Self::STREAM, 4, buf, |out| out.u32(self.0))
+                $crate::bytes::Writer::copy(Self::STREAM, &self.0.to_le_bytes(), buf)
             }
         }
     };

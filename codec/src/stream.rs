@@ -93,8 +93,7 @@ impl<'a> Decode<'a> for NoData {
     const STREAM: Stream = Stream::NoData;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::new(Self::STREAM, bytes)?.finish()?;
-        Ok(Self)
+        Reader::all(Self::STREAM, bytes).map(|[]: &[u8; 0]| Self)
     }
 }
 

@@ -66,9 +66,8 @@ impl<'a> Decode<'a> for DeviceInfoReply {
     const STREAM: Stream = Stream::DeviceInfoReply;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let &InfoLayout { result, major, minor, build, name } = input.fixed()?;
-        input.finish()?;
+        let layout = Reader::all(Self::STREAM, bytes)?;
+        let &InfoLayout { result, major, minor, build, name } = layout;
         Ok(Self { result: AdsError(result.get()), major, minor, build: build.get(), name })
     }
 }
@@ -79,11 +78,10 @@ impl Encode for DeviceInfoReply {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-            let &Self { result, major, minor, build, name } = self;
-            let (result, build) = (result.0.into(), build.into());
-            out.put(InfoLayout { result, major, minor, build, name }.as_bytes());
-        })
+        let &Self { result, major, minor, build, name } = self;
+        let (result, build) = (result.0.into(), build.into());
+        let layout = InfoLayout { result, major, minor, build, name };
+        Writer::copy(Self::STREAM, layout.as_bytes(), buf)
     }
 }
 
@@ -149,9 +147,8 @@ impl<'a> Decode<'a> for DeviceStateReply {
     const STREAM: Stream = Stream::DeviceStateReply;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let StateLayout { result, ads_state, device_state } = input.fixed()?;
-        input.finish()?;
+        let layout = Reader::all(Self::STREAM, bytes)?;
+        let StateLayout { result, ads_state, device_state } = layout;
         Ok(Self {
             result: AdsError(result.get()),
             ads_state: AdsState(ads_state.get()),
@@ -166,11 +163,8 @@ impl Encode for DeviceStateReply {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-            let (ads_state, device_state) = (self.ads_state.0.into(), self.device_state.into());
-            out.put(
-                StateLayout { result: self.result.0.into(), ads_state, device_state }.as_bytes(),
-            );
-        })
+        let (ads_state, device_state) = (self.ads_state.0.into(), self.device_state.into());
+        let layout = StateLayout { result: self.result.0.into(), ads_state, device_state };
+        Writer::copy(Self::STREAM, layout.as_bytes(), buf)
     }
 }

@@ -46,9 +46,7 @@ impl<'a> Decode<'a> for AmsTcpHeader {
     const STREAM: Stream = Stream::AmsTcpHeader;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let fixed: &TcpLayout = input.fixed()?;
-        input.finish()?;
+        let fixed: &TcpLayout = Reader::all(Self::STREAM, bytes)?;
         Ok(Self { reserved: fixed.reserved.get(), length: fixed.length.get() })
     }
 }
@@ -59,10 +57,8 @@ impl Encode for AmsTcpHeader {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-            let (reserved, length) = (self.reserved.into(), self.length.into());
-            out.put(TcpLayout { reserved, length }.as_bytes());
-        })
+        let (reserved, length) = (self.reserved.into(), self.length.into());
+        Writer::copy(Self::STREAM, TcpLayout { reserved, length }.as_bytes(), buf)
     }
 }
 
@@ -246,9 +242,7 @@ impl<'a> Decode<'a> for AmsHeader {
     const STREAM: Stream = Stream::AmsHeader;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let fixed: &HeaderLayout = input.fixed()?;
-        input.finish()?;
+        let fixed: &HeaderLayout = Reader::all(Self::STREAM, bytes)?;
         let end =
             |net_id, port: U16| AmsAddr { net_id: AmsNetId(net_id), port: AmsPort(port.get()) };
         Ok(Self {
@@ -269,19 +263,17 @@ impl Encode for AmsHeader {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-            let layout = HeaderLayout {
-                target_net_id: self.target.net_id.0,
-                target_port: self.target.port.0.into(),
-                source_net_id: self.source.net_id.0,
-                source_port: self.source.port.0.into(),
-                command: self.command.0.into(),
-                state_flags: self.state_flags.0.into(),
-                data_length: self.data_length.into(),
-                error: self.error.0.into(),
-                invoke_id: self.invoke_id.into(),
-            };
-            out.put(layout.as_bytes());
-        })
+        let layout = HeaderLayout {
+            target_net_id: self.target.net_id.0,
+            target_port: self.target.port.0.into(),
+            source_net_id: self.source.net_id.0,
+            source_port: self.source.port.0.into(),
+            command: self.command.0.into(),
+            state_flags: self.state_flags.0.into(),
+            data_length: self.data_length.into(),
+            error: self.error.0.into(),
+            invoke_id: self.invoke_id.into(),
+        };
+        Writer::copy(Self::STREAM, layout.as_bytes(), buf)
     }
 }

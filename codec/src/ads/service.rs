@@ -43,9 +43,7 @@ impl<'a> Decode<'a> for ReadRequest {
     const STREAM: Stream = Stream::ReadRequest;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let [group, offset, length]: &[U32; 3] = input.fixed()?;
-        input.finish()?;
+        let [group, offset, length]: &[U32; 3] = Reader::all(Self::STREAM, bytes)?;
         Ok(Self {
             index_group: IndexGroup::new(group.get()),
             index_offset: IndexOffset::new(offset.get()),
@@ -60,10 +58,8 @@ impl Encode for ReadRequest {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-            let numbers = [self.index_group.get(), self.index_offset.get(), self.length];
-            out.put(numbers.map(U32::new).as_bytes());
-        })
+        let numbers = [self.index_group.get(), self.index_offset.get(), self.length];
+        Writer::copy(Self::STREAM, numbers.map(U32::new).as_bytes(), buf)
     }
 }
 
@@ -92,10 +88,8 @@ impl<'a> Decode<'a> for WriteReply {
     const STREAM: Stream = Stream::WriteReply;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let result = AdsError(input.u32(field::write_reply::RESULT)?);
-        input.finish()?;
-        Ok(Self { result })
+        let result = Reader::number(field::write_reply::RESULT, bytes)?;
+        Ok(Self { result: AdsError(result) })
     }
 }
 
@@ -105,7 +99,7 @@ impl Encode for WriteReply {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| out.u32(self.result.0))
+        Writer::copy(Self::STREAM, &self.result.0.to_le_bytes(), buf)
     }
 }
 

@@ -250,10 +250,7 @@ impl<'a> Decode<'a> for DescriptorRef<'a> {
     const STREAM: Stream = Stream::ObjectDescriptor;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let layout = input.fixed()?;
-        input.finish()?;
-        Ok(Self(layout))
+        Reader::all(Self::STREAM, bytes).map(Self)
     }
 }
 
@@ -271,7 +268,7 @@ impl Encode for DescriptorRef<'_> {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, DESCRIPTOR_LEN, buf, |out| out.put(self.0.as_bytes()))
+        Writer::copy(Self::STREAM, self.0.as_bytes(), buf)
     }
 }
 

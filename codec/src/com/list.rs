@@ -94,7 +94,7 @@ impl Encode for DescriptorsRef<'_> {
             // No descriptor is no stream: nobody would decode it.
             Self::decode(&[])?;
         }
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| out.put(self.0.as_bytes()))
+        Writer::copy(Self::STREAM, self.0.as_bytes(), buf)
     }
 }
 

@@ -2,10 +2,12 @@
 
 use core::fmt;
 
+use zerocopy::little_endian::U64;
+
 use crate::bytes::{Reader, Writer};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Stream;
-use crate::layout::field::{dynamic_count, dynamic_index, dynamic_value};
+use crate::layout::field::{dynamic_count, dynamic_index};
 use crate::stream::{Decode, Encode};
 
 crate::number::number_stream! {
@@ -78,7 +80,7 @@ impl Encode for DynamicIndex {
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         self.check()?;
-        Writer::run(Self::STREAM, 4, buf, |out| out.u32(self.0))
+        Writer::copy(Self::STREAM, &self.0.to_le_bytes(), buf)
     }
 }
 
@@ -137,10 +139,8 @@ impl<'a> Decode<'a> for DynamicValue {
     const STREAM: Stream = Stream::DynamicValue;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let bits = input.u64(dynamic_value::VALUE)?;
-        input.finish()?;
-        Ok(Self { bits })
+        let bits: &U64 = Reader::all(Self::STREAM, bytes)?;
+        Ok(Self { bits: bits.get() })
     }
 }
 
@@ -150,6 +150,6 @@ impl Encode for DynamicValue {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, 8, buf, |out| out.put(&self.bits.to_le_bytes()))
+        Writer::copy(Self::STREAM, &self.bits.to_le_bytes(), buf)
     }
 }

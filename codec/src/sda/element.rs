@@ -3,7 +3,7 @@
 use crate::bytes::{Reader, Writer, to_u32};
 use crate::error::Error;
 use crate::layout::Stream;
-use crate::layout::field::{element_count, element_length, element_text, element_write_flag};
+use crate::layout::field::{element_count, element_length, element_text};
 use crate::limits::TEXT_MAX;
 use crate::stream::{Decode, Encode};
 
@@ -102,17 +102,11 @@ impl<'a> Decode<'a> for ElementLength {
     const STREAM: Stream = Stream::ElementLength;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let number = input.one_two_or_four(element_length::LENGTH)?;
-        input.finish()?;
-        Ok(match *number {
-            [a, b, c, d] => Self::new(u32::from_le_bytes([a, b, c, d])),
-            [a, b] => Self { length: u16::from_le_bytes([a, b]).into(), width: Width::Two },
-            _ => {
-                let length = number.first().copied().unwrap_or_default().into();
-                Self { length, width: Width::One }
-            }
-        })
+        match *bytes {
+            [a] => Ok(Self { length: a.into(), width: Width::One }),
+            [a, b] => Ok(Self { length: u16::from_le_bytes([a, b]).into(), width: Width::Two }),
+            _ => Reader::number(element_length::LENGTH, bytes).map(Self::new),
+        }
     }
 }
 
@@ -126,11 +120,9 @@ impl Encode for ElementLength {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let len = self.encoded_len();
-        Writer::run(Self::STREAM, len, buf, |out| {
-            // A narrow number is only ever read, so that nothing is cut off.
-            out.put(self.length.to_le_bytes().get(..len).unwrap_or_default());
-        })
+        // A narrow number is only ever read, so that nothing is cut off.
+        let all = self.length.to_le_bytes();
+        Writer::copy(Self::STREAM, all.get(..self.encoded_len()).unwrap_or_default(), buf)
     }
 }
 
@@ -185,10 +177,7 @@ impl<'a> Decode<'a> for ElementWriteFlag {
     const STREAM: Stream = Stream::ElementWriteFlag;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let flag = input.take(element_write_flag::FLAG, 1)?;
-        input.finish()?;
-        Ok(Self(flag.first().copied().unwrap_or_default()))
+        Reader::all(Self::STREAM, bytes).map(|&flag| Self(flag))
     }
 }
 
@@ -198,6 +187,6 @@ impl Encode for ElementWriteFlag {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, 1, buf, |out| out.put(&[self.0]))
+        Writer::copy(Self::STREAM, &[self.0], buf)
     }
 }

@@ -21,15 +21,13 @@ struct Pair {
 const _: () = assert!(size_of::<Pair>() == 8);
 
 fn decode(stream: Stream, bytes: &[u8]) -> Result<(u32, u32), Error> {
-    let mut input = Reader::new(stream, bytes)?;
-    let pair: &Pair = input.fixed()?;
-    input.finish()?;
+    let pair: &Pair = Reader::all(stream, bytes)?;
     Ok((pair.first.get(), pair.second.get()))
 }
 
 fn encode(stream: Stream, first: u32, second: u32, buf: &mut [u8]) -> Result<&[u8], Error> {
     let pair = Pair { first: first.into(), second: second.into() };
-    Writer::run(stream, size_of::<Pair>(), buf, |out| out.put(pair.as_bytes()))
+    Writer::copy(stream, pair.as_bytes(), buf)
 }
 
 #[doc = include_str!("../../doc/object-address-query.md")]

@@ -5,7 +5,7 @@ use core::fmt;
 use super::CncStr;
 use crate::bytes::{Writer, split_nul};
 use crate::error::{Error, ErrorKind};
-use crate::layout::Field;
+use crate::layout::{Field, Stream};
 
 /// A text field with its end: one NUL, a NUL and more bytes, or no NUL at all.
 ///
@@ -70,6 +70,12 @@ impl<'a> TextRef<'a> {
             out.put(&[0]);
             out.put(tail);
         }
+    }
+
+    /// The field as all of a stream.
+    #[inline]
+    pub(crate) fn encode<'b>(self, stream: Stream, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        Writer::run(stream, self.field_len(), buf, |out| self.write(out))
     }
 
     /// Whether the field may stand at the end of a request: a NUL, and only NULs behind it.

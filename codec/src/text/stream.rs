@@ -36,9 +36,7 @@ macro_rules! text_stream {
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
                 use $crate::stream::Decode as _;
                 $crate::text::text_stream!(@check self.$name, $checker, $field, $check_args)?;
-                $crate::bytes::Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-                    self.$name.write(out);
-                })
+                self.$name.encode(Self::STREAM, buf)
             }
         }
 

@@ -123,7 +123,7 @@ impl Encode for VariableKindRef<'_> {
         if field.field_len() > 0 {
             field.check_terminated(variable_kind::KIND, 0, to_u32(TEXT_MAX))?;
         }
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| field.write(out))
+        field.encode(Self::STREAM, buf)
     }
 }
 

@@ -31,9 +31,7 @@ impl<'a> Decode<'a> for ValueRef<'a> {
     const STREAM: Stream = Stream::VariableValue;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let bytes = input.rest(VALUE, 0, to_u32(VARIABLE_MAX))?;
-        Ok(Self { bytes })
+        Reader::bytes(VALUE, 0, to_u32(VARIABLE_MAX), bytes).map(|bytes| Self { bytes })
     }
 }
 
@@ -43,7 +41,7 @@ impl Encode for ValueRef<'_> {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| out.put(self.bytes))
+        Writer::copy(Self::STREAM, self.bytes, buf)
     }
 }
 
