@@ -15,6 +15,7 @@ use ads_cnc::{Decode, DescriptionRef, DescriptorsRef, Encode, Error, HandleReadR
 mod bump;
 #[path = "../../../tests/everything/mod.rs"]
 mod everything;
+mod memory;
 
 // The kernel enters with a stack that calls have to find aligned.
 global_asm!(".globl _start", "_start:", "and rsp, -16", "call {main}", "ud2", main = sym main);
@@ -86,49 +87,4 @@ fn panic(_: &PanicInfo<'_>) -> ! {
     }
     #[cfg(not(feature = "no_panic"))]
     exit(3)
-}
-
-/// The compiler calls these where there is no C library. Volatile, or each becomes a call of itself.
-mod memory {
-    /// # Safety
-    /// As C's memcpy.
-    #[unsafe(no_mangle)]
-    unsafe extern "C" fn memcpy(to: *mut u8, from: *const u8, len: usize) -> *mut u8 {
-        for at in 0..len {
-            // SAFETY: both hold `len` bytes.
-            unsafe { to.add(at).write_volatile(from.add(at).read_volatile()) };
-        }
-        to
-    }
-
-    /// # Safety
-    /// As C's memset.
-    #[unsafe(no_mangle)]
-    unsafe extern "C" fn memset(to: *mut u8, byte: i32, len: usize) -> *mut u8 {
-        for at in 0..len {
-            // SAFETY: it holds `len` bytes.
-            unsafe { to.add(at).write_volatile(byte as u8) };
-        }
-        to
-    }
-
-    /// # Safety
-    /// As C's bcmp.
-    #[unsafe(no_mangle)]
-    unsafe extern "C" fn bcmp(one: *const u8, two: *const u8, len: usize) -> i32 {
-        // SAFETY: both hold `len` bytes.
-        let same = |at| unsafe { one.add(at).read_volatile() == two.add(at).read_volatile() };
-        i32::from(!(0..len).all(same))
-    }
-
-    /// # Safety
-    /// As C's memcmp.
-    #[cfg(any(feature = "alloc", feature = "negative"))]
-    #[unsafe(no_mangle)]
-    unsafe extern "C" fn memcmp(one: *const u8, two: *const u8, len: usize) -> i32 {
-        // SAFETY: both hold `len` bytes.
-        let pair = |at| unsafe { (one.add(at).read_volatile(), two.add(at).read_volatile()) };
-        let odd = (0..len).map(pair).find(|(one, two)| one != two);
-        odd.map_or(0, |(one, two)| i32::from(one) - i32::from(two))
-    }
 }

@@ -1,0 +1,92 @@
+"""Which functions a program keeps: those that the lists of the public API name, part by part. What
+is generic stands in src/generic.rs, by hand, with the types it is used with."""
+
+import pathlib
+import re
+
+HERE = pathlib.Path(__file__).resolve().parent
+API = HERE.parent.parent / "api"
+# The part of a path is the first that it begins like; what is like none is of the views.
+PARTS = {
+    "text": r"(?:VariableAccess|VariableType|Synchronisation|Validity)::name",
+    "tables": r"layout::|operation::(?:Function|FunctionSpec|GroupRule|OffsetRule)::",
+    "operations": r"operation::|address::",
+    "frames": r"ads::FrameRef",
+    "names": r"VariablePath|PathPart",
+    "values": r"value::|Elements?\b|\w+::(?:elements?|shape|\w+_type|\w+_size)$",
+    "streaming": r"streaming::(?!ProgramStream)",
+    "service": r"service::",
+    "editions": r"edition::",
+    "views": r"",
+}
+# Traits, the part that an implementation is in if not that of its type, and the methods.
+TRAITS = [
+    ("Decode", None, "decode"),
+    ("Encode", None, "encode encoded_len"),
+    ("operation::Operation", None,
+     "index_group index_offset read_length encoded_len encode decode_reply"),
+    ("value::EncodeValue", "values", "data_type element_count value_len encode_value"),
+    ("Iterator", None, "next"),
+    ("DoubleEndedIterator", None, "next_back"),
+    ("FromStr", "text", "from_str"),
+    ("Display", "text", "fmt"),
+]  # fmt: skip
+PATHS = {"FromStr": "core::str::FromStr", "Display": "core::fmt::Display"}
+
+
+def part(path):
+    return next(name for name, start in PARTS.items() if re.match(start, path))
+
+
+def read(features):
+    """Of each function its part and how it is called, and the paths of what is generic."""
+    kept, generic, head, name = [], [], "", ""
+    for line in (API / f"{features}.txt").read_text(encoding="utf-8").splitlines():
+        if line.startswith("fn "):
+            path = re.match(r"fn ([\w:]+)", line)[1]
+            kept.append((part(path), f"ads_cnc::{path}"))
+        if not line.startswith(" "):
+            head = line
+            name = re.sub(r"^(?:in )?(?:non_exhaustive )?\w+ ([\w:]*).*", r"\1", line)
+        elif re.match(r"(?:in )?trait |use |mod |foreign ", head):
+            continue
+        elif found := re.match(r" +(?:const )?fn (\w+)(.*)", line):
+            path = f"{name}::{found[1]}"
+            if "T: " in head or re.search(r"\bimpl |^<[^>]*\b[A-Z]", found[2]):
+                generic.append(path)
+            else:
+                kept.append((part(path), f"ads_cnc::{path}"))
+        elif line.startswith("    impl ") and "T: " not in head:
+            ty = f"ads_cnc::{name}<'_>" if "<'" in head else f"ads_cnc::{name}"
+            for trait, of, methods in TRAITS:
+                if re.search(rf"[ ,]{trait}\b", line):
+                    path = PATHS.get(trait, trait.split("::")[-1])
+                    owned = " to_vec" if trait == "Encode" and features == "alloc" else ""
+                    for method in (methods + owned).split():
+                        kept.append((of or part(name), f"<{ty} as {path}>::{method}"))
+    return kept, generic
+
+
+def source(parts, extra=(), owned=False):
+    """The Rust that keeps these parts and these functions, and how many it keeps by path."""
+    paths = [path for of, path in read("none")[0] if of in parts] + list(extra)
+    if owned:
+        paths += [path for _, path in read("alloc")[0]]
+    modules = re.findall(r"pub\(crate\) mod (\w+)", by_hand())
+    kept = ["KEPT", *(f"generic::{name}::KEPT" for name in modules if name in parts)]
+    lines = "".join(f"    {path},\n" for path in paths)
+    keeps = "".join(f"    core::hint::black_box(&{name});\n" for name in kept)
+    return f"crate::keep! {{\n{lines}}}\n\npub(super) fn keep_all() {{\n{keeps}}}\n", len(paths)
+
+
+def by_hand():
+    return (HERE / "src" / "generic.rs").read_text(encoding="utf-8")
+
+
+def missing(gone="\0"):
+    """What is generic and not kept by hand, or would not be if this were gone, and how much else
+    there is."""
+    kept, generic = read("none")
+    text = re.sub(r"::<[^>]*>", "", by_hand()).replace(gone, "")
+    lost = [path for path in generic if not re.search(rf"(?<![\w:]){path}\b", text)]
+    return lost, len(kept)

@@ -1,0 +1,56 @@
+//! Keeps functions of the codec in a program, each as if somebody called it, and does nothing else:
+//! what it weighs is theirs. Which ones, the script beside this crate writes.
+
+#![no_std]
+#![no_main]
+
+use core::panic::PanicInfo;
+
+#[cfg(feature = "alloc")]
+#[path = "../../no_std/src/bump.rs"]
+mod bump;
+#[allow(dead_code, reason = "not every program keeps all of it")]
+mod generic;
+#[cfg(target_os = "linux")]
+#[path = "../../no_std/src/memory.rs"]
+mod memory;
+
+/// The address of a function.
+struct Kept(#[allow(dead_code, reason = "the linker follows it")] *const ());
+
+// SAFETY: nobody goes to the address.
+unsafe impl Sync for Kept {}
+
+/// Keeps functions, their addresses apart from what is weighed.
+macro_rules! keep {
+    ($( $function:expr ),* $(,)?) => {
+        #[unsafe(link_section = ".kept")]
+        pub(crate) static KEPT: [crate::Kept; [$( stringify!($function) ),*].len()] =
+            [$( crate::Kept($function as *const ()) ),*];
+    };
+}
+
+use keep;
+
+/// What is kept by its path.
+mod kept {
+    #![allow(unused_imports, reason = "not every program keeps all of it")]
+    use ads_cnc::operation::Operation;
+    use ads_cnc::value::EncodeValue;
+    use ads_cnc::{Decode, Encode};
+
+    use crate::generic;
+
+    include!(env!("KEPT"));
+}
+
+#[unsafe(no_mangle)]
+extern "C" fn _start() -> ! {
+    kept::keep_all();
+    loop {}
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    loop {}
+}
