@@ -39,7 +39,8 @@ impl Parameters {
     /// Lets come and go what did by now. What comes again is made anew: it has the value of the
     /// start, whatever was written to it before (assumed).
     pub(super) fn advance(&mut self, now: Duration) {
-        for one in &mut self.0 {
+        // Most are always there, and this is done for every request.
+        for one in self.0.iter_mut().filter(|one| !one.is.times.is_always()) {
             let life = one.is.times.life(now);
             if life.is_some() && life != one.life {
                 one.value = one.is.value;

@@ -118,10 +118,16 @@ impl Cnc {
 
     /// The state as it is by now.
     pub(super) fn state(&self) -> MutexGuard<'_, State> {
+        self.state_and_time().0
+    }
+
+    /// The same, and when that is: the clock is read once for each request.
+    fn state_and_time(&self) -> (MutexGuard<'_, State>, Duration) {
         // No panic is reachable under the lock, and each value is whole whatever happened.
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        state.advance(self.now());
-        state
+        let now = self.now();
+        state.advance(now);
+        (state, now)
     }
 
     /// Time since it was switched on.
@@ -197,7 +203,8 @@ impl Cnc {
     }
 
     fn reply(&self, request: &Request<'_>) -> Answer {
-        let mut running = Running { model: &self.model, state: self.state(), now: self.now() };
+        let (state, now) = self.state_and_time();
+        let mut running = Running { model: &self.model, state, now };
         match request {
             Request::CountObjects(op) => running.count_objects(op),
             Request::ReadDescriptors(op) => running.descriptors(op),

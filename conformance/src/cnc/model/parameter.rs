@@ -46,6 +46,11 @@ impl Times {
         Ok(Self { comes, goes, period })
     }
 
+    /// Whether it never comes nor goes.
+    pub(in crate::cnc) fn is_always(&self) -> bool {
+        *self == Self::default()
+    }
+
     /// Which of its lives it has at a time, from 0; none if it is not there.
     pub(in crate::cnc) fn life(&self, now: Duration) -> Option<u128> {
         let (now, period) = (now.as_nanos(), self.period.map(|period| period.as_nanos()));

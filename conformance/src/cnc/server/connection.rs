@@ -170,7 +170,7 @@ fn split(received: &[u8]) -> io::Result<Option<(FrameRef<'_>, usize)>> {
 struct Limit<'a> {
     options: &'a ServerOptions,
     awaited: Awaited,
-    /// Since when that is awaited.
+    /// Since when that is awaited; of the next frame nobody has to know.
     since: Instant,
     /// The time that the stream has for a read; not set yet, or no limit.
     set: Option<Option<Duration>>,
@@ -194,8 +194,10 @@ impl<'a> Limit<'a> {
 
     /// Frames were whole; a part of another has come with them, or not.
     fn asked(&mut self, part: bool) {
-        self.awaited = if part { Awaited::Rest } else { Awaited::Next };
-        self.since = Instant::now();
+        self.awaited = Awaited::Next;
+        if part {
+            (self.awaited, self.since) = (Awaited::Rest, Instant::now());
+        }
     }
 
     /// There is a part of a frame, and not all of it. A byte now and then is no request either: the
