@@ -1,5 +1,7 @@
 //! Contents of objects and elements, wherever they are.
 
+use std::borrow::Cow;
+
 use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
 
@@ -46,12 +48,12 @@ pub(super) fn items(model: &Model, owner: Owner) -> &[Item] {
 }
 
 /// The content; blank where no axis is (SDA-11).
-pub(super) fn read(
+pub(super) fn read<'s>(
     model: &Model,
-    state: &State,
+    state: &'s State,
     owner: Owner,
     index: usize,
-) -> Result<Vec<u8>, AdsError> {
+) -> Result<Cow<'s, [u8]>, AdsError> {
     let item = items(model, owner).get(index).ok_or(AdsError::INVALID_OFFSET)?;
     let size = item.initial.size;
     match item.meaning {
@@ -62,7 +64,7 @@ pub(super) fn read(
         }
         Meaning::Value => {
             let content = state.values(owner).and_then(|values| values.get(index));
-            Ok(content.cloned().unwrap_or_else(|| vec![0; size]))
+            Ok(content.map_or_else(|| Cow::Owned(vec![0; size]), Cow::from))
         }
     }
 }

@@ -12,8 +12,8 @@ use ads_cnc::operation::{
     WriteByHandle, WriteByName,
 };
 use ads_cnc::{
-    CncStr, CncString, DescriptionByNameRef, DescriptionRef, ExtendedReply, Handle, Kind, TextRef,
-    ValueRef, VariableAccess, VariableCount, VariablePath, VariableType,
+    CncStr, CncString, DescriptionByNameRef, DescriptionRef, ExtendedReply, Handle, Kind, Numbers,
+    TextRef, ValueRef, VariableAccess, VariableCount, VariablePath, VariableType,
 };
 
 use super::{Answer, Running, encode};
@@ -111,21 +111,19 @@ impl Running<'_> {
 
     pub(super) fn read_by_handle(&self, op: &ReadByHandle<'_>) -> Answer {
         let channel = self.channel(op.channel)?;
-        let indices: Vec<u32> = op.indices.iter().collect();
-        self.read(channel, self.by_handle(channel, op.handle)?, &indices)
+        self.read(channel, self.by_handle(channel, op.handle)?, op.indices)
     }
 
     pub(super) fn write_by_handle(&mut self, op: &WriteByHandle<'_>) -> Answer {
         let channel = self.channel(op.channel)?;
-        let indices: Vec<u32> = op.indices.iter().collect();
         let at = self.by_handle(channel, op.handle)?;
-        self.write(channel, at, &indices, op.value)
+        self.write(channel, at, op.indices, op.value)
     }
 
     pub(super) fn read_by_name(&self, op: &ReadByName<'_>) -> Answer {
         let channel = self.channel(op.channel)?;
         match self.named(Function::ReadByName, channel, op.name.text())? {
-            (Named::Variable(at), indices) => self.read(channel, at, &indices),
+            (Named::Variable(at), indices) => self.read(channel, at, indices),
             (Named::Parameter, _) => {
                 let (kind, name) = parameter(op.name.text())?;
                 let found = self.state.parameters(channel, kind).find(|one| one.is.name == name);
@@ -137,7 +135,7 @@ impl Running<'_> {
     pub(super) fn write_by_name(&mut self, op: &WriteByName<'_>) -> Answer {
         let channel = self.channel(op.channel)?;
         match self.named(Function::WriteByName, channel, op.name)? {
-            (Named::Variable(at), indices) => self.write(channel, at, &indices, op.value),
+            (Named::Variable(at), indices) => self.write(channel, at, indices, op.value),
             (Named::Parameter, _) => {
                 let (_, name) = parameter(op.name)?;
                 let value = op.value.try_into().map_err(|_| AdsError::INVALID_SIZE)?;
@@ -160,13 +158,13 @@ impl Running<'_> {
         let name = op.name.text();
         let (channel, at, indices) =
             self.of_axis(Function::AxisReadByName, op.channel, op.axis, name)?;
-        self.read(channel, at, &indices)
+        self.read(channel, at, indices)
     }
 
     pub(super) fn axis_write_by_name(&mut self, op: &AxisWriteByName<'_>) -> Answer {
         let (channel, at, indices) =
             self.of_axis(Function::AxisWriteByName, op.channel, op.axis, op.name)?;
-        self.write(channel, at, &indices, op.value)
+        self.write(channel, at, indices, op.value)
     }
 
     /// Whether edition and version have a function for a kind.
@@ -215,27 +213,26 @@ impl Running<'_> {
     }
 
     /// What a name on the channel interface means, and the element that it selects.
-    fn named(
+    fn named<'n>(
         &self,
         function: Function,
         channel: usize,
-        name: CncStr<'_>,
-    ) -> Result<(Named, Vec<u32>), AdsError> {
+        name: CncStr<'n>,
+    ) -> Result<(Named, Numbers<'n>), AdsError> {
         let path = VariablePath::from_text(name).map_err(|_| UNKNOWN)?;
         self.permit(function, path.kind())?;
         let model = self.model.channels.get(channel).ok_or(AdsError::INVALID_GROUP)?;
-        let whole: Vec<u8> = path.variable().text().bytes().collect();
-        let indices = path.elements().iter().collect();
-        if let Some(place) = model.variables.named(&whole) {
+        let (whole, indices) = (CncString::from(path.variable().text()), path.elements());
+        if let Some(place) = model.variables.named(whole.as_bytes()) {
             return Ok((Named::Variable(At::Own(place)), indices));
         }
         if path.kind() == Kind::V_A {
-            let at = self.of_named_axis(channel, model, &whole).ok_or(UNKNOWN)?;
+            let at = self.of_named_axis(channel, model, whole.as_bytes()).ok_or(UNKNOWN)?;
             return Ok((Named::Variable(at), indices));
         }
         let (kind, name) = parameter(name)?;
         let found = self.state.parameters(channel, kind).any(|one| one.is.name == name);
-        if found { Ok((Named::Parameter, Vec::new())) } else { Err(UNKNOWN) }
+        if found { Ok((Named::Parameter, Numbers::EMPTY)) } else { Err(UNKNOWN) }
     }
 
     /// The variable in front of the last dot, of the axis whose name is behind it.
@@ -253,22 +250,22 @@ impl Running<'_> {
     }
 
     /// What a name on the axis interface means: of whatever axis is at the place.
-    fn of_axis(
+    fn of_axis<'n>(
         &self,
         function: Function,
         channel: Channel,
         axis: ChannelAxis,
-        name: CncStr<'_>,
-    ) -> Result<(usize, At, Vec<u32>), AdsError> {
+        name: CncStr<'n>,
+    ) -> Result<(usize, At, Numbers<'n>), AdsError> {
         let channel = self.channel(channel)?;
         let path = VariablePath::from_text(name).map_err(|_| UNKNOWN)?;
         self.permit(function, path.kind())?;
         let places = self.model.channels.get(channel).map_or(0, |channel| channel.places.len());
         let place = usize::from(axis.place()).checked_sub(1).filter(|&place| place < places);
-        let whole: Vec<u8> = path.variable().text().bytes().collect();
-        let variable = self.model.axis_variables.named(&whole).ok_or(UNKNOWN)?;
+        let whole = CncString::from(path.variable().text());
+        let variable = self.model.axis_variables.named(whole.as_bytes()).ok_or(UNKNOWN)?;
         let at = At::Place { place: place.ok_or(UNKNOWN)?, variable };
-        Ok((channel, at, path.elements().iter().collect()))
+        Ok((channel, at, path.elements()))
     }
 
     fn variable(&self, channel: usize, at: At) -> Result<&Variable, AdsError> {
@@ -305,7 +302,7 @@ impl Running<'_> {
     }
 
     /// The value of a variable or of one of its elements; blank where no axis is (SDA-11).
-    fn read(&self, channel: usize, at: At, indices: &[u32]) -> Answer {
+    fn read(&self, channel: usize, at: At, indices: Numbers<'_>) -> Answer {
         let variable = self.variable(channel, at)?;
         let part = variable.part(indices).ok_or(AdsError::INVALID_DATA)?;
         let value = match (at, variable.service) {
@@ -327,7 +324,7 @@ impl Running<'_> {
         encode(ValueRef { bytes: value.get(part).ok_or(AdsError::INVALID_DATA)? })
     }
 
-    fn write(&mut self, channel: usize, at: At, indices: &[u32], bytes: &[u8]) -> Answer {
+    fn write(&mut self, channel: usize, at: At, indices: Numbers<'_>, bytes: &[u8]) -> Answer {
         let variable = self.variable(channel, at)?;
         let part = variable.part(indices).ok_or(AdsError::INVALID_DATA)?;
         if !variable.is_writable() {
