@@ -1,0 +1,168 @@
+//! The clients: so many at once, each on a connection and in a thread of its own, each with so many
+//! requests under way.
+
+use std::collections::VecDeque;
+use std::io::{self, Read as _, Write as _};
+use std::net::{SocketAddr, TcpStream};
+use std::sync::Barrier;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::work::{Result, Work};
+
+/// The longest wait for a connection, and for any byte of a reply.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// How a server is asked.
+#[derive(Clone, Copy)]
+pub(crate) struct Load {
+    pub(crate) clients: usize,
+    /// Requests that a client has under way.
+    pub(crate) depth: usize,
+    pub(crate) time: Duration,
+}
+
+/// What came of one slice of time.
+#[derive(Default)]
+pub(crate) struct Slice {
+    /// Replies a second.
+    pub(crate) rate: f64,
+    /// From the request's write to the read of its reply, in ns; of each reply, late ones too, so
+    /// that there always are some.
+    pub(crate) nanos: Vec<u32>,
+}
+
+/// Has a server answer for a slice of time. Every reply is looked at, and one that is not right is
+/// an error. An echo repeats the same reply, so that all its replies are to request 0.
+pub(crate) fn slice(addr: SocketAddr, work: &Work, load: Load, is_echo: bool) -> Result<Slice> {
+    let clients = (0..load.clients).map(|_| Client::connect(addr, work, is_echo));
+    let clients = clients.collect::<Result<Vec<_>>>()?;
+    let ready = &Barrier::new(load.clients);
+    let slices = thread::scope(|scope| {
+        let threads = clients.into_iter().map(|mut client| {
+            scope.spawn(move || {
+                ready.wait();
+                client.run(load)
+            })
+        });
+        // All have begun before the first is waited for.
+        let threads: Vec<_> = threads.collect();
+        let joined = threads.into_iter().map(|thread| thread.join().expect("no client panics"));
+        joined.collect::<Result<Vec<Slice>>>()
+    })?;
+    let mut all = Slice::default();
+    for one in slices {
+        all.rate += one.rate;
+        all.nanos.extend(one.nanos);
+    }
+    Ok(all)
+}
+
+/// How many of so many requests that leave in one write are answered.
+pub(crate) fn answered_of_burst(addr: SocketAddr, work: &Work, depth: usize) -> Result<usize> {
+    let mut client = Client::connect(addr, work, false)?;
+    client.ask(depth)?;
+    client.stream.set_read_timeout(Some(Duration::from_millis(500)))?;
+    let mut answered = 0;
+    while answered < depth {
+        match client.replies() {
+            Ok(replies) => answered += replies,
+            Err(error) => match error.downcast_ref::<io::Error>().map(io::Error::kind) {
+                Some(io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut) => break,
+                _ => return Err(error),
+            },
+        }
+    }
+    Ok(answered)
+}
+
+struct Client<'a> {
+    stream: TcpStream,
+    work: &'a Work,
+    is_echo: bool,
+    /// The numbers of the next request and of the next reply.
+    next: (u32, u32),
+    out: Vec<u8>,
+    received: Vec<u8>,
+    held: usize,
+}
+
+impl<'a> Client<'a> {
+    /// Connected, and answered once.
+    fn connect(addr: SocketAddr, work: &'a Work, is_echo: bool) -> Result<Self> {
+        let stream = TcpStream::connect_timeout(&addr, PATIENCE)?;
+        stream.set_nodelay(true)?;
+        stream.set_read_timeout(Some(PATIENCE))?;
+        stream.set_write_timeout(Some(PATIENCE))?;
+        let received = vec![0; 256 * 1024];
+        let mut client =
+            Self { stream, work, is_echo, next: (1, 1), out: Vec::new(), received, held: 0 };
+        client.ask(1)?;
+        while client.replies()? == 0 {}
+        Ok(client)
+    }
+
+    fn run(&mut self, load: Load) -> Result<Slice> {
+        let (begin, mut nanos) = (Instant::now(), Vec::with_capacity(1 << 16));
+        let mut under_way = VecDeque::with_capacity(load.depth);
+        let mut in_time = 0_u32;
+        let mut now = begin;
+        loop {
+            if now.duration_since(begin) < load.time {
+                let more = load.depth - under_way.len();
+                under_way.extend(std::iter::repeat_n(Instant::now(), more));
+                self.ask(more)?;
+            } else if under_way.is_empty() {
+                break;
+            }
+            let replies = self.replies()?;
+            now = Instant::now();
+            if replies > under_way.len() {
+                return Err("more replies than requests".into());
+            }
+            for sent in under_way.drain(..replies) {
+                // Four seconds and more are one: a connection without a byte for ten is an error.
+                let nano = now.duration_since(sent).as_nanos();
+                nanos.push(u32::try_from(nano).unwrap_or(u32::MAX));
+            }
+            // What came later than that has a latency, but does not count.
+            if now.duration_since(begin) < load.time {
+                in_time += u32::try_from(replies)?;
+            }
+        }
+        Ok(Slice { rate: f64::from(in_time) / load.time.as_secs_f64(), nanos })
+    }
+
+    /// Sends so many requests, all at once.
+    fn ask(&mut self, count: usize) -> Result<()> {
+        self.out.clear();
+        for _ in 0..count {
+            self.work.request(self.next.0, &mut self.out)?;
+            self.next.0 = self.next.0.wrapping_add(1);
+        }
+        self.stream.write_all(&self.out)?;
+        Ok(())
+    }
+
+    /// Reads once; how many replies are whole now.
+    fn replies(&mut self) -> Result<usize> {
+        let count = self.stream.read(&mut self.received[self.held..])?;
+        if count == 0 {
+            return Err("the server has closed the connection".into());
+        }
+        self.held += count;
+        let (mut at, mut replies) = (0, 0);
+        loop {
+            let expected = if self.is_echo { 0 } else { self.next.1 };
+            let Some(len) = self.work.check(&self.received[at..self.held], expected)? else {
+                break;
+            };
+            self.next.1 = self.next.1.wrapping_add(1);
+            at += len;
+            replies += 1;
+        }
+        self.received.copy_within(at..self.held, 0);
+        self.held -= at;
+        Ok(replies)
+    }
+}

@@ -1,0 +1,174 @@
+//! What is asked, as frames of this project's codec, and what has to come back.
+
+use std::error::Error;
+
+use ads_cnc::address::Channel;
+use ads_cnc::ads::{
+    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadRequest,
+    ReadWriteReplyRef, ReadWriteRequestRef, StateFlags,
+};
+use ads_cnc::operation::{
+    Call, Operation as _, ReadByHandle, ReadByName, ReadDescriptors, ReadObject, Request, Service,
+};
+use ads_cnc::{Decode as _, Encode as _, Handle, Numbers};
+use ads_cnc_conformance::cnc::{Cnc, DATA_MAX, NET_ID};
+
+pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error + Send + Sync>>;
+
+/// Who asks.
+const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([127, 0, 0, 1, 1, 2]), port: AmsPort(0x8000) };
+
+/// One request, to be sent again and again.
+pub(crate) struct Work {
+    pub(crate) name: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) group: u32,
+    pub(crate) offset: u32,
+    /// Of the request; that of the reply is the other.
+    header: AmsHeader,
+    service: Service,
+    payload: Vec<u8>,
+    /// The data that the reply has to have.
+    pub(crate) expected: Vec<u8>,
+}
+
+impl Work {
+    /// All there is; the first is one that any ADS server can be set up to answer.
+    pub(crate) fn all() -> Result<Vec<Self>> {
+        let (cnc, channel) = (Cnc::with_default_model()?, Channel::new(1)?);
+        let descriptors = ReadDescriptors::new(channel, 1, 30)?;
+        let list = answer(&cnc, &descriptors.into())?;
+        let object = descriptors.decode_reply(&list)?;
+        let object = object.iter().find(|one| one.name() == "example_dword_r");
+        let object = object.ok_or("an object is missing")?;
+        let object = ReadObject::new(object.index_group(), object.index_offset(), object.size())?;
+        let indices = Numbers::from(&[3]);
+        let works: [(_, _, Request<'_>); 5] = [
+            ("read", "Read of 4 bytes", object.into()),
+            (
+                "by-handle",
+                "an element of a variable by its handle",
+                ReadByHandle { channel, handle: Handle(0x200_1234), indices }.into(),
+            ),
+            (
+                "by-name",
+                "an element of a variable by its name",
+                ReadByName::new(channel, "V.E.Testvar[3]")?.into(),
+            ),
+            (
+                "descriptor",
+                "one descriptor of 84 bytes",
+                ReadDescriptors::new(channel, 16, 1)?.into(),
+            ),
+            ("descriptors", "30 descriptors of 84 bytes", descriptors.into()),
+        ];
+        works.iter().map(|(name, title, request)| Self::new(&cnc, name, title, request)).collect()
+    }
+
+    fn new(
+        cnc: &Cnc,
+        name: &'static str,
+        title: &'static str,
+        request: &Request<'_>,
+    ) -> Result<Self> {
+        let expected = answer(cnc, request)?;
+        request.decode_reply(&expected)?;
+        let mut buf = vec![0; request.encoded_len()];
+        let Call { port, service, index_group, index_offset, read_length, data } =
+            request.encode(&mut buf)?;
+        let payload = match service {
+            Service::Read => {
+                ReadRequest { index_group, index_offset, length: read_length }.to_vec()?
+            }
+            Service::ReadWrite => {
+                ReadWriteRequestRef { index_group, index_offset, read_length, data }.to_vec()?
+            }
+            Service::Write => return Err(format!("{name}: nothing is to be changed").into()),
+        };
+        let header = AmsHeader {
+            target: AmsAddr { net_id: NET_ID, port },
+            source: CLIENT,
+            command: service.command(),
+            state_flags: StateFlags::REQUEST,
+            data_length: 0,
+            error: AdsError::NONE,
+            invoke_id: 0,
+        };
+        let (group, offset) = (index_group.get(), index_offset.get());
+        Ok(Self { name, title, group, offset, header, service, payload, expected })
+    }
+
+    /// Bytes of a request.
+    pub(crate) fn request_len(&self) -> usize {
+        FrameRef::HEADERS_LEN + self.payload.len()
+    }
+
+    /// Appends a request.
+    pub(crate) fn request(&self, invoke_id: u32, out: &mut Vec<u8>) -> Result<()> {
+        frame(AmsHeader { invoke_id, ..self.header }, &self.payload, out)
+    }
+
+    /// A right reply, byte by byte.
+    pub(crate) fn reply(&self, invoke_id: u32) -> Result<Vec<u8>> {
+        let (result, data) = (AdsError::NONE, Some(self.expected.as_slice()));
+        let payload = match self.service {
+            Service::Read => ReadReplyRef { result, data }.to_vec()?,
+            _ => ReadWriteReplyRef { result, data }.to_vec()?,
+        };
+        let mut out = Vec::new();
+        frame(self.answering(invoke_id, 0), &payload, &mut out)?;
+        Ok(out)
+    }
+
+    /// Looks at the first frame that has been received: how long it is, if it is the right reply to
+    /// the request with this number; nothing if it is not whole yet.
+    pub(crate) fn check(&self, received: &[u8], invoke_id: u32) -> Result<Option<usize>> {
+        let Some((frame, len)) = FrameRef::split(received, DATA_MAX)? else { return Ok(None) };
+        let (header, payload) = (frame.header(), frame.data());
+        if header != self.answering(invoke_id, u32::try_from(payload.len())?) {
+            return Err(
+                format!("{}: no reply to request {invoke_id}: {header:?}", self.name).into()
+            );
+        }
+        let (result, data) = match self.service {
+            Service::Read => {
+                let reply = ReadReplyRef::decode(payload)?;
+                (reply.result, reply.data)
+            }
+            _ => {
+                let reply = ReadWriteReplyRef::decode(payload)?;
+                (reply.result, reply.data)
+            }
+        };
+        if !result.is_none() || data != Some(self.expected.as_slice()) {
+            return Err(format!("{}: a wrong reply: {result:?}, {data:?}", self.name).into());
+        }
+        Ok(Some(len))
+    }
+
+    const fn answering(&self, invoke_id: u32, data_length: u32) -> AmsHeader {
+        let AmsHeader { target, source, .. } = self.header;
+        AmsHeader {
+            target: source,
+            source: target,
+            state_flags: StateFlags::RESPONSE,
+            data_length,
+            invoke_id,
+            ..self.header
+        }
+    }
+}
+
+/// What the simulated CNC says to it.
+fn answer(cnc: &Cnc, request: &Request<'_>) -> Result<Vec<u8>> {
+    let mut buf = vec![0; request.encoded_len()];
+    let answer = cnc.answer(&request.encode(&mut buf)?);
+    answer.map_err(|error| format!("{request:?}: {error:?}").into())
+}
+
+fn frame(header: AmsHeader, payload: &[u8], out: &mut Vec<u8>) -> Result<()> {
+    let (frame, start) = (FrameRef::new(header, payload)?, out.len());
+    out.resize(start + frame.encoded_len(), 0);
+    frame.encode(&mut out[start..])?;
+    Ok(())
+}
