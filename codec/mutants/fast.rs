@@ -13,6 +13,8 @@ mod containers;
 mod content;
 #[path = "../tests/contradictions.rs"]
 mod contradictions;
+#[path = "../tests/copies.rs"]
+mod copies;
 #[path = "../tests/cp1252.rs"]
 mod cp1252;
 #[path = "../tests/cuts.rs"]
@@ -21,10 +23,16 @@ mod cuts;
 mod dispatch;
 #[path = "../tests/editions.rs"]
 mod editions;
+#[path = "../tests/equality.rs"]
+mod equality;
 #[path = "../tests/frames.rs"]
 mod frames;
 #[path = "../tests/limits.rs"]
 mod limits;
+#[path = "../tests/net_ids.rs"]
+mod net_ids;
+#[path = "../tests/parts.rs"]
+mod parts;
 #[path = "../tests/paths.rs"]
 mod paths;
 #[path = "../tests/samples.rs"]
@@ -35,6 +43,8 @@ mod sequences;
 mod service;
 #[path = "../tests/shown.rs"]
 mod shown;
+#[path = "../tests/shown_errors.rs"]
+mod shown_errors;
 #[path = "../tests/streaming.rs"]
 mod streaming;
 #[path = "../tests/streaming_checker.rs"]

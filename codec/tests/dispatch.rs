@@ -36,6 +36,21 @@ fn calls_reach_their_functions() {
     assert_eq!(reached, Function::ALL.iter().copied().collect());
 }
 
+/// A Write has no room for what it would read, and a Read none for data.
+#[test]
+fn calls_ask_for_what_their_service_has() {
+    for sample in CALLS {
+        let request = sample.call.dispatch().unwrap();
+        let mut buf = [0; 4096];
+        let call = request.encode(&mut buf).unwrap();
+        match call.service {
+            Service::Read => assert!(call.data.is_empty(), "{}", sample.slug),
+            Service::Write => assert_eq!(call.read_length, 0, "{}", sample.slug),
+            Service::ReadWrite => assert_ne!(call.read_length, 0, "{}", sample.slug),
+        }
+    }
+}
+
 fn refusal(change: impl FnOnce(&mut Call<'_>)) -> Refusal {
     let sample = CALLS.iter().find(|sample| sample.slug == "handle-printed").unwrap();
     let mut call = sample.call;
