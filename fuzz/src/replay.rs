@@ -47,7 +47,7 @@ impl Folder {
     ///
     /// # Panics
     /// If one cannot be read.
-    pub fn files(&self) -> impl Iterator<Item = (&Path, Vec<u8>)> {
+    pub fn files(&self) -> impl ExactSizeIterator<Item = (&Path, Vec<u8>)> {
         self.0.iter().map(|path| {
             let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{path:?}: {error}"));
             (&**path, bytes)

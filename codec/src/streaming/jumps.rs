@@ -126,7 +126,8 @@ mod tests {
     /// a text would be read again for nothing.
     #[test]
     fn a_filter_tells_all_places_apart() {
-        let places = || (0..64_u32).flat_map(|high| (0..64).map(move |low| high << 8 | low));
+        let rows = (0..64_u32).step_by(if cfg!(miri) { 21 } else { 1 });
+        let places = || rows.clone().flat_map(|high| (0..64).map(move |low| high << 8 | low));
         for added in [0, 0x3F, 0x3F00, 0x1234, 0x2A15] {
             let mut filter = Filter::new();
             filter.add(added | 0xFFFF_C0C0);

@@ -174,8 +174,9 @@ mod tests {
     /// The first byte from LF to CR is found at each place, whatever ASCII is around it.
     #[test]
     fn ends_are_found_in_a_word() {
-        for around in 1..0x80 {
-            for byte in 1..0x80 {
+        // Miri is slow, and what it looks for does not hang on which byte it is.
+        for around in (1..0x80).step_by(if cfg!(miri) { 63 } else { 1 }) {
+            for byte in (1..0x80).step_by(if cfg!(miri) { 3 } else { 1 }) {
                 for at in 0..WORD {
                     let mut word = [around; WORD];
                     word[at] = byte;
