@@ -11,28 +11,37 @@ use binrw::{BinRead, BinResult, Endian};
 use zerocopy::little_endian::U32;
 use zerocopy::{FromBytes, IntoBytes};
 
-use crate::bytes::to_u32;
+use crate::bytes::{to_len, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
-use crate::text::{CncString, Text};
+use crate::text::{CncString, Text, TextRef};
 
 /// Reads what a view of `stream` has accepted.
 pub(crate) fn read<T>(stream: Stream, accepted: &[u8]) -> Result<T, Error>
 where
     T: for<'a> BinRead<Args<'a> = ()> + ReadEndian,
 {
-    let mut source = Source { bytes: accepted, at: 0 };
-    let value = T::read(&mut source);
-    let used = source.at;
-    // Both cannot happen on accepted bytes; if a declaration were wrong, this says so.
-    let unread = || {
-        let (given, used) = (to_u32(accepted.len()), u32::try_from(used).unwrap_or(u32::MAX));
-        Error::new(ErrorKind::Mismatch, Field::whole(stream), used, used, given)
-    };
-    match value {
-        Ok(value) if usize::try_from(used) == Ok(accepted.len()) => Ok(value),
-        _ => Err(unread()),
+    read_with(stream, accepted, ())
+}
+
+/// As [`read`], with what the view has found out already.
+pub(crate) fn read_with<T, A>(stream: Stream, accepted: &[u8], found: A) -> Result<T, Error>
+where
+    T: for<'a> BinRead<Args<'a> = A> + ReadEndian,
+{
+    let mut source = Source { all: accepted, rest: accepted };
+    match T::read_args(&mut source, found) {
+        Ok(value) if source.rest.is_empty() => Ok(value),
+        _ => Err(unread(stream, &source)),
     }
+}
+
+/// Cannot happen on accepted bytes; if a declaration were wrong, this says so.
+#[cold]
+fn unread(stream: Stream, source: &Source<'_>) -> Error {
+    let (given, left) = (to_u32(source.all.len()), to_u32(source.rest.len()));
+    let used = given.saturating_sub(left);
+    Error::new(ErrorKind::Mismatch, Field::whole(stream), used, used, given)
 }
 
 /// A zerocopy layout as one field of a binrw declaration.
@@ -53,29 +62,24 @@ impl<T: FromBytes + IntoBytes> BinRead for Fixed<T> {
     }
 }
 
-/// `count` numbers in one piece; the view has found them to be there.
+/// `count` numbers; the view has found them to be there.
 #[binrw::parser(reader)]
 pub(crate) fn numbers(count: u32) -> BinResult<Vec<u32>> {
-    let mut numbers = Vec::new();
-    if let Ok(count) = usize::try_from(count) {
-        numbers.reserve_exact(count);
-        for _ in 0..count {
-            let mut number = U32::ZERO;
-            reader.read_exact(number.as_mut_bytes())?;
-            numbers.push(number.get());
-        }
-    }
+    let count = to_len(count);
+    let mut numbers = Vec::with_capacity(count);
+    pieces(reader, count.saturating_mul(size_of::<U32>()), |piece| {
+        let piece = <[U32]>::ref_from_bytes(piece).unwrap_or_default();
+        numbers.extend(piece.iter().map(|number| number.get()));
+    })?;
     Ok(numbers)
 }
 
 /// Records to the end of the stream; the view has found the last one whole.
-#[binrw::parser(reader, endian)]
-pub(crate) fn records<T: FromBytes + IntoBytes>() -> BinResult<Vec<Fixed<T>>> {
+#[binrw::parser(reader)]
+pub(crate) fn records<T: Clone + FromBytes + IntoBytes>() -> BinResult<Vec<T>> {
     let count = left(reader)?.checked_div(size_of::<T>()).unwrap_or(0);
-    let mut records = Vec::with_capacity(count);
-    for _ in 0..count {
-        records.push(Fixed::read_options(reader, endian, ())?);
-    }
+    let mut records = alloc::vec![T::new_zeroed(); count];
+    reader.read_exact(records.as_mut_bytes())?;
     Ok(records)
 }
 
@@ -89,48 +93,63 @@ pub(crate) fn counted_unless_end() -> BinResult<Option<Vec<u8>>> {
     rest(reader, endian, ()).map(Some)
 }
 
-/// Text to the end of the stream; the view has found its end to be allowed.
-#[binrw::parser(reader, endian)]
-pub(crate) fn text() -> BinResult<Text> {
-    let text = before_nul(reader)?;
-    let ended = reader.read(&mut [0])? > 0;
-    let tail = if ended { Some(rest(reader, endian, ())?) } else { None };
-    Ok(Text { text, tail })
+/// How many bytes a view has found before a text's NUL and, if there is one, behind it.
+#[derive(Clone, Copy)]
+pub(crate) struct TextLen {
+    text: usize,
+    tail: Option<usize>,
 }
 
-/// Text to the NUL that the view has found, and the NUL.
+impl From<TextRef<'_>> for TextLen {
+    fn from(field: TextRef<'_>) -> Self {
+        Self { text: field.text().len(), tail: field.tail().map(<[u8]>::len) }
+    }
+}
+
+/// Text, and its NUL and what follows if there is one.
 #[binrw::parser(reader)]
-pub(crate) fn leading_text() -> BinResult<CncString> {
-    let text = before_nul(reader)?;
+pub(crate) fn text(len: TextLen) -> BinResult<Text> {
+    let text = CncString::without_nul(bytes(reader, len.text)?);
+    let Some(tail) = len.tail else {
+        return Ok(Text { text, tail: None });
+    };
+    reader.read_exact(&mut [0])?;
+    Ok(Text { text, tail: Some(bytes(reader, tail)?) })
+}
+
+/// Text of so many bytes, and its NUL.
+#[binrw::parser(reader)]
+pub(crate) fn leading_text(len: usize) -> BinResult<CncString> {
+    let text = CncString::without_nul(bytes(reader, len)?);
     reader.read_exact(&mut [0])?;
     Ok(text)
-}
-
-/// Text to the next NUL or to the end; looked for first, so that the text is allocated once.
-fn before_nul<R: Read + Seek>(reader: &mut R) -> BinResult<CncString> {
-    let start = reader.stream_position()?;
-    let (mut len, mut window) = (0_usize, [0; 32]);
-    loop {
-        let read = reader.read(&mut window)?;
-        let part = window.get(..read).unwrap_or_default();
-        let text = part.iter().take_while(|&&byte| byte != 0).count();
-        len = len.saturating_add(text);
-        if text < part.len() || part.is_empty() {
-            break;
-        }
-    }
-    reader.seek(SeekFrom::Start(start))?;
-    let mut text = alloc::vec![0; len];
-    reader.read_exact(&mut text)?;
-    Ok(CncString::without_nul(text))
 }
 
 /// All bytes that are left.
 #[binrw::parser(reader)]
 pub(crate) fn rest() -> BinResult<Vec<u8>> {
-    let mut bytes = alloc::vec![0; left(reader)?];
-    reader.read_exact(&mut bytes)?;
+    let mut bytes = Vec::new();
+    reader.read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+fn bytes(reader: &mut impl Read, len: usize) -> BinResult<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(len);
+    pieces(reader, len, |piece| bytes.extend_from_slice(piece))?;
+    Ok(bytes)
+}
+
+/// So many bytes, piece by piece: a reader only fills what has been filled before, and to do that
+/// with all of a vector costs more.
+fn pieces(reader: &mut impl Read, len: usize, mut each: impl FnMut(&[u8])) -> BinResult<()> {
+    let mut piece = [0; 64];
+    let mut left = len;
+    while let Some(piece) = piece.get_mut(..left.min(64)).filter(|piece| !piece.is_empty()) {
+        reader.read_exact(piece)?;
+        each(piece);
+        left = left.saturating_sub(piece.len());
+    }
+    Ok(())
 }
 
 /// Bytes that are left, which is what may be allocated.
@@ -143,41 +162,59 @@ fn left(reader: &mut impl Seek) -> BinResult<usize> {
 
 /// Reads from a slice. binrw's own cursor without std is several times slower.
 struct Source<'a> {
-    bytes: &'a [u8],
-    at: u64,
+    all: &'a [u8],
+    rest: &'a [u8],
 }
 
 impl Source<'_> {
-    fn rest(&self) -> &[u8] {
-        usize::try_from(self.at).ok().and_then(|at| self.bytes.get(at..)).unwrap_or_default()
+    #[inline]
+    fn at(&self) -> u64 {
+        length(self.all).saturating_sub(length(self.rest))
     }
+}
+
+fn length(bytes: &[u8]) -> u64 {
+    u64::try_from(bytes.len()).unwrap_or(u64::MAX)
 }
 
 impl Read for Source<'_> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
-        let rest = self.rest();
-        let len = rest.len().min(out.len());
-        if let (Some(out), Some(rest)) = (out.get_mut(..len), rest.get(..len)) {
-            out.copy_from_slice(rest);
-        }
-        self.at = self.at.saturating_add(u64::try_from(len).unwrap_or(0));
+        let len = self.rest.len().min(out.len());
+        self.read_exact(out.get_mut(..len).unwrap_or_default())?;
         Ok(len)
+    }
+
+    fn read_exact(&mut self, out: &mut [u8]) -> io::Result<()> {
+        let Some((head, rest)) = self.rest.split_at_checked(out.len()) else {
+            return Err(io::ErrorKind::UnexpectedEof.into());
+        };
+        out.copy_from_slice(head);
+        self.rest = rest;
+        Ok(())
+    }
+
+    fn read_to_end(&mut self, out: &mut Vec<u8>) -> io::Result<usize> {
+        let rest = core::mem::take(&mut self.rest);
+        out.reserve_exact(rest.len());
+        out.extend_from_slice(rest);
+        Ok(rest.len())
     }
 }
 
 impl Seek for Source<'_> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        let len = u64::try_from(self.bytes.len()).unwrap_or(u64::MAX);
-        self.at = position(to, self.at, len)?;
-        Ok(self.at)
+        let position = match to {
+            SeekFrom::Start(start) => Some(start),
+            SeekFrom::Current(by) => self.at().checked_add_signed(by),
+            SeekFrom::End(by) => length(self.all).checked_add_signed(by),
+        };
+        let at = position.ok_or(io::ErrorKind::InvalidInput)?;
+        // Behind the end there is nothing.
+        self.rest = usize::try_from(at).ok().and_then(|at| self.all.get(at..)).unwrap_or_default();
+        Ok(at)
     }
-}
 
-fn position(to: SeekFrom, at: u64, len: u64) -> io::Result<u64> {
-    let position = match to {
-        SeekFrom::Start(start) => Some(start),
-        SeekFrom::Current(by) => at.checked_add_signed(by),
-        SeekFrom::End(by) => len.checked_add_signed(by),
-    };
-    position.ok_or_else(|| io::ErrorKind::InvalidInput.into())
+    fn stream_position(&mut self) -> io::Result<u64> {
+        Ok(self.at())
+    }
 }

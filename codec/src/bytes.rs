@@ -4,7 +4,8 @@ use zerocopy::little_endian::U32;
 use zerocopy::{FromBytes, Immutable, KnownLayout, Unaligned};
 
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Size, Stream};
+use crate::layout::{Field, Stream};
+use crate::text::{CncStr, TextRef};
 
 /// A length as errors carry it.
 pub(crate) fn to_u32(len: usize) -> u32 {
@@ -24,17 +25,18 @@ pub(crate) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// Begins to read `bytes`, which must not be longer than the stream may be.
+    #[inline]
     pub(crate) fn new(stream: Stream, bytes: &'a [u8]) -> Result<Self, Error> {
         let max = stream.layout().max;
-        let given = to_u32(bytes.len());
         // The end of a stream of fixed length says more than its limit.
-        if given > max && !stream.layout().ends_itself() {
-            return Err(too_long(Field::whole(stream), max, given));
+        if bytes.len() > to_len(max) && !stream.layout().ends_itself() {
+            return Err(too_long(Field::whole(stream), max, to_u32(bytes.len())));
         }
         Ok(Self { stream, bytes, at: 0 })
     }
 
     /// The fixed fields `T` that are all of `stream`, whose end they tell.
+    #[inline]
     pub(crate) fn all<T>(stream: Stream, bytes: &'a [u8]) -> Result<&'a T, Error>
     where
         T: FromBytes + KnownLayout + Immutable + Unaligned,
@@ -65,24 +67,33 @@ impl<'a> Reader<'a> {
         Self::new(field.stream(), bytes)?.rest(field, min, max)
     }
 
+    #[inline]
     pub(crate) fn at(&self) -> u32 {
         self.at
     }
 
+    #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.bytes.is_empty()
     }
 
+    #[inline]
+    pub(crate) fn as_bytes(&self) -> &'a [u8] {
+        self.bytes
+    }
+
+    #[inline]
     fn left(&self) -> u32 {
         to_u32(self.bytes.len())
     }
 
-    #[cold]
+    #[inline]
     fn error(&self, kind: ErrorKind, field: Field, expected: u32) -> Error {
         Error::new(kind, field, self.at, expected, self.left())
     }
 
     /// The next `size` bytes, all of which belong to `field`.
+    #[inline]
     pub(crate) fn take(&mut self, field: Field, size: u32) -> Result<&'a [u8], Error> {
         let Some((head, rest)) = self.bytes.split_at_checked(to_len(size)) else {
             return Err(self.error(ErrorKind::Truncated, field, size));
@@ -93,6 +104,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The fixed fields `T` at the start of a record.
+    #[inline]
     pub(crate) fn fixed<T>(&mut self) -> Result<&'a T, Error>
     where
         T: FromBytes + KnownLayout + Immutable + Unaligned,
@@ -103,10 +115,11 @@ impl<'a> Reader<'a> {
                 self.at = self.at.saturating_add(to_u32(size_of::<T>()));
                 Ok(fixed)
             }
-            Err(_) => Err(self.cut()),
+            Err(_) => Err(cut(self.stream, self.at, self.bytes.len())),
         }
     }
 
+    #[inline]
     pub(crate) fn u32(&mut self, field: Field) -> Result<u32, Error> {
         let Some((le, rest)) = self.bytes.split_first_chunk() else {
             return Err(self.error(ErrorKind::Truncated, field, 4));
@@ -117,6 +130,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `count` items of `each` bytes; the count stands in the field `counter`, right before.
+    #[inline]
     pub(crate) fn items(
         &mut self,
         counter: Field,
@@ -134,6 +148,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `count` numbers, as [`items`](Self::items).
+    #[inline]
     pub(crate) fn numbers(
         &mut self,
         counter: Field,
@@ -146,53 +161,79 @@ impl<'a> Reader<'a> {
     }
 
     /// All that is left: text, the NUL that must end it, NULs that may pad it.
-    pub(crate) fn terminated(&mut self, field: Field, max: u32) -> Result<&'a [u8], Error> {
-        let left = self.left();
-        let window = self.bytes.get(..to_len(max)).unwrap_or(self.bytes);
-        let Some((text, tail)) = split_nul(window) else {
-            return Err(self.error(ErrorKind::MissingNul, field, max));
-        };
-        let padding = tail.iter().take_while(|&&byte| byte == 0).count();
-        let used = to_u32(text.len().saturating_add(padding).saturating_add(1));
-        if used != left {
-            let end = self.at.saturating_add(used);
-            let given = self.at.saturating_add(left);
-            let whole = Field::whole(self.stream);
-            return Err(Error::new(ErrorKind::Trailing, whole, end, end, given));
-        }
-        self.take(field, left)
-    }
-
-    /// Text up to and including the NUL that must end it.
-    pub(crate) fn leading(&mut self, field: Field, max: u32) -> Result<&'a [u8], Error> {
-        let window = self.bytes.get(..to_len(max)).unwrap_or(self.bytes);
-        match split_nul(window) {
-            Some((text, _)) => self.take(field, to_u32(text.len()).saturating_add(1)),
+    #[inline]
+    pub(crate) fn terminated(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
+        match split_nul(self.window(max)) {
+            Some((text, tail)) => self.padded(text, tail),
             None => Err(self.error(ErrorKind::MissingNul, field, max)),
         }
     }
 
+    /// Text up to and including the NUL that must end it.
+    #[inline]
+    pub(crate) fn leading(&mut self, field: Field, max: u32) -> Result<CncStr<'a>, Error> {
+        let Some((text, _)) = split_nul(self.window(max)) else {
+            return Err(self.error(ErrorKind::MissingNul, field, max));
+        };
+        self.take(field, to_u32(text.len()).saturating_add(1))?;
+        Ok(CncStr::without_nul(text))
+    }
+
+    /// At most `max` bytes of what is left.
+    #[inline]
+    fn window(&self, max: u32) -> &'a [u8] {
+        self.bytes.get(..to_len(max)).unwrap_or(self.bytes)
+    }
+
+    /// Text and its NUL, if only NULs follow to the end.
+    #[inline]
+    fn padded(&mut self, text: &'a [u8], tail: &'a [u8]) -> Result<TextRef<'a>, Error> {
+        let padding = tail.iter().position(|&byte| byte != 0).unwrap_or(tail.len());
+        let used = text.len().saturating_add(padding).saturating_add(1);
+        if used != self.bytes.len() {
+            return Err(self.trailing(to_u32(used)));
+        }
+        self.take_all();
+        Ok(TextRef::with_tail(CncStr::without_nul(text), Some(tail)))
+    }
+
+    /// All that is left.
+    #[inline]
+    fn take_all(&mut self) -> &'a [u8] {
+        self.at = self.at.saturating_add(self.left());
+        core::mem::take(&mut self.bytes)
+    }
+
     /// All that is left, between `min` and `max` bytes.
+    #[inline]
     pub(crate) fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<&'a [u8], Error> {
-        let left = self.left();
-        if left < min {
+        if self.bytes.len() < to_len(min) {
             return Err(self.error(ErrorKind::Truncated, field, min));
         }
-        if left > max {
+        if self.bytes.len() > to_len(max) {
             return Err(self.error(ErrorKind::TooLong, field, max));
         }
-        self.take(field, left)
+        Ok(self.take_all())
+    }
+
+    /// As [`rest`](Self::rest): text, and its NUL and what follows if there is one.
+    #[inline]
+    pub(crate) fn open(&mut self, field: Field, min: u32, max: u32) -> Result<TextRef<'a>, Error> {
+        self.rest(field, min, max).map(TextRef::split)
     }
 
     /// All that is left, one byte at least: text, and NULs at its end if any.
-    pub(crate) fn may_terminate(&mut self, field: Field, max: u32) -> Result<&'a [u8], Error> {
-        if split_nul(self.bytes).is_some() {
-            return self.terminated(field, max);
+    #[inline]
+    pub(crate) fn may_terminate(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
+        if let Some((text, tail)) = split_nul(self.window(max)) {
+            return self.padded(text, tail);
         }
-        self.rest(field, 1, max)
+        let text = self.rest(field, 1, max)?;
+        Ok(TextRef::with_tail(CncStr::without_nul(text), None))
     }
 
     /// Four bytes that are not all 0.
+    #[inline]
     pub(crate) fn number_from_one(&mut self, field: Field) -> Result<&'a [u8], Error> {
         let at = self.at;
         let bytes = self.take(field, 4)?;
@@ -203,6 +244,7 @@ impl<'a> Reader<'a> {
     }
 
     /// All that is left: one, two or four bytes.
+    #[inline]
     pub(crate) fn one_two_or_four(&mut self, field: Field) -> Result<&'a [u8], Error> {
         match self.left() {
             width @ (1 | 2) => self.take(field, width),
@@ -211,38 +253,36 @@ impl<'a> Reader<'a> {
     }
 
     /// Nothing may be left.
+    #[inline]
     pub(crate) fn finish(self) -> Result<(), Error> {
-        if self.bytes.is_empty() {
-            return Ok(());
+        match self.bytes {
+            [] => Ok(()),
+            _ => Err(self.trailing(0)),
         }
-        let given = self.at.saturating_add(self.left());
-        let whole = Field::whole(self.stream);
-        Err(Error::new(ErrorKind::Trailing, whole, self.at, self.at, given))
     }
 
-    /// The field in which the fixed part of a record is cut.
-    #[cold]
-    fn cut(&self) -> Error {
-        let mut before = 0_u32;
-        for field in self.stream.fields() {
-            let size = match field.spec().map(|spec| spec.size) {
-                Some(
-                    Size::Fixed(size)
-                    | Size::FixedUnlessError(size)
-                    | Size::FixedOrNothing(size)
-                    | Size::Padded(size),
-                ) => size,
-                _ => break,
-            };
-            let left = self.left().saturating_sub(before);
-            if left < size {
-                let at = self.at.saturating_add(before);
-                return Error::new(ErrorKind::Truncated, field, at, size, left);
-            }
-            before = before.saturating_add(size);
-        }
-        self.error(ErrorKind::Truncated, Field::whole(self.stream), before)
+    /// More follows than the next `used` bytes.
+    #[inline]
+    fn trailing(&self, used: u32) -> Error {
+        let end = self.at.saturating_add(used);
+        let given = self.at.saturating_add(self.left());
+        Error::new(ErrorKind::Trailing, Field::whole(self.stream), end, end, given)
     }
+}
+
+/// The field in which the fixed part of a record at `at` is cut: the last that begins in time.
+// Not a method: a reader whose address is known to nobody stays in registers.
+#[cold]
+fn cut(stream: Stream, at: u32, left: usize) -> Error {
+    let left = to_u32(left);
+    let rows = stream.layout().fields;
+    let begun = rows.iter().take_while(|row| row.offset <= left).count();
+    let Some((index, row)) = begun.checked_sub(1).and_then(|at| Some((at, rows.get(at)?))) else {
+        return Error::new(ErrorKind::Truncated, Field::whole(stream), at, 0, left);
+    };
+    let field = Field::new(stream, u8::try_from(index).unwrap_or(u8::MAX));
+    let (at, found) = (at.saturating_add(row.offset), left.saturating_sub(row.offset));
+    Error::new(ErrorKind::Truncated, field, at, row.size.fixed(), found)
 }
 
 /// The text before the first NUL and the bytes behind it.
@@ -252,6 +292,7 @@ pub(crate) fn split_nul(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     Some((text, rest.get(1..)?))
 }
 
+#[cold]
 fn too_long(field: Field, max: u32, given: u32) -> Error {
     Error::new(ErrorKind::TooLong, field, max, max, given)
 }
@@ -263,17 +304,77 @@ pub(crate) struct Writer<'b> {
 
 impl<'b> Writer<'b> {
     /// Takes exactly `len` bytes of `buf`, or nothing at all.
+    #[inline]
     pub(crate) fn run(
         stream: Stream,
         len: usize,
         buf: &'b mut [u8],
         write: impl FnOnce(&mut Writer<'_>),
     ) -> Result<&'b [u8], Error> {
-        let layout = stream.layout();
-        if to_u32(len) > layout.max {
-            return Err(too_long(Field::whole(stream), layout.max, to_u32(len)));
+        let room = Self::room(stream, len, buf)?;
+        write(&mut Writer::new(room));
+        Ok(room)
+    }
+
+    /// Exactly `len` bytes of `buf`, which a stream may have.
+    #[inline]
+    pub(crate) fn room(
+        stream: Stream,
+        len: usize,
+        buf: &'b mut [u8],
+    ) -> Result<&'b mut [u8], Error> {
+        let max = stream.layout().max;
+        if len > to_len(max) {
+            return Err(too_long(Field::whole(stream), max, to_u32(len)));
         }
-        Self::fill(stream, len, buf, write)
+        Self::part(stream, len, buf)
+    }
+
+    #[inline]
+    fn part(stream: Stream, len: usize, buf: &'b mut [u8]) -> Result<&'b mut [u8], Error> {
+        let given = buf.len();
+        buf.get_mut(..len).ok_or_else(|| {
+            let (whole, given) = (Field::whole(stream), to_u32(given));
+            Error::new(ErrorKind::BufferTooSmall, whole, 0, to_u32(len), given)
+        })
+    }
+
+    /// Writes into this.
+    #[inline]
+    pub(crate) fn new(rest: &'b mut [u8]) -> Self {
+        Self { rest }
+    }
+
+    /// As [`run`](Self::run), for `behind` bytes behind a front.
+    #[inline]
+    pub(crate) fn run_behind(
+        stream: Stream,
+        front: usize,
+        behind: usize,
+        buf: &'b mut [u8],
+        write: impl FnOnce(&mut Writer<'_>),
+    ) -> Result<&'b [u8], Error> {
+        let room = Self::room_behind(stream, front, behind, buf)?;
+        write(&mut Writer::new(room));
+        Ok(room)
+    }
+
+    /// As [`room`](Self::room), for `behind` bytes behind a front. No sum can overflow then, which
+    /// the compiler sees, so that writing needs no further checks.
+    #[inline]
+    pub(crate) fn room_behind(
+        stream: Stream,
+        front: usize,
+        behind: usize,
+        buf: &'b mut [u8],
+    ) -> Result<&'b mut [u8], Error> {
+        let max = stream.layout().max;
+        if to_len(max).checked_sub(front).is_none_or(|most| behind > most) {
+            let len = to_u32(front.saturating_add(behind));
+            return Err(too_long(Field::whole(stream), max, len));
+        }
+        // Never wraps: the sum is at most `max`.
+        Self::part(stream, front.wrapping_add(behind), buf)
     }
 
     /// Writes these bytes, which are all of the stream.
@@ -283,21 +384,31 @@ impl<'b> Writer<'b> {
     }
 
     /// As [`run`](Self::run), for more than the stream that errors are told of.
+    #[inline]
     pub(crate) fn fill(
         stream: Stream,
         len: usize,
         buf: &'b mut [u8],
         write: impl FnOnce(&mut Writer<'_>),
     ) -> Result<&'b [u8], Error> {
-        let given = to_u32(buf.len());
-        let Some(out) = buf.get_mut(..len) else {
-            let whole = Field::whole(stream);
-            return Err(Error::new(ErrorKind::BufferTooSmall, whole, 0, to_u32(len), given));
-        };
-        write(&mut Writer { rest: &mut *out });
-        Ok(out)
+        let room = Self::part(stream, len, buf)?;
+        write(&mut Writer::new(room));
+        Ok(room)
     }
 
+    /// The next `len` bytes to write; none if there were fewer, which cannot be.
+    #[inline]
+    pub(crate) fn next(&mut self, len: usize) -> &'b mut [u8] {
+        match core::mem::take(&mut self.rest).split_at_mut_checked(len) {
+            Some((head, rest)) => {
+                self.rest = rest;
+                head
+            }
+            None => &mut [],
+        }
+    }
+
+    #[inline]
     pub(crate) fn put(&mut self, bytes: &[u8]) {
         let rest = core::mem::take(&mut self.rest);
         if let Some((head, tail)) = rest.split_at_mut_checked(bytes.len()) {
@@ -306,7 +417,17 @@ impl<'b> Writer<'b> {
         }
     }
 
+    #[inline]
     pub(crate) fn u32(&mut self, number: u32) {
         self.put(&number.to_le_bytes());
+    }
+
+    /// A NUL and what follows it, which mostly is nothing.
+    #[inline]
+    pub(crate) fn nul_and(&mut self, tail: &[u8]) {
+        self.put(&[0]);
+        if !tail.is_empty() {
+            self.put(tail);
+        }
     }
 }

@@ -19,6 +19,7 @@ macro_rules! bytes_stream {
         impl<'a> $crate::stream::Decode<'a> for $view<'a> {
             const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
+            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
                 let max = $crate::bytes::to_u32($max);
                 $crate::bytes::Reader::bytes($field, $min, max, bytes).map(|bytes| Self { bytes })
@@ -26,10 +27,12 @@ macro_rules! bytes_stream {
         }
 
         impl $crate::stream::Encode for $view<'_> {
+            #[inline]
             fn encoded_len(&self) -> usize {
                 self.bytes.len()
             }
 
+            #[inline]
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
                 use $crate::stream::Decode as _;
                 Self::decode(self.bytes)?;
@@ -57,6 +60,7 @@ macro_rules! bytes_stream {
             impl<'a> $crate::stream::Decode<'a> for $owned {
                 const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
+                #[inline]
                 fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
                     $view::decode(bytes)?;
                     let Wire { bytes } = $crate::bridge::read(Self::STREAM, bytes)?;
@@ -66,6 +70,7 @@ macro_rules! bytes_stream {
 
             impl $owned {
                 /// The bytes, borrowed.
+                #[inline]
                 pub fn as_ref(&self) -> $view<'_> {
                     $view { bytes: &self.bytes }
                 }

@@ -1,5 +1,7 @@
 //! Frames on a TCP stream: AMS/TCP header, AMS header, data.
 
+use zerocopy::IntoBytes as _;
+
 use super::{AmsHeader, AmsTcpHeader};
 use crate::bytes::{Writer, to_len, to_u32};
 use crate::error::{Error, ErrorKind};
@@ -98,18 +100,20 @@ impl<'a> FrameRef<'a> {
 }
 
 impl Encode for FrameRef<'_> {
+    #[inline]
     fn encoded_len(&self) -> usize {
         Self::HEADERS_LEN.saturating_add(self.data.len())
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let (mut tcp, mut ams) = ([0; AMS_TCP_HEADER_LEN], [0; AMS_HEADER_LEN]);
-        let length = self.header.data_length.saturating_add(to_u32(AMS_HEADER_LEN));
-        AmsTcpHeader { reserved: 0, length }.encode(&mut tcp)?;
-        self.header.encode(&mut ams)?;
+        // No frame has more, but the compiler sees here that no sum of lengths overflows.
+        let data_length = to_u32(self.data.len().min(DATA_MAX));
+        check(data_length, u32::MAX)?;
+        let length = data_length.saturating_add(to_u32(AMS_HEADER_LEN));
         Writer::fill(Stream::AmsTcpHeader, self.encoded_len(), buf, |out| {
-            out.put(&tcp);
-            out.put(&ams);
+            out.put(AmsTcpHeader { reserved: 0, length }.layout().as_bytes());
+            out.put(self.header.layout().as_bytes());
             out.put(self.data);
         })
     }

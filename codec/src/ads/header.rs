@@ -35,7 +35,7 @@ pub struct AmsTcpHeader {
 
 #[derive(FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
 #[repr(C)]
-struct TcpLayout {
+pub(super) struct TcpLayout {
     reserved: U16,
     length: U32,
 }
@@ -45,6 +45,7 @@ const _: () = assert!(size_of::<TcpLayout>() == AMS_TCP_HEADER_LEN);
 impl<'a> Decode<'a> for AmsTcpHeader {
     const STREAM: Stream = Stream::AmsTcpHeader;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let fixed: &TcpLayout = Reader::all(Self::STREAM, bytes)?;
         Ok(Self { reserved: fixed.reserved.get(), length: fixed.length.get() })
@@ -52,13 +53,20 @@ impl<'a> Decode<'a> for AmsTcpHeader {
 }
 
 impl Encode for AmsTcpHeader {
+    #[inline]
     fn encoded_len(&self) -> usize {
         AMS_TCP_HEADER_LEN
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let (reserved, length) = (self.reserved.into(), self.length.into());
-        Writer::copy(Self::STREAM, TcpLayout { reserved, length }.as_bytes(), buf)
+        Writer::copy(Self::STREAM, self.layout().as_bytes(), buf)
+    }
+}
+
+impl AmsTcpHeader {
+    pub(super) fn layout(&self) -> TcpLayout {
+        TcpLayout { reserved: self.reserved.into(), length: self.length.into() }
     }
 }
 
@@ -224,7 +232,7 @@ pub struct AmsHeader {
 
 #[derive(FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
 #[repr(C)]
-struct HeaderLayout {
+pub(super) struct HeaderLayout {
     target_net_id: [u8; 6],
     target_port: U16,
     source_net_id: [u8; 6],
@@ -241,6 +249,7 @@ const _: () = assert!(size_of::<HeaderLayout>() == AMS_HEADER_LEN);
 impl<'a> Decode<'a> for AmsHeader {
     const STREAM: Stream = Stream::AmsHeader;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let fixed: &HeaderLayout = Reader::all(Self::STREAM, bytes)?;
         let end =
@@ -258,12 +267,20 @@ impl<'a> Decode<'a> for AmsHeader {
 }
 
 impl Encode for AmsHeader {
+    #[inline]
     fn encoded_len(&self) -> usize {
         AMS_HEADER_LEN
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let layout = HeaderLayout {
+        Writer::copy(Self::STREAM, self.layout().as_bytes(), buf)
+    }
+}
+
+impl AmsHeader {
+    pub(super) fn layout(&self) -> HeaderLayout {
+        HeaderLayout {
             target_net_id: self.target.net_id.0,
             target_port: self.target.port.0.into(),
             source_net_id: self.source.net_id.0,
@@ -273,7 +290,6 @@ impl Encode for AmsHeader {
             data_length: self.data_length.into(),
             error: self.error.0.into(),
             invoke_id: self.invoke_id.into(),
-        };
-        Writer::copy(Self::STREAM, layout.as_bytes(), buf)
+        }
     }
 }

@@ -42,6 +42,7 @@ pub struct ReadRequest {
 impl<'a> Decode<'a> for ReadRequest {
     const STREAM: Stream = Stream::ReadRequest;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let [group, offset, length]: &[U32; 3] = Reader::all(Self::STREAM, bytes)?;
         Ok(Self {
@@ -53,10 +54,12 @@ impl<'a> Decode<'a> for ReadRequest {
 }
 
 impl Encode for ReadRequest {
+    #[inline]
     fn encoded_len(&self) -> usize {
         12
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let numbers = [self.index_group.get(), self.index_offset.get(), self.length];
         Writer::copy(Self::STREAM, numbers.map(U32::new).as_bytes(), buf)
@@ -87,6 +90,7 @@ pub struct WriteReply {
 impl<'a> Decode<'a> for WriteReply {
     const STREAM: Stream = Stream::WriteReply;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let result = Reader::number(field::write_reply::RESULT, bytes)?;
         Ok(Self { result: AdsError(result) })
@@ -94,10 +98,12 @@ impl<'a> Decode<'a> for WriteReply {
 }
 
 impl Encode for WriteReply {
+    #[inline]
     fn encoded_len(&self) -> usize {
         4
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::copy(Self::STREAM, &self.result.0.to_le_bytes(), buf)
     }
@@ -131,6 +137,7 @@ macro_rules! request_with_data {
         impl<'a> Decode<'a> for $ref<'a> {
             const STREAM: Stream = Stream::$stream;
 
+            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
                 let mut input = Reader::new(Self::STREAM, bytes)?;
                 let numbers: &[U32; $count] = input.fixed()?;
@@ -147,12 +154,15 @@ macro_rules! request_with_data {
         }
 
         impl Encode for $ref<'_> {
+            #[inline]
             fn encoded_len(&self) -> usize {
                 size_of::<[U32; $count]>().saturating_add(self.data.len())
             }
 
+            #[inline]
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-                Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
+                let front = size_of::<[U32; $count]>();
+                Writer::run_behind(Self::STREAM, front, self.data.len(), buf, |out| {
                     let length = to_u32(self.data.len());
                     let (group, offset) = (self.index_group.get(), self.index_offset.get());
                     let numbers = [group, offset, $( self.$extra, )? length];
@@ -192,6 +202,7 @@ macro_rules! request_with_data {
         impl<'a> Decode<'a> for $owned {
             const STREAM: Stream = Stream::$stream;
 
+            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
                 $ref::decode(bytes)?;
                 let wire: $wire = bridge::read(Self::STREAM, bytes)?;
@@ -207,6 +218,7 @@ macro_rules! request_with_data {
         #[cfg(feature = "alloc")]
         impl $owned {
             /// The request, borrowed.
+            #[inline]
             pub fn as_ref(&self) -> $ref<'_> {
                 $ref {
                     index_group: self.index_group,
@@ -253,6 +265,7 @@ macro_rules! reply_with_data {
         impl<'a> Decode<'a> for $ref<'a> {
             const STREAM: Stream = Stream::$stream;
 
+            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
                 let mut input = Reader::new(Self::STREAM, bytes)?;
                 let result = AdsError(input.u32(field::$fields::RESULT)?);
@@ -267,27 +280,26 @@ macro_rules! reply_with_data {
         }
 
         impl Encode for $ref<'_> {
+            #[inline]
             fn encoded_len(&self) -> usize {
                 self.data.map_or(4, |data| data.len().saturating_add(8))
             }
 
+            #[inline]
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-                // Only an error may do without; success without data has none to give.
-                if self.data.is_none() && self.result.is_none() {
-                    return Err(Error::new(
-                        crate::error::ErrorKind::Truncated,
-                        field::$fields::LENGTH,
-                        4,
-                        4,
-                        0,
-                    ));
-                }
-                Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-                    out.u32(self.result.0);
-                    if let Some(data) = self.data {
-                        out.u32(to_u32(data.len()));
-                        out.put(data);
+                let Some(data) = self.data else {
+                    // Only an error may do without; success without data has none to give.
+                    if self.result.is_none() {
+                        let (kind, field) =
+                            (crate::error::ErrorKind::Truncated, field::$fields::LENGTH);
+                        return Err(Error::new(kind, field, 4, 4, 0));
                     }
+                    return Writer::run(Self::STREAM, 4, buf, |out| out.u32(self.result.0));
+                };
+                Writer::run_behind(Self::STREAM, 8, data.len(), buf, |out| {
+                    out.u32(self.result.0);
+                    out.u32(to_u32(data.len()));
+                    out.put(data);
                 })
             }
         }
@@ -315,6 +327,7 @@ macro_rules! reply_with_data {
         impl<'a> Decode<'a> for $owned {
             const STREAM: Stream = Stream::$stream;
 
+            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
                 $ref::decode(bytes)?;
                 let $wire { result, data } = bridge::read(Self::STREAM, bytes)?;
@@ -325,6 +338,7 @@ macro_rules! reply_with_data {
         #[cfg(feature = "alloc")]
         impl $owned {
             /// The reply, borrowed.
+            #[inline]
             pub fn as_ref(&self) -> $ref<'_> {
                 $ref { result: self.result, data: self.data.as_deref() }
             }

@@ -40,16 +40,19 @@ pub struct DescriptorsRef<'a>(&'a [DescriptorLayout]);
 
 impl<'a> DescriptorsRef<'a> {
     /// How many.
+    #[inline]
     pub const fn len(&self) -> usize {
         self.0.len()
     }
 
     /// Whether there is none; never so after decoding.
+    #[inline]
     pub const fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// The descriptor at this place, from 0.
+    #[inline]
     pub fn get(&self, place: usize) -> Option<DescriptorRef<'a>> {
         self.0.get(place).map(DescriptorRef)
     }
@@ -61,6 +64,7 @@ impl<'a> DescriptorsRef<'a> {
     }
 
     /// All in their order.
+    #[inline]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = DescriptorRef<'a>> + use<'a> {
         self.0.iter().map(DescriptorRef)
     }
@@ -69,6 +73,7 @@ impl<'a> DescriptorsRef<'a> {
 impl<'a> Decode<'a> for DescriptorsRef<'a> {
     const STREAM: Stream = Stream::ObjectDescriptors;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let count = bytes.len() / DESCRIPTOR_LEN;
@@ -85,10 +90,12 @@ impl<'a> Decode<'a> for DescriptorsRef<'a> {
 }
 
 impl Encode for DescriptorsRef<'_> {
+    #[inline]
     fn encoded_len(&self) -> usize {
         self.0.as_bytes().len()
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         if self.is_empty() {
             // No descriptor is no stream: nobody would decode it.
@@ -112,7 +119,7 @@ mod owned {
     use alloc::vec::Vec;
 
     use super::*;
-    use crate::bridge::{self, Fixed};
+    use crate::bridge;
     use crate::com::Descriptor;
 
     /// [`DescriptorsRef`], owned.
@@ -133,21 +140,23 @@ mod owned {
     #[br(little)]
     struct Wire {
         #[br(parse_with = bridge::records)]
-        records: Vec<Fixed<DescriptorLayout>>,
+        records: Vec<DescriptorLayout>,
     }
 
     impl<'a> Decode<'a> for Descriptors {
         const STREAM: Stream = Stream::ObjectDescriptors;
 
+        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             DescriptorsRef::decode(bytes)?;
             let Wire { records } = bridge::read(Self::STREAM, bytes)?;
-            Ok(Self(records.into_iter().map(|Fixed(layout)| layout).collect()))
+            Ok(Self(records))
         }
     }
 
     impl Descriptors {
         /// The descriptors, borrowed.
+        #[inline]
         pub fn as_ref(&self) -> DescriptorsRef<'_> {
             DescriptorsRef(&self.0)
         }

@@ -26,7 +26,7 @@ crate::text::text_stream! {
         /// Name of the parameter.
         name: dynamic_name::NAME
     }
-    read rest(1, to_u32(DYNAMIC_NAME_MAX)),
+    read open(1, to_u32(DYNAMIC_NAME_MAX)),
     check check_open(1, to_u32(DYNAMIC_NAME_MAX))
 }
 

@@ -146,6 +146,19 @@ pub enum Size {
     },
 }
 
+impl Size {
+    /// The bytes of a field that always has as many where it is at all.
+    pub(crate) const fn fixed(self) -> u32 {
+        match self {
+            Self::Fixed(size)
+            | Self::FixedUnlessError(size)
+            | Self::FixedOrNothing(size)
+            | Self::Padded(size) => size,
+            _ => 0,
+        }
+    }
+}
+
 /// The name of a type on the wire, as the manuals and ADS spell it.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 3.1 and 4.3.
@@ -214,6 +227,7 @@ pub struct Field {
 }
 
 impl Field {
+    #[inline]
     pub(crate) const fn new(stream: Stream, index: u8) -> Self {
         Self { stream, index }
     }

@@ -60,6 +60,7 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
         (self.visit)(Segment { field, record: self.record, item, offset, bytes });
     }
 
+    #[inline]
     fn take(&mut self, field: Field, item: u32, size: u32) -> Result<&'a [u8], Error> {
         let at = self.input.at();
         let bytes = self.input.take(field, size)?;
@@ -99,17 +100,21 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
                 }
                 Size::Terminated { max, .. } => {
                     let at = self.input.at();
-                    let bytes = self.input.terminated(field, max)?;
+                    let bytes = self.input.as_bytes();
+                    self.input.terminated(field, max)?;
                     self.visit(field, 0, at, bytes);
                 }
                 Size::Leading { max } => {
                     let at = self.input.at();
-                    let bytes = self.input.leading(field, max)?;
+                    let bytes = self.input.as_bytes();
+                    let used = self.input.leading(field, max)?.len().saturating_add(1);
+                    let bytes = bytes.get(..used).unwrap_or(bytes);
                     self.visit(field, 0, at, bytes);
                 }
                 Size::MayTerminate { max } => {
                     let at = self.input.at();
-                    let bytes = self.input.may_terminate(field, max)?;
+                    let bytes = self.input.as_bytes();
+                    self.input.may_terminate(field, max)?;
                     self.visit(field, 0, at, bytes);
                 }
                 Size::FromOne => {
@@ -129,6 +134,7 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
         Ok(())
     }
 
+    #[inline]
     fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<(), Error> {
         let at = self.input.at();
         let bytes = self.input.rest(field, min, max)?;

@@ -49,7 +49,7 @@ crate::text::text_stream! {
         /// Name, type or unit.
         text: element_text::TEXT
     }
-    read rest(0, to_u32(TEXT_MAX)),
+    read open(0, to_u32(TEXT_MAX)),
     check check_open(0, to_u32(TEXT_MAX))
 }
 
@@ -101,6 +101,7 @@ impl ElementLength {
 impl<'a> Decode<'a> for ElementLength {
     const STREAM: Stream = Stream::ElementLength;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         match *bytes {
             [a] => Ok(Self { length: a.into(), width: Width::One }),
@@ -111,6 +112,7 @@ impl<'a> Decode<'a> for ElementLength {
 }
 
 impl Encode for ElementLength {
+    #[inline]
     fn encoded_len(&self) -> usize {
         match self.width {
             Width::One => 1,
@@ -119,6 +121,7 @@ impl Encode for ElementLength {
         }
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         // A narrow number is only ever read, so that nothing is cut off.
         let all = self.length.to_le_bytes();
@@ -176,16 +179,19 @@ impl ElementWriteFlag {
 impl<'a> Decode<'a> for ElementWriteFlag {
     const STREAM: Stream = Stream::ElementWriteFlag;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         Reader::all(Self::STREAM, bytes).map(|&flag| Self(flag))
     }
 }
 
 impl Encode for ElementWriteFlag {
+    #[inline]
     fn encoded_len(&self) -> usize {
         1
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::copy(Self::STREAM, &[self.0], buf)
     }

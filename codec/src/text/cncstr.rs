@@ -67,26 +67,29 @@ impl<'a> CncStr<'a> {
     }
 
     /// The part before the first NUL, or all.
+    #[inline]
     pub(crate) fn until_nul(bytes: &'a [u8]) -> Self {
         let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
         Self(Source::Bytes(bytes.get(..end).unwrap_or(bytes)))
     }
 
     /// Bytes already found to have no NUL.
+    #[inline]
     pub(crate) const fn without_nul(bytes: &'a [u8]) -> Self {
         Self(Source::Bytes(bytes))
     }
 
     /// Number of characters, which is that of CP1252 bytes.
+    #[inline]
     pub fn len(&self) -> usize {
         match self.0 {
             Source::Bytes(bytes) => bytes.len(),
-            // One byte of each character is none that continues.
-            Source::Str(text) => text.bytes().filter(|byte| byte & 0xC0 != 0x80).count(),
+            Source::Str(text) => count(text),
         }
     }
 
     /// Whether the text has no character.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         match self.0 {
             Source::Bytes(bytes) => bytes.is_empty(),
@@ -109,6 +112,7 @@ impl<'a> CncStr<'a> {
     }
 
     /// The bytes the text is held in, of CP1252 or of UTF-8: both have the same ASCII.
+    #[inline]
     pub(crate) const fn held(self) -> &'a [u8] {
         match self.0 {
             Source::Bytes(bytes) => bytes,
@@ -131,10 +135,11 @@ impl<'a> CncStr<'a> {
         }
     }
 
+    #[inline(always)]
     pub(crate) fn write(&self, out: &mut Writer<'_>) {
         match self.0 {
             Source::Bytes(bytes) => out.put(bytes),
-            Source::Str(_) => self.bytes().for_each(|byte| out.put(&[byte])),
+            Source::Str(text) => put(text, out.next(count(text))),
         }
     }
 
@@ -148,6 +153,19 @@ impl<'a> CncStr<'a> {
         }
         all
     }
+}
+
+/// Apart from the lengths of bytes, which is what there mostly is.
+#[cold]
+fn count(text: &str) -> usize {
+    // One byte of each character is none that continues.
+    text.bytes().filter(|byte| byte & 0xC0 != 0x80).count()
+}
+
+#[cold]
+fn put(text: &str, out: &mut [u8]) {
+    let bytes = text.chars().filter_map(char_to_cp1252);
+    out.iter_mut().zip(bytes).for_each(|(slot, byte)| *slot = byte);
 }
 
 /// The characters of a [`CncStr`].

@@ -3,9 +3,9 @@
 use core::fmt;
 
 use super::CncStr;
-use crate::bytes::{Writer, split_nul};
+use crate::bytes::{Writer, split_nul, to_len, to_u32};
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Stream};
+use crate::layout::Field;
 
 /// A text field with its end: one NUL, a NUL and more bytes, or no NUL at all.
 ///
@@ -36,11 +36,13 @@ impl<'a> TextRef<'a> {
     }
 
     /// Text with another end: the bytes behind the NUL, or no NUL.
+    #[inline]
     pub const fn with_tail(text: CncStr<'a>, tail: Option<&'a [u8]>) -> Self {
         Self { text, tail }
     }
 
     /// All bytes of a field.
+    #[inline]
     pub(crate) fn split(field: &'a [u8]) -> Self {
         match split_nul(field) {
             Some((text, tail)) => Self { text: CncStr::without_nul(text), tail: Some(tail) },
@@ -49,78 +51,87 @@ impl<'a> TextRef<'a> {
     }
 
     /// The text.
+    #[inline]
     pub const fn text(&self) -> CncStr<'a> {
         self.text
     }
 
     /// The bytes behind the first NUL; none if there is no NUL.
+    #[inline]
     pub const fn tail(&self) -> Option<&'a [u8]> {
         self.tail
     }
 
     /// Bytes of the field, NUL and tail included.
+    #[inline]
     pub fn field_len(&self) -> usize {
         let end = self.tail.map_or(0, |tail| tail.len().saturating_add(1));
         self.text.len().saturating_add(end)
     }
 
+    #[inline(always)]
     pub(crate) fn write(&self, out: &mut Writer<'_>) {
         self.text.write(out);
         if let Some(tail) = self.tail {
-            out.put(&[0]);
-            out.put(tail);
+            out.nul_and(tail);
         }
     }
 
-    /// The field as all of a stream.
+    /// The bytes of a field that may stand at the end of a request: a NUL, and only NULs behind it.
     #[inline]
-    pub(crate) fn encode<'b>(self, stream: Stream, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(stream, self.field_len(), buf, |out| self.write(out))
-    }
-
-    /// Whether the field may stand at the end of a request: a NUL, and only NULs behind it.
-    pub(crate) fn check_terminated(&self, field: Field, at: u32, max: u32) -> Result<(), Error> {
-        let len = crate::bytes::to_u32(self.field_len());
-        if len > max {
-            return Err(Error::new(ErrorKind::TooLong, field, at, max, len));
+    pub(crate) fn check_terminated(&self, field: Field, at: u32, max: u32) -> Result<usize, Error> {
+        let len = self.field_len();
+        if len > to_len(max) {
+            return Err(Error::new(ErrorKind::TooLong, field, at, max, to_u32(len)));
         }
         match self.tail {
-            Some(_) => self.check_padding(field, at),
-            None => Err(Error::new(ErrorKind::MissingNul, field, at, max, len)),
+            Some(tail) => self.check_padding(tail, field, at)?,
+            None => return Err(Error::new(ErrorKind::MissingNul, field, at, max, to_u32(len))),
         }
+        Ok(len)
     }
 
     /// As [`check_terminated`](Self::check_terminated), but the NUL may be missing.
-    pub(crate) fn check_may_terminate(&self, field: Field, at: u32, max: u32) -> Result<(), Error> {
-        self.check_open(field, at, 1, max)?;
-        self.check_padding(field, at)
+    #[inline]
+    pub(crate) fn check_may_terminate(
+        &self,
+        field: Field,
+        at: u32,
+        max: u32,
+    ) -> Result<usize, Error> {
+        let len = self.check_open(field, at, 1, max)?;
+        self.check_padding(self.tail.unwrap_or_default(), field, at)?;
+        Ok(len)
     }
 
-    /// Whether the field has between `min` and `max` bytes.
+    /// The bytes of a field that may have between `min` and `max` of them.
+    #[inline]
     pub(crate) fn check_open(
         &self,
         field: Field,
         at: u32,
         min: u32,
         max: u32,
-    ) -> Result<(), Error> {
-        match crate::bytes::to_u32(self.field_len()) {
-            len if len < min => Err(Error::new(ErrorKind::Truncated, field, at, min, len)),
-            len if len > max => Err(Error::new(ErrorKind::TooLong, field, at, max, len)),
-            _ => Ok(()),
+    ) -> Result<usize, Error> {
+        let len = self.field_len();
+        if len < to_len(min) {
+            return Err(Error::new(ErrorKind::Truncated, field, at, min, to_u32(len)));
         }
+        if len > to_len(max) {
+            return Err(Error::new(ErrorKind::TooLong, field, at, max, to_u32(len)));
+        }
+        Ok(len)
     }
 
     /// Behind the NUL, if there is one, only NULs.
-    fn check_padding(&self, field: Field, at: u32) -> Result<(), Error> {
-        let tail = self.tail.unwrap_or_default();
-        let padding = tail.iter().take_while(|&&byte| byte == 0).count();
-        if padding == tail.len() {
+    #[inline]
+    fn check_padding(&self, tail: &[u8], field: Field, at: u32) -> Result<(), Error> {
+        let Some(padding) = tail.iter().position(|&byte| byte != 0) else {
             return Ok(());
-        }
+        };
         let used = self.text.len().saturating_add(padding).saturating_add(1);
-        let end = at.saturating_add(crate::bytes::to_u32(used));
-        let given = at.saturating_add(crate::bytes::to_u32(self.field_len()));
+        let end = at.saturating_add(to_u32(used));
+        let given = at.saturating_add(to_u32(self.field_len()));
         Err(Error::new(ErrorKind::Trailing, Field::whole(field.stream()), end, end, given))
     }
 }

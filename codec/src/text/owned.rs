@@ -20,12 +20,14 @@ use crate::error::Error;
 pub struct CncString(Vec<u8>);
 
 impl CncString {
-    /// Of bytes that are known to have no NUL.
-    pub(crate) fn without_nul(bytes: Vec<u8>) -> Self {
+    /// Bytes already found to have no NUL.
+    #[inline]
+    pub(crate) const fn without_nul(bytes: Vec<u8>) -> Self {
         Self(bytes)
     }
 
     /// The text, borrowed.
+    #[inline]
     pub fn as_cnc_str(&self) -> CncStr<'_> {
         CncStr::without_nul(&self.0)
     }
@@ -82,6 +84,7 @@ pub struct Text {
 
 impl Text {
     /// The field, borrowed.
+    #[inline]
     pub fn as_ref(&self) -> TextRef<'_> {
         TextRef::with_tail(self.text.as_cnc_str(), self.tail.as_deref())
     }

@@ -21,22 +21,26 @@ macro_rules! text_stream {
         impl<'a> $crate::stream::Decode<'a> for $view<'a> {
             const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
+            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
                 let mut input = $crate::bytes::Reader::new(Self::STREAM, bytes)?;
-                let field = $crate::text::text_stream!(@read input, $reader, $field, $args)?;
-                Ok(Self { $name: $crate::text::TextRef::split(field) })
+                let $name = $crate::text::text_stream!(@read input, $reader, $field, $args)?;
+                Ok(Self { $name })
             }
         }
 
         impl $crate::stream::Encode for $view<'_> {
+            #[inline]
             fn encoded_len(&self) -> usize {
                 self.$name.field_len()
             }
 
+            #[inline]
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
                 use $crate::stream::Decode as _;
-                $crate::text::text_stream!(@check self.$name, $checker, $field, $check_args)?;
-                self.$name.encode(Self::STREAM, buf)
+                let text = &self.$name;
+                let len = $crate::text::text_stream!(@check text, $checker, $field, $check_args)?;
+                $crate::bytes::Writer::run(Self::STREAM, len, buf, |out| text.write(out))
             }
         }
 
@@ -51,24 +55,26 @@ macro_rules! text_stream {
         #[cfg(feature = "alloc")]
         const _: () = {
             #[binrw::binread]
-            #[br(little)]
+            #[br(little, import(len: $crate::bridge::TextLen))]
             struct Wire {
-                #[br(parse_with = $crate::bridge::text)]
+                #[br(parse_with = $crate::bridge::text, args(len))]
                 text: $crate::text::Text,
             }
 
             impl<'a> $crate::stream::Decode<'a> for $owned {
                 const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
+                #[inline]
                 fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
-                    $view::decode(bytes)?;
-                    let Wire { text } = $crate::bridge::read(Self::STREAM, bytes)?;
+                    let len = $view::decode(bytes)?.$name.into();
+                    let Wire { text } = $crate::bridge::read_with(Self::STREAM, bytes, (len,))?;
                     Ok(Self { $name: text })
                 }
             }
 
             impl $owned {
                 /// The text, borrowed.
+                #[inline]
                 pub fn as_ref(&self) -> $view<'_> {
                     $view { $name: self.$name.as_ref() }
                 }

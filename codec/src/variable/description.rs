@@ -5,7 +5,7 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use super::{Handle, Numbers, VariableAccess, VariableType};
 use crate::bytes::{Reader, Writer, to_u32};
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::layout::Stream;
 use crate::layout::field::variable_description::{DIMENSION_COUNT, NAME};
 use crate::limits::{DIMENSIONS_MAX, TEXT_MAX};
@@ -23,7 +23,11 @@ pub(super) struct Head {
     pub(super) dimension_count: U32,
 }
 
-const _: () = assert!(size_of::<Head>() == 20);
+impl Head {
+    pub(super) const LEN: usize = 20;
+}
+
+const _: () = assert!(size_of::<Head>() == Head::LEN);
 
 #[doc = include_str!("../../doc/variable-description.md")]
 ///
@@ -66,55 +70,57 @@ pub struct DescriptionRef<'a> {
 impl<'a> Decode<'a> for DescriptionRef<'a> {
     const STREAM: Stream = Stream::VariableDescription;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let head: &Head = input.fixed()?;
         let (count, max) = (head.dimension_count.get(), to_u32(DIMENSIONS_MAX));
         let dimensions = input.numbers(DIMENSION_COUNT, count, max)?;
-        let name = input.rest(NAME, 1, to_u32(TEXT_MAX))?;
+        let name = input.open(NAME, 1, to_u32(TEXT_MAX))?;
         Ok(Self {
             handle: Handle(head.handle.get()),
             var_type: VariableType(head.var_type.get()),
             access: VariableAccess(head.access.get()),
             size: head.size.get(),
             dimensions: Numbers::from_wire(dimensions),
-            name: TextRef::split(name),
+            name,
         })
-    }
-}
-
-impl DescriptionRef<'_> {
-    /// Refuses what no decoder would accept.
-    fn check(&self) -> Result<(), Error> {
-        let (count, max) = (to_u32(self.dimensions.len()), to_u32(DIMENSIONS_MAX));
-        if count > max {
-            return Err(Error::new(ErrorKind::TooMany, DIMENSION_COUNT, 16, max, count));
-        }
-        let at = to_u32(self.dimensions.encoded_len().saturating_add(size_of::<Head>()));
-        self.name.check_open(NAME, at, 1, to_u32(TEXT_MAX))
     }
 }
 
 impl Encode for DescriptionRef<'_> {
+    #[inline]
     fn encoded_len(&self) -> usize {
-        let numbers = self.dimensions.encoded_len().saturating_add(size_of::<Head>());
+        let numbers = self.dimensions.encoded_len().saturating_add(Head::LEN);
         numbers.saturating_add(self.name.field_len())
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        self.check()?;
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-            let head = Head {
-                handle: self.handle.0.into(),
-                var_type: self.var_type.0.into(),
-                access: self.access.0.into(),
-                size: self.size.into(),
-                dimension_count: to_u32(self.dimensions.len()).into(),
-            };
-            out.put(head.as_bytes());
-            self.dimensions.write(out);
-            self.name.write(out);
-        })
+        self.write(buf)
+    }
+}
+
+impl DescriptionRef<'_> {
+    // Once more in the owned reading, where it is known what numbers and text are held in.
+    #[inline(always)]
+    fn write<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        let count = self.dimensions.check(DIMENSION_COUNT, 16, DIMENSIONS_MAX)?;
+        let name_at = Head::LEN.saturating_add(count.saturating_mul(4));
+        let name_len = self.name.check_open(NAME, to_u32(name_at), 1, to_u32(TEXT_MAX))?;
+        let room = Writer::room(Self::STREAM, name_at.saturating_add(name_len), buf)?;
+        let mut out = Writer::new(room);
+        let head = Head {
+            handle: self.handle.0.into(),
+            var_type: self.var_type.0.into(),
+            access: self.access.0.into(),
+            size: self.size.into(),
+            dimension_count: to_u32(count).into(),
+        };
+        out.put(head.as_bytes());
+        self.dimensions.write(&mut out);
+        self.name.write(&mut out);
+        Ok(room)
     }
 }
 
@@ -126,7 +132,7 @@ mod owned {
     use alloc::vec::Vec;
 
     use super::*;
-    use crate::bridge::{self, Fixed};
+    use crate::bridge::{self, Fixed, TextLen};
     use crate::text::Text;
 
     /// [`DescriptionRef`], owned.
@@ -157,21 +163,23 @@ mod owned {
     }
 
     #[binrw::binread]
-    #[br(little)]
+    #[br(little, import(name_len: TextLen))]
     struct Wire {
         head: Fixed<Head>,
         #[br(parse_with = bridge::numbers, args(head.0.dimension_count.get()))]
         dimensions: Vec<u32>,
-        #[br(parse_with = bridge::text)]
+        #[br(parse_with = bridge::text, args(name_len))]
         name: Text,
     }
 
     impl<'a> Decode<'a> for Description {
         const STREAM: Stream = Stream::VariableDescription;
 
+        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-            DescriptionRef::decode(bytes)?;
-            let Wire { head: Fixed(head), dimensions, name } = bridge::read(Self::STREAM, bytes)?;
+            let name_len: TextLen = DescriptionRef::decode(bytes)?.name.into();
+            let Wire { head: Fixed(head), dimensions, name } =
+                bridge::read_with(Self::STREAM, bytes, (name_len,))?;
             Ok(Self {
                 handle: Handle(head.handle.get()),
                 var_type: VariableType(head.var_type.get()),
@@ -185,6 +193,7 @@ mod owned {
 
     impl Description {
         /// The description, borrowed.
+        #[inline]
         pub fn as_ref(&self) -> DescriptionRef<'_> {
             DescriptionRef {
                 handle: self.handle,
@@ -197,5 +206,15 @@ mod owned {
         }
     }
 
-    crate::stream::encode_as_ref!(Description);
+    impl Encode for Description {
+        #[inline]
+        fn encoded_len(&self) -> usize {
+            self.as_ref().encoded_len()
+        }
+
+        #[inline]
+        fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+            self.as_ref().write(buf)
+        }
+    }
 }

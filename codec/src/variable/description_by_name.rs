@@ -5,7 +5,7 @@ use zerocopy::IntoBytes as _;
 use super::description::Head;
 use super::{DescriptionRef, Handle, Numbers, VariableAccess, VariableType};
 use crate::bytes::{Reader, Writer, to_u32};
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::layout::Stream;
 use crate::layout::field::variable_description_by_name::DIMENSION_COUNT;
 use crate::limits::NAMELESS_DIMENSIONS_MAX;
@@ -48,6 +48,7 @@ pub struct DescriptionByNameRef<'a> {
 impl<'a> Decode<'a> for DescriptionByNameRef<'a> {
     const STREAM: Stream = Stream::VariableDescriptionByName;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let head: &Head = input.fixed()?;
@@ -78,22 +79,22 @@ impl<'a> DescriptionRef<'a> {
 }
 
 impl Encode for DescriptionByNameRef<'_> {
+    #[inline]
     fn encoded_len(&self) -> usize {
-        self.dimensions.encoded_len().saturating_add(size_of::<Head>())
+        self.dimensions.encoded_len().saturating_add(Head::LEN)
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let (count, max) = (to_u32(self.dimensions.len()), to_u32(NAMELESS_DIMENSIONS_MAX));
-        if count > max {
-            return Err(Error::new(ErrorKind::TooMany, DIMENSION_COUNT, 16, max, count));
-        }
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
+        let count = self.dimensions.check(DIMENSION_COUNT, 16, NAMELESS_DIMENSIONS_MAX)?;
+        let len = Head::LEN.saturating_add(count.saturating_mul(4));
+        Writer::run(Self::STREAM, len, buf, |out| {
             let head = Head {
                 handle: self.handle.0.into(),
                 var_type: self.var_type.0.into(),
                 access: self.access.0.into(),
                 size: self.size.into(),
-                dimension_count: count.into(),
+                dimension_count: to_u32(count).into(),
             };
             out.put(head.as_bytes());
             self.dimensions.write(out);
@@ -145,6 +146,7 @@ mod owned {
     impl<'a> Decode<'a> for DescriptionByName {
         const STREAM: Stream = Stream::VariableDescriptionByName;
 
+        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             DescriptionByNameRef::decode(bytes)?;
             let Wire { head: Fixed(head), dimensions } = bridge::read(Self::STREAM, bytes)?;
@@ -173,6 +175,7 @@ mod owned {
 
     impl DescriptionByName {
         /// The description, borrowed.
+        #[inline]
         pub fn as_ref(&self) -> DescriptionByNameRef<'_> {
             DescriptionByNameRef {
                 handle: self.handle,

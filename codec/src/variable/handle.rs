@@ -6,7 +6,7 @@ use zerocopy::little_endian::U32;
 
 use super::Numbers;
 use crate::bytes::{Reader, Writer, to_u32};
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::layout::Stream;
 use crate::layout::field::variable_handle::HANDLE as REPLY_HANDLE;
 use crate::layout::field::variable_handle_read::INDEX_COUNT;
@@ -67,6 +67,7 @@ pub struct HandleReadRef<'a> {
 impl<'a> Decode<'a> for HandleReadRef<'a> {
     const STREAM: Stream = Stream::VariableHandleRead;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let [handle, count]: &[U32; 2] = input.fixed()?;
@@ -77,18 +78,17 @@ impl<'a> Decode<'a> for HandleReadRef<'a> {
 }
 
 impl Encode for HandleReadRef<'_> {
+    #[inline]
     fn encoded_len(&self) -> usize {
         self.indices.encoded_len().saturating_add(8)
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let (count, max) = (to_u32(self.indices.len()), to_u32(INDICES_MAX));
-        if count > max {
-            return Err(Error::new(ErrorKind::TooMany, INDEX_COUNT, 4, max, count));
-        }
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
+        let count = self.indices.check(INDEX_COUNT, 4, INDICES_MAX)?;
+        Writer::run(Self::STREAM, count.saturating_mul(4).saturating_add(8), buf, |out| {
             out.u32(self.handle.0);
-            out.u32(count);
+            out.u32(to_u32(count));
             self.indices.write(out);
         })
     }
@@ -134,6 +134,7 @@ mod owned {
     impl<'a> Decode<'a> for HandleRead {
         const STREAM: Stream = Stream::VariableHandleRead;
 
+        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             HandleReadRef::decode(bytes)?;
             let Wire { handle, indices } = bridge::read(Self::STREAM, bytes)?;
@@ -143,6 +144,7 @@ mod owned {
 
     impl HandleRead {
         /// The request, borrowed.
+        #[inline]
         pub fn as_ref(&self) -> HandleReadRef<'_> {
             HandleReadRef { handle: self.handle, indices: self.indices.as_slice().into() }
         }

@@ -4,7 +4,7 @@ use zerocopy::little_endian::U32;
 
 use super::{Handle, Numbers};
 use crate::bytes::{Reader, Writer, to_u32};
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::layout::Stream;
 use crate::layout::field::variable_handle_write::{INDEX_COUNT, VALUE};
 use crate::limits::{HANDLE_VALUE_MAX, INDICES_MAX};
@@ -44,6 +44,7 @@ pub struct HandleWriteRef<'a> {
 impl<'a> Decode<'a> for HandleWriteRef<'a> {
     const STREAM: Stream = Stream::VariableHandleWrite;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let [handle, count]: &[U32; 2] = input.fixed()?;
@@ -55,21 +56,22 @@ impl<'a> Decode<'a> for HandleWriteRef<'a> {
 }
 
 impl Encode for HandleWriteRef<'_> {
+    #[inline]
     fn encoded_len(&self) -> usize {
         self.indices.encoded_len().saturating_add(8).saturating_add(self.value.len())
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let (count, max) = (to_u32(self.indices.len()), to_u32(INDICES_MAX));
-        if count > max {
-            return Err(Error::new(ErrorKind::TooMany, INDEX_COUNT, 4, max, count));
-        }
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-            out.u32(self.handle.0);
-            out.u32(count);
-            self.indices.write(out);
-            out.put(self.value);
-        })
+        let count = self.indices.check(INDEX_COUNT, 4, INDICES_MAX)?;
+        let value_at = count.saturating_mul(4).saturating_add(8);
+        let room = Writer::room_behind(Self::STREAM, value_at, self.value.len(), buf)?;
+        let mut out = Writer::new(room);
+        out.u32(self.handle.0);
+        out.u32(to_u32(count));
+        self.indices.write(&mut out);
+        out.put(self.value);
+        Ok(room)
     }
 }
 
@@ -118,6 +120,7 @@ mod owned {
     impl<'a> Decode<'a> for HandleWrite {
         const STREAM: Stream = Stream::VariableHandleWrite;
 
+        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             HandleWriteRef::decode(bytes)?;
             let Wire { handle, indices, value } = bridge::read(Self::STREAM, bytes)?;
@@ -127,6 +130,7 @@ mod owned {
 
     impl HandleWrite {
         /// The request, borrowed.
+        #[inline]
         pub fn as_ref(&self) -> HandleWriteRef<'_> {
             let indices = self.indices.as_slice().into();
             HandleWriteRef { handle: self.handle, indices, value: &self.value }

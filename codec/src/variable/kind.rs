@@ -63,6 +63,7 @@ impl<'a> Kind<'a> {
     }
 
     /// The text.
+    #[inline]
     pub const fn text(&self) -> CncStr<'a> {
         self.0.text()
     }
@@ -103,27 +104,31 @@ pub struct VariableKindRef<'a> {
 impl<'a> Decode<'a> for VariableKindRef<'a> {
     const STREAM: Stream = Stream::VariableKind;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         if input.is_empty() {
             return Ok(Self { kind: Kind(TextRef::with_tail(CncStr::EMPTY, None)) });
         }
-        let field = input.terminated(variable_kind::KIND, to_u32(TEXT_MAX))?;
-        Ok(Self { kind: Kind(TextRef::split(field)) })
+        let kind = Kind(input.terminated(variable_kind::KIND, to_u32(TEXT_MAX))?);
+        Ok(Self { kind })
     }
 }
 
 impl Encode for VariableKindRef<'_> {
+    #[inline]
     fn encoded_len(&self) -> usize {
         self.kind.0.field_len()
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let field = self.kind.0;
-        if field.field_len() > 0 {
-            field.check_terminated(variable_kind::KIND, 0, to_u32(TEXT_MAX))?;
-        }
-        field.encode(Self::STREAM, buf)
+        let len = match field.field_len() {
+            0 => 0,
+            _ => field.check_terminated(variable_kind::KIND, 0, to_u32(TEXT_MAX))?,
+        };
+        Writer::run(Self::STREAM, len, buf, |out| field.write(out))
     }
 }
 
@@ -174,22 +179,25 @@ pub struct VariableIndexKindRef<'a> {
 impl<'a> Decode<'a> for VariableIndexKindRef<'a> {
     const STREAM: Stream = Stream::VariableIndexKind;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let index = input.u32(variable_index_kind::INDEX)?;
-        let field = input.terminated(variable_index_kind::KIND, to_u32(TEXT_MAX))?;
-        Ok(Self { index, kind: Kind(TextRef::split(field)) })
+        let kind = Kind(input.terminated(variable_index_kind::KIND, to_u32(TEXT_MAX))?);
+        Ok(Self { index, kind })
     }
 }
 
 impl Encode for VariableIndexKindRef<'_> {
+    #[inline]
     fn encoded_len(&self) -> usize {
         self.kind.0.field_len().saturating_add(4)
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        self.kind.0.check_terminated(variable_index_kind::KIND, 4, to_u32(TEXT_MAX))?;
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
+        let len = self.kind.0.check_terminated(variable_index_kind::KIND, 4, to_u32(TEXT_MAX))?;
+        Writer::run(Self::STREAM, len.saturating_add(4), buf, |out| {
             out.u32(self.index);
             self.kind.0.write(out);
         })
@@ -202,14 +210,14 @@ pub use owned::{VariableIndexKind, VariableKind};
 #[cfg(feature = "alloc")]
 mod owned {
     use super::*;
-    use crate::bridge;
+    use crate::bridge::{self, TextLen};
     use crate::text::Text;
 
     /// [`VariableKindRef`], owned.
     #[binrw::binread]
-    #[br(little)]
+    #[br(little, import(len: TextLen))]
     struct KindWire {
-        #[br(parse_with = bridge::text)]
+        #[br(parse_with = bridge::text, args(len))]
         kind: Text,
     }
 
@@ -230,15 +238,17 @@ mod owned {
     impl<'a> Decode<'a> for VariableKind {
         const STREAM: Stream = Stream::VariableKind;
 
+        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-            VariableKindRef::decode(bytes)?;
-            let KindWire { kind } = bridge::read(Self::STREAM, bytes)?;
+            let len: TextLen = VariableKindRef::decode(bytes)?.kind.0.into();
+            let KindWire { kind } = bridge::read_with(Self::STREAM, bytes, (len,))?;
             Ok(Self { kind })
         }
     }
 
     impl VariableKind {
         /// The request, borrowed.
+        #[inline]
         pub fn as_ref(&self) -> VariableKindRef<'_> {
             VariableKindRef { kind: Kind(self.kind.as_ref()) }
         }
@@ -247,10 +257,10 @@ mod owned {
     crate::stream::encode_as_ref!(VariableKind);
 
     #[binrw::binread]
-    #[br(little)]
+    #[br(little, import(len: TextLen))]
     struct IndexKindWire {
         index: u32,
-        #[br(parse_with = bridge::text)]
+        #[br(parse_with = bridge::text, args(len))]
         kind: Text,
     }
 
@@ -274,15 +284,17 @@ mod owned {
     impl<'a> Decode<'a> for VariableIndexKind {
         const STREAM: Stream = Stream::VariableIndexKind;
 
+        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-            VariableIndexKindRef::decode(bytes)?;
-            let IndexKindWire { index, kind } = bridge::read(Self::STREAM, bytes)?;
+            let len: TextLen = VariableIndexKindRef::decode(bytes)?.kind.0.into();
+            let IndexKindWire { index, kind } = bridge::read_with(Self::STREAM, bytes, (len,))?;
             Ok(Self { index, kind })
         }
     }
 
     impl VariableIndexKind {
         /// The request, borrowed.
+        #[inline]
         pub fn as_ref(&self) -> VariableIndexKindRef<'_> {
             VariableIndexKindRef { index: self.index, kind: Kind(self.kind.as_ref()) }
         }

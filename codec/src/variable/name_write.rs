@@ -1,7 +1,7 @@
 //! Writing by name (VAR-13).
 
 use crate::bytes::{Reader, Writer, to_u32};
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::layout::Stream;
 use crate::layout::field::variable_name_write::{NAME, VALUE};
 use crate::limits::{NAME_VALUE_MAX, TEXT_MAX};
@@ -37,28 +37,30 @@ pub struct NameWriteRef<'a> {
 impl<'a> Decode<'a> for NameWriteRef<'a> {
     const STREAM: Stream = Stream::VariableNameWrite;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
-        let name = TextRef::split(input.leading(NAME, to_u32(TEXT_MAX))?).text();
+        let name = input.leading(NAME, to_u32(TEXT_MAX))?;
         let value = input.rest(VALUE, 0, to_u32(NAME_VALUE_MAX))?;
         Ok(Self { name, value })
     }
 }
 
 impl Encode for NameWriteRef<'_> {
+    #[inline]
     fn encoded_len(&self) -> usize {
         self.name.len().saturating_add(1).saturating_add(self.value.len())
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let (len, max) = (to_u32(self.name.len()).saturating_add(1), to_u32(TEXT_MAX));
-        if len > max {
-            return Err(Error::new(ErrorKind::TooLong, NAME, 0, max, len));
-        }
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-            TextRef::from(self.name).write(out);
-            out.put(self.value);
-        })
+        let name = TextRef::from(self.name);
+        let len = name.check_open(NAME, 0, 1, to_u32(TEXT_MAX))?;
+        let room = Writer::room_behind(Self::STREAM, len, self.value.len(), buf)?;
+        let mut out = Writer::new(room);
+        name.write(&mut out);
+        out.put(self.value);
+        Ok(room)
     }
 }
 
@@ -91,9 +93,9 @@ mod owned {
     }
 
     #[binrw::binread]
-    #[br(little)]
+    #[br(little, import(name_len: usize))]
     struct Wire {
-        #[br(parse_with = bridge::leading_text)]
+        #[br(parse_with = bridge::leading_text, args(name_len))]
         name: CncString,
         #[br(parse_with = bridge::rest)]
         value: Vec<u8>,
@@ -102,15 +104,17 @@ mod owned {
     impl<'a> Decode<'a> for NameWrite {
         const STREAM: Stream = Stream::VariableNameWrite;
 
+        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-            NameWriteRef::decode(bytes)?;
-            let Wire { name, value } = bridge::read(Self::STREAM, bytes)?;
+            let name_len = NameWriteRef::decode(bytes)?.name.len();
+            let Wire { name, value } = bridge::read_with(Self::STREAM, bytes, (name_len,))?;
             Ok(Self { name, value })
         }
     }
 
     impl NameWrite {
         /// The request, borrowed.
+        #[inline]
         pub fn as_ref(&self) -> NameWriteRef<'_> {
             NameWriteRef { name: self.name.as_cnc_str(), value: &self.value }
         }

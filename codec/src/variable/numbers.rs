@@ -2,9 +2,12 @@
 
 use core::fmt;
 
+use zerocopy::IntoBytes as _;
 use zerocopy::little_endian::U32;
 
-use crate::bytes::Writer;
+use crate::bytes::{Writer, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::Field;
 
 /// Dimensions or indices: borrowed from a stream's bytes, from a slice of numbers or from the
 /// brackets of a name.
@@ -35,6 +38,7 @@ impl<'a> Numbers<'a> {
     /// No number.
     pub const EMPTY: Numbers<'static> = Numbers(Source::Memory(&[]));
 
+    #[inline]
     pub(crate) const fn from_wire(numbers: &'a [U32]) -> Self {
         Self(Source::Wire(numbers))
     }
@@ -45,6 +49,7 @@ impl<'a> Numbers<'a> {
     }
 
     /// How many.
+    #[inline]
     pub const fn len(&self) -> usize {
         match self.0 {
             Source::Wire(numbers) => numbers.len(),
@@ -54,11 +59,13 @@ impl<'a> Numbers<'a> {
     }
 
     /// Whether there is none.
+    #[inline]
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// The number at this place, from 0.
+    #[inline]
     pub fn get(&self, place: usize) -> Option<u32> {
         match self.0 {
             Source::Wire(numbers) => numbers.get(place).map(|number| number.get()),
@@ -68,20 +75,51 @@ impl<'a> Numbers<'a> {
     }
 
     /// All in their order.
+    #[inline]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = u32> + Clone + use<'a> {
         Rest(self.0)
     }
 
+    /// How many there are, if there are no more than `max`.
+    #[inline]
+    pub(super) fn check(&self, counter: Field, at: u32, max: usize) -> Result<usize, Error> {
+        let count = self.len();
+        if count > max {
+            let (max, count) = (to_u32(max), to_u32(count));
+            return Err(Error::new(ErrorKind::TooMany, counter, at, max, count));
+        }
+        Ok(count)
+    }
+
+    #[inline]
     pub(crate) fn encoded_len(&self) -> usize {
         self.len().saturating_mul(4)
     }
 
+    #[inline(always)]
     pub(crate) fn write(&self, out: &mut Writer<'_>) {
-        self.iter().for_each(|number| out.u32(number));
+        match self.0 {
+            Source::Wire(numbers) => out.put(numbers.as_bytes()),
+            Source::Memory(numbers) => put(numbers.iter().copied(), out.next(self.encoded_len())),
+            Source::Name(brackets) => put_name(brackets, out.next(self.encoded_len())),
+        }
+    }
+}
+
+/// Apart from the numbers at hand, which is what there mostly is.
+#[cold]
+fn put_name(brackets: &[u8], out: &mut [u8]) {
+    put(Numbers::from_name(brackets).iter(), out);
+}
+
+fn put(numbers: impl Iterator<Item = u32>, out: &mut [u8]) {
+    for (slot, number) in out.chunks_exact_mut(4).zip(numbers) {
+        slot.copy_from_slice(&number.to_le_bytes());
     }
 }
 
 /// How many brackets open.
+#[cold]
 const fn count_opened(mut brackets: &[u8]) -> usize {
     let mut count = 0_usize;
     while let Some((byte, rest)) = brackets.split_first() {

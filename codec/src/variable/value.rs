@@ -30,16 +30,19 @@ pub struct ValueRef<'a> {
 impl<'a> Decode<'a> for ValueRef<'a> {
     const STREAM: Stream = Stream::VariableValue;
 
+    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         Reader::bytes(VALUE, 0, to_u32(VARIABLE_MAX), bytes).map(|bytes| Self { bytes })
     }
 }
 
 impl Encode for ValueRef<'_> {
+    #[inline]
     fn encoded_len(&self) -> usize {
         self.bytes.len()
     }
 
+    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::copy(Self::STREAM, self.bytes, buf)
     }
@@ -79,6 +82,7 @@ mod owned {
     impl<'a> Decode<'a> for Value {
         const STREAM: Stream = Stream::VariableValue;
 
+        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             ValueRef::decode(bytes)?;
             let Wire { bytes } = bridge::read(Self::STREAM, bytes)?;
@@ -88,6 +92,7 @@ mod owned {
 
     impl Value {
         /// The value, borrowed.
+        #[inline]
         pub fn as_ref(&self) -> ValueRef<'_> {
             ValueRef { bytes: &self.bytes }
         }

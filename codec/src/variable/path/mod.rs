@@ -113,6 +113,7 @@ impl<'a> VariablePath<'a> {
     }
 
     /// The name.
+    #[inline]
     pub const fn text(&self) -> CncStr<'a> {
         self.text
     }
