@@ -3,11 +3,11 @@
 use ads_cnc_benches::{Case, Work, gate, others};
 use gungraun::{LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 
-/// Large copies that are one instruction of the processor are counted byte by byte; the C library
-/// is told to do them as it does smaller ones.
+/// Large copies that are one instruction of the processor are counted byte by byte, and those past
+/// the caches are done otherwise again; the C library is told to do all as it does smaller ones.
 fn config() -> LibraryBenchmarkConfig {
-    let thresholds =
-        ["movsb", "stosb"].map(|it| format!("glibc.cpu.x86_rep_{it}_threshold=0x7fffffff"));
+    let thresholds = ["rep_movsb", "rep_stosb", "non_temporal"]
+        .map(|it| format!("glibc.cpu.x86_{it}_threshold=0x7fffffff"));
     let mut config = LibraryBenchmarkConfig::default();
     config.env("GLIBC_TUNABLES", thresholds.join(":"));
     config

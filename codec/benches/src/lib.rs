@@ -4,6 +4,7 @@ mod case;
 mod cases;
 pub mod clients;
 mod hand;
+mod inputs;
 mod plain;
 
 pub use case::{Case, Limit, Work};

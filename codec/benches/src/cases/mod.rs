@@ -1,12 +1,26 @@
 //! The cases, by subject.
 
+mod ads;
+mod description;
 pub(crate) mod descriptors;
+mod dynamic;
+mod elements;
+mod frames;
+mod growth;
+mod objects;
+mod stream;
+mod variables;
+
+use stream::Entry;
 
 use crate::Case;
 
 /// All of them, in an order that stays.
 pub fn all() -> impl Iterator<Item = Case> {
-    [descriptors::CASES].into_iter().flatten().copied()
+    let lists = [descriptors::CASES, description::CASES].into_iter().flatten();
+    let streams = streams().flat_map(|entry| entry.cases);
+    let growth = growth::CASES.iter().copied().flatten();
+    lists.chain(streams).chain(frames::CASES).chain(growth).copied()
 }
 
 /// Those that have limits, and those they are held against.
@@ -17,4 +31,55 @@ pub fn gate() -> impl Iterator<Item = Case> {
 /// What is measured beside them.
 pub fn others() -> impl Iterator<Item = Case> {
     all().filter(|case| !case.is_gated())
+}
+
+fn streams() -> impl Iterator<Item = &'static Entry> {
+    [ads::STREAMS, objects::STREAMS, elements::STREAMS, dynamic::STREAMS, variables::STREAMS]
+        .into_iter()
+        .flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use ads_cnc::layout::Stream;
+
+    use super::*;
+
+    #[test]
+    fn every_stream_is_measured_once() {
+        let measured: Vec<_> = streams().map(|entry| entry.stream).collect();
+        for stream in Stream::all() {
+            assert_eq!(measured.iter().filter(|&&one| one == stream).count(), 1, "{stream}");
+        }
+    }
+
+    /// What is compared does the same work.
+    #[test]
+    fn codec_and_hand_agree_on_every_stream() {
+        streams().for_each(|entry| (entry.alike)());
+    }
+
+    #[test]
+    fn names_differ_and_limits_refer_to_cases_there_are() {
+        let names: HashSet<_> = all().map(|case| (case.subject, case.who)).collect();
+        assert_eq!(names.len(), all().count());
+        for case in all() {
+            for other in case.limits.iter().filter_map(crate::Limit::against) {
+                assert!(names.contains(&(case.subject, other)), "{}/{}", case.subject, case.who);
+            }
+        }
+    }
+
+    /// Every go does something, and may be repeated.
+    #[test]
+    fn every_case_runs() {
+        for case in all() {
+            let mut work = (case.prepare)();
+            assert!(work.units > 0, "{}/{}", case.subject, case.who);
+            (work.run)();
+            (work.run)();
+        }
+    }
 }

@@ -1,6 +1,6 @@
-//! Object descriptors by hand.
+//! Object descriptors.
 
-use super::Fault;
+use super::{Fault, Hand, exactly, room, u16_at, u32_at};
 
 #[derive(Clone, Debug)]
 pub(crate) struct Descriptor {
@@ -14,24 +14,12 @@ pub(crate) struct Descriptor {
     type_name: [u8; 32],
 }
 
+const LEN: usize = 84;
 const MAX: usize = 0x40_0000;
 
-pub(crate) fn decode(bytes: &[u8]) -> Result<Vec<Descriptor>, Fault> {
-    if bytes.len() > MAX {
-        return Err(Fault::TooLong { max: MAX as u32, found: bytes.len() as u32 });
-    }
-    if bytes.is_empty() || !bytes.len().is_multiple_of(84) {
-        let whole = bytes.len() / 84 * 84;
-        let found = (bytes.len() - whole) as u32;
-        return Err(Fault::Truncated { at: whole as u32, expected: 84, found });
-    }
-    let u16_at = |record: &[u8], at: usize| u16::from_le_bytes([record[at], record[at + 1]]);
-    let u32_at = |record: &[u8], at: usize| {
-        u32::from_le_bytes([record[at], record[at + 1], record[at + 2], record[at + 3]])
-    };
-    let mut list = Vec::with_capacity(bytes.len() / 84);
-    for record in bytes.chunks_exact(84) {
-        let mut object = Descriptor {
+impl Descriptor {
+    fn read(record: &[u8; LEN]) -> Self {
+        let mut object = Self {
             id: u32_at(record, 0),
             size: u32_at(record, 4),
             write_access: u16_at(record, 8),
@@ -42,32 +30,62 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Vec<Descriptor>, Fault> {
             type_name: [0; 32],
         };
         object.name.copy_from_slice(&record[20..52]);
-        object.type_name.copy_from_slice(&record[52..84]);
-        list.push(object);
+        object.type_name.copy_from_slice(&record[52..]);
+        object
     }
-    Ok(list)
+
+    fn put(&self, record: &mut [u8]) {
+        record[..4].copy_from_slice(&self.id.to_le_bytes());
+        record[4..8].copy_from_slice(&self.size.to_le_bytes());
+        record[8..10].copy_from_slice(&self.write_access.to_le_bytes());
+        record[10..12].copy_from_slice(&self.not_assigned.to_le_bytes());
+        record[12..16].copy_from_slice(&self.index_group.to_le_bytes());
+        record[16..20].copy_from_slice(&self.index_offset.to_le_bytes());
+        record[20..52].copy_from_slice(&self.name);
+        record[52..].copy_from_slice(&self.type_name);
+    }
 }
 
-pub(crate) fn encode<'b>(list: &[Descriptor], buf: &'b mut [u8]) -> Result<&'b [u8], Fault> {
-    let (needed, found) = (list.len() * 84, buf.len() as u32);
-    if list.is_empty() {
-        return Err(Fault::Truncated { at: 0, expected: 84, found: 0 });
+impl<'a> Hand<'a> for Descriptor {
+    fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
+        exactly(bytes).map(Self::read)
     }
-    if needed > MAX {
-        return Err(Fault::TooLong { max: MAX as u32, found: needed as u32 });
+
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Fault> {
+        let out = room(buf, LEN)?;
+        self.put(out);
+        Ok(out)
     }
-    let Some(out) = buf.get_mut(..needed) else {
-        return Err(Fault::BufferTooSmall { expected: needed as u32, found });
-    };
-    for (object, record) in list.iter().zip(out.chunks_exact_mut(84)) {
-        record[0..4].copy_from_slice(&object.id.to_le_bytes());
-        record[4..8].copy_from_slice(&object.size.to_le_bytes());
-        record[8..10].copy_from_slice(&object.write_access.to_le_bytes());
-        record[10..12].copy_from_slice(&object.not_assigned.to_le_bytes());
-        record[12..16].copy_from_slice(&object.index_group.to_le_bytes());
-        record[16..20].copy_from_slice(&object.index_offset.to_le_bytes());
-        record[20..52].copy_from_slice(&object.name);
-        record[52..84].copy_from_slice(&object.type_name);
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Descriptors(Vec<Descriptor>);
+
+impl<'a> Hand<'a> for Descriptors {
+    fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
+        if bytes.len() > MAX {
+            return Err(Fault::TooLong { max: MAX as u32, found: bytes.len() as u32 });
+        }
+        let (records, rest) = bytes.as_chunks();
+        if records.is_empty() || !rest.is_empty() {
+            let (at, found) = ((bytes.len() - rest.len()) as u32, rest.len() as u32);
+            return Err(Fault::Truncated { at, expected: LEN as u32, found });
+        }
+        Ok(Self(records.iter().map(Descriptor::read).collect()))
     }
-    Ok(out)
+
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Fault> {
+        let needed = self.0.len() * LEN;
+        if needed == 0 {
+            return Err(Fault::Truncated { at: 0, expected: LEN as u32, found: 0 });
+        }
+        if needed > MAX {
+            return Err(Fault::TooLong { max: MAX as u32, found: needed as u32 });
+        }
+        let out = room(buf, needed)?;
+        for (object, record) in self.0.iter().zip(out.chunks_exact_mut(LEN)) {
+            object.put(record);
+        }
+        Ok(out)
+    }
 }

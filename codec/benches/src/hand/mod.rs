@@ -1,11 +1,83 @@
 //! What a stack writes that has no codec: `from_le_bytes` on slices, with the same checks.
 
-pub(crate) mod descriptors;
+mod ads;
+mod bytes;
+mod descriptors;
+mod device;
+mod fixed;
+mod text;
+mod variable;
+
+pub(crate) use ads::{
+    Frame, Header, ReadRequest, ReadWriteRequest, Reply, TcpHeader, WriteRequest,
+};
+pub(crate) use bytes::Bytes;
+pub(crate) use descriptors::{Descriptor, Descriptors};
+pub(crate) use device::{DeviceInfo, DeviceState};
+pub(crate) use fixed::{Flag, FromOne, Length, Nothing, Number, Pair, Real};
+pub(crate) use text::{Kind, Name, Open, Padded};
+pub(crate) use variable::{
+    Description, DescriptionByName, Extended, HandleRead, HandleWrite, IndexKind, NameWrite,
+};
 
 /// What is wrong and where, without which nobody would look for a fault twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
     Truncated { at: u32, expected: u32, found: u32 },
+    Trailing { expected: u32, found: u32 },
     TooLong { max: u32, found: u32 },
+    TooMany { at: u32, max: u32, found: u32 },
+    MissingNul { at: u32, max: u32, found: u32 },
+    OutOfRange { at: u32, expected: u32, found: u32 },
     BufferTooSmall { expected: u32, found: u32 },
+}
+
+/// A stream that is read from all of its bytes and written to the front of a buffer.
+pub(crate) trait Hand<'a>: Sized {
+    fn decode(bytes: &'a [u8]) -> Result<Self, Fault>;
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Fault>;
+}
+
+/// Bytes that are borrowed or owned, as the reader wants them.
+pub(crate) trait Held<'a>: From<&'a [u8]> + AsRef<[u8]> {}
+
+impl<'a, B: From<&'a [u8]> + AsRef<[u8]>> Held<'a> for B {}
+
+pub(crate) fn u16_at(bytes: &[u8], at: usize) -> u16 {
+    u16::from_le_bytes([bytes[at], bytes[at + 1]])
+}
+
+pub(crate) fn u32_at(bytes: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
+}
+
+/// All bytes, which are as many as the stream always has.
+pub(crate) fn exactly<const N: usize>(bytes: &[u8]) -> Result<&[u8; N], Fault> {
+    let (expected, found) = (N as u32, bytes.len() as u32);
+    bytes.try_into().map_err(|_| match found < expected {
+        true => Fault::Truncated { at: 0, expected, found },
+        false => Fault::Trailing { expected, found },
+    })
+}
+
+/// Whether a stream or a value has `max` bytes at the most.
+pub(crate) fn at_most(max: usize, len: usize) -> Result<(), Fault> {
+    match len > max {
+        true => Err(Fault::TooLong { max: max as u32, found: len as u32 }),
+        false => Ok(()),
+    }
+}
+
+/// The numbers in front, of a stream that may be longer.
+pub(crate) fn at_least(min: usize, bytes: &[u8]) -> Result<(), Fault> {
+    match bytes.len() < min {
+        true => Err(Fault::Truncated { at: 0, expected: min as u32, found: bytes.len() as u32 }),
+        false => Ok(()),
+    }
+}
+
+/// So many bytes of the buffer.
+pub(crate) fn room(buf: &mut [u8], needed: usize) -> Result<&mut [u8], Fault> {
+    let found = buf.len() as u32;
+    buf.get_mut(..needed).ok_or(Fault::BufferTooSmall { expected: needed as u32, found })
 }

@@ -27,3 +27,23 @@ struct Descriptors {
 pub(crate) fn descriptors(bytes: &[u8]) -> BinResult<Vec<Descriptor>> {
     Descriptors::read(&mut Cursor::new(bytes)).map(|Descriptors { list }| list)
 }
+
+#[allow(dead_code, reason = "what is read is only looked at by the optimiser")]
+#[binread]
+#[br(little)]
+pub(crate) struct Description {
+    handle: u32,
+    var_type: u32,
+    access: u32,
+    size: u32,
+    #[br(temp)]
+    dimension_count: u32,
+    #[br(count = dimension_count)]
+    dimensions: Vec<u32>,
+    #[br(parse_with = until_eof)]
+    name: Vec<u8>,
+}
+
+pub(crate) fn description(bytes: &[u8]) -> BinResult<Description> {
+    Description::read(&mut Cursor::new(bytes))
+}

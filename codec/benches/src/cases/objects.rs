@@ -1,0 +1,28 @@
+//! Objects of the COM task, content of any.
+
+use ads_cnc::layout::Stream;
+use ads_cnc::{
+    Content, ContentRef, Decode, Descriptor, DescriptorRef, Descriptors, DescriptorsRef, Encode,
+    ObjectCount,
+};
+
+use super::stream::{Entry, stream};
+use crate::hand::{self, Hand};
+
+const MAX: usize = 0x40_0000;
+
+pub(super) const STREAMS: &[Entry] = &[
+    stream!("object count", ObjectCount, ObjectCount, by hand hand::Number),
+    stream!(
+        "descriptor", ObjectDescriptor, DescriptorRef<'_>, by hand hand::Descriptor,
+        owned Descriptor, by hand hand::Descriptor
+    ),
+    stream!(
+        "two descriptors", ObjectDescriptors, DescriptorsRef<'_>, by hand hand::Descriptors,
+        owned Descriptors, by hand hand::Descriptors
+    ),
+    stream!(
+        "content", Content, ContentRef<'_>, by hand hand::Bytes<&[u8], 0, MAX>,
+        owned Content, by hand hand::Bytes<Vec<u8>, 0, MAX>
+    ),
+];

@@ -1,0 +1,62 @@
+//! The codec's samples: bytes of every stream, written by hand.
+
+#[expect(dead_code, reason = "the codec's tests use more of it")]
+#[path = "../../tests/common/samples.rs"]
+mod samples;
+#[path = "../../tests/common/samples_ads.rs"]
+mod samples_ads;
+#[path = "../../tests/common/samples_elements.rs"]
+mod samples_elements;
+
+use ads_cnc::layout::Stream;
+use samples::Sample;
+
+/// So many streams are read in one go, or one round more.
+const STREAMS: usize = 100;
+
+fn each(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
+    let of = samples::each_sample().filter(move |(of, _)| *of == stream);
+    of.map(|(_, sample)| Sample::bytes(sample))
+}
+
+/// Its samples, often enough for what is done once to vanish.
+pub(crate) fn many(stream: Stream) -> Vec<&'static [u8]> {
+    round(each(stream).collect())
+}
+
+/// Faulty bytes: cut anywhere, one too many or too long, as far as the stream has such a fault.
+pub(crate) fn refused(stream: Stream, accepts: fn(&[u8]) -> bool) -> Vec<&'static [u8]> {
+    round(faulty(stream).filter(|bytes| !accepts(bytes)).collect())
+}
+
+/// What may be faulty.
+pub(crate) fn faulty(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
+    let cut = each(stream)
+        .flat_map(|bytes| (0..bytes.len()).map(|len| bytes[..len].to_vec()).collect::<Vec<_>>());
+    let more = each(stream).flat_map(|bytes| [0, 1].map(|more| [&bytes[..], &[more]].concat()));
+    let long = stream.layout().max as usize + 1;
+    let text = [b' ', 0xFF].map(|byte| vec![byte; long.min(4096)]);
+    cut.chain(more).chain(text).chain([vec![0; long]])
+}
+
+fn round(of: Vec<Vec<u8>>) -> Vec<&'static [u8]> {
+    let times = STREAMS.div_ceil(of.len().max(1));
+    let of: Vec<&'static [u8]> = of.into_iter().map(|bytes| &*bytes.leak()).collect();
+    of.repeat(times)
+}
+
+/// Every sample, every cut of each, each with a byte more, each with every byte changed, and
+/// too many bytes.
+#[cfg(test)]
+pub(crate) fn all(stream: Stream) -> impl Iterator<Item = Vec<u8>> {
+    let flip = |(at, by): (usize, u8), bytes: &[u8]| {
+        let mut bytes = bytes.to_vec();
+        bytes[at] ^= by;
+        bytes
+    };
+    let changed = each(stream).flat_map(move |bytes| {
+        let places = (0..bytes.len()).flat_map(|at| [0x01, 0x80, 0xFF].map(|by| (at, by)));
+        places.map(move |place| flip(place, &bytes)).collect::<Vec<_>>()
+    });
+    each(stream).chain(faulty(stream)).chain(changed)
+}
