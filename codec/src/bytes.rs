@@ -28,11 +28,15 @@ impl<'a> Reader<'a> {
     #[inline]
     pub(crate) fn new(stream: Stream, bytes: &'a [u8]) -> Result<Self, Error> {
         let max = stream.layout().max;
-        // The end of a stream of fixed length says more than its limit.
-        if bytes.len() > to_len(max) && !stream.layout().ends_itself() {
+        if bytes.len() > to_len(max) {
             return Err(too_long(Field::whole(stream), max, to_u32(bytes.len())));
         }
-        Ok(Self { stream, bytes, at: 0 })
+        Ok(Self::ending(stream, bytes))
+    }
+
+    /// Begins to read a stream whose fields tell its end, which says more than a limit.
+    pub(crate) fn ending(stream: Stream, bytes: &'a [u8]) -> Self {
+        Self { stream, bytes, at: 0 }
     }
 
     /// The fixed fields `T` that are all of `stream`, whose end they tell.
@@ -41,7 +45,7 @@ impl<'a> Reader<'a> {
     where
         T: FromBytes + KnownLayout + Immutable + Unaligned,
     {
-        let mut input = Self { stream, bytes, at: 0 };
+        let mut input = Self::ending(stream, bytes);
         let fixed = input.fixed()?;
         input.finish()?;
         Ok(fixed)
@@ -50,21 +54,10 @@ impl<'a> Reader<'a> {
     /// The number that is all of the stream of `field`.
     #[inline]
     pub(crate) fn number(field: Field, bytes: &'a [u8]) -> Result<u32, Error> {
-        let mut input = Self { stream: field.stream(), bytes, at: 0 };
+        let mut input = Self::ending(field.stream(), bytes);
         let number = input.u32(field)?;
         input.finish()?;
         Ok(number)
-    }
-
-    /// The bytes that are all of the stream of `field`, between `min` and `max` of them.
-    #[inline]
-    pub(crate) fn bytes(
-        field: Field,
-        min: u32,
-        max: u32,
-        bytes: &'a [u8],
-    ) -> Result<&'a [u8], Error> {
-        Self::new(field.stream(), bytes)?.rest(field, min, max)
     }
 
     #[inline]

@@ -21,8 +21,9 @@ macro_rules! bytes_stream {
 
             #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
-                let max = $crate::bytes::to_u32($max);
-                $crate::bytes::Reader::bytes($field, $min, max, bytes).map(|bytes| Self { bytes })
+                let mut input = $crate::bytes::Reader::new(Self::STREAM, bytes)?;
+                let bytes = input.rest($field, $min, $crate::bytes::to_u32($max))?;
+                Ok(Self { bytes })
             }
         }
 

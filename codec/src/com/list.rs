@@ -75,18 +75,22 @@ impl<'a> Decode<'a> for DescriptorsRef<'a> {
 
     #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
+        Reader::new(Self::STREAM, bytes)?;
         let count = bytes.len() / DESCRIPTOR_LEN;
         match <[DescriptorLayout]>::ref_from_bytes_with_elems(bytes, count) {
             Ok(layouts) if !layouts.is_empty() => Ok(Self(layouts)),
-            // Behind the whole records is one that is cut, or none.
-            _ => {
-                let whole = to_u32(count.saturating_mul(DESCRIPTOR_LEN));
-                input.take(Field::whole(Self::STREAM), whole)?;
-                input.fixed::<DescriptorLayout>().map(|_| Self(&[]))
-            }
+            _ => behind(count, bytes).map(|_| Self(&[])),
         }
     }
+}
+
+/// What is there of a record behind so many whole ones: the error of one that is cut, or missing.
+#[cold]
+fn behind(count: usize, bytes: &[u8]) -> Result<&DescriptorLayout, Error> {
+    let stream = DescriptorsRef::STREAM;
+    let mut input = Reader::new(stream, bytes)?;
+    input.take(Field::whole(stream), to_u32(count.saturating_mul(DESCRIPTOR_LEN)))?;
+    input.fixed()
 }
 
 impl Encode for DescriptorsRef<'_> {

@@ -67,7 +67,7 @@ impl<'a> Decode<'a> for DynamicIndex {
 
     #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
+        let mut input = Reader::ending(Self::STREAM, bytes);
         let index = Self(input.u32(dynamic_index::INDEX)?).check()?;
         input.finish()?;
         Ok(index)

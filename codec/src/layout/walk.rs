@@ -38,7 +38,11 @@ impl Stream {
     /// # Errors
     /// Those of the stream's decoders. A table that is no stream has room for no byte.
     pub fn walk<'a>(self, bytes: &'a [u8], visit: impl FnMut(Segment<'a>)) -> Result<(), Error> {
-        let mut walk = Walk { input: Reader::new(self, bytes)?, record: 0, visit };
+        let input = match self.layout().ends_itself() {
+            true => Reader::ending(self, bytes),
+            false => Reader::new(self, bytes)?,
+        };
+        let mut walk = Walk { input, record: 0, visit };
         loop {
             walk.record(self)?;
             if walk.input.is_empty() || !self.layout().repeats {

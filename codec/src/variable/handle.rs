@@ -2,14 +2,12 @@
 
 use core::fmt;
 
-use zerocopy::little_endian::U32;
-
 use super::Numbers;
 use crate::bytes::{Reader, Writer, to_u32};
 use crate::error::Error;
 use crate::layout::Stream;
 use crate::layout::field::variable_handle::HANDLE as REPLY_HANDLE;
-use crate::layout::field::variable_handle_read::INDEX_COUNT;
+use crate::layout::field::variable_handle_read::{HANDLE, INDEX_COUNT};
 use crate::limits::INDICES_MAX;
 use crate::stream::{Decode, Encode};
 
@@ -70,10 +68,11 @@ impl<'a> Decode<'a> for HandleReadRef<'a> {
     #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
-        let [handle, count]: &[U32; 2] = input.fixed()?;
-        let indices = input.numbers(INDEX_COUNT, count.get(), to_u32(INDICES_MAX))?;
+        let handle = Handle(input.u32(HANDLE)?);
+        let count = input.u32(INDEX_COUNT)?;
+        let indices = input.numbers(INDEX_COUNT, count, to_u32(INDICES_MAX))?;
         input.finish()?;
-        Ok(Self { handle: Handle(handle.get()), indices: Numbers::from_wire(indices) })
+        Ok(Self { handle, indices: Numbers::from_wire(indices) })
     }
 }
 

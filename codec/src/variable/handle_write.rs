@@ -1,12 +1,10 @@
 //! Writing by handle (VAR-12).
 
-use zerocopy::little_endian::U32;
-
 use super::{Handle, Numbers};
 use crate::bytes::{Reader, Writer, to_u32};
 use crate::error::Error;
 use crate::layout::Stream;
-use crate::layout::field::variable_handle_write::{INDEX_COUNT, VALUE};
+use crate::layout::field::variable_handle_write::{HANDLE, INDEX_COUNT, VALUE};
 use crate::limits::{HANDLE_VALUE_MAX, INDICES_MAX};
 use crate::stream::{Decode, Encode};
 
@@ -47,9 +45,9 @@ impl<'a> Decode<'a> for HandleWriteRef<'a> {
     #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
-        let [handle, count]: &[U32; 2] = input.fixed()?;
-        let handle = Handle(handle.get());
-        let indices = input.numbers(INDEX_COUNT, count.get(), to_u32(INDICES_MAX))?;
+        let handle = Handle(input.u32(HANDLE)?);
+        let count = input.u32(INDEX_COUNT)?;
+        let indices = input.numbers(INDEX_COUNT, count, to_u32(INDICES_MAX))?;
         let value = input.rest(VALUE, 0, to_u32(HANDLE_VALUE_MAX))?;
         Ok(Self { handle, indices: Numbers::from_wire(indices), value })
     }

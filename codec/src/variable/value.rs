@@ -32,7 +32,9 @@ impl<'a> Decode<'a> for ValueRef<'a> {
 
     #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::bytes(VALUE, 0, to_u32(VARIABLE_MAX), bytes).map(|bytes| Self { bytes })
+        let mut input = Reader::new(Self::STREAM, bytes)?;
+        let bytes = input.rest(VALUE, 0, to_u32(VARIABLE_MAX))?;
+        Ok(Self { bytes })
     }
 }
 
