@@ -106,6 +106,65 @@ fn one_fault_is_refused_for_what_it_is() {
     assert_eq!(Refusal::Stream(error).ads_error(), AdsError::INVALID_SIZE);
 }
 
+/// The function that is called, or the refusal, looked for in every row of the table.
+fn looked_for(call: &Call<'_>) -> Result<Function, Refusal> {
+    let task = Task::from_port(call.port).ok_or(Refusal::Port(call.port))?;
+    let group = call.index_group.parts().ok_or(Refusal::Group(call.index_group))?;
+    let mut refusal = Refusal::Group(call.index_group);
+    for function in Function::ALL.iter().copied() {
+        let spec = function.spec();
+        // SDA and GEO stand in for each other, COM for none.
+        if (spec.task == Task::Com) != (task == Task::Com) || !spec.group.holds(group) {
+            continue;
+        }
+        let here = spec.offset.holds(call.index_offset);
+        if here && spec.service == call.service {
+            return Ok(function);
+        } else if here && !spec.is_content() {
+            return Err(Refusal::Service { takes: spec.service, asked: call.service });
+        }
+        refusal = Refusal::Offset(call.index_offset);
+    }
+    Err(refusal)
+}
+
+fn check_looked_for(call: &Call<'_>) {
+    match (call.dispatch(), looked_for(call)) {
+        (Ok(request), found) => assert_eq!(Ok(request.function()), found, "{call:?}"),
+        (Err(Refusal::Stream(_)), found) => assert!(found.is_ok(), "{call:?}"),
+        (Err(refusal), found) => assert_eq!(Err(refusal), found, "{call:?}"),
+    }
+}
+
+/// What dispatch looks up is what the rules say: near every group and offset there is.
+#[test]
+#[cfg_attr(miri, ignore = "too many numbers for an interpreter")]
+fn dispatch_follows_the_rules() {
+    let highs = [0x12, 0x13, 0x02, 0x03, 0x22, 0x112];
+    let tables = (0..0x70_u32).filter(|table| table & 0x0F < 0x0B);
+    let groups = tables.flat_map(|table| highs.map(|high| (high << 16) | (table << 8)));
+    let near = [0x8F, 0x90, 0x91, 0x92, 0xFFFF, 0x8000_0000, u32::MAX];
+    let of_axes =
+        [1, 2, 0xFFFF_u32].into_iter().flat_map(|axis| (0..9).map(move |of| axis << 16 | of));
+    let offsets: Vec<u32> = (0..0x50).chain(near).chain(of_axes).collect();
+    for group in groups.flat_map(|group| [group, group | 1]) {
+        for &offset in &offsets {
+            for service in [Service::Read, Service::Write, Service::ReadWrite] {
+                for port in [AmsPort::SDA, AmsPort::COM] {
+                    check_looked_for(&Call {
+                        port,
+                        service,
+                        index_group: IndexGroup::new(group),
+                        index_offset: IndexOffset::new(offset),
+                        read_length: 84,
+                        data: &[],
+                    });
+                }
+            }
+        }
+    }
+}
+
 /// COM-3: a read that leaves no room for one descriptor is refused by its length; any other asks
 /// for as many as it is a multiple of, or for one.
 #[test]
@@ -303,6 +362,21 @@ proptest! {
                 prop_assert!(function.spec().is_content() || function == Function::CountElements);
             }
         }
+    }
+
+    /// What dispatch looks up is what the rules say, anywhere.
+    #[test]
+    fn any_place(
+        port in 549..=555_u16,
+        service in prop::sample::select(&[Service::Read, Service::Write, Service::ReadWrite][..]),
+        group in prop_oneof![any::<u32>(), (0..0x20_u32, 0..0x60_u32, any::<u8>())
+            .prop_map(|(high, table, instance)| high << 16 | table << 8 | u32::from(instance))],
+        offset in prop_oneof![any::<u32>(), 0..0x100_u32],
+        data in prop::collection::vec(any::<u8>(), 0..12),
+    ) {
+        let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
+        let port = AmsPort(port);
+        check_looked_for(&Call { port, service, index_group, index_offset, read_length: 4, data: &data });
     }
 
     /// Whatever is called: a refusal, or a request that encodes to the same call. Near the calls

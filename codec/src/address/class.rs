@@ -97,8 +97,21 @@ impl Class {
         }
     }
 
-    pub(super) fn from_bits(bits: u32) -> Option<Self> {
-        Self::ALL.into_iter().find(|class| class.bits() == bits)
+    pub(super) const fn from_number(number: u8) -> Option<Self> {
+        Some(match number {
+            0 => Self::PositionController,
+            1 => Self::Interpolator,
+            2 => Self::Decoder,
+            3 => Self::Hld,
+            4 => Self::PathPreparation,
+            5 => Self::Spindle,
+            _ => return None,
+        })
+    }
+
+    /// Equality that the compiler can see to.
+    pub(crate) const fn is(self, other: Self) -> bool {
+        self.bits() == other.bits()
     }
 }
 
@@ -155,8 +168,22 @@ impl Attribute {
         }
     }
 
-    pub(super) fn from_table(table: u8) -> Option<Self> {
-        Self::ALL.into_iter().find(|attribute| attribute.bits() == u32::from(table) << 8)
+    pub(super) const fn from_table(table: u8) -> Option<Self> {
+        Some(match table {
+            3 => Self::Content,
+            4 => Self::Name,
+            5 => Self::Type,
+            6 => Self::Length,
+            7 => Self::Unit,
+            8 => Self::WriteFlag,
+            9 => Self::ObjectAddress,
+            _ => return None,
+        })
+    }
+
+    /// Equality that the compiler can see to.
+    pub(crate) const fn is(self, other: Self) -> bool {
+        self.bits() == other.bits()
     }
 }
 

@@ -45,36 +45,70 @@ impl IndexGroup {
     }
 
     /// What the group addresses, if it is one of the manuals'; [`Group::index_group`] undoes it.
-    pub fn parts(self) -> Option<Group> {
-        let [instance, table, high, highest] = self.0.to_le_bytes();
-        if highest != 0 {
-            return None;
+    pub const fn parts(self) -> Option<Group> {
+        if let Some(com) = self.com() {
+            return Some(Group::Com(com));
         }
-        let addressing = match high & 0xF0 {
-            0x10 => Addressing::Logical,
-            0x00 => Addressing::Index,
+        match self.class() {
+            Some(class) => Some(Group::Class(class)),
+            None => None,
+        }
+    }
+
+    /// The parts, if it is a group of the COM task.
+    #[inline]
+    pub(crate) const fn com(self) -> Option<ComGroup> {
+        let [instance, table, _, _] = self.0.to_le_bytes();
+        let access = match self.0 & !(LOGICAL | 0xFFFF) {
+            ELEMENT => Access::Element,
+            OBJECT => Access::Object,
             _ => return None,
         };
-        let access = match high & 0x0F {
-            2 => Access::Element,
-            3 => Access::Object,
+        let table = match table {
+            1 => ComTable::Channel,
+            2 => ComTable::Axis,
             _ => return None,
         };
-        let class = Class::from_bits(u32::from(table & 0xF0) << 8)?;
-        match (access, table & 0x0F) {
-            (_, table @ (1 | 2)) if class == Class::PositionController => {
-                let table = if table == 1 { ComTable::Channel } else { ComTable::Axis };
-                Some(Group::Com(ComGroup { addressing, access, table, instance }))
-            }
-            (Access::Element, table) => {
-                let attribute = Attribute::from_table(table)?;
-                // Spindles have no logical form.
-                if class == Class::Spindle && addressing == Addressing::Logical {
-                    return None;
-                }
-                Some(Group::Class(ClassGroup { addressing, class, attribute, instance }))
-            }
-            (Access::Object, _) => None,
+        Some(ComGroup { addressing: self.addressing(), access, table, instance })
+    }
+
+    const fn class(self) -> Option<ClassGroup> {
+        let [_, table, ..] = self.0.to_le_bytes();
+        let Some(attribute) = Attribute::from_table(table & 0x0F) else { return None };
+        match (self.0 & !(LOGICAL | 0xFFFF), self.class_with(attribute)) {
+            // Spindles have no logical form.
+            (
+                _,
+                Some(ClassGroup { class: Class::Spindle, addressing: Addressing::Logical, .. }),
+            ) => None,
+            (ELEMENT, class) => class,
+            _ => None,
+        }
+    }
+
+    /// The parts of a group that is known to be one of a class and of this attribute.
+    #[inline]
+    pub(crate) const fn class_with(self, attribute: Attribute) -> Option<ClassGroup> {
+        let [_, table, ..] = self.0.to_le_bytes();
+        let (instance, addressing) = self.instance();
+        match Class::from_number(table >> 4) {
+            Some(class) => Some(ClassGroup { addressing, class, attribute, instance }),
+            None => None,
+        }
+    }
+
+    /// What the group has in its lowest byte, and how that is meant.
+    #[inline]
+    pub(crate) const fn instance(self) -> (u8, Addressing) {
+        let [instance, ..] = self.0.to_le_bytes();
+        (instance, self.addressing())
+    }
+
+    #[inline]
+    const fn addressing(self) -> Addressing {
+        match self.0 & LOGICAL {
+            0 => Addressing::Index,
+            _ => Addressing::Logical,
         }
     }
 }

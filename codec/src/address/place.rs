@@ -55,6 +55,7 @@ impl Channel {
     }
 
     /// That of a group that has been found to be one of a channel: none has the number 0.
+    #[inline]
     pub(crate) fn of(instance: u8, addressing: Addressing) -> Self {
         Self { number: NonZeroU8::new(instance).unwrap_or(NonZeroU8::MIN), addressing }
     }

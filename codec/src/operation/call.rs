@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use super::places::Functions;
 use super::{Function, Request, Service, Task};
 use crate::address::{IndexGroup, IndexOffset};
 use crate::ads::{AdsError, AmsPort};
@@ -151,39 +152,51 @@ impl<'a> Call<'a> {
     /// # Errors
     /// The first [`Refusal`] of port, group, offset, service and bytes.
     pub fn dispatch(&self) -> Result<Request<'a>, Refusal> {
-        let task = Task::from_port(self.port).ok_or(Refusal::Port(self.port))?;
-        let group = self.index_group.parts().ok_or(Refusal::Group(self.index_group))?;
-        let mut refusal = Refusal::Group(self.index_group);
-        for function in Function::ALL.iter().copied() {
-            let spec = function.spec();
-            // SDA and GEO stand in for each other, COM for none.
-            if (spec.task == Task::Com) != (task == Task::Com) || !spec.group.holds(group) {
-                continue;
+        match self.function() {
+            Some(_) if self.service == Service::Read && !self.data.is_empty() => {
+                Err(Refusal::Stream(self.read_with_data()))
             }
-            let here = spec.offset.holds(self.index_offset);
-            if here && spec.service == self.service {
-                let request =
-                    self.check_data().and_then(|()| Request::decode(function, group, self));
-                return request.map_err(Refusal::Stream);
-            } else if here && !spec.is_content() {
-                // No content is where a function is, whatever it takes (SDA-12).
-                return Err(Refusal::Service { takes: spec.service, asked: self.service });
-            } else if matches!(refusal, Refusal::Group(_)) {
-                refusal = Refusal::Offset(self.index_offset);
-            }
+            Some(function) => Request::decode(function, self),
+            None => Err(self.refusal()),
         }
-        Err(refusal)
+    }
+
+    /// The function that is called, with its service.
+    #[inline]
+    fn function(&self) -> Option<Function> {
+        let task = Task::from_port(self.port)?;
+        let here =
+            Functions::in_group(task, self.index_group).and(Functions::at(self.index_offset));
+        let taking = Functions::taking(self.service);
+        // No content is where a function is, whatever it takes (SDA-12).
+        let first = here.and(taking.or(Functions::EXCLUSIVE)).first();
+        first.function().filter(|_| !first.and(taking).is_empty())
+    }
+
+    /// Why no function is called.
+    #[cold]
+    fn refusal(&self) -> Refusal {
+        let Some(task) = Task::from_port(self.port) else { return Refusal::Port(self.port) };
+        let of_group = Functions::in_group(task, self.index_group);
+        if of_group.is_empty() {
+            return Refusal::Group(self.index_group);
+        }
+        let here = of_group.and(Functions::at(self.index_offset));
+        match here.and(Functions::EXCLUSIVE).function() {
+            Some(function) => {
+                Refusal::Service { takes: function.spec().service, asked: self.service }
+            }
+            None => Refusal::Offset(self.index_offset),
+        }
     }
 
     /// A Read carries no data; on the wire it has no room for any.
-    fn check_data(&self) -> Result<(), Error> {
-        if self.service != Service::Read || self.data.is_empty() {
-            return Ok(());
-        }
+    #[cold]
+    fn read_with_data(&self) -> Error {
         let whole = Field::whole(Stream::ReadRequest);
         let given = to_u32(self.data.len()).saturating_add(READ_REQUEST_LEN);
         let len = READ_REQUEST_LEN;
-        Err(Error::new(ErrorKind::Trailing, whole, len, len, given))
+        Error::new(ErrorKind::Trailing, whole, len, len, given)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::request::sealed::Sealed;
 use super::{Call, Function, Operation};
 use crate::address::{
-    Access, Addressing, Channel, ComGroup, ComTable, Group, IndexGroup, IndexOffset, PlatformAxis,
+    Access, Addressing, Channel, ComGroup, ComTable, IndexGroup, IndexOffset, PlatformAxis,
 };
 use crate::bytes::to_u32;
 use crate::com::{DescriptorsRef, ObjectCount};
@@ -43,10 +43,10 @@ impl ObjectList {
     }
 
     /// The dispatcher has found the group to be one of COM with object access.
-    fn dispatched(group: Group) -> Self {
-        match group {
-            Group::Com(com) => Self(ComGroup { access: Access::Object, ..com }),
-            Group::Class(_) => Self::PLATFORM,
+    fn dispatched(call: &Call<'_>) -> Self {
+        match call.index_group.com() {
+            Some(com) => Self(ComGroup { access: Access::Object, ..com }),
+            None => Self::PLATFORM,
         }
     }
 }
@@ -99,8 +99,8 @@ impl CountObjects {
         Self { list: list.into() }
     }
 
-    pub(super) fn dispatched(group: Group, _: &Call<'_>) -> Result<Self, Error> {
-        Ok(Self { list: ObjectList::dispatched(group) })
+    pub(super) fn dispatched(call: &Call<'_>) -> Result<Self, Error> {
+        Ok(Self { list: ObjectList::dispatched(call) })
     }
 }
 
@@ -197,13 +197,13 @@ impl ReadDescriptors {
         }
     }
 
-    pub(super) fn dispatched(group: Group, call: &Call<'_>) -> Result<Self, Error> {
+    pub(super) fn dispatched(call: &Call<'_>) -> Result<Self, Error> {
         let least = to_u32(DESCRIPTOR_LEN);
         if call.read_length < least {
             let found = call.read_length;
             return Err(Error::new(ErrorKind::BufferTooSmall, whole(), 0, least, found));
         }
-        let (list, first) = (ObjectList::dispatched(group), call.index_offset.get());
+        let (list, first) = (ObjectList::dispatched(call), call.index_offset.get());
         Ok(Self { list, first, read_length: call.read_length })
     }
 }

@@ -1,7 +1,6 @@
 //! Operations on content: of COM objects, of elements, and of the program stream (COM-5, SDA-4,
 //! STM-1).
 
-use super::element::dispatched;
 use super::request::sealed::Sealed;
 use super::{Call, Function, Operation};
 use crate::address::{
@@ -29,6 +28,13 @@ fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffs
     }
     content(Group::Com(com), offset)?;
     Ok((com, offset))
+}
+
+/// Dispatch has seen that no function is there.
+fn dispatched_object(call: &Call<'_>) -> Result<(ComGroup, IndexOffset), Error> {
+    let found = call.index_group.get();
+    let none = || Error::new(ErrorKind::Mismatch, INSTANCE, 0, PLATFORM.get(), found);
+    Ok((call.index_group.com().ok_or_else(none)?, call.index_offset))
 }
 
 const PLATFORM: IndexGroup = ComGroup::platform(Access::Element).index_group();
@@ -85,8 +91,8 @@ macro_rules! content_operations {
                 self.$place
             }
 
-            pub(super) fn dispatched(group: Group, call: &Call<'_>) -> Result<Self, Error> {
-                Ok(Self { $place: $dispatched(group, call)?, length: call.read_length })
+            pub(super) fn dispatched(call: &Call<'_>) -> Result<Self, Error> {
+                Ok(Self { $place: $dispatched(call)?, length: call.read_length })
             }
         }
 
@@ -140,9 +146,9 @@ macro_rules! content_operations {
                 self.content
             }
 
-            pub(super) fn dispatched(group: Group, call: &Call<'a>) -> Result<Self, Error> {
+            pub(super) fn dispatched(call: &Call<'a>) -> Result<Self, Error> {
                 let content = ContentRef::decode(call.data)?;
-                Ok(Self { $place: $dispatched(group, call)?, content })
+                Ok(Self { $place: $dispatched(call)?, content })
             }
         }
 
@@ -212,7 +218,7 @@ content_operations! {
     WriteObject,
     /// Where the object is: group and offset.
     place: (ComGroup, IndexOffset),
-    |group: Group, call: &Call<'_>| object(group.index_group(), call.index_offset),
+    dispatched_object,
     |(group, _): (ComGroup, IndexOffset)| group.index_group(),
     |(_, offset): (ComGroup, IndexOffset)| offset
 }
@@ -258,7 +264,7 @@ content_operations! {
     WriteElement,
     /// Which element.
     element: ElementAddress,
-    dispatched,
+    super::element::dispatched,
     |element: ElementAddress| element.group(Attribute::Content),
     |element: ElementAddress| element.index_offset()
 }
@@ -339,9 +345,9 @@ impl<'a> WriteProgramStream<'a> {
         Self { channel, packet: ProgramStreamRef { bytes: packet } }
     }
 
-    pub(super) fn dispatched(group: Group, call: &Call<'a>) -> Result<Self, Error> {
+    pub(super) fn dispatched(call: &Call<'a>) -> Result<Self, Error> {
         let packet = ProgramStreamRef::decode(call.data)?;
-        Ok(Self { channel: super::variable::channel(group), packet })
+        Ok(Self { channel: super::variable::channel(call), packet })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::request::sealed::Sealed;
 use super::variable::channel;
 use super::{Call, Function, Operation};
-use crate::address::{Attribute, Channel, Class, Group, IndexGroup, IndexOffset};
+use crate::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use crate::bytes::to_u32;
 use crate::dynamic::{
     DynamicCount, DynamicIndex, DynamicKind, DynamicNameRef, DynamicNameRequestRef, DynamicValue,
@@ -14,9 +14,9 @@ use crate::stream::{Decode, Encode, NoData};
 use crate::text::TextRef;
 
 /// Which channel and kind the dispatcher has found a function of.
-fn place(offsets: [u32; 4], group: Group, call: &Call<'_>) -> (Channel, DynamicKind) {
+fn place(offsets: [u32; 4], call: &Call<'_>) -> (Channel, DynamicKind) {
     let kind = DynamicKind::of_offset(offsets, call.index_offset);
-    (channel(group), kind.unwrap_or(DynamicKind::P))
+    (channel(call), kind.unwrap_or(DynamicKind::P))
 }
 
 /// Declares an operation: its offsets, what it is about, the stream that says so.
@@ -39,10 +39,9 @@ macro_rules! dynamic {
 
         impl $(<$lifetime>)? $name $(<$lifetime>)? {
             pub(super) fn dispatched(
-                group: Group,
                 call: &dynamic!(@call $($lifetime)?),
             ) -> Result<Self, Error> {
-                let (channel, kind) = place(DynamicKind::$offsets, group, call);
+                let (channel, kind) = place(DynamicKind::$offsets, call);
                 $( let $field = $decode(call.data)?; )?
                 Ok(Self { channel, kind $(, $field)? })
             }

@@ -17,19 +17,14 @@ use crate::sda::{
 use crate::stream::{Decode, Encode};
 
 /// The dispatcher has found the group to be one of a class.
-fn class_group(group: Group) -> Result<ClassGroup, Error> {
-    match group {
-        Group::Class(class) => Ok(class),
-        Group::Com(com) => {
-            let found = com.index_group().get();
-            Err(Error::new(ErrorKind::Mismatch, INSTANCE, 0, 0x12_0300, found))
-        }
-    }
+fn class_group(call: &Call<'_>, attribute: Attribute) -> Result<ClassGroup, Error> {
+    let group = call.index_group;
+    let none = || Error::new(ErrorKind::Mismatch, INSTANCE, 0, 0x12_0300, group.get());
+    group.class_with(attribute).ok_or_else(none)
 }
 
-/// The element that is called.
-pub(super) fn dispatched(group: Group, call: &Call<'_>) -> Result<ElementAddress, Error> {
-    Ok(ElementAddress::new(class_group(group)?, call.index_offset))
+pub(super) fn dispatched(call: &Call<'_>) -> Result<ElementAddress, Error> {
+    Ok(ElementAddress::new(class_group(call, Attribute::Content)?, call.index_offset))
 }
 
 /// Where an instance of a class is: ReadWrite at offset 0 of the class's object address, ports 551
@@ -80,8 +75,9 @@ impl FindInstance {
         self.query
     }
 
-    pub(super) fn dispatched(group: Group, call: &Call<'_>) -> Result<Self, Error> {
-        Ok(Self { group: class_group(group)?, query: ObjectAddressQuery::decode(call.data)? })
+    pub(super) fn dispatched(call: &Call<'_>) -> Result<Self, Error> {
+        let group = class_group(call, Attribute::ObjectAddress)?;
+        Ok(Self { group, query: ObjectAddressQuery::decode(call.data)? })
     }
 }
 
@@ -132,8 +128,8 @@ macro_rules! attribute {
                 Self { element }
             }
 
-            pub(super) fn dispatched(group: Group, call: &Call<'_>) -> Result<Self, Error> {
-                Ok(Self { element: dispatched(group, call)? })
+            pub(super) fn dispatched(call: &Call<'_>) -> Result<Self, Error> {
+                Ok(Self { element: dispatched(call)? })
             }
         }
 

@@ -5,10 +5,10 @@ use super::{
     CountObjects, CountVariables, DescribeByIndex, DescribeByName, DescribeExtended,
     DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, FindInstance, Function,
     HandleByName, ReadByHandle, ReadByName, ReadDescriptors, ReadElement, ReadElementLength,
-    ReadElementName, ReadElementType, ReadElementUnit, ReadElementWriteFlag, ReadObject, Reply,
-    WriteByHandle, WriteByName, WriteElement, WriteObject, WriteProgramStream,
+    ReadElementName, ReadElementType, ReadElementUnit, ReadElementWriteFlag, ReadObject, Refusal,
+    Reply, WriteByHandle, WriteByName, WriteElement, WriteObject, WriteProgramStream,
 };
-use crate::address::{Group, IndexGroup, IndexOffset};
+use crate::address::{IndexGroup, IndexOffset};
 use crate::error::Error;
 use crate::stream::Decode;
 
@@ -140,16 +140,22 @@ macro_rules! requests {
                 )+ }
             }
 
-            // In one body with the search for the function, both would be larger.
-            #[inline(never)]
+            #[inline]
             pub(super) fn decode(
                 function: Function,
-                group: Group,
                 call: &Call<'a>,
-            ) -> Result<Self, Error> {
+            ) -> Result<Self, Refusal> {
+                // Apart: in one body they would be larger, and save all registers for any of them.
                 match function { $(
                     Function::$function => {
-                        <$operation>::dispatched(group, call).map(Self::$function)
+                        #[inline(never)]
+                        fn decode<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+                            match <$operation>::dispatched(call) {
+                                Ok(operation) => Ok(Request::$function(operation)),
+                                Err(error) => Err(Refusal::Stream(error)),
+                            }
+                        }
+                        decode(call)
                     }
                 )+ }
             }

@@ -1,8 +1,8 @@
 //! Where a function is: its index groups and index offsets.
 
 use crate::address::{
-    Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable, Group,
-    IndexGroup, IndexOffset,
+    Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComTable, Group, IndexGroup,
+    IndexOffset,
 };
 
 /// The index groups of a function.
@@ -38,20 +38,27 @@ pub enum GroupRule {
 
 impl GroupRule {
     /// Whether the function has an instance in this group.
-    pub fn holds(self, group: Group) -> bool {
+    pub const fn holds(self, group: Group) -> bool {
         match (self, group) {
-            (Self::ComObjects, Group::Com(com)) => is_com(com, Access::Object),
+            // Platform axes are counted from 1; channel 0 is the platform.
+            (Self::ComObjects, Group::Com(com)) => {
+                matches!(com.access, Access::Object)
+                    && (matches!(com.table, ComTable::Channel) || com.instance > 0)
+            }
             // Of platform axes the axis may be in the offset instead (E-04).
-            (Self::ComContent, Group::Com(com)) => com.access == Access::Element,
+            (Self::ComContent, Group::Com(com)) => matches!(com.access, Access::Element),
             (Self::ComChannel, Group::Com(com)) => {
-                com.table == ComTable::Channel && com.instance > 0 && is_com(com, Access::Element)
+                matches!((com.access, com.table), (Access::Element, ComTable::Channel))
+                    && com.instance > 0
             }
             (Self::ChannelOf(class), Group::Class(parts)) => {
-                parts.class == class && parts.attribute == Attribute::Content && parts.instance > 0
+                parts.class.is(class)
+                    && parts.attribute.is(Attribute::Content)
+                    && parts.instance > 0
             }
-            (Self::Elements(attribute), Group::Class(parts)) => parts.attribute == attribute,
+            (Self::Elements(attribute), Group::Class(parts)) => parts.attribute.is(attribute),
             (Self::Instances, Group::Class(parts)) => {
-                parts.attribute == Attribute::ObjectAddress && parts.instance == 0
+                parts.attribute.is(Attribute::ObjectAddress) && parts.instance == 0
             }
             _ => false,
         }
@@ -67,11 +74,6 @@ impl GroupRule {
             Self::Instances => class_group(Class::Hld, Attribute::ObjectAddress, 0),
         }
     }
-}
-
-/// Platform axes are counted from 1; channel 0 is the platform.
-fn is_com(com: ComGroup, access: Access) -> bool {
-    com.access == access && (com.table == ComTable::Channel || com.instance > 0)
 }
 
 const fn class_group(class: Class, attribute: Attribute, instance: u8) -> IndexGroup {
@@ -110,10 +112,13 @@ pub enum OffsetRule {
 
 impl OffsetRule {
     /// Whether the function has this offset.
-    pub fn holds(self, offset: IndexOffset) -> bool {
+    pub const fn holds(self, offset: IndexOffset) -> bool {
         match self {
             Self::At(at) => offset.get() == at,
-            Self::OfKind(all) => all.contains(&offset.get()),
+            Self::OfKind([one, two, three, four]) => {
+                let offset = offset.get();
+                offset == one || offset == two || offset == three || offset == four
+            }
             Self::From(first) => offset.get() >= first,
             Self::OfAxis(element) => match offset.axis_and_element(AxisStride::X10000) {
                 Ok((axis, found)) => axis > 0 && found == element,

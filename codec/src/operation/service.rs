@@ -76,7 +76,13 @@ impl Task {
     }
 
     /// The task behind a port.
+    #[inline]
     pub fn from_port(port: AmsPort) -> Option<Self> {
-        [Self::Geo, Self::Sda, Self::Com].into_iter().find(|task| task.port() == port)
+        match port {
+            AmsPort::GEO => Some(Self::Geo),
+            AmsPort::SDA => Some(Self::Sda),
+            AmsPort::COM => Some(Self::Com),
+            _ => None,
+        }
     }
 }

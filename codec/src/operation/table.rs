@@ -1,5 +1,6 @@
 //! The function table.
 
+use super::places::Functions;
 use super::{GroupRule, OffsetRule, Service, Task};
 use crate::address::{Attribute, Class, Group, IndexOffset};
 use crate::dynamic::DynamicKind;
@@ -45,9 +46,8 @@ pub struct FunctionSpec {
 impl FunctionSpec {
     /// Whether the function is access to content, which is at any offset that no other function
     /// has (SDA-12).
-    pub fn is_content(&self) -> bool {
-        let content = Some(Stream::Content);
-        self.request == content || self.reply == content
+    pub const fn is_content(&self) -> bool {
+        matches!(self.request, Some(Stream::Content)) || matches!(self.reply, Some(Stream::Content))
     }
 }
 
@@ -232,9 +232,11 @@ functions! {
 impl Function {
     /// The function whose address this is; none for content (SDA-12).
     pub(crate) fn at(group: Group, offset: IndexOffset) -> Option<Self> {
-        Self::ALL.iter().copied().find(|function| {
-            let spec = function.spec();
-            !spec.is_content() && spec.group.holds(group) && spec.offset.holds(offset)
-        })
+        let task = match group {
+            Group::Com(_) => Task::Com,
+            Group::Class(_) => Task::Sda,
+        };
+        let here = Functions::in_group(task, group.index_group()).and(Functions::at(offset));
+        here.and(Functions::EXCLUSIVE).function()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::request::sealed::Sealed;
 use super::{Call, Function, Operation};
-use crate::address::{Attribute, Channel, Class, ClassGroup, Group, IndexGroup, IndexOffset};
+use crate::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use crate::error::Error;
 use crate::stream::{Decode, Encode};
 use crate::text::TextRef;
@@ -12,11 +12,10 @@ use crate::variable::{
 };
 
 /// The channel of a group that the dispatcher has found to be one of a channel.
-pub(super) fn channel(group: Group) -> Channel {
-    match group {
-        Group::Class(ClassGroup { addressing, instance, .. }) => Channel::of(instance, addressing),
-        Group::Com(com) => Channel::of(com.instance, com.addressing),
-    }
+#[inline]
+pub(super) fn channel(call: &Call<'_>) -> Channel {
+    let (instance, addressing) = call.index_group.instance();
+    Channel::of(instance, addressing)
 }
 
 /// Declares an operation: its fields, its stream, its function. One of an axis has the axis
@@ -44,10 +43,10 @@ macro_rules! operation {
                 $stream { $( $field: self.$field, )+ }
             }
 
-            pub(super) fn dispatched(group: Group, call: &Call<'a>) -> Result<Self, Error> {
+            pub(super) fn dispatched(call: &Call<'a>) -> Result<Self, Error> {
                 let $stream { $( $field, )+ } = $stream::decode(call.data)?;
                 $( let $axis = ChannelAxis::of_offset(call.index_offset)?; )?
-                Ok(Self { channel: channel(group), $( $axis, )? $( $field, )+ })
+                Ok(Self { channel: channel(call), $( $axis, )? $( $field, )+ })
             }
         }
 

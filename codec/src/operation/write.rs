@@ -3,7 +3,7 @@
 use super::request::sealed::Sealed;
 use super::variable::{channel, operation};
 use super::{Call, Function, Operation};
-use crate::address::{Attribute, Channel, Class, Group, IndexGroup, IndexOffset};
+use crate::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use crate::error::Error;
 use crate::stream::{Decode, Encode, NoData};
 use crate::text::CncStr;
