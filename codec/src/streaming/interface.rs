@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::text::{CR, LF, behind_end, split_at_end};
+use super::ends::{CR, LF, behind_end, split_at_end};
 use super::{Ack, LineError, LineErrorKind};
 use crate::bytes::to_u32;
 use crate::limits::{STREAM_MAX, STREAM_PACKET_MAX};

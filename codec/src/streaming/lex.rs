@@ -1,24 +1,33 @@
 //! Pieces of a line.
 
-/// The number of a block without leading zeros, and what stands behind it. A `/` may stand
+/// Not 0 for what a line has that has more in it than code: a label, a command, a jump, a loop, a
+/// program end. All comparisons are made, so that many bytes go at a time.
+#[inline(always)]
+pub(super) fn mark(byte: u8) -> u8 {
+    let is = |wanted| u8::from(byte == wanted);
+    let command = u8::from(byte.wrapping_sub(b'#') <= b'%' - b'#');
+    command | is(b':') | is(b'[') | u8::from(byte | 0x20 == b'm')
+}
+
+/// The number of a block, and what stands behind it. A `/` may stand
 /// before it, blanks anywhere.
 pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
-    let mut at = split_while(line, is_blank).1;
+    let mut at = skip_while(line, is_blank);
     if let [b'/', behind @ ..] = at {
-        at = split_while(split_while(behind, u8::is_ascii_digit).1, is_blank).1;
+        at = skip_while(skip_while(behind, u8::is_ascii_digit), is_blank);
     }
     if let [b'N' | b'n', number @ ..] = at {
         if let Some((digits, rest)) = number_of(number) {
-            return (Some(digits), split_while(rest, is_blank).1);
+            return (Some(digits), skip_while(rest, is_blank));
         }
     }
     (None, at)
 }
 
-/// Digits without leading zeros, and what stands behind them; none if there is no digit.
+/// Digits, and what stands behind them; none if there is no digit.
 pub(super) fn number_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
-    let (digits, rest) = split_while(split_while(text, is_blank).1, u8::is_ascii_digit);
-    (!digits.is_empty()).then(|| (split_while(digits, is_zero).1, rest))
+    let (digits, rest) = split_while(skip_while(text, is_blank), u8::is_ascii_digit);
+    (!digits.is_empty()).then_some((digits, rest))
 }
 
 /// A name up to the closing bracket, and what stands behind it.
@@ -51,6 +60,58 @@ pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
     }
 }
 
+/// Passes over what most lines are made of and no word that counts begins with: numbers, signs, and
+/// addresses of one letter such as X.
+pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
+    while let [byte, behind @ ..] = rest {
+        rest = match sort(*byte) {
+            Sort::Sign => behind,
+            Sort::Digit => skip_while(behind, is_in_number),
+            Sort::Letter => match behind {
+                [] => behind,
+                [next, ..] if matches!(sort(*next), Sort::Sign | Sort::Digit) => behind,
+                _ => return rest,
+            },
+            Sort::Other => return rest,
+        };
+    }
+    rest
+}
+
+/// Of a byte in a line, what it may begin.
+#[derive(Clone, Copy)]
+enum Sort {
+    /// Nothing.
+    Sign,
+    Digit,
+    /// An address, or a longer word.
+    Letter,
+    /// Something to look at.
+    Other,
+}
+
+#[inline]
+fn sort(byte: u8) -> Sort {
+    /// Of every byte.
+    static SORTS: [Sort; 256] = {
+        let mut sorts = [Sort::Sign; 256];
+        let (mut left, mut byte): (&mut [_], u8) = (&mut sorts, 0);
+        while let [sort, rest @ ..] = left {
+            *sort = match byte {
+                b'0'..=b'9' => Sort::Digit,
+                // A program end; a subroutine.
+                b'M' | b'm' | b'L' | b'l' => Sort::Other,
+                b'A'..=b'Z' | b'a'..=b'z' => Sort::Letter,
+                b'$' | b'"' | b'.' | b'_' | b';' | b'(' => Sort::Other,
+                _ => Sort::Sign,
+            };
+            (left, byte) = (rest, byte.wrapping_add(1));
+        }
+        sorts
+    };
+    SORTS.get(usize::from(byte)).copied().unwrap_or(Sort::Other)
+}
+
 /// What stands behind the parenthesis that closes; nothing if none does.
 pub(super) fn behind_parentheses(mut rest: &[u8]) -> &[u8] {
     let mut open = 1_u32;
@@ -66,6 +127,17 @@ pub(super) fn behind_parentheses(mut rest: &[u8]) -> &[u8] {
         }
     }
     rest
+}
+
+/// What stands behind the bytes of a sort.
+pub(super) fn skip_while(mut bytes: &[u8], is: impl Fn(&u8) -> bool) -> &[u8] {
+    while let [byte, behind @ ..] = bytes {
+        if !is(byte) {
+            break;
+        }
+        bytes = behind;
+    }
+    bytes
 }
 
 pub(super) fn split_while(bytes: &[u8], is: impl Fn(&u8) -> bool) -> (&[u8], &[u8]) {

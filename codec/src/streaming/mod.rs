@@ -40,6 +40,7 @@ use crate::address::IndexOffset;
 mod check;
 #[cfg(feature = "alloc")]
 mod checker;
+mod ends;
 mod error;
 mod interface;
 mod jumps;

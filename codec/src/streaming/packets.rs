@@ -1,6 +1,6 @@
 //! From text to packets.
 
-use super::text::{CR, LF, behind_end, split_at_end};
+use super::ends::{CR, LF, WORD, behind_end, ends, split_at_end};
 use crate::bytes::to_len;
 use crate::limits::STREAM_PACKET_MAX;
 
@@ -105,38 +105,56 @@ impl<'a> Packets<'a> {
 
 /// Copies as many lines as fit; what is left of the text, and the length of the packet.
 fn copy<'a>(text: &'a [u8], packet: &mut [u8; STREAM_PACKET_MAX]) -> (&'a [u8], usize) {
+    let mut left = (text, STREAM_PACKET_MAX);
     let (mut rest, mut room) = (text, packet.as_mut_slice());
-    let mut left = room.len();
     while !rest.is_empty() {
-        let Some((behind, free)) = copy_line(rest, room) else { break };
+        let Some((line, free)) = copy_words(rest, room, &mut left) else { break };
+        if line.is_empty() && free.len() == left.1 {
+            // The last line is whole.
+            break;
+        }
+        let Some((behind, free)) = copy_line(line, free) else { break };
         (rest, room) = (behind, free);
-        left = room.len();
+        left = (rest, room.len());
     }
-    (rest, STREAM_PACKET_MAX.saturating_sub(left))
+    (left.0, STREAM_PACKET_MAX.saturating_sub(left.1))
+}
+
+/// Copies lines while there is a word of them and room for one: what is left of the text and of
+/// the room, and the same from behind the last whole line.
+#[inline(always)]
+fn copy_words<'a, 'b>(
+    mut rest: &'a [u8],
+    mut room: &'b mut [u8],
+    left: &mut (&'a [u8], usize),
+) -> Option<(&'a [u8], &'b mut [u8])> {
+    // What is copied from behind a line's end is written over.
+    while let (Some(word), Some(out)) = (rest.first_chunk(), room.first_chunk_mut()) {
+        *out = *word;
+        let ends = ends(word);
+        if ends == 0 {
+            (rest, room) = (rest.get(WORD..)?, room.get_mut(WORD..)?);
+            continue;
+        }
+        let len = to_len(ends.trailing_zeros() / 8);
+        (rest, room) = (rest.get(len..)?, room.get_mut(len..)?);
+        if let [0x0B | 0x0C, behind @ ..] = rest {
+            // VT or FF.
+            (rest, room) = (behind, room.get_mut(1..)?);
+            continue;
+        }
+        (rest, room) = close(rest, room)?;
+        *left = (rest, room.len());
+    }
+    Some((rest, room))
 }
 
 /// Copies a line and closes it, if it fits: the text behind the line and the room left.
-#[inline(always)]
 fn copy_line<'a, 'b>(text: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'b mut [u8])> {
-    // By words first; what is copied from behind the line's end is written over.
-    let mut len = 0_usize;
-    for (word, out) in text.chunks_exact(WORD).zip(room.chunks_exact_mut(WORD)) {
-        out.copy_from_slice(word);
-        let ends = ends(word);
-        if ends != 0 {
-            len = len.wrapping_add(to_len(ends.trailing_zeros() / 8));
-            match text.get(len..)? {
-                // VT or FF.
-                [0x0B | 0x0C, ..] => break,
-                end => return close(end, room.get_mut(len..)?),
-            }
-        }
-        len = len.wrapping_add(WORD);
-    }
-    let (line, end) = split_at_end(text);
+    let (line, _) = split_at_end(text.get(..=room.len()).unwrap_or(text));
     let (out, room) = room.split_at_mut_checked(line.len())?;
     out.copy_from_slice(line);
-    close(end, room)
+    close(text.get(line.len()..)?, room)
 }
 
 /// Writes the line end in place of the one that is here, or of the text's end.
@@ -147,46 +165,10 @@ fn close<'a, 'b>(end: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'b mut
     Some((behind_end(end), room))
 }
 
-/// Bytes looked at together.
-const WORD: usize = 8;
-
-const fn repeat(byte: u8) -> u64 {
-    u64::from_le_bytes([byte; WORD])
-}
-
-/// The highest bit of each byte from LF to CR, in ASCII text.
-///
-/// No byte carries into the next: all are below 0x80. The highest bit of a byte is set in the
-/// sum if it is LF or above, in the difference if it is CR or below.
-#[inline(always)]
-fn ends(word: &[u8]) -> u64 {
-    let bytes = word.first_chunk().map_or(0, |word| u64::from_le_bytes(*word));
-    let above = bytes.wrapping_add(repeat(0x80 - LF));
-    let below = repeat(0x80 + CR).wrapping_sub(bytes);
-    above & below & repeat(0x80)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::streaming::NcText;
-
-    /// The first byte from LF to CR is found at each place, whatever ASCII is around it.
-    #[test]
-    fn ends_are_found_in_a_word() {
-        // Miri is slow, and what it looks for does not hang on which byte it is.
-        for around in (1..0x80).step_by(if cfg!(miri) { 63 } else { 1 }) {
-            for byte in (1..0x80).step_by(if cfg!(miri) { 3 } else { 1 }) {
-                for at in 0..WORD {
-                    let mut word = [around; WORD];
-                    word[at] = byte;
-                    let first = word.iter().position(|byte| (LF..=CR).contains(byte));
-                    let found = ends(&word).trailing_zeros() as usize / 8;
-                    assert_eq!(found, first.unwrap_or(WORD), "{word:?}");
-                }
-            }
-        }
-    }
 
     /// The room behind the last line and the buffer's end are never taken for text.
     #[test]

@@ -1,7 +1,7 @@
 //! What of an NC text the checks need, word by word, without its comments.
 
+use super::ends::{behind_end, split_noting};
 use super::lex::*;
-use super::text::{behind_end, split_at_end};
 use super::words::{LoopWord, ProgramEnd};
 use crate::bytes::to_u32;
 
@@ -91,6 +91,10 @@ pub(super) struct Scan<'a> {
     /// What is left of the present line.
     rest: &'a [u8],
     stage: Stage,
+    /// No bracket closes in what is left of the line.
+    open: bool,
+    /// Behind the block number of the line; nothing if no word that counts is there.
+    body: &'a [u8],
     /// The label of the line, and what stands behind it.
     label: Option<(Label<'a>, &'a [u8])>,
     program: u32,
@@ -123,6 +127,8 @@ impl<'a> Scan<'a> {
             number: lines,
             rest: &[],
             stage: Stage::Blank,
+            open: false,
+            body: &[],
             label: None,
             program,
             block,
@@ -158,7 +164,12 @@ impl<'a> Scan<'a> {
     }
 
     fn place(&self) -> Place {
-        let before = self.line.len().saturating_sub(self.rest.len());
+        self.place_of(self.rest.len())
+    }
+
+    /// Where so much of the line is left.
+    fn place_of(&self, left: usize) -> Place {
+        let before = self.line.len().saturating_sub(left);
         Place { line: self.number, column: to_u32(before).saturating_add(1) }
     }
 
@@ -167,11 +178,18 @@ impl<'a> Scan<'a> {
         if self.below.is_empty() {
             return false;
         }
-        let (line, below) = split_at_end(self.below);
+        let (line, below, marked) = split_noting(self.below, mark);
         (self.line, self.rest, self.below) = (line, line, behind_end(below));
         self.number = self.number.saturating_add(1);
-        (self.stage, self.label) = (Stage::Blank, None);
+        (self.stage, self.open, self.label, self.body) = (Stage::Blank, false, None, &[]);
+        if !marked {
+            if self.block.is_some() {
+                self.rest = &[];
+            }
+            return true;
+        }
         let (number, at) = block_number(line);
+        self.body = at;
         if self.block.is_some() {
             self.rest = match comment_command(at, b"END") {
                 Some(rest) => {
@@ -180,22 +198,56 @@ impl<'a> Scan<'a> {
                 }
                 None => &[],
             };
-        } else if at.first() == Some(&b'%') {
-            self.program = self.program.saturating_add(1);
-            self.stage = Stage::Title;
-        } else if comment_command(at, b"BEGIN").is_some() {
-            self.rest = at;
-            self.block = Some(self.place());
-            self.rest = &[];
-        } else {
-            self.label = self.definition(number, at);
+            return true;
+        }
+        match at {
+            [b'%', ..] => {
+                self.program = self.program.saturating_add(1);
+                self.stage = Stage::Title;
+            }
+            [b'#', ..] if comment_command(at, b"BEGIN").is_some() => {
+                self.block = Some(self.place_of(at.len()));
+                self.rest = &[];
+            }
+            [b':' | b'[', ..] => self.label = self.definition(number, at),
+            _ => {}
         }
         true
     }
 
+    /// The next word of the line that counts, and how much of the line is left where it begins.
+    fn next_word(&mut self) -> Option<(usize, Word<'a>)> {
+        loop {
+            self.rest = skip_comments(skip_addresses(self.rest));
+            let left = self.rest.len();
+            let (&first, behind) = self.rest.split_first()?;
+            if let Some(word) = self.word(first, behind) {
+                return Some((left, word));
+            }
+        }
+    }
+
+    /// What the code of a line begins with.
+    fn head(&mut self) -> Word<'a> {
+        match (self.stage, self.label) {
+            (Stage::Head, Some((label, rest))) => {
+                (self.stage, self.rest) = (Stage::Body, rest);
+                return Word::Label(label);
+            }
+            (Stage::Title, _) => self.rest = &[],
+            (_, None) => {
+                self.stage = Stage::Body;
+                if self.body.len() < self.rest.len() {
+                    self.rest = self.body;
+                }
+            }
+            (_, Some(_)) => self.stage = Stage::Head,
+        }
+        Word::Code
+    }
+
     /// The word that begins here, if it is one that counts.
-    fn word(&mut self) -> Option<Word<'a>> {
-        let (&first, behind) = self.rest.split_first()?;
+    fn word(&mut self, first: u8, behind: &'a [u8]) -> Option<Word<'a>> {
         match first {
             b'$' => {
                 let (name, behind) = split_while(behind, u8::is_ascii_alphabetic);
@@ -218,7 +270,7 @@ impl<'a> Scan<'a> {
             b'.' if behind.first().is_some_and(u8::is_ascii_alphabetic) => self.pass_path(),
             b'_' => self.pass_path(),
             b'0'..=b'9' => {
-                self.rest = split_while(behind, is_in_number).1;
+                self.rest = skip_while(behind, is_in_number);
                 None
             }
             _ if first.is_ascii_alphabetic() => self.letters(),
@@ -239,8 +291,8 @@ impl<'a> Scan<'a> {
             }
             // A subroutine's name may look like anything.
             [b' ' | b'\t', ..] if matches!(letters, b"L" | b"l" | b"LL" | b"ll") => {
-                let name = split_while(behind, is_blank).1;
-                self.rest = split_while(name, is_in_file_name).1;
+                let name = skip_while(behind, is_blank);
+                self.rest = skip_while(name, is_in_file_name);
                 return None;
             }
             _ => self.rest = behind,
@@ -250,7 +302,7 @@ impl<'a> Scan<'a> {
             return None;
         }
         self.rest = behind;
-        match split_while(digits, is_zero).1 {
+        match skip_while(digits, is_zero) {
             b"2" => Some(Word::End(ProgramEnd::M2)),
             b"30" => Some(Word::End(ProgramEnd::M30)),
             b"17" => Some(Word::End(ProgramEnd::M17)),
@@ -261,24 +313,28 @@ impl<'a> Scan<'a> {
 
     /// Passes over the name of a variable, which may have a program end's letters in it.
     fn pass_path(&mut self) -> Option<Word<'a>> {
-        self.rest = split_while(self.rest, is_in_path).1;
+        self.rest = skip_while(self.rest, is_in_path);
         None
     }
 
     /// Where a `$GOTO` goes, if that is plainly written.
     fn target(&mut self) -> Option<Label<'a>> {
-        let at = split_while(self.rest, is_blank).1;
+        let at = skip_while(self.rest, is_blank);
         let (label, rest) = match at {
             [b'N' | b'n', number @ ..] => {
                 let (digits, rest) = number_of(number)?;
-                let next = split_while(rest, is_blank).1.first();
+                let next = skip_while(rest, is_blank).first();
                 if next.is_some_and(|next| b"+-*/.[_=".contains(next)) {
                     return None;
                 }
-                (self.label(false, digits), rest)
+                (self.number(digits), rest)
             }
-            [b'[', name @ ..] => {
-                let (name, rest) = name_of(name)?;
+            [b'[', name @ ..] if !self.open => {
+                // Without a bracket that closes here, none closes any that opens below.
+                let Some((name, rest)) = name_of(name) else {
+                    self.open = true;
+                    return None;
+                };
                 (self.label(true, name), rest)
             }
             _ => return None,
@@ -290,13 +346,18 @@ impl<'a> Scan<'a> {
     /// The label at the start of a line, and what stands behind it.
     fn definition(&self, number: Option<&'a [u8]>, at: &'a [u8]) -> Option<(Label<'a>, &'a [u8])> {
         match (number, at) {
-            (Some(digits), [b':', rest @ ..]) => Some((self.label(false, digits), rest)),
+            (Some(digits), [b':', rest @ ..]) => Some((self.number(digits), rest)),
             (_, [b'[', name @ ..]) => {
                 let (name, rest) = name_of(name)?;
                 Some((self.label(true, name), rest))
             }
             _ => None,
         }
+    }
+
+    /// Leading zeros do not matter.
+    fn number(&self, digits: &'a [u8]) -> Label<'a> {
+        self.label(false, skip_while(digits, is_zero))
     }
 
     const fn label(&self, named: bool, text: &'a [u8]) -> Label<'a> {
@@ -309,34 +370,19 @@ impl<'a> Iterator for Scan<'a> {
 
     fn next(&mut self) -> Option<Token<'a>> {
         loop {
-            self.rest = skip_comments(self.rest);
-            let place = self.place();
-            if self.rest.is_empty() {
-                if self.enter_line() {
-                    continue;
+            if self.stage == Stage::Body {
+                if let Some((left, word)) = self.next_word() {
+                    return Some(Token { place: self.place_of(left), word });
                 }
-                return None;
+            } else {
+                self.rest = skip_comments(self.rest);
+                if !self.rest.is_empty() {
+                    let place = self.place();
+                    return Some(Token { place, word: self.head() });
+                }
             }
-            let word = match self.stage {
-                Stage::Blank => {
-                    self.stage = Stage::Head;
-                    Some(Word::Code)
-                }
-                Stage::Title => {
-                    self.rest = &[];
-                    Some(Word::Code)
-                }
-                Stage::Head => {
-                    self.stage = Stage::Body;
-                    self.label.map(|(label, rest)| {
-                        self.rest = rest;
-                        Word::Label(label)
-                    })
-                }
-                Stage::Body => self.word(),
-            };
-            if let Some(word) = word {
-                return Some(Token { place, word });
+            if !self.enter_line() {
+                return None;
             }
         }
     }

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::NcText;
 use super::packets::{Cut, Packets};
-use super::text::LF;
+use super::text::count;
 use crate::ads::AdsError;
 use crate::limits::STREAM_PACKET_MAX;
 
@@ -245,7 +245,7 @@ impl<'a> Sender<'a> {
 
     fn accept(&mut self) {
         let packet = self.held().unwrap_or_default();
-        let lines = packet.iter().filter(|&&byte| byte == LF).count();
+        let lines = count(packet).lf;
         self.sent = Progress {
             packets: self.sent.packets.saturating_add(1),
             lines: self.sent.lines.saturating_add(lines),

@@ -2,12 +2,10 @@
 
 use core::fmt;
 
+use super::ends::{CR, LF, behind_end, is_end, split_at_end};
 use super::{Findings, LineError, LineErrorKind, Packets};
 use crate::bytes::to_u32;
 use crate::limits::NC_LINE_MAX;
-
-pub(super) const CR: u8 = b'\r';
-pub(super) const LF: u8 = b'\n';
 
 /// So many bytes are counted in a byte before the count is added up.
 const BLOCK: usize = 128;
@@ -128,59 +126,56 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
-pub(super) const fn is_end(byte: u8) -> bool {
-    matches!(byte, CR | LF)
-}
-
-/// The first line, and what follows it from its end on.
-pub(super) fn split_at_end(bytes: &[u8]) -> (&[u8], &[u8]) {
-    let end = bytes.iter().position(|&byte| is_end(byte)).unwrap_or(bytes.len());
-    bytes.split_at_checked(end).unwrap_or((bytes, &[]))
-}
-
-/// What follows the line end that is here, if one is.
-pub(super) const fn behind_end(bytes: &[u8]) -> &[u8] {
-    match bytes {
-        [LF, rest @ ..] | [CR, LF, rest @ ..] | [CR, rest @ ..] => rest,
-        _ => bytes,
-    }
-}
-
-struct Counts {
+pub(super) struct Counts {
     /// Of all bytes, and of all bytes less one: a NUL or a byte that is not ASCII sets the
     /// highest bit.
     bits: u8,
     cr: usize,
-    lf: usize,
+    pub(super) lf: usize,
 }
 
-fn count(bytes: &[u8]) -> Counts {
-    let (mut bits, mut cr, mut lf) = (0_u8, 0_usize, 0_usize);
-    for block in bytes.chunks(BLOCK) {
-        let (mut block_cr, mut block_lf) = (0_u8, 0_u8);
+pub(super) fn count(bytes: &[u8]) -> Counts {
+    let mut counts = Counts { bits: 0, cr: 0, lf: 0 };
+    let mut blocks = bytes.chunks_exact(BLOCK);
+    blocks.by_ref().filter_map(<[u8]>::first_chunk).for_each(|block| counts.add(block));
+    let mut last = [b' '; BLOCK];
+    last.iter_mut().zip(blocks.remainder()).for_each(|(last, &byte)| *last = byte);
+    counts.add(&last);
+    counts
+}
+
+impl Counts {
+    /// Of a block whose length the compiler knows, many bytes at a time.
+    fn add(&mut self, block: &[u8; BLOCK]) {
+        let (mut bits, mut cr, mut lf) = (0_u8, 0_u8, 0_u8);
         for &byte in block {
             bits |= byte | byte.wrapping_sub(1);
-            block_cr = block_cr.wrapping_add(u8::from(byte == CR));
-            block_lf = block_lf.wrapping_add(u8::from(byte == LF));
+            cr = cr.wrapping_add(u8::from(byte == CR));
+            lf = lf.wrapping_add(u8::from(byte == LF));
         }
-        cr = cr.saturating_add(block_cr.into());
-        lf = lf.saturating_add(block_lf.into());
+        self.bits |= bits;
+        self.cr = self.cr.saturating_add(cr.into());
+        self.lf = self.lf.saturating_add(lf.into());
     }
-    Counts { bits, cr, lf }
 }
 
 /// How often LF follows CR.
 fn count_pairs(bytes: &[u8]) -> usize {
-    let next = bytes.get(1..).unwrap_or_default();
     let mut pairs = 0_usize;
-    for (block, next) in bytes.chunks(BLOCK).zip(next.chunks(BLOCK)) {
-        let mut block_pairs = 0_u8;
-        for (&byte, &next) in block.iter().zip(next) {
-            block_pairs = block_pairs.wrapping_add(u8::from(byte == CR && next == LF));
-        }
-        pairs = pairs.saturating_add(block_pairs.into());
+    let mut rest = bytes;
+    while let (Some(block), Some(next)) =
+        (rest.first_chunk(), rest.get(1..).and_then(<[u8]>::first_chunk))
+    {
+        pairs = pairs.saturating_add(pairs_of(block, next).into());
+        rest = rest.get(BLOCK..).unwrap_or_default();
     }
-    pairs
+    let last = rest.iter().zip(rest.iter().skip(1));
+    pairs.saturating_add(last.filter(|&(&byte, &next)| byte == CR && next == LF).count())
+}
+
+fn pairs_of(block: &[u8; BLOCK], next: &[u8; BLOCK]) -> u8 {
+    let pairs = block.iter().zip(next);
+    pairs.fold(0, |pairs, (&byte, &next)| pairs.wrapping_add(u8::from(byte == CR && next == LF)))
 }
 
 /// Whether no line is too long: from the start of a line on, a line end is within reach. The
@@ -190,7 +185,7 @@ fn lines_fit(mut rest: &[u8]) -> bool {
         let Some(end) = reach.iter().rposition(|&byte| is_end(byte)) else {
             return false;
         };
-        rest = rest.get(end.saturating_add(1)..).unwrap_or_default();
+        rest = behind_end(rest.get(end..).unwrap_or_default());
     }
     true
 }

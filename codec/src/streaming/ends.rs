@@ -1,0 +1,127 @@
+//! Where lines end.
+
+use crate::bytes::to_len;
+
+pub(super) const CR: u8 = b'\r';
+pub(super) const LF: u8 = b'\n';
+
+pub(super) const fn is_end(byte: u8) -> bool {
+    matches!(byte, CR | LF)
+}
+
+/// The first line, and what follows it from its end on.
+pub(super) fn split_at_end(bytes: &[u8]) -> (&[u8], &[u8]) {
+    let mut rest = bytes;
+    while let Some((word, behind)) = rest.split_first_chunk() {
+        let ends = ends(word);
+        if ends != 0 {
+            rest = rest.get(to_len(ends.trailing_zeros() / 8)..).unwrap_or_default();
+            break;
+        }
+        rest = behind;
+    }
+    while let [byte, behind @ ..] = rest {
+        if is_end(*byte) {
+            break;
+        }
+        rest = behind;
+    }
+    bytes.split_at_checked(bytes.len().saturating_sub(rest.len())).unwrap_or((bytes, &[]))
+}
+
+/// As [`split_at_end`], and whether something is noted in the line; it may be close behind it.
+pub(super) fn split_noting(bytes: &[u8], note: impl Fn(u8) -> u8) -> (&[u8], &[u8], bool) {
+    if let [CR | LF, ..] = bytes {
+        return (&[], bytes, false);
+    }
+    let (mut rest, mut noted) = (bytes, 0);
+    loop {
+        let Some((word, behind)) = rest.split_first_chunk::<WORD>() else {
+            noted = rest.iter().fold(noted, |noted, &byte| noted | note(byte));
+            break;
+        };
+        let (mut notes, mut ends) = (0, 0);
+        for &byte in word {
+            notes |= note(byte);
+            ends |= u8::from(byte == CR) | u8::from(byte == LF);
+        }
+        noted |= notes;
+        if ends != 0 {
+            break;
+        }
+        rest = behind;
+    }
+    let (_, rest) = split_at_end(rest);
+    let len = bytes.len().saturating_sub(rest.len());
+    let (line, rest) = bytes.split_at_checked(len).unwrap_or((bytes, &[]));
+    (line, rest, noted != 0)
+}
+
+/// Bytes looked at together.
+pub(super) const WORD: usize = 16;
+
+const fn repeat(byte: u8) -> u128 {
+    u128::from_le_bytes([byte; WORD])
+}
+
+/// The highest bit of each byte from LF to CR, VT and FF among them.
+///
+/// No byte carries into the next: without its highest bit each is below 0x80. The highest bit of a
+/// byte is set in the sum if it is LF or above, in the difference if it is CR or below.
+#[inline(always)]
+pub(super) fn ends(word: &[u8; WORD]) -> u128 {
+    let bytes = u128::from_le_bytes(*word);
+    let low = bytes & repeat(0x7F);
+    let above = low.wrapping_add(repeat(0x80 - LF));
+    let below = repeat(0x80 + CR).wrapping_sub(low);
+    above & below & !bytes & repeat(0x80)
+}
+
+/// What follows the line end that is here, if one is.
+pub(super) const fn behind_end(bytes: &[u8]) -> &[u8] {
+    match bytes {
+        [LF, rest @ ..] | [CR, LF, rest @ ..] | [CR, rest @ ..] => rest,
+        _ => bytes,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever is around it, the first byte from LF to CR is found, and no other.
+    #[test]
+    fn ends_are_found_in_a_word() {
+        // Miri is slow, and what it looks for does not hang on which byte it is.
+        for around in (0..=u8::MAX).step_by(if cfg!(miri) { 63 } else { 1 }) {
+            for byte in (0..=u8::MAX).step_by(if cfg!(miri) { 3 } else { 1 }) {
+                for at in 0..WORD {
+                    let mut word = [around; WORD];
+                    word[at] = byte;
+                    let first = word.iter().position(|byte| (LF..=CR).contains(byte));
+                    let found = ends(&word).trailing_zeros() as usize / 8;
+                    assert_eq!(found, first.unwrap_or(WORD), "{word:?}");
+                }
+            }
+        }
+    }
+
+    /// A line is split where it ends, and what is noted in it is known, wherever it stands.
+    #[test]
+    fn lines_are_split_at_every_length() {
+        for len in 0..50 {
+            for end in ["", "\n", "\r\n", "\rX", "\nM30 and twenty bytes more"] {
+                for marked in (0..len).map(Some).chain([None]) {
+                    let mut line = b"X".repeat(len);
+                    marked.into_iter().for_each(|at| line[at] = b'M');
+                    let text = [&line[..], end.as_bytes()].concat();
+                    assert_eq!(split_at_end(&text), (&line[..], end.as_bytes()));
+                    let (found, rest, noted) = split_noting(&text, |byte| u8::from(byte == b'M'));
+                    assert_eq!((found, rest), (&line[..], end.as_bytes()));
+                    assert!(noted || marked.is_none(), "{text:?}");
+                }
+            }
+        }
+        assert!(!split_noting(b"X1 Y2 Z3 X1 Y2 Z3 X1 Y2 Z3\r\n", super::super::lex::mark).2);
+    }
+}
