@@ -3,12 +3,14 @@
 mod ads;
 mod description;
 pub(crate) mod descriptors;
+mod dispatch;
 mod dynamic;
 mod elements;
 mod frames;
 mod growth;
 mod objects;
 mod stream;
+mod streaming;
 mod variables;
 
 use stream::Entry;
@@ -20,7 +22,10 @@ pub fn all() -> impl Iterator<Item = Case> {
     let lists = [descriptors::CASES, description::CASES].into_iter().flatten();
     let streams = streams().flat_map(|entry| entry.cases);
     let growth = growth::CASES.iter().copied().flatten();
-    lists.chain(streams).chain(frames::CASES).chain(growth).copied()
+    let calls = [dispatch::FUNCTIONS, dispatch::REFUSALS].into_iter().flatten();
+    let texts = [streaming::PACKETS, streaming::CHECKS, streaming::HOSTILE].into_iter().flatten();
+    let all = lists.chain(streams).chain(frames::CASES).chain(growth).chain(calls).chain(texts);
+    all.copied()
 }
 
 /// Those that have limits, and those they are held against.

@@ -5,6 +5,7 @@ mod bytes;
 mod descriptors;
 mod device;
 mod fixed;
+pub(crate) mod requests;
 mod text;
 mod variable;
 

@@ -1,0 +1,156 @@
+//! NC text: cut into packets, and checked.
+
+use ads_cnc::streaming::{Ack, Checker, NcText, Sender};
+
+use crate::case::{Case, Limit, Work};
+
+macro_rules! texts {
+    ($($subject:literal: $lines:expr, $size:expr;)+) => {
+        pub(super) const PACKETS: &[Case] = &[$(
+            Case::new(concat!("packets of ", $subject), "LF", || packets(text(&$lines, "\n", $size)))
+                .within(&[Limit::Each(2.0)]),
+            Case::new(concat!("packets of ", $subject), "CR LF", || {
+                packets(text(&$lines, "\r\n", $size))
+            })
+            .within(&[Limit::Each(2.0)]),
+            Case::new(concat!("packets of ", $subject), "sent", || {
+                sent(text(&$lines, "\n", $size))
+            })
+            .within(&[Limit::Each(2.0)]),
+        )+];
+    };
+}
+
+macro_rules! checks {
+    ($($name:ident $limits:expr; $($subject:literal: $lines:expr, $size:expr;)+)+) => { $(
+        pub(super) const $name: &[Case] = &[$(
+            Case::new(concat!("check of ", $subject), "as it comes", || {
+                checked(text(&$lines, "\r\n", $size))
+            })
+            .within($limits),
+            Case::new(concat!("check of ", $subject), "as a whole", || {
+                findings(text(&$lines, "\n", $size))
+            })
+            .within($limits),
+        )+];
+    )+ };
+}
+
+texts! {
+    "a program, 1 KB": program, 1_000;
+    "a program, 100 KB": program, 100_000;
+    "a program, 10 MB": program, 10_000_000;
+    "longest lines, 100 KB": |_| "X".repeat(990), 100_000;
+    "short lines, 100 KB": |_| "X1".into(), 100_000;
+    "empty lines, 100 KB": |_| String::new(), 100_000;
+}
+
+checks! {
+    CHECKS &[Limit::Each(12.0)];
+    "a program, 1 KB": program, 1_000;
+    "a program, 100 KB": program, 100_000;
+    "a program, 1 MB": program, 1_000_000;
+    "positions, 100 KB": |at| format!("N{at}0 G01 X{at}.125 Y-{at}.5 Z0.001 F1200"), 100_000;
+    "comments, 100 KB": |at| format!("({at} is all (that (is) said) here) ; and this"), 100_000;
+    // What nobody writes: shown, for it must not grow faster than the text.
+    HOSTILE &[];
+    "empty lines, 100 KB": |_| String::new(), 100_000;
+    "labels, 100 KB": |at| format!("N{at}: X1"), 100_000;
+    "labels, 1 MB": |at| format!("N{at}: X1"), 1_000_000;
+    "jumps ahead, 100 KB": |at| format!("$GOTO N{at}1"), 100_000;
+    "jumps to lines above, 10 KB": |at| format!("N{at}: $GOTO N{}", at / 2), 10_000;
+    "jumps to lines above, 100 KB": |at| format!("N{at}: $GOTO N{}", at / 2), 100_000;
+    "jumps to one line above, 100 KB": |at| format!("N{at}: $GOTO N0"), 100_000;
+    "open brackets, 100 KB": |_| "$GOTO[".repeat(150), 100_000;
+    "open brackets, 1 MB": |_| "$GOTO[".repeat(150), 1_000_000;
+    "open quotes, 100 KB": |_| "\"(".repeat(400), 100_000;
+    "names, 100 KB": |at| format!("V.E.NAME_{at}.M30 = V.P.M2_{at} + _M30"), 100_000;
+}
+
+/// What a program is like: motion, comments, subroutines, conditions, labels and jumps.
+fn program(at: usize) -> String {
+    let number = at * 10;
+    match at % 40 {
+        0 => format!("(Contour {at}, roughing and finishing)"),
+        1 => format!("N{number}: T{} D1 M6", at % 24 + 1),
+        2 => format!("N{number} G54 G90 G17 S12000 M3"),
+        7 => format!("N{number} $IF V.E.Quality[{at}] > 5"),
+        8 => format!("N{number} $GOTO N{}", number + 50),
+        9 => format!("N{number} $ENDIF"),
+        13 => format!("N{number}: G0 Z50 ; clear of the part"),
+        18 => format!("N{number} L CYCLE_{at}.nc [@P1=20 @P2={at}.5]"),
+        19 => format!("N{number} LL Drill (subroutine)"),
+        23 => format!("N{number} #MSG INFO [\"part {at} done; M30 follows\"]"),
+        27 => format!("N{number} V.L.Depth = V.A.ABS.Z - P{at}"),
+        31 => "; ----------------------------------------".into(),
+        32 => String::new(),
+        33 => format!("N{number} #HSC ON [CONTERROR 0.01]"),
+        39 => format!("N{number} G41 D2 X10 Y{at}"),
+        _ => format!(
+            "N{number} G01 X{at}.{:03} Y-{}.5 Z{}.25 F1500",
+            at * 7 % 1000,
+            at % 300,
+            at % 9
+        ),
+    }
+}
+
+/// So many bytes of these lines, and those that end the last one.
+fn text(line: &dyn Fn(usize) -> String, end: &str, size: usize) -> Vec<u8> {
+    let mut text = Vec::with_capacity(size + 1000);
+    for at in 0.. {
+        if text.len() >= size {
+            break;
+        }
+        text.extend(line(at).bytes());
+        text.extend(end.bytes());
+    }
+    text
+}
+
+fn of_each_byte(text: Vec<u8>, mut run: impl FnMut(&[u8]) + 'static) -> Work {
+    let units = text.len() as u64;
+    Work { units, run: Box::new(move || run(std::hint::black_box(&text))) }
+}
+
+fn packets(text: Vec<u8>) -> Work {
+    of_each_byte(text, |text| {
+        let (mut packets, mut buf) = (NcText::new(text).unwrap().packets(), [0; 992]);
+        while let Some(packet) = packets.next_into(&mut buf) {
+            std::hint::black_box(packet);
+        }
+    })
+}
+
+fn sent(text: Vec<u8>) -> Work {
+    of_each_byte(text, |text| {
+        let mut sender = Sender::new(NcText::new(text).unwrap());
+        while let Some(packet) = sender.packet() {
+            std::hint::black_box(packet);
+            sender.acknowledge(Ack::Accepted).unwrap();
+        }
+    })
+}
+
+/// In lots as they are in the CNC's interface.
+fn checked(text: Vec<u8>) -> Work {
+    let mut packets = NcText::new(&text).unwrap().packets();
+    let mut lots = Vec::new();
+    while let Some(packet) = packets.next_borrowed() {
+        lots.push(packet.to_vec());
+    }
+    assert!(packets.rest().is_empty());
+    let lots: Vec<_> = lots.chunks(4).map(|lot| lot.concat()).collect();
+    of_each_byte(text, move |_| {
+        let mut checker = Checker::new();
+        for lot in std::hint::black_box(&lots) {
+            std::hint::black_box(checker.check(lot).count());
+        }
+    })
+}
+
+fn findings(text: Vec<u8>) -> Work {
+    of_each_byte(text, |text| {
+        std::hint::black_box(NcText::new(text).unwrap().findings().count());
+    })
+}
