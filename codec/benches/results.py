@@ -11,10 +11,12 @@ import platform
 import re
 import subprocess
 import sys
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 HERE = Path(__file__).parent
 COUNTS, TIMES = HERE / "instructions.tsv", HERE / "time.tsv"
+SIZES = HERE.parent / "proofs" / "size" / "figures.tsv"
 MISSED, README = HERE / "missed.tsv", HERE / "README.md"
 BUILDS = ("no_std", "std")
 SLACK = 1.05
@@ -110,13 +112,15 @@ def listed(results):
 def check(results):
     """Fails where a limit is missed that MISSED does not explain, or more is counted than before."""
     counts, cases, faults = counted(results), listed(results), []
-    known = {(subject, who) for subject, who, _ in rows(MISSED)}
-    beyond = set()
+    known = {(subject, who): 0 for subject, who, _ in rows(MISSED)}
     for build in BUILDS:
         for key, text in missed(cases, counts, build):
-            beyond.add(key)
-            print(f"known: {text}") if key in known else faults.append(text)
-    faults += [f"{named(key)}: within its limits now, but in {MISSED.name}" for key in known - beyond]
+            reasons = [row for row in known if all(map(fnmatchcase, key, row))]
+            for row in reasons:
+                known[row] += 1
+            if not reasons:
+                faults.append(text)
+    faults += [f"{named(row)}: within its limits now, but in {MISSED.name}" for row in known if not known[row]]
     head, before = committed()
     if head == toolchain():
         faults += grown(counts, before)
@@ -128,7 +132,8 @@ def check(results):
         print(fault)
     if faults:
         sys.exit(f"{len(faults)} faults; where a cost has to be: codec/benches/run --renew")
-    print(f"{len(counts)} cases, with std and without: within limits, none costs more than before")
+    print(f"{len(counts)} cases, with std and without: none costs more than before; "
+          f"{sum(known.values())} limits are missed for the reasons in {MISSED.name}")
 
 
 def grown(counts, before):
@@ -179,6 +184,26 @@ def tables(results):
                   "|---|--:|--:|---|--:|--:|---|"]
         lines += [line for case in cases for line in lines_of(case, counts, times)]
     put("counts", "\n".join(lines[1:]))
+    sizes()
+
+
+def sizes():
+    """The table of sizes, from what codec/proofs/size/run --renew has left."""
+    figures = {}
+    for target, program, *bytes_of in rows(SIZES)[1:]:
+        figures.setdefault(program, {})[target] = [int(number) for number in bytes_of]
+    limited, borrowed = "views and operations", "all that borrows"
+    lines = ["| | thumbv7em `.text` | read-only data | x86-64 `.text` | read-only data |", "|---|--:|--:|--:|--:|"]
+    for program, targets in figures.items():
+        base = limited if program.startswith("with ") else borrowed if ", and " in program else None
+        cells = []
+        for target in ("thumbv7em-none-eabihf", "x86_64-unknown-linux-gnu"):
+            for at, number in enumerate(targets[target]):
+                added = number - figures[base][target][at] if base else number
+                cells.append(f"({added:,})" if base else f"{added:,}")
+        name = f"**{program}**, at most 24,576" if program == limited else program
+        lines.append(f"| {' | '.join([name, *cells])} |")
+    put("size", "\n".join(lines))
 
 
 WANTED = {"instructions": "≤ {:g} ×", "time": "time ≤ {:g} ×", "over": "≤ {:g} more", "each": "≤ {:g}"}

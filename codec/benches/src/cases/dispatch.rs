@@ -26,22 +26,22 @@ macro_rules! functions {
             with $data:expr, not $bad:expr, as $stream:ty, by hand $function:ident $parameters:tt;
     )+) => {
         pub(super) const FUNCTIONS: &[Case] = &[$(
-            Case::new($subject, "dispatch", || {
+            Case::new(concat!("call: ", $subject), "dispatch", || {
                 each!([call(row!($port $service $group $offset $length), $data); CALLS], |call| call.dispatch())
             })
             .within(&[Limit::Over("the data alone", 60.0)]),
-            Case::new($subject, "the data alone", || {
+            Case::new(concat!("call: ", $subject), "the data alone", || {
                 each!([&$data[..]; CALLS], |bytes| <$stream>::decode(bytes))
             }),
-            Case::new($subject, "refusal of data", || {
+            Case::new(concat!("call: ", $subject), "refusal of data", || {
                 each!([call(row!($port $service $group $offset $length), $bad); CALLS], |call| call.dispatch())
             })
             .within(&[Limit::Instructions("dispatch", 2.0)]),
-            Case::new($subject, "encode", || {
+            Case::new(concat!("call: ", $subject), "encode", || {
                 encode(call(row!($port $service $group $offset $length), $data))
             })
             .within(&[Limit::Instructions("encode by hand", 1.0)]),
-            Case::new($subject, "encode by hand", || {
+            Case::new(concat!("call: ", $subject), "encode by hand", || {
                 encode_by_hand(hand::requests::Request::$function $parameters)
             }),
         )+];
