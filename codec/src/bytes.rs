@@ -97,7 +97,6 @@ impl<'a> Reader<'a> {
     }
 
     /// The fixed fields `T` at the start of a record.
-    #[inline]
     pub(crate) fn fixed<T>(&mut self) -> Result<&'a T, Error>
     where
         T: FromBytes + KnownLayout + Immutable + Unaligned,
@@ -123,7 +122,6 @@ impl<'a> Reader<'a> {
     }
 
     /// `count` items of `each` bytes; the count stands in the field `counter`, right before.
-    #[inline]
     pub(crate) fn items(
         &mut self,
         counter: Field,
@@ -141,7 +139,6 @@ impl<'a> Reader<'a> {
     }
 
     /// `count` numbers, as [`items`](Self::items).
-    #[inline]
     pub(crate) fn numbers(
         &mut self,
         counter: Field,
@@ -154,7 +151,6 @@ impl<'a> Reader<'a> {
     }
 
     /// All that is left: text, the NUL that must end it, NULs that may pad it.
-    #[inline]
     pub(crate) fn terminated(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
         match split_nul(self.window(max)) {
             Some((text, tail)) => self.padded(text, tail),
@@ -163,7 +159,6 @@ impl<'a> Reader<'a> {
     }
 
     /// Text up to and including the NUL that must end it.
-    #[inline]
     pub(crate) fn leading(&mut self, field: Field, max: u32) -> Result<CncStr<'a>, Error> {
         let Some((text, _)) = split_nul(self.window(max)) else {
             return Err(self.error(ErrorKind::MissingNul, field, max));
@@ -198,7 +193,6 @@ impl<'a> Reader<'a> {
     }
 
     /// All that is left, between `min` and `max` bytes.
-    #[inline]
     pub(crate) fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<&'a [u8], Error> {
         if self.bytes.len() < to_len(min) {
             return Err(self.error(ErrorKind::Truncated, field, min));
@@ -216,10 +210,9 @@ impl<'a> Reader<'a> {
     }
 
     /// All that is left, one byte at least: text, and NULs at its end if any.
-    #[inline]
     pub(crate) fn may_terminate(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
-        if let Some((text, tail)) = split_nul(self.window(max)) {
-            return self.padded(text, tail);
+        if split_nul(self.bytes).is_some() {
+            return self.terminated(field, max);
         }
         let text = self.rest(field, 1, max)?;
         Ok(TextRef::with_tail(CncStr::without_nul(text), None))
@@ -246,7 +239,6 @@ impl<'a> Reader<'a> {
     }
 
     /// Nothing may be left.
-    #[inline]
     pub(crate) fn finish(self) -> Result<(), Error> {
         match self.bytes {
             [] => Ok(()),

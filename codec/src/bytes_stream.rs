@@ -19,7 +19,6 @@ macro_rules! bytes_stream {
         impl<'a> $crate::stream::Decode<'a> for $view<'a> {
             const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
-            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
                 let mut input = $crate::bytes::Reader::new(Self::STREAM, bytes)?;
                 let bytes = input.rest($field, $min, $crate::bytes::to_u32($max))?;
@@ -28,12 +27,10 @@ macro_rules! bytes_stream {
         }
 
         impl $crate::stream::Encode for $view<'_> {
-            #[inline]
             fn encoded_len(&self) -> usize {
                 self.bytes.len()
             }
 
-            #[inline]
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
                 use $crate::stream::Decode as _;
                 Self::decode(self.bytes)?;
@@ -61,7 +58,6 @@ macro_rules! bytes_stream {
             impl<'a> $crate::stream::Decode<'a> for $owned {
                 const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
-                #[inline]
                 fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
                     $view::decode(bytes)?;
                     let Wire { bytes } = $crate::bridge::read(Self::STREAM, bytes)?;

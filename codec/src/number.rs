@@ -14,19 +14,16 @@ macro_rules! number_stream {
         impl<'a> $crate::stream::Decode<'a> for $name {
             const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
-            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
                 $crate::bytes::Reader::number($field, bytes).map(Self)
             }
         }
 
         impl $crate::stream::Encode for $name {
-            #[inline]
             fn encoded_len(&self) -> usize {
                 4
             }
 
-            #[inline]
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
                 use $crate::stream::Decode;
                 $crate::bytes::Writer::copy(Self::STREAM, &self.0.to_le_bytes(), buf)

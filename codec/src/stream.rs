@@ -92,19 +92,16 @@ pub struct NoData;
 impl<'a> Decode<'a> for NoData {
     const STREAM: Stream = Stream::NoData;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         Reader::all(Self::STREAM, bytes).map(|[]: &[u8; 0]| Self)
     }
 }
 
 impl Encode for NoData {
-    #[inline]
     fn encoded_len(&self) -> usize {
         0
     }
 
-    #[inline]
     fn encode<'b>(&self, _: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Ok(&[])
     }
@@ -114,12 +111,10 @@ impl Encode for NoData {
 macro_rules! encode_as_ref {
     ($owned:ident) => {
         impl $crate::stream::Encode for $owned {
-            #[inline]
             fn encoded_len(&self) -> usize {
                 $crate::stream::Encode::encoded_len(&self.as_ref())
             }
 
-            #[inline]
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
                 $crate::stream::Encode::encode(&self.as_ref(), buf)
             }

@@ -65,7 +65,6 @@ const _: () = assert!(size_of::<InfoLayout>() == 24);
 impl<'a> Decode<'a> for DeviceInfoReply {
     const STREAM: Stream = Stream::DeviceInfoReply;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let layout = Reader::all(Self::STREAM, bytes)?;
         let &InfoLayout { result, major, minor, build, name } = layout;
@@ -74,12 +73,10 @@ impl<'a> Decode<'a> for DeviceInfoReply {
 }
 
 impl Encode for DeviceInfoReply {
-    #[inline]
     fn encoded_len(&self) -> usize {
         size_of::<InfoLayout>()
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let &Self { result, major, minor, build, name } = self;
         let (result, build) = (result.0.into(), build.into());
@@ -149,7 +146,6 @@ const _: () = assert!(size_of::<StateLayout>() == 8);
 impl<'a> Decode<'a> for DeviceStateReply {
     const STREAM: Stream = Stream::DeviceStateReply;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let layout = Reader::all(Self::STREAM, bytes)?;
         let StateLayout { result, ads_state, device_state } = layout;
@@ -162,12 +158,10 @@ impl<'a> Decode<'a> for DeviceStateReply {
 }
 
 impl Encode for DeviceStateReply {
-    #[inline]
     fn encoded_len(&self) -> usize {
         size_of::<StateLayout>()
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let (ads_state, device_state) = (self.ads_state.0.into(), self.device_state.into());
         let layout = StateLayout { result: self.result.0.into(), ads_state, device_state };

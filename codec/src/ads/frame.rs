@@ -100,12 +100,10 @@ impl<'a> FrameRef<'a> {
 }
 
 impl Encode for FrameRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         Self::HEADERS_LEN.saturating_add(self.data.len())
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         // No frame has more, but the compiler sees here that no sum of lengths overflows.
         let data_length = to_u32(self.data.len().min(DATA_MAX));

@@ -45,7 +45,6 @@ const _: () = assert!(size_of::<TcpLayout>() == AMS_TCP_HEADER_LEN);
 impl<'a> Decode<'a> for AmsTcpHeader {
     const STREAM: Stream = Stream::AmsTcpHeader;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let fixed: &TcpLayout = Reader::all(Self::STREAM, bytes)?;
         Ok(Self { reserved: fixed.reserved.get(), length: fixed.length.get() })
@@ -53,12 +52,10 @@ impl<'a> Decode<'a> for AmsTcpHeader {
 }
 
 impl Encode for AmsTcpHeader {
-    #[inline]
     fn encoded_len(&self) -> usize {
         AMS_TCP_HEADER_LEN
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::copy(Self::STREAM, self.layout().as_bytes(), buf)
     }
@@ -249,7 +246,6 @@ const _: () = assert!(size_of::<HeaderLayout>() == AMS_HEADER_LEN);
 impl<'a> Decode<'a> for AmsHeader {
     const STREAM: Stream = Stream::AmsHeader;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let fixed: &HeaderLayout = Reader::all(Self::STREAM, bytes)?;
         let end =
@@ -267,12 +263,10 @@ impl<'a> Decode<'a> for AmsHeader {
 }
 
 impl Encode for AmsHeader {
-    #[inline]
     fn encoded_len(&self) -> usize {
         AMS_HEADER_LEN
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::copy(Self::STREAM, self.layout().as_bytes(), buf)
     }

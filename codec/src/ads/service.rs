@@ -42,7 +42,6 @@ pub struct ReadRequest {
 impl<'a> Decode<'a> for ReadRequest {
     const STREAM: Stream = Stream::ReadRequest;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let [group, offset, length]: &[U32; 3] = Reader::all(Self::STREAM, bytes)?;
         Ok(Self {
@@ -54,12 +53,10 @@ impl<'a> Decode<'a> for ReadRequest {
 }
 
 impl Encode for ReadRequest {
-    #[inline]
     fn encoded_len(&self) -> usize {
         12
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let numbers = [self.index_group.get(), self.index_offset.get(), self.length];
         Writer::copy(Self::STREAM, numbers.map(U32::new).as_bytes(), buf)
@@ -90,7 +87,6 @@ pub struct WriteReply {
 impl<'a> Decode<'a> for WriteReply {
     const STREAM: Stream = Stream::WriteReply;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let result = Reader::number(field::write_reply::RESULT, bytes)?;
         Ok(Self { result: AdsError(result) })
@@ -98,12 +94,10 @@ impl<'a> Decode<'a> for WriteReply {
 }
 
 impl Encode for WriteReply {
-    #[inline]
     fn encoded_len(&self) -> usize {
         4
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::copy(Self::STREAM, &self.result.0.to_le_bytes(), buf)
     }
@@ -137,7 +131,6 @@ macro_rules! request_with_data {
         impl<'a> Decode<'a> for $ref<'a> {
             const STREAM: Stream = Stream::$stream;
 
-            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
                 let mut input = Reader::new(Self::STREAM, bytes)?;
                 let numbers: &[U32; $count] = input.fixed()?;
@@ -154,12 +147,10 @@ macro_rules! request_with_data {
         }
 
         impl Encode for $ref<'_> {
-            #[inline]
             fn encoded_len(&self) -> usize {
                 size_of::<[U32; $count]>().saturating_add(self.data.len())
             }
 
-            #[inline]
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
                 let front = size_of::<[U32; $count]>();
                 Writer::run_behind(Self::STREAM, front, self.data.len(), buf, |out| {
@@ -202,7 +193,6 @@ macro_rules! request_with_data {
         impl<'a> Decode<'a> for $owned {
             const STREAM: Stream = Stream::$stream;
 
-            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
                 $ref::decode(bytes)?;
                 let wire: $wire = bridge::read(Self::STREAM, bytes)?;
@@ -265,7 +255,6 @@ macro_rules! reply_with_data {
         impl<'a> Decode<'a> for $ref<'a> {
             const STREAM: Stream = Stream::$stream;
 
-            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
                 let mut input = Reader::new(Self::STREAM, bytes)?;
                 let result = AdsError(input.u32(field::$fields::RESULT)?);
@@ -280,12 +269,10 @@ macro_rules! reply_with_data {
         }
 
         impl Encode for $ref<'_> {
-            #[inline]
             fn encoded_len(&self) -> usize {
                 self.data.map_or(4, |data| data.len().saturating_add(8))
             }
 
-            #[inline]
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
                 let Some(data) = self.data else {
                     // Only an error may do without; success without data has none to give.
@@ -327,7 +314,6 @@ macro_rules! reply_with_data {
         impl<'a> Decode<'a> for $owned {
             const STREAM: Stream = Stream::$stream;
 
-            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
                 $ref::decode(bytes)?;
                 let $wire { result, data } = bridge::read(Self::STREAM, bytes)?;

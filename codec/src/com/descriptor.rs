@@ -250,7 +250,6 @@ fn pad(text: CncStr<'_>, field: Field, at: u32, bytes: &mut [u8]) -> Result<(), 
 impl<'a> Decode<'a> for DescriptorRef<'a> {
     const STREAM: Stream = Stream::ObjectDescriptor;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         Reader::all(Self::STREAM, bytes).map(Self)
     }
@@ -259,19 +258,16 @@ impl<'a> Decode<'a> for DescriptorRef<'a> {
 impl<'a> Decode<'a> for Descriptor {
     const STREAM: Stream = Stream::ObjectDescriptor;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         DescriptorRef::decode(bytes).map(DescriptorRef::to_owned)
     }
 }
 
 impl Encode for DescriptorRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         DESCRIPTOR_LEN
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::copy(Self::STREAM, self.0.as_bytes(), buf)
     }

@@ -73,7 +73,6 @@ impl<'a> DescriptorsRef<'a> {
 impl<'a> Decode<'a> for DescriptorsRef<'a> {
     const STREAM: Stream = Stream::ObjectDescriptors;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         Reader::new(Self::STREAM, bytes)?;
         let count = bytes.len() / DESCRIPTOR_LEN;
@@ -94,12 +93,10 @@ fn behind(count: usize, bytes: &[u8]) -> Result<&DescriptorLayout, Error> {
 }
 
 impl Encode for DescriptorsRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         self.0.as_bytes().len()
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         if self.is_empty() {
             // No descriptor is no stream: nobody would decode it.
@@ -150,7 +147,6 @@ mod owned {
     impl<'a> Decode<'a> for Descriptors {
         const STREAM: Stream = Stream::ObjectDescriptors;
 
-        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             DescriptorsRef::decode(bytes)?;
             let Wire { records } = bridge::read(Self::STREAM, bytes)?;

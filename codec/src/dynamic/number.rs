@@ -65,7 +65,6 @@ impl DynamicIndex {
 impl<'a> Decode<'a> for DynamicIndex {
     const STREAM: Stream = Stream::DynamicIndex;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::ending(Self::STREAM, bytes);
         let index = Self(input.u32(dynamic_index::INDEX)?).check()?;
@@ -75,12 +74,10 @@ impl<'a> Decode<'a> for DynamicIndex {
 }
 
 impl Encode for DynamicIndex {
-    #[inline]
     fn encoded_len(&self) -> usize {
         4
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         self.check()?;
         Writer::copy(Self::STREAM, &self.0.to_le_bytes(), buf)
@@ -141,7 +138,6 @@ impl fmt::Debug for DynamicValue {
 impl<'a> Decode<'a> for DynamicValue {
     const STREAM: Stream = Stream::DynamicValue;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let bits: &U64 = Reader::all(Self::STREAM, bytes)?;
         Ok(Self { bits: bits.get() })
@@ -149,12 +145,10 @@ impl<'a> Decode<'a> for DynamicValue {
 }
 
 impl Encode for DynamicValue {
-    #[inline]
     fn encoded_len(&self) -> usize {
         8
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::copy(Self::STREAM, &self.bits.to_le_bytes(), buf)
     }

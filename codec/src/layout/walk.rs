@@ -138,7 +138,6 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
         Ok(())
     }
 
-    #[inline]
     fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<(), Error> {
         let at = self.input.at();
         let bytes = self.input.rest(field, min, max)?;

@@ -101,7 +101,6 @@ impl ElementLength {
 impl<'a> Decode<'a> for ElementLength {
     const STREAM: Stream = Stream::ElementLength;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         match *bytes {
             [a] => Ok(Self { length: a.into(), width: Width::One }),
@@ -112,7 +111,6 @@ impl<'a> Decode<'a> for ElementLength {
 }
 
 impl Encode for ElementLength {
-    #[inline]
     fn encoded_len(&self) -> usize {
         match self.width {
             Width::One => 1,
@@ -121,7 +119,6 @@ impl Encode for ElementLength {
         }
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         // A narrow number is only ever read, so that nothing is cut off.
         let all = self.length.to_le_bytes();
@@ -179,19 +176,16 @@ impl ElementWriteFlag {
 impl<'a> Decode<'a> for ElementWriteFlag {
     const STREAM: Stream = Stream::ElementWriteFlag;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         Reader::all(Self::STREAM, bytes).map(|&flag| Self(flag))
     }
 }
 
 impl Encode for ElementWriteFlag {
-    #[inline]
     fn encoded_len(&self) -> usize {
         1
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::copy(Self::STREAM, &[self.0], buf)
     }

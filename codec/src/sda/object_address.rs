@@ -20,13 +20,11 @@ struct Pair {
 
 const _: () = assert!(size_of::<Pair>() == 8);
 
-#[inline]
 fn decode(stream: Stream, bytes: &[u8]) -> Result<(u32, u32), Error> {
     let pair: &Pair = Reader::all(stream, bytes)?;
     Ok((pair.first.get(), pair.second.get()))
 }
 
-#[inline]
 fn encode(stream: Stream, first: u32, second: u32, buf: &mut [u8]) -> Result<&[u8], Error> {
     let pair = Pair { first: first.into(), second: second.into() };
     Writer::copy(stream, pair.as_bytes(), buf)
@@ -69,7 +67,6 @@ pub struct ObjectAddressQuery {
 impl<'a> Decode<'a> for ObjectAddressQuery {
     const STREAM: Stream = Stream::ObjectAddressQuery;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let (channel, axis) = decode(Self::STREAM, bytes)?;
         Ok(Self { channel, axis })
@@ -77,12 +74,10 @@ impl<'a> Decode<'a> for ObjectAddressQuery {
 }
 
 impl Encode for ObjectAddressQuery {
-    #[inline]
     fn encoded_len(&self) -> usize {
         size_of::<Pair>()
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         encode(Self::STREAM, self.channel, self.axis, buf)
     }
@@ -149,7 +144,6 @@ impl From<ElementAddress> for ObjectAddress {
 impl<'a> Decode<'a> for ObjectAddress {
     const STREAM: Stream = Stream::ObjectAddress;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let (group, offset) = decode(Self::STREAM, bytes)?;
         Ok(Self { index_group: IndexGroup::new(group), index_offset: IndexOffset::new(offset) })
@@ -157,12 +151,10 @@ impl<'a> Decode<'a> for ObjectAddress {
 }
 
 impl Encode for ObjectAddress {
-    #[inline]
     fn encoded_len(&self) -> usize {
         size_of::<Pair>()
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         encode(Self::STREAM, self.index_group.get(), self.index_offset.get(), buf)
     }

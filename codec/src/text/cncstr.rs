@@ -135,7 +135,7 @@ impl<'a> CncStr<'a> {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     pub(crate) fn write(&self, out: &mut Writer<'_>) {
         match self.0 {
             Source::Bytes(bytes) => out.put(bytes),

@@ -69,7 +69,7 @@ impl<'a> TextRef<'a> {
         self.text.len().saturating_add(end)
     }
 
-    #[inline(always)]
+    #[inline]
     pub(crate) fn write(&self, out: &mut Writer<'_>) {
         self.text.write(out);
         if let Some(tail) = self.tail {
@@ -78,7 +78,6 @@ impl<'a> TextRef<'a> {
     }
 
     /// The bytes of a field that may stand at the end of a request: a NUL, and only NULs behind it.
-    #[inline]
     pub(crate) fn check_terminated(&self, field: Field, at: u32, max: u32) -> Result<usize, Error> {
         let len = self.field_len();
         if len > to_len(max) {
@@ -105,7 +104,6 @@ impl<'a> TextRef<'a> {
     }
 
     /// The bytes of a field that may have between `min` and `max` of them.
-    #[inline]
     pub(crate) fn check_open(
         &self,
         field: Field,

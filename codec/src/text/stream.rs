@@ -21,7 +21,6 @@ macro_rules! text_stream {
         impl<'a> $crate::stream::Decode<'a> for $view<'a> {
             const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
-            #[inline]
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
                 let mut input = $crate::bytes::Reader::new(Self::STREAM, bytes)?;
                 let $name = $crate::text::text_stream!(@read input, $reader, $field, $args)?;
@@ -30,12 +29,10 @@ macro_rules! text_stream {
         }
 
         impl $crate::stream::Encode for $view<'_> {
-            #[inline]
             fn encoded_len(&self) -> usize {
                 self.$name.field_len()
             }
 
-            #[inline]
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
                 use $crate::stream::Decode as _;
                 let text = &self.$name;
@@ -64,7 +61,6 @@ macro_rules! text_stream {
             impl<'a> $crate::stream::Decode<'a> for $owned {
                 const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
-                #[inline]
                 fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
                     let len = $view::decode(bytes)?.$name.into();
                     let Wire { text } = $crate::bridge::read_with(Self::STREAM, bytes, (len,))?;

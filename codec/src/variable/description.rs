@@ -70,7 +70,6 @@ pub struct DescriptionRef<'a> {
 impl<'a> Decode<'a> for DescriptionRef<'a> {
     const STREAM: Stream = Stream::VariableDescription;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let head: &Head = input.fixed()?;
@@ -89,13 +88,11 @@ impl<'a> Decode<'a> for DescriptionRef<'a> {
 }
 
 impl Encode for DescriptionRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         let numbers = self.dimensions.encoded_len().saturating_add(Head::LEN);
         numbers.saturating_add(self.name.field_len())
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         self.write(buf)
     }
@@ -103,7 +100,7 @@ impl Encode for DescriptionRef<'_> {
 
 impl DescriptionRef<'_> {
     // Once more in the owned reading, where it is known what numbers and text are held in.
-    #[inline(always)]
+    #[inline]
     fn write<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let count = self.dimensions.check(DIMENSION_COUNT, 16, DIMENSIONS_MAX)?;
         let name_at = Head::LEN.saturating_add(count.saturating_mul(4));
@@ -175,7 +172,6 @@ mod owned {
     impl<'a> Decode<'a> for Description {
         const STREAM: Stream = Stream::VariableDescription;
 
-        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             let name_len: TextLen = DescriptionRef::decode(bytes)?.name.into();
             let Wire { head: Fixed(head), dimensions, name } =
@@ -207,12 +203,10 @@ mod owned {
     }
 
     impl Encode for Description {
-        #[inline]
         fn encoded_len(&self) -> usize {
             self.as_ref().encoded_len()
         }
 
-        #[inline]
         fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
             self.as_ref().write(buf)
         }

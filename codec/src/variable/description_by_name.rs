@@ -48,7 +48,6 @@ pub struct DescriptionByNameRef<'a> {
 impl<'a> Decode<'a> for DescriptionByNameRef<'a> {
     const STREAM: Stream = Stream::VariableDescriptionByName;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let head: &Head = input.fixed()?;
@@ -79,12 +78,10 @@ impl<'a> DescriptionRef<'a> {
 }
 
 impl Encode for DescriptionByNameRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         self.dimensions.encoded_len().saturating_add(Head::LEN)
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let count = self.dimensions.check(DIMENSION_COUNT, 16, NAMELESS_DIMENSIONS_MAX)?;
         let len = Head::LEN.saturating_add(count.saturating_mul(4));
@@ -146,7 +143,6 @@ mod owned {
     impl<'a> Decode<'a> for DescriptionByName {
         const STREAM: Stream = Stream::VariableDescriptionByName;
 
-        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             DescriptionByNameRef::decode(bytes)?;
             let Wire { head: Fixed(head), dimensions } = bridge::read(Self::STREAM, bytes)?;

@@ -60,7 +60,6 @@ pub struct ExtendedDescription {
 impl<'a> Decode<'a> for ExtendedReply {
     const STREAM: Stream = Stream::VariableExtendedDescription;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         if input.is_empty() {
@@ -76,12 +75,10 @@ impl<'a> Decode<'a> for ExtendedReply {
 }
 
 impl Encode for ExtendedReply {
-    #[inline]
     fn encoded_len(&self) -> usize {
         self.0.map_or(0, |_| 8)
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
             if let Some(extended) = self.0 {

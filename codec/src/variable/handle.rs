@@ -65,7 +65,6 @@ pub struct HandleReadRef<'a> {
 impl<'a> Decode<'a> for HandleReadRef<'a> {
     const STREAM: Stream = Stream::VariableHandleRead;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let handle = Handle(input.u32(HANDLE)?);
@@ -77,12 +76,10 @@ impl<'a> Decode<'a> for HandleReadRef<'a> {
 }
 
 impl Encode for HandleReadRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         self.indices.encoded_len().saturating_add(8)
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let count = self.indices.check(INDEX_COUNT, 4, INDICES_MAX)?;
         Writer::run(Self::STREAM, count.saturating_mul(4).saturating_add(8), buf, |out| {
@@ -133,7 +130,6 @@ mod owned {
     impl<'a> Decode<'a> for HandleRead {
         const STREAM: Stream = Stream::VariableHandleRead;
 
-        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             HandleReadRef::decode(bytes)?;
             let Wire { handle, indices } = bridge::read(Self::STREAM, bytes)?;

@@ -42,7 +42,6 @@ pub struct HandleWriteRef<'a> {
 impl<'a> Decode<'a> for HandleWriteRef<'a> {
     const STREAM: Stream = Stream::VariableHandleWrite;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let handle = Handle(input.u32(HANDLE)?);
@@ -54,12 +53,10 @@ impl<'a> Decode<'a> for HandleWriteRef<'a> {
 }
 
 impl Encode for HandleWriteRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         self.indices.encoded_len().saturating_add(8).saturating_add(self.value.len())
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let count = self.indices.check(INDEX_COUNT, 4, INDICES_MAX)?;
         let value_at = count.saturating_mul(4).saturating_add(8);
@@ -118,7 +115,6 @@ mod owned {
     impl<'a> Decode<'a> for HandleWrite {
         const STREAM: Stream = Stream::VariableHandleWrite;
 
-        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             HandleWriteRef::decode(bytes)?;
             let Wire { handle, indices, value } = bridge::read(Self::STREAM, bytes)?;

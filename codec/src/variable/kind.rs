@@ -104,7 +104,6 @@ pub struct VariableKindRef<'a> {
 impl<'a> Decode<'a> for VariableKindRef<'a> {
     const STREAM: Stream = Stream::VariableKind;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         if input.is_empty() {
@@ -116,12 +115,10 @@ impl<'a> Decode<'a> for VariableKindRef<'a> {
 }
 
 impl Encode for VariableKindRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         self.kind.0.field_len()
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let field = self.kind.0;
         let len = match field.field_len() {
@@ -179,7 +176,6 @@ pub struct VariableIndexKindRef<'a> {
 impl<'a> Decode<'a> for VariableIndexKindRef<'a> {
     const STREAM: Stream = Stream::VariableIndexKind;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let index = input.u32(variable_index_kind::INDEX)?;
@@ -189,12 +185,10 @@ impl<'a> Decode<'a> for VariableIndexKindRef<'a> {
 }
 
 impl Encode for VariableIndexKindRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         self.kind.0.field_len().saturating_add(4)
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let len = self.kind.0.check_terminated(variable_index_kind::KIND, 4, to_u32(TEXT_MAX))?;
         Writer::run(Self::STREAM, len.saturating_add(4), buf, |out| {
@@ -238,7 +232,6 @@ mod owned {
     impl<'a> Decode<'a> for VariableKind {
         const STREAM: Stream = Stream::VariableKind;
 
-        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             let len: TextLen = VariableKindRef::decode(bytes)?.kind.0.into();
             let KindWire { kind } = bridge::read_with(Self::STREAM, bytes, (len,))?;
@@ -284,7 +277,6 @@ mod owned {
     impl<'a> Decode<'a> for VariableIndexKind {
         const STREAM: Stream = Stream::VariableIndexKind;
 
-        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             let len: TextLen = VariableIndexKindRef::decode(bytes)?.kind.0.into();
             let IndexKindWire { index, kind } = bridge::read_with(Self::STREAM, bytes, (len,))?;

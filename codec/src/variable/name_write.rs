@@ -37,7 +37,6 @@ pub struct NameWriteRef<'a> {
 impl<'a> Decode<'a> for NameWriteRef<'a> {
     const STREAM: Stream = Stream::VariableNameWrite;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let name = input.leading(NAME, to_u32(TEXT_MAX))?;
@@ -47,12 +46,10 @@ impl<'a> Decode<'a> for NameWriteRef<'a> {
 }
 
 impl Encode for NameWriteRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         self.name.len().saturating_add(1).saturating_add(self.value.len())
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let name = TextRef::from(self.name);
         let len = name.check_open(NAME, 0, 1, to_u32(TEXT_MAX))?;
@@ -104,7 +101,6 @@ mod owned {
     impl<'a> Decode<'a> for NameWrite {
         const STREAM: Stream = Stream::VariableNameWrite;
 
-        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             let name_len = NameWriteRef::decode(bytes)?.name.len();
             let Wire { name, value } = bridge::read_with(Self::STREAM, bytes, (name_len,))?;

@@ -91,30 +91,23 @@ impl<'a> Numbers<'a> {
         Ok(count)
     }
 
-    #[inline]
     pub(crate) fn encoded_len(&self) -> usize {
         self.len().saturating_mul(4)
     }
 
-    #[inline(always)]
+    #[inline]
     pub(crate) fn write(&self, out: &mut Writer<'_>) {
         match self.0 {
             Source::Wire(numbers) => out.put(numbers.as_bytes()),
-            Source::Memory(numbers) => put(numbers.iter().copied(), out.next(self.encoded_len())),
-            Source::Name(brackets) => put_name(brackets, out.next(self.encoded_len())),
+            Source::Memory(numbers) => {
+                let slots = out.next(self.encoded_len()).chunks_exact_mut(4);
+                for (slot, number) in slots.zip(numbers) {
+                    // Each has four bytes, which what is optimised for size does not see.
+                    slot.iter_mut().zip(number.to_le_bytes()).for_each(|(to, from)| *to = from);
+                }
+            }
+            Source::Name(_) => self.iter().for_each(|number| out.u32(number)),
         }
-    }
-}
-
-/// Apart from the numbers at hand, which is what there mostly is.
-#[cold]
-fn put_name(brackets: &[u8], out: &mut [u8]) {
-    put(Numbers::from_name(brackets).iter(), out);
-}
-
-fn put(numbers: impl Iterator<Item = u32>, out: &mut [u8]) {
-    for (slot, number) in out.chunks_exact_mut(4).zip(numbers) {
-        slot.copy_from_slice(&number.to_le_bytes());
     }
 }
 

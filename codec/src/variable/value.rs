@@ -30,7 +30,6 @@ pub struct ValueRef<'a> {
 impl<'a> Decode<'a> for ValueRef<'a> {
     const STREAM: Stream = Stream::VariableValue;
 
-    #[inline]
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let bytes = input.rest(VALUE, 0, to_u32(VARIABLE_MAX))?;
@@ -39,12 +38,10 @@ impl<'a> Decode<'a> for ValueRef<'a> {
 }
 
 impl Encode for ValueRef<'_> {
-    #[inline]
     fn encoded_len(&self) -> usize {
         self.bytes.len()
     }
 
-    #[inline]
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         Writer::copy(Self::STREAM, self.bytes, buf)
     }
@@ -84,7 +81,6 @@ mod owned {
     impl<'a> Decode<'a> for Value {
         const STREAM: Stream = Stream::VariableValue;
 
-        #[inline]
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
             ValueRef::decode(bytes)?;
             let Wire { bytes } = bridge::read(Self::STREAM, bytes)?;
