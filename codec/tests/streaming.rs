@@ -22,6 +22,22 @@ fn texts_of_no_and_one_byte() {
     assert_eq!(packets(b"\r\r\n\n"), [b"\r\n\r\n\r\n"]);
 }
 
+/// A service, address, access or size that is not taken is refused for good, all else for now.
+#[test]
+fn results_say_whether_to_write_again() {
+    use ads_cnc::ads::AdsError;
+
+    let refused = [6, 7, 0x701, 0x702, 0x703, 0x704, 0x705];
+    for number in 0..0x1_0000 {
+        let wanted = match number {
+            0 => Ack::Accepted,
+            number if refused.contains(&number) => Ack::Refused,
+            _ => Ack::Later,
+        };
+        assert_eq!(Ack::of(AdsError(number)), wanted, "{number:#x}");
+    }
+}
+
 /// 989 and 990 characters pass, 991 do not, wherever the line is and however it ends.
 #[test]
 fn lines_at_the_limit() {

@@ -52,6 +52,20 @@ fn printed_examples_are_clean() {
     );
 }
 
+/// What a name may not have ends it: what follows is read on.
+#[test]
+fn names_of_files_end() {
+    for behind in [" M30", "\tM30", "[1] M30", "\"x\" M30", "(x) M30"] {
+        let text = format!("L sub.nc{behind}\nX1\n");
+        assert_eq!(
+            findings(&text),
+            ["line 2, column 1: text behind the M30 of line 1 (STM-10)"],
+            "{text}"
+        );
+    }
+    clean("L M30\nL sub_M30.nc\nX1\n");
+}
+
 /// The same examples with one thing changed.
 #[test]
 fn printed_examples_changed_are_not_clean() {

@@ -215,9 +215,11 @@ fn codes_of_variables() {
     assert_eq!((VariableAccess::READ_ONLY.0, VariableAccess::READ_WRITE.0), (1, 2));
 }
 
-/// COM-2, E-08: any write access but 0 is TRUE.
+/// COM-2, SDA-9, E-08: any write access but 0 is TRUE.
 #[test]
 fn write_access() {
+    let flags = [0, 1, 2, 0xFF].map(|raw| sda::ElementWriteFlag(raw).is_writable());
+    assert_eq!(flags, [false, true, true, true]);
     let access = [0, 1, 2, 0x100, 0xFFFF].map(|raw| WriteAccess(raw).is_writable());
     assert_eq!(access, [false, true, true, true, true]);
 }
