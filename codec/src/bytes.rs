@@ -393,7 +393,6 @@ impl<'b> Writer<'b> {
         }
     }
 
-    #[inline]
     pub(crate) fn put(&mut self, bytes: &[u8]) {
         let rest = core::mem::take(&mut self.rest);
         if let Some((head, tail)) = rest.split_at_mut_checked(bytes.len()) {
