@@ -31,6 +31,8 @@ mod frames;
 mod limits;
 #[path = "../tests/net_ids.rs"]
 mod net_ids;
+#[path = "../tests/operations.rs"]
+mod operations;
 #[path = "../tests/parts.rs"]
 mod parts;
 #[path = "../tests/paths.rs"]
