@@ -151,10 +151,7 @@ mod tests {
     fn tables_follow_the_rules() {
         for number in (0..=0xFF_FFFF).chain([0x0112_2301, 0x1012_2301, u32::MAX]) {
             let group = IndexGroup::new(number);
-            let wanted = match group.parts() {
-                Some(parts) => those_where!(|spec| spec.group.holds(parts)),
-                None => Functions::NONE,
-            };
+            let wanted = of_number(number);
             let found = |task| Functions::in_group(task, group);
             assert!(found(Task::Com) == wanted.and(Functions::OF_COM), "{group}");
             assert!(found(Task::Sda) == wanted.and(Functions::OF_OTHERS), "{group}");

@@ -94,30 +94,13 @@ impl Encode for DescriptionRef<'_> {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        self.write(buf)
-    }
-}
-
-impl DescriptionRef<'_> {
-    // Once more in the owned reading, where it is known what numbers and text are held in.
-    #[inline]
-    fn write<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let count = self.dimensions.check(DIMENSION_COUNT, 16, DIMENSIONS_MAX)?;
         let name_at = Head::LEN.saturating_add(count.saturating_mul(4));
         let name_len = self.name.check_open(NAME, to_u32(name_at), 1, to_u32(TEXT_MAX))?;
-        let room = Writer::room(Self::STREAM, name_at.saturating_add(name_len), buf)?;
-        let mut out = Writer::new(room);
-        let head = Head {
-            handle: self.handle.0.into(),
-            var_type: self.var_type.0.into(),
-            access: self.access.0.into(),
-            size: self.size.into(),
-            dimension_count: to_u32(count).into(),
-        };
-        out.put(head.as_bytes());
-        self.dimensions.write(&mut out);
-        self.name.write(&mut out);
-        Ok(room)
+        Writer::run(Self::STREAM, name_at.saturating_add(name_len), buf, |out| {
+            self.without_name().write(count, out);
+            self.name.write(out);
+        })
     }
 }
 
@@ -202,13 +185,5 @@ mod owned {
         }
     }
 
-    impl Encode for Description {
-        fn encoded_len(&self) -> usize {
-            self.as_ref().encoded_len()
-        }
-
-        fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-            self.as_ref().write(buf)
-        }
-    }
+    crate::stream::encode_as_ref!(Description);
 }

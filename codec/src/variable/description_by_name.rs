@@ -85,17 +85,22 @@ impl Encode for DescriptionByNameRef<'_> {
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let count = self.dimensions.check(DIMENSION_COUNT, 16, NAMELESS_DIMENSIONS_MAX)?;
         let len = Head::LEN.saturating_add(count.saturating_mul(4));
-        Writer::run(Self::STREAM, len, buf, |out| {
-            let head = Head {
-                handle: self.handle.0.into(),
-                var_type: self.var_type.0.into(),
-                access: self.access.0.into(),
-                size: self.size.into(),
-                dimension_count: to_u32(count).into(),
-            };
-            out.put(head.as_bytes());
-            self.dimensions.write(out);
-        })
+        Writer::run(Self::STREAM, len, buf, |out| self.write(count, out))
+    }
+}
+
+impl DescriptionByNameRef<'_> {
+    /// The fields that the description by index has too, of so many dimensions.
+    pub(super) fn write(&self, count: usize, out: &mut Writer<'_>) {
+        let head = Head {
+            handle: self.handle.0.into(),
+            var_type: self.var_type.0.into(),
+            access: self.access.0.into(),
+            size: self.size.into(),
+            dimension_count: to_u32(count).into(),
+        };
+        out.put(head.as_bytes());
+        self.dimensions.write(out);
     }
 }
 
