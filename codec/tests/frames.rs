@@ -4,7 +4,11 @@ mod common;
 mod kept;
 
 use ads_cnc::ErrorKind::{self, *};
-use ads_cnc::ads::{AmsHeader, FrameRef};
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::{
+    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags,
+};
+use ads_cnc::operation::{Call, Service};
 use ads_cnc::{Decode as _, Encode as _};
 use common::{
     Fault, SPLIT, check_frames, check_split, check_verdicts_stay, frame, frame_header as header,
@@ -25,6 +29,63 @@ fn a_frame_comes_out_when_it_is_whole() {
     assert_eq!(frame.encode(&mut buf), Ok(&bytes[..]));
     assert_eq!(frame.encode(&mut [0; 49]).unwrap_err().kind(), BufferTooSmall);
     assert_eq!(FrameRef::new(frame.header(), frame.data()), Ok(frame));
+}
+
+const TARGET: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 7, 1, 1]), port: AmsPort::SDA };
+const SOURCE: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };
+
+/// A call as its service is in the manual (ADS-1 … ADS-3), and out of a frame again.
+#[test]
+fn a_call_is_the_request_of_its_service() {
+    let call = |service, data| Call {
+        port: AmsPort::SDA,
+        service,
+        index_group: IndexGroup::new(0x12_2301),
+        index_offset: IndexOffset::new(0x46),
+        read_length: if service == Service::Write { 0 } else { 4 },
+        data,
+    };
+    for (call, command, bytes) in [
+        (call(Service::Read, b""), Command::READ, &b"\x01\x23\x12\0\x46\0\0\0\x04\0\0\0"[..]),
+        (call(Service::Write, b"ab"), Command::WRITE, b"\x01\x23\x12\0\x46\0\0\0\x02\0\0\0ab"),
+        (
+            call(Service::ReadWrite, b"abc"),
+            Command::READ_WRITE,
+            b"\x01\x23\x12\0\x46\0\0\0\x04\0\0\0\x03\0\0\0abc",
+        ),
+    ] {
+        let mut buf = [0; 32];
+        assert_eq!((call.encode(&mut buf), call.encoded_len()), (Ok(bytes), bytes.len()));
+        let frame =
+            |command| FrameRef::new(AmsHeader::request(TARGET, SOURCE, command, 7), bytes).unwrap();
+        assert_eq!(Call::of_frame(&frame(command)), Ok(Some(call)));
+        assert_eq!(Call::of_frame(&frame(Command::READ_STATE)), Ok(None));
+        let header = AmsHeader::request(TARGET, SOURCE, command, 7);
+        let cut = FrameRef::new(header, &bytes[..bytes.len() - 1]).unwrap();
+        assert_eq!(Call::of_frame(&cut).unwrap_err().kind(), Truncated);
+    }
+    let error = call(Service::Read, b"a").encode(&mut [0; 32]).unwrap_err();
+    assert_eq!((error.kind(), error.expected(), error.found()), (Trailing, 12, 13));
+}
+
+/// A header to a target, and the one that comes back.
+#[test]
+fn a_response_answers_its_request() {
+    let request = AmsHeader::request(TARGET, SOURCE, Command::WRITE, 7);
+    let wanted = AmsHeader {
+        target: TARGET,
+        source: SOURCE,
+        command: Command::WRITE,
+        state_flags: StateFlags(0x0004),
+        data_length: 0,
+        error: AdsError(0),
+        invoke_id: 7,
+    };
+    assert_eq!(request, wanted);
+    let of_data = AmsHeader { data_length: 4, error: AdsError(7), ..request };
+    let wanted =
+        AmsHeader { target: SOURCE, source: TARGET, state_flags: StateFlags(0x0005), ..wanted };
+    assert_eq!(of_data.response(), wanted);
 }
 
 fn fault(kind: ErrorKind, field: &'static str, offset: usize, numbers: (usize, usize)) -> Fault {

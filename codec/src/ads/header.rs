@@ -273,6 +273,40 @@ impl Encode for AmsHeader {
 }
 
 impl AmsHeader {
+    /// A request; [`FrameRef::new`](super::FrameRef::new) sets the length of its data.
+    pub const fn request(
+        target: AmsAddr,
+        source: AmsAddr,
+        command: Command,
+        invoke_id: u32,
+    ) -> Self {
+        let (state_flags, error) = (StateFlags::REQUEST, AdsError::NONE);
+        Self { target, source, command, state_flags, data_length: 0, error, invoke_id }
+    }
+
+    /// What answers this request: back to where it came from, with its command and invoke ID.
+    ///
+    /// ```
+    /// use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, StateFlags};
+    ///
+    /// let cnc = AmsAddr { net_id: AmsNetId([192, 0, 2, 7, 1, 1]), port: AmsPort::SDA };
+    /// let client = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };
+    /// let response = AmsHeader::request(cnc, client, Command::READ, 7).response();
+    /// assert_eq!((response.target, response.source), (client, cnc));
+    /// assert_eq!((response.state_flags, response.invoke_id), (StateFlags::RESPONSE, 7));
+    /// ```
+    #[must_use]
+    pub const fn response(self) -> Self {
+        Self {
+            target: self.source,
+            source: self.target,
+            state_flags: StateFlags::RESPONSE,
+            data_length: 0,
+            error: AdsError::NONE,
+            ..self
+        }
+    }
+
     pub(super) fn layout(&self) -> HeaderLayout {
         HeaderLayout {
             target_net_id: self.target.net_id.0,

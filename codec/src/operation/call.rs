@@ -192,7 +192,7 @@ impl<'a> Call<'a> {
 
     /// A Read carries no data; on the wire it has no room for any.
     #[cold]
-    fn read_with_data(&self) -> Error {
+    pub(super) fn read_with_data(&self) -> Error {
         let whole = Field::whole(Stream::ReadRequest);
         let given = to_u32(self.data.len()).saturating_add(READ_REQUEST_LEN);
         let len = READ_REQUEST_LEN;

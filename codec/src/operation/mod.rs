@@ -24,6 +24,7 @@ mod com;
 mod content;
 mod dynamic;
 mod element;
+mod frame;
 mod places;
 mod reply;
 mod request;

@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, FrameRef};
 use ads_cnc::layout::Stream;
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{Call, Function, Refusal, Request, Service, Task};
@@ -139,6 +140,7 @@ pub(crate) fn check_call_bent(
     call: &Call<'_>,
     bend: impl Fn(&mut Call<'_>),
 ) -> Result<(), Refusal> {
+    check_frame(call);
     let request = call.dispatch()?;
     let mut buf = vec![0; request.encoded_len()];
     let mut again = request.encode(&mut buf).unwrap_or_else(|error| panic!("{request:?}: {error}"));
@@ -158,6 +160,26 @@ pub(crate) fn check_call_bent(
     let is_com = |call: &Call<'_>| Task::from_port(call.port) == Some(Task::Com);
     assert_eq!(is_com(&again), is_com(call));
     Ok(())
+}
+
+/// A call comes out of a frame as it went in; a Write has no read length there, a Read no data.
+fn check_frame(call: &Call<'_>) {
+    let mut bytes = vec![0; call.encoded_len()];
+    let data = match call.encode(&mut bytes) {
+        Ok(data) => data,
+        Err(error) => {
+            assert_eq!((call.service, error.kind()), (Service::Read, ErrorKind::Trailing));
+            assert!(!call.data.is_empty());
+            return;
+        }
+    };
+    assert_eq!(data.len(), call.encoded_len());
+    check_too_small(data.len(), |buf| call.encode(buf).map(drop));
+    let end = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: call.port };
+    let header = AmsHeader::request(end, end, call.service.command(), 1);
+    let frame = FrameRef::new(header, data).expect("no more data than a service has");
+    let read_length = if call.service == Service::Write { 0 } else { call.read_length };
+    assert_eq!(Call::of_frame(&frame), Ok(Some(Call { read_length, ..*call })));
 }
 
 /// A call takes what the stream of its function's request takes, and refuses the rest as that does.
