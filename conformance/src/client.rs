@@ -9,8 +9,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ads_cnc::ads::{
-    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, ReadReply, ReadRequest,
-    ReadWriteReply, ReadWriteRequestRef, StateFlags, WriteReply, WriteRequestRef,
+    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, ReadReply, ReadWriteReply,
+    WriteReply,
 };
 use ads_cnc::limits::ADS_DATA_MAX;
 use ads_cnc::operation::{Call, Service};
@@ -264,16 +264,10 @@ impl Client {
 
     fn header(&self, port: AmsPort, command: Command) -> AmsHeader {
         let low = u16::try_from(self.invoke_id & 0xF).unwrap_or_default();
-        AmsHeader {
-            target: AmsAddr { net_id: self.target.net_id, port },
-            // Not always the same: an answer goes to where its request came from.
-            source: AmsAddr { net_id: self.source, port: AmsPort(SOURCE_PORT.0 | low) },
-            command,
-            state_flags: StateFlags::REQUEST,
-            data_length: 0,
-            error: AdsError::NONE,
-            invoke_id: self.invoke_id,
-        }
+        let target = AmsAddr { net_id: self.target.net_id, port };
+        // Not always the same: an answer goes to where its request came from.
+        let source = AmsAddr { net_id: self.source, port: AmsPort(SOURCE_PORT.0 | low) };
+        AmsHeader::request(target, source, command, self.invoke_id)
     }
 
     /// Ends the connection. Who answers on the next may be another, or have restarted.
@@ -372,23 +366,11 @@ impl Client {
 
 /// The whole frame of a call.
 pub(crate) fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, Fault> {
-    let Call { index_group, index_offset, read_length, data, .. } = *call;
-    let payload = match call.service {
-        Service::Read => ReadRequest { index_group, index_offset, length: read_length }.to_vec(),
-        Service::Write => WriteRequestRef { index_group, index_offset, data }.to_vec(),
-        Service::ReadWrite => {
-            ReadWriteRequestRef { index_group, index_offset, read_length, data }.to_vec()
-        }
-    };
-    let payload = payload.map_err(Fault::Unsendable)?;
-    whole(header, &payload)
+    whole(header, &call.to_vec().map_err(Fault::Unsendable)?)
 }
 
 fn whole(header: AmsHeader, payload: &[u8]) -> Result<Vec<u8>, Fault> {
-    let frame = FrameRef::new(header, payload).map_err(Fault::Unsendable)?;
-    let mut bytes = vec![0; frame.encoded_len()];
-    frame.encode(&mut bytes).map_err(Fault::Unsendable)?;
-    Ok(bytes)
+    FrameRef::new(header, payload).and_then(|frame| frame.to_vec()).map_err(Fault::Unsendable)
 }
 
 /// What a frame with this header and data answers.

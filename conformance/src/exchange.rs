@@ -4,40 +4,12 @@ use std::fmt;
 use std::io;
 use std::time::Duration;
 
+use ads_cnc::Error;
 use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::ads::{
-    AdsError, AmsHeader, AmsPort, Command, FrameRef, ReadRequest, ReadWriteRequestRef,
-    WriteRequestRef,
-};
+use ads_cnc::ads::{AdsError, AmsHeader, AmsPort};
 use ads_cnc::operation::{Call, Service};
-use ads_cnc::{Decode as _, Error};
 
 use crate::gate::Refusal;
-
-/// The call that a frame carries; none if its command is none of the three services.
-///
-/// # Errors
-/// Those of the service's request.
-pub fn call_of<'f>(frame: &FrameRef<'f>) -> Result<Option<Call<'f>>, Error> {
-    let port = frame.header().target.port;
-    let (service, index_group, index_offset, read_length, data) = match frame.header().command {
-        Command::READ => {
-            let read = ReadRequest::decode(frame.data())?;
-            (Service::Read, read.index_group, read.index_offset, read.length, &[][..])
-        }
-        Command::WRITE => {
-            let write = WriteRequestRef::decode(frame.data())?;
-            (Service::Write, write.index_group, write.index_offset, 0, write.data)
-        }
-        Command::READ_WRITE => {
-            let both = ReadWriteRequestRef::decode(frame.data())?;
-            let (group, offset) = (both.index_group, both.index_offset);
-            (Service::ReadWrite, group, offset, both.read_length, both.data)
-        }
-        _ => return Ok(None),
-    };
-    Ok(Some(Call { port, service, index_group, index_offset, read_length, data }))
-}
 
 /// One request and what came of it.
 #[derive(Debug)]

@@ -8,9 +8,9 @@ use std::thread;
 
 use ads_cnc::Encode as _;
 use ads_cnc::address::{Class, Group};
-use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, FrameRef, ReadWriteReplyRef, StateFlags};
+use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, FrameRef, ReadWriteReplyRef};
+use ads_cnc::operation::Call;
 use ads_cnc_conformance::cnc::{Cnc, NET_ID};
-use ads_cnc_conformance::exchange::call_of;
 use ads_cnc_conformance::net;
 
 /// Who has the position controller.
@@ -43,7 +43,7 @@ fn serve(mut stream: &TcpStream, cnc: &Cnc, only: Only) -> io::Result<()> {
             len => received.extend_from_slice(&chunk[..len]),
         }
         while let Some((frame, len)) = FrameRef::split(&received, 0x1_0000).unwrap() {
-            let call = call_of(&frame).unwrap().unwrap();
+            let call = Call::of_frame(&frame).unwrap().unwrap();
             let of_class = match call.index_group.parts() {
                 Some(Group::Class(group)) => group.class == Class::PositionController,
                 _ => false,
@@ -52,12 +52,12 @@ fn serve(mut stream: &TcpStream, cnc: &Cnc, only: Only) -> io::Result<()> {
             match (only, call.port) {
                 (Only::Nobody, AmsPort::GEO) => {
                     let error = AdsError::TARGET_PORT_NOT_FOUND;
-                    answer = to(AmsHeader { error, ..frame.header() }, &[]);
+                    answer = to(frame.header(), error, &[]);
                 }
                 (_, AmsPort::SDA) if of_class => {
                     let result = AdsError::INVALID_GROUP;
                     let reply = ReadWriteReplyRef { result, data: None }.to_vec().unwrap();
-                    answer = to(frame.header(), &reply);
+                    answer = to(frame.header(), AdsError::NONE, &reply);
                 }
                 _ => cnc.respond(NET_ID, &frame, &mut answer),
             }
@@ -68,13 +68,9 @@ fn serve(mut stream: &TcpStream, cnc: &Cnc, only: Only) -> io::Result<()> {
 }
 
 /// The answer to a request.
-fn to(asked: AmsHeader, data: &[u8]) -> Vec<u8> {
-    let state_flags = StateFlags::RESPONSE;
-    let header = AmsHeader { target: asked.source, source: asked.target, state_flags, ..asked };
-    let frame = FrameRef::new(header, data).unwrap();
-    let mut bytes = vec![0; frame.encoded_len()];
-    frame.encode(&mut bytes).unwrap();
-    bytes
+fn to(asked: AmsHeader, error: AdsError, data: &[u8]) -> Vec<u8> {
+    let header = AmsHeader { error, ..asked.response() };
+    FrameRef::new(header, data).unwrap().to_vec().unwrap()
 }
 
 fn ads_cnc(args: &[&str]) -> Output {

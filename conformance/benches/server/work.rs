@@ -4,8 +4,7 @@ use std::error::Error;
 
 use ads_cnc::address::Channel;
 use ads_cnc::ads::{
-    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadRequest,
-    ReadWriteReplyRef, ReadWriteRequestRef, StateFlags,
+    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef,
 };
 use ads_cnc::operation::{
     Call, Operation as _, ReadByHandle, ReadByName, ReadDescriptors, ReadObject, Request, Service,
@@ -74,26 +73,14 @@ impl Work {
         let expected = answer(cnc, request)?;
         request.decode_reply(&expected)?;
         let mut buf = vec![0; request.encoded_len()];
-        let Call { port, service, index_group, index_offset, read_length, data } =
-            request.encode(&mut buf)?;
-        let payload = match service {
-            Service::Read => {
-                ReadRequest { index_group, index_offset, length: read_length }.to_vec()?
-            }
-            Service::ReadWrite => {
-                ReadWriteRequestRef { index_group, index_offset, read_length, data }.to_vec()?
-            }
-            Service::Write => return Err(format!("{name}: nothing is to be changed").into()),
-        };
-        let header = AmsHeader {
-            target: AmsAddr { net_id: NET_ID, port },
-            source: CLIENT,
-            command: service.command(),
-            state_flags: StateFlags::REQUEST,
-            data_length: 0,
-            error: AdsError::NONE,
-            invoke_id: 0,
-        };
+        let call = request.encode(&mut buf)?;
+        let Call { port, service, index_group, index_offset, .. } = call;
+        if service == Service::Write {
+            return Err(format!("{name}: nothing is to be changed").into());
+        }
+        let payload = call.to_vec()?;
+        let target = AmsAddr { net_id: NET_ID, port };
+        let header = AmsHeader::request(target, CLIENT, service.command(), 0);
         let (group, offset) = (index_group.get(), index_offset.get());
         Ok(Self { name, title, group, offset, header, service, payload, expected })
     }
@@ -147,15 +134,7 @@ impl Work {
     }
 
     const fn answering(&self, invoke_id: u32, data_length: u32) -> AmsHeader {
-        let AmsHeader { target, source, .. } = self.header;
-        AmsHeader {
-            target: source,
-            source: target,
-            state_flags: StateFlags::RESPONSE,
-            data_length,
-            invoke_id,
-            ..self.header
-        }
+        AmsHeader { data_length, invoke_id, ..self.header.response() }
     }
 }
 

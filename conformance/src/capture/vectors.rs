@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use ads_cnc::Encode as _;
 use ads_cnc::ads::{
     AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef,
-    StateFlags, WriteReply,
+    WriteReply,
 };
 use ads_cnc::layout::{Segment as Piece, Size, Stream, Type as FieldType};
 use ads_cnc::operation::{Call, Function, Request, Service};
@@ -97,15 +97,7 @@ impl Collector {
     /// Both frames, made anew.
     fn frames(&mut self, call: &Call<'_>, received: Option<&[u8]>) {
         let cnc = AmsAddr { net_id: CNC, port: call.port };
-        let header = AmsHeader {
-            target: cnc,
-            source: CLIENT,
-            command: call.service.command(),
-            state_flags: StateFlags::REQUEST,
-            data_length: 0,
-            error: AdsError::NONE,
-            invoke_id: 1,
-        };
+        let header = AmsHeader::request(cnc, CLIENT, call.service.command(), 1);
         let clause = match call.service {
             Service::Read => "ADS-1",
             Service::Write => "ADS-2",
@@ -120,12 +112,9 @@ impl Collector {
             Service::Write => WriteReply { result }.to_vec(),
             Service::ReadWrite => ReadWriteReplyRef { result, data }.to_vec(),
         };
-        let header =
-            AmsHeader { target: CLIENT, source: cnc, state_flags: StateFlags::RESPONSE, ..header };
         let Ok(reply) = reply else { return };
-        let Ok(frame) = FrameRef::new(header, &reply) else { return };
-        let mut bytes = vec![0; frame.encoded_len()];
-        if frame.encode(&mut bytes).is_ok() {
+        let frame = FrameRef::new(header.response(), &reply).and_then(|frame| frame.to_vec());
+        if let Ok(bytes) = frame {
             self.frame(Direction::Reply, &bytes, clause);
         }
     }

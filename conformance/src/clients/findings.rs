@@ -4,10 +4,10 @@ use std::fmt::Display;
 
 use ads_cnc::Decode as _;
 use ads_cnc::ads::{Command, FrameRef, ReadReplyRef, ReadWriteReplyRef};
+use ads_cnc::operation::Call;
 
 use super::CLIENT;
 use super::stage::Turn;
-use crate::exchange::call_of;
 use crate::suite::{Evidence, Judgement, Rule};
 use crate::verdict::Verdict;
 use ads_cnc_vectors::Level;
@@ -83,7 +83,7 @@ pub(super) fn evidence(turn: &Turn) -> Evidence {
     let header = frame.header();
     evidence.call = format!("command {} to port {}{fault}", header.command.0, header.target.port);
     evidence.sent = frame.data().to_vec();
-    if let Ok(Some(call)) = call_of(&frame) {
+    if let Ok(Some(call)) = Call::of_frame(&frame) {
         evidence.call = format!(
             "{} {}, {} at port {}",
             call.service, call.index_group, call.index_offset, call.port

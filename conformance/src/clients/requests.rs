@@ -8,7 +8,6 @@ use super::CLIENT;
 use super::findings::Findings;
 use super::stage::Turn;
 use crate::cnc::NET_ID;
-use crate::exchange::call_of;
 use crate::suite::assumed;
 
 /// The longest frame.
@@ -67,7 +66,7 @@ fn one(turn: &Turn, findings: &mut Findings) {
     let has_task = Task::from_port(port).is_some();
     findings.check("GEN-4", has_task, Some(turn), "port 551, 552 or 553", port);
     let service = service_rule(header.command);
-    match call_of(&frame) {
+    match Call::of_frame(&frame) {
         Err(error) => {
             let expected = format!("a request of {}", name(header.command));
             findings.check(service.unwrap_or(CLIENT), false, Some(turn), expected, error);
@@ -157,7 +156,7 @@ fn at(call: &Call<'_>) -> Option<&'static str> {
 /// The request of a turn, if it is one that a CNC knows.
 pub(super) fn with_request<T>(turn: &Turn, then: impl FnOnce(&Request<'_>) -> T) -> Option<T> {
     let (frame, _) = FrameRef::split(&turn.request, DATA_MAX).ok()??;
-    let request = call_of(&frame).ok()??.dispatch().ok()?;
+    let request = Call::of_frame(&frame).ok()??.dispatch().ok()?;
     Some(then(&request))
 }
 

@@ -3,15 +3,14 @@
 use std::collections::BTreeMap;
 
 use ads_cnc::address::Channel;
-use ads_cnc::ads::{AdsError, AmsHeader, FrameRef, StateFlags, WriteReply};
-use ads_cnc::operation::{Function, HandleByName, Request, WriteByName};
+use ads_cnc::ads::{AdsError, AmsHeader, FrameRef, WriteReply};
+use ads_cnc::operation::{Call, Function, HandleByName, Request, WriteByName};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Decode as _, Encode as _, Handle};
 
 use super::knob::{Deed, Knob};
 use super::literal::Literal;
 use crate::cnc::{Cnc, NET_ID};
-use crate::exchange::call_of;
 
 /// The longest frame the codec is asked to read.
 const DATA_MAX: u32 = 0x1_0000;
@@ -64,7 +63,7 @@ impl Script {
         }
         let split = FrameRef::split(frame, DATA_MAX).map_err(|error| error.to_string())?;
         let (request, _) = split.ok_or("cut")?;
-        let call = call_of(&request).ok().flatten();
+        let call = Call::of_frame(&request).ok().flatten();
         let asked = call.as_ref().and_then(|call| call.dispatch().ok());
         let mut reply = Vec::new();
         match asked.as_ref().and_then(|asked| self.refusal(asked)) {
@@ -158,14 +157,5 @@ impl Script {
 /// A refusal by the CNC that it would not give of itself.
 fn write_reply(asked: AmsHeader, result: AdsError) -> Option<Vec<u8>> {
     let data = WriteReply { result }.to_vec().ok()?;
-    let header = AmsHeader {
-        target: asked.source,
-        source: asked.target,
-        state_flags: StateFlags::RESPONSE,
-        ..asked
-    };
-    let frame = FrameRef::new(header, &data).ok()?;
-    let mut bytes = vec![0; frame.encoded_len()];
-    frame.encode(&mut bytes).ok()?;
-    Some(bytes)
+    FrameRef::new(asked.response(), &data).ok()?.to_vec().ok()
 }

@@ -71,14 +71,7 @@ impl Cnc {
         };
         let data_length = to_u32(answers.len().saturating_sub(behind));
         let done = error.and_then(|error| {
-            let answer = AmsHeader {
-                target: header.source,
-                source: header.target,
-                state_flags: StateFlags::RESPONSE,
-                error,
-                data_length,
-                ..header
-            };
+            let answer = AmsHeader { error, data_length, ..header.response() };
             self.write_headers(answer, answers, start)
         });
         if let Err(error) = done {

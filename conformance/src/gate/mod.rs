@@ -40,7 +40,6 @@ use ads_cnc::operation::{Call, Effect, Function, Request, Service, Task};
 use ads_cnc::streaming;
 
 use crate::cnc::Server;
-use crate::exchange::call_of;
 use learnt::Learnt;
 
 /// Decides over every frame before a byte of it is sent.
@@ -161,7 +160,7 @@ impl Gate {
                 }
                 true
             }
-            command => match call_of(&whole) {
+            command => match Call::of_frame(&whole) {
                 Ok(Some(call)) => self.check_call(&call, header.target.net_id, now)?,
                 Ok(None) => return malformed(Reason::Never(command)),
                 Err(error) => return malformed(Reason::Malformed(error)),

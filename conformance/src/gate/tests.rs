@@ -1,10 +1,7 @@
 use ads_cnc::address::{
     Attribute, Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset,
 };
-use ads_cnc::ads::{
-    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, ReadRequest,
-    ReadWriteRequestRef, StateFlags, WriteRequestRef,
-};
+use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use ads_cnc::operation::{
     AxisWriteByName, Call, CountObjects, HandleByName, ReadDescriptors, Request, Service,
     WriteByHandle, WriteByName, WriteElement, WriteObject, WriteProgramStream,
@@ -30,28 +27,12 @@ fn gate(tables: &str) -> Gate {
 }
 
 fn frame(command: Command, port: AmsPort, data: &[u8]) -> Vec<u8> {
-    let header = AmsHeader {
-        target: AmsAddr { net_id: TARGET, port },
-        source: SOURCE,
-        command,
-        state_flags: StateFlags::REQUEST,
-        data_length: 0,
-        error: AdsError::NONE,
-        invoke_id: 1,
-    };
+    let header = AmsHeader::request(AmsAddr { net_id: TARGET, port }, SOURCE, command, 1);
     FrameRef::new(header, data).unwrap().to_vec().unwrap()
 }
 
 fn call(call: &Call<'_>) -> Vec<u8> {
-    let Call { port, service, index_group, index_offset, read_length, data } = *call;
-    let payload = match service {
-        Service::Read => ReadRequest { index_group, index_offset, length: read_length }.to_vec(),
-        Service::Write => WriteRequestRef { index_group, index_offset, data }.to_vec(),
-        Service::ReadWrite => {
-            ReadWriteRequestRef { index_group, index_offset, read_length, data }.to_vec()
-        }
-    };
-    frame(service.command(), port, &payload.unwrap())
+    frame(call.service.command(), call.port, &call.to_vec().unwrap())
 }
 
 fn request<'a>(request: impl Into<Request<'a>>) -> Vec<u8> {

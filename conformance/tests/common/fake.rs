@@ -8,9 +8,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 
 use ads_cnc::Encode as _;
-use ads_cnc::ads::{AdsError, AmsHeader, FrameRef, StateFlags, WriteReply};
-use ads_cnc::operation::Request;
-use ads_cnc_conformance::exchange::call_of;
+use ads_cnc::ads::{AdsError, AmsHeader, FrameRef, WriteReply};
+use ads_cnc::operation::{Call, Request};
 use ads_cnc_conformance::net;
 
 /// How a write is answered.
@@ -42,7 +41,7 @@ fn serve(mut stream: &TcpStream, answer: &mut impl FnMut(u8, &[u8]) -> Answer) -
             len => received.extend_from_slice(&chunk[..len]),
         }
         while let Some((frame, len)) = FrameRef::split(&received, 0x1_0000).unwrap() {
-            let request = call_of(&frame).unwrap().unwrap();
+            let request = Call::of_frame(&frame).unwrap().unwrap();
             let Ok(Request::WriteProgramStream(op)) = request.dispatch() else {
                 panic!("{request:?}")
             };
@@ -57,17 +56,8 @@ fn serve(mut stream: &TcpStream, answer: &mut impl FnMut(u8, &[u8]) -> Answer) -
 }
 
 fn reply(asked: AmsHeader, result: AdsError) -> Vec<u8> {
-    let header = AmsHeader {
-        target: asked.source,
-        source: asked.target,
-        state_flags: StateFlags::RESPONSE,
-        ..asked
-    };
     let data = WriteReply { result }.to_vec().unwrap();
-    let frame = FrameRef::new(header, &data).unwrap();
-    let mut bytes = vec![0; frame.encoded_len()];
-    frame.encode(&mut bytes).unwrap();
-    bytes
+    FrameRef::new(asked.response(), &data).unwrap().to_vec().unwrap()
 }
 
 /// A file that is removed in the end.

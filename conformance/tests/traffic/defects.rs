@@ -2,8 +2,8 @@
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::layout::Stream;
+use ads_cnc::operation::Call;
 use ads_cnc_conformance::defect::Defect;
-use ads_cnc_conformance::exchange::call_of;
 use ads_cnc_conformance::verdict::Verdict;
 
 use crate::maker::{Link, Message, Side, checked, passes, pcap, segments, with};
@@ -79,7 +79,7 @@ fn spoilt(all: &[Message], defect: &Defect) -> Vec<Message> {
             }
             () => {}
         }
-        let call = call_of(&frame).ok()??;
+        let call = Call::of_frame(&frame).ok()??;
         let stream = call.dispatch().ok()?.function().spec().request?;
         let from = bytes.len() - call.data.len();
         if defect.touches(stream) { change(from, bytes.len()) } else { None }

@@ -2,6 +2,7 @@
 
 use ads_cnc::ads::{AmsHeader, FrameRef};
 use ads_cnc::limits::AMS_HEADER_LEN;
+use ads_cnc::operation::Call;
 use ads_cnc::{Decode as _, Error};
 
 use super::super::book::{Scene, Topic};
@@ -11,7 +12,6 @@ use super::super::tally::count;
 use super::super::tcp::Mark;
 use super::pair::REORDERED_MAX;
 use super::{Judge, Lost, PATIENCE, Seen, is_cnc, is_reply, service_clause, spot};
-use crate::exchange::call_of;
 use crate::suite::Checks as _;
 
 impl Judge {
@@ -76,7 +76,7 @@ impl Judge {
     /// What a lost answer leaves open: the requirement of the function that was asked.
     fn open_function(&mut self, asked: &Seen, scene: &Scene<'_>, found: &str) {
         let Ok(Some((frame, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
-        let Ok(Some(call)) = call_of(&frame) else { return };
+        let Ok(Some(call)) = Call::of_frame(&frame) else { return };
         let Ok(request) = call.dispatch() else { return };
         let spec = request.function().spec();
         if spec.reply.is_some() {

@@ -18,7 +18,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
 
 use ads_cnc::ads::{AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags};
-use ads_cnc::operation::{Request, Task};
+use ads_cnc::operation::{Call, Request, Task};
 
 use self::pair::Early;
 use super::book::{Book, Scene, Spot, Topic};
@@ -28,7 +28,7 @@ use super::tally::{Tally, count, count_of};
 use super::time::Time;
 use super::vectors::Collector;
 use crate::client::{answer, violations};
-use crate::exchange::{Exchange, Fault, call_of};
+use crate::exchange::{Exchange, Fault};
 use crate::suite::{Checks as _, Outcome, assumed};
 
 /// CNCs that are told apart.
@@ -211,7 +211,7 @@ impl Judge {
             return;
         }
         let Ok(Some((frame, _))) = FrameRef::split(&seen.frame, u32::MAX) else { return };
-        let call = call_of(&frame);
+        let call = Call::of_frame(&frame);
         let exchange = call.as_ref().ok().copied().flatten().map(|call| Exchange {
             sent: seen.frame.clone(),
             outcome: Err(Fault::Unseen),
@@ -250,7 +250,7 @@ impl Judge {
         let Ok(Some((sent, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
         let Ok(Some((received, _))) = FrameRef::split(&reply.frame, u32::MAX) else { return };
         // What is no request of a service may be answered in any way.
-        let Ok(Some(call)) = call_of(&sent) else { return };
+        let Ok(Some(call)) = Call::of_frame(&sent) else { return };
         let exchange = Exchange {
             sent: asked.frame.clone(),
             received: reply.frame.clone(),

@@ -50,15 +50,8 @@ impl Wire {
     pub(super) fn connect(place: &Place, flaw: Option<Flaw>) -> Result<Self, Fail> {
         let stream = net::rehearse(place.addr, TIMEOUT)?;
         let source = AmsAddr { net_id: net_id_of(stream.local_addr()?.ip()), port: SOURCE_PORT };
-        let header = AmsHeader {
-            target: AmsAddr { net_id: place.net_id, port: AmsPort::SDA },
-            source,
-            command: Service::Read.command(),
-            state_flags: StateFlags::REQUEST,
-            data_length: 0,
-            error: AdsError::NONE,
-            invoke_id: 0,
-        };
+        let target = AmsAddr { net_id: place.net_id, port: AmsPort::SDA };
+        let header = AmsHeader::request(target, source, Service::Read.command(), 0);
         Ok(Self { stream, header, received: Vec::new(), flaw })
     }
 

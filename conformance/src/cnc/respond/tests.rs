@@ -8,15 +8,9 @@ const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: 
 const COUNT: &[u8] = b"\x01\x23\x12\0\x44\0\0\0\x04\0\0\0\x04\0\0\0V.E\0";
 
 fn request(command: Command, port: u16, data: &[u8]) -> AmsHeader {
-    AmsHeader {
-        target: AmsAddr { net_id: NET_ID, port: AmsPort(port) },
-        source: CLIENT,
-        command,
-        state_flags: StateFlags::REQUEST,
-        data_length: u32::try_from(data.len()).unwrap(),
-        error: AdsError::NONE,
-        invoke_id: 0x0102_0304,
-    }
+    let target = AmsAddr { net_id: NET_ID, port: AmsPort(port) };
+    let data_length = u32::try_from(data.len()).unwrap();
+    AmsHeader { data_length, ..AmsHeader::request(target, CLIENT, command, 0x0102_0304) }
 }
 
 fn respond(cnc: &Cnc, header: AmsHeader, data: &[u8]) -> Option<(AmsHeader, Vec<u8>)> {

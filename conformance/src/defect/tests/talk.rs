@@ -3,9 +3,7 @@
 mod deeds;
 mod further;
 
-use ads_cnc::ads::{
-    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags,
-};
+use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 
 use super::Seed;
 use crate::cnc::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
@@ -52,15 +50,8 @@ impl<'t> Talk<'t> {
         }
         self.count += 1;
         let client = AmsAddr { net_id: AmsNetId([10, 0, 0, 1, 1, 1]), port: from };
-        let header = AmsHeader {
-            target: AmsAddr { net_id: NET_ID, port },
-            source: client,
-            command,
-            state_flags: StateFlags::REQUEST,
-            data_length: 0,
-            error: AdsError::NONE,
-            invoke_id: self.count | 0x5000_0000,
-        };
+        let target = AmsAddr { net_id: NET_ID, port };
+        let header = AmsHeader::request(target, client, command, self.count | 0x5000_0000);
         let mut answers = Vec::new();
         self.cnc.respond(NET_ID, &FrameRef::new(header, data).unwrap(), &mut answers);
         self.hear(answers.clone());

@@ -2,10 +2,7 @@
 
 use ads_cnc::Encode as _;
 use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::ads::{
-    AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadRequest, ReadWriteRequestRef, StateFlags,
-    WriteRequestRef,
-};
+use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef};
 use ads_cnc::operation::{Call, Service};
 use ads_cnc_conformance::cnc::NET_ID;
 
@@ -45,23 +42,9 @@ pub(crate) fn write_call(kind: u8, call: &Call<'_>) -> Vec<u8> {
 
 /// The frame of a call to the CNC.
 pub(crate) fn frame(call: &Call<'_>, invoke_id: u32) -> Vec<u8> {
-    let Call { service, index_group, index_offset, read_length, data, .. } = *call;
-    let payload = match service {
-        Service::Read => ReadRequest { index_group, index_offset, length: read_length }.to_vec(),
-        Service::Write => WriteRequestRef { index_group, index_offset, data }.to_vec(),
-        Service::ReadWrite => {
-            ReadWriteRequestRef { index_group, index_offset, read_length, data }.to_vec()
-        }
-    };
-    let payload = payload.expect("short data");
-    let header = AmsHeader {
-        target: AmsAddr { net_id: NET_ID, port: call.port },
-        source: AmsAddr { net_id: AmsNetId([127, 0, 0, 1, 1, 2]), port: AmsPort(0x8001) },
-        command: service.command(),
-        state_flags: StateFlags::REQUEST,
-        data_length: u32::try_from(payload.len()).expect("short data"),
-        error: ads_cnc::ads::AdsError::NONE,
-        invoke_id,
-    };
+    let payload = call.to_vec().expect("short data");
+    let target = AmsAddr { net_id: NET_ID, port: call.port };
+    let source = AmsAddr { net_id: AmsNetId([127, 0, 0, 1, 1, 2]), port: AmsPort(0x8001) };
+    let header = AmsHeader::request(target, source, call.service.command(), invoke_id);
     FrameRef::new(header, &payload).and_then(|frame| frame.to_vec()).expect("a frame")
 }

@@ -1,7 +1,7 @@
 //! A conversation as captured: frames of both sides, cut into segments, in whatever order.
 
 use ads_cnc::Encode as _;
-use ads_cnc::ads::{AmsHeader, FrameRef, ReadReplyRef, StateFlags, WriteReply};
+use ads_cnc::ads::{FrameRef, ReadReplyRef, WriteReply};
 
 use super::{Input, calls};
 use crate::common::CALLS;
@@ -136,14 +136,7 @@ fn reply(request: &[u8], kind: u8) -> Vec<u8> {
         _ => ReadReplyRef { result, data: Some(&data) }.to_vec(),
     };
     let payload = payload.expect("a reply");
-    let header = AmsHeader {
-        target: header.source,
-        source: header.target,
-        state_flags: StateFlags::RESPONSE,
-        data_length: payload.len() as u32,
-        ..header
-    };
-    FrameRef::new(header, &payload).and_then(|frame| frame.to_vec()).expect("a frame")
+    FrameRef::new(header.response(), &payload).and_then(|frame| frame.to_vec()).expect("a frame")
 }
 
 /// Raw IP, without checksums, and TCP.

@@ -195,7 +195,7 @@ fn answered(request: &FrameRef<'_>, answers: &[u8]) -> usize {
         assert!(answer.data().is_empty());
         return len;
     }
-    let call = ads_cnc_conformance::exchange::call_of(request);
+    let call = Call::of_frame(request);
     let data = match header.command.0 {
         2 => ReadReplyRef::decode(answer.data()).map(|reply| (reply.result, reply.data)),
         3 => WriteReply::decode(answer.data()).map(|reply| (reply.result, None)),
