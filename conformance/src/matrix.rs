@@ -11,6 +11,8 @@
 //! ```
 
 mod fuzzed;
+mod sections;
+mod types;
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -22,6 +24,8 @@ use serde::Serialize;
 
 use crate::clients;
 use crate::suite::{self, Needs};
+
+pub use sections::to_sections;
 
 /// A requirement with everything that leads from it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -192,15 +196,24 @@ mod tests {
         }
     }
 
-    /// The three forms have all requirements.
+    /// All forms have all requirements, and the sections all functions and streams.
     #[test]
     fn all_forms_have_all_rows() {
         let rows = matrix();
-        let (text, table) = (to_text(&rows), to_markdown(&rows));
+        let (text, table, sections) = (to_text(&rows), to_markdown(&rows), to_sections(&rows));
+        let words: BTreeSet<&str> = sections.split([' ', '`']).collect();
         for row in &rows {
             assert!(text.contains(&format!("{}  {}", row.id, row.title)), "{}", row.id);
             assert!(table.contains(&format!("| {} ", row.id)), "{}", row.id);
+            assert!(words.contains(&*row.id), "{}", row.id);
         }
         assert_eq!(table.lines().count(), rows.len() + 2);
+        for function in Function::ALL {
+            assert!(words.contains(&*format!("{function:?}")), "{function:?}");
+        }
+        for stream in Stream::all() {
+            let types = types::of_stream(stream);
+            assert!(types.iter().all(|name| words.contains(name)), "{stream}");
+        }
     }
 }

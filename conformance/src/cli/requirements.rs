@@ -28,6 +28,8 @@ enum Format {
     Text,
     Markdown,
     Json,
+    /// From the sections of the manuals to what stands for each
+    Sections,
 }
 
 impl Requirements {
@@ -41,6 +43,7 @@ impl Requirements {
         let text = match self.format {
             Format::Text => Ok(matrix::to_text(&rows)),
             Format::Markdown => Ok(matrix::to_markdown(&rows)),
+            Format::Sections => Ok(matrix::to_sections(&rows)),
             Format::Json => serde_json::to_string_pretty(&rows).map(|json| json + "\n"),
         };
         let printed = text.map_err(io::Error::from).and_then(|text| {

@@ -1,0 +1,173 @@
+//! The matrix the other way round: from each section of the manuals to what is made of it.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::Function;
+use ads_cnc_vectors::{Document, Requirement, documents, requirements};
+
+use super::types::{self, AREAS};
+use super::{Row, joined};
+
+const HEAD: &str = "| section | requirements | functions | types | vectors | cases | fuzz targets |\n\
+                    |---|---|---|---|---|---|---|\n";
+
+/// For people: a table of the areas, and one of each manual's sections.
+///
+/// Both editions of the manual on ADS access share one, as their sections have the same numbers.
+pub fn to_sections(rows: &[Row]) -> String {
+    let mut text = String::from("# What stands for which section of the manuals\n\n");
+    text += "Made by `ads-cnc requirements --format sections`, from the catalogue, the vectors, the \
+             codec's tables and the\nsuite's cases. A vector or case stands in every row that it bears \
+             on. Vectors include the sequences; those refused\nare behind the `+`. Sections that say \
+             nothing about bytes or behaviour are left out.\n\n";
+    text += &areas(rows);
+    for document in documents().iter().filter(|document| document.document != "ads-de") {
+        let editions =
+            documents().iter().filter(|one| manual(&one.document) == manual(&document.document));
+        let title = editions.map(titled).collect::<Vec<_>>().join(" and ");
+        // Writing to a String does not fail.
+        let _ = write!(text, "\n## {title}\n\n{HEAD}");
+        for section in &document.sections {
+            let is_source = |requirement: &Requirement| {
+                requirement.sources.iter().any(|source| {
+                    manual(&source.document) == manual(&document.document)
+                        && source.section == *section
+                })
+            };
+            text += &line(section, &document.document, rows, is_source);
+        }
+    }
+    let _ = write!(text, "\n## In no document: assumed\n\n{HEAD}");
+    text += &line("–", "", rows, |requirement| requirement.sources.is_empty());
+    text
+}
+
+/// The areas alone, which the README has.
+fn areas(rows: &[Row]) -> String {
+    let mut text = String::from(
+        "| area | about | manual | types | requirements | vectors | cases | fuzz targets |\n\
+         |---|---|---|---|---|---|---|---|\n",
+    );
+    for one in AREAS {
+        let prefix = format!("{}-", one.area);
+        let found = Found::of(rows.iter().filter(|row| row.id.starts_with(&prefix)));
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} | {} | {} | {} |",
+            one.area,
+            one.about,
+            one.chapters,
+            one.modules,
+            found.ids.len(),
+            found.vectors(),
+            found.cases(),
+            found.fuzz_targets.len(),
+        );
+    }
+    text
+}
+
+fn titled(document: &Document) -> String {
+    format!("{} {}", document.document, document.edition).trim_end().to_owned()
+}
+
+/// What both editions of one manual have in common.
+fn manual(document: &str) -> &str {
+    document.strip_prefix("ads-").map_or(document, |_| "ads")
+}
+
+/// What leads from some requirements, each once.
+#[derive(Default)]
+struct Found<'r> {
+    ids: Vec<&'r str>,
+    accepted: BTreeSet<&'r str>,
+    rejected: BTreeSet<&'r str>,
+    cases: BTreeSet<&'r str>,
+    fuzz_targets: BTreeSet<&'r str>,
+}
+
+impl<'r> Found<'r> {
+    fn of(rows: impl Iterator<Item = &'r Row>) -> Self {
+        let mut found = Self::default();
+        for row in rows {
+            found.ids.push(&row.id);
+            found.accepted.extend(row.accepted.iter().map(String::as_str));
+            found.rejected.extend(row.rejected.iter().map(String::as_str));
+            found.cases.extend(row.cases.iter().map(String::as_str));
+            found.fuzz_targets.extend(&row.fuzz_targets);
+        }
+        found
+    }
+
+    fn vectors(&self) -> String {
+        match (self.accepted.len(), self.rejected.len()) {
+            (0, 0) => String::new(),
+            (accepted, rejected) => format!("{accepted} + {rejected}"),
+        }
+    }
+
+    fn cases(&self) -> String {
+        match self.cases.len() {
+            0 => String::new(),
+            count => count.to_string(),
+        }
+    }
+}
+
+fn line(
+    section: &str,
+    document: &str,
+    rows: &[Row],
+    is_source: impl Fn(&Requirement) -> bool,
+) -> String {
+    let sourced: BTreeSet<&str> = requirements()
+        .iter()
+        .filter(|requirement| is_source(requirement))
+        .map(|requirement| requirement.id.as_str())
+        .collect();
+    let found = Found::of(rows.iter().filter(|row| sourced.contains(row.id.as_str())));
+    if found.ids.is_empty() {
+        return String::new();
+    }
+    let functions = Function::ALL.iter().filter(|function| is_in(function, document, section));
+    let functions: Vec<String> = functions.map(|function| format!("`{function:?}`")).collect();
+    format!(
+        "| {section} | {} | {} | {} | {} | {} | {} |\n",
+        found.ids.join(" "),
+        functions.join(" "),
+        types_of(&found.ids),
+        found.vectors(),
+        found.cases(),
+        joined(&found.fuzz_targets, " "),
+    )
+}
+
+/// Whether the function's section is this one.
+fn is_in(function: &Function, document: &str, section: &str) -> bool {
+    let place = function.spec().section;
+    match (place.split_once(" … "), place.split_once(' ')) {
+        (Some((first, last)), _) => manual(document) == "ads" && (first..=last).contains(&section),
+        (None, Some((named, place))) => named == document && place == section,
+        (None, None) => place == document || manual(document) == "ads" && place == section,
+    }
+}
+
+/// The types of the streams whose fields these requirements are about; where there is none, the
+/// modules of their areas.
+fn types_of(ids: &[&str]) -> String {
+    let is_about = |stream: &Stream| {
+        let layout = stream.layout();
+        let mut clauses = layout.fields.iter().map(|field| field.clause).chain([layout.clause]);
+        clauses.any(|clause| ids.contains(&clause))
+    };
+    let streams = Stream::all().filter(is_about).flat_map(types::of_stream);
+    let names: Vec<String> = streams.map(|name| format!("`{name}`")).collect();
+    if !names.is_empty() {
+        return names.join(" ");
+    }
+    let has = |area: &str| ids.iter().any(|id| id.split('-').next() == Some(area));
+    let modules = AREAS.iter().filter(|one| has(one.area)).map(|one| one.modules);
+    modules.collect::<Vec<_>>().join(", ")
+}

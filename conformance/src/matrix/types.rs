@@ -1,0 +1,131 @@
+//! Where in the codec a requirement is at home.
+
+use ads_cnc::ads::*;
+use ads_cnc::dynamic::*;
+use ads_cnc::layout::Stream;
+use ads_cnc::sda::*;
+use ads_cnc::streaming::*;
+use ads_cnc::*;
+
+/// Names are spelled once, and each has to be a type.
+macro_rules! types {
+    ($( $stream:ident: $( $reading:ident $( <$life:lifetime> )? ),+; )+) => {
+        $( $( const _: Option<$reading $( <$life> )?> = None; )+ )+
+
+        /// The types that read and write a stream.
+        pub(super) fn of_stream(stream: Stream) -> &'static [&'static str] {
+            match stream {
+                $( Stream::$stream => &[$( stringify!($reading), )+], )+
+                _ => &[],
+            }
+        }
+    };
+}
+
+types! {
+    AmsTcpHeader: AmsTcpHeader;
+    AmsHeader: AmsHeader;
+    ReadRequest: ReadRequest;
+    ReadReply: ReadReplyRef<'static>, ReadReply;
+    WriteRequest: WriteRequestRef<'static>, WriteRequest;
+    WriteReply: WriteReply;
+    ReadWriteRequest: ReadWriteRequestRef<'static>, ReadWriteRequest;
+    ReadWriteReply: ReadWriteReplyRef<'static>, ReadWriteReply;
+    DeviceInfoReply: DeviceInfoReply;
+    DeviceStateReply: DeviceStateReply;
+    ObjectCount: ObjectCount;
+    ObjectDescriptor: DescriptorRef<'static>, Descriptor;
+    ObjectDescriptors: DescriptorsRef<'static>, Descriptors;
+    Content: ContentRef<'static>, Content;
+    ObjectAddressQuery: ObjectAddressQuery;
+    ObjectAddress: ObjectAddress;
+    ElementCount: ElementCount;
+    ElementText: ElementTextRef<'static>, ElementText;
+    ElementLength: ElementLength;
+    ElementWriteFlag: ElementWriteFlag;
+    DynamicCount: DynamicCount;
+    DynamicIndex: DynamicIndex;
+    DynamicName: DynamicNameRef<'static>, DynamicName;
+    DynamicNameRequest: DynamicNameRequestRef<'static>, DynamicNameRequest;
+    DynamicValue: DynamicValue;
+    VariableKind: VariableKindRef<'static>, VariableKind;
+    VariableCount: VariableCount;
+    VariableIndexKind: VariableIndexKindRef<'static>, VariableIndexKind;
+    VariableDescription: DescriptionRef<'static>, Description;
+    VariableDescriptionByName: DescriptionByNameRef<'static>, DescriptionByName;
+    VariableExtendedDescription: ExtendedReply;
+    VariableName: VariableNameRef<'static>, VariableName;
+    VariableHandle: Handle;
+    VariableHandleRead: HandleReadRef<'static>, HandleRead;
+    VariableHandleWrite: HandleWriteRef<'static>, HandleWrite;
+    VariableNameWrite: NameWriteRef<'static>, NameWrite;
+    VariableValue: ValueRef<'static>, Value;
+    ProgramStream: ProgramStreamRef<'static>, ProgramStream;
+}
+
+/// An area of requirements.
+pub(super) struct Area {
+    pub(super) area: &'static str,
+    pub(super) about: &'static str,
+    /// The chapters that it is mostly about.
+    pub(super) chapters: &'static str,
+    /// Where it is in the codec.
+    pub(super) modules: &'static str,
+}
+
+const fn area(
+    area: &'static str,
+    about: &'static str,
+    chapters: &'static str,
+    modules: &'static str,
+) -> Area {
+    Area { area, about, chapters, modules }
+}
+
+pub(super) const AREAS: &[Area] = &[
+    area("GEN", "bytes, texts, tasks", "ads 1, 2", "`text`, `operation::Task`"),
+    area("ADR", "index groups and offsets", "ads 1, 2", "`address`"),
+    area("COM", "objects of the COM task", "ads 2.1", "`Descriptor`, `Content`"),
+    area("SDA", "elements of SDA and GEO", "ads 2.2", "`sda`"),
+    area("DYN", "P, V.L, V.P, V.S by index", "ads 3", "`dynamic`"),
+    area("VAR", "V. variables", "ads 4", "`Description`, `Handle`, `Value`, `value`"),
+    area("ADS", "services and headers", "ads 5", "`ads`"),
+    area("STM", "data streaming", "stream 2, 3, 4, 5", "`streaming`"),
+    area("SVC", "Service Interface", "service 1, 2, 3", "`service`"),
+    area("OBJ", "lists of objects", "ads 1", "`operation::ObjectList`"),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ads_cnc_vectors::requirements;
+
+    /// A stream that is added to the codec is added here.
+    #[test]
+    fn every_stream_has_types() {
+        for stream in Stream::all() {
+            assert!(!of_stream(stream).is_empty(), "{stream}");
+        }
+    }
+
+    /// Each area of the catalogue is here once, and its chapters are cited for it.
+    #[test]
+    fn areas_are_those_of_the_catalogue() {
+        for one in requirements() {
+            let here = AREAS.iter().filter(|area| area.area == one.area);
+            assert_eq!(here.count(), 1, "{}", one.area);
+        }
+        for Area { area, chapters, .. } in AREAS {
+            let (manual, chapters) = chapters.split_once(' ').unwrap();
+            for chapter in chapters.split(", ") {
+                let cites = |source: &ads_cnc_vectors::Source| {
+                    source.document.starts_with(manual)
+                        && (source.section == chapter
+                            || source.section.starts_with(&format!("{chapter}.")))
+                };
+                let mut of_area = requirements().iter().filter(|one| one.area == *area);
+                assert!(of_area.any(|one| one.sources.iter().any(cites)), "{area}: {chapter}");
+            }
+        }
+    }
+}
