@@ -1,7 +1,7 @@
 //! Lists all objects of a CNC: those of the COM task by their descriptors, and the elements of the
 //! SDA and GEO tasks by their attributes.
 //!
-//!     cargo run --example list_objects -- 127.0.0.1:48898 127.0.0.1.1.1
+//!     cargo run -p ads-cnc --example list_objects -- 127.0.0.1:48898 127.0.0.1.1.1
 
 mod transport;
 

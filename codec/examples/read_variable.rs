@@ -1,6 +1,6 @@
 //! Reads a variable by its name without knowing its type: the CNC describes it.
 //!
-//!     cargo run --example read_variable -- 127.0.0.1:48898 127.0.0.1.1.1 1 V.E.Testvar
+//!     cargo run -p ads-cnc --example read_variable -- 127.0.0.1:48898 127.0.0.1.1.1 1 V.E.Testvar
 
 mod transport;
 

@@ -1,6 +1,6 @@
 //! Hosts the manual's service on a channel: the square root of a number.
 //!
-//!     cargo run --example square_root_service -- 127.0.0.1:48898 127.0.0.1.1.1 1 [ANSWERS]
+//!     cargo run -p ads-cnc --example square_root_service -- 127.0.0.1:48898 127.0.0.1.1.1 1 [ANSWERS]
 
 mod transport;
 

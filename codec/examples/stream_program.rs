@@ -1,6 +1,6 @@
 //! Streams an NC program to a channel. It moves the machine.
 //!
-//!     cargo run --example stream_program -- 127.0.0.1:48898 127.0.0.1.1.1 1 part.nc
+//!     cargo run -p ads-cnc --example stream_program -- 127.0.0.1:48898 127.0.0.1.1.1 1 part.nc
 
 mod transport;
 
