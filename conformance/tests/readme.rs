@@ -1,163 +1,157 @@
-//! What the README shows of the tools is what they print.
+//! What the documents show of the tools is what they print: each call in a block ```console is made,
+//! here or where a list says, and its output compared.
 
+#[path = "readme/bench.rs"]
+mod bench;
 mod common;
+#[path = "readme/dependencies.rs"]
+mod dependencies;
+#[path = "readme/sections.rs"]
+mod sections;
+#[path = "readme/shown.rs"]
+mod shown;
 
-use std::fs::{self, File};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
 
-use common::Serve;
+use bench::{Bench, root};
+use shown::{Shown, calls};
 
-const README: &str = include_str!("../../README.md");
+/// Calls that need more than this project, or minutes: the gate makes them by the ignored test below.
+const IN_THE_GATE: [&str; 4] =
+    ["cargo run ", "ads-cnc selftest", "ads-cnc run --testee ", "ads-cnc run --client "];
 
-/// Calls that are not made here: they do not end, take long, need more than this project, or show
-/// what differs from run to run. Other tests make them.
-const ELSEWHERE: [&str; 7] = [
-    "cargo ",
-    "ads-cnc selftest",
-    "ads-cnc run --client ",
-    "ads-cnc run --testee ",
-    "ads-cnc serve ",
-    "ads-cnc stream part.nc",
-    "ads-cnc service ",
+/// Calls that are not made for the documents: where they are, or what is instead of them.
+const ELSEWHERE: [(&str, &str, &str); 4] = [
+    ("cargo test --workspace", ".ci/run", "cargo test --workspace --locked"),
+    ("cargo install ", ".ci/run", "cargo install --path conformance --locked"),
+    ("fuzz/nightly ", ".ci/run", "fuzz/nightly --seconds 0"),
+    // It shows by which name a file is called that the next call has.
+    ("cat ", "conformance/tests/readme/bench.rs", "strip_prefix(\"cat \")"),
 ];
 
-/// A call and what it shows.
-#[derive(Debug, Default)]
-struct Shown {
-    call: String,
-    output: String,
+/// The documents that show calls, by their paths.
+fn documents() -> Vec<(String, Vec<Shown>)> {
+    let mut found = Vec::new();
+    add(&root(), "", &mut found);
+    found.sort_by(|(one, _), (other, _)| one.cmp(other));
+    found
 }
 
-fn shown() -> Vec<Shown> {
-    let mut all: Vec<Shown> = Vec::new();
-    for block in README.split("```console\n").skip(1) {
-        let (block, _) = block.split_once("```").unwrap();
-        let block = block.replace("\\\n", "");
-        for line in block.lines() {
-            match (line.strip_prefix("$ "), all.last_mut()) {
-                (Some(call), _) => all.push(Shown { call: call.to_owned(), ..Shown::default() }),
-                (None, Some(last)) => last.output.push_str(&format!("{line}\n")),
-                (None, None) => panic!("{line}"),
+fn add(folder: &Path, prefix: &str, found: &mut Vec<(String, Vec<Shown>)>) {
+    for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        let name = entry.file_name().into_string().unwrap();
+        let is_left_out = ["target", ".git", "corpus", "node_modules"].contains(&name.as_str());
+        let path = format!("{prefix}{name}");
+        if entry.file_type().unwrap().is_dir() && !is_left_out {
+            add(&entry.path(), &format!("{path}/"), found);
+        } else if name.ends_with(".md") {
+            let shown = calls(&fs::read_to_string(entry.path()).unwrap());
+            if !shown.is_empty() {
+                found.push((path, shown));
             }
         }
     }
-    all
 }
 
-/// The words of a call as a shell has them, without anything that only a shell does.
-fn words(call: &str) -> Vec<String> {
-    let (mut words, mut quote, mut open) = (vec![String::new()], None, false);
-    for character in call.chars() {
-        match (character, quote) {
-            ('\'' | '"', None) => quote = Some(character),
-            (end, Some(begun)) if end == begun => quote = None,
-            (' ', None) => open = true,
-            _ => {
-                if std::mem::take(&mut open) {
-                    words.push(String::new());
-                }
-                words.last_mut().unwrap().push(character);
-            }
-        }
-    }
-    words
+fn is_elsewhere(call: &str) -> bool {
+    ELSEWHERE.iter().any(|(start, ..)| call.starts_with(start))
 }
 
-/// A directory with the files that the README has or names, gone in the end.
-struct Directory(PathBuf);
-
-impl Directory {
-    fn new(shown: &[Shown]) -> Self {
-        let path = std::env::temp_dir().join(format!("ads-cnc-readme-{}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        let directory = Self(path);
-        directory.write(
-            "loop.nc",
-            "N10 G0 X0\n; ten times\nN20 $FOR P1=0,10,1\nN30 X1\nN40 $ENDFOR\nN50 M30\nN60 X2\n",
-        );
-        for Shown { call, output } in shown {
-            if let Some(name) = call.strip_prefix("cat ") {
-                directory.write(name, output);
-            }
-            // What a refusal says is needed goes into the file that the next call has.
-            if let Some((_, entry)) = output.split_once("--allow-write:\n\n") {
-                let expires = "expires = 9999-12-31T23:59:59Z  #";
-                directory.write("test.toml", &entry.replace("expires = …  #", expires));
-            }
-        }
-        directory
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.0.join(name), text).unwrap();
-    }
-
-    /// All that a call shows, in the order in which it comes.
-    fn call(&self, words: &[String]) -> String {
-        let path = self.0.join("output");
-        let out = File::create(&path).unwrap();
-        let mut call = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
-        call.args(words).current_dir(&self.0).stdin(Stdio::null());
-        call.stdout(out.try_clone().unwrap()).stderr(out).status().unwrap();
-        read(&path)
-    }
+fn is_in_the_gate(call: &str) -> bool {
+    IN_THE_GATE.iter().any(|start| call.starts_with(start) || call == start.trim_end())
 }
 
-impl Drop for Directory {
-    fn drop(&mut self) {
-        let _gone = fs::remove_dir_all(&self.0);
-    }
-}
-
-fn read(path: &Path) -> String {
-    fs::read_to_string(path).unwrap()
-}
-
-#[test]
-fn calls_show_what_the_readme_has() {
-    let shown = shown();
-    let directory = Directory::new(&shown);
-    // It stands for the device.
-    let device = Serve::start(&["--net-id", "192.0.2.10.1.1"]);
+/// Makes the calls of each document in its order, as one may need what another left.
+fn make(is_meant: impl Fn(&str) -> bool) -> usize {
     let mut made = 0;
-    for Shown { call, output } in &shown {
-        let is_elsewhere = ELSEWHERE.iter().any(|start| call.starts_with(start));
-        if is_elsewhere || output.is_empty() || call.starts_with("cat ") {
-            continue;
+    for (path, shown) in documents() {
+        let bench = Bench::new(&path.replace('/', "-"), &shown);
+        for one in shown.iter().filter(|one| is_meant(&one.call)) {
+            bench.make(one);
+            made += 1;
         }
-        let mut words = words(call);
-        assert_eq!(words.remove(0), "ads-cnc");
-        for word in words.iter_mut().filter(|word| *word == "192.0.2.10") {
-            word.clone_from(&device.addr);
-        }
-        assert_eq!(directory.call(&words), *output, "{call}");
-        made += 1;
     }
-    assert!(made >= 6, "{made} calls");
+    made
 }
 
-/// Every tool is in it.
 #[test]
-fn every_tool_is_shown() {
-    for tool in [
-        "run",
-        "check",
-        "serve",
-        "explain",
-        "browse",
-        "get",
-        "set",
-        "stream",
-        "service",
-        "completions",
-        "requirements",
-    ] {
-        assert!(README.contains(&format!("ads-cnc {tool} ")), "{tool}");
+fn calls_show_what_the_documents_have() {
+    let made = make(|call| !is_elsewhere(call) && !is_in_the_gate(call));
+    assert!(made >= 15, "{made} calls");
+}
+
+/// `ADS_CNC_TOOL` names the tool as it was built for release, which takes minutes less.
+#[test]
+#[ignore = "needs Python 3, and minutes; .ci/run runs it"]
+fn calls_of_the_gate_show_what_the_documents_have() {
+    let made = make(is_in_the_gate);
+    assert!(made >= 8, "{made} calls");
+}
+
+/// No call is left out but for a reason that holds.
+#[test]
+fn what_is_not_made_here_is_made_elsewhere() {
+    let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
+    let documents = documents();
+    let names: Vec<&str> = documents.iter().map(|(path, _)| path.as_str()).collect();
+    for expected in ["README.md", "conformance/TOOLS.md"] {
+        assert!(names.contains(&expected), "{names:?}");
     }
-    for tool in ["serve", "explain", "browse", "get", "set", "stream", "service"] {
-        let call = format!("ads-cnc {tool} ");
-        let has_output = |one: &Shown| one.call.starts_with(&call) && !one.output.is_empty();
-        assert!(shown().iter().any(has_output), "{tool}");
+    let has = |start: &str| {
+        let mut all = documents.iter().flat_map(|(_, shown)| shown);
+        all.any(|one| one.call.starts_with(start.trim_end()))
+    };
+    for start in IN_THE_GATE {
+        assert!(has(start), "no call begins with {start}");
     }
+    assert!(read(".ci/run").contains("--test readme -- --ignored"));
+    for (start, path, text) in ELSEWHERE {
+        assert!(has(start), "no call begins with {start}");
+        assert!(read(path).contains(text), "{path}: {text}");
+    }
+}
+
+/// Every tool is shown, and every option that is named is one.
+#[test]
+fn tools_and_options_are_those_that_there_are() {
+    let help = |words: &[&str]| {
+        let help = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(words).output().unwrap();
+        String::from_utf8(help.stdout).unwrap()
+    };
+    let overview = help(&["--help"]);
+    let (_, tools) = overview.split_once("Commands:\n").unwrap();
+    let (tools, _) = tools.split_once("\n\n").unwrap();
+    let tools: Vec<&str> =
+        tools.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
+    assert!(tools.len() > 10, "{tools:?}");
+    let options: String = tools.iter().map(|tool| help(&[tool, "--help"])).collect();
+    let is_option = |word: &str| options.split(|c: char| !is_word(c)).any(|option| option == word);
+
+    let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
+    let document = read("conformance/TOOLS.md");
+    for tool in tools {
+        assert!(tool == "help" || document.contains(&format!("ads-cnc {tool}")), "{tool}");
+    }
+    for text in [read("README.md"), document] {
+        for line in
+            text.lines().filter(|line| !["cargo ", "fuzz/"].iter().any(|it| line.contains(it)))
+        {
+            let words = line.split(|character: char| !is_word(character));
+            // Not the rules of tables.
+            let options = words.filter(|word| word.strip_prefix("--").is_some_and(is_name));
+            for word in options {
+                assert!(is_option(word), "{word} in {line}");
+            }
+        }
+    }
+}
+
+fn is_name(word: &str) -> bool {
+    word.starts_with(|character: char| character.is_ascii_lowercase())
+}
+
+fn is_word(character: char) -> bool {
+    character.is_ascii_lowercase() || character == '-'
 }

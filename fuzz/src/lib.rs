@@ -30,3 +30,8 @@ pub use defect::Defect;
 pub use outcome::Outcome;
 pub use replay::{Folder, corpus, dictionaries, regressions, replay};
 pub use targets::{TARGETS, Target};
+
+// Here, as this crate is never packed without the files beside it.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

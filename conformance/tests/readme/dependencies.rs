@@ -1,0 +1,33 @@
+//! Every crate that the tools are built from is accounted for in a document.
+
+use std::collections::BTreeSet;
+use std::process::Command;
+use std::{env, fs};
+
+use super::root;
+
+/// On Linux, as the document says: elsewhere other crates make a process end.
+#[test]
+#[cfg(target_os = "linux")]
+fn every_crate_has_a_reason() {
+    let tree = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()))
+        .args(["tree", "-p", "ads-cnc-conformance", "-e", "normal,build", "--prefix", "none"])
+        .args(["--locked", "--offline"])
+        .current_dir(root())
+        .output()
+        .unwrap();
+    assert!(tree.status.success(), "{}", String::from_utf8_lossy(&tree.stderr));
+    let tree = String::from_utf8(tree.stdout).unwrap();
+    let named = |line: &str| line.split(' ').take(2).map(str::to_owned).collect::<Vec<_>>();
+    let versions: BTreeSet<Vec<String>> =
+        tree.lines().map(named).filter(|words| !words[0].starts_with("ads-cnc")).collect();
+    let crates: BTreeSet<&str> = versions.iter().map(|words| words[0].as_str()).collect();
+
+    let document = fs::read_to_string(root().join("conformance/doc/dependencies.md")).unwrap();
+    let quoted = document.split('`').skip(1).step_by(2);
+    // But for options and this project's own.
+    let quoted = quoted.filter(|word| !word.starts_with('-') && !word.starts_with("ads-cnc"));
+    assert_eq!(quoted.collect::<BTreeSet<_>>(), crates);
+    let counted = format!("built from {} crates", versions.len());
+    assert!(document.contains(&counted), "{counted}");
+}

@@ -1,0 +1,101 @@
+//! What a document shows of calls, and whether something is as it is shown.
+
+/// A call in a block ```console and what stands below it.
+#[derive(Debug, Default)]
+pub(crate) struct Shown {
+    pub(crate) call: String,
+    pub(crate) output: String,
+}
+
+/// All calls of a document, in its order.
+pub(crate) fn calls(document: &str) -> Vec<Shown> {
+    let mut all: Vec<Shown> = Vec::new();
+    for block in document.split("```console\n").skip(1) {
+        let (block, _) = block.split_once("```").unwrap();
+        let block = block.replace("\\\n", "");
+        let mut is_first = true;
+        for line in block.lines() {
+            match (line.strip_prefix("$ "), all.last_mut()) {
+                (Some(call), _) => all.push(Shown { call: call.to_owned(), ..Shown::default() }),
+                (None, Some(last)) if !is_first => last.output.push_str(&format!("{line}\n")),
+                _ => panic!("a block that begins with no call: {line}"),
+            }
+            is_first = false;
+        }
+    }
+    all
+}
+
+/// The words of a call as a shell has them, without anything that only a shell does.
+pub(crate) fn words(call: &str) -> Vec<String> {
+    let (mut words, mut quote, mut open) = (vec![String::new()], None, false);
+    for character in call.chars() {
+        match (character, quote) {
+            ('\'' | '"', None) => quote = Some(character),
+            (end, Some(begun)) if end == begun => quote = None,
+            (' ', None) => open = true,
+            _ => {
+                if std::mem::take(&mut open) {
+                    words.push(String::new());
+                }
+                words.last_mut().unwrap().push(character);
+            }
+        }
+    }
+    words
+}
+
+/// Whether the output is the one shown: line by line, where one with … alone stands for any number
+/// of lines and one that ends in … for a longer one. What differs from run to run is not compared:
+/// ports that the system picks, seeds, times, and how often a program that takes its time is asked.
+pub(crate) fn fits(shown: &str, output: &str) -> bool {
+    let lines = |text: &str| text.lines().map(steady).collect::<Vec<_>>();
+    all_fit(&lines(shown), &lines(output))
+}
+
+fn all_fit(shown: &[String], output: &[String]) -> bool {
+    let Some((line, below)) = shown.split_first() else {
+        return output.is_empty();
+    };
+    if line.trim() == "…" {
+        return (0..=output.len()).any(|skipped| all_fit(below, &output[skipped..]));
+    }
+    output.split_first().is_some_and(|(first, rest)| {
+        let is_begun = line.strip_suffix('…').is_some_and(|begin| first.starts_with(begin));
+        (line == first || is_begun) && all_fit(below, rest)
+    })
+}
+
+/// A line without its numbers behind these words.
+fn steady(line: &str) -> String {
+    let mut line = line.to_owned();
+    for words in ["127.0.0.1:", "seed ", "cases, ", "checks, ", "within ", " s ("] {
+        let mut parts = line.split(words);
+        let mut steady = parts.next().unwrap_or_default().to_owned();
+        for part in parts {
+            let is_number = |character: char| character.is_ascii_digit() || character == '.';
+            steady.push_str(words);
+            steady.push_str(part.trim_start_matches(is_number));
+        }
+        line = steady;
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_shown_so_does_not_fit() {
+        let output = "a\nb\n\nlast, seed 7\n";
+        for shown in ["…\n", "a\n…\n", "a\nb\n\nlast, seed 8\n", "a\n…\nla…\n", "…\nb\n…\n"]
+        {
+            assert!(fits(shown, output), "{shown}");
+        }
+        for shown in ["", "a\n", "b\n…\n", "a\n…\nb\n", "a\n…\nlast, seed x\n", "…\nc\n…\n"]
+        {
+            assert!(!fits(shown, output), "{shown}");
+        }
+    }
+}
