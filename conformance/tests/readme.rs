@@ -6,6 +6,8 @@ mod bench;
 mod common;
 #[path = "readme/dependencies.rs"]
 mod dependencies;
+#[path = "readme/links.rs"]
+mod links;
 #[path = "readme/sections.rs"]
 mod sections;
 #[path = "readme/shown.rs"]
@@ -31,15 +33,15 @@ const ELSEWHERE: [(&str, &str, &str); 4] = [
     ("cat ", "conformance/tests/readme/bench.rs", "strip_prefix(\"cat \")"),
 ];
 
-/// The documents that show calls, by their paths.
-fn documents() -> Vec<(String, Vec<Shown>)> {
+/// All documents by their paths.
+fn texts() -> Vec<(String, String)> {
     let mut found = Vec::new();
     add(&root(), "", &mut found);
-    found.sort_by(|(one, _), (other, _)| one.cmp(other));
+    found.sort();
     found
 }
 
-fn add(folder: &Path, prefix: &str, found: &mut Vec<(String, Vec<Shown>)>) {
+fn add(folder: &Path, prefix: &str, found: &mut Vec<(String, String)>) {
     for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
         let name = entry.file_name().into_string().unwrap();
         let is_left_out = ["target", ".git", "corpus", "node_modules"].contains(&name.as_str());
@@ -47,12 +49,15 @@ fn add(folder: &Path, prefix: &str, found: &mut Vec<(String, Vec<Shown>)>) {
         if entry.file_type().unwrap().is_dir() && !is_left_out {
             add(&entry.path(), &format!("{path}/"), found);
         } else if name.ends_with(".md") {
-            let shown = calls(&fs::read_to_string(entry.path()).unwrap());
-            if !shown.is_empty() {
-                found.push((path, shown));
-            }
+            found.push((path, fs::read_to_string(entry.path()).unwrap()));
         }
     }
+}
+
+/// The documents that show calls.
+fn documents() -> Vec<(String, Vec<Shown>)> {
+    let shown = texts().into_iter().map(|(path, text)| (path, calls(&text)));
+    shown.filter(|(_, shown)| !shown.is_empty()).collect()
 }
 
 fn is_elsewhere(call: &str) -> bool {

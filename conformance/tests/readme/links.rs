@@ -1,0 +1,34 @@
+//! Links between the documents lead to what is there.
+
+use super::{root, texts};
+
+#[test]
+fn links_lead_somewhere() {
+    let (mut seen, texts) = (0, texts());
+    for (path, text) in &texts {
+        let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if link.contains("://") || link.contains(char::is_whitespace) {
+                continue;
+            }
+            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let target =
+                if file.is_empty() { root().join(path) } else { root().join(folder).join(file) };
+            assert!(target.exists(), "{path}: {link}");
+            if !anchor.is_empty() {
+                let text = std::fs::read_to_string(&target).unwrap();
+                let headings = text.lines().filter(|line| line.starts_with('#'));
+                assert!(headings.map(slug).any(|slug| slug == anchor), "{path}: {link}");
+            }
+            seen += 1;
+        }
+    }
+    assert!(seen > 40, "{seen} links");
+}
+
+/// The anchor of a heading, as hosts make it.
+fn slug(heading: &str) -> String {
+    let heading = heading.trim_start_matches('#').trim().to_lowercase();
+    let kept = heading.chars().filter(|one| one.is_alphanumeric() || " -_".contains(*one));
+    kept.map(|one| if one == ' ' { '-' } else { one }).collect()
+}
