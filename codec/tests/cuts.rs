@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use ads_cnc::Error;
 use ads_cnc::ErrorKind::{self, *};
 use ads_cnc::layout::Stream;
-use common::{Fault, Sample, check, each_sample};
+use common::{Fault, Sample, check, each_sample, fault};
 
 /// What has to come of changed bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,9 +22,9 @@ fn refused(
     kind: ErrorKind,
     field: &'static str,
     offset: usize,
-    (expected, found): (usize, usize),
+    numbers: (usize, usize),
 ) -> Expected {
-    Expected::Refused(Fault { kind, field, offset, expected, found })
+    Expected::Refused(fault(kind, field, offset, numbers))
 }
 
 const ADS_6: &str = "ADS-6: an error reply may stop behind the result";

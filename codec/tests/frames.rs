@@ -3,7 +3,7 @@
 mod common;
 mod kept;
 
-use ads_cnc::ErrorKind::{self, *};
+use ads_cnc::ErrorKind::*;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{
     AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags,
@@ -11,7 +11,8 @@ use ads_cnc::ads::{
 use ads_cnc::operation::{Call, Service};
 use ads_cnc::{Decode as _, Encode as _};
 use common::{
-    Fault, SPLIT, check_frames, check_split, check_verdicts_stay, frame, frame_header as header,
+    Fault, SPLIT, check_frames, check_split, check_verdicts_stay, fault, frame,
+    frame_header as header,
 };
 use proptest::prelude::*;
 
@@ -86,11 +87,6 @@ fn a_response_answers_its_request() {
     let wanted =
         AmsHeader { target: SOURCE, source: TARGET, state_flags: StateFlags(0x0005), ..wanted };
     assert_eq!(of_data.response(), wanted);
-}
-
-fn fault(kind: ErrorKind, field: &'static str, offset: usize, numbers: (usize, usize)) -> Fault {
-    let (expected, found) = numbers;
-    Fault { kind, field, offset, expected, found }
 }
 
 /// A fault shows with its last byte, and stays whatever follows.

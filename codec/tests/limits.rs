@@ -2,7 +2,7 @@
 
 mod common;
 
-use ads_cnc::ErrorKind::{self, *};
+use ads_cnc::ErrorKind::*;
 use ads_cnc::ads::{AdsError, ReadReplyRef};
 use ads_cnc::dynamic::*;
 use ads_cnc::layout::Stream;
@@ -10,12 +10,7 @@ use ads_cnc::limits::*;
 use ads_cnc::sda::*;
 use ads_cnc::streaming::*;
 use ads_cnc::*;
-use common::{Fault, check};
-
-fn fault(kind: ErrorKind, field: &'static str, offset: usize, numbers: (usize, usize)) -> Fault {
-    let (expected, found) = numbers;
-    Fault { kind, field, offset, expected, found }
-}
+use common::{Fault, check, fault};
 
 /// The first byte over a stream's limit is refused, and the last one within is not.
 #[test]

@@ -4,13 +4,9 @@ mod common;
 
 use std::collections::BTreeSet;
 
-use ads_cnc::ErrorKind::{self, *};
+use ads_cnc::ErrorKind::*;
 use ads_cnc::ads::{AmsAddr, AmsNetId, AmsPort};
-use common::Fault;
-
-fn fault(kind: ErrorKind, field: &'static str, offset: usize, numbers: (usize, usize)) -> Fault {
-    Fault { kind, field, offset, expected: numbers.0, found: numbers.1 }
-}
+use common::{Fault, fault};
 
 /// Every byte in every place, as it is written and with zeros before it.
 #[test]

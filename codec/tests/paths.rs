@@ -7,17 +7,13 @@ use ads_cnc::ErrorKind::*;
 use ads_cnc::layout::Stream;
 use ads_cnc::limits::NAME_MAX;
 use ads_cnc::*;
-use common::Fault;
 use common::names::*;
+use common::{Fault, fault};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
 fn path(name: &str) -> VariablePath<'_> {
     VariablePath::new(name).unwrap_or_else(|error| panic!("{name}: {error}"))
-}
-
-fn fault(kind: ErrorKind, field: &'static str, offset: usize, numbers: (usize, usize)) -> Fault {
-    Fault { kind, field, offset, expected: numbers.0, found: numbers.1 }
 }
 
 /// VAR-20: the names printed in section 4.1 of `ads-en` 1.05 and `ads-de` 1.051, and those of the

@@ -3,10 +3,11 @@
 mod common;
 
 use address::{Channel, ChannelAxis};
+use ads_cnc::ErrorKind::*;
 use ads_cnc::operation::{AxisReadByName, Operation, ReadByHandle, ReadByName};
 use ads_cnc::value::*;
 use ads_cnc::*;
-use common::Fault;
+use common::{fault, fault_of};
 
 const ARRAY: &[u8] = b"\x7b\0\0\0\xea\0\0\0\x59\x01\0\0\xc8\x01\0\0\x37\x02\0\0";
 
@@ -16,12 +17,6 @@ fn elements<'a>(data_type: DataType, dimensions: &'a [u32], bytes: &'a [u8]) -> 
 
 fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Result<Shape<'_>, Error> {
     Shape::new(data_type, dimensions.into(), size)
-}
-
-/// Kind, field, expected and found of an error, and its offset.
-fn fault<T>(result: Result<T, Error>) -> (ErrorKind, &'static str, usize, usize, usize) {
-    let Fault { kind, field, offset, expected, found } = Fault::of(result.err().expect("an error"));
-    (kind, field, offset, expected, found)
 }
 
 /// What sections 4.3.4, 4.3.5 and 4.3.10 print; SGN32 and REAL64 are assumed.
@@ -131,13 +126,13 @@ fn values_by_description() {
     assert_eq!(variable.element(&one), Ok(Element::Boolean(Boolean(7))));
 
     // Neither stands in for the other.
-    assert_eq!(fault(variable.element(&value)), (ErrorKind::Trailing, "value", 1, 1, 2));
-    assert_eq!(fault(variable.elements(&one)), (ErrorKind::Truncated, "value", 0, 2, 1));
+    assert_eq!(fault_of(variable.element(&value)), fault(Trailing, "value", 1, (1, 2)));
+    assert_eq!(fault_of(variable.elements(&one)), fault(Truncated, "value", 0, (2, 1)));
 
     let wrong = DescriptionRef { size: 3, ..variable };
-    assert_eq!(fault(wrong.elements(&value)), (ErrorKind::Mismatch, "size", 0, 2, 3));
+    assert_eq!(fault_of(wrong.elements(&value)), fault(Mismatch, "size", 0, (2, 3)));
     let unknown = DescriptionRef { var_type: VariableType(10), ..variable };
-    assert_eq!(fault(unknown.elements(&value)), (ErrorKind::OutOfRange, "type", 0, 9, 10));
+    assert_eq!(fault_of(unknown.elements(&value)), fault(OutOfRange, "type", 0, (9, 10)));
 
     #[cfg(feature = "alloc")]
     {
@@ -186,12 +181,12 @@ fn texts() {
     let last = elements.element(Numbers::from(&[1, 0])).unwrap();
     assert_eq!(Some(last), texts.get(2).map(Element::String));
 
-    assert_eq!(fault(four.elements(b"ab\0c\0d")), (ErrorKind::Truncated, "value", 0, 12, 6));
-    let shares = |size| fault(shape(DataType::String, &dimensions, size));
-    assert_eq!(shares(13), (ErrorKind::Mismatch, "size", 0, 12, 13));
-    assert_eq!(shares(3), (ErrorKind::Mismatch, "size", 0, 4, 3));
-    assert_eq!(shares(0), (ErrorKind::Mismatch, "size", 0, 4, 0));
-    assert_eq!(fault(StringsRef::new(b"", u32::MAX)).0, ErrorKind::Mismatch);
+    assert_eq!(fault_of(four.elements(b"ab\0c\0d")), fault(Truncated, "value", 0, (12, 6)));
+    let shares = |size| fault_of(shape(DataType::String, &dimensions, size));
+    assert_eq!(shares(13), fault(Mismatch, "size", 0, (12, 13)));
+    assert_eq!(shares(3), fault(Mismatch, "size", 0, (4, 3)));
+    assert_eq!(shares(0), fault(Mismatch, "size", 0, (4, 0)));
+    assert_eq!(fault_of(StringsRef::new(b"", u32::MAX)).kind, Mismatch);
 }
 
 /// Each wrong index is named by its place, its bound and itself.
@@ -201,17 +196,17 @@ fn indices() {
     let dimensions = [2, 3];
     let elements = elements(DataType::Sgn32, &dimensions, &bytes);
     let at = |indices: &[u32]| elements.element(indices.into());
-    assert_eq!(fault(at(&[2, 0])), (ErrorKind::OutOfRange, "index", 0, 1, 2));
-    assert_eq!(fault(at(&[1, 3])), (ErrorKind::OutOfRange, "index", 1, 2, 3));
-    assert_eq!(fault(at(&[0, u32::MAX])), (ErrorKind::OutOfRange, "index", 1, 2, 0xffff_ffff));
-    assert_eq!(fault(at(&[])), (ErrorKind::Mismatch, "index_count", 0, 2, 0));
-    assert_eq!(fault(at(&[1])), (ErrorKind::Mismatch, "index_count", 0, 2, 1));
-    assert_eq!(fault(at(&[1, 2, 0])), (ErrorKind::Mismatch, "index_count", 0, 2, 3));
+    assert_eq!(fault_of(at(&[2, 0])), fault(OutOfRange, "index", 0, (1, 2)));
+    assert_eq!(fault_of(at(&[1, 3])), fault(OutOfRange, "index", 1, (2, 3)));
+    assert_eq!(fault_of(at(&[0, u32::MAX])), fault(OutOfRange, "index", 1, (2, 0xffff_ffff)));
+    assert_eq!(fault_of(at(&[])), fault(Mismatch, "index_count", 0, (2, 0)));
+    assert_eq!(fault_of(at(&[1])), fault(Mismatch, "index_count", 0, (2, 1)));
+    assert_eq!(fault_of(at(&[1, 2, 0])), fault(Mismatch, "index_count", 0, (2, 3)));
 
     let items = elements.items::<i32>().unwrap();
     let other = items.element(Numbers::from(&[1]), Numbers::from(&[5]));
-    assert_eq!(fault(other), (ErrorKind::Mismatch, "count", 0, 5, 6));
-    assert_eq!(fault(Items::<u16>::new(&[1, 2, 3])), (ErrorKind::Truncated, "value", 2, 2, 1));
+    assert_eq!(fault_of(other), fault(Mismatch, "count", 0, (5, 6)));
+    assert_eq!(fault_of(Items::<u16>::new(&[1, 2, 3])), fault(Truncated, "value", 2, (2, 1)));
     assert!(elements.items::<u32>().is_none());
 
     // As they stand in a name.
@@ -251,11 +246,11 @@ fn no_elements() {
         assert!(none.is_empty() && none.shape().size() == 0);
         let indices = [u32::MAX - 1, 0, 0];
         assert_eq!(
-            fault(none.element(Numbers::from(&indices))),
-            (ErrorKind::Missing, "dimension", 1, 0, 0)
+            fault_of(none.element(Numbers::from(&indices))),
+            fault(Missing, "dimension", 1, (0, 0))
         );
         assert!(Elements::new(data_type, Numbers::from(&[0]), &[1]).is_err());
-        assert_eq!(fault(shape(data_type, &[0, 7], 1)), (ErrorKind::Mismatch, "size", 0, 0, 1));
+        assert_eq!(fault_of(shape(data_type, &[0, 7], 1)), fault(Mismatch, "size", 0, (0, 1)));
     }
     // The others alone are more than 32 bits hold.
     let late = [u32::MAX, u32::MAX, 0];
@@ -271,8 +266,8 @@ fn sizes_do_not_wrap() {
     let wraps = [0x1_0000, 0x1_0000];
     for data_type in DataType::ALL {
         for size in [0, 1, u32::MAX] {
-            let error = fault(shape(data_type, &wraps, size));
-            assert_eq!(error, (ErrorKind::Mismatch, "size", 0, u32::MAX as usize, size as usize));
+            let error = fault_of(shape(data_type, &wraps, size));
+            assert_eq!(error, fault(Mismatch, "size", 0, (u32::MAX as usize, size as usize)));
         }
         assert!(Elements::new(data_type, Numbers::from(&wraps), &[]).is_err());
     }

@@ -4,11 +4,12 @@ mod common;
 mod kept;
 
 use address::{Channel, ChannelAxis};
+use ads_cnc::ErrorKind::*;
 use ads_cnc::operation::{AxisWriteByName, Operation, WriteByHandle, WriteByName};
 use ads_cnc::value::*;
 use ads_cnc::*;
 use common::shapes::{Described, ShapeBend, check_shape};
-use common::{Fault, check_typed};
+use common::{check_typed, fault, fault_of};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -16,11 +17,6 @@ const ARRAY: &[u8] = b"\x7b\0\0\0\xea\0\0\0\x59\x01\0\0\xc8\x01\0\0\x37\x02\0\0"
 
 fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Shape<'_> {
     Shape::new(data_type, dimensions.into(), size).unwrap()
-}
-
-fn fault<T>(result: Result<T, Error>) -> (ErrorKind, &'static str, usize, usize, usize) {
-    let Fault { kind, field, offset, expected, found } = Fault::of(result.err().expect("an error"));
-    (kind, field, offset, expected, found)
 }
 
 /// What sections 4.3.6, 4.3.7 and 4.3.11 print; SGN32 and REAL64 are assumed.
@@ -57,25 +53,25 @@ fn limits_of_requests() {
         WriteByHandle::new(channel, Handle(1), indices, value).encode(&mut buf).map(<[u8]>::len)
     };
     assert_eq!(by_handle(&[1; 2040], Numbers::EMPTY), Ok(2048));
-    assert_eq!(by_handle(&[1; 2041], Numbers::EMPTY).unwrap_err().kind(), ErrorKind::TooLong);
+    assert_eq!(by_handle(&[1; 2041], Numbers::EMPTY).unwrap_err().kind(), TooLong);
     assert_eq!(by_handle(&[1; 2036], Numbers::from(&[4])), Ok(2048));
-    assert_eq!(by_handle(&[1; 2037], Numbers::from(&[4])).unwrap_err().kind(), ErrorKind::TooLong);
+    assert_eq!(by_handle(&[1; 2037], Numbers::from(&[4])).unwrap_err().kind(), TooLong);
     let mut by_name = |numbers: &[u8], name| {
         let value = numbers.encode_value(&mut value).unwrap();
         let op = WriteByName::new(channel, name, value).unwrap();
         op.encode(&mut buf).map(<[u8]>::len)
     };
     assert_eq!(by_name(&[1; 2047], ""), Ok(2048));
-    assert_eq!(by_name(&[1; 2048], "").unwrap_err().kind(), ErrorKind::TooLong);
+    assert_eq!(by_name(&[1; 2048], "").unwrap_err().kind(), TooLong);
     assert_eq!(by_name(&[1; 2040], "V.E.abc"), Ok(2048));
-    assert_eq!(by_name(&[1; 2041], "V.E.abc").unwrap_err().kind(), ErrorKind::TooLong);
+    assert_eq!(by_name(&[1; 2041], "V.E.abc").unwrap_err().kind(), TooLong);
 
     // A content takes more, but no more than ADS data.
     let content = vec![0_u64; limits::ADS_DATA_MAX / 8 + 1];
     let error = content.encode_value(&mut []).unwrap_err();
-    assert_eq!((error.kind(), error.expected()), (ErrorKind::TooLong, 0x40_0000));
+    assert_eq!((error.kind(), error.expected()), (TooLong, 0x40_0000));
     let error = content[1..].encode_value(&mut []).unwrap_err();
-    assert_eq!((error.kind(), error.expected()), (ErrorKind::BufferTooSmall, 0x40_0000));
+    assert_eq!((error.kind(), error.expected()), (BufferTooSmall, 0x40_0000));
     #[cfg(feature = "alloc")]
     assert!(content.value_to_vec().is_err() && content[1..].value_to_vec().is_ok());
 }
@@ -86,15 +82,15 @@ fn writes_fit_the_description() {
     let dimensions = [2, 2];
     let array = shape(DataType::Sgn16, &dimensions, 8);
     let mut buf = [0x55; 16];
-    assert_eq!(fault(array.encode(&[1_u16; 4], &mut buf)), (ErrorKind::Mismatch, "type", 0, 4, 5));
-    assert_eq!(fault(array.encode(&[1_f32; 4], &mut buf)), (ErrorKind::Mismatch, "type", 0, 4, 0));
-    assert_eq!(fault(array.encode(&[1_i16; 5], &mut buf)), (ErrorKind::Mismatch, "count", 0, 4, 5));
-    assert_eq!(fault(array.encode(&1_i16, &mut buf)), (ErrorKind::Mismatch, "count", 0, 4, 1));
+    assert_eq!(fault_of(array.encode(&[1_u16; 4], &mut buf)), fault(Mismatch, "type", 0, (4, 5)));
+    assert_eq!(fault_of(array.encode(&[1_f32; 4], &mut buf)), fault(Mismatch, "type", 0, (4, 0)));
+    assert_eq!(fault_of(array.encode(&[1_i16; 5], &mut buf)), fault(Mismatch, "count", 0, (4, 5)));
+    assert_eq!(fault_of(array.encode(&1_i16, &mut buf)), fault(Mismatch, "count", 0, (4, 1)));
     let small = array.encode(&[1_i16; 4], &mut buf[..7]);
-    assert_eq!(fault(small), (ErrorKind::BufferTooSmall, "stream", 0, 8, 7));
+    assert_eq!(fault_of(small), fault(BufferTooSmall, "stream", 0, (8, 7)));
     let text = CncStr::new("1").unwrap();
-    assert_eq!(fault(array.encode(&text, &mut buf)), (ErrorKind::Mismatch, "type", 0, 4, 9));
-    assert_eq!(fault(array.encode_texts(&[], &mut buf)), (ErrorKind::Mismatch, "type", 0, 4, 9));
+    assert_eq!(fault_of(array.encode(&text, &mut buf)), fault(Mismatch, "type", 0, (4, 9)));
+    assert_eq!(fault_of(array.encode_texts(&[], &mut buf)), fault(Mismatch, "type", 0, (4, 9)));
     assert_eq!(buf, [0x55; 16]);
 
     assert_eq!(array.encode(&[-1_i16, 2, 3, 4], &mut buf).unwrap(), b"\xff\xff\x02\0\x03\0\x04\0");
@@ -116,7 +112,7 @@ fn texts_fit_their_size() {
     assert_eq!(one.encode(&text("abc"), &mut buf).unwrap(), b"abc\0");
     assert_eq!(one.encode_texts(&[text("")], &mut buf).unwrap(), b"\0");
     let too_long = one.encode(&text("abcd"), &mut buf);
-    assert_eq!(fault(too_long), (ErrorKind::TooLong, "value", 0, 4, 5));
+    assert_eq!(fault_of(too_long), fault(TooLong, "value", 0, (4, 5)));
     // A text keeps the end it was read with.
     let open = TextRef::with_tail(text("abcd"), None);
     assert_eq!(one.encode(&open, &mut buf).unwrap(), b"abcd");
@@ -132,12 +128,12 @@ fn texts_fit_their_size() {
     ]));
     let buf = &mut [0x55; 16];
     let too_long = three.encode_texts(&[text("ab"), text("abc"), text("")], buf);
-    assert_eq!(fault(too_long), (ErrorKind::TooLong, "value", 3, 3, 4));
+    assert_eq!(fault_of(too_long), fault(TooLong, "value", 3, (3, 4)));
     let two = three.encode_texts(&texts[..2], buf);
-    assert_eq!(fault(two), (ErrorKind::Mismatch, "count", 0, 3, 2));
+    assert_eq!(fault_of(two), fault(Mismatch, "count", 0, (3, 2)));
     // Three texts of another size each.
     let strings = StringsRef::new(b"abcabc", 3).unwrap();
-    assert_eq!(fault(three.encode(&strings, buf)), (ErrorKind::Mismatch, "size", 0, 9, 6));
+    assert_eq!(fault_of(three.encode(&strings, buf)), fault(Mismatch, "size", 0, (9, 6)));
     assert_eq!(*buf, [0x55; 16]);
 
     #[cfg(feature = "alloc")]
@@ -249,11 +245,11 @@ proptest! {
         let find = |indices: &[u32]| items.element(indices.into(), dimensions.as_slice().into());
         prop_assert_eq!(find(&indices).unwrap_err().field().name(), "count");
         indices[at] = dimensions[at].saturating_add(over % 3);
-        let error = fault(find(&indices));
+        let error = fault_of(find(&indices));
         // The largest dimension has no number beyond it.
         if indices[at] >= dimensions[at] {
             let (last, index) = (dimensions[at] as usize - 1, indices[at] as usize);
-            prop_assert_eq!(error, (ErrorKind::OutOfRange, "index", at, last, index));
+            prop_assert_eq!(error, fault(OutOfRange, "index", at, (last, index)));
         }
     }
 

@@ -253,3 +253,19 @@ impl Fault {
         }
     }
 }
+
+/// A fault as a person writes it down; of the numbers, the one expected comes first.
+pub(crate) fn fault(
+    kind: ErrorKind,
+    field: &'static str,
+    offset: usize,
+    (expected, found): (usize, usize),
+) -> Fault {
+    Fault { kind, field, offset, expected, found }
+}
+
+/// The fault of what has to be refused.
+#[track_caller]
+pub(crate) fn fault_of<T>(result: Result<T, Error>) -> Fault {
+    Fault::of(result.err().expect("an error"))
+}

@@ -30,7 +30,7 @@ pub(crate) use frames::{
 };
 pub(crate) use laws::{
     Bend, Fault, check, check_bent, check_call, check_call_bent, check_reply, check_reply_bent,
-    check_request,
+    check_request, fault, fault_of,
 };
 #[cfg(feature = "alloc")]
 pub(crate) use laws::{check_value, check_value_bent};

@@ -3,11 +3,8 @@
 use std::time::Duration;
 
 use ads_cnc::CncStr;
-use ads_cnc::ErrorKind::{self};
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Uuid};
 use ads_cnc::service::*;
-
-use super::common::Fault;
 
 pub(crate) const ROOT: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
 pub(crate) const COMMAND: &str = "19719079-BA06-4740-BC02-DE5215211751";
@@ -22,15 +19,6 @@ pub(crate) fn text(text: &str) -> CncStr<'_> {
 
 pub(crate) fn millis(millis: u64) -> Duration {
     Duration::from_millis(millis)
-}
-
-pub(crate) fn fault(
-    kind: ErrorKind,
-    field: &'static str,
-    offset: usize,
-    numbers: (usize, usize),
-) -> Fault {
-    Fault { kind, field, offset, expected: numbers.0, found: numbers.1 }
 }
 
 /// The example's service, which the manuals have in C.

@@ -9,7 +9,7 @@ use ads_cnc::service::*;
 use ads_cnc::{CncStr, VariablePath};
 
 use super::channel::*;
-use super::common::Fault;
+use super::common::{Fault, fault};
 
 /// SVC-1: the names, which are well-formed, and the types.
 #[test]

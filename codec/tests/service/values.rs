@@ -5,7 +5,7 @@ use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, Respons
 use ads_cnc::service::*;
 
 use super::channel::*;
-use super::common::Fault;
+use super::common::{Fault, fault};
 
 /// SVC-1: 128 bytes with the NUL, of each text and on each side; what is longer is refused before
 /// anything is written.
