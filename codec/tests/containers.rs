@@ -1,18 +1,7 @@
-//! What holds several things says how many, hands out each, and is a key like what it equals.
+//! What holds several things says how many there are and hands out each.
 
-use std::collections::HashSet;
-use std::error::Error as _;
-use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher, Hash};
-
-use ads_cnc::ads::AmsPort;
-use ads_cnc::operation::Refusal;
-use ads_cnc::service::ServiceId;
-use ads_cnc::value::{Boolean, DataType, Items, StringsRef};
+use ads_cnc::value::{DataType, Items, StringsRef};
 use ads_cnc::*;
-
-fn hash(value: impl Hash) -> u64 {
-    BuildHasherDefault::<DefaultHasher>::default().hash_one(value)
-}
 
 /// At each step an iterator says exactly how many are left.
 #[track_caller]
@@ -24,7 +13,7 @@ fn counts_down(mut items: impl Iterator, count: usize) {
 }
 
 #[test]
-fn none_one_and_several() {
+fn none_one_and_several_are_counted_and_handed_out() {
     let bytes = [1, 0, 2, 0, 3, 0];
     let dimensions = [[0], [1], [3]];
     for (count, dimensions) in [0, 1, 3].into_iter().zip(&dimensions) {
@@ -70,7 +59,7 @@ fn none_one_and_several() {
 
 #[cfg(feature = "alloc")]
 #[test]
-fn owned() {
+fn owned_lists_are_counted_and_handed_out() {
     use ads_cnc::value::Values;
 
     for (values, count) in [
@@ -95,54 +84,4 @@ fn owned() {
             }
         }
     }
-}
-
-/// Texts of one meaning are one key, and others another.
-#[test]
-fn keys() {
-    let wire = CncStr::from_bytes(b"Gr\xF6\xDFe").unwrap();
-    let text = CncStr::new("Größe").unwrap();
-    assert_eq!((wire, hash(wire)), (text, hash(text)));
-    assert_ne!(hash(text), hash(CncStr::new("Grösse").unwrap()));
-    assert!(text == "Größe" && wire == *"Größe" && text != "Grösse" && wire != *"Grösse");
-
-    let id = |text| ServiceId::new(text).unwrap();
-    let upper = id("560AACBF-6335-44A9-895A-8B27F3ED5E47");
-    let lower = id("560aacbf-6335-44a9-895a-8b27f3ed5e47");
-    let other = id("560aacbf-6335-44a9-895a-8b27f3ed5e48");
-    assert_eq!((upper, hash(upper)), (lower, hash(lower)));
-    assert_ne!(upper, other);
-    assert_ne!(hash(upper), hash(other));
-    assert_eq!(HashSet::from([upper, lower, other]).len(), 2);
-}
-
-/// Numbers are equal wherever they come from, if all are, and all are there.
-#[test]
-fn numbers() {
-    let name = VariablePath::new("V.E.a[3][0]").unwrap();
-    let named = name.parts().next().unwrap().indices;
-    let wire = b"\x01\0\0\0\x02\0\0\0\x03\0\0\0\0\0\0\0";
-    let wire = HandleReadRef::decode(wire).unwrap().indices;
-    assert_eq!((named, wire), (Numbers::from(&[3, 0]), Numbers::from(&[3, 0])));
-    assert_eq!(named, wire);
-    for other in [&[3, 1][..], &[2, 0], &[3], &[3, 0, 0], &[]] {
-        assert_ne!(named, Numbers::from(other));
-        assert_ne!(wire, Numbers::from(other));
-    }
-}
-
-/// 0 is FALSE and any other byte TRUE.
-#[test]
-fn truth() {
-    assert_eq!([0, 1, 2, 255].map(|byte| Boolean(byte).is_true()), [false, true, true, true]);
-    assert_eq!((Boolean::from(false), Boolean::from(true)), (Boolean::FALSE, Boolean::TRUE));
-}
-
-/// Behind a refusal for the bytes stands the error of their stream.
-#[test]
-fn refusals_have_a_source() {
-    let error = Handle::decode(&[0]).unwrap_err();
-    let source = |refusal: &Refusal| refusal.source().map(|source| source.to_string());
-    assert_eq!(source(&Refusal::Stream(error)), Some(error.to_string()));
-    assert_eq!(source(&Refusal::Port(AmsPort(1))), None);
 }

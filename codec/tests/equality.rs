@@ -1,22 +1,23 @@
 //! What is equal has the same hash, and what is not, is not.
 
 use std::collections::HashSet;
-use std::hash::{BuildHasher, Hash, RandomState};
+use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher, Hash};
 
 use ads_cnc::service::ServiceId;
 use ads_cnc::value::{Boolean, Items};
 use ads_cnc::*;
 
-/// All of `same` are equal, and none equals `other`.
+/// All of `same` are equal, and none equals `other`, nor has its hash.
 #[track_caller]
 fn check<T: Hash + Eq + std::fmt::Debug>(same: &[T], other: T) {
-    let state = RandomState::new();
+    let state = BuildHasherDefault::<DefaultHasher>::default();
     for one in same {
         for another in same {
             assert_eq!(one, another);
             assert_eq!(state.hash_one(one), state.hash_one(another), "{one:?} {another:?}");
         }
         assert_ne!(*one, other);
+        assert_ne!(state.hash_one(one), state.hash_one(&other), "{one:?} {other:?}");
     }
     let distinct: HashSet<&T> = same.iter().chain([&other]).collect();
     assert_eq!(distinct.len(), 2);
@@ -24,28 +25,33 @@ fn check<T: Hash + Eq + std::fmt::Debug>(same: &[T], other: T) {
 
 /// A text is its characters, from UTF-8 or from CP1252.
 #[test]
-fn texts() {
+fn texts_are_equal_by_their_characters() {
     let given =
         [CncStr::new("größer €").unwrap(), CncStr::from_bytes(b"gr\xF6\xDFer \x80").unwrap()];
     check(&given, CncStr::new("groesser €").unwrap());
     check(&[CncStr::EMPTY, CncStr::new("").unwrap()], CncStr::new(" ").unwrap());
     assert_eq!(CncStr::new("V.E"), Ok(CncStr::from_bytes(b"V.E").unwrap()));
-    assert!(given[1] == *"größer €" && given[1] != *"größer");
+    for text in given {
+        assert!(text == "größer €" && text == *"größer €", "{text:?}");
+        assert!(text != "größer" && text != *"größer", "{text:?}");
+    }
 }
 
 /// A name is its text; it is read with the case it has.
 #[test]
-fn names() {
+fn names_are_equal_by_their_text_and_its_case() {
     let path = |text| VariablePath::new(text).unwrap();
     let from_text = VariablePath::from_text(CncStr::from_bytes(b"V.E.test[4]").unwrap()).unwrap();
     let mut buf = [0; 32];
     let element = path("V.E.test").write_element(Numbers::from(&[4]), &mut buf).unwrap();
     check(&[path("V.E.test[4]"), from_text, element], path("V.E.TEST[4]"));
+    let wire = VariablePath::from_text(CncStr::from_bytes(b"V.G.Gr\xF6\xDFe").unwrap()).unwrap();
+    check(&[path("V.G.Größe"), wire], path("V.G.Grösse"));
 }
 
 /// A UUID is the same in capitals.
 #[test]
-fn service_ids() {
+fn uuids_are_equal_in_capitals() {
     let id = |text: &str| ServiceId::new(text).unwrap();
     check(
         &[
@@ -57,9 +63,24 @@ fn service_ids() {
     );
 }
 
+/// Numbers are equal wherever they come from, if all are, and all are there.
+#[test]
+fn numbers_are_equal_wherever_they_come_from() {
+    let name = VariablePath::new("V.E.a[3][0]").unwrap();
+    let named = name.parts().next().unwrap().indices;
+    let wire = b"\x01\0\0\0\x02\0\0\0\x03\0\0\0\0\0\0\0";
+    let wire = HandleReadRef::decode(wire).unwrap().indices;
+    assert_eq!((named, wire), (Numbers::from(&[3, 0]), Numbers::from(&[3, 0])));
+    assert_eq!(named, wire);
+    for other in [&[3, 1][..], &[2, 0], &[3], &[3, 0, 0], &[]] {
+        assert_ne!(named, Numbers::from(other));
+        assert_ne!(wire, Numbers::from(other));
+    }
+}
+
 /// Items are equal as numbers: two zeros are, a NaN is not.
 #[test]
-fn items() {
+fn items_are_equal_as_numbers() {
     let bytes = |numbers: [f32; 2]| numbers.map(f32::to_le_bytes).concat();
     let (plus, minus, nan) = (bytes([0.0, 1.0]), bytes([-0.0, 1.0]), bytes([f32::NAN, 1.0]));
     let of = |bytes| Items::<f32>::new(bytes).unwrap();
@@ -72,7 +93,7 @@ fn items() {
 
 /// Of the bytes that are TRUE, one is written.
 #[test]
-fn truth() {
+fn any_byte_but_0_is_true_and_stays_what_it_is() {
     for byte in 0..=u8::MAX {
         assert_eq!(Boolean(byte).is_true(), byte != 0);
         assert_eq!(Boolean(byte) == Boolean::TRUE, byte == 1);

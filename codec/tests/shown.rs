@@ -1,4 +1,5 @@
-//! What is shown to people: in logs, in the messages of programs, in failed assertions.
+//! What is shown to people: in logs, in the messages of programs, in failed assertions. Errors are
+//! in `shown_errors.rs`.
 
 use std::fmt::{Debug, Display};
 
@@ -7,8 +8,7 @@ use ads_cnc::ads::{AdsError, AmsAddr, AmsNetId, AmsPort};
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 use ads_cnc::edition::{Answer, CncVersion, Edition};
 use ads_cnc::layout::{Field, Stream, Type};
-use ads_cnc::operation::{Refusal, Service};
-use ads_cnc::service::{ServiceId, ServiceVariable};
+use ads_cnc::service::{Call, ServiceId, ServiceVariable, SysServiceWait};
 use ads_cnc::streaming::*;
 use ads_cnc::value::{Boolean, DataType, Items, StringsRef};
 use ads_cnc::*;
@@ -25,7 +25,7 @@ fn debugs(value: impl Debug, text: &str) {
 
 /// Groups, offsets and return codes in hexadecimal, as the manuals print them.
 #[test]
-fn addresses() {
+fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(IndexGroup::new(0x12_2301), "0x122301");
     debugs(IndexGroup::new(0x12_2301), "0x122301");
     shows(IndexOffset::new(0x2_0004), "0x20004");
@@ -43,7 +43,7 @@ fn addresses() {
 }
 
 #[test]
-fn editions_and_versions() {
+fn editions_versions_and_answers_are_as_printed() {
     shows(Edition::English, "ads-en 1.05");
     shows(Edition::German, "ads-de 1.051");
     let version = CncVersion::new("V3.1.3081.07").unwrap();
@@ -55,12 +55,13 @@ fn editions_and_versions() {
 }
 
 #[test]
-fn streams_and_their_fields() {
+fn streams_and_fields_have_their_names() {
     shows(Stream::VariableDescription, "variable-description");
     let field = Field::by_name(Stream::VariableDescription, "type").unwrap();
     shows(field, "variable-description: type");
     debugs(field, "variable-description.type");
     shows(Field::whole(Stream::Content), "content: stream");
+    assert_eq!(Field::by_name(Stream::VariableHandle, "value"), None);
     let names = [
         (Type::Uns08, "UNS08"),
         (Type::Uns16, "UNS16"),
@@ -78,23 +79,7 @@ fn streams_and_their_fields() {
 }
 
 #[test]
-fn errors() {
-    let short = DynamicValue::decode(&[0; 3]).unwrap_err();
-    let text = "dynamic-value: value at offset 0: truncated, 8 bytes expected, 3 there";
-    shows(short, text);
-    debugs(short, &format!("Error(Truncated, {text})"));
-    shows(Refusal::Stream(short), text);
-    shows(Refusal::Port(AmsPort(851)), "no task has port 851");
-    shows(Refusal::Group(IndexGroup::new(0x99)), "no function has index group 0x99");
-    shows(Refusal::Offset(IndexOffset::new(0x99)), "no function has index offset 0x99");
-    shows(
-        Refusal::Service { takes: Service::ReadWrite, asked: Service::Read },
-        "the function takes ReadWrite, not Read",
-    );
-}
-
-#[test]
-fn texts() {
+fn texts_are_in_characters_with_their_end() {
     let text = CncStr::new("Größe \"€\"").unwrap();
     shows(text, "Größe \"€\"");
     debugs(text, r#""Größe \"€\"""#);
@@ -112,18 +97,22 @@ fn texts() {
 }
 
 #[test]
-fn values() {
+fn values_are_numbers_and_texts() {
     debugs(DynamicValue::from_bits(1.5_f64.to_bits()), "1.5 (0x3ff8000000000000)");
     debugs(Boolean(2), "2");
     debugs(Items::<u16>::new(&[1, 0, 2, 0]).unwrap(), "[1, 2]");
+    debugs(Items::<Boolean>::new(&[0, 1, 7]).unwrap(), "[0, 1, 7]");
     debugs(StringsRef::new(b"ab\0c\0\0", 2).unwrap(), r#"["ab", "c" and 1 NULs more]"#);
     let elements = Elements::new(DataType::Uns16, Numbers::from(&[2]), &[1, 0, 2, 0]).unwrap();
     debugs(elements, "[Uns16(1), Uns16(2)]");
+    let elements = Elements::new(DataType::Sgn08, Numbers::from(&[3]), &[1, 2, 0xFF]).unwrap();
+    debugs(elements, "[Sgn08(1), Sgn08(2), Sgn08(-1)]");
+    debugs(elements.items::<i8>().unwrap(), "[1, 2, -1]");
     shows(DynamicKind::VL, "V.L");
 }
 
 #[test]
-fn services() {
+fn services_have_their_names() {
     let id = "12345678-9ABC-DEF0-1234-56789ABCDEF0";
     let shown = ServiceId::new(id).unwrap();
     shows(shown, id);
@@ -132,10 +121,14 @@ fn services() {
         shows(variable, variable.name());
     }
     shows(ServiceVariable::Request, "V.G.SERVICE.REQUEST");
+    // The text that a machine holds in CP1252 is shown in characters.
+    let call = Call::new(shown, CncStr::new("2 for 1 €").unwrap(), SysServiceWait::default());
+    let call = format!("{:?}", call.unwrap());
+    assert!(call.contains("\"2 for 1 €\""), "{call}");
 }
 
 #[test]
-fn streaming() {
+fn streaming_says_where_it_stands_and_not_the_text() {
     let text = NcText::new(b"N10 $WHILE 1\nN20 M30\nN30").unwrap();
     debugs(text, "NcText(3 lines, 24 bytes)");
     let mut findings = text.findings();
@@ -145,19 +138,26 @@ fn streaming() {
     shows(LoopWord::While, "$WHILE");
     shows(ProgramEnd::M30, "M30");
     shows(FindingKind::BackwardJump { to: 5 }, "$GOTO back to line 5");
-    let mut interface = Interface::new();
+    let mut interface = Interface::default();
+    debugs(&interface, "Interface(0 of 4094 bytes)");
     assert_eq!(interface.write(b"N10\r\n"), Ack::Accepted);
     debugs(interface, "Interface(5 of 4094 bytes)");
     let mut sender = Sender::new(text);
+    let shown = |state, refusals| {
+        let sent = "Progress { packets: 0, lines: 0, bytes: 0 }";
+        let state = format!("state: {state}, sent: {sent}, refusals: {refusals}");
+        format!("Sender {{ text: NcText(3 lines, 24 bytes), {state}, .. }}")
+    };
+    debugs(&sender, &shown("Ready", 0));
     assert!(sender.packet().is_some());
-    let sent = "Progress { packets: 0, lines: 0, bytes: 0 }";
-    let state = format!("state: Out, sent: {sent}, refusals: 0");
-    debugs(sender, &format!("Sender {{ text: NcText(3 lines, 24 bytes), {state}, .. }}"));
+    debugs(&sender, &shown("Out", 0));
+    sender.acknowledge(Ack::Later).unwrap();
+    debugs(sender, &shown("Waiting", 1));
 }
 
 #[cfg(feature = "alloc")]
 #[test]
-fn owned() {
+fn what_owns_is_shown_as_what_it_holds() {
     use ads_cnc::value::Strings;
 
     let text: CncString = "Größe".parse().unwrap();
@@ -174,7 +174,7 @@ fn owned() {
     let list: Descriptors = [object].into_iter().collect();
     debugs(list.as_ref(), &format!("[{shown}]"));
     debugs(list, &format!("[{shown}]"));
-    let mut checker = Checker::new();
+    let mut checker = Checker::default();
     debugs(checker.check(b"N10\r\n"), "CheckedLines { .. }");
     debugs(checker, "Checker(1 lines)");
 }

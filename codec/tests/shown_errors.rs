@@ -1,18 +1,12 @@
-//! What a person is shown: errors, refusals, and values where one looks at them while debugging.
+//! What a person is told: errors and refusals.
 
 use std::error::Error as _;
 
 use ads_cnc::address::{Channel, Class, ElementAddress, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsNetId, AmsPort};
-use ads_cnc::edition::{CncVersion, Edition};
-use ads_cnc::layout::{Field, Stream};
-use ads_cnc::limits::STREAM_MAX;
+use ads_cnc::edition::CncVersion;
 use ads_cnc::operation::*;
-use ads_cnc::service::{ServiceId, ServiceVariable, SysServiceWait};
-#[cfg(feature = "alloc")]
-use ads_cnc::streaming::Checker;
-use ads_cnc::streaming::{Ack, Interface, NcText, Sender};
-use ads_cnc::value::{Boolean, DataType, Elements, Items, StringsRef};
+use ads_cnc::service::SysServiceWait;
 use ads_cnc::*;
 
 fn error<T: std::fmt::Debug>(result: Result<T, Error>) -> (ErrorKind, String) {
@@ -172,87 +166,4 @@ fn refusals_say_what_is_refused() {
         refused(Call { data: b"V", ..call }),
         (stream.to_string(), AdsError::INVALID_SIZE, Some(stream.to_string()))
     );
-}
-
-/// Names as the manuals have them, and numbers as they are printed there.
-#[test]
-fn values_show_as_they_are_written() {
-    let id = ServiceId::new("560aacbf-6335-44a9-895a-8b27f3ed5e47").unwrap();
-    assert_eq!(
-        format!("{id} {id:?}"),
-        "560aacbf-6335-44a9-895a-8b27f3ed5e47 ServiceId(560aacbf-6335-44a9-895a-8b27f3ed5e47)"
-    );
-    let name = ServiceVariable::Request.name();
-    assert_eq!(ServiceVariable::Request.to_string(), name);
-    assert_eq!(VariablePath::new(name).map(|path| path.to_string()), Ok(name.to_string()));
-    // A text in CP1252 is shown in characters.
-    let wait = SysServiceWait::from_parameters(Some(0), Some(5000), Some(1)).unwrap();
-    let call = service::Call::new(id, CncStr::new("2 for 1 €").unwrap(), wait).unwrap();
-    assert!(format!("{call:?}").contains("\"2 for 1 €\""), "{call:?}");
-
-    let version: CncVersion = "V.3.1.3081.07".parse().unwrap();
-    assert_eq!(format!("{version} {version:?}"), "V3.1.3081.07 CncVersion(V3.1.3081.07)");
-    for edition in Edition::ALL {
-        assert_eq!(edition.to_string(), format!("{} {}", edition.document(), edition.number()));
-    }
-    let answers = [
-        Edition::German.permits(Function::WriteByHandle, Kind::V_S, None),
-        Edition::English.permits(Function::ReadByName, Kind::V_CYC, None),
-        Edition::English.permits(Function::CountVariables, Kind::V_CYC, None),
-    ];
-    assert_eq!(
-        answers.map(|answer| answer.to_string()),
-        ["no (VAR-18)", "yes (VAR-14)", "no (VAR-1, assumed)"]
-    );
-
-    let error = AdsError::INVALID_SIZE;
-    assert_eq!(format!("{error} {error:?}"), "0x705 0x705");
-    assert_eq!(format!("{:?}", Kind::V_E), format!("{:?}", Kind::V_E.field()));
-    assert!(format!("{:?}", Kind::V_E).contains("\"V.E\""));
-    let field = Field::by_name(Stream::VariableHandle, "handle").unwrap();
-    assert_eq!(format!("{field} {field:?}"), "variable-handle: handle variable-handle.handle");
-    assert_eq!(Field::by_name(Stream::VariableHandle, "value"), None);
-}
-
-/// Readings of a value show their elements.
-#[test]
-fn typed_values_show_their_elements() {
-    let elements = Elements::new(DataType::Sgn08, Numbers::from(&[3]), &[1, 2, 0xFF]).unwrap();
-    assert_eq!(format!("{elements:?}"), "[Sgn08(1), Sgn08(2), Sgn08(-1)]");
-    assert_eq!(format!("{:?}", elements.items::<i8>().unwrap()), "[1, 2, -1]");
-    let truths = Items::<Boolean>::new(&[0, 1, 7]).unwrap();
-    assert_eq!(format!("{truths:?}"), "[0, 1, 7]");
-    let texts = StringsRef::new(b"ab\0c\0\0", 2).unwrap();
-    let shown = texts.iter().map(|text| format!("{text:?}")).collect::<Vec<_>>();
-    assert_eq!(format!("{texts:?}"), format!("[{}]", shown.join(", ")));
-    assert!(shown[0].contains("\"ab\"") && shown[1].contains("\"c\""), "{shown:?}");
-    #[cfg(feature = "alloc")]
-    assert_eq!(format!("{:?}", value::Strings::from(texts)), format!("{texts:?}"));
-}
-
-/// The ends of a stream show where they stand, not the text.
-#[test]
-fn streaming_shows_where_it_stands() {
-    let text = NcText::new(b"N10 X1\nN20 X2\nM30\n").unwrap();
-    assert_eq!(format!("{text:?}"), "NcText(3 lines, 18 bytes)");
-    let mut sender = Sender::new(text);
-    let shown = |sender: &Sender<'_>| format!("{sender:?}");
-    let ready = "Sender { text: NcText(3 lines, 18 bytes), state: Ready, sent: Progress { packets: 0, lines: 0, bytes: 0 }, refusals: 0, .. }";
-    assert_eq!(shown(&sender), ready);
-    let mut interface = Interface::default();
-    assert_eq!(format!("{interface:?}"), format!("Interface(0 of {STREAM_MAX} bytes)"));
-    assert_eq!(interface.write(sender.packet().unwrap()), Ack::Accepted);
-    assert_eq!(format!("{interface:?}"), format!("Interface(21 of {STREAM_MAX} bytes)"));
-    sender.acknowledge(Ack::Later).unwrap();
-    assert_eq!(
-        shown(&sender),
-        ready.replace("Ready", "Waiting").replace("refusals: 0", "refusals: 1")
-    );
-    assert_eq!(format!("{:?}", text.findings()), "Findings { .. }");
-    #[cfg(feature = "alloc")]
-    {
-        let mut checker = Checker::default();
-        assert_eq!(format!("{:?}", checker.check(text.bytes())), "CheckedLines { .. }");
-        assert_eq!(format!("{checker:?}"), "Checker(3 lines)");
-    }
 }
