@@ -125,7 +125,7 @@ fn attributes_of_an_element() {
 
 /// ADR-10, SDA-3: the printed queries of object addresses and what they answer.
 #[test]
-fn object_addresses() {
+fn object_addresses_are_as_printed() {
     let query = |of| class(Logical, of, Attribute::ObjectAddress, 0);
     assert_eq!(parts(0x12_3900), query(Class::Hld));
     assert_eq!(parts(0x12_2900), query(Class::Decoder));
@@ -146,7 +146,7 @@ fn queries_of_object_addresses() {
 
 /// SDA-2: none but (0, 0) says that there is no instance, and an instance is in the group of a class.
 #[test]
-fn first_elements() {
+fn only_0_and_0_is_no_first_element() {
     let first = |group, offset| {
         let (index_group, index_offset) = (IndexGroup::new(group), IndexOffset::new(offset));
         ObjectAddress { index_group, index_offset }.first_element()

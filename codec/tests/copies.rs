@@ -9,7 +9,7 @@ const DESCRIPTION: &[u8] =
 
 /// A copy outlives the bytes, and is written as they were.
 #[test]
-fn descriptions() {
+fn copies_of_descriptions_outlive_the_bytes() {
     let (whole, nameless) = {
         let bytes = DESCRIPTION.to_vec();
         let whole = Description::decode(&bytes).unwrap();
@@ -25,7 +25,7 @@ fn descriptions() {
 
 /// A list has what was added, in that order, and nothing behind it.
 #[test]
-fn lists_of_descriptors() {
+fn lists_have_what_was_added_in_order() {
     let names = ["first", "zweite Größe", "third"];
     let mut list = Descriptors::default();
     assert!(list.as_ref().is_empty() && list.to_vec().is_err());
@@ -48,7 +48,7 @@ fn lists_of_descriptors() {
 
 /// Text from a program is CP1252 with its NUL, or refused.
 #[test]
-fn texts() {
+fn texts_of_a_program_are_cp1252_or_refused() {
     let text: Text = "größer".parse().unwrap();
     assert_eq!(text, Text::from("größer".parse::<CncString>().unwrap()));
     assert_eq!((text.text.as_bytes(), text.tail), (&b"gr\xF6\xDFer"[..], Some(vec![])));

@@ -77,12 +77,12 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
 
     #[test]
-    fn any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..40)) {
+    fn any_bytes_obey_the_laws_of_texts(bytes in prop::collection::vec(any::<u8>(), 0..40)) {
         let _ = check_cp1252(&bytes, CncStrBend::NONE);
     }
 
     #[test]
-    fn any_characters(text in "[\\PCaä€\0\u{81}]{0,20}") {
+    fn any_characters_obey_the_laws_of_texts(text in "[\\PCaä€\0\u{81}]{0,20}") {
         let _ = check_utf8(&text, CncStrBend::NONE);
     }
 }

@@ -190,7 +190,7 @@ proptest! {
 
     /// What dispatch looks up is what the rules say, anywhere.
     #[test]
-    fn any_place(
+    fn any_place_is_looked_up_by_the_rules(
         port in 549..=555_u16,
         service in prop::sample::select(&[Service::Read, Service::Write, Service::ReadWrite][..]),
         group in prop_oneof![any::<u32>(), (0..0x20_u32, 0..0x60_u32, any::<u8>())
@@ -206,7 +206,7 @@ proptest! {
     /// Whatever is called: a refusal, or a request that encodes to the same call. Near the calls
     /// there are, so that some are accepted.
     #[test]
-    fn any_call(
+    fn any_call_is_refused_or_comes_back(
         sample in prop::sample::select(CALLS.iter().map(|sample| sample.call).collect::<Vec<_>>()),
         port in 550..=554_u16,
         group in prop::option::of((0..24_u32, 0..24_u32)),

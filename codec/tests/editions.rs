@@ -35,7 +35,7 @@ fn assert_answer(answer: Answer, (yes, assumed): (bool, bool), clause: &str) {
 /// Each as it is printed: `ads-de` 1.051, section 4.1; `service-en` and `service-de` 1.03,
 /// section 1; the last two in the vendors' public help pages.
 #[test]
-fn printed_versions() {
+fn printed_versions_are_read_and_written() {
     for (printed, (major, minor, build, patch), shown) in [
         ("V.2.11.2077", (2, 11, 2077, 0), "V2.11.2077"),
         ("V2.11.2847", (2, 11, 2847, 0), "V2.11.2847"),
@@ -340,7 +340,7 @@ proptest! {
 
     /// What is accepted is one of the forms, and no text panics.
     #[test]
-    fn any_text(text in "[V.0-9\u{e4} ]{0,14}") {
+    fn any_text_is_a_version_or_refused(text in "[V.0-9\u{e4} ]{0,14}") {
         if let Ok(version) = CncVersion::new(&text) {
             let numbers = text.trim_start_matches('V').trim_start_matches('.');
             let numbers: Vec<u16> = numbers.split('.').map(|n| n.parse().unwrap()).collect();
@@ -365,6 +365,7 @@ proptest! {
         prop_assert!(!has(patch) || has(later));
     }
 }
+
 /// The description by name, 0x4C: by the version, and of the kinds that are reached by name.
 #[test]
 fn descriptions_by_name() {

@@ -165,7 +165,7 @@ proptest! {
 /// The longest frame can be split, put together again and encoded; one byte more cannot.
 #[cfg(feature = "alloc")]
 #[test]
-fn the_longest_frame() {
+fn the_longest_frame_passes_and_no_longer() {
     let most = ads_cnc::limits::ADS_DATA_MAX + 16;
     let data = vec![7; most];
     let header = FrameRef::split(&frame(&[]), u32::MAX).unwrap().unwrap().0.header();

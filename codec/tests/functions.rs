@@ -84,7 +84,7 @@ proptest! {
 
     /// The same for damaged requests and replies.
     #[test]
-    fn damaged_requests_and_replies(
+    fn damaged_requests_and_replies_are_those_of_the_table(
         sample in select((0..CALLS.len()).collect::<Vec<_>>()),
         (request, reply) in any::<(Index, Index)>(),
         damages in vec(damage(), 1..5),

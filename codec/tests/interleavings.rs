@@ -51,7 +51,7 @@ proptest! {
     /// One host for two services, whatever fails: every request is served once, by the service it
     /// is for, and gets the answer to itself.
     #[test]
-    fn one_host(requests in requests(), actions in orderly(), clears in clears()) {
+    fn one_host_answers_each_request_once(requests in requests(), actions in orderly(), clears in clears()) {
         let ids = service_ids();
         let mut world = World::new(&ids, true, clears, true, ServiceBend::NONE);
         let mut next = requests.into_iter();
@@ -61,7 +61,7 @@ proptest! {
 
     /// Two hosts that know nothing of each other, one service each: the same.
     #[test]
-    fn two_hosts(requests in requests(), actions in orderly(), clears in clears()) {
+    fn two_hosts_answer_each_request_once(requests in requests(), actions in orderly(), clears in clears()) {
         let ids = service_ids();
         let mut world = World::new(&ids, false, clears, true, ServiceBend::NONE);
         let mut next = requests.into_iter();
@@ -75,7 +75,7 @@ proptest! {
     /// After anything at all, programs that give up and a CNC that is reset among it, hosts come to
     /// rest, and the next requests are answered as if nothing had been.
     #[test]
-    fn after_chaos(
+    fn requests_after_chaos_are_answered(
         before in requests(),
         after in requests(),
         actions in chaos(),

@@ -23,7 +23,7 @@ fn channel(number: u32) -> Channel {
 
 /// An instance is asked for by class, channel and axis, and by number or by rank.
 #[test]
-fn instances() {
+fn instances_are_asked_for_by_number_or_by_rank() {
     for class in Class::ALL {
         let op = FindInstance::new(class, 3, 7);
         let mut buf = [0; 8];
@@ -38,7 +38,7 @@ fn instances() {
 
 /// What answers where an instance is has the address of its first element, and of no attribute.
 #[test]
-fn elements() {
+fn elements_keep_their_address() {
     let axis = ChannelAxis::new(2).unwrap();
     for class in [Class::Decoder, Class::Interpolator] {
         let first = ElementAddress::of_axis(channel(1), class, axis, 0).unwrap();
@@ -62,7 +62,7 @@ fn elements() {
 
 /// A list of objects keeps what it is of, its objects their group and offset.
 #[test]
-fn objects() {
+fn lists_and_objects_keep_their_address() {
     for (list, table, instance) in [
         (ObjectList::PLATFORM, ComTable::Channel, 0),
         (channel(4).into(), ComTable::Channel, 4),
@@ -87,7 +87,7 @@ fn objects() {
 
 /// Objects are counted from 1, and are as many as fit into one answer.
 #[test]
-fn descriptors_that_cannot_be_asked_for() {
+fn descriptors_are_asked_for_from_1_and_as_many_as_fit() {
     const MOST: u32 = ReadDescriptors::COUNT_MAX;
     let ask = |first, count| {
         let read = ReadDescriptors::new(ObjectList::PLATFORM, first, count);
@@ -103,7 +103,7 @@ fn descriptors_that_cannot_be_asked_for() {
 
 /// A server's answer is the same stream whether it is made of its type or taken as a reply.
 #[test]
-fn replies() {
+fn replies_are_the_streams_of_their_types() {
     fn check<'a, T: Encode + Decode<'a> + Copy + Into<Reply<'a>>>(bytes: &'a [u8]) -> Reply<'a> {
         let mut buf = [0; 2048];
         let reply: Reply<'a> = T::decode(bytes).unwrap().into();
@@ -150,7 +150,7 @@ fn dynamic_values_keep_their_bits() {
 
 /// What will never be taken is not written again; what nobody knows is (STM-6).
 #[test]
-fn results_of_writes() {
+fn only_what_may_be_taken_is_written_again() {
     assert_eq!(Ack::of(AdsError::NONE), Ack::Accepted);
     let (port, group, offset) = (AmsPort(1), IndexGroup::new(0), IndexOffset::new(0));
     let error = Handle::decode(&[]).unwrap_err();

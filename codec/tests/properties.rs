@@ -51,7 +51,7 @@ fn damaged_bytes() -> impl Strategy<Value = (Stream, Vec<u8>)> {
 
 /// Samples and golden vectors obey the laws; what vectors are to come to stands elsewhere.
 #[test]
-fn samples_and_vectors_obey() {
+fn samples_and_vectors_obey_the_laws() {
     for (stream, bytes) in samples_and_vectors() {
         let _ = check(stream, &bytes);
     }
@@ -62,13 +62,13 @@ proptest! {
 
     /// Random bytes: view, owned and walk agree, and what they accept comes back.
     #[test]
-    fn any_bytes((stream, bytes) in random_bytes()) {
+    fn any_bytes_obey_the_laws((stream, bytes) in random_bytes()) {
         let _ = check(stream, &bytes);
     }
 
     /// Damaged samples and vectors: the same, near what is valid.
     #[test]
-    fn damaged_samples((stream, bytes) in damaged_bytes()) {
+    fn damaged_samples_obey_the_laws((stream, bytes) in damaged_bytes()) {
         let _ = check(stream, &bytes);
     }
 }

@@ -13,7 +13,7 @@ use proptest::sample::select;
 const ENDS: [&str; 3] = ["\n", "\r\n", "\r"];
 
 #[test]
-fn texts_of_no_and_one_byte() {
+fn texts_of_no_and_one_byte_have_their_lines() {
     assert_eq!(packets(b""), [[0; 0]; 0]);
     assert_eq!(packets(b"X"), [b"X\r\n"]);
     assert_eq!(packets(b"\n"), [b"\r\n"]);
@@ -40,7 +40,7 @@ fn results_say_whether_to_write_again() {
 
 /// 989 and 990 characters pass, 991 do not, wherever the line is and however it ends.
 #[test]
-fn lines_at_the_limit() {
+fn lines_up_to_the_limit_pass_and_no_longer() {
     for end in ["", "\n", "\r\n", "\r"] {
         for before in ["", "N1\n", "N1\r\n"] {
             for len in [989, 990] {
@@ -63,7 +63,7 @@ fn lines_at_the_limit() {
 
 /// Two lines that fill a packet to the last byte but one, to the last, and are one too much.
 #[test]
-fn packets_exactly_full() {
+fn packets_are_filled_to_the_last_byte() {
     for end in ENDS {
         for last in [end, ""] {
             let lens = |len| -> Vec<usize> {

@@ -169,7 +169,7 @@ fn lot_by_lot_is_as_the_whole_so_far(lots in lots()) {
 
 /// Any bytes, in any lots.
 #[test]
-fn any_bytes(lots in vec(vec(any::<u8>(), 0..60), 0..6)) {
+fn any_bytes_in_any_lots_are_taken(lots in vec(vec(any::<u8>(), 0..60), 0..6)) {
     check_any_lots(lots.iter().map(Vec::as_slice));
 }
 

@@ -163,7 +163,7 @@ fn comments_hide_words_and_only_words() {
 }
 
 #[test]
-fn jumps() {
+fn jumps_back_are_found_and_no_others() {
     for back in [
         "N1: X1\n$GOTO N1",
         "N1: $GOTO N1",
@@ -223,7 +223,7 @@ fn jumps() {
 }
 
 #[test]
-fn program_ends() {
+fn text_behind_program_ends_is_found_and_behind_nothing_else() {
     for (end, name) in [
         ("M30", "M30"),
         ("N9 M2 (end)", "M2"),
@@ -298,7 +298,7 @@ fn findings_say_clause_and_consequence() {
 
 /// As many jumps as no table holds: far, near, back and forward.
 #[test]
-fn many_labels() {
+fn jumps_back_are_found_among_many_labels() {
     let count = 5000;
     let labels = || (0..count).map(|n| format!("N{n}: X1\n"));
     let jumps = || (0..count).map(|n| format!("$GOTO N{n}\n"));

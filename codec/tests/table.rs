@@ -56,7 +56,7 @@ const ROWS: [Row; 30] = [
 ];
 
 #[test]
-fn functions() {
+fn functions_are_where_the_manuals_put_them() {
     assert_eq!(ROWS.len(), Function::ALL.len());
     for (function, row) in Function::ALL.iter().zip(ROWS) {
         let spec = function.spec();
@@ -125,7 +125,7 @@ fn the_axis_interface_begins_at_axis_1() {
 
 /// Read lengths hold the longest reply there is.
 #[test]
-fn read_lengths() {
+fn read_lengths_hold_the_longest_reply() {
     use operation::*;
     let channel = Channel::new(1).unwrap();
     let name = TextRef::new("V.E.a").unwrap();
@@ -217,7 +217,7 @@ fn codes_of_variables() {
 
 /// COM-2, SDA-9, E-08: any write access but 0 is TRUE.
 #[test]
-fn write_access() {
+fn any_write_access_but_0_is_true() {
     let flags = [0, 1, 2, 0xFF].map(|raw| sda::ElementWriteFlag(raw).is_writable());
     assert_eq!(flags, [false, true, true, true]);
     let access = [0, 1, 2, 0x100, 0xFFFF].map(|raw| WriteAccess(raw).is_writable());

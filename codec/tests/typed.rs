@@ -44,7 +44,7 @@ fn printed_replies() {
 
 /// One element of each type, from Python's `struct`.
 #[test]
-fn each_type() {
+fn each_type_is_read_and_written() {
     let rows: [(DataType, &[u8], Element<'_>); 11] = [
         (DataType::Boolean, b"\x80", Element::Boolean(Boolean(0x80))),
         (DataType::Sgn08, b"\x80", Element::Sgn08(-128)),
@@ -160,7 +160,7 @@ fn content_by_name_of_its_type() {
 
 /// VAR-22, VAR-25: one STRING has any length; the texts of an array share its bytes (assumed).
 #[test]
-fn texts() {
+fn texts_of_an_array_share_its_bytes() {
     let one = shape(DataType::String, &[], 21).unwrap();
     for bytes in [&b""[..], b"\0", b"abc", b"abc\0", &[b'x'; 300]] {
         let elements = one.elements(bytes).unwrap();
@@ -191,7 +191,7 @@ fn texts() {
 
 /// Each wrong index is named by its place, its bound and itself.
 #[test]
-fn indices() {
+fn wrong_indices_are_named() {
     let bytes = [0; 24];
     let dimensions = [2, 3];
     let elements = elements(DataType::Sgn32, &dimensions, &bytes);
@@ -238,7 +238,7 @@ fn elements_in_their_order() {
 
 /// A dimension of 0 has no element, whatever the others are.
 #[test]
-fn no_elements() {
+fn a_dimension_of_0_has_no_element() {
     let huge = [u32::MAX, 0, u32::MAX];
     for data_type in DataType::ALL {
         let none = elements(data_type, &huge, &[]);

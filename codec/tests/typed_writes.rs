@@ -45,7 +45,7 @@ fn printed_writes() {
 
 /// VAR-12, VAR-13: requests take values up to their limits, and refuse the next one.
 #[test]
-fn limits_of_requests() {
+fn requests_take_values_up_to_their_limits() {
     let channel = Channel::new(1).unwrap();
     let (mut value, mut buf) = ([0; 4000], [0; 4000]);
     let mut by_handle = |numbers: &[u8], indices: Numbers<'_>| {

@@ -81,7 +81,7 @@ proptest! {
 
     /// Every value of a stream that is one number comes back.
     #[test]
-    fn numbers(number in any::<u32>(), reserved in any::<u16>()) {
+    fn numbers_come_back(number in any::<u32>(), reserved in any::<u16>()) {
         check_value(&ObjectCount(number));
         check_value(&VariableCount(number));
         check_value(&Handle(number));
@@ -91,7 +91,7 @@ proptest! {
 
     /// Every AMS header comes back.
     #[test]
-    fn ams_headers(
+    fn ams_headers_come_back(
         (target, source) in (end(), end()),
         (command, flags) in any::<(u16, u16)>(),
         (data_length, error, invoke_id) in any::<(u32, u32, u32)>(),
@@ -105,7 +105,7 @@ proptest! {
 
     /// Every ADS request comes back, with data or without.
     #[test]
-    fn ads_requests((index_group, index_offset) in place(), length in any::<u32>(), data in data()) {
+    fn ads_requests_come_back((index_group, index_offset) in place(), length in any::<u32>(), data in data()) {
         check_value(&ReadRequest { index_group, index_offset, length });
         check_value(&WriteRequest { index_group, index_offset, data: data.clone() });
         check_value(&ReadWriteRequest { index_group, index_offset, read_length: length, data });
@@ -113,14 +113,14 @@ proptest! {
 
     /// Every ADS reply comes back, of success and of failure.
     #[test]
-    fn ads_replies((result, data) in reply()) {
+    fn ads_replies_come_back((result, data) in reply()) {
         check_value(&ReadReply { result, data: data.clone() });
         check_value(&ReadWriteReply { result, data });
     }
 
     /// Every content, packet and attribute comes back.
     #[test]
-    fn contents(bytes in vec(any::<u8>(), 1..=992), text in open_text(), flag in any::<u8>()) {
+    fn contents_come_back(bytes in vec(any::<u8>(), 1..=992), text in open_text(), flag in any::<u8>()) {
         check_value(&Content { bytes: bytes.clone() });
         check_value(&ProgramStream { bytes });
         check_value(&ElementText { text });
@@ -129,7 +129,7 @@ proptest! {
 
     /// Every address of an instance comes back.
     #[test]
-    fn instances((index_group, index_offset) in place()) {
+    fn instances_come_back((index_group, index_offset) in place()) {
         check_value(&ObjectAddress { index_group, index_offset });
         let (channel, axis) = (index_group.get(), index_offset.get());
         check_value(&ObjectAddressQuery { channel, axis });
@@ -141,7 +141,7 @@ proptest! {
 
     /// Every dynamic parameter comes back, bit by bit.
     #[test]
-    fn dynamic_parameters(text in text(95), tail in vec(any::<u8>(), 0..96), bits in any::<u64>()) {
+    fn dynamic_parameters_come_back(text in text(95), tail in vec(any::<u8>(), 0..96), bits in any::<u64>()) {
         let room = 95 - text.as_bytes().len();
         let tail: Vec<u8> = tail.into_iter().take(room).collect();
         let nuls = vec![0; tail.len()];
@@ -152,14 +152,14 @@ proptest! {
 
     /// Every descriptor comes back, alone and among others.
     #[test]
-    fn descriptors(objects in vec(descriptor(), 1..5)) {
+    fn descriptors_come_back(objects in vec(descriptor(), 1..5)) {
         check_value(&objects[0]);
         check_value(&objects.into_iter().collect::<Descriptors>());
     }
 
     /// Every request about variables comes back, padding included.
     #[test]
-    fn variable_requests(
+    fn variable_requests_come_back(
         text in request_text(), index in any::<u32>(), indices in vec(any::<u32>(), 0..=510),
     ) {
         check_value(&VariableName { name: text.clone() });
@@ -170,7 +170,7 @@ proptest! {
 
     /// Every write comes back, with and without a value.
     #[test]
-    fn variable_writes(
+    fn variable_writes_come_back(
         name in text(255), handle in any::<u32>(), indices in vec(any::<u32>(), 0..=250),
         value in vec(any::<u8>(), 0..=1040),
     ) {
@@ -180,7 +180,7 @@ proptest! {
 
     /// Every extended description comes back, and none does.
     #[test]
-    fn extended_descriptions((synchronisation, validity) in any::<(u32, u32)>()) {
+    fn extended_descriptions_come_back((synchronisation, validity) in any::<(u32, u32)>()) {
         let (synchronisation, validity) = (Synchronisation(synchronisation), Validity(validity));
         check_value(&ExtendedReply(Some(ExtendedDescription { synchronisation, validity })));
         check_value(&ExtendedReply(None));
@@ -189,7 +189,7 @@ proptest! {
     /// Every description comes back: unknown codes, many dimensions, each end of the name. Without
     /// the name it is the one by name.
     #[test]
-    fn descriptions(
+    fn descriptions_come_back(
         name in open_text(),
         (handle, var_type, access, size) in any::<(u32, u32, u32, u32)>(),
         dimensions in vec(any::<u32>(), 0..=443),
@@ -216,7 +216,7 @@ proptest! {
 
     /// Every value comes back.
     #[test]
-    fn values(bytes in vec(any::<u8>(), 0..=2048)) {
+    fn values_come_back(bytes in vec(any::<u8>(), 0..=2048)) {
         check_value(&Value { bytes });
     }
 }

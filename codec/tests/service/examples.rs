@@ -13,7 +13,7 @@ use super::common::{Fault, fault};
 
 /// SVC-1: the names, which are well-formed, and the types.
 #[test]
-fn the_five_variables() {
+fn the_five_variables_have_their_names_and_types() {
     let names = ServiceVariable::ALL.map(ServiceVariable::name);
     assert_eq!(
         names,
@@ -92,7 +92,7 @@ fn the_uuid_of_the_example_with_a_digit_too_few() {
 }
 
 #[test]
-fn uuids() {
+fn uuids_are_checked_and_keep_their_case() {
     let refused = |text| {
         let error = ServiceId::new(text).unwrap_err();
         assert_eq!(error.field().stream(), Stream::Service);
