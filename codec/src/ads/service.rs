@@ -106,8 +106,9 @@ impl Encode for WriteReply {
 /// Declares a request with data in both readings: numbers, the length of the data, the data.
 macro_rules! request_with_data {
     (
-        $doc:literal, $example:literal, $stream:ident, $fields:ident, $ref:ident, $owned:ident,
-        $wire:ident, numbers $count:literal $(, $extra:ident: $extra_doc:literal)?
+        $doc:literal, $example:literal, $owned_example:literal,
+        $stream:ident, $fields:ident, $ref:ident, $owned:ident, $wire:ident,
+        numbers $count:literal $(, $extra:ident: $extra_doc:literal)?
     ) => {
         #[doc = include_str!($doc)]
         ///
@@ -164,6 +165,8 @@ macro_rules! request_with_data {
         }
 
         #[doc = concat!("[`", stringify!($ref), "`], owned.")]
+        ///
+        #[doc = $owned_example]
         #[cfg(feature = "alloc")]
         #[derive(Clone, Debug, PartialEq, Eq, Hash)]
         pub struct $owned {
@@ -292,6 +295,15 @@ macro_rules! reply_with_data {
         }
 
         #[doc = concat!("[`", stringify!($ref), "`], owned.")]
+        ///
+        /// ```
+        #[doc = concat!("use ads_cnc::{Encode, ads::{AdsError, ", stringify!($owned), "}};")]
+        ///
+        /// let (result, data) = (AdsError::NONE, Some(vec![9]));
+        #[doc = concat!("let reply = ", stringify!($owned), " { result, data };")]
+        /// assert_eq!(reply.to_vec()?, [0, 0, 0, 0, 1, 0, 0, 0, 9]);
+        /// # Ok::<(), ads_cnc::Error>(())
+        /// ```
         #[cfg(feature = "alloc")]
         #[derive(Clone, Debug, PartialEq, Eq, Hash)]
         pub struct $owned {
@@ -344,6 +356,13 @@ let request = WriteRequestRef::decode(b\"\\x01\\x01\\x12\\0\\x01\\0\\0\\0\\x01\\
 assert_eq!(request.data, [9]);
 # Ok::<(), ads_cnc::Error>(())
 ```",
+    "```
+use ads_cnc::{Decode, ads::WriteRequest};
+
+let request = WriteRequest::decode(b\"\\x01\\x01\\x12\\0\\x01\\0\\0\\0\\x01\\0\\0\\0\\x09\")?;
+assert_eq!(request.data, [9]);
+# Ok::<(), ads_cnc::Error>(())
+```",
     WriteRequest, write_request, WriteRequestRef, WriteRequest, WriteRequestWire, numbers 3
 );
 
@@ -356,6 +375,13 @@ let bytes = b\"\\x01\\x23\\x12\\0\\x44\\0\\0\\0\\x04\\0\\0\\0\\x04\\0\\0\\0V.E\\
 let request = ReadWriteRequestRef::decode(bytes)?;
 assert_eq!((request.index_offset.get(), request.read_length), (0x44, 4));
 assert_eq!(request.data, b\"V.E\\0\");
+# Ok::<(), ads_cnc::Error>(())
+```",
+    "```
+use ads_cnc::{Decode, ads::ReadWriteRequest};
+
+let bytes = b\"\\x01\\x23\\x12\\0\\x44\\0\\0\\0\\x04\\0\\0\\0\\x04\\0\\0\\0V.E\\0\";
+assert_eq!(ReadWriteRequest::decode(bytes)?.data, b\"V.E\\0\");
 # Ok::<(), ads_cnc::Error>(())
 ```",
     ReadWriteRequest, read_write_request, ReadWriteRequestRef, ReadWriteRequest,

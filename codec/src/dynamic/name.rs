@@ -22,7 +22,17 @@ crate::text::text_stream! {
     /// assert_eq!(DynamicNameRef::decode(b"P1\0")?.name.text(), "P1");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    DynamicNameRef, DynamicName, DynamicName {
+    DynamicNameRef,
+    ///
+    /// ```
+    /// use ads_cnc::Encode;
+    /// use ads_cnc::dynamic::DynamicName;
+    ///
+    /// let reply = DynamicName { name: "P1".parse()? };
+    /// assert_eq!(reply.to_vec()?, b"P1\0");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    DynamicName, DynamicName {
         /// Name of the parameter.
         name: dynamic_name::NAME
     }
@@ -49,7 +59,17 @@ crate::text::text_stream! {
     /// assert_eq!(DynamicNameRequestRef::decode(b"P1")?.name.text(), "P1");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    DynamicNameRequestRef, DynamicNameRequest, DynamicNameRequest {
+    DynamicNameRequestRef,
+    ///
+    /// ```
+    /// use ads_cnc::Encode;
+    /// use ads_cnc::dynamic::DynamicNameRequest;
+    ///
+    /// let request = DynamicNameRequest { name: "P1".parse()? };
+    /// assert_eq!(request.to_vec()?, b"P1\0");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    DynamicNameRequest, DynamicNameRequest {
         /// Name of the parameter.
         name: dynamic_name_request::NAME
     }

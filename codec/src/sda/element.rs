@@ -45,7 +45,17 @@ crate::text::text_stream! {
     /// assert_eq!(ElementTextRef::decode(b"feedhold.enable\0")?.text.text(), "feedhold.enable");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    ElementTextRef, ElementText, ElementText {
+    ElementTextRef,
+    ///
+    /// ```
+    /// use ads_cnc::Encode;
+    /// use ads_cnc::sda::ElementText;
+    ///
+    /// let reply = ElementText { text: "mm".parse()? };
+    /// assert_eq!(reply.to_vec()?, b"mm\0");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ElementText, ElementText {
         /// Name, type or unit.
         text: element_text::TEXT
     }

@@ -5,7 +5,7 @@
 macro_rules! text_stream {
     (
         $(#[$doc:meta])*
-        $view:ident, $owned:ident, $stream:ident {
+        $view:ident, $(#[$owned_doc:meta])* $owned:ident, $stream:ident {
             $(#[$field_doc:meta])*
             $name:ident: $field:path
         }
@@ -42,6 +42,7 @@ macro_rules! text_stream {
         }
 
         #[doc = concat!("[`", stringify!($view), "`], owned.")]
+        $(#[$owned_doc])*
         #[cfg(feature = "alloc")]
         #[derive(Clone, Debug, PartialEq, Eq, Hash)]
         pub struct $owned {

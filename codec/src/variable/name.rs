@@ -23,7 +23,16 @@ crate::text::text_stream! {
     /// );
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    VariableNameRef, VariableName, VariableName {
+    VariableNameRef,
+    ///
+    /// ```
+    /// use ads_cnc::{Encode, VariableName};
+    ///
+    /// let request = VariableName { name: "V.E.vartest".parse()? };
+    /// assert_eq!(request.to_vec()?, b"V.E.vartest\0");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    VariableName, VariableName {
         /// Name of the variable.
         name: NAME
     }
