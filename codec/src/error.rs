@@ -93,6 +93,9 @@ impl Error {
     }
 
     /// Where the fault is, in bytes from the start of the stream.
+    ///
+    /// What is not read from a stream counts what it is made of, and says so where it is made:
+    /// characters of a text, a name or a version, numbers of a NetId, places of indices.
     pub const fn offset(&self) -> u32 {
         self.offset
     }

@@ -14,7 +14,7 @@ pub const HANDLE_VALUE_MAX: usize = 2040;
 pub const NAME_VALUE_MAX: usize = 2047;
 /// Dimensions of a description beside a name of one NUL (VAR-24).
 pub const DIMENSIONS_MAX: usize = 506;
-/// Dimensions of a description without a name.
+/// Dimensions of a description without a name (VAR-24, VAR-28).
 pub const NAMELESS_DIMENSIONS_MAX: usize = 507;
 /// Indices of a handle header (VAR-24).
 pub const INDICES_MAX: usize = 510;

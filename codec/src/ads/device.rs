@@ -18,7 +18,10 @@ const NAME_LEN: usize = 16;
 /// The request has no data. A reply whose result is not 0 may stop behind it (ADS-6): then it is a
 /// [`WriteReply`](super::WriteReply).
 ///
-/// Source: the vendors' public help pages; the five manuals do not describe it.
+/// Source: the vendors' public help pages; the manuals do not describe it.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::{CncStr, Decode, ads::DeviceInfoReply};
@@ -87,7 +90,7 @@ impl Encode for DeviceInfoReply {
 
 /// The state of an ADS device; unknown numbers stay what they are (ADS-9).
 ///
-/// Source: the vendors' public help pages; the five manuals do not describe it.
+/// Source: the vendors' public help pages; the manuals do not describe it.
 ///
 /// ```
 /// use ads_cnc::ads::AdsState;
@@ -113,7 +116,10 @@ impl AdsState {
 /// The request has no data. A reply whose result is not 0 may stop behind it (ADS-6): then it is a
 /// [`WriteReply`](super::WriteReply).
 ///
-/// Source: the vendors' public help pages; the five manuals do not describe it.
+/// Source: the vendors' public help pages; the manuals do not describe it.
+///
+/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::{Decode, ads::{AdsState, DeviceStateReply}};

@@ -12,6 +12,8 @@ use crate::stream::{Decode, Encode};
 
 /// One frame: an AMS header and the data behind it.
 ///
+/// Source: the vendors' public help pages; the manuals do not describe it.
+///
 /// ```
 /// use ads_cnc::Encode;
 /// use ads_cnc::ads::{

@@ -12,7 +12,7 @@ use crate::stream::{Decode, Encode};
 
 #[doc = include_str!("../../doc/ams-tcp-header.md")]
 ///
-/// Source: the vendors' public help pages; the five manuals do not describe it.
+/// Source: the vendors' public help pages; the manuals do not describe it.
 ///
 /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
@@ -187,7 +187,7 @@ impl core::fmt::Debug for AdsError {
 
 #[doc = include_str!("../../doc/ams-header.md")]
 ///
-/// Source: the vendors' public help pages; the five manuals do not describe it.
+/// Source: the vendors' public help pages; the manuals do not describe it.
 ///
 /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).

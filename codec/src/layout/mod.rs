@@ -3,6 +3,10 @@
 //! One table feeds the field an [`Error`](crate::Error) names, the byte tables of the
 //! documentation, the annotation of bytes in tools, and generated field defects.
 //!
+//! Requirements, VAR-9 for one, are told by their IDs, here and wherever else they are named: the
+//! catalogue in the crate `ads-cnc-vectors` has each in words, with its sections in both editions.
+//! E-17 and the like are errata: see [`contradictions`](crate::contradictions).
+//!
 //! ```
 //! use ads_cnc::layout::Stream;
 //!

@@ -22,7 +22,7 @@ pub struct Layout {
     pub name: &'static str,
     /// What the stream is.
     pub title: &'static str,
-    /// The requirement that defines it.
+    /// The requirement that defines it, by its ID.
     pub clause: &'static str,
     /// The most bytes it may have; 0 for a table that is no stream, but names what errors of
     /// addresses and texts are about.
@@ -76,7 +76,7 @@ pub struct FieldSpec {
     pub ty: Type,
     /// What the field says.
     pub meaning: &'static str,
-    /// The requirement that defines the field.
+    /// The requirement that defines the field, by its ID.
     pub clause: &'static str,
 }
 

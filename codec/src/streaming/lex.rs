@@ -9,8 +9,7 @@ pub(super) fn mark(byte: u8) -> u8 {
     command | is(b':') | is(b'[') | u8::from(byte | 0x20 == b'm')
 }
 
-/// The number of a block, and what stands behind it. A `/` may stand
-/// before it, blanks anywhere.
+/// The number of a block, and what stands behind it. A `/` may stand before it, blanks anywhere.
 pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     let mut at = skip_while(line, is_blank);
     if let [b'/', behind @ ..] = at {

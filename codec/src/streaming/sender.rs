@@ -11,8 +11,9 @@ use crate::limits::STREAM_PACKET_MAX;
 /// How a write to the stream was answered.
 ///
 /// Which ADS result means which refusal is not documented ([`of`](Self::of)); the manual's driver
-/// takes each for a temporary one. A write whose answer never came may have been taken or not: nobody can tell,
-/// so to repeat it may run lines twice. Acknowledge it as [`Refused`](Self::Refused).
+/// takes each for a temporary one. A write whose answer never came may have been taken or not:
+/// nobody can tell, so to repeat it may run lines twice. Acknowledge it as
+/// [`Refused`](Self::Refused).
 ///
 /// Manual: `stream-en`, sections 4.2 and 5 (STM-6).
 ///

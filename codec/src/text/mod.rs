@@ -1,4 +1,20 @@
 //! Text in code page CP1252 (GEN-3): on its own, and as it stands in a stream.
+//!
+//! | | borrowed | owned (feature `alloc`) |
+//! |---|---|---|
+//! | a text, which has no NUL | [`CncStr`] | `CncString` |
+//! | the field it stands in, with its NUL and what follows that | [`TextRef`] | `Text` |
+//!
+//! ```
+//! use ads_cnc::{CncStr, TextRef};
+//!
+//! let name = CncStr::new("V.E.Länge")?;
+//! assert_eq!(name.len(), 9); // a byte for each character
+//! assert_eq!(TextRef::from(name).field_len(), 10);
+//! # Ok::<(), ads_cnc::Error>(())
+//! ```
+//!
+//! Manual: `ads-en` 1.05 and `ads-de` 1.051, section 1.
 
 mod cncstr;
 mod cp1252;

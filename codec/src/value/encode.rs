@@ -16,6 +16,8 @@ use crate::text::{CncStr, TextRef};
 /// The bytes are what requests take, and what the content of an object or of an element is. A
 /// [`CncStr`] is written with one NUL, a [`TextRef`] with the end it has.
 ///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6 and 4.3.7.
+///
 /// ```
 /// use ads_cnc::address::Channel;
 /// use ads_cnc::operation::{Operation, WriteByName};

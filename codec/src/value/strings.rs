@@ -11,6 +11,8 @@ use crate::variable::Numbers;
 
 /// The texts of a value, each in the same number of bytes (assumed); what follows a NUL is kept.
 ///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.4 … 4.3.7.
+///
 /// ```
 /// use ads_cnc::value::StringsRef;
 ///

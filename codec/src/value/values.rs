@@ -8,6 +8,8 @@ use super::{Boolean, DataType, Elements, EncodeValue as _, Item, Strings, String
 /// All elements of a value, owned: those of more than one dimension with the last index running
 /// fastest (VAR-21, assumed).
 ///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.4 … 4.3.7.
+///
 /// ```
 /// use ads_cnc::Numbers;
 /// use ads_cnc::value::{DataType, Elements, EncodeValue, Values};

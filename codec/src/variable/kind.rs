@@ -207,7 +207,6 @@ mod owned {
     use crate::bridge::{self, TextLen};
     use crate::text::Text;
 
-    /// [`VariableKindRef`], owned.
     #[binrw::binread]
     #[br(little, import(len: TextLen))]
     struct KindWire {
