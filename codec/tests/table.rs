@@ -270,19 +270,6 @@ fn there_is_no_axis_0() {
     assert!(matches!(of_channel_0.dispatch(), Err(Refusal::Offset(_))));
 }
 
-/// A product of dimensions beyond 32 bits is no size that fits.
-#[test]
-fn sizes_do_not_wrap() {
-    let value = ValueRef { bytes: &[] };
-    let dimensions = [0x4000_0000, 4];
-    let error = value.elements(VariableType::SGN32, Numbers::from(&dimensions)).unwrap_err();
-    assert_eq!((error.kind(), error.expected()), (ErrorKind::Truncated, u32::MAX));
-    for (code, bound) in [(0, 1), (10, 9), (u32::MAX, 9)] {
-        let error = value.elements(VariableType(code), Numbers::EMPTY).unwrap_err();
-        assert_eq!((error.expected(), error.found()), (bound, code));
-    }
-}
-
 /// A server that sizes its answer by the count asked for is not made to allocate 4 GiB.
 #[test]
 fn counts_of_descriptors_are_bounded() {

@@ -277,3 +277,16 @@ fn sizes_do_not_wrap() {
         (u32::MAX, Ok(u32::MAX - 1))
     );
 }
+
+/// Nor do bytes fit a product beyond 32 bits, or a type that no manual has.
+#[test]
+fn values_of_no_size_are_refused() {
+    let value = ValueRef { bytes: &[] };
+    let dimensions = [0x4000_0000, 4];
+    let error = value.elements(VariableType::SGN32, Numbers::from(&dimensions)).unwrap_err();
+    assert_eq!((error.kind(), error.expected()), (Truncated, u32::MAX));
+    for (code, bound) in [(0, 1), (10, 9), (u32::MAX, 9)] {
+        let error = value.elements(VariableType(code), Numbers::EMPTY).unwrap_err();
+        assert_eq!((error.expected(), error.found()), (bound, code));
+    }
+}

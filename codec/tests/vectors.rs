@@ -266,48 +266,27 @@ fn class(error: &Error) -> &'static str {
 
 /// The vector's value as a careful writer puts it, if the vector says that this differs.
 fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
-    let plain = |text: &Text| -> Text { text.text.clone().into() };
+    /// With one NUL behind this text.
+    macro_rules! plain {
+        ($stream:ident.$text:ident) => {{
+            let mut value = $stream::decode(bytes)?;
+            value.$text = value.$text.text.into();
+            value.to_vec()
+        }};
+    }
     match stream {
-        "variable-kind" => {
-            let mut request = VariableKind::decode(bytes)?;
-            request.kind = plain(&request.kind);
-            request.to_vec()
-        }
-        "variable-index-kind" => {
-            let mut request = VariableIndexKind::decode(bytes)?;
-            request.kind = plain(&request.kind);
-            request.to_vec()
-        }
-        "variable-name" => {
-            let mut request = VariableName::decode(bytes)?;
-            request.name = plain(&request.name);
-            request.to_vec()
-        }
-        "variable-description" => {
-            let mut variable = Description::decode(bytes)?;
-            variable.name = plain(&variable.name);
-            variable.to_vec()
-        }
-        "element-text" => {
-            let mut reply = ElementText::decode(bytes)?;
-            reply.text = plain(&reply.text);
-            reply.to_vec()
-        }
+        "variable-kind" => plain!(VariableKind.kind),
+        "variable-index-kind" => plain!(VariableIndexKind.kind),
+        "variable-name" => plain!(VariableName.name),
+        "variable-description" => plain!(Description.name),
+        "element-text" => plain!(ElementText.text),
         "element-length" => ElementLength::new(ElementLength::decode(bytes)?.get()).to_vec(),
         "element-write-flag" => match ElementWriteFlag::decode(bytes)?.is_writable() {
             true => ElementWriteFlag::WRITABLE.to_vec(),
             false => ElementWriteFlag::READ_ONLY.to_vec(),
         },
-        "dynamic-name" => {
-            let mut reply = DynamicName::decode(bytes)?;
-            reply.name = plain(&reply.name);
-            reply.to_vec()
-        }
-        "dynamic-name-request" => {
-            let mut request = DynamicNameRequest::decode(bytes)?;
-            request.name = plain(&request.name);
-            request.to_vec()
-        }
+        "dynamic-name" => plain!(DynamicName.name),
+        "dynamic-name-request" => plain!(DynamicNameRequest.name),
         "device-info-reply" => {
             let info = DeviceInfoReply::decode(bytes)?;
             let mut name = [0; 16];
