@@ -46,7 +46,7 @@ pub(super) fn texts() -> Vec<Seed> {
         ("controls", "\u{81}\u{8D}\u{8F}\u{90}\u{9D}\u{7F}"),
         ("greek", "V.E.Ω"),
         ("latin-control", "V.E.abc\u{80}"),
-        ("nul", "V.E.a\0b"),
+        ("with-nul", "V.E.a\0b"),
     ];
     let all: Vec<u8> = [0].into_iter().chain(1..=0xFF).collect();
     let wire = [
