@@ -60,6 +60,7 @@
 //! - `arbitrary`: `Arbitrary` for the owned readings.
 
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 // Bytes from outside reach every line here: nothing may panic on them.

@@ -26,6 +26,9 @@
 //! | [`cli`] | the command line of `ads-cnc` |
 //!
 //! Every byte the simulated CNC sends is encoded by [`ads_cnc`]; there is no second encoder.
+//!
+//! What is stable is the command `ads-cnc`: its arguments, exit codes and JSON. This library is public
+//! for its tests and fuzz targets alone, and may change with any version.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -1,6 +1,5 @@
 //! What holds of the explanation of any bytes whatever.
 
-#[path = "../../codec/tests/kept/mod.rs"]
 mod kept;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};

@@ -1,7 +1,6 @@
 //! Nothing passes the gate that is not allowed, whatever the bytes are.
 
 mod common;
-#[path = "../../codec/tests/kept/mod.rs"]
 mod kept;
 
 use ads_cnc_conformance::gate::{self, Allowed, Gate, Moment};

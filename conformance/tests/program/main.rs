@@ -3,7 +3,7 @@
 mod decoder;
 mod golden_service;
 mod golden_streaming;
-#[path = "../../../codec/tests/kept/mod.rs"]
+#[path = "../kept/mod.rs"]
 mod kept;
 mod script;
 mod sender;

@@ -1,0 +1,18 @@
+//! The README of this package names the commands that there are, and no others.
+
+use std::collections::BTreeSet;
+use std::process::Command;
+
+#[test]
+fn the_readme_has_every_command_and_no_other() {
+    let help = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).arg("--help").output().unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    let commands = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
+    let commands: BTreeSet<&str> =
+        commands.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    let readme = include_str!("../README.md");
+    let row = |line: &'static str| line.strip_prefix("| `ads-cnc ")?.split('`').next();
+    let named: BTreeSet<&str> = readme.lines().filter_map(row).collect();
+    assert!(named.len() > 10, "{named:?}");
+    assert_eq!(commands.into_iter().filter(|name| *name != "help").collect::<BTreeSet<_>>(), named);
+}
