@@ -35,12 +35,12 @@ def packed(start, between, words):
     return lines
 
 
-def names(elements):
+def names(crate, elements):
     """By module, the names alone; a borrowed and an owned reading of the same stand together."""
     modules = {}
     for path, line in elements:
         *way, name = path.split("::")
-        items = modules.setdefault("::".join(("ads_cnc", *way)), {})
+        items = modules.setdefault("::".join((crate, *way)), {})
         members = items.setdefault(name, set())
         if line and not line.startswith(("impl ", "is ")):
             members.add(re.match(r"(?:(?:pub|const|fn|type) )*(\w+)", line)[1])

@@ -11,17 +11,17 @@ class Api(Signature):
     """`elements`: pairs of an item and a line of it, an empty line for the item itself.
     `heads`: the line that an item begins with.
     `strangers`: pairs of a place and what it shows of a crate that is neither this one nor core nor
-    alloc. Traits of the crates `hosts` may be implemented: that is what a feature is for.
+    alloc nor `shown`. Traits of the crates `hosts` may be implemented: that is what a feature is for.
     """
 
-    def __init__(self, document, hosts=()):
+    def __init__(self, document, hosts=(), shown=()):
         super().__init__()
         self.index, self.paths = document["index"], document["paths"]
         crates = document["external_crates"]
         self.crates = {int(number): crate["name"] for number, crate in crates.items()}
         self.root = self.index[str(document["root"])]
         self.crate = self.root["name"]
-        self.allowed, self.hosts = {self.crate, "core", "alloc"}, set(hosts)
+        self.allowed, self.hosts = {self.crate, "core", "alloc", *shown}, set(hosts)
         self.elements, self.strangers, self.heads = set(), set(), {}
         self.again, self.found = [], []
         self.collect(self.root, ())
