@@ -1,0 +1,69 @@
+"""What has to be in a packed crate, and what must not: `packed.py CRATE UNPACKED`."""
+
+import os
+import pathlib
+import re
+import sys
+import tomllib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LICENCES = ("LICENSE-APACHE", "LICENSE-MIT")
+FIELDS = ("description", "documentation", "license", "readme", "rust-version")
+# As crates.io takes them.
+KEYWORD = re.compile(r"[A-Za-z0-9][A-Za-z0-9_+-]{0,19}")
+# Several times what the largest has: more is something that got in by mistake.
+PACKED_MAX = 1 << 20
+# Homes, and places of this machine; a path such as /tmp/a in an example says nothing about it.
+HOMES = (r"/home/\w", r"/root/", r"/Users/\w", r"[A-Z]:\\\\?Users")
+PLACES = (str(ROOT), os.environ.get("CARGO_HOME"), os.environ.get("CARGO_TARGET_DIR"))
+MACHINE = re.compile("|".join([*HOMES, *(re.escape(place) for place in PLACES if place)]).encode())
+
+
+def metadata(package):
+    yield from (f"no {field}" for field in FIELDS if not package.get(field))
+    keywords, categories = package.get("keywords", []), package.get("categories", [])
+    if not 1 <= len(keywords) <= 5 or not 1 <= len(categories) <= 5:
+        yield "one to five keywords, and categories"
+    yield from (f"keyword {word}" for word in keywords if not KEYWORD.fullmatch(word))
+    if package["license"] != "MIT OR Apache-2.0":
+        yield f"licence {package['license']}"
+
+
+def dependencies(manifest):
+    """A packed crate finds nothing beside it."""
+    for kind in ("dependencies", "dev-dependencies", "build-dependencies"):
+        for name, what in manifest.get(kind, {}).items():
+            if "path" in what or "git" in what or "version" not in what:
+                yield f"{kind}: {name} = {what}"
+
+
+def files(folder, version):
+    for name in LICENCES:
+        if not (folder / name).exists() or (folder / name).read_bytes() != (ROOT / name).read_bytes():
+            yield f"{name} is not that of the workspace"
+    changelog = folder / "CHANGELOG.md"
+    if not changelog.exists() or f"\n## {version}\n" not in changelog.read_text(encoding="utf-8"):
+        yield f"CHANGELOG.md has no {version}"
+    for path in sorted(path for path in folder.rglob("*") if path.is_file()):
+        if found := MACHINE.search(path.read_bytes()):
+            yield f"{path.relative_to(folder)} names {found[0].decode(errors='replace')}"
+
+
+def main(crate, folder):
+    manifest = tomllib.loads((folder / "Cargo.toml").read_text(encoding="utf-8"))
+    package = manifest["package"]
+    packed = crate.stat().st_size
+    faults = [*metadata(package), *dependencies(manifest), *files(folder, package["version"])]
+    if not (folder / package.get("readme", "README.md")).exists():
+        faults.append("no README")
+    if packed > PACKED_MAX:
+        faults.append(f"{packed} bytes, more than {PACKED_MAX}")
+    sizes = [path.stat().st_size for path in folder.rglob("*") if path.is_file()]
+    print(f"{crate.name}: {packed / 1024:.0f} KiB, {len(sizes)} files of {sum(sizes) / 1024:.0f} KiB")
+    return [f"{crate.name}: {fault}" for fault in faults]
+
+
+if __name__ == "__main__":
+    faults = main(*map(pathlib.Path, sys.argv[1:]))
+    print(*faults, sep="\n", end="\n" if faults else "")
+    sys.exit(bool(faults))
