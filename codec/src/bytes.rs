@@ -5,6 +5,7 @@ use zerocopy::{FromBytes, Immutable, KnownLayout, Unaligned};
 
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
+use crate::nul::{not_maybe_terminated, not_terminated, split_nul, split_padded, text_len};
 use crate::text::{CncStr, TextRef};
 
 /// A length as errors carry it.
@@ -45,10 +46,21 @@ impl<'a> Reader<'a> {
     where
         T: FromBytes + KnownLayout + Immutable + Unaligned,
     {
-        let mut input = Self::ending(stream, bytes);
-        let fixed = input.fixed()?;
-        input.finish()?;
-        Ok(fixed)
+        T::ref_from_bytes(bytes).map_err(|_| not_all(stream, size_of::<T>(), bytes.len()))
+    }
+
+    /// The bytes that are all of the stream of `field`, between `min` and `max` of them.
+    #[inline]
+    pub(crate) fn only(
+        field: Field,
+        min: u32,
+        max: u32,
+        bytes: &'a [u8],
+    ) -> Result<&'a [u8], Error> {
+        if bytes.len() < to_len(min) || bytes.len() > to_len(max) {
+            return Err(not_between(field, min, max, bytes.len()));
+        }
+        Ok(bytes)
     }
 
     /// The number that is all of the stream of `field`.
@@ -152,9 +164,11 @@ impl<'a> Reader<'a> {
 
     /// All that is left: text, the NUL that must end it, NULs that may pad it.
     pub(crate) fn terminated(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
-        match split_nul(self.window(max)) {
-            Some((text, tail)) => self.padded(text, tail),
-            None => Err(self.error(ErrorKind::MissingNul, field, max)),
+        let (len, at) = (text_len(self.window(max)), self.at);
+        let bytes = self.take_all();
+        match split_padded(bytes, max, len) {
+            Some(text) => Ok(text),
+            None => Err(not_terminated(field, at, max, bytes, len)),
         }
     }
 
@@ -171,18 +185,6 @@ impl<'a> Reader<'a> {
     #[inline]
     fn window(&self, max: u32) -> &'a [u8] {
         self.bytes.get(..to_len(max)).unwrap_or(self.bytes)
-    }
-
-    /// Text and its NUL, if only NULs follow to the end.
-    #[inline]
-    fn padded(&mut self, text: &'a [u8], tail: &'a [u8]) -> Result<TextRef<'a>, Error> {
-        let padding = tail.iter().position(|&byte| byte != 0).unwrap_or(tail.len());
-        let used = text.len().saturating_add(padding).saturating_add(1);
-        if used != self.bytes.len() {
-            return Err(self.trailing(to_u32(used)));
-        }
-        self.take_all();
-        Ok(TextRef::with_tail(CncStr::without_nul(text), Some(tail)))
     }
 
     /// All that is left.
@@ -211,11 +213,15 @@ impl<'a> Reader<'a> {
 
     /// All that is left, one byte at least: text, and NULs at its end if any.
     pub(crate) fn may_terminate(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
-        if split_nul(self.bytes).is_some() {
-            return self.terminated(field, max);
+        let (len, at) = (text_len(self.window(max)), self.at);
+        let bytes = self.take_all();
+        match split_padded(bytes, max, len) {
+            Some(text) => Ok(text),
+            None if len == bytes.len() && len > 0 => {
+                Ok(TextRef::with_tail(CncStr::without_nul(bytes), None))
+            }
+            None => Err(not_maybe_terminated(field, at, max, bytes, len)),
         }
-        let text = self.rest(field, 1, max)?;
-        Ok(TextRef::with_tail(CncStr::without_nul(text), None))
     }
 
     /// Four bytes that are not all 0.
@@ -242,16 +248,12 @@ impl<'a> Reader<'a> {
     pub(crate) fn finish(self) -> Result<(), Error> {
         match self.bytes {
             [] => Ok(()),
-            _ => Err(self.trailing(0)),
+            _ => {
+                let given = self.at.saturating_add(self.left());
+                let whole = Field::whole(self.stream);
+                Err(Error::new(ErrorKind::Trailing, whole, self.at, self.at, given))
+            }
         }
-    }
-
-    /// More follows than the next `used` bytes.
-    #[inline]
-    fn trailing(&self, used: u32) -> Error {
-        let end = self.at.saturating_add(used);
-        let given = self.at.saturating_add(self.left());
-        Error::new(ErrorKind::Trailing, Field::whole(self.stream), end, end, given)
     }
 }
 
@@ -270,11 +272,26 @@ fn cut(stream: Stream, at: u32, left: usize) -> Error {
     Error::new(ErrorKind::Truncated, field, at, row.size.fixed(), found)
 }
 
-/// The text before the first NUL and the bytes behind it.
-pub(crate) fn split_nul(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
-    let nul = bytes.iter().position(|&byte| byte == 0)?;
-    let (text, rest) = bytes.split_at_checked(nul)?;
-    Some((text, rest.get(1..)?))
+/// Why these bytes are not the fixed `size` bytes of a stream.
+#[cold]
+#[inline(never)]
+fn not_all(stream: Stream, size: usize, given: usize) -> Error {
+    if given < size {
+        return cut(stream, 0, given);
+    }
+    let size = to_u32(size);
+    Error::new(ErrorKind::Trailing, Field::whole(stream), size, size, to_u32(given))
+}
+
+/// Why so many bytes are too few or too many.
+#[cold]
+#[inline(never)]
+fn not_between(field: Field, min: u32, max: u32, given: usize) -> Error {
+    let given = to_u32(given);
+    if given < min {
+        return Error::new(ErrorKind::Truncated, field, 0, min, given);
+    }
+    too_long(Field::whole(field.stream()), max, given)
 }
 
 #[cold]

@@ -20,9 +20,8 @@ macro_rules! bytes_stream {
             const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
 
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
-                let mut input = $crate::bytes::Reader::new(Self::STREAM, bytes)?;
-                let bytes = input.rest($field, $min, $crate::bytes::to_u32($max))?;
-                Ok(Self { bytes })
+                let max = $crate::bytes::to_u32($max);
+                $crate::bytes::Reader::only($field, $min, max, bytes).map(|bytes| Self { bytes })
             }
         }
 

@@ -108,6 +108,7 @@ mod any;
 mod bridge;
 mod bytes;
 mod bytes_stream;
+mod nul;
 mod number;
 
 #[cfg(feature = "alloc")]

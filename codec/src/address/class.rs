@@ -97,16 +97,16 @@ impl Class {
         }
     }
 
-    pub(super) const fn from_number(number: u8) -> Option<Self> {
-        Some(match number {
+    /// That with the bits `number`, which are known to be those of one.
+    pub(super) const fn from_number(number: u8) -> Self {
+        match number {
             0 => Self::PositionController,
             1 => Self::Interpolator,
             2 => Self::Decoder,
             3 => Self::Hld,
             4 => Self::PathPreparation,
-            5 => Self::Spindle,
-            _ => return None,
-        })
+            _ => Self::Spindle,
+        }
     }
 
     /// Equality that the compiler can see to.
@@ -156,7 +156,7 @@ impl Attribute {
     ];
 
     /// The attribute's part of the sum, the base 0x300 included.
-    const fn bits(self) -> u32 {
+    pub(super) const fn bits(self) -> u32 {
         match self {
             Self::Content => 0x300,
             Self::Name => 0x400,
@@ -168,17 +168,17 @@ impl Attribute {
         }
     }
 
-    pub(super) const fn from_table(table: u8) -> Option<Self> {
-        Some(match table {
+    /// That with the bits `table`, which are known to be those of one.
+    pub(super) const fn from_table(table: u8) -> Self {
+        match table {
             3 => Self::Content,
             4 => Self::Name,
             5 => Self::Type,
             6 => Self::Length,
             7 => Self::Unit,
             8 => Self::WriteFlag,
-            9 => Self::ObjectAddress,
-            _ => return None,
-        })
+            _ => Self::ObjectAddress,
+        }
     }
 
     /// Equality that the compiler can see to.

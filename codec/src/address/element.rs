@@ -2,7 +2,7 @@
 
 use super::{
     Addressing, Attribute, Channel, ChannelAxis, Class, ClassGroup, IndexGroup, IndexOffset,
-    Spindle,
+    OfClass, Spindle,
 };
 use crate::error::{Error, ErrorKind};
 use crate::layout::field::index_offset::ELEMENT;
@@ -29,7 +29,7 @@ const ELEMENT_MAX: u32 = 0xFFFF;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ElementAddress {
-    group: ClassGroup,
+    group: OfClass,
     offset: IndexOffset,
 }
 
@@ -37,12 +37,12 @@ impl ElementAddress {
     /// The element at this offset, as a query of an object address gives it. Which attribute the
     /// group has does not matter.
     pub const fn new(group: ClassGroup, offset: IndexOffset) -> Self {
-        // Spindles have no logical form.
-        let addressing = match group.class {
-            Class::Spindle => Addressing::Index,
-            _ => group.addressing,
-        };
-        Self { group: ClassGroup { addressing, attribute: Attribute::Content, ..group }, offset }
+        Self::known(OfClass::new(group), offset)
+    }
+
+    #[inline]
+    pub(crate) const fn known(group: OfClass, offset: IndexOffset) -> Self {
+        Self { group: group.with(Attribute::Content), offset }
     }
 
     /// An element of a channel itself.
@@ -98,12 +98,12 @@ impl ElementAddress {
 
     /// Class and instance; the attribute is the content.
     pub const fn class_group(self) -> ClassGroup {
-        self.group
+        self.group.parts()
     }
 
     /// The index group of an attribute.
     pub const fn group(self, attribute: Attribute) -> IndexGroup {
-        ClassGroup { attribute, ..self.group }.index_group()
+        self.group.with(attribute).group()
     }
 
     /// The index offset, of all attributes.

@@ -2,13 +2,13 @@
 
 use core::fmt;
 
-use super::{Attribute, Channel, Class, ClassGroup, PlatformAxis};
+use super::{Channel, ClassGroup, OfClass, OfCom, PlatformAxis};
 
 const LOGICAL: u32 = 0x10_0000;
 pub(super) const ELEMENT: u32 = 0x02_0000;
-const OBJECT: u32 = 0x03_0000;
+pub(super) const OBJECT: u32 = 0x03_0000;
 const COM_CHANNEL: u32 = 0x100;
-const COM_AXIS: u32 = 0x200;
+pub(super) const COM_AXIS: u32 = 0x200;
 
 /// An index group as ADS carries it: any number.
 ///
@@ -46,54 +46,13 @@ impl IndexGroup {
 
     /// What the group addresses, if it is one of the manuals'; [`Group::index_group`] undoes it.
     pub const fn parts(self) -> Option<Group> {
-        if let Some(com) = self.com() {
-            return Some(Group::Com(com));
-        }
-        match self.class() {
-            Some(class) => Some(Group::Class(class)),
-            None => None,
-        }
-    }
-
-    /// The parts, if it is a group of the COM task.
-    #[inline]
-    pub(crate) const fn com(self) -> Option<ComGroup> {
-        let [instance, table, _, _] = self.0.to_le_bytes();
-        let access = match self.0 & !(LOGICAL | 0xFFFF) {
-            ELEMENT => Access::Element,
-            OBJECT => Access::Object,
-            _ => return None,
-        };
-        let table = match table {
-            1 => ComTable::Channel,
-            2 => ComTable::Axis,
-            _ => return None,
-        };
-        Some(ComGroup { addressing: self.addressing(), access, table, instance })
-    }
-
-    const fn class(self) -> Option<ClassGroup> {
         let [_, table, ..] = self.0.to_le_bytes();
-        let Some(attribute) = Attribute::from_table(table & 0x0F) else { return None };
-        match (self.0 & !(LOGICAL | 0xFFFF), self.class_with(attribute)) {
+        match (self.0 & !(LOGICAL | 0xFFFF), table >> 4, table & 0x0F) {
+            (ELEMENT | OBJECT, 0, 1 | 2) => Some(Group::Com(OfCom::known(self).parts())),
             // Spindles have no logical form.
-            (
-                _,
-                Some(ClassGroup { class: Class::Spindle, addressing: Addressing::Logical, .. }),
-            ) => None,
-            (ELEMENT, class) => class,
+            (ELEMENT, 5, 3..=9) if (self.0 & LOGICAL) > 0 => None,
+            (ELEMENT, 0..=5, 3..=9) => Some(Group::Class(OfClass::known(self).parts())),
             _ => None,
-        }
-    }
-
-    /// The parts of a group that is known to be one of a class and of this attribute.
-    #[inline]
-    pub(crate) const fn class_with(self, attribute: Attribute) -> Option<ClassGroup> {
-        let [_, table, ..] = self.0.to_le_bytes();
-        let (instance, addressing) = self.instance();
-        match Class::from_number(table >> 4) {
-            Some(class) => Some(ClassGroup { addressing, class, attribute, instance }),
-            None => None,
         }
     }
 

@@ -133,9 +133,10 @@ impl ChannelAxis {
         fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, AXIS, 0, bound, place))
     }
 
-    /// The place that an offset of the axis interface is about.
-    pub(crate) fn of_offset(offset: IndexOffset) -> Result<Self, Error> {
-        Self::new(offset.axis_and_element(AxisStride::X10000)?.0)
+    /// That of an offset that has been found to be one of an axis: none has the number 0.
+    pub(crate) fn of(offset: IndexOffset) -> Self {
+        let [_, _, low, high] = offset.get().to_le_bytes();
+        Self(NonZeroU16::new(u16::from_le_bytes([low, high])).unwrap_or(NonZeroU16::MIN))
     }
 
     /// The number, from 1.

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::places::Functions;
-use super::{Function, Request, Service, Task};
+use super::places::Place;
+use super::{Request, Service, Task};
 use crate::address::{IndexGroup, IndexOffset};
 use crate::ads::{AdsError, AmsPort};
 use crate::bytes::to_u32;
@@ -152,37 +152,23 @@ impl<'a> Call<'a> {
     /// # Errors
     /// The first [`Refusal`] of port, group, offset, service and bytes.
     pub fn dispatch(&self) -> Result<Request<'a>, Refusal> {
-        match self.function() {
-            Some(_) if self.service == Service::Read && !self.data.is_empty() => {
-                Err(Refusal::Stream(self.read_with_data()))
-            }
+        match self.place().reached(self.service) {
             Some(function) => Request::decode(function, self),
             None => Err(self.refusal()),
         }
     }
 
-    /// The function that is called, with its service.
     #[inline]
-    fn function(&self) -> Option<Function> {
-        let task = Task::from_port(self.port)?;
-        let here =
-            Functions::in_group(task, self.index_group).and(Functions::at(self.index_offset));
-        let taking = Functions::taking(self.service);
-        // No content is where a function is, whatever it takes (SDA-12).
-        let first = here.and(taking.or(Functions::EXCLUSIVE)).first();
-        first.function().filter(|_| !first.and(taking).is_empty())
+    fn place(&self) -> Place {
+        Place::of(self.port, self.index_group, self.index_offset)
     }
 
     /// Why no function is called.
-    #[cold]
-    fn refusal(&self) -> Refusal {
-        let Some(task) = Task::from_port(self.port) else { return Refusal::Port(self.port) };
-        let of_group = Functions::in_group(task, self.index_group);
-        if of_group.is_empty() {
-            return Refusal::Group(self.index_group);
-        }
-        let here = of_group.and(Functions::at(self.index_offset));
-        match here.and(Functions::EXCLUSIVE).function() {
+    pub(super) fn refusal(&self) -> Refusal {
+        let place = self.place();
+        match place.function() {
+            _ if Task::from_port(self.port).is_none() => Refusal::Port(self.port),
+            _ if !place.has_group() => Refusal::Group(self.index_group),
             Some(function) => {
                 Refusal::Service { takes: function.spec().service, asked: self.service }
             }

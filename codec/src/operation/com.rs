@@ -1,10 +1,8 @@
 //! Operations of the COM task (COM-1 … COM-4, COM-7).
 
 use super::request::sealed::Sealed;
-use super::{Call, Function, Operation};
-use crate::address::{
-    Access, Addressing, Channel, ComGroup, ComTable, IndexGroup, IndexOffset, PlatformAxis,
-};
+use super::{Call, Function, Operation, Refusal, Request};
+use crate::address::{Access, Channel, ComGroup, IndexGroup, IndexOffset, OfCom, PlatformAxis};
 use crate::bytes::to_u32;
 use crate::com::{DescriptorsRef, ObjectCount};
 use crate::error::{Error, ErrorKind};
@@ -26,51 +24,38 @@ use crate::limits::DESCRIPTOR_LEN;
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct ObjectList(ComGroup);
+pub struct ObjectList(OfCom);
 
 impl ObjectList {
     /// The platform's; the first channel lists them too (COM-4).
-    pub const PLATFORM: Self = Self(ComGroup::platform(Access::Object));
+    pub const PLATFORM: Self = Self(OfCom::new(ComGroup::platform(Access::Object)));
 
     /// The list's index group.
     pub const fn index_group(self) -> IndexGroup {
-        self.0.index_group()
+        self.0.group()
     }
 
     /// What the group is made of.
     pub const fn parts(self) -> ComGroup {
-        self.0
+        self.0.parts()
     }
 
     /// The dispatcher has found the group to be one of COM with object access.
     fn dispatched(call: &Call<'_>) -> Self {
-        match call.index_group.com() {
-            Some(com) => Self(ComGroup { access: Access::Object, ..com }),
-            None => Self::PLATFORM,
-        }
+        Self(OfCom::known(call.index_group))
     }
 }
 
 impl From<Channel> for ObjectList {
     fn from(channel: Channel) -> Self {
-        Self(ComGroup {
-            addressing: channel.addressing(),
-            access: Access::Object,
-            table: ComTable::Channel,
-            instance: channel.number(),
-        })
+        Self(OfCom::known(channel.com(Access::Object)))
     }
 }
 
 impl From<PlatformAxis> for ObjectList {
     /// The group of platform axes' descriptors is assumed (COM-7).
     fn from(axis: PlatformAxis) -> Self {
-        Self(ComGroup {
-            addressing: Addressing::Logical,
-            access: Access::Object,
-            table: ComTable::Axis,
-            instance: axis.place(),
-        })
+        Self(OfCom::known(axis.com(Access::Object)))
     }
 }
 
@@ -99,8 +84,8 @@ impl CountObjects {
         Self { list: list.into() }
     }
 
-    pub(super) fn dispatched(call: &Call<'_>) -> Result<Self, Error> {
-        Ok(Self { list: ObjectList::dispatched(call) })
+    pub(super) fn dispatched<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+        Ok(Request::CountObjects(Self { list: ObjectList::dispatched(call) }))
     }
 }
 
@@ -197,14 +182,15 @@ impl ReadDescriptors {
         }
     }
 
-    pub(super) fn dispatched(call: &Call<'_>) -> Result<Self, Error> {
+    pub(super) fn dispatched<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
         let least = to_u32(DESCRIPTOR_LEN);
         if call.read_length < least {
             let found = call.read_length;
-            return Err(Error::new(ErrorKind::BufferTooSmall, whole(), 0, least, found));
+            let error = Error::new(ErrorKind::BufferTooSmall, whole(), 0, least, found);
+            return Err(Refusal::Stream(error));
         }
         let (list, first) = (ObjectList::dispatched(call), call.index_offset.get());
-        Ok(Self { list, first, read_length: call.read_length })
+        Ok(Request::ReadDescriptors(Self { list, first, read_length: call.read_length }))
     }
 }
 

@@ -2,9 +2,9 @@
 //! STM-1).
 
 use super::request::sealed::Sealed;
-use super::{Call, Function, Operation};
+use super::{Call, Function, Operation, Refusal, Request};
 use crate::address::{
-    Access, Attribute, Channel, ComGroup, ElementAddress, Group, IndexGroup, IndexOffset,
+    Access, Attribute, Channel, ComGroup, ElementAddress, Group, IndexGroup, IndexOffset, OfCom,
 };
 use crate::bytes::to_u32;
 use crate::content::ContentRef;
@@ -17,7 +17,7 @@ use crate::stream::{Decode, Encode, NoData};
 use crate::streaming::{self, ProgramStreamRef};
 
 /// Where a COM object's content is; a descriptor says it (COM-5).
-fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffset), Error> {
+fn object(group: IndexGroup, offset: IndexOffset) -> Result<(OfCom, IndexOffset), Error> {
     let Some(Group::Com(com)) = group.parts() else {
         let found = group.get();
         return Err(Error::new(ErrorKind::Mismatch, INSTANCE, 0, PLATFORM.get(), found));
@@ -27,17 +27,19 @@ fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffs
         return Err(Error::new(ErrorKind::Mismatch, INSTANCE, 0, wanted, group.get()));
     }
     content(Group::Com(com), offset)?;
-    Ok((com, offset))
+    Ok((OfCom::known(group), offset))
 }
 
 /// Dispatch has seen that no function is there.
-fn dispatched_object(call: &Call<'_>) -> Result<(ComGroup, IndexOffset), Error> {
-    let found = call.index_group.get();
-    let none = || Error::new(ErrorKind::Mismatch, INSTANCE, 0, PLATFORM.get(), found);
-    Ok((call.index_group.com().ok_or_else(none)?, call.index_offset))
+fn dispatched_object(call: &Call<'_>) -> (OfCom, IndexOffset) {
+    (OfCom::known(call.index_group), call.index_offset)
 }
 
 const PLATFORM: IndexGroup = ComGroup::platform(Access::Element).index_group();
+
+const fn object_parts((group, offset): (OfCom, IndexOffset)) -> (ComGroup, IndexOffset) {
+    (group.parts(), offset)
+}
 
 /// No content is where a function is (SDA-12).
 fn content(group: Group, offset: IndexOffset) -> Result<(), Error> {
@@ -76,23 +78,25 @@ macro_rules! content_operations {
     (
         $(#[$read_doc:meta])* $read:ident,
         $(#[$write_doc:meta])* $write:ident,
-        $(#[$place_doc:meta])* $place:ident: $ty:ty, $dispatched:expr, $group:expr, $offset:expr
+        $(#[$place_doc:meta])* $place:ident: $held:ty, as $ty:ty, by $shown:expr,
+        $dispatched:expr, $group:expr, $offset:expr
     ) => {
         $(#[$read_doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub struct $read {
-            $place: $ty,
+            $place: $held,
             length: u32,
         }
 
         impl $read {
             $(#[$place_doc])*
             pub const fn $place(&self) -> $ty {
-                self.$place
+                $shown(self.$place)
             }
 
-            pub(super) fn dispatched(call: &Call<'_>) -> Result<Self, Error> {
-                Ok(Self { $place: $dispatched(call)?, length: call.read_length })
+            pub(super) fn dispatched<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+                let $place = $dispatched(call);
+                Ok(Request::$read(Self { $place, length: call.read_length }))
             }
         }
 
@@ -131,14 +135,14 @@ macro_rules! content_operations {
         $(#[$write_doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub struct $write<'a> {
-            $place: $ty,
+            $place: $held,
             content: ContentRef<'a>,
         }
 
         impl<'a> $write<'a> {
             $(#[$place_doc])*
             pub const fn $place(&self) -> $ty {
-                self.$place
+                $shown(self.$place)
             }
 
             /// The bytes to write.
@@ -146,9 +150,9 @@ macro_rules! content_operations {
                 self.content
             }
 
-            pub(super) fn dispatched(call: &Call<'a>) -> Result<Self, Error> {
-                let content = ContentRef::decode(call.data)?;
-                Ok(Self { $place: $dispatched(call)?, content })
+            pub(super) fn dispatched(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+                let content = ContentRef::decode(call.data).map_err(Refusal::Stream)?;
+                Ok(Request::$write(Self { $place: $dispatched(call), content }))
             }
         }
 
@@ -217,10 +221,10 @@ content_operations! {
     /// ```
     WriteObject,
     /// Where the object is: group and offset.
-    place: (ComGroup, IndexOffset),
+    place: (OfCom, IndexOffset), as (ComGroup, IndexOffset), by object_parts,
     dispatched_object,
-    |(group, _): (ComGroup, IndexOffset)| group.index_group(),
-    |(_, offset): (ComGroup, IndexOffset)| offset
+    |(group, _): (OfCom, IndexOffset)| group.group(),
+    |(_, offset): (OfCom, IndexOffset)| offset
 }
 
 content_operations! {
@@ -263,7 +267,7 @@ content_operations! {
     /// ```
     WriteElement,
     /// Which element.
-    element: ElementAddress,
+    element: ElementAddress, as ElementAddress, by core::convert::identity,
     super::element::dispatched,
     |element: ElementAddress| element.group(Attribute::Content),
     |element: ElementAddress| element.index_offset()
@@ -345,9 +349,9 @@ impl<'a> WriteProgramStream<'a> {
         Self { channel, packet: ProgramStreamRef { bytes: packet } }
     }
 
-    pub(super) fn dispatched(call: &Call<'a>) -> Result<Self, Error> {
-        let packet = ProgramStreamRef::decode(call.data)?;
-        Ok(Self { channel: super::variable::channel(call), packet })
+    pub(super) fn dispatched(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+        let packet = ProgramStreamRef::decode(call.data).map_err(Refusal::Stream)?;
+        Ok(Request::WriteProgramStream(Self { channel: super::variable::channel(call), packet }))
     }
 }
 

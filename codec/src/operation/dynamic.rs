@@ -2,7 +2,7 @@
 
 use super::request::sealed::Sealed;
 use super::variable::channel;
-use super::{Call, Function, Operation};
+use super::{Call, Function, Operation, Refusal, Request};
 use crate::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use crate::bytes::to_u32;
 use crate::dynamic::{
@@ -38,12 +38,10 @@ macro_rules! dynamic {
         }
 
         impl $(<$lifetime>)? $name $(<$lifetime>)? {
-            pub(super) fn dispatched(
-                call: &dynamic!(@call $($lifetime)?),
-            ) -> Result<Self, Error> {
+            pub(super) fn dispatched<'c>(call: &Call<'c>) -> Result<Request<'c>, Refusal> {
+                $( let $field = $decode(call.data).map_err(Refusal::Stream)?; )?
                 let (channel, kind) = place(DynamicKind::$offsets, call);
-                $( let $field = $decode(call.data)?; )?
-                Ok(Self { channel, kind $(, $field)? })
+                Ok(Request::$name($name { channel, kind $(, $field)? }))
             }
         }
 
@@ -75,8 +73,6 @@ macro_rules! dynamic {
             }
         }
     };
-    (@call $lifetime:lifetime) => { Call<$lifetime> };
-    (@call) => { Call<'_> };
 }
 
 fn index(data: &[u8]) -> Result<u32, Error> {

@@ -1,13 +1,13 @@
 //! Operations on instances and on the attributes of their elements (SDA-1 … SDA-10).
 
 use super::request::sealed::Sealed;
-use super::{Call, Function, Operation};
+use super::{Call, Function, Operation, Refusal, Request};
 use crate::address::{
     Addressing, Attribute, Class, ClassGroup, ElementAddress, Group, IndexGroup, IndexOffset,
+    OfClass,
 };
 use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::index_group::INSTANCE;
 use crate::layout::field::index_offset::ELEMENT;
 use crate::limits::TEXT_MAX;
 use crate::sda::{
@@ -17,14 +17,8 @@ use crate::sda::{
 use crate::stream::{Decode, Encode};
 
 /// The dispatcher has found the group to be one of a class.
-fn class_group(call: &Call<'_>, attribute: Attribute) -> Result<ClassGroup, Error> {
-    let group = call.index_group;
-    let none = || Error::new(ErrorKind::Mismatch, INSTANCE, 0, 0x12_0300, group.get());
-    group.class_with(attribute).ok_or_else(none)
-}
-
-pub(super) fn dispatched(call: &Call<'_>) -> Result<ElementAddress, Error> {
-    Ok(ElementAddress::new(class_group(call, Attribute::Content)?, call.index_offset))
+pub(super) fn dispatched(call: &Call<'_>) -> ElementAddress {
+    ElementAddress::known(OfClass::known(call.index_group), call.index_offset)
 }
 
 /// Where an instance of a class is: ReadWrite at offset 0 of the class's object address, ports 551
@@ -46,7 +40,7 @@ pub(super) fn dispatched(call: &Call<'_>) -> Result<ElementAddress, Error> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FindInstance {
-    group: ClassGroup,
+    group: OfClass,
     query: ObjectAddressQuery,
 }
 
@@ -54,20 +48,21 @@ impl FindInstance {
     /// For a class, a channel (or the index of a spindle, or 0 for the platform) and an axis (or 0
     /// for the channel itself). See [`ObjectAddressQuery`] for which numbers a class takes.
     pub const fn new(class: Class, channel: u32, axis: u32) -> Self {
-        let group = ClassGroup::object_address(class);
+        let group = OfClass::new(ClassGroup::object_address(class));
         Self { group, query: ObjectAddressQuery { channel, axis } }
     }
 
     /// The same by index: channels and spindles are counted among the active ones.
     #[must_use]
     pub const fn by_index(mut self) -> Self {
-        self.group.addressing = Addressing::Index;
+        let by_index = ClassGroup { addressing: Addressing::Index, ..self.group.parts() };
+        self.group = OfClass::new(by_index);
         self
     }
 
     /// Which class, and whether by number or by rank.
     pub const fn class_group(&self) -> ClassGroup {
-        self.group
+        self.group.parts()
     }
 
     /// Which of its instances.
@@ -75,9 +70,9 @@ impl FindInstance {
         self.query
     }
 
-    pub(super) fn dispatched(call: &Call<'_>) -> Result<Self, Error> {
-        let group = class_group(call, Attribute::ObjectAddress)?;
-        Ok(Self { group, query: ObjectAddressQuery::decode(call.data)? })
+    pub(super) fn dispatched<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+        let query = ObjectAddressQuery::decode(call.data).map_err(Refusal::Stream)?;
+        Ok(Request::FindInstance(Self { group: OfClass::known(call.index_group), query }))
     }
 }
 
@@ -89,7 +84,7 @@ impl Operation for FindInstance {
     type Reply<'r> = ObjectAddress;
 
     fn index_group(&self) -> IndexGroup {
-        self.group.index_group()
+        self.group.group()
     }
 
     fn index_offset(&self) -> IndexOffset {
@@ -128,8 +123,8 @@ macro_rules! attribute {
                 Self { element }
             }
 
-            pub(super) fn dispatched(call: &Call<'_>) -> Result<Self, Error> {
-                Ok(Self { element: dispatched(call)? })
+            pub(super) fn dispatched<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+                Ok(Request::$name(Self { element: dispatched(call) }))
             }
         }
 

@@ -30,6 +30,7 @@ mod reply;
 mod request;
 mod rules;
 mod service;
+mod sorts;
 mod table;
 mod variable;
 mod write;

@@ -6,7 +6,7 @@ use super::{
     DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, FindInstance, Function,
     HandleByName, ReadByHandle, ReadByName, ReadDescriptors, ReadElement, ReadElementLength,
     ReadElementName, ReadElementType, ReadElementUnit, ReadElementWriteFlag, ReadObject, Refusal,
-    Reply, WriteByHandle, WriteByName, WriteElement, WriteObject, WriteProgramStream,
+    Reply, Service, WriteByHandle, WriteByName, WriteElement, WriteObject, WriteProgramStream,
 };
 use crate::address::{IndexGroup, IndexOffset};
 use crate::error::Error;
@@ -68,6 +68,19 @@ pub trait Operation: sealed::Sealed {
     fn decode_reply<'r>(&self, data: &'r [u8]) -> Result<Self::Reply<'r>, Error> {
         Self::Reply::decode(data)
     }
+}
+
+type Decoder = for<'a> fn(&Call<'a>) -> Result<Request<'a>, Refusal>;
+
+#[cold]
+fn refused<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+    Err(call.refusal())
+}
+
+#[cold]
+#[inline(never)]
+fn read_with_data<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+    Err(Refusal::Stream(call.read_with_data()))
 }
 
 /// Declares [`Request`] and passes what operations have in common on to them.
@@ -140,26 +153,37 @@ macro_rules! requests {
                 )+ }
             }
 
+            /// What is asked of the function at a place of the table.
             #[inline]
-            pub(super) fn decode(
-                function: Function,
-                call: &Call<'a>,
-            ) -> Result<Self, Refusal> {
-                // Apart: in one body they would be larger, and save all registers for any of them.
-                match function { $(
-                    Function::$function => {
-                        #[inline(never)]
-                        fn decode<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
-                            match <$operation>::dispatched(call) {
-                                Ok(operation) => Ok(Request::$function(operation)),
-                                Err(error) => Err(Refusal::Stream(error)),
-                            }
-                        }
-                        decode(call)
-                    }
-                )+ }
+            pub(super) fn decode(function: usize, call: &Call<'a>) -> Result<Self, Refusal> {
+                match DECODERS.get(function & 31) {
+                    Some(decode) => decode(call),
+                    None => Err(call.refusal()),
+                }
             }
         }
+
+        // Apart: in one body they would be larger, and save all registers for any of them.
+        static DECODERS: [Decoder; 32] = {
+            let mut decoders: [Decoder; 32] = [refused; 32];
+            let (mut left, mut functions): (&mut [Decoder], _) = (&mut decoders, Function::ALL);
+            while let ([decoder, rest @ ..], [function, others @ ..]) = (left, functions) {
+                *decoder = match function { $(
+                    Function::$function => {
+                        fn decode<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+                            let service = const { Function::$function.spec().service };
+                            if matches!(service, Service::Read) && !call.data.is_empty() {
+                                return read_with_data(call);
+                            }
+                            <$operation>::dispatched(call)
+                        }
+                        decode
+                    }
+                )+ };
+                (left, functions) = (rest, others);
+            }
+            decoders
+        };
 
         $(
             impl<'a> From<$operation> for Request<'a> {

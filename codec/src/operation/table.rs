@@ -1,6 +1,6 @@
 //! The function table.
 
-use super::places::Functions;
+use super::places::Place;
 use super::{GroupRule, OffsetRule, Service, Task};
 use crate::address::{Attribute, Class, Group, IndexOffset};
 use crate::dynamic::DynamicKind;
@@ -236,7 +236,6 @@ impl Function {
             Group::Com(_) => Task::Com,
             Group::Class(_) => Task::Sda,
         };
-        let here = Functions::in_group(task, group.index_group()).and(Functions::at(offset));
-        here.and(Functions::EXCLUSIVE).function()
+        Place::of(task.port(), group.index_group(), offset).function()
     }
 }

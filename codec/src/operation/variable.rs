@@ -1,7 +1,7 @@
 //! Operations of the channel interface for variables (VAR-1 … VAR-14).
 
 use super::request::sealed::Sealed;
-use super::{Call, Function, Operation};
+use super::{Call, Function, Operation, Refusal, Request};
 use crate::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use crate::error::Error;
 use crate::stream::{Decode, Encode};
@@ -43,10 +43,11 @@ macro_rules! operation {
                 $stream { $( $field: self.$field, )+ }
             }
 
-            pub(super) fn dispatched(call: &Call<'a>) -> Result<Self, Error> {
-                let $stream { $( $field, )+ } = $stream::decode(call.data)?;
-                $( let $axis = ChannelAxis::of_offset(call.index_offset)?; )?
-                Ok(Self { channel: channel(call), $( $axis, )? $( $field, )+ })
+            pub(super) fn dispatched(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
+                let $stream { $( $field, )+ } =
+                    $stream::decode(call.data).map_err(Refusal::Stream)?;
+                $( let $axis = ChannelAxis::of(call.index_offset); )?
+                Ok(Request::$name(Self { channel: channel(call), $( $axis, )? $( $field, )+ }))
             }
         }
 

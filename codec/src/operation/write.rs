@@ -2,7 +2,7 @@
 
 use super::request::sealed::Sealed;
 use super::variable::{channel, operation};
-use super::{Call, Function, Operation};
+use super::{Call, Function, Operation, Refusal, Request};
 use crate::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use crate::error::Error;
 use crate::stream::{Decode, Encode, NoData};

@@ -7,6 +7,7 @@ use super::{char_to_cp1252, cp1252_to_char};
 use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::field;
+use crate::nul::text_len;
 
 /// CP1252 text without a NUL, borrowed from a stream or from a Rust string.
 ///
@@ -69,8 +70,7 @@ impl<'a> CncStr<'a> {
     /// The part before the first NUL, or all.
     #[inline]
     pub(crate) fn until_nul(bytes: &'a [u8]) -> Self {
-        let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
-        Self(Source::Bytes(bytes.get(..end).unwrap_or(bytes)))
+        Self(Source::Bytes(bytes.get(..text_len(bytes)).unwrap_or(bytes)))
     }
 
     /// Bytes already found to have no NUL.

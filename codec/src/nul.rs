@@ -1,0 +1,116 @@
+//! Where texts end.
+
+use crate::bytes::{to_len, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::Field;
+use crate::text::{CncStr, TextRef};
+
+/// The text before the first NUL and the bytes behind it.
+#[inline]
+pub(crate) fn split_nul(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let (text, rest) = bytes.split_at_checked(text_len(bytes))?;
+    Some((text, rest.get(1..)?))
+}
+
+/// Bytes before the first NUL, or all.
+// Apart: in the middle of something larger the search would lack registers.
+#[inline(never)]
+pub(crate) fn text_len(bytes: &[u8]) -> usize {
+    let mut left = bytes;
+    while let Some((word, rest)) = left.split_first_chunk() {
+        let word = usize::from_le_bytes(*word);
+        // The lowest of these bits is that of the first NUL: only what is above it may be wrong.
+        let nuls = word.wrapping_sub(LOWEST_BITS) & !word & HIGHEST_BITS;
+        if nuls != 0 {
+            let before = bytes.len().wrapping_sub(left.len());
+            return before.wrapping_add(to_len(nuls.trailing_zeros() / 8));
+        }
+        left = rest;
+    }
+    let found = left.iter().position(|&byte| byte == 0).unwrap_or(left.len());
+    bytes.len().wrapping_sub(left.len()).wrapping_add(found)
+}
+
+const LOWEST_BITS: usize = usize::MAX / 0xFF;
+const HIGHEST_BITS: usize = LOWEST_BITS << 7;
+
+/// Text of `len` bytes, if a NUL follows, and only NULs follow that.
+#[inline]
+pub(crate) fn split_padded(bytes: &[u8], max: u32, len: usize) -> Option<TextRef<'_>> {
+    match bytes.split_at_checked(len)? {
+        (text, [_, tail @ ..])
+            if bytes.len() <= to_len(max)
+                && (tail.is_empty() || padding_len(tail) == tail.len()) =>
+        {
+            Some(TextRef::with_tail(CncStr::without_nul(text), Some(tail)))
+        }
+        _ => None,
+    }
+}
+
+/// NULs before anything else. Mostly the one before them is the last byte.
+#[cold]
+#[inline(never)]
+fn padding_len(tail: &[u8]) -> usize {
+    tail.iter().position(|&byte| byte != 0).unwrap_or(tail.len())
+}
+
+/// Why these bytes are no text of `len` bytes with its NUL.
+#[cold]
+#[inline(never)]
+pub(crate) fn not_terminated(field: Field, at: u32, max: u32, bytes: &[u8], len: usize) -> Error {
+    let given = to_u32(bytes.len());
+    let window = bytes.get(..to_len(max)).unwrap_or(bytes);
+    let Some((_, [_, tail @ ..])) = window.split_at_checked(len) else {
+        return Error::new(ErrorKind::MissingNul, field, at, max, given);
+    };
+    let used = len.saturating_add(padding_len(tail)).saturating_add(1);
+    let (end, given) = (at.saturating_add(to_u32(used)), at.saturating_add(given));
+    Error::new(ErrorKind::Trailing, Field::whole(field.stream()), end, end, given)
+}
+
+/// Why these bytes are no text of `len` bytes either with its NUL or without.
+#[cold]
+#[inline(never)]
+pub(crate) fn not_maybe_terminated(
+    field: Field,
+    at: u32,
+    max: u32,
+    bytes: &[u8],
+    len: usize,
+) -> Error {
+    match to_u32(bytes.len()) {
+        0 => Error::new(ErrorKind::Truncated, field, at, 1, 0),
+        given if text_len(bytes) == bytes.len() => {
+            Error::new(ErrorKind::TooLong, field, at, max, given)
+        }
+        _ => not_terminated(field, at, max, bytes, len),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wherever the first NUL is, whatever is around it and behind it.
+    #[test]
+    fn the_first_nul_ends_a_text() {
+        for filler in [1, 0x7F, 0x80, 0x81, 0xFF] {
+            for len in 0..40_usize {
+                let mut bytes = std::vec![filler; len];
+                assert_eq!(text_len(&bytes), len);
+                for nul in (0..len).rev() {
+                    bytes[nul] = 0;
+                    assert_eq!(text_len(&bytes), nul, "{bytes:?}");
+                    assert_eq!(split_nul(&bytes), Some((&bytes[..nul], &bytes[nul + 1..])));
+                    let is_padded = bytes[nul..].iter().all(|&byte| byte == 0);
+                    let split = split_padded(&bytes, 40, nul).map(|text| text.tail());
+                    assert_eq!(split, is_padded.then_some(Some(&bytes[nul + 1..])), "{bytes:?}");
+                    if nul % 3 == 0 {
+                        bytes[nul] = filler;
+                    }
+                }
+            }
+        }
+    }
+}
