@@ -4,7 +4,7 @@ use zerocopy::little_endian::U32;
 use zerocopy::{FromBytes, Immutable, KnownLayout, Unaligned};
 
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Stream};
+use crate::layout::{Cut, Field, Stream};
 use crate::nul::{not_maybe_terminated, not_terminated, split_nul, split_padded, text_len};
 use crate::text::{CncStr, TextRef};
 
@@ -46,7 +46,7 @@ impl<'a> Reader<'a> {
     where
         T: FromBytes + KnownLayout + Immutable + Unaligned,
     {
-        T::ref_from_bytes(bytes).map_err(|_| not_all(stream, size_of::<T>(), bytes.len()))
+        T::ref_from_bytes(bytes).map_err(|_| not_all(stream, bytes.len()))
     }
 
     /// The bytes that are all of the stream of `field`, between `min` and `max` of them.
@@ -257,30 +257,40 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The field in which the fixed part of a record at `at` is cut: the last that begins in time.
+/// The field in which the fixed part of a record at `at` is cut.
 // Not a method: a reader whose address is known to nobody stays in registers.
 #[cold]
-fn cut(stream: Stream, at: u32, left: usize) -> Error {
-    let left = to_u32(left);
-    let rows = stream.layout().fields;
-    let begun = rows.iter().take_while(|row| row.offset <= left).count();
-    let Some((index, row)) = begun.checked_sub(1).and_then(|at| Some((at, rows.get(at)?))) else {
-        return Error::new(ErrorKind::Truncated, Field::whole(stream), at, 0, left);
-    };
-    let field = Field::new(stream, u8::try_from(index).unwrap_or(u8::MAX));
-    let (at, found) = (at.saturating_add(row.offset), left.saturating_sub(row.offset));
-    Error::new(ErrorKind::Truncated, field, at, row.size.fixed(), found)
+pub(crate) fn cut(stream: Stream, at: u32, left: usize) -> Error {
+    match stream.cuts().get(left) {
+        Some(cut) => cut_at(stream, *cut, at, left),
+        None => Error::new(ErrorKind::Truncated, Field::whole(stream), at, 0, to_u32(left)),
+    }
 }
 
-/// Why these bytes are not the fixed `size` bytes of a stream.
+#[inline]
+fn cut_at(stream: Stream, cut: Cut, at: u32, left: usize) -> Error {
+    let (offset, size) = (u32::from(cut.offset), u32::from(cut.size));
+    let found = to_u32(left).wrapping_sub(offset);
+    Error::new(
+        ErrorKind::Truncated,
+        Field::new(stream, cut.field),
+        at.wrapping_add(offset),
+        size,
+        found,
+    )
+}
+
+/// Why so many bytes are not the fixed ones that are all of a stream.
 #[cold]
-#[inline(never)]
-fn not_all(stream: Stream, size: usize, given: usize) -> Error {
-    if given < size {
-        return cut(stream, 0, given);
+fn not_all(stream: Stream, given: usize) -> Error {
+    let cuts = stream.cuts();
+    match cuts.get(given) {
+        Some(cut) => cut_at(stream, *cut, 0, given),
+        None => {
+            let size = to_u32(cuts.len());
+            Error::new(ErrorKind::Trailing, Field::whole(stream), size, size, to_u32(given))
+        }
     }
-    let size = to_u32(size);
-    Error::new(ErrorKind::Trailing, Field::whole(stream), size, size, to_u32(given))
 }
 
 /// Why so many bytes are too few or too many.

@@ -6,9 +6,9 @@ use zerocopy::{FromBytes as _, IntoBytes as _};
 
 use super::DescriptorRef;
 use super::descriptor::DescriptorLayout;
-use crate::bytes::{Reader, Writer, to_u32};
+use crate::bytes::{Reader, Writer, cut, to_u32};
 use crate::error::Error;
-use crate::layout::{Field, Stream};
+use crate::layout::Stream;
 use crate::limits::DESCRIPTOR_LEN;
 use crate::stream::{Decode, Encode};
 
@@ -78,18 +78,13 @@ impl<'a> Decode<'a> for DescriptorsRef<'a> {
         let count = bytes.len() / DESCRIPTOR_LEN;
         match <[DescriptorLayout]>::ref_from_bytes_with_elems(bytes, count) {
             Ok(layouts) if !layouts.is_empty() => Ok(Self(layouts)),
-            _ => behind(count, bytes).map(|_| Self(&[])),
+            // Behind the whole ones is one that is cut, or the first is missing.
+            _ => {
+                let whole = count.saturating_mul(DESCRIPTOR_LEN);
+                Err(cut(Self::STREAM, to_u32(whole), bytes.len().saturating_sub(whole)))
+            }
         }
     }
-}
-
-/// What is there of a record behind so many whole ones: the error of one that is cut, or missing.
-#[cold]
-fn behind(count: usize, bytes: &[u8]) -> Result<&DescriptorLayout, Error> {
-    let stream = DescriptorsRef::STREAM;
-    let mut input = Reader::new(stream, bytes)?;
-    input.take(Field::whole(stream), to_u32(count.saturating_mul(DESCRIPTOR_LEN)))?;
-    input.fixed()
 }
 
 impl Encode for DescriptorsRef<'_> {

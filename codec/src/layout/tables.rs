@@ -1,5 +1,6 @@
 //! The tables themselves: one per stream, in the manual's order of fields.
 
+use super::cuts::Cut;
 use super::spec::{Field, FieldSpec, Layout, Size, Type};
 
 const FIXED_4: Size = Size::Fixed(4);
@@ -37,6 +38,11 @@ macro_rules! layouts {
             pub const fn layout(self) -> &'static Layout {
                 match self { $( Self::$stream => &field::$module::LAYOUT, )+ }
             }
+
+            /// Of each length that ends in the fixed fields a record begins with, where it does.
+            pub(crate) const fn cuts(self) -> &'static [Cut] {
+                match self { $( Self::$stream => &field::$module::CUTS, )+ }
+            }
         }
 
         /// A constant for each field, so that no decoder spells a name.
@@ -53,6 +59,7 @@ macro_rules! layouts {
                     repeats: false $( | { _ = super::$record::LAYOUT; true } )?,
                     fields: FIELDS,
                 };
+                pub(crate) static CUTS: [Cut; Cut::count(FIELDS)] = Cut::all(FIELDS);
                 $( pub(crate) const FIELDS: &[FieldSpec] = super::$record::LAYOUT.fields; )?
                 $(
                     pub(crate) const FIELDS: &[FieldSpec] = &[$( FieldSpec {
