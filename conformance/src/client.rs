@@ -8,18 +8,16 @@ use std::net::{IpAddr, SocketAddr};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use ads_cnc::ads::{
-    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef, ReadReply, ReadWriteReply,
-    WriteReply,
-};
+use ads_cnc::Encode;
+use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use ads_cnc::limits::ADS_DATA_MAX;
 use ads_cnc::operation::{Call, Service};
-use ads_cnc::{Decode, Encode};
 
 use crate::capture::Capture;
 use crate::exchange::{Answer, Exchange, Fault, Violation};
 use crate::gate::{Gate, Moment, Permit};
 use crate::net::Wire;
+use crate::services::{decode_reply, service_of};
 
 pub use inquiry::{Inquired, Inquiry, Said};
 pub(crate) use judge::violations;
@@ -378,15 +376,8 @@ pub(crate) fn answer(sent: AmsHeader, header: AmsHeader, payload: &[u8]) -> Resu
     if !header.error.is_none() && payload.is_empty() {
         return Ok(Answer { ams_error: header.error, result: AdsError::NONE, data: None });
     }
-    let (result, data) = match sent.command {
-        command if command == Service::Read.command() => {
-            ReadReply::decode(payload).map(|reply| (reply.result, reply.data))
-        }
-        command if command == Service::ReadWrite.command() => {
-            ReadWriteReply::decode(payload).map(|reply| (reply.result, reply.data))
-        }
-        _ => WriteReply::decode(payload).map(|reply| (reply.result, None)),
-    }
-    .map_err(Fault::Malformed)?;
-    Ok(Answer { ams_error: header.error, result, data })
+    // Whatever else is asked has a result in its reply as a Write has, and maybe more.
+    let service = service_of(sent.command).unwrap_or(Service::Write);
+    let (result, data) = decode_reply(service, payload).map_err(Fault::Malformed)?;
+    Ok(Answer { ams_error: header.error, result, data: data.map(<[u8]>::to_vec) })
 }

@@ -9,10 +9,10 @@
 //! | [`selftest`] | the suite tried on itself |
 //! | [`testee`] | codecs of others, asked over stdin and stdout |
 //! | [`clients`] | clients of others, which talk to a CNC that can do wrong |
-//! | [`capture`] | captured traffic, judged, and written |
+//! | [`capture`] | captured traffic, judged, and written as Wireshark reads it |
 //! | [`child`] | commands that a user names |
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
-//! | [`capture`] | what went over a connection, as Wireshark reads it |
+//! | [`services`] | what the three ADS services have on the wire |
 //! | [`gate`] | what may be sent to a target |
 //! | [`session`] | a CNC to ask, typed: what tools work with |
 //! | [`objects`], [`named`] | what a CNC has, all of it or one thing by its name |
@@ -21,6 +21,7 @@
 //! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
 //! | [`explain`] | bytes of any stream, field by field |
 //! | [`verdict`], [`report`] | what a judgement can be, and how it is shown |
+//! | [`matrix`] | what covers each requirement |
 //! | [`waivers`] | failures that are known |
 //! | [`net`] | the one place where sockets are opened |
 //! | [`cli`] | the command line of `ads-cnc` |
@@ -67,6 +68,7 @@ pub mod objects;
 pub mod profile;
 pub mod report;
 pub mod selftest;
+pub mod services;
 pub mod session;
 pub mod show;
 pub mod suite;

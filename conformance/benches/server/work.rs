@@ -3,14 +3,13 @@
 use std::error::Error;
 
 use ads_cnc::address::Channel;
-use ads_cnc::ads::{
-    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef,
-};
+use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef};
 use ads_cnc::operation::{
     Call, Operation as _, ReadByHandle, ReadByName, ReadDescriptors, ReadObject, Request, Service,
 };
-use ads_cnc::{Decode as _, Encode as _, Handle, Numbers};
+use ads_cnc::{Encode as _, Handle, Numbers};
 use ads_cnc_conformance::cnc::{Cnc, DATA_MAX, NET_ID};
+use ads_cnc_conformance::services::{decode_reply, encode_reply};
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error + Send + Sync>>;
 
@@ -98,10 +97,7 @@ impl Work {
     /// A right reply, byte by byte.
     pub(crate) fn reply(&self, invoke_id: u32) -> Result<Vec<u8>> {
         let (result, data) = (AdsError::NONE, Some(self.expected.as_slice()));
-        let payload = match self.service {
-            Service::Read => ReadReplyRef { result, data }.to_vec()?,
-            _ => ReadWriteReplyRef { result, data }.to_vec()?,
-        };
+        let payload = encode_reply(self.service, result, data)?;
         let mut out = Vec::new();
         frame(self.answering(invoke_id, 0), &payload, &mut out)?;
         Ok(out)
@@ -117,16 +113,7 @@ impl Work {
                 format!("{}: no reply to request {invoke_id}: {header:?}", self.name).into()
             );
         }
-        let (result, data) = match self.service {
-            Service::Read => {
-                let reply = ReadReplyRef::decode(payload)?;
-                (reply.result, reply.data)
-            }
-            _ => {
-                let reply = ReadWriteReplyRef::decode(payload)?;
-                (reply.result, reply.data)
-            }
-        };
+        let (result, data) = decode_reply(self.service, payload)?;
         if !result.is_none() || data != Some(self.expected.as_slice()) {
             return Err(format!("{}: a wrong reply: {result:?}, {data:?}", self.name).into());
         }

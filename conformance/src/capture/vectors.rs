@@ -6,10 +6,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use ads_cnc::Encode as _;
-use ads_cnc::ads::{
-    AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef,
-    WriteReply,
-};
+use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef};
 use ads_cnc::layout::{Segment as Piece, Size, Stream, Type as FieldType};
 use ads_cnc::operation::{Call, Function, Request, Service};
 use ads_cnc_vectors::{
@@ -21,6 +18,7 @@ use serde_json::json;
 use super::judge::Target;
 use crate::client::frame;
 use crate::codec::decode_stream;
+use crate::services;
 
 /// Vectors of one capture; more are left out.
 pub const VECTORS_MAX: usize = 10_000;
@@ -98,45 +96,41 @@ impl Collector {
     fn frames(&mut self, call: &Call<'_>, received: Option<&[u8]>) {
         let cnc = AmsAddr { net_id: CNC, port: call.port };
         let header = AmsHeader::request(cnc, CLIENT, call.service.command(), 1);
-        let clause = match call.service {
-            Service::Read => "ADS-1",
-            Service::Write => "ADS-2",
-            Service::ReadWrite => "ADS-3",
-        };
         let Ok(asked) = frame(header, call) else { return };
-        self.frame(Direction::Request, &asked, clause);
-        let Some(data) = received else { return };
-        let (result, data) = (AdsError::NONE, Some(data));
-        let reply = match call.service {
-            Service::Read => ReadReplyRef { result, data }.to_vec(),
-            Service::Write => WriteReply { result }.to_vec(),
-            Service::ReadWrite => ReadWriteReplyRef { result, data }.to_vec(),
-        };
+        self.frame(Direction::Request, call.service, &asked);
+        if received.is_none() {
+            return;
+        }
+        let reply = services::encode_reply(call.service, AdsError::NONE, received);
         let Ok(reply) = reply else { return };
         let frame = FrameRef::new(header.response(), &reply).and_then(|frame| frame.to_vec());
         if let Ok(bytes) = frame {
-            self.frame(Direction::Reply, &bytes, clause);
+            self.frame(Direction::Reply, call.service, &bytes);
         }
     }
 
-    fn frame(&mut self, way: Direction, bytes: &[u8], clause: &'static str) {
+    fn frame(&mut self, way: Direction, service: Service, bytes: &[u8]) {
         let mut segments = Vec::new();
         let (tcp, rest) = bytes.split_at(bytes.len().min(6));
         let (ams, data) = rest.split_at(rest.len().min(32));
-        let service = match (clause, way) {
-            ("ADS-1", Direction::Request) => "read-request",
-            ("ADS-1", _) => "read-reply",
-            ("ADS-2", Direction::Request) => "write-request",
-            ("ADS-2", _) => "write-reply",
-            (_, Direction::Request) => "read-write-request",
-            _ => "read-write-reply",
+        let inside = match way {
+            Direction::Request => services::request_stream(service),
+            _ => services::reply_stream(service),
         };
-        for (name, bytes) in [("ams-tcp-header", tcp), ("ams-header", ams), (service, data)] {
-            let Some(stream) = Stream::by_name(name) else { return };
-            let prefix = format!("{}.", name.replace('-', "_"));
+        for (stream, bytes) in
+            [(Stream::AmsTcpHeader, tcp), (Stream::AmsHeader, ams), (inside, data)]
+        {
+            let prefix = format!("{}.", stream.layout().name.replace('-', "_"));
             segments.extend(self::segments(stream, bytes, &prefix));
         }
-        self.keep("ams-frame", way, Context::default(), bytes, segments, &["ADS-5", clause]);
+        self.keep(
+            "ams-frame",
+            way,
+            Context::default(),
+            bytes,
+            segments,
+            &["ADS-5", services::clause(service)],
+        );
     }
 
     /// The ID of the vector, if the stream decodes.

@@ -1,11 +1,10 @@
 //! What is wrong with frames themselves.
 
 use ads_cnc::ads::{AmsHeader, FrameRef, StateFlags};
-use ads_cnc::layout::Stream;
-use ads_cnc::operation::Service;
 
 use super::Client;
 use crate::exchange::{Exchange, Fault, Violation};
+use crate::services::{clause, reply_stream};
 
 impl Client {
     /// What is wrong with the frames themselves.
@@ -20,8 +19,10 @@ impl Client {
                 let given = answer.data.as_ref().map_or(0, Vec::len);
                 let read = exchange.read_length;
                 if usize::try_from(read).is_ok_and(|read| given > read) {
-                    let of = if exchange.service == Service::Read { "ADS-1" } else { "ADS-3" };
-                    add(of, format!("{given} bytes of data for a read length of {read}"));
+                    add(
+                        clause(exchange.service),
+                        format!("{given} bytes of data for a read length of {read}"),
+                    );
                 }
                 let payload = exchange.received.len() > FrameRef::HEADERS_LEN;
                 if payload && !answer.ams_error.is_none() && answer.result.is_none() {
@@ -34,16 +35,12 @@ impl Client {
                     broken.push(Violation { requirement, what });
                 };
                 if let Fault::Malformed(error) = fault {
-                    let of = match error.field().stream() {
-                        Stream::ReadReply => "ADS-1",
-                        Stream::WriteReply => "ADS-2",
-                        Stream::ReadWriteReply => "ADS-3",
-                        _ => "ADS-5",
-                    };
-                    add(of, error.to_string());
-                    if of != "ADS-5" {
+                    if error.field().stream() == reply_stream(exchange.service) {
+                        add(clause(exchange.service), error.to_string());
                         // Its numbers do not stand where they stand with 4 bytes each.
                         add("ADS-4", error.to_string());
+                    } else {
+                        add("ADS-5", error.to_string());
                     }
                     if exchange.received.len() == FrameRef::HEADERS_LEN {
                         add("ADS-5", "no data, and no error in the AMS header".to_owned());

@@ -2,12 +2,12 @@
 
 use std::fmt::Display;
 
-use ads_cnc::Decode as _;
-use ads_cnc::ads::{Command, FrameRef, ReadReplyRef, ReadWriteReplyRef};
+use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::Call;
 
 use super::CLIENT;
 use super::stage::Turn;
+use crate::services::{decode_reply, service_of};
 use crate::suite::{Evidence, Judgement, Rule};
 use crate::verdict::Verdict;
 use ads_cnc_vectors::Level;
@@ -98,14 +98,9 @@ pub(super) fn evidence(turn: &Turn) -> Evidence {
     if let Ok(Some((reply, len))) = FrameRef::split(&turn.sent, u32::MAX)
         && len == turn.sent.len()
     {
-        let data = match reply.header().command {
-            Command::READ => ReadReplyRef::decode(reply.data()).ok().and_then(|one| one.data),
-            Command::READ_WRITE => {
-                ReadWriteReplyRef::decode(reply.data()).ok().and_then(|one| one.data)
-            }
-            _ => None,
-        };
-        evidence.received = data.map(<[u8]>::to_vec);
+        let service = service_of(reply.header().command);
+        let decoded = service.and_then(|service| decode_reply(service, reply.data()).ok());
+        evidence.received = decoded.and_then(|(_, data)| data).map(<[u8]>::to_vec);
     }
     evidence
 }

@@ -2,11 +2,12 @@
 
 use std::time::Duration;
 
-use ads_cnc::ads::{
-    AdsError, AmsHeader, Command, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags, WriteReply,
-};
+use ads_cnc::Encode as _;
+use ads_cnc::ads::{AdsError, AmsHeader, Command, FrameRef, StateFlags};
 use ads_cnc::limits::{DESCRIPTOR_LEN, TEXT_MAX};
-use ads_cnc::{Decode as _, Encode};
+use ads_cnc::operation::Service;
+
+use crate::services::{decode_reply, encode_reply, service_of};
 
 /// What is done to a reply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -190,39 +191,19 @@ fn rebuilt(reply: &[u8], change: impl FnOnce(&mut Parts)) -> Vec<u8> {
     let rebuilt = || {
         let (frame, _) = FrameRef::split(reply, u32::MAX).ok().flatten()?;
         let header = frame.header();
-        let body = match header.command {
-            Command::READ => {
-                let reply = ReadReplyRef::decode(frame.data()).ok()?;
-                Body::Result(reply.result, reply.data.map(<[u8]>::to_vec))
-            }
-            Command::READ_WRITE => {
-                let reply = ReadWriteReplyRef::decode(frame.data()).ok()?;
-                Body::Result(reply.result, reply.data.map(<[u8]>::to_vec))
-            }
-            _ => Body::Result(WriteReply::decode(frame.data()).ok()?.result, None),
-        };
+        // Other commands are refused with a result alone.
+        let service = service_of(header.command).unwrap_or(Service::Write);
+        let (result, data) = decode_reply(service, frame.data()).ok()?;
+        let body = Body::Result(result, data.map(<[u8]>::to_vec));
         let mut parts = Parts { header, body };
         change(&mut parts);
         let body = match &parts.body {
             Body::None => Vec::new(),
-            Body::Result(result, data) if header.command == Command::READ => {
-                ReadReplyRef { result: *result, data: data.as_deref() }.to_vec().ok()?
-            }
-            Body::Result(result, data) if header.command == Command::READ_WRITE => {
-                ReadWriteReplyRef { result: *result, data: data.as_deref() }.to_vec().ok()?
-            }
-            Body::Result(result, _) => WriteReply { result: *result }.to_vec().ok()?,
+            Body::Result(result, data) => encode_reply(service, *result, data.as_deref()).ok()?,
         };
-        encoded(parts.header, &body)
+        FrameRef::new(parts.header, &body).ok()?.to_vec().ok()
     };
     rebuilt().unwrap_or_else(|| reply.to_vec())
-}
-
-fn encoded(header: AmsHeader, body: &[u8]) -> Option<Vec<u8>> {
-    let frame = FrameRef::new(header, body).ok()?;
-    let mut bytes = vec![0; frame.encoded_len()];
-    frame.encode(&mut bytes).ok()?;
-    Some(bytes)
 }
 
 fn with_header(reply: &[u8], change: impl FnOnce(&mut AmsHeader)) -> Vec<u8> {

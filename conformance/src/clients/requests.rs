@@ -8,6 +8,7 @@ use super::CLIENT;
 use super::findings::Findings;
 use super::stage::Turn;
 use crate::cnc::NET_ID;
+use crate::services::{self, service_of};
 use crate::suite::assumed;
 
 /// The longest frame.
@@ -65,7 +66,7 @@ fn one(turn: &Turn, findings: &mut Findings) {
     let port = header.target.port;
     let has_task = Task::from_port(port).is_some();
     findings.check("GEN-4", has_task, Some(turn), "port 551, 552 or 553", port);
-    let service = service_rule(header.command);
+    let service = service_of(header.command).map(services::clause);
     match Call::of_frame(&frame) {
         Err(error) => {
             let expected = format!("a request of {}", name(header.command));
@@ -95,21 +96,10 @@ fn one(turn: &Turn, findings: &mut Findings) {
     }
 }
 
-const fn service_rule(command: Command) -> Option<&'static str> {
-    match command {
-        Command::READ => Some("ADS-1"),
-        Command::WRITE => Some("ADS-2"),
-        Command::READ_WRITE => Some("ADS-3"),
-        _ => None,
-    }
-}
-
 fn name(command: Command) -> String {
-    match command {
-        Command::READ => "Read".to_owned(),
-        Command::WRITE => "Write".to_owned(),
-        Command::READ_WRITE => "ReadWrite".to_owned(),
-        Command(number) => format!("command {number}"),
+    match service_of(command) {
+        Some(service) => service.to_string(),
+        None => format!("command {}", command.0),
     }
 }
 

@@ -29,6 +29,7 @@ use super::time::Time;
 use super::vectors::Collector;
 use crate::client::{answer, violations};
 use crate::exchange::{Exchange, Fault};
+use crate::services;
 use crate::suite::{Checks as _, Outcome, assumed};
 
 /// CNCs that are told apart.
@@ -129,12 +130,7 @@ fn spot(way: &Way, asked: Option<Span>, answered: Option<Span>) -> Spot {
 
 /// The requirement of a command's service.
 fn service_clause(command: Command) -> &'static str {
-    match command {
-        Command::READ => "ADS-1",
-        Command::WRITE => "ADS-2",
-        Command::READ_WRITE => "ADS-3",
-        _ => "ADS-5",
-    }
+    services::service_of(command).map_or("ADS-5", services::clause)
 }
 
 impl Judge {

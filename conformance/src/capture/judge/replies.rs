@@ -8,6 +8,7 @@ use ads_cnc_vectors::requirement;
 use super::super::book::{Book, Scene, Topic};
 use super::Bench;
 use crate::exchange::{Answer, Exchange, Violation};
+use crate::services;
 use crate::suite::{Checks as _, Rule, assumed};
 
 /// What every reply has in its headers.
@@ -28,11 +29,7 @@ pub(super) fn service<'e>(
     scene: &Scene<'_>,
     exchange: &'e Exchange,
 ) -> Option<&'e Answer> {
-    let clause = match exchange.service {
-        Service::Read => "ADS-1",
-        Service::Write => "ADS-2",
-        Service::ReadWrite => "ADS-3",
-    };
+    let clause = services::clause(exchange.service);
     let mut page = book.on(Topic::CncServices, scene);
     match &exchange.outcome {
         Ok((answer, header)) => {

@@ -7,6 +7,7 @@ use ads_cnc::{CncStr, ErrorKind, VariablePath};
 use ads_cnc_vectors::requirement;
 
 use super::super::book::{Book, Scene, Topic};
+use crate::services;
 use crate::suite::{Checks as _, Rule, assumed, online};
 
 /// What every request has in its headers.
@@ -128,7 +129,7 @@ fn documented(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>, request: &Req
         page.pass("VAR-24");
     }
     if let Some(least) = spec.reply.filter(|reply| reply.layout().is_fixed()).map(least) {
-        let rule = assumed(if call.service == Service::Read { "ADS-1" } else { "ADS-3" });
+        let rule = assumed(services::clause(call.service));
         let asked = call.read_length;
         let mut page = book.on(Topic::ClientServices, scene);
         page.check(rule, asked >= least, format!("room for {least} bytes"), format!("for {asked}"));

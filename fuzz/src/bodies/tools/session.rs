@@ -3,11 +3,11 @@
 use std::sync::OnceLock;
 use std::time::Duration;
 
-use ads_cnc::Decode as _;
 use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::ads::{AmsPort, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags, WriteReply};
+use ads_cnc::ads::{AmsPort, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Request, Service};
 use ads_cnc_conformance::cnc::{CONNECTION_BYTES_MAX, Cnc, Model, NET_ID, Received};
+use ads_cnc_conformance::services::{decode_reply, service_of};
 
 use super::Input;
 use super::calls::{call, frame};
@@ -196,13 +196,8 @@ fn answered(request: &FrameRef<'_>, answers: &[u8]) -> usize {
         return len;
     }
     let call = Call::of_frame(request);
-    let data = match header.command.0 {
-        2 => ReadReplyRef::decode(answer.data()).map(|reply| (reply.result, reply.data)),
-        3 => WriteReply::decode(answer.data()).map(|reply| (reply.result, None)),
-        9 => ReadWriteReplyRef::decode(answer.data()).map(|reply| (reply.result, reply.data)),
-        _ => return len,
-    };
-    let (result, data) = data.expect("a reply of the service");
+    let Some(service) = service_of(header.command) else { return len };
+    let (result, data) = decode_reply(service, answer.data()).expect("a reply of the service");
     if let (Ok(Some(call)), true) = (call, result.is_none()) {
         let data = data.unwrap_or_default();
         assert!(data.len() <= call.read_length as usize);
