@@ -305,14 +305,7 @@ fn describe_com(com: ComGroup) -> String {
 }
 
 fn describe_class(group: ClassGroup) -> String {
-    let class = match group.class {
-        Class::PositionController => "position controller",
-        Class::Interpolator => "interpolator",
-        Class::Decoder => "decoder",
-        Class::Hld => "HLD",
-        Class::PathPreparation => "path preparation",
-        Class::Spindle => "spindle",
-    };
+    let class = codes::class_name(group.class);
     let attribute = match group.attribute {
         Attribute::Content => "content",
         Attribute::Name => "name",

@@ -1,5 +1,6 @@
 //! The names of codes, and texts.
 
+use ads_cnc::address::Class;
 use ads_cnc::ads::{AdsError, AmsPort, Command, StateFlags};
 use ads_cnc::operation::Task;
 use ads_cnc::text::cp1252_to_char;
@@ -11,6 +12,18 @@ pub(super) const fn task(task: Task) -> &'static str {
         Task::Geo => "GEO",
         Task::Sda => "SDA",
         Task::Com => "COM",
+    }
+}
+
+/// What a class is called.
+pub(crate) const fn class_name(class: Class) -> &'static str {
+    match class {
+        Class::PositionController => "position controller",
+        Class::Interpolator => "interpolator",
+        Class::Decoder => "decoder",
+        Class::Hld => "HLD",
+        Class::PathPreparation => "path preparation",
+        Class::Spindle => "spindle",
     }
 }
 

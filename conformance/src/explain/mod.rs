@@ -31,6 +31,7 @@ mod typed;
 mod value;
 
 pub use address::describe;
+pub(crate) use codes::class_name;
 pub use frame::looks_like_frame;
 pub use input::{HexError, parse_hex};
 pub(crate) use model::sources;

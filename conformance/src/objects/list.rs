@@ -5,6 +5,8 @@ use std::fmt;
 use ads_cnc::address::Class;
 use ads_cnc::dynamic::DynamicKind;
 
+use crate::explain::class_name;
+
 /// A list of objects, elements or variables, as people name it.
 ///
 /// ```
@@ -47,18 +49,6 @@ pub enum List {
         /// Which channel.
         channel: u8,
     },
-}
-
-/// What a class is called.
-const fn class_name(class: Class) -> &'static str {
-    match class {
-        Class::PositionController => "position controller",
-        Class::Interpolator => "interpolator",
-        Class::Decoder => "decoder",
-        Class::Hld => "HLD",
-        Class::PathPreparation => "path preparation",
-        Class::Spindle => "spindle",
-    }
 }
 
 impl fmt::Display for List {

@@ -104,7 +104,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let name = name.text.text.to_string();
         let found = format!("{name:?} of {instance}");
         // What a place without an axis is called nobody says, nor what has nothing else to name.
-        let is_bare = count == 0 || is_claimed_empty(probe, &instance);
+        let is_bare = count == 0 || probe.is_claimed_empty(&instance);
         let rule = if is_bare { assumed("SDA-4") } else { "SDA-4".into() };
         probe.check(rule, !name.is_empty(), "the name of the instance", &found);
         let rule = assumed("SDA-4");
@@ -124,12 +124,6 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         probe.check(rule, false, format!("the number of elements behind the first{like}"), found);
     }
     Ok(())
-}
-
-/// Whether it is at a place that the profile says to be without an axis.
-fn is_claimed_empty(probe: &Probe<'_>, instance: &Instance) -> bool {
-    let at = (instance.channel, instance.axis);
-    OF_PLACES.contains(&instance.class) && probe.session.profile.empty_places.contains(&at)
 }
 
 /// The last element has a name, and behind it there is none.

@@ -11,6 +11,7 @@ use ads_cnc::{CncString, Decode, DescriptorsRef, ObjectCount};
 
 use super::case::{Step, Stop};
 use super::probe::{Probe, harness};
+use crate::explain::class_name;
 use crate::profile::Claim;
 
 /// The most objects of a list that are looked at, and elements of an instance.
@@ -78,18 +79,6 @@ impl std::fmt::Display for Instance {
     }
 }
 
-/// A class as reports call it.
-pub(super) const fn class_name(class: Class) -> &'static str {
-    match class {
-        Class::PositionController => "position controller",
-        Class::Interpolator => "interpolator",
-        Class::Decoder => "decoder",
-        Class::Hld => "HLD",
-        Class::PathPreparation => "path preparation",
-        Class::Spindle => "spindle",
-    }
-}
-
 /// A number of elements. Its width nobody says: a narrower one is read as that of a length is.
 pub(super) fn number_of(data: &[u8]) -> Option<u32> {
     let count = ElementCount::decode(data).map(|count| count.0);
@@ -144,6 +133,12 @@ impl Probe<'_> {
             Some([]) | None => Err(Stop::NotApplicable("the target has no object".to_owned())),
             Some(all) => Ok(all.to_vec()),
         }
+    }
+
+    /// Whether an instance is at a place that the profile says to be without an axis.
+    pub(super) fn is_claimed_empty(&self, instance: &Instance) -> bool {
+        let at = (instance.channel, instance.axis);
+        OF_PLACES.contains(&instance.class) && self.session.profile.empty_places.contains(&at)
     }
 
     /// Every instance that the target says to have. Whether it says so rightly is judged

@@ -10,7 +10,7 @@ use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Rule, Step, Stop, assumed};
 use super::declare;
-use super::inventory::{Instance, OF_PLACES, Object};
+use super::inventory::{Instance, Object};
 use super::place::{Place, Trial};
 use super::probe::{Probe, harness};
 use super::sda::length_of;
@@ -141,7 +141,7 @@ pub(super) struct Named {
 pub(super) fn flagged(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Named>> {
     let mut all = Vec::new();
     for instance in probe.instances()? {
-        if is_empty_place(probe, &instance) {
+        if probe.is_claimed_empty(&instance) {
             continue;
         }
         for element in instance.elements() {
@@ -149,11 +149,6 @@ pub(super) fn flagged(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Name
         }
     }
     Ok(all)
-}
-
-fn is_empty_place(probe: &Probe<'_>, instance: &Instance) -> bool {
-    let at = (instance.channel, instance.axis);
-    OF_PLACES.contains(&instance.class) && probe.session.profile.empty_places.contains(&at)
 }
 
 fn named(
