@@ -95,11 +95,7 @@ type Content = Result<Vec<u8>, String>;
 
 impl Browse {
     pub(super) fn execute(&self) -> Exit {
-        let exit = self.run().unwrap_or_else(|trouble| {
-            complain(&trouble);
-            trouble.exit()
-        });
-        self.target.end(exit)
+        self.target.end(self.run(), |_| None)
     }
 
     fn run(&self) -> Result<Exit, Trouble> {

@@ -62,14 +62,7 @@ error.";
 
 impl Get {
     pub(super) fn execute(&self) -> Exit {
-        let exit = self.run().unwrap_or_else(|trouble| {
-            complain(&trouble);
-            if let Some(advice) = self.name.advice(&trouble) {
-                complain(advice);
-            }
-            trouble.exit()
-        });
-        self.target.end(exit)
+        self.target.end(self.run(), |trouble| self.name.advice(trouble))
     }
 
     fn run(&self) -> Result<Exit, Trouble> {

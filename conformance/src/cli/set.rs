@@ -59,16 +59,10 @@ not fit; 3 no answer; 4 refused for safety; 70 internal error.";
 
 impl Set {
     pub(super) fn execute(&self) -> Exit {
-        let exit = self.run().unwrap_or_else(|trouble| {
-            complain(&trouble);
-            match (&trouble, self.name.advice(&trouble)) {
-                (Trouble::NotSent, _) => complain("with --type TYPE the write itself is shown"),
-                (_, Some(advice)) => complain(advice),
-                _ => {}
-            }
-            trouble.exit()
-        });
-        self.target.end(exit)
+        self.target.end(self.run(), |trouble| match trouble {
+            Trouble::NotSent => Some("with --type TYPE the write itself is shown".to_owned()),
+            trouble => self.name.advice(trouble),
+        })
     }
 
     fn run(&self) -> Result<Exit, Trouble> {

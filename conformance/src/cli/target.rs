@@ -195,8 +195,20 @@ impl TargetArgs {
         Ok(session.with_capture(capture))
     }
 
-    /// How the process ends when the session is over: what was to be kept and is not is an error.
-    pub(super) fn end(&self, exit: Exit) -> Exit {
+    /// Says what went wrong, with advice if there is any, and how the process ends when the session
+    /// is over: what was to be kept and is not is an error.
+    pub(super) fn end(
+        &self,
+        done: Result<Exit, Trouble>,
+        advice: impl FnOnce(&Trouble) -> Option<String>,
+    ) -> Exit {
+        let exit = done.unwrap_or_else(|trouble| {
+            complain(&trouble);
+            if let Some(advice) = advice(&trouble) {
+                complain(advice);
+            }
+            trouble.exit()
+        });
         match exit {
             Exit::Success if self.lost.load(Ordering::Relaxed) => Exit::Internal,
             exit => exit,

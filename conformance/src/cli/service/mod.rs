@@ -112,14 +112,7 @@ impl Service {
             true => self.show(),
             false => self.serve(),
         };
-        let exit = done.map_or_else(
-            |trouble| {
-                complain(&trouble);
-                trouble.exit()
-            },
-            |()| Exit::Success,
-        );
-        self.target.end(exit)
+        self.target.end(done.map(|()| Exit::Success), |_| None)
     }
 
     /// Connects to the device, or to a CNC with the manual's NC program, which asks for square

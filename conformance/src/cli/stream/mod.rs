@@ -90,11 +90,7 @@ Once it sends, stdout says which lines were taken, and which were not if it ends
 impl Stream {
     /// Sends, and says how the process ends.
     pub(super) fn execute(&self) -> Exit {
-        let exit = self.run().unwrap_or_else(|trouble| {
-            complain(&trouble);
-            trouble.exit()
-        });
-        self.target.end(exit)
+        self.target.end(self.run(), |_| None)
     }
 
     fn run(&self) -> Result<Exit, Trouble> {
