@@ -66,7 +66,6 @@ pub struct Client {
     target: Target,
     source: AmsNetId,
     gate: Gate,
-    clock: fn() -> Moment,
     wire: Option<Wire>,
     capture: Option<Capture>,
     dry: bool,
@@ -115,7 +114,6 @@ impl Client {
             target,
             source: target.source.unwrap_or(net_id_of(target.addr.ip())),
             gate,
-            clock: Moment::now,
             wire: None,
             capture: None,
             dry: false,
@@ -123,12 +121,6 @@ impl Client {
             invoke_id: FIRST_INVOKE_ID,
             piece: None,
         })
-    }
-
-    /// With another clock than this machine's.
-    #[must_use]
-    pub fn with_clock(self, clock: fn() -> Moment) -> Self {
-        Self { clock, ..self }
     }
 
     /// With another time to wait for a connection and for an answer.
@@ -194,7 +186,7 @@ impl Client {
     /// [`Fault::Refused`], [`Fault::Unsendable`].
     pub fn check(&self, call: &Call<'_>) -> Result<(), Fault> {
         let bytes = frame(self.header(call.port, call.service.command()), call)?;
-        let permit = self.gate.check(&bytes, (self.clock)());
+        let permit = self.gate.check(&bytes, Moment::now());
         permit.map(drop).map_err(|refusal| Fault::Refused(Box::new(refusal)))
     }
 
@@ -237,7 +229,7 @@ impl Client {
         received: &mut Vec<u8>,
         violations: &mut Vec<Violation>,
     ) -> Result<Result<AmsHeader, Fault>, Fault> {
-        let permit = self.gate.check(bytes, (self.clock)());
+        let permit = self.gate.check(bytes, Moment::now());
         let permit = permit.map_err(|refusal| Fault::Refused(Box::new(refusal)))?;
         if self.dry {
             return Err(Fault::NotSent);
