@@ -3,14 +3,10 @@
 use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Service};
 
-use super::frame::{DATA, LENGTH, RESULT, is, measured, sent};
-use super::{Row, fits, put, row, u32_at};
+use super::frame::{DATA, LENGTH, RESULT, is, measured, result, sent};
+use super::{Row, fits, put, row};
 
 const READS: &[Command] = &[Command::READ, Command::READ_WRITE];
-
-fn result(bytes: &[u8]) -> u32 {
-    u32_at(bytes, RESULT).unwrap_or_default()
-}
 
 pub(super) const ROWS: &[Row] = &[
     row(

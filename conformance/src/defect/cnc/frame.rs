@@ -41,7 +41,8 @@ pub(super) fn set(mut bytes: Vec<u8>, place: usize, new: &[u8]) -> Vec<u8> {
     bytes
 }
 
-fn result(bytes: &[u8]) -> u32 {
+/// The result of a reply.
+pub(super) fn result(bytes: &[u8]) -> u32 {
     u32_at(bytes, RESULT).unwrap_or_default()
 }
 

@@ -2,10 +2,10 @@
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::edition::Edition;
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{Function, Service};
 
 use super::variable::without_indices;
-use super::{Row, at, behind, function, group, is, of_decoder, row, text, u32_at};
+use super::{Row, at, behind, function, group, is, named, of_decoder, row, text, u32_at};
 
 const NAMED: &[Function] = &[
     Function::HandleByName,
@@ -13,11 +13,6 @@ const NAMED: &[Function] = &[
     Function::WriteByName,
     Function::DescribeByName,
 ];
-
-/// Whether it is a request of the channel interface that begins with a name.
-fn named(call: &Call<'_>) -> bool {
-    matches!(of_decoder(call), Some(0x46 | 0x48 | 0x4A | 0x4C))
-}
 
 /// A row that shows in the German edition.
 const fn german(mut row: Row) -> Row {

@@ -5,6 +5,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc::service::ServiceVariable;
 
 use super::look::{handle_of, instance, object_is, one, over};
+use super::service::{reads, writes};
 use super::{Answer, Right, Row, behind, function, group, is, offset, row, text, u32_at};
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
@@ -13,16 +14,6 @@ const REQUEST_STATE: &str = ServiceVariable::REQUEST_STATE;
 const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
 const RESPONSE: &str = ServiceVariable::RESPONSE;
 const REQUEST: &str = ServiceVariable::REQUEST;
-
-/// Whether the variable of the Service Interface is written by name.
-fn writes(call: &Call<'_>, name: &str) -> bool {
-    is(call, BY_NAME) && text(call.data) == name.as_bytes()
-}
-
-/// Whether it is read by name.
-fn reads(call: &Call<'_>, name: &str) -> bool {
-    is(call, &[Function::ReadByName]) && text(call.data) == name.as_bytes()
-}
 
 /// Whether a function by handle has the handle of that variable.
 fn by_handle(cnc: &Right<'_>, call: &Call<'_>, of: Function, name: &str) -> bool {

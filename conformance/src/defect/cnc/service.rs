@@ -17,12 +17,12 @@ const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
 const RESPONSE: &str = ServiceVariable::RESPONSE;
 
 /// Whether the variable with this name is read by name.
-fn reads(call: &Call<'_>, name: &str) -> bool {
+pub(super) fn reads(call: &Call<'_>, name: &str) -> bool {
     is(call, &[Function::ReadByName]) && text(call.data) == name.as_bytes()
 }
 
 /// Whether it is written by name.
-fn writes(call: &Call<'_>, name: &str) -> bool {
+pub(super) fn writes(call: &Call<'_>, name: &str) -> bool {
     is(call, &[Function::WriteByName]) && text(call.data) == name.as_bytes()
 }
 

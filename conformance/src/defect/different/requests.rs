@@ -2,10 +2,11 @@
 //! which requests it refuses no manual says.
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{Function, Service};
 
+use super::unprinted;
 use crate::defect::cnc::{
-    Row, function, group, is, number, of_decoder, offset, put, row, text, u32_at,
+    Row, function, group, is, named, number, of_decoder, offset, put, row, text, u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountVariables];
@@ -16,17 +17,6 @@ const OF_AXES: &[Function] =
 
 /// What handles of the axis interface have that those of the channel interface have not.
 const OF_AXIS_INTERFACE: u32 = 0x1000_0000;
-
-/// A row about something that does not answer as printed.
-const fn unprinted(mut row: Row) -> Row {
-    row.printed = false;
-    row
-}
-
-/// Whether it is a request of the channel interface that begins with a name.
-fn named(call: &Call<'_>) -> bool {
-    matches!(of_decoder(call), Some(0x46 | 0x48 | 0x4A | 0x4C))
-}
 
 const WRITE: &[Function] =
     &[Function::WriteByHandle, Function::WriteByName, Function::AxisWriteByName];
