@@ -37,9 +37,9 @@ impl Running<'_> {
         self.permit(Function::CountVariables, op.kind)?;
         let count = if op.kind.text().is_empty() {
             let kinds = [Kind::V_E, Kind::V_G, Kind::V_A];
-            kinds.iter().map(|kind| self.of_kind(channel, *kind).len()).sum()
+            kinds.iter().map(|kind| self.of_kind(channel, *kind).count()).sum()
         } else {
-            self.of_kind(channel, op.kind).len()
+            self.of_kind(channel, op.kind).count()
         };
         encode(VariableCount(to_u32(count)))
     }
@@ -181,29 +181,26 @@ impl Running<'_> {
     }
 
     /// The variables of a kind in the order of their indices; V.A of axes that are there.
-    fn of_kind(&self, channel: usize, kind: Kind<'_>) -> Vec<At> {
-        let Some(model) = self.model.channels.get(channel) else { return Vec::new() };
-        let own = |places: &[usize]| places.iter().copied().map(At::Own).collect();
+    fn of_kind(&self, channel: usize, kind: Kind<'_>) -> impl Iterator<Item = At> + use<'_> {
+        let model = self.model.channels.get(channel);
         // NULs may pad a kind: its text counts.
         let is = |known: Kind<'_>| kind.text() == known.text();
-        if is(Kind::V_E) {
-            own(&model.external)
-        } else if is(Kind::V_G) {
-            own(&model.global)
-        } else if is(Kind::V_A) {
-            let places = (0..model.places.len())
-                .filter(|&place| self.state.axis_at(channel, place).is_some());
-            (0..self.model.axis_variables.list.len())
-                .flat_map(|variable| places.clone().map(move |place| At::Place { place, variable }))
-                .collect()
-        } else {
-            Vec::new()
-        }
+        let own = match model {
+            Some(model) if is(Kind::V_E) => model.external.as_slice(),
+            Some(model) if is(Kind::V_G) => model.global.as_slice(),
+            _ => &[],
+        };
+        let of_axes = if is(Kind::V_A) { self.model.axis_variables.list.len() } else { 0 };
+        let places = (0..model.map_or(0, |model| model.places.len()))
+            .filter(move |&place| self.state.axis_at(channel, place).is_some());
+        let of_axes = (0..of_axes).flat_map(move |variable| {
+            places.clone().map(move |place| At::Place { place, variable })
+        });
+        own.iter().copied().map(At::Own).chain(of_axes)
     }
 
     fn by_index(&self, channel: usize, kind: Kind<'_>, index: u32) -> Result<At, AdsError> {
-        let all = self.of_kind(channel, kind);
-        all.get(to_len(index)).copied().ok_or(AdsError::INVALID_DATA)
+        self.of_kind(channel, kind).nth(to_len(index)).ok_or(AdsError::INVALID_DATA)
     }
 
     fn by_handle(&self, channel: usize, handle: Handle) -> Result<At, AdsError> {
