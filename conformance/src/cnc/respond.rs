@@ -3,17 +3,17 @@
 use std::ops::Range;
 
 use ads_cnc::ads::{
-    AdsError, AdsState, AmsHeader, AmsNetId, AmsPort, AmsTcpHeader, Command, DeviceInfoReply,
-    DeviceStateReply, FrameRef, ReadReplyRef, ReadRequest, ReadWriteReplyRef, ReadWriteRequestRef,
-    StateFlags, WriteReply, WriteRequestRef,
+    AdsError, AdsState, AmsHeader, AmsNetId, AmsTcpHeader, Command, DeviceInfoReply,
+    DeviceStateReply, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags, WriteReply,
 };
 use ads_cnc::layout::Stream;
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::{Call, Service, Task};
-use ads_cnc::{Decode, Encode, Error};
+use ads_cnc::{Encode, Error};
 
 use super::{Cnc, to_len, to_u32};
 use crate::defect::{Seed, Twist};
+use crate::services::{reply_stream, request_stream, service_of};
 
 /// The most bytes behind the AMS header of a frame that is taken or sent: more ends a connection,
 /// and is refused as the answer to a request.
@@ -66,7 +66,7 @@ impl Cnc {
         } else if Task::from_port(header.target.port).is_none() {
             Ok(AdsError::TARGET_PORT_NOT_FOUND)
         } else {
-            let served = self.serve(header.command, header.target.port, frame.data(), answers);
+            let served = self.serve(frame, answers);
             served.map(|()| AdsError::NONE)
         };
         let data_length = to_u32(answers.len().saturating_sub(behind));
@@ -98,71 +98,12 @@ impl Cnc {
     }
 
     /// Appends the data of the response to a command for a port that a task has.
-    fn serve(
-        &self,
-        command: Command,
-        port: AmsPort,
-        data: &[u8],
-        answers: &mut Vec<u8>,
-    ) -> Result<(), Error> {
+    fn serve(&self, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Result<(), Error> {
+        let (command, data) = (frame.header().command, frame.data());
+        if let Some(service) = service_of(command) {
+            return self.serve_service(service, frame, answers);
+        }
         match command {
-            Command::READ => {
-                let reply = self.misread(
-                    data,
-                    |data| {
-                        let ReadRequest { index_group, index_offset, length } = decode(data)?;
-                        self.ask(&Call {
-                            port,
-                            service: Service::Read,
-                            index_group,
-                            index_offset,
-                            read_length: length,
-                            data: &[],
-                        })
-                    },
-                    Stream::ReadRequest,
-                );
-                let (result, data) = split(&reply);
-                self.append(&ReadReplyRef { result, data }, Stream::ReadReply, answers)
-            }
-            Command::READ_WRITE => {
-                let reply = self.misread(
-                    data,
-                    |data| {
-                        let request: ReadWriteRequestRef<'_> = decode(data)?;
-                        self.ask(&Call {
-                            port,
-                            service: Service::ReadWrite,
-                            index_group: request.index_group,
-                            index_offset: request.index_offset,
-                            read_length: request.read_length,
-                            data: request.data,
-                        })
-                    },
-                    Stream::ReadWriteRequest,
-                );
-                let (result, data) = split(&reply);
-                self.append(&ReadWriteReplyRef { result, data }, Stream::ReadWriteReply, answers)
-            }
-            Command::WRITE => {
-                let reply = self.misread(
-                    data,
-                    |data| {
-                        let request: WriteRequestRef<'_> = decode(data)?;
-                        self.ask(&Call {
-                            port,
-                            service: Service::Write,
-                            index_group: request.index_group,
-                            index_offset: request.index_offset,
-                            read_length: 0,
-                            data: request.data,
-                        })
-                    },
-                    Stream::WriteRequest,
-                );
-                let (result, _) = split(&reply);
-                self.append(&WriteReply { result }, Stream::WriteReply, answers)
-            }
             Command::READ_DEVICE_INFO => {
                 let result = without_data(data);
                 self.append(&DeviceInfoReply { result, ..INFO }, Stream::DeviceInfoReply, answers)
@@ -179,6 +120,33 @@ impl Cnc {
         }
     }
 
+    /// The same for a service: its request is read and its reply sent with the defect, if it is
+    /// about that stream.
+    fn serve_service(
+        &self,
+        service: Service,
+        frame: &FrameRef<'_>,
+        answers: &mut Vec<u8>,
+    ) -> Result<(), Error> {
+        let misread = self.change(request_stream(service), frame.data());
+        let asked = match &misread {
+            Some(data) => FrameRef::new(frame.header(), data),
+            None => Ok(*frame),
+        };
+        let reply = self.ask(asked);
+        // An error has its length, 0, too: not all clients take a reply that stops before it.
+        let (result, data) = match &reply {
+            Ok(data) => (AdsError::NONE, Some(data.as_slice())),
+            Err(result) => (*result, Some(&[][..])),
+        };
+        let stream = reply_stream(service);
+        match service {
+            Service::Read => self.append(&ReadReplyRef { result, data }, stream, answers),
+            Service::Write => self.append(&WriteReply { result }, stream, answers),
+            Service::ReadWrite => self.append(&ReadWriteReplyRef { result, data }, stream, answers),
+        }
+    }
+
     /// What is not offered is refused in the shape that its reply has.
     fn refuse(&self, command: Command, answers: &mut Vec<u8>) -> Result<(), Error> {
         let result = AdsError::SERVICE_NOT_SUPPORTED;
@@ -192,23 +160,15 @@ impl Cnc {
     }
 
     /// Asks the CNC; what no frame has room for is too much to ask.
-    fn ask(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
-        let answer = self.answer(call)?;
+    fn ask(&self, frame: Result<FrameRef<'_>, Error>) -> Result<Vec<u8>, AdsError> {
+        let call = frame.and_then(|frame| Call::of_frame(&frame)).map_err(|error| {
+            // A service's header that does not hold together is a request of the wrong size.
+            tracing::debug!("refused: {error}");
+            AdsError::INVALID_SIZE
+        })?;
+        let answer = self.answer(&call.ok_or(AdsError::SERVICE_NOT_SUPPORTED)?)?;
         let room = to_len(DATA_MAX).saturating_sub(SERVICE_LEN);
         if answer.len() > room { Err(AdsError::INVALID_SIZE) } else { Ok(answer) }
-    }
-
-    /// Hands the request on, with the defect if it is about that stream.
-    fn misread<T>(
-        &self,
-        data: &[u8],
-        then: impl FnOnce(&[u8]) -> Result<T, AdsError>,
-        stream: Stream,
-    ) -> Result<T, AdsError> {
-        match self.change(stream, data) {
-            Some(changed) => then(&changed),
-            None => then(data),
-        }
     }
 
     fn append(
@@ -265,22 +225,6 @@ fn append(reply: &impl Encode, answers: &mut Vec<u8>) -> Result<Range<usize>, Er
     answers.resize(part.end, 0);
     reply.encode(answers.get_mut(part.clone()).unwrap_or_default())?;
     Ok(part)
-}
-
-/// A service's header that does not hold together is a request of the wrong size.
-fn decode<'a, T: Decode<'a>>(data: &'a [u8]) -> Result<T, AdsError> {
-    T::decode(data).map_err(|error| {
-        tracing::debug!("refused: {error}");
-        AdsError::INVALID_SIZE
-    })
-}
-
-/// An error has its length, 0, too: not all clients take a reply that stops before it.
-fn split(reply: &Result<Vec<u8>, AdsError>) -> (AdsError, Option<&[u8]>) {
-    match reply {
-        Ok(data) => (AdsError::NONE, Some(data)),
-        Err(result) => (*result, Some(&[])),
-    }
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-use ads_cnc::ads::AmsAddr;
+use ads_cnc::ads::{AmsAddr, AmsPort};
 
 use super::*;
 
