@@ -13,7 +13,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from checker import sequences, vectors
+from checker import files, sequences, vectors
 
 
 def main():
@@ -22,8 +22,8 @@ def main():
     data = parser.parse_args().data
     listed = {}
     for what, (count, total, failures) in (
-            ("vectors", vectors.check_all(data / "vectors")),
-            ("sequences", sequences.check_all(data / "sequences"))):
+            ("vectors", files.check_all(data / "vectors", "vectors", vectors.check)),
+            ("sequences", files.check_all(data / "sequences", "cases", sequences.check))):
         listed[what] = failures
         for failure in failures:
             print("FAIL %s" % (failure if len(failure) < 600 else failure[:600] + " …"))

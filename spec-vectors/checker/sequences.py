@@ -1,6 +1,4 @@
-"""All files of sequences: each case by itself, and each rejected one beside its sibling."""
-import json
-
+"""One sequence: by itself, and if it is rejected beside its sibling."""
 from . import nc, service, streaming
 from .pieces import EDIT_MAX, Bad, edit, to_bytes
 
@@ -65,7 +63,7 @@ def check_sibling(case, cases):
             raise Bad("sibling %s: %d bytes differ in %s" % (sibling["id"], edit(bytes_of(one), bytes_of(other)), other["id"]))
 
 
-def check_case(case, cases):
+def check(case, cases):
     KINDS[kind_of(case)](case)
     given = case["given"][kind_of(case)]
     if isinstance(given, dict):
@@ -76,29 +74,3 @@ def check_case(case, cases):
         check_sibling(case, cases)
         return "rejected"
     return "accepted"
-
-
-def check_all(folder):
-    """Counts of accepted and rejected cases, and what is wrong."""
-    files = {path: json.loads(path.read_text(encoding="utf-8"))["cases"] for path in sorted(folder.glob("*.json"))}
-    listed = [case for found in files.values() for case in found]
-    cases = {case["id"]: case for case in listed}
-    total, failures = {"accepted": 0, "rejected": 0}, []
-    if not listed:
-        failures.append("no sequences in %s" % folder)
-    if len(cases) != len(listed):
-        failures.append("%d sequences share an id with another" % (len(listed) - len(cases)))
-    for path, found in files.items():
-        counts = {"accepted": 0, "rejected": 0}
-        for case in found:
-            try:
-                counts[check_case(case, cases)] += 1
-            except Bad as why:
-                failures.append("%s: %s" % (case["id"], why))
-            except (KeyError, TypeError, ValueError, AttributeError, IndexError) as why:
-                failures.append("%s: malformed: %s: %s" % (case["id"], type(why).__name__, why))
-        print("%s: %d accepted, %d rejected, %d wrong"
-              % (path.name, counts["accepted"], counts["rejected"], len(found) - sum(counts.values())))
-        for key in total:
-            total[key] += counts[key]
-    return len(listed), total, failures

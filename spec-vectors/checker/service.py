@@ -3,6 +3,7 @@ import math
 import re
 
 from .pieces import Bad, agree, to_bytes
+from .steps import follow
 
 TEXT_MAX = 128
 TEXTS, STATES = ("UUID", "REQUEST", "RESPONSE"), ("REQUEST_STATE", "RESPONSE_STATE")
@@ -189,17 +190,10 @@ def variable(step):
 
 
 def check(case):
-    given, expect = case["given"]["service"], case["expect"]
+    given = case["given"]["service"]
     model = Model(given["services"])
-    for step in given["steps"]:
-        cls = model.step(step)
-        if cls:
-            agree("fault", expect.get("reject"), {"class": cls, "step": step["id"]})
-            if step is not given["steps"][-1]:
-                raise Bad("steps behind the one at fault")
-            return
-    if "reject" in expect:
-        raise Bad("nothing is at fault, but %s" % expect["reject"])
+    if not follow(model, given, case["expect"]):
+        return
     for name, actor in model.actors.items():
         if actor.to_write or actor.serving is not None:
             raise Bad("%s is not finished" % name)

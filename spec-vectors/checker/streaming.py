@@ -4,6 +4,7 @@ import re
 from . import nc
 from .pieces import Bad, agree, to_bytes
 from .scalars import Refuse, from_hex, to_hex
+from .steps import follow
 
 STREAM_MAX = 4094
 LINE_END_ERROR = 21476
@@ -113,16 +114,7 @@ def missing_end(data):
 
 
 def check(case):
-    given, expect = case["given"]["streaming"], case["expect"]
+    given = case["given"]["streaming"]
     model = Model(to_bytes(given["text"]) if "text" in given else None)
-    for step in given["steps"]:
-        cls = model.step(step)
-        if cls:
-            agree("fault", expect.get("reject"), {"class": cls, "step": step["id"]})
-            if step is not given["steps"][-1]:
-                raise Bad("steps behind the one at fault")
-            return
-    if "reject" in expect:
-        raise Bad("nothing is at fault, but %s" % expect["reject"])
-    if model.to_send:
+    if follow(model, given, case["expect"]) and model.to_send:
         raise Bad("%d packets are not sent" % len(model.to_send))

@@ -1,7 +1,4 @@
 """One vector: its segments, its bytes from its value and its value from its bytes, its sibling."""
-import json
-import struct
-
 from . import addresses, ads, com, sda, streaming, variables
 from .pieces import EDIT_MAX, edit
 from .scalars import Bad, Refuse, count_of, from_hex, join, number_bytes, text_bytes, text_field_bytes, to_hex, write_field
@@ -164,31 +161,3 @@ def check(vector, vectors):
         check_reject(vector, read, vectors)
         return "rejected"
     raise Bad("neither accepted nor rejected: %s" % list(vector["expect"]))
-
-
-def check_all(folder):
-    """Counts of accepted and rejected vectors, and what is wrong."""
-    files = {path: json.loads(path.read_text(encoding="utf-8"))["vectors"] for path in sorted(folder.glob("*.json"))}
-    listed = [vector for found in files.values() for vector in found]
-    vectors = {vector["id"]: vector for vector in listed}
-    total, failures = {"accepted": 0, "rejected": 0}, []
-    if not listed:
-        failures.append("no vectors in %s" % folder)
-    if len(vectors) != len(listed):
-        failures.append("%d vectors share an id with another" % (len(listed) - len(vectors)))
-    for path, found in files.items():
-        counts = {"accepted": 0, "rejected": 0}
-        if not found:
-            failures.append("%s: no vectors" % path.name)
-        for vector in found:
-            try:
-                counts[check(vector, vectors)] += 1
-            except Bad as why:
-                failures.append("%s: %s" % (vector["id"], why))
-            except (KeyError, TypeError, ValueError, AttributeError, IndexError, struct.error) as why:
-                failures.append("%s: malformed: %s: %s" % (vector["id"], type(why).__name__, why))
-        print("%s: %d accepted, %d rejected, %d wrong"
-              % (path.name, counts["accepted"], counts["rejected"], len(found) - sum(counts.values())))
-        for key in total:
-            total[key] += counts[key]
-    return len(listed), total, failures

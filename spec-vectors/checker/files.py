@@ -1,0 +1,33 @@
+"""Files of vectors and of sequences: each of them judged, one by one."""
+import json
+import struct
+
+from .pieces import Bad
+
+
+def check_all(folder, key, check):
+    """Counts of what is listed under a key, of what is accepted and rejected, and what is wrong."""
+    files = {path: json.loads(path.read_text(encoding="utf-8"))[key] for path in sorted(folder.glob("*.json"))}
+    listed = [one for found in files.values() for one in found]
+    by_id = {one["id"]: one for one in listed}
+    total, failures = {"accepted": 0, "rejected": 0}, []
+    if not listed:
+        failures.append("no %s in %s" % (key, folder))
+    if len(by_id) != len(listed):
+        failures.append("%d %s share an id with another" % (len(listed) - len(by_id), key))
+    for path, found in files.items():
+        counts = {"accepted": 0, "rejected": 0}
+        if not found:
+            failures.append("%s: no %s" % (path.name, key))
+        for one in found:
+            try:
+                counts[check(one, by_id)] += 1
+            except Bad as why:
+                failures.append("%s: %s" % (one["id"], why))
+            except (KeyError, TypeError, ValueError, AttributeError, IndexError, struct.error) as why:
+                failures.append("%s: malformed: %s: %s" % (one["id"], type(why).__name__, why))
+        print("%s: %d accepted, %d rejected, %d wrong"
+              % (path.name, counts["accepted"], counts["rejected"], len(found) - sum(counts.values())))
+        for outcome in total:
+            total[outcome] += counts[outcome]
+    return len(listed), total, failures
