@@ -13,6 +13,12 @@ impl<'a> Input<'a> {
         self.0.is_empty()
     }
 
+    /// All that is left.
+    #[cfg(feature = "tools")]
+    pub(crate) const fn rest(self) -> &'a [u8] {
+        self.0
+    }
+
     /// The next byte; behind the end 0.
     pub(crate) fn byte(&mut self) -> u8 {
         self.next().unwrap_or(0)

@@ -10,12 +10,12 @@ use super::Input;
 
 /// A call: port, service, group, offset, read length, and data behind their length.
 pub(super) fn call<'a>(input: &mut Input<'a>) -> Call<'a> {
-    let port = AmsPort(input.pick(&[552, 553, 551, 851]));
-    let service = input.pick(&[Service::Read, Service::Write, Service::ReadWrite]);
-    let index_group = IndexGroup::new(input.word());
-    let index_offset = IndexOffset::new(input.word());
-    let read_length = input.small().into();
-    let data = input.bytes();
+    let port = AmsPort(*input.choose(&[552, 553, 551, 851]));
+    let service = *input.choose(&[Service::Read, Service::Write, Service::ReadWrite]);
+    let index_group = IndexGroup::new(input.long());
+    let index_offset = IndexOffset::new(input.long());
+    let read_length = input.word().into();
+    let data = input.piece();
     let data = if service == Service::Read { &[] } else { data };
     Call { port, service, index_group, index_offset, read_length, data }
 }

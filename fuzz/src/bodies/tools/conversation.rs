@@ -41,7 +41,7 @@ impl Conversation {
             sent[1].push(reply(&request, input.byte()));
             sent[0].push(request);
         }
-        let begin = [input.pick(&BEGINS), input.pick(&BEGINS)];
+        let begin = [*input.choose(&BEGINS), *input.choose(&BEGINS)];
         let lengths = [usize::from(input.byte()).max(4), usize::from(input.byte()).max(4)];
         let mut segments = Vec::new();
         for side in 0..2 {

@@ -39,7 +39,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         return hex(input.rest(), defect);
     }
     let streams: Vec<Stream> = Stream::all().collect();
-    let stream = input.pick(&streams);
+    let stream = *input.choose(&streams);
     let values = values(&mut input);
     let place = (what != 0 && what != 3).then(|| place(&mut input));
     let bytes = input.rest();
@@ -161,11 +161,11 @@ fn place(input: &mut Input<'_>) -> Place {
     let services = [None, Some(Service::Read), Some(Service::Write), Some(Service::ReadWrite)];
     let ports = [None, Some(551), Some(552), Some(553), Some(851)];
     Place {
-        port: input.pick(&ports).map(AmsPort),
-        service: input.pick(&services),
+        port: input.choose(&ports).map(AmsPort),
+        service: *input.choose(&services),
         reply: input.byte() & 1 == 1,
-        group: IndexGroup::new(input.word()),
-        offset: IndexOffset::new(input.word()),
+        group: IndexGroup::new(input.long()),
+        offset: IndexOffset::new(input.long()),
     }
 }
 

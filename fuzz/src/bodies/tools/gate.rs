@@ -57,7 +57,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         let kind = input.byte();
         let frame = match kind {
             0 => {
-                let (mut call, reply) = (call(&mut input), input.bytes());
+                let (mut call, reply) = (call(&mut input), input.piece());
                 rule.learn(&call, reply);
                 gate.learn(&call, reply);
                 if defect.is(5) {
@@ -73,7 +73,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
                 }
                 continue;
             }
-            2 => input.bytes().to_vec(),
+            2 => input.piece().to_vec(),
             _ => frame(&mut input, kind),
         };
         let passes = passes(&gate, &frame, now, defect);
@@ -156,7 +156,7 @@ fn entry(input: &mut Input<'_>, kind: u8) -> Option<Entry> {
         rank @ 0x80.. => Channel::by_index(u32::from(rank) & 0x7F).ok(),
         number => Channel::new(number.into()).ok(),
     };
-    let name = |input: &mut Input<'_>| input.pick(&NAMES).parse::<CncString>().ok();
+    let name = |input: &mut Input<'_>| input.choose(&NAMES).parse::<CncString>().ok();
     Some(match kind % 8 {
         0 => Entry::Variable { channel: channel(input)?, axis: None, name: name(input)? },
         1 => {
@@ -164,8 +164,8 @@ fn entry(input: &mut Input<'_>, kind: u8) -> Option<Entry> {
             Entry::Variable { channel: channel(input)?, axis: Some(axis), name: name(input)? }
         }
         2 => Entry::Content {
-            group: IndexGroup::new(input.word()),
-            offset: IndexOffset::new(input.word()),
+            group: IndexGroup::new(input.long()),
+            offset: IndexOffset::new(input.long()),
         },
         3 => Entry::Object { list: List::Platform, name: name(input)? },
         4 => Entry::Object { list: List::Channel(channel(input)?), name: name(input)? },
@@ -180,11 +180,11 @@ fn entry(input: &mut Input<'_>, kind: u8) -> Option<Entry> {
 
 /// A call: port, service, group, offset, read length, and data behind their length.
 fn call<'a>(input: &mut Input<'a>) -> Call<'a> {
-    let port = input.pick(&PORTS);
-    let service = input.pick(&[Service::Read, Service::Write, Service::ReadWrite]);
-    let (group, offset) = (input.word(), input.word());
-    let read_length = input.small().into();
-    let data = input.bytes();
+    let port = *input.choose(&PORTS);
+    let service = *input.choose(&[Service::Read, Service::Write, Service::ReadWrite]);
+    let (group, offset) = (input.long(), input.long());
+    let read_length = input.word().into();
+    let data = input.piece();
     Call {
         port: AmsPort(port),
         service,

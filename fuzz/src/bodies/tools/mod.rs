@@ -5,10 +5,9 @@ pub(crate) mod capture;
 pub(crate) mod conversation;
 pub(crate) mod explain;
 pub(crate) mod gate;
-mod input;
 pub(crate) mod model;
 pub(crate) mod session;
 pub(crate) mod testee;
 pub(crate) mod toml;
 
-pub(crate) use input::Input;
+use super::input::Input;

@@ -64,21 +64,21 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         match input.byte() {
             0 => {
                 let call = CALLS[usize::from(input.byte()) % CALLS.len()].call;
-                session.piece.extend(frame(&call, input.word()));
+                session.piece.extend(frame(&call, input.long()));
             }
             1 => {
                 let call = call(&mut input);
-                session.piece.extend(frame(&call, input.word()));
+                session.piece.extend(frame(&call, input.long()));
             }
-            2 => session.piece.extend(input.bytes()),
+            2 => session.piece.extend(input.piece()),
             3 => {
-                let (place, bits) = (usize::from(input.small()), input.byte());
+                let (place, bits) = (usize::from(input.word()), input.byte());
                 if let Some(byte) = session.piece.get_mut(place) {
                     *byte ^= bits;
                 }
             }
             4 => session.send(),
-            5 => session.cnc.pass(Duration::from_millis(input.small().into())),
+            5 => session.cnc.pass(Duration::from_millis(input.word().into())),
             _ => {
                 session.send();
                 let call = call(&mut input);
