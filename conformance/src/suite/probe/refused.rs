@@ -1,0 +1,106 @@
+//! What a target must not answer, beside what it must.
+
+use ads_cnc::operation::{Call, Request};
+use ads_cnc_vectors::Level;
+
+use super::super::case::{Rule, Step, Stop};
+use super::{Probe, harness};
+use crate::verdict::Verdict;
+
+impl Probe<'_> {
+    /// Sends a call that must be refused; `sibling` differs by the fault only and must not be.
+    ///
+    /// A success that gives no byte of data is taken for a refusal: it gives nothing of what is
+    /// not there.
+    pub fn refused(
+        &mut self,
+        rule: impl Into<Rule>,
+        what: &str,
+        call: &Call<'_>,
+        sibling: &Call<'_>,
+    ) -> Step {
+        let rule = rule.into();
+        let accepted = self.call(sibling)?;
+        let is_vacuous = accepted.answer().is_none_or(|answer| answer.success().is_none());
+        let (sibling, shown) = (accepted.result(), self.last.clone());
+        let exchange = self.call(call)?;
+        let expected = format!("an error number for {what}");
+        let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
+        match given {
+            Some([]) if is_vacuous => {
+                // What is assumed of the sibling may well be done otherwise.
+                let verdict = match rule.level {
+                    Some(Level::Must) => Verdict::Vacuous,
+                    Some(level) => Verdict::missed(level),
+                    None => Verdict::HarnessError,
+                };
+                self.last = shown;
+                let found = format!("what differs by that alone is refused too: {sibling}");
+                self.record(rule, verdict, format!("{expected} only"), found);
+            }
+            Some(data) => {
+                if exchange.answer().is_some_and(|answer| answer.success().is_none()) {
+                    let refusals = &mut self.session.refusals;
+                    refusals.by_number = refusals.by_number.saturating_add(1);
+                } else if data.is_empty() && rule.level == Some(Level::Must) {
+                    self.session.refusals.by_nothing.extend(self.last.clone());
+                }
+                self.check(rule, data.is_empty(), expected, exchange.result());
+            }
+            None => {
+                // Silence is no way to refuse, however little is documented of the request.
+                let rule = Rule { id: rule.id, level: Some(Level::Must) };
+                self.check(rule, false, expected, exchange.result());
+                if self.session.silences > 1 {
+                    return Err(Stop::Judged);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// As [`refused`](Self::refused), for two operations.
+    pub fn refuses<'a, 'b>(
+        &mut self,
+        rule: impl Into<Rule>,
+        what: &str,
+        request: impl Into<Request<'a>>,
+        sibling: impl Into<Request<'b>>,
+    ) -> Step {
+        let (request, sibling) = (request.into(), sibling.into());
+        let mut buf = vec![0; request.encoded_len()];
+        let mut sibling_buf = vec![0; sibling.encoded_len()];
+        let call = request.encode(&mut buf).map_err(harness)?;
+        let sibling = sibling.encode(&mut sibling_buf).map_err(harness)?;
+        self.refused(rule, what, &call, &sibling)
+    }
+
+    /// Sends a request for what cannot be there, as there is nothing at all: what is there for a
+    /// sibling to differ from nobody knows.
+    pub fn refuses_alone<'a>(
+        &mut self,
+        rule: impl Into<Rule>,
+        what: &str,
+        request: impl Into<Request<'a>>,
+    ) -> Step {
+        let exchange = self.send(request)?;
+        let data = exchange.answer().map(|answer| answer.success().unwrap_or_default());
+        let refused = data.is_some_and(<[u8]>::is_empty);
+        self.check(rule, refused, format!("an error number for {what}"), exchange.result());
+        Ok(())
+    }
+
+    /// Numbers from the first that is too many on; of those far beyond only what cannot move is
+    /// asked. Some have the lower bytes of a number that is not: who reads fewer finds it.
+    pub fn beyond(&self, first: u32) -> Vec<u32> {
+        if !self.session.client.gate().lets_malformed_pass() {
+            return vec![first];
+        }
+        let last = first.saturating_sub(1);
+        let wide = [0x100, 0x1_0000, 0x100_0000, 0x8000_0000].map(|bit| last | bit);
+        let mut all = vec![first, first.saturating_add(1)];
+        all.extend(wide.into_iter().filter(|number| *number > first));
+        all.push(u32::MAX);
+        all
+    }
+}
