@@ -5,8 +5,9 @@ use ads_cnc::operation::{ReadByHandle, ReadByName};
 
 use super::case::{Case, Step, assumed};
 use super::declare;
+use super::layout::{brackets, element_name};
 use super::probe::Probe;
-use super::values::{brackets, each, each_array, element_name};
+use super::values::{each, each_array};
 
 pub(super) fn cases() -> Vec<Case> {
     vec![

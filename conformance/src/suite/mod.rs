@@ -21,6 +21,7 @@ mod handles;
 mod held;
 mod inventory;
 mod known;
+mod layout;
 mod malformed;
 mod names;
 mod numbers;

@@ -1,34 +1,19 @@
 //! Cases of values: by handle and by name, whole and by element.
 
 use ads_cnc::address::Channel;
-use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{ReadByHandle, ReadByName, Request};
-use ads_cnc::{CncString, Description, Numbers, VariableType};
-use ads_cnc_vectors::{Hex, Level};
+use ads_cnc::{Description, Numbers, VariableType};
+use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Evidence, Rule, Step, Stop, assumed};
+use super::case::{Case, Evidence, Rule, Step, Stop};
 use super::declare;
+use super::layout::{
+    brackets, element_count, element_name, element_size, order, part, places_tried,
+};
 use super::place::same;
 use super::probe::Probe;
 use super::variable::name_of;
 use crate::explain::{Values, type_by_name};
-
-/// The most elements at the start of an array that are read one by one.
-const ELEMENTS_MAX: usize = 64;
-
-/// Those, what an index of one byte cannot tell from them, and the last.
-fn tried(number: usize, count: usize) -> bool {
-    number < ELEMENTS_MAX || (255..=257).contains(&number) || number.saturating_add(2) >= count
-}
-
-/// The places of an array that are tried, and which element of the whole each is.
-fn places_tried(dimensions: &[u32]) -> impl Iterator<Item = (usize, Vec<u32>)> + use<'_> {
-    let count = dimensions.iter().fold(1_u32, |all, &n| all.saturating_mul(n));
-    let count = usize::try_from(count).unwrap_or(usize::MAX);
-    // A value has 2048 elements at most.
-    let all = places(dimensions).take(2048).enumerate();
-    all.filter(move |(number, _)| tried(*number, count))
-}
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -159,13 +144,6 @@ pub(super) fn each(
     Ok(())
 }
 
-/// Bytes of one element; a text of an array has its share of the whole.
-fn element_size(variable: &Description) -> Option<usize> {
-    let elements = variable.dimensions.iter().fold(1, |all: u32, &n| all.saturating_mul(n));
-    let share = variable.size.checked_div(elements).filter(|size| *size > 0);
-    usize::try_from(variable.var_type.element_size().or(share)?).ok()
-}
-
 /// Every array.
 pub(super) fn each_array(
     probe: &mut Probe<'_>,
@@ -227,38 +205,6 @@ fn whole_by_name(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// Places in an array, in row-major order: the last index runs fastest.
-fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
-    let mut next = Some(vec![0; dimensions.len()]);
-    std::iter::from_fn(move || {
-        let place = next.take()?;
-        let mut following = place.clone();
-        let axes = following.iter_mut().zip(dimensions).rev();
-        for (index, &dimension) in axes {
-            let index: &mut u32 = index;
-            *index = index.saturating_add(1);
-            if *index < dimension {
-                next = Some(following);
-                break;
-            }
-            *index = 0;
-        }
-        Some(place)
-    })
-}
-
-/// The order in more dimensions is assumed, and how texts lie in an array; that of one dimension
-/// of numbers is printed.
-fn order(variable: &Description) -> Rule {
-    let texts = variable.var_type == VariableType::STRING;
-    if variable.dimensions.len() > 1 || texts { assumed("VAR-21") } else { "VAR-14".into() }
-}
-
-/// The bytes of one element in those of the whole array.
-fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
-    move |whole| whole.chunks(size).nth(number).unwrap_or_default().to_vec()
-}
-
 fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::new();
     each_array(probe, |probe, channel, variable, size| {
@@ -306,14 +252,6 @@ fn text_by_name(
     Ok(())
 }
 
-/// A variable's name with indices behind it; none if that is too long to be asked for.
-pub(super) fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>> {
-    let mut name = variable.name.text.to_string();
-    place.iter().for_each(|index| name.push_str(&format!("[{index}]")));
-    let name: CncString = name.parse().map_err(super::probe::harness)?;
-    Ok(Some(name).filter(|name| name.as_bytes().len() < TEXT_MAX))
-}
-
 fn elements_by_name(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::new();
     each_array(probe, |probe, channel, variable, size| {
@@ -335,21 +273,12 @@ fn elements_by_name(probe: &mut Probe<'_>) -> Step {
     steady.finish()
 }
 
-/// More than one pair of brackets is assumed, and how texts lie in an array.
-pub(super) fn brackets(variable: &Description) -> Rule {
-    match order(variable).level {
-        Some(Level::Info) => assumed("VAR-20"),
-        _ => "VAR-20".into(),
-    }
-}
-
 fn string_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     each(probe, |probe, _, variable| {
         if variable.var_type == VariableType::STRING {
             any = true;
-            let texts =
-                variable.dimensions.iter().fold(1, |texts: u32, &n| texts.saturating_mul(n));
+            let texts = element_count(&variable.dimensions);
             let one = variable.size.checked_div(texts).unwrap_or(0);
             let found = format!("{one} bytes for each text of {}", variable.name.text);
             probe.check("VAR-25", (1..=800).contains(&one), "1 to 800 bytes", found);

@@ -8,6 +8,7 @@ use ads_cnc_vectors::Hex;
 use super::axis_interface::place_of;
 use super::case::{Case, Evidence, Rule, Step, Stop};
 use super::declare;
+use super::layout::element_count;
 use super::place::{Place, is_sendable};
 use super::probe::Probe;
 use super::write::is_of_service;
@@ -113,7 +114,7 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
         }
         VariableType::STRING => {
             let letter = b'a'.saturating_add(u8::try_from(salt % 26).unwrap_or_default());
-            let texts = variable.dimensions.iter().fold(1_u32, |all, &n| all.saturating_mul(n));
+            let texts = element_count(&variable.dimensions);
             let size = usize::try_from(texts).ok().and_then(|texts| value.len().checked_div(texts));
             let size = size.unwrap_or_default().max(1);
             let ended = |(place, _): (usize, &u8)| match place.checked_rem(size) {

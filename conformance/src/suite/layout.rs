@@ -1,0 +1,86 @@
+//! How the elements of an array lie in the bytes of the whole.
+
+use ads_cnc::limits::TEXT_MAX;
+use ads_cnc::{CncString, Description, VariableType};
+use ads_cnc_vectors::Level;
+
+use super::case::{Rule, Step, assumed};
+use super::probe::harness;
+
+/// How many elements an array has; of what is none, one.
+pub(super) fn element_count(dimensions: &[u32]) -> u32 {
+    dimensions.iter().fold(1, |all, &n| all.saturating_mul(n))
+}
+
+/// Bytes of one element; a text of an array has its share of the whole.
+pub(super) fn element_size(variable: &Description) -> Option<usize> {
+    let share =
+        variable.size.checked_div(element_count(&variable.dimensions)).filter(|size| *size > 0);
+    usize::try_from(variable.var_type.element_size().or(share)?).ok()
+}
+
+/// The most elements at the start of an array that are read one by one.
+const ELEMENTS_MAX: usize = 64;
+
+/// Those, what an index of one byte cannot tell from them, and the last.
+fn tried(number: usize, count: usize) -> bool {
+    number < ELEMENTS_MAX || (255..=257).contains(&number) || number.saturating_add(2) >= count
+}
+
+/// The places of an array that are tried, and which element of the whole each is.
+pub(super) fn places_tried(
+    dimensions: &[u32],
+) -> impl Iterator<Item = (usize, Vec<u32>)> + use<'_> {
+    let count = usize::try_from(element_count(dimensions)).unwrap_or(usize::MAX);
+    // A value has 2048 elements at most.
+    let all = places(dimensions).take(2048).enumerate();
+    all.filter(move |(number, _)| tried(*number, count))
+}
+
+/// Places in an array, in row-major order: the last index runs fastest.
+fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
+    let mut next = Some(vec![0; dimensions.len()]);
+    std::iter::from_fn(move || {
+        let place = next.take()?;
+        let mut following = place.clone();
+        let axes = following.iter_mut().zip(dimensions).rev();
+        for (index, &dimension) in axes {
+            let index: &mut u32 = index;
+            *index = index.saturating_add(1);
+            if *index < dimension {
+                next = Some(following);
+                break;
+            }
+            *index = 0;
+        }
+        Some(place)
+    })
+}
+
+/// The order in more dimensions is assumed, and how texts lie in an array; that of one dimension
+/// of numbers is printed.
+pub(super) fn order(variable: &Description) -> Rule {
+    let texts = variable.var_type == VariableType::STRING;
+    if variable.dimensions.len() > 1 || texts { assumed("VAR-21") } else { "VAR-14".into() }
+}
+
+/// The bytes of one element in those of the whole array.
+pub(super) fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
+    move |whole| whole.chunks(size).nth(number).unwrap_or_default().to_vec()
+}
+
+/// More than one pair of brackets is assumed, and how texts lie in an array.
+pub(super) fn brackets(variable: &Description) -> Rule {
+    match order(variable).level {
+        Some(Level::Info) => assumed("VAR-20"),
+        _ => "VAR-20".into(),
+    }
+}
+
+/// A variable's name with indices behind it; none if that is too long to be asked for.
+pub(super) fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>> {
+    let mut name = variable.name.text.to_string();
+    place.iter().for_each(|index| name.push_str(&format!("[{index}]")));
+    let name: CncString = name.parse().map_err(harness)?;
+    Ok(Some(name).filter(|name| name.as_bytes().len() < TEXT_MAX))
+}
