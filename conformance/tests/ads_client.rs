@@ -7,8 +7,9 @@ use std::io::Read as _;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use ads::{AmsAddr, AmsNetId, Client, Device, Error, Source, Timeouts};
+use ads::{AmsAddr, AmsNetId, Client, Device, Source, Timeouts};
 use common::Serve;
+use common::task::{ask, ask_for, number, read};
 
 const GEO: u16 = 551;
 const SDA: u16 = 552;
@@ -39,39 +40,6 @@ fn with_cnc(options: &[&str], body: impl FnOnce(&Client, AmsNetId)) {
 
 fn port(client: &Client, net_id: AmsNetId, port: u16) -> Device<'_> {
     client.device(AmsAddr::new(net_id, port))
-}
-
-/// ReadWrite with room for the longest reply.
-fn ask(device: Device<'_>, group: u32, offset: u32, data: &[u8]) -> Result<Vec<u8>, u32> {
-    ask_for(device, group, offset, data, 2048)
-}
-
-fn ask_for(
-    device: Device<'_>,
-    group: u32,
-    offset: u32,
-    data: &[u8],
-    length: usize,
-) -> Result<Vec<u8>, u32> {
-    let mut reply = vec![0xEE; length];
-    let length = number(device.write_read(group, offset, data, &mut reply))?;
-    reply.truncate(length);
-    Ok(reply)
-}
-
-fn read(device: Device<'_>, group: u32, offset: u32, length: usize) -> Result<Vec<u8>, u32> {
-    let mut reply = vec![0xEE; length];
-    let length = number(device.read(group, offset, &mut reply))?;
-    reply.truncate(length);
-    Ok(reply)
-}
-
-/// The ADS error number; anything else that goes wrong fails the test.
-fn number<T>(result: ads::Result<T>) -> Result<T, u32> {
-    result.map_err(|error| match error {
-        Error::Ads(_, _, number) => number,
-        other => panic!("{other}"),
-    })
 }
 
 #[test]

@@ -11,7 +11,7 @@ use std::{env, thread};
 
 use ads::{AmsAddr, Client, Device, Source, Timeouts};
 use common::Serve;
-use common::fake::TestFile;
+use common::file::TestFile;
 
 /// How long an example may take, once it is built.
 const TIME: Duration = Duration::from_secs(60);

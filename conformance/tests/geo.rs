@@ -1,17 +1,17 @@
 //! Which of the tasks SDA and GEO has a class no manual says: what one of them does not have, the
 //! tools find at the other.
 
-use std::io::{self, Read as _, Write as _};
-use std::net::{SocketAddr, TcpStream};
+mod common;
+
+use std::net::SocketAddr;
 use std::process::{Command, Output};
-use std::thread;
 
 use ads_cnc::Encode as _;
 use ads_cnc::address::{Class, Group};
 use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, FrameRef, ReadWriteReplyRef};
 use ads_cnc::operation::Call;
 use ads_cnc_conformance::cnc::{Cnc, NET_ID};
-use ads_cnc_conformance::net;
+use common::fake::{Reaction, reacting};
 
 /// Who has the position controller.
 #[derive(Clone, Copy, Debug)]
@@ -23,48 +23,29 @@ enum Only {
 }
 
 fn cnc(only: Only) -> SocketAddr {
-    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
-    let addr = listener.local_addr().unwrap();
-    thread::spawn(move || {
-        let cnc = Cnc::with_default_model().unwrap();
-        for stream in listener.incoming() {
-            // The tool may be gone at any time.
-            let _gone = serve(&stream.unwrap(), &cnc, only);
-        }
-    });
-    addr
-}
-
-fn serve(mut stream: &TcpStream, cnc: &Cnc, only: Only) -> io::Result<()> {
-    let (mut received, mut chunk) = (Vec::new(), [0; 4096]);
-    loop {
-        match stream.read(&mut chunk)? {
-            0 => return Ok(()),
-            len => received.extend_from_slice(&chunk[..len]),
-        }
-        while let Some((frame, len)) = FrameRef::split(&received, 0x1_0000).unwrap() {
-            let call = Call::of_frame(&frame).unwrap().unwrap();
-            let of_class = match call.index_group.parts() {
-                Some(Group::Class(group)) => group.class == Class::PositionController,
-                _ => false,
-            };
-            let mut answer = Vec::new();
-            match (only, call.port) {
-                (Only::Nobody, AmsPort::GEO) => {
-                    let error = AdsError::TARGET_PORT_NOT_FOUND;
-                    answer = to(frame.header(), error, &[]);
-                }
-                (_, AmsPort::SDA) if of_class => {
-                    let result = AdsError::INVALID_GROUP;
-                    let reply = ReadWriteReplyRef { result, data: None }.to_vec().unwrap();
-                    answer = to(frame.header(), AdsError::NONE, &reply);
-                }
-                _ => cnc.respond(NET_ID, &frame, &mut answer),
+    let cnc = Cnc::with_default_model().unwrap();
+    reacting(move |frame| {
+        let call = Call::of_frame(frame).unwrap().unwrap();
+        let of_class = match call.index_group.parts() {
+            Some(Group::Class(group)) => group.class == Class::PositionController,
+            _ => false,
+        };
+        Reaction::Send(match (only, call.port) {
+            (Only::Nobody, AmsPort::GEO) => {
+                to(frame.header(), AdsError::TARGET_PORT_NOT_FOUND, &[])
             }
-            stream.write_all(&answer)?;
-            received.drain(..len);
-        }
-    }
+            (_, AmsPort::SDA) if of_class => {
+                let result = AdsError::INVALID_GROUP;
+                let reply = ReadWriteReplyRef { result, data: None }.to_vec().unwrap();
+                to(frame.header(), AdsError::NONE, &reply)
+            }
+            _ => {
+                let mut answer = Vec::new();
+                cnc.respond(NET_ID, frame, &mut answer);
+                answer
+            }
+        })
+    })
 }
 
 /// The answer to a request.

@@ -7,27 +7,15 @@ use std::path::PathBuf;
 use std::process::{Command, Output};
 
 use common::Serve;
+use common::file::TestFile;
 
-/// A file that is gone with the test.
-struct File(PathBuf);
-
-impl File {
-    fn new(name: &str, text: &str) -> Self {
-        let name = format!("ads-cnc-profile-{name}-{}.toml", std::process::id());
-        let file = Self(std::env::temp_dir().join(name));
-        fs::write(&file.0, text).unwrap();
-        file
-    }
-}
-
-impl Drop for File {
-    fn drop(&mut self) {
-        let _gone = fs::remove_file(&self.0);
-    }
+/// A profile with this in it.
+fn claiming(text: &str) -> TestFile {
+    TestFile::new(".toml", text.as_bytes())
 }
 
 /// The suite against a simulated CNC as a device, and its report.
-fn run(serve: &[&str], profile: &File) -> (Output, serde_json::Value) {
+fn run(serve: &[&str], profile: &TestFile) -> (Output, serde_json::Value) {
     let serve = Serve::start(serve);
     let json = profile.0.with_extension("json");
     let output = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
@@ -49,8 +37,7 @@ fn verdict<'r>(report: &'r serde_json::Value, case: &str) -> &'r str {
 
 #[test]
 fn what_is_not_claimed_is_not_applicable() {
-    let profile =
-        File::new("variables", "name = \"panel\"\nsections = [\"variables\"]\nports = [552]\n");
+    let profile = claiming("name = \"panel\"\nsections = [\"variables\"]\nports = [552]\n");
     let (output, report) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     for case in ["com-count", "com-content", "sda-elements", "dyn-names", "service-variables"] {
@@ -65,7 +52,7 @@ fn what_is_not_claimed_is_not_applicable() {
 #[test]
 fn what_is_claimed_must_work() {
     // One channel, one spindle and one axis more than there are.
-    let profile = File::new("more", "channels = [1, 2, 6, 7]\nspindles = 3\nplatform-axes = 6\n");
+    let profile = claiming("channels = [1, 2, 6, 7]\nspindles = 3\nplatform-axes = 6\n");
     let (output, report) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     for case in ["adr-com-object-access", "adr-decoder-group", "sda-configured-instances"] {
@@ -77,7 +64,7 @@ fn what_is_claimed_must_work() {
 fn a_function_claimed_by_name_must_work() {
     let text = "functions = [\"variable description by name\", \"number of variable elements\", \
                 \"variable description by index\"]\n";
-    let profile = File::new("function", text);
+    let profile = claiming(text);
     let (output, report) = run(&["--cnc-version", "V4.20.0"], &profile);
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     assert_eq!(verdict(&report, "var-described-by-name"), "fail");
@@ -85,14 +72,14 @@ fn a_function_claimed_by_name_must_work() {
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     assert_eq!(verdict(&report, "var-described-by-name"), "pass");
     // Claimed or not, what comes with a version is judged if it is there.
-    let profile = File::new("open", "");
+    let profile = claiming("");
     let (_, report) = run(&["--cnc-version", "V4.20.0"], &profile);
     assert_eq!(verdict(&report, "var-described-by-name"), "not-applicable");
 }
 
 #[test]
 fn a_bad_profile_is_wrong_usage() {
-    let profile = File::new("bad", "name = \"x\"\nports = [851]\n");
+    let profile = claiming("name = \"x\"\nports = [851]\n");
     let (output, _) = run(&[], &profile);
     assert_eq!(output.status.code(), Some(2));
     let why = String::from_utf8(output.stderr).unwrap();

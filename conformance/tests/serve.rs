@@ -57,7 +57,7 @@ fn an_interrupt_ends_it_cleanly() {
 #[cfg(unix)]
 #[test]
 fn what_was_run_is_written_in_the_end() {
-    use common::fake::TestFile;
+    use common::file::TestFile;
 
     let ran = TestFile::new(".nc", b"");
     let program = TestFile::new(".nc", b"N10 X1\nN20 X2\nN30 $FOR P1=0,10,1\nN40 X4\n");

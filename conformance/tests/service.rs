@@ -15,7 +15,7 @@ use ads_cnc::service::{Call, CallStep, Interface, ServiceId, SysServiceWait};
 use ads_cnc_conformance::cnc::program::{Script, ScriptConfig};
 use ads_cnc_conformance::cnc::{Cnc, Server};
 use ads_cnc_conformance::net;
-use common::fake::TestFile;
+use common::file::TestFile;
 
 const ID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
 const OTHER: &str = "19719079-BA06-4740-BC02-DE5215211751";

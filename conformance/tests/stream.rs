@@ -14,7 +14,8 @@ use ads_cnc::streaming::{Ack, Interface};
 use ads_cnc_conformance::cnc::program::{Pace, ProgramConfig};
 use ads_cnc_conformance::cnc::{Cnc, Server};
 use ads_cnc_conformance::net;
-use common::fake::{Answer, TestFile, fake};
+use common::fake::{Answer, fake};
+use common::file::TestFile;
 
 const STREAM_1: &str = "[[stream]]\nchannel = 1\n";
 

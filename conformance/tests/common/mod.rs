@@ -3,7 +3,9 @@
 #![allow(dead_code, reason = "not every test needs all of it")]
 
 pub(crate) mod fake;
+pub(crate) mod file;
 pub(crate) mod harmless;
+pub(crate) mod task;
 
 use std::io::{BufRead as _, BufReader};
 use std::net::TcpStream;

@@ -1,10 +1,10 @@
 //! Models in files: the default one comes back as it went out, bad ones are refused.
 
-use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use ads_cnc_conformance::cnc::{DEFAULT_MODEL, Model};
 
+use super::common::file::TestFile;
 use super::{CHANNEL_1, Cnc};
 
 fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
@@ -21,33 +21,10 @@ fn ads_cnc(options: &[&str]) -> (Option<i32>, String, String) {
 /// Where a file is no text is said as everything else is.
 #[test]
 fn a_file_in_another_encoding_has_a_line() {
-    let file = File::with("cp1252", "");
-    std::fs::write(&file.0, b"# a comment\nname = \"L\xE4nge\"\n").unwrap();
+    let file = TestFile::new(".toml", b"# a comment\nname = \"L\xE4nge\"\n");
     let (code, _, why) = ads_cnc(&["--model", file.path()]);
     assert_eq!(code, Some(2), "{why}");
     assert!(why.ends_with(".toml:2: text in UTF-8 is needed, and byte 0xE4 is none\n"), "{why}");
-}
-
-/// A file that is gone with the test.
-pub(crate) struct File(PathBuf);
-
-impl File {
-    pub(crate) fn with(name: &str, text: &str) -> Self {
-        let name = format!("ads-cnc-{}-{name}.toml", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        std::fs::write(&path, text).unwrap();
-        Self(path)
-    }
-
-    pub(crate) fn path(&self) -> &str {
-        self.0.to_str().unwrap()
-    }
-}
-
-impl Drop for File {
-    fn drop(&mut self) {
-        let _gone = std::fs::remove_file(&self.0);
-    }
 }
 
 #[test]
@@ -63,7 +40,7 @@ fn what_is_printed_is_the_same_model() {
     let bare: Vec<&str> = bare.collect();
     assert_eq!(Model::from_toml(&bare.join("\n"), "bare"), Ok(model));
     // Served, it answers.
-    let file = File::with("printed", &printed);
+    let file = TestFile::new(".toml", printed.as_bytes());
     let cnc = Cnc::start(&["--model", file.path()]);
     assert_eq!(cnc.sda().ask(CHANNEL_1, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
 }
@@ -71,7 +48,7 @@ fn what_is_printed_is_the_same_model() {
 /// What is not said is 0, empty or not there.
 #[test]
 fn a_smallest_model() {
-    let file = File::with("smallest", "[[channel]]\nnumber = 3\n");
+    let file = TestFile::new(".toml", b"[[channel]]\nnumber = 3\n");
     let cnc = Cnc::start(&["--model", file.path()]);
     assert_eq!(cnc.sda().ask(0x12_2303, 0x44, b"V.E\0"), Ok(vec![0; 4]));
     assert_eq!(cnc.sda().ask(0x02_2301, 0x44, b"V.G\0"), Ok(vec![5, 0, 0, 0]));
@@ -83,7 +60,7 @@ fn a_smallest_model() {
 #[test]
 fn bad_models_are_usage_errors() {
     let file =
-        File::with("bad", "[[channel]]\nnumber = 1\nvariables = [\n  { name = \"x\" },\n]\n");
+        TestFile::new(".toml", b"[[channel]]\nnumber = 1\nvariables = [\n  { name = \"x\" },\n]\n");
     let (code, out, errors) = ads_cnc(&["--model", file.path()]);
     assert_eq!((code, out.as_str()), (Some(2), ""));
     let place = format!("{}:4: ", file.path());

@@ -17,8 +17,8 @@ mod variables;
 
 use std::time::Duration;
 
-use ads::{AmsAddr, AmsNetId, Client, Error, Source, Timeouts};
-use common::Serve;
+use ads::{AmsAddr, AmsNetId, Client, Source, Timeouts};
+use common::{Serve, task};
 
 /// Variables of channel 1.
 const CHANNEL_1: u32 = 0x12_2301;
@@ -61,29 +61,14 @@ struct Task<'a>(ads::Device<'a>);
 
 impl Task<'_> {
     fn read(self, group: u32, offset: u32, length: usize) -> Result<Vec<u8>, u32> {
-        let mut reply = vec![0xEE; length];
-        let length = number(self.0.read(group, offset, &mut reply))?;
-        reply.truncate(length);
-        Ok(reply)
+        task::read(self.0, group, offset, length)
     }
 
     fn write(self, group: u32, offset: u32, data: &[u8]) -> Result<(), u32> {
-        number(self.0.write(group, offset, data))
+        task::number(self.0.write(group, offset, data))
     }
 
-    /// ReadWrite with room for the longest reply.
     fn ask(self, group: u32, offset: u32, data: &[u8]) -> Result<Vec<u8>, u32> {
-        let mut reply = vec![0xEE; 2048];
-        let length = number(self.0.write_read(group, offset, data, &mut reply))?;
-        reply.truncate(length);
-        Ok(reply)
+        task::ask(self.0, group, offset, data)
     }
-}
-
-/// The ADS error number; anything else that goes wrong fails the test.
-fn number<T>(result: ads::Result<T>) -> Result<T, u32> {
-    result.map_err(|error| match error {
-        Error::Ads(_, _, number) => number,
-        other => panic!("{other}"),
-    })
 }

@@ -4,7 +4,7 @@ use ads_cnc::streaming::ProgramEnd;
 use ads_cnc_conformance::cnc::program::{Outcome, ScriptState, State};
 use ads_cnc_conformance::cnc::{DEFAULT_MODEL, Model};
 
-use super::files::File;
+use super::common::file::TestFile;
 use super::timed::Timed;
 use super::{CHANNEL_1, Cnc};
 
@@ -203,7 +203,7 @@ fn options_override_the_model() {
     let streaming = "[channel.streaming]\npace = \"hold\"\nstart = \"once\"";
     let model = SERVICE.replace("560AACBF", "00000000");
     let model = model.replace("number = 1\n", &format!("number = 1\n{objects}\n{streaming}\n"));
-    let file = File::with("overridden", &model);
+    let file = TestFile::new(".toml", model.as_bytes());
     for (options, taken, uuid) in [
         (&[][..], 4, b"00000000"),
         (&["--pace", "fast"], 6, b"00000000"),

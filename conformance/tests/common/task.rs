@@ -1,0 +1,46 @@
+//! A task of a CNC as the crate `ads` asks it; what it refuses is an error number.
+
+use ads::{Device, Error};
+
+/// ReadWrite with room for the longest reply.
+pub(crate) fn ask(
+    device: Device<'_>,
+    group: u32,
+    offset: u32,
+    data: &[u8],
+) -> Result<Vec<u8>, u32> {
+    ask_for(device, group, offset, data, 2048)
+}
+
+pub(crate) fn ask_for(
+    device: Device<'_>,
+    group: u32,
+    offset: u32,
+    data: &[u8],
+    length: usize,
+) -> Result<Vec<u8>, u32> {
+    let mut reply = vec![0xEE; length];
+    let length = number(device.write_read(group, offset, data, &mut reply))?;
+    reply.truncate(length);
+    Ok(reply)
+}
+
+pub(crate) fn read(
+    device: Device<'_>,
+    group: u32,
+    offset: u32,
+    length: usize,
+) -> Result<Vec<u8>, u32> {
+    let mut reply = vec![0xEE; length];
+    let length = number(device.read(group, offset, &mut reply))?;
+    reply.truncate(length);
+    Ok(reply)
+}
+
+/// The ADS error number; anything else that goes wrong fails the test.
+pub(crate) fn number<T>(result: ads::Result<T>) -> Result<T, u32> {
+    result.map_err(|error| match error {
+        Error::Ads(_, _, number) => number,
+        other => panic!("{other}"),
+    })
+}
