@@ -5,6 +5,7 @@ mod spoken;
 use std::process::{Child, Command};
 use std::time::Duration;
 
+pub(crate) use spoken::front;
 pub use spoken::{LINE_MAX, Spoken, Stderr, Unheard, cut, read_line, text};
 
 /// How long a command has at least for its first word: some languages take longer for starting than

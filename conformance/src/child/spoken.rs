@@ -243,8 +243,14 @@ fn wait(child: &mut Child, limit: Duration, mut meanwhile: impl FnMut()) -> Opti
     }
 }
 
-/// The front of a line, for a message.
+/// The front of a line in quotes, for a message.
 pub fn cut(line: &str) -> String {
     let shown: String = line.chars().take(120).collect();
     if shown.len() < line.len() { format!("{shown:?}…") } else { format!("{shown:?}") }
+}
+
+/// A text, or so many characters of it and a sign that there are more.
+pub(crate) fn front(text: &str, most: usize) -> String {
+    let shown: String = text.chars().take(most).collect();
+    if shown.len() < text.len() { shown + "…" } else { shown }
 }

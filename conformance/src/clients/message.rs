@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::Action;
+use crate::child::front;
 
 /// Version of the protocol.
 pub const PROTOCOL: u32 = 1;
@@ -81,6 +82,9 @@ pub(super) fn environment(
     ]
 }
 
+/// As much of an answer as a person reads.
+const SHOWN: usize = 200;
+
 /// What comes of an action.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -112,19 +116,16 @@ impl std::fmt::Display for Reaction {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Answer(Answer::Result(value)) => {
-                write!(f, "the result {}", cut(&value.to_string()))
+                write!(f, "the result {}", front(&value.to_string(), SHOWN))
             }
-            Self::Answer(Answer::Error(why)) => write!(f, "the error {:?}", cut(why)),
-            Self::Answer(Answer::Unsupported(what)) => write!(f, "unsupported: {}", cut(what)),
+            Self::Answer(Answer::Error(why)) => write!(f, "the error {:?}", front(why, SHOWN)),
+            Self::Answer(Answer::Unsupported(what)) => {
+                write!(f, "unsupported: {}", front(what, SHOWN))
+            }
             Self::Garbled(what) => write!(f, "no answer of the protocol: {what}"),
             Self::Died(how) => write!(f, "it died: {how}"),
             Self::Hung(time) => write!(f, "it hung: no word within {} ms", time.as_millis()),
             Self::Broken(why) => f.write_str(why),
         }
     }
-}
-
-fn cut(text: &str) -> String {
-    let shown: String = text.chars().take(200).collect();
-    if shown.len() < text.len() { shown + "…" } else { shown }
 }

@@ -7,12 +7,9 @@ use ads_cnc::operation::{Call, Effect, Function, Refusal, Request, Task};
 use super::CLIENT;
 use super::findings::Findings;
 use super::stage::Turn;
-use crate::cnc::NET_ID;
+use crate::cnc::{DATA_MAX, NET_ID};
 use crate::services::{self, service_of};
 use crate::suite::assumed;
-
-/// The longest frame.
-const DATA_MAX: u32 = 0x1_0000;
 
 /// Judges each request by itself.
 pub(super) fn judge(turns: &[Turn], findings: &mut Findings) {

@@ -10,10 +10,7 @@ use ads_cnc::{Decode as _, Encode as _, Handle};
 
 use super::knob::{Deed, Knob};
 use super::literal::Literal;
-use crate::cnc::{Cnc, NET_ID};
-
-/// The longest frame the codec is asked to read.
-const DATA_MAX: u32 = 0x1_0000;
+use crate::cnc::{Cnc, DATA_MAX, NET_ID};
 
 /// How often a host of the Service Interface lets the client look before it has the response.
 const LOOKS: usize = 2;

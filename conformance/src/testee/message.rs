@@ -277,6 +277,8 @@ impl TryFrom<Keys> for Reply {
 
 /// Bytes as hex without spaces; spaces are read.
 pub(super) mod compact {
+    use crate::child::front;
+
     pub(crate) fn show(bytes: &[u8]) -> String {
         bytes.iter().map(|byte| format!("{byte:02x}")).collect()
     }
@@ -296,11 +298,7 @@ pub(super) mod compact {
     }
 
     fn cut(text: &str) -> String {
-        let mut shown: String = text.chars().take(40).collect();
-        if shown.len() < text.len() {
-            shown.push('…');
-        }
-        format!("{shown:?}")
+        format!("{:?}", front(text, 40))
     }
 
     pub(crate) mod option {

@@ -4,10 +4,13 @@ use std::time::Duration;
 
 use super::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use super::{Reaction, Testee};
-use crate::child::{self, START, Spoken, Stderr, Unheard, cut};
+use crate::child::{self, START, Spoken, Stderr, Unheard, cut, front};
 
 /// How long it has for ending after `bye`.
 const GRACE: Duration = Duration::from_secs(2);
+
+/// As much of a line as a person reads.
+const SHOWN: usize = 400;
 
 /// Who is started to be judged.
 #[derive(Debug)]
@@ -60,14 +63,14 @@ impl Process {
     fn exchange(&mut self, command: &Command, timeout: Duration) -> Result<String, Reaction> {
         let line = serde_json::to_vec(command)
             .map_err(|error| Reaction::Broken(format!("the question: {error}")))?;
-        (self.sent, self.received) = (Some(front(&String::from_utf8_lossy(&line))), None);
+        (self.sent, self.received) = (Some(front(&String::from_utf8_lossy(&line), SHOWN)), None);
         let Some(running) = &self.running else {
             return Err(Reaction::Broken("it is not running".to_owned()));
         };
         running.say(line);
         match running.hear(timeout) {
             Ok(line) => {
-                self.received = Some(front(&line));
+                self.received = Some(front(&line, SHOWN));
                 Ok(line)
             }
             Err(Unheard::NoText(why)) => Err(Reaction::Garbled(why)),
@@ -176,10 +179,4 @@ pub fn answered(line: &str, seq: u64) -> (Reaction, bool) {
         }
         Err(error) => (Reaction::Garbled(format!("{error}: {}", cut(line))), true),
     }
-}
-
-/// As much of a line as a person reads.
-fn front(line: &str) -> String {
-    let shown: String = line.chars().take(400).collect();
-    if shown.len() < line.len() { format!("{shown}…") } else { shown }
 }
