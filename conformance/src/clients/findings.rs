@@ -4,22 +4,17 @@ use std::fmt::Display;
 
 use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::Call;
+use ads_cnc_vectors::Level;
 
 use super::CLIENT;
 use super::stage::Turn;
 use crate::services::{decode_reply, service_of};
-use crate::suite::{Evidence, Judgement, Rule};
-use crate::verdict::Verdict;
-use ads_cnc_vectors::Level;
-
-/// The most failed checks that are kept of one requirement.
-const KEPT: usize = 3;
+use crate::suite::{Evidence, Record, Rule};
 
 /// Checks made, and what came of them.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
-    pub(super) judgements: Vec<Judgement>,
-    pub(super) checks: usize,
+    pub(super) record: Record,
 }
 
 impl Findings {
@@ -37,32 +32,11 @@ impl Findings {
             // Not of the catalogue.
             rule.level = Some(Level::Must);
         }
-        let verdict = match (kept, rule.level) {
-            (true, _) => Verdict::Pass,
-            (false, Some(level)) => Verdict::missed(level),
-            (false, None) => Verdict::HarnessError,
-        };
-        self.checks = self.checks.saturating_add(1);
-        let same = self
-            .judgements
-            .iter_mut()
-            .filter(|judgement| judgement.requirement == rule.id && judgement.verdict == verdict);
-        let mut same: Vec<_> = same.collect();
-        if same.len() >= if kept { 1 } else { KEPT } {
-            if let Some(last) = same.last_mut() {
-                last.more = last.more.saturating_add(1);
-            }
-            return kept;
-        }
         let (expected, found) = match kept {
             true => (String::new(), String::new()),
             false => (expected.to_string(), found.to_string()),
         };
-        let evidence = turn.filter(|_| !kept).map(evidence);
-        let (requirement, level) = (rule.id, rule.level);
-        let judgement =
-            Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
-        self.judgements.push(judgement);
+        self.record.add(rule, rule.verdict(kept), expected, found, || turn.map(evidence));
         kept
     }
 }

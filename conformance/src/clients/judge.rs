@@ -16,7 +16,7 @@ use super::script::Script;
 use super::stage::{Stage, Turn};
 use super::{Actor, CLIENT, Defect, Own, asked, requests, scenarios, watch};
 use crate::cnc::Cnc;
-use crate::suite::{Body, Case, Needs, Outcome, Rule, Stop, Subject};
+use crate::suite::{Body, Case, Needs, Outcome, Record, Rule, Stop, Subject};
 use crate::verdict::Verdict;
 
 /// Deaths and silences in a row after which no more is tried.
@@ -157,12 +157,12 @@ fn play(
     let is_lost = matches!(reaction, Reaction::Died(_) | Reaction::Hung(_) | Reaction::Broken(_));
     let mut case = scenario.case();
     // A client may ask more than it has to; that is judged too.
-    for judgement in &findings.judgements {
+    for judgement in &findings.record.judgements {
         if !case.requirements.contains(&judgement.requirement) {
             case.requirements.push(judgement.requirement);
         }
     }
-    let Findings { judgements, checks } = findings;
+    let Record { judgements, checks } = findings.record;
     Ok((Outcome::tried(case, judgements, checks, stop), is_lost, turns.len()))
 }
 
@@ -265,7 +265,7 @@ fn of_manners(findings: Findings) -> Outcome {
         needs: Needs::Queries,
         body: Body::Client,
     };
-    Outcome::tried(case, findings.judgements, findings.checks.max(1), None)
+    Outcome::tried(case, findings.record.judgements, findings.record.checks.max(1), None)
 }
 
 /// An NC program in a file of its own, removed in the end.

@@ -38,7 +38,7 @@ pub fn listen(stage: &Stage, go_on: impl FnMut() -> bool) -> Result<(Outcome, us
     let mut findings = Findings::default();
     requests::judge(&turns, &mut findings);
     let mut requirements = Vec::new();
-    for judgement in &findings.judgements {
+    for judgement in &findings.record.judgements {
         if !requirements.contains(&judgement.requirement) {
             requirements.push(judgement.requirement);
         }
@@ -48,5 +48,8 @@ pub fn listen(stage: &Stage, go_on: impl FnMut() -> bool) -> Result<(Outcome, us
         Stop::Inconclusive("nobody has sent anything".to_owned())
     });
     let case = Case { requirements, ..requests_case() };
-    Ok((Outcome::tried(case, findings.judgements, findings.checks, stop), turns.len()))
+    Ok((
+        Outcome::tried(case, findings.record.judgements, findings.record.checks, stop),
+        turns.len(),
+    ))
 }
