@@ -3,9 +3,10 @@
 use ads_cnc_vectors::Level;
 
 use super::Reaction;
-use super::judge::{Reactions, TESTEE};
+use super::judge::TESTEE;
 use super::message::{Answer, Question};
 use super::tell::{describe, evidence};
+use super::view::Reactions;
 use crate::suite::{Body, Case, Evidence, Judgement, Needs, Outcome, Subject};
 use crate::verdict::Verdict;
 

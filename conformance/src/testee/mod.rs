@@ -14,6 +14,7 @@ mod own;
 mod plan;
 mod process;
 mod tell;
+mod view;
 
 use std::time::Duration;
 

@@ -1,0 +1,256 @@
+//! What the answers of a testee are worth.
+
+use std::collections::HashMap;
+
+use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector};
+
+use super::assumed::rests_on_assumption;
+use super::judge::Terms;
+use super::message::{Answer, Hello, Output, Question, compact};
+use super::plan::{forms, questions};
+use super::tell::{describe, evidence};
+use super::{Reaction, compare};
+use crate::show::show;
+use crate::suite::{Body, Case, Evidence, Judgement, Outcome, Rule, Stop};
+use crate::verdict::Verdict;
+
+/// The answers to the questions of a case, by op.
+pub(super) type Reactions = HashMap<(usize, String), Reaction>;
+
+/// Everything that was asked and answered.
+pub(super) struct View<'v> {
+    pub(super) cases: &'v [Case],
+    pub(super) reactions: &'v Reactions,
+    pub(super) hello: &'v Hello,
+    pub(super) edition: String,
+    pub(super) terms: Terms<'v>,
+    pub(super) gone: Option<String>,
+}
+
+/// What came of one question.
+struct Check {
+    verdict: Verdict,
+    expected: String,
+    found: String,
+    evidence: Evidence,
+}
+
+impl View<'_> {
+    pub(super) fn outcome(&self, place: usize) -> Option<Outcome> {
+        let case = self.cases.get(place)?;
+        let questions = questions(case, &self.edition);
+        if questions.is_empty() {
+            return None;
+        }
+        let claimed: Vec<&Question> = questions
+            .iter()
+            .filter(|one| self.hello.capabilities.claim(&one.op, &one.stream))
+            .collect();
+        if claimed.is_empty() {
+            let note = "the testee does not claim it";
+            return Some(Outcome::untried(case.clone(), Verdict::NotApplicable, note));
+        }
+        let mut stop = None;
+        let mut judgements = Vec::new();
+        for question in &claimed {
+            let Some(reaction) = self.reactions.get(&(place, question.op.clone())) else {
+                let why = self.gone.clone().unwrap_or_default();
+                stop = Some(Stop::Inconclusive(format!("the testee is gone: {why}")));
+                continue;
+            };
+            let check = self.check(case, question, reaction);
+            judgements.extend(case.requirements.iter().map(|&id| self.judgement(id, &check)));
+        }
+        Some(Outcome::tried(case.clone(), judgements, claimed.len(), stop))
+    }
+
+    fn judgement(&self, id: &'static str, check: &Check) -> Judgement {
+        let Rule { level, .. } = Rule::from(id);
+        let verdict = match (check.verdict, level) {
+            (Verdict::Fail, Some(level)) if !self.terms.strict => Verdict::missed(level),
+            (verdict, _) => verdict,
+        };
+        let level = if verdict == Verdict::Differs { Some(Level::Info) } else { level };
+        Judgement {
+            requirement: id,
+            level,
+            verdict,
+            expected: check.expected.clone(),
+            found: check.found.clone(),
+            evidence: Some(check.evidence.clone()),
+            more: 0,
+        }
+    }
+
+    fn check(&self, case: &Case, question: &Question, reaction: &Reaction) -> Check {
+        let (verdict, expected, found) = match &case.body {
+            Body::Vector(vector) => {
+                let (verdict, expected, found) = self.vector(vector, question, reaction);
+                // Only an answer can differ: a crash is one whatever was asked.
+                let answered =
+                    matches!(reaction, Reaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
+                let lenient = !self.terms.strict && answered && rests_on_assumption(vector);
+                let missed = matches!(verdict, Verdict::Fail | Verdict::Vacuous);
+                (if lenient && missed { Verdict::Differs } else { verdict }, expected, found)
+            }
+            Body::Sequence(sequence) => self.sequence(sequence, reaction),
+            _ => (Verdict::HarnessError, String::new(), "a case without a question".to_owned()),
+        };
+        let canonical = match &case.body {
+            Body::Vector(vector) if question.op == "encode" => Some(vector.bytes()),
+            _ => None,
+        };
+        let evidence = evidence(question, reaction, &case.id, canonical);
+        Check { verdict, evidence, expected, found }
+    }
+
+    fn vector(
+        &self,
+        vector: &Vector,
+        question: &Question,
+        reaction: &Reaction,
+    ) -> (Verdict, String, String) {
+        match (&vector.expect, question.op.as_str()) {
+            (Expect::Accept(accept), "encode") => {
+                let forms = forms(vector, accept);
+                let shown: Vec<String> = forms.iter().map(|form| compact::show(form)).collect();
+                let expected = shown.join(" or ");
+                match reaction {
+                    Reaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => {
+                        let found = compact::show(hex);
+                        let verdict =
+                            if forms.contains(hex) { Verdict::Pass } else { Verdict::Fail };
+                        (verdict, expected, found)
+                    }
+                    other => (Verdict::Fail, expected, describe(other)),
+                }
+            }
+            (Expect::Accept(accept), _) => {
+                let expected = show(&accept.value);
+                let Reaction::Answer(Answer::Ok(Output { value: Some(value), .. })) = reaction
+                else {
+                    return (Verdict::Fail, expected, describe(reaction));
+                };
+                match compare::compare(&accept.value, value) {
+                    None => (Verdict::Pass, expected, String::new()),
+                    Some(compare::Difference::Other(what)) => (Verdict::Fail, expected, what),
+                    Some(compare::Difference::Untold(what)) if self.terms.strict => {
+                        (Verdict::Fail, expected, what)
+                    }
+                    Some(compare::Difference::Untold(what)) => (Verdict::Differs, expected, what),
+                }
+            }
+            (Expect::Reject(reject), _) => {
+                let place =
+                    format!("{} at offset {} in {}", reject.class, reject.offset, reject.field);
+                let expected = format!("refused: {place}");
+                match reaction {
+                    Reaction::Answer(Answer::Reject(_)) => match self.sibling(vector) {
+                        Ok(()) => (Verdict::Pass, expected, String::new()),
+                        Err(why) => (Verdict::Vacuous, expected, why),
+                    },
+                    other => (Verdict::Fail, expected, describe(other)),
+                }
+            }
+        }
+    }
+
+    /// Whether the sibling of a refused vector was accepted: else it may be refused for any reason.
+    fn sibling(&self, vector: &Vector) -> Result<(), String> {
+        let wanted = vector.sibling.as_deref().unwrap_or_default();
+        let found = self.cases.iter().enumerate().find_map(|(place, case)| match &case.body {
+            Body::Vector(vector) if vector.id == wanted => Some((place, *vector)),
+            _ => None,
+        });
+        let Some((place, sibling)) = found else {
+            return Err(format!("{wanted}, which lacks this fault, was not tried"));
+        };
+        match self.reactions.get(&(place, "decode".to_owned())) {
+            Some(Reaction::Answer(Answer::Ok(_))) => Ok(()),
+            Some(other) => Err(format!(
+                "refused, but {}, which lacks this fault: {}",
+                sibling.id,
+                describe(other)
+            )),
+            None => Err(format!("{wanted}, which lacks this fault, was not answered")),
+        }
+    }
+
+    fn sequence(&self, sequence: &Sequence, reaction: &Reaction) -> (Verdict, String, String) {
+        match (&sequence.expect, reaction) {
+            (SequenceExpect::Accept(accept), Reaction::Answer(Answer::Ok(output))) => {
+                let Some(packets) = &accept.packets else {
+                    return (Verdict::Pass, String::new(), String::new());
+                };
+                let stated: Vec<Vec<u8>> = packets.iter().map(|one| one.bytes()).collect();
+                let text = stated.concat();
+                match packets_fault(&text, output.packets.as_deref().unwrap_or_default()) {
+                    None => (Verdict::Pass, String::new(), String::new()),
+                    Some(found) => {
+                        let expected = format!(
+                            "{} bytes of whole lines in packets of at most 992",
+                            text.len()
+                        );
+                        (Verdict::Fail, expected, found)
+                    }
+                }
+            }
+            (SequenceExpect::Accept(_), other) => {
+                (Verdict::Fail, "accepted".to_owned(), describe(other))
+            }
+            (SequenceExpect::Reject(reject), reaction) => {
+                let line = reject.line.map(|line| format!(" in line {line}")).unwrap_or_default();
+                let expected = format!("refused: {}{line}", reject.class);
+                match reaction {
+                    Reaction::Answer(Answer::Reject(_)) => match self.other_text(sequence) {
+                        Ok(()) => (Verdict::Pass, expected, String::new()),
+                        Err(why) => (Verdict::Vacuous, expected, why),
+                    },
+                    other => (Verdict::Fail, expected, describe(other)),
+                }
+            }
+        }
+    }
+
+    fn other_text(&self, sequence: &Sequence) -> Result<(), String> {
+        let wanted = sequence.sibling.as_deref().unwrap_or_default();
+        let mut cases = self.cases.iter().enumerate();
+        let found = cases.find_map(|(place, case)| match &case.body {
+            Body::Sequence(sequence) if sequence.id == wanted => Some(place),
+            _ => None,
+        });
+        let reaction = found.and_then(|place| {
+            let op = if sequence.kind() == "nc-text" { "packets" } else { "check" };
+            self.reactions.get(&(place, op.to_owned()))
+        });
+        match reaction {
+            Some(Reaction::Answer(Answer::Ok(_))) => Ok(()),
+            Some(other) => {
+                Err(format!("refused, but {wanted}, which lacks this fault: {}", describe(other)))
+            }
+            None => Err(format!("{wanted}, which lacks this fault, was not answered")),
+        }
+    }
+}
+
+/// What is wrong with packets that have to carry this text.
+fn packets_fault(text: &[u8], packets: &[Vec<u8>]) -> Option<String> {
+    let max = ads_cnc::limits::STREAM_PACKET_MAX;
+    for (place, packet) in packets.iter().enumerate() {
+        let number = place.saturating_add(1);
+        if packet.len() > max || packet.is_empty() {
+            return Some(format!("packet {number} has {} bytes", packet.len()));
+        }
+        if !packet.ends_with(b"\r\n") {
+            return Some(format!("packet {number} does not end with CR LF"));
+        }
+    }
+    let all = packets.concat();
+    match all == text {
+        true => None,
+        false => {
+            let same = all.iter().zip(text).take_while(|(one, other)| one == other).count();
+            Some(format!("{} bytes in all, another one at offset {same}", all.len()))
+        }
+    }
+}
