@@ -15,6 +15,7 @@ use super::model::{Fault, Part, Place};
 use super::part;
 use super::typed::Values;
 use super::value::bytes as in_words;
+use crate::services::{reply_stream, request_stream, service_of};
 
 /// The most data of a frame: that of a service and the numbers before it.
 const DATA_MAX: u32 = {
@@ -134,15 +135,10 @@ impl Frames<'_> {
         if reply && data.is_empty() && !header.error.is_none() {
             return self.note("an answer with an AMS error may have no data (ADS-6)".to_owned());
         }
-        let (stream, service) = match (header.command, reply) {
-            (Command::READ, false) => (Stream::ReadRequest, Service::Read),
-            (Command::READ, true) => (Stream::ReadReply, Service::Read),
-            (Command::WRITE, false) => (Stream::WriteRequest, Service::Write),
-            (Command::WRITE, true) => (Stream::WriteReply, Service::Write),
-            (Command::READ_WRITE, false) => (Stream::ReadWriteRequest, Service::ReadWrite),
-            (Command::READ_WRITE, true) => (Stream::ReadWriteReply, Service::ReadWrite),
-            (other, _) => return self.other(other, reply, at, data),
+        let Some(service) = service_of(header.command) else {
+            return self.other(header.command, reply, at, data);
         };
+        let stream = if reply { reply_stream(service) } else { request_stream(service) };
         let mut part = part::of_stream(stream, at, data, self.values);
         let inside = inside(stream, data);
         let failed = reply && number(stream, data, "result").is_some_and(|result| result != 0);
