@@ -8,7 +8,7 @@ use ads_cnc::{Content, ContentRef, Decode, DescriptionByName, Element, Encode};
 use ads_cnc_vectors::{Context, Type, Value};
 
 use super::{
-    Decoded, Refused, data, element, elements, numbers, one, owned_text, place, stream, uns32,
+    Decoded, Refused, data, description, element, elements, one, owned_text, place, stream, uns32,
 };
 
 pub(super) fn decode(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
@@ -50,13 +50,8 @@ pub(super) fn decode(name: &str, context: &Context, bytes: &[u8]) -> Result<Deco
             vec![("value", Value::One(element(Element::Real64(value.get()))))]
         }),
         "variable-description-by-name" => stream(bytes, |variable: &DescriptionByName| {
-            vec![
-                ("handle", uns32(variable.handle.0)),
-                ("type", uns32(variable.var_type.0)),
-                ("access", uns32(variable.access.0)),
-                ("size", uns32(variable.size)),
-                ("dimensions", numbers(&variable.dimensions)),
-            ]
+            let DescriptionByName { handle, var_type, access, size, .. } = *variable;
+            description(handle, var_type, access, size, &variable.dimensions)
         }),
         other => return Err(Refused::Unsupported(format!("stream {other}"))),
     }?;
