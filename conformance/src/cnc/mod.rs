@@ -44,16 +44,21 @@ pub use respond::{DATA_MAX, NET_ID};
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
 pub(crate) use within::{Held, Holder};
 
+use ads_cnc::edition::Edition;
+
 /// The edition of the manual with this name: `en-1.05` or `de-1.051`.
 ///
 /// # Errors
 /// The names that there are.
-pub fn edition(name: &str) -> Result<ads_cnc::edition::Edition, String> {
-    model::edition(name)
+pub fn edition(name: &str) -> Result<Edition, String> {
+    let all = Edition::ALL;
+    all.into_iter().find(|edition| edition_name(*edition) == name).ok_or_else(|| {
+        format!("{name:?} is no edition; there are {}", all.map(edition_name).join(" and "))
+    })
 }
 
 /// The name of an edition, as [`edition`] takes it.
-pub fn edition_name(edition: ads_cnc::edition::Edition) -> String {
+pub fn edition_name(edition: Edition) -> String {
     let document = edition.document();
     let language = document.strip_prefix("ads-").unwrap_or(document);
     format!("{language}-{}", edition.number())

@@ -4,6 +4,7 @@ use ads_cnc_vectors::{Expect, Vector, vector};
 
 use super::message::{Answer, Capabilities, Output, Question};
 use super::plan::{forms, of_vector};
+use super::tell::describe;
 use super::{Process, Reaction, Testee, compare};
 use crate::report::tame;
 
@@ -46,7 +47,7 @@ pub fn check_protocol(process: &mut Process) -> Vec<Finding> {
         }
         Err(reaction) => {
             let hint = r#"an answer such as {"protocol":1,"testee":{"name":"…"},"capabilities":{"ops":["decode"],"streams":["object-count"],"editions":["en-1.05"]}} is expected"#;
-            steps.note("hello is answered", Some(format!("{}; {hint}", tell(&reaction))));
+            steps.note("hello is answered", Some(format!("{}; {hint}", describe(&reaction))));
             return steps.findings;
         }
     };
@@ -128,7 +129,7 @@ impl Steps<'_> {
                 }
             }
             Ok(_) => Some("ok without value".to_owned()),
-            Err(reaction) => Some(tell(&reaction)),
+            Err(reaction) => Some(describe(&reaction)),
         };
         self.note(format!("{} is decoded", vector.stream), fault);
     }
@@ -147,7 +148,7 @@ impl Steps<'_> {
                 })
             }
             Ok(_) => Some("ok without hex".to_owned()),
-            Err(reaction) => Some(tell(&reaction)),
+            Err(reaction) => Some(describe(&reaction)),
         };
         self.note(format!("{} is encoded", vector.stream), fault);
     }
@@ -165,7 +166,7 @@ impl Steps<'_> {
             Reaction::Answer(Answer::Reject(_)) => None,
             other => {
                 let hint = r#"{"seq":…,"reject":{"class":"truncated"}} is expected"#;
-                Some(format!("{}; {hint}", tell(&other)))
+                Some(format!("{}; {hint}", describe(&other)))
             }
         };
         self.note(format!("{} without its last byte is refused", vector.stream), fault);
@@ -178,7 +179,7 @@ impl Steps<'_> {
             Reaction::Answer(Answer::Unsupported { .. }) => None,
             other => {
                 let hint = r#"{"seq":…,"unsupported":{"what":"…"}} is expected"#;
-                Some(format!("{}; {hint}", tell(&other)))
+                Some(format!("{}; {hint}", describe(&other)))
             }
         };
         self.note(format!("{what} is unsupported"), fault);
@@ -188,8 +189,4 @@ impl Steps<'_> {
 /// What is asked of a vector by this op.
 fn asked(op: &str, vector: &Vector) -> Option<Question> {
     of_vector(vector, EDITION).into_iter().find(|question| question.op == op)
-}
-
-fn tell(reaction: &Reaction) -> String {
-    super::tell::describe(reaction)
 }

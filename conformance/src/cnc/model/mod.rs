@@ -26,7 +26,7 @@ pub(super) use parameter::{Parameter, Times};
 pub(super) use variable::{At, Variable, Variables, handle_at};
 
 use super::program::{ProgramConfig, ScriptConfig};
-pub(super) use build::{edition, parameter_kind};
+pub(super) use build::parameter_kind;
 use error::Source;
 
 /// The default model, as it is read: what the manuals print, and something of everything else.

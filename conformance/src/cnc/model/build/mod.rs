@@ -19,7 +19,7 @@ pub(in crate::cnc) use self::parameters::kind as parameter_kind;
 use super::document::{AxisTable, Document};
 use super::error::Source;
 use super::{AxisModel, Model, ModelError, Settings};
-use crate::cnc::to_len;
+use crate::cnc::{edition, to_len};
 use crate::duration::duration;
 
 /// Platform axes, spindles and places of a channel: what index groups and handles have room for.
@@ -79,14 +79,6 @@ pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, Mod
     };
     lists::fill(source, &document, &mut model)?;
     Ok(model)
-}
-
-/// `en-1.05`, `de-1.051`: the document and its number.
-pub(in crate::cnc) fn edition(name: &str) -> Result<Edition, String> {
-    let of = crate::cnc::edition_name;
-    Edition::ALL.into_iter().find(|edition| of(*edition) == name).ok_or_else(|| {
-        format!("{name:?} is no edition; there are {}", Edition::ALL.map(of).join(" and "))
-    })
 }
 
 fn axes(source: Source<'_>, tables: &[AxisTable]) -> Result<Vec<AxisModel>, ModelError> {
