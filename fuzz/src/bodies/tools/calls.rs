@@ -8,9 +8,12 @@ use ads_cnc_conformance::cnc::NET_ID;
 
 use super::Input;
 
+/// The ports that a call of a session goes to.
+pub(super) const PORTS: [u16; 4] = [552, 553, 551, 851];
+
 /// A call: port, service, group, offset, read length, and data behind their length.
-pub(super) fn call<'a>(input: &mut Input<'a>) -> Call<'a> {
-    let port = AmsPort(*input.choose(&[552, 553, 551, 851]));
+pub(super) fn call<'a>(input: &mut Input<'a>, ports: &[u16]) -> Call<'a> {
+    let port = AmsPort(*input.choose(ports));
     let service = *input.choose(&[Service::Read, Service::Write, Service::ReadWrite]);
     let index_group = IndexGroup::new(input.long());
     let index_offset = IndexOffset::new(input.long());
@@ -20,20 +23,28 @@ pub(super) fn call<'a>(input: &mut Input<'a>) -> Call<'a> {
     Call { port, service, index_group, index_offset, read_length, data }
 }
 
-/// Writes a call as [`call`] reads it, as a record of a session: alone (1), or looked at (6).
-pub(crate) fn write_call(kind: u8, call: &Call<'_>) -> Vec<u8> {
-    let port = [552, 553, 551, 851].iter().position(|port| *port == call.port.0).unwrap_or(3);
+/// Writes a call as [`call`] reads it, with the place of its port.
+pub(super) fn written(call: &Call<'_>, port: usize) -> Vec<u8> {
+    let byte = |number: usize| u8::try_from(number).expect("short data");
     let service = match call.service {
         Service::Read => 0,
         Service::Write => 1,
         Service::ReadWrite => 2,
     };
-    let mut bytes = vec![kind, port as u8, service];
+    let mut bytes = vec![byte(port), service];
     bytes.extend(call.index_group.get().to_le_bytes());
     bytes.extend(call.index_offset.get().to_le_bytes());
     bytes.extend(&call.read_length.to_le_bytes()[..2]);
-    bytes.push(call.data.len() as u8);
+    bytes.push(byte(call.data.len()));
     bytes.extend(call.data);
+    bytes
+}
+
+/// Writes a call as a record of a session: alone (1), or looked at (6).
+pub(crate) fn write_call(kind: u8, call: &Call<'_>) -> Vec<u8> {
+    let port = PORTS.iter().position(|port| *port == call.port.0).unwrap_or(3);
+    let mut bytes = vec![kind];
+    bytes.extend(written(call, port));
     if kind == 1 {
         bytes.extend(7_u32.to_le_bytes());
     }

@@ -2,11 +2,12 @@
 
 use ads_cnc::CncString;
 use ads_cnc::address::{Channel, ChannelAxis, IndexGroup, IndexOffset, PlatformAxis};
-use ads_cnc::ads::{AmsNetId, AmsPort};
-use ads_cnc::operation::{Call, Service};
+use ads_cnc::ads::AmsNetId;
+use ads_cnc::operation::Call;
 use ads_cnc_conformance::gate::{self, Allowed, Entry, Gate, List, Moment};
 
 use super::Input;
+use super::calls::{call, written};
 use crate::{Defect, Outcome};
 
 #[path = "../../../../conformance/tests/common/harmless.rs"]
@@ -57,7 +58,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         let kind = input.byte();
         let frame = match kind {
             0 => {
-                let (mut call, reply) = (call(&mut input), input.piece());
+                let (mut call, reply) = (call(&mut input, &PORTS), input.piece());
                 rule.learn(&call, reply);
                 gate.learn(&call, reply);
                 if defect.is(5) {
@@ -178,30 +179,13 @@ fn entry(input: &mut Input<'_>, kind: u8) -> Option<Entry> {
     })
 }
 
-/// A call: port, service, group, offset, read length, and data behind their length.
-fn call<'a>(input: &mut Input<'a>) -> Call<'a> {
-    let port = *input.choose(&PORTS);
-    let service = *input.choose(&[Service::Read, Service::Write, Service::ReadWrite]);
-    let (group, offset) = (input.long(), input.long());
-    let read_length = input.word().into();
-    let data = input.piece();
-    Call {
-        port: AmsPort(port),
-        service,
-        index_group: IndexGroup::new(group),
-        index_offset: IndexOffset::new(offset),
-        read_length,
-        data: if service == Service::Read { &[] } else { data },
-    }
-}
-
 const PORTS: [u16; 5] = [552, 553, 551, 851, 10000];
 
 /// A frame with the call behind it; by the kind, with another target (bit 2), other flags (bit 3),
 /// an error (bit 4), another command (bit 5) and another length (bit 6).
 fn frame(input: &mut Input<'_>, kind: u8) -> Vec<u8> {
     let odd = |bit: u8| kind >> bit & 1;
-    let Call { port, service, index_group, index_offset, read_length, data } = call(input);
+    let Call { port, service, index_group, index_offset, read_length, data } = call(input, &PORTS);
     let mut command = u32::from(service.command().0);
     if odd(5) == 1 {
         command = input.byte().into();
@@ -234,21 +218,11 @@ fn frame(input: &mut Input<'_>, kind: u8) -> Vec<u8> {
 
 /// Writes a call as [`check`] reads it: learnt from a reply, or sent.
 pub(crate) fn write_call(kind: u8, call: &Call<'_>, reply: &[u8]) -> Vec<u8> {
-    let place = |all: &[u16]| all.iter().position(|one| *one == call.port.0).unwrap_or(0);
-    let service = match call.service {
-        Service::Read => 0,
-        Service::Write => 1,
-        Service::ReadWrite => 2,
-    };
-    let byte = |len: usize| u8::try_from(len).expect("short data");
-    let mut bytes = vec![kind, byte(place(&PORTS)), service];
-    bytes.extend(call.index_group.get().to_le_bytes());
-    bytes.extend(call.index_offset.get().to_le_bytes());
-    bytes.extend(&call.read_length.to_le_bytes()[..2]);
-    bytes.push(byte(call.data.len()));
-    bytes.extend(call.data);
+    let port = PORTS.iter().position(|one| *one == call.port.0).unwrap_or(0);
+    let mut bytes = vec![kind];
+    bytes.extend(written(call, port));
     if kind == 0 {
-        bytes.push(byte(reply.len()));
+        bytes.push(u8::try_from(reply.len()).expect("a short reply"));
         bytes.extend(reply);
     }
     bytes

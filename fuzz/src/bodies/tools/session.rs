@@ -10,7 +10,7 @@ use ads_cnc_conformance::cnc::{CONNECTION_BYTES_MAX, Cnc, Model, NET_ID, Receive
 use ads_cnc_conformance::services::{decode_reply, service_of};
 
 use super::Input;
-use super::calls::{call, frame};
+use super::calls::{PORTS, call, frame};
 use crate::common::CALLS;
 use crate::{Defect, Outcome};
 
@@ -67,7 +67,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
                 session.piece.extend(frame(&call, input.long()));
             }
             1 => {
-                let call = call(&mut input);
+                let call = call(&mut input, &PORTS);
                 session.piece.extend(frame(&call, input.long()));
             }
             2 => session.piece.extend(input.piece()),
@@ -81,7 +81,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
             5 => session.cnc.pass(Duration::from_millis(input.word().into())),
             _ => {
                 session.send();
-                let call = call(&mut input);
+                let call = call(&mut input, &PORTS);
                 session.change(&call);
             }
         }
