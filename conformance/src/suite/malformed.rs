@@ -253,7 +253,13 @@ fn bad_service(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let mut spoilt = Spoilt::new(probe, CountVariables::new(channel, Kind::V_E))?;
     for service in [Service::Read, Service::Write] {
-        spoilt.call("ADS-4", &format!("{service} at 0x44"), |call| call.service = service)?;
+        spoilt.call("ADS-4", &format!("{service} at 0x44"), |call| {
+            call.service = service;
+            // A Read has no room for any.
+            if service == Service::Read {
+                call.data = &[];
+            }
+        })?;
     }
     let mut spoilt = Spoilt::new(probe, CountObjects::new(channel))?;
     for service in [Service::ReadWrite, Service::Write] {
