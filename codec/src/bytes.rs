@@ -295,7 +295,6 @@ fn not_all(stream: Stream, given: usize) -> Error {
 
 /// Why so many bytes are too few or too many.
 #[cold]
-#[inline(never)]
 fn not_between(field: Field, min: u32, max: u32, given: usize) -> Error {
     let given = to_u32(given);
     if given < min {

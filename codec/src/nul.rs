@@ -104,8 +104,10 @@ mod tests {
                     assert_eq!(text_len(&bytes), nul, "{bytes:?}");
                     assert_eq!(split_nul(&bytes), Some((&bytes[..nul], &bytes[nul + 1..])));
                     let is_padded = bytes[nul..].iter().all(|&byte| byte == 0);
-                    let split = split_padded(&bytes, 40, nul).map(|text| text.tail());
+                    let max = u32::try_from(len).unwrap();
+                    let split = split_padded(&bytes, max, nul).map(|text| text.tail());
                     assert_eq!(split, is_padded.then_some(Some(&bytes[nul + 1..])), "{bytes:?}");
+                    assert_eq!(split_padded(&bytes, max - 1, nul), None);
                     if nul % 3 == 0 {
                         bytes[nul] = filler;
                     }
