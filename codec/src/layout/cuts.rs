@@ -57,6 +57,7 @@ impl Cut {
 
 #[cfg(test)]
 mod tests {
+    use super::Cut;
     use crate::layout::{Field, Size, Stream};
 
     /// Every length that ends in the fixed fields in front, and no other.
@@ -68,6 +69,11 @@ mod tests {
             let front = rows.iter().take_while(|row| row.per_item == 0 && is_counted(row.size));
             let end = front.map(|row| row.offset + row.size.fixed()).last().unwrap_or(0);
             assert_eq!(stream.cuts().len(), usize::try_from(end).unwrap(), "{stream}");
+            // Made anew, they are what the compiler has made.
+            assert_eq!(Cut::count(rows), stream.cuts().len(), "{stream}");
+            for (one, two) in Cut::all::<128>(rows).iter().zip(stream.cuts()) {
+                assert_eq!((one.field, one.offset), (two.field, two.offset), "{stream}");
+            }
             for (len, cut) in (0..).zip(stream.cuts()) {
                 let row = Field::new(stream, cut.field).spec().unwrap();
                 assert_eq!((row.offset, row.size.fixed()), (cut.offset.into(), cut.size.into()));

@@ -218,6 +218,16 @@ mod tests {
         }
     }
 
+    /// Made anew, the sorts are what the compiler has made.
+    #[test]
+    fn sorts_come_out_the_same() {
+        let of_com = [0x02_0100, 0x02_0200, 0x03_0100, 0x03_0200].map(of_com);
+        let of_decoder = of_class(0x02_2300);
+        let groups = Sorts::EMPTY.with(&[[Functions::NONE]]).with(&of_com).with(&OF_CLASSES);
+        assert_eq!((groups.len(), groups.numbers(&of_com, 1)), (GROUPS.len(), GROUPS_OF_COM));
+        assert_eq!(groups.numbers(&[of_decoder], 1), [GROUPS_OF_CLASSES[0x23]]);
+    }
+
     /// Where two sorts meet, each service reaches the first function that is there and takes it,
     /// but no content where a function is.
     #[test]
@@ -232,6 +242,8 @@ mod tests {
                 let place = Place { group, offset: 3 * offset };
                 let exclusive = here.iter().find(|it| !it.spec().is_content()).copied();
                 assert_eq!(place.function(), exclusive);
+                let read = of_group.and(*at_offset).reached(Functions::TAKING_READ);
+                assert_eq!(place.reached(Service::Read), Some(read.into()));
                 for service in [Service::Read, Service::Write, Service::ReadWrite] {
                     let takes = |it: &&Function| it.spec().service == service;
                     let wanted = match here.iter().find(|it| takes(it) || !it.spec().is_content()) {
