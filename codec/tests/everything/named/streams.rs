@@ -35,7 +35,14 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
 fn frames(bytes: &[u8]) -> Result<(), Error> {
     if let Ok(Some((frame, len))) = ads::FrameRef::split(bytes, any(64)) {
         seen((ads::FrameRef::data(&frame), len));
-        seen(ads::FrameRef::new(ads::FrameRef::header(&frame), any(bytes)));
+        let header = ads::FrameRef::header(&frame);
+        seen(ads::FrameRef::new(header, any(bytes)));
+        seen(ads::AmsHeader::response(header));
+        seen(ads::AmsHeader::request(header.target, header.source, header.command, any(1)));
+        if let Ok(Some(call)) = operation::Call::of_frame(&frame) {
+            let mut buf = [0; ROOM];
+            seen((call.encoded_len(), call.encode(&mut buf)));
+        }
     }
     seen(ads::AdsError::is_none(ads::AdsError(any(7))));
     let reply = ads::DeviceInfoReply::decode(bytes)?;
