@@ -1,21 +1,14 @@
-//! Reading from a slice and writing into one, by the rules of the field tables.
+//! Reading from a slice.
 
 use zerocopy::little_endian::U32;
 use zerocopy::{FromBytes, Immutable, KnownLayout, Unaligned};
 
+use super::faults::{cut, not_all, not_between, too_long};
+use super::{to_len, to_u32};
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Cut, Field, Stream};
+use crate::layout::{Field, Stream};
 use crate::nul::{not_maybe_terminated, not_terminated, split_nul, split_padded, text_len};
 use crate::text::{CncStr, TextRef};
-
-/// A length as errors carry it.
-pub(crate) fn to_u32(len: usize) -> u32 {
-    u32::try_from(len).unwrap_or(u32::MAX)
-}
-
-pub(crate) fn to_len(size: u32) -> usize {
-    usize::try_from(size).unwrap_or(usize::MAX)
-}
 
 /// What is left of a stream, and where that begins.
 pub(crate) struct Reader<'a> {
@@ -253,191 +246,6 @@ impl<'a> Reader<'a> {
                 let whole = Field::whole(self.stream);
                 Err(Error::new(ErrorKind::Trailing, whole, self.at, self.at, given))
             }
-        }
-    }
-}
-
-/// The field in which the fixed part of a record at `at` is cut.
-// Not a method: a reader whose address is known to nobody stays in registers.
-#[cold]
-pub(crate) fn cut(stream: Stream, at: u32, left: usize) -> Error {
-    match stream.cuts().get(left) {
-        Some(cut) => cut_at(stream, *cut, at, left),
-        None => Error::new(ErrorKind::Truncated, Field::whole(stream), at, 0, to_u32(left)),
-    }
-}
-
-#[inline]
-fn cut_at(stream: Stream, cut: Cut, at: u32, left: usize) -> Error {
-    let (offset, size) = (u32::from(cut.offset), u32::from(cut.size));
-    let found = to_u32(left).wrapping_sub(offset);
-    Error::new(
-        ErrorKind::Truncated,
-        Field::new(stream, cut.field),
-        at.wrapping_add(offset),
-        size,
-        found,
-    )
-}
-
-/// Why so many bytes are not the fixed ones that are all of a stream.
-#[cold]
-fn not_all(stream: Stream, given: usize) -> Error {
-    let cuts = stream.cuts();
-    match cuts.get(given) {
-        Some(cut) => cut_at(stream, *cut, 0, given),
-        None => {
-            let size = to_u32(cuts.len());
-            Error::new(ErrorKind::Trailing, Field::whole(stream), size, size, to_u32(given))
-        }
-    }
-}
-
-/// Why so many bytes are too few or too many.
-#[cold]
-fn not_between(field: Field, min: u32, max: u32, given: usize) -> Error {
-    let given = to_u32(given);
-    if given < min {
-        return Error::new(ErrorKind::Truncated, field, 0, min, given);
-    }
-    too_long(Field::whole(field.stream()), max, given)
-}
-
-#[cold]
-fn too_long(field: Field, max: u32, given: u32) -> Error {
-    Error::new(ErrorKind::TooLong, field, max, max, given)
-}
-
-/// Writes into a buffer that was found large enough before the first byte.
-pub(crate) struct Writer<'b> {
-    rest: &'b mut [u8],
-}
-
-impl<'b> Writer<'b> {
-    /// Takes exactly `len` bytes of `buf`, or nothing at all.
-    #[inline]
-    pub(crate) fn run(
-        stream: Stream,
-        len: usize,
-        buf: &'b mut [u8],
-        write: impl FnOnce(&mut Writer<'_>),
-    ) -> Result<&'b [u8], Error> {
-        let room = Self::room(stream, len, buf)?;
-        write(&mut Writer::new(room));
-        Ok(room)
-    }
-
-    /// Exactly `len` bytes of `buf`, which a stream may have.
-    #[inline]
-    pub(crate) fn room(
-        stream: Stream,
-        len: usize,
-        buf: &'b mut [u8],
-    ) -> Result<&'b mut [u8], Error> {
-        let max = stream.layout().max;
-        if len > to_len(max) {
-            return Err(too_long(Field::whole(stream), max, to_u32(len)));
-        }
-        Self::part(stream, len, buf)
-    }
-
-    #[inline]
-    fn part(stream: Stream, len: usize, buf: &'b mut [u8]) -> Result<&'b mut [u8], Error> {
-        let given = buf.len();
-        buf.get_mut(..len).ok_or_else(|| {
-            let (whole, given) = (Field::whole(stream), to_u32(given));
-            Error::new(ErrorKind::BufferTooSmall, whole, 0, to_u32(len), given)
-        })
-    }
-
-    /// Writes into this.
-    #[inline]
-    pub(crate) fn new(rest: &'b mut [u8]) -> Self {
-        Self { rest }
-    }
-
-    /// As [`run`](Self::run), for `behind` bytes behind a front.
-    #[inline]
-    pub(crate) fn run_behind(
-        stream: Stream,
-        front: usize,
-        behind: usize,
-        buf: &'b mut [u8],
-        write: impl FnOnce(&mut Writer<'_>),
-    ) -> Result<&'b [u8], Error> {
-        let room = Self::room_behind(stream, front, behind, buf)?;
-        write(&mut Writer::new(room));
-        Ok(room)
-    }
-
-    /// As [`room`](Self::room), for `behind` bytes behind a front. No sum can overflow then, which
-    /// the compiler sees, so that writing needs no further checks.
-    #[inline]
-    pub(crate) fn room_behind(
-        stream: Stream,
-        front: usize,
-        behind: usize,
-        buf: &'b mut [u8],
-    ) -> Result<&'b mut [u8], Error> {
-        let max = stream.layout().max;
-        if to_len(max).checked_sub(front).is_none_or(|most| behind > most) {
-            let len = to_u32(front.saturating_add(behind));
-            return Err(too_long(Field::whole(stream), max, len));
-        }
-        // Never wraps: the sum is at most `max`.
-        Self::part(stream, front.wrapping_add(behind), buf)
-    }
-
-    /// Writes these bytes, which are all of the stream.
-    #[inline]
-    pub(crate) fn copy(stream: Stream, bytes: &[u8], buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Self::run(stream, bytes.len(), buf, |out| out.put(bytes))
-    }
-
-    /// As [`run`](Self::run), for more than the stream that errors are told of.
-    #[inline]
-    pub(crate) fn fill(
-        stream: Stream,
-        len: usize,
-        buf: &'b mut [u8],
-        write: impl FnOnce(&mut Writer<'_>),
-    ) -> Result<&'b [u8], Error> {
-        let room = Self::part(stream, len, buf)?;
-        write(&mut Writer::new(room));
-        Ok(room)
-    }
-
-    /// The next `len` bytes to write; none if there were fewer, which cannot be.
-    #[inline]
-    pub(crate) fn next(&mut self, len: usize) -> &'b mut [u8] {
-        match core::mem::take(&mut self.rest).split_at_mut_checked(len) {
-            Some((head, rest)) => {
-                self.rest = rest;
-                head
-            }
-            None => &mut [],
-        }
-    }
-
-    pub(crate) fn put(&mut self, bytes: &[u8]) {
-        let rest = core::mem::take(&mut self.rest);
-        if let Some((head, tail)) = rest.split_at_mut_checked(bytes.len()) {
-            head.copy_from_slice(bytes);
-            self.rest = tail;
-        }
-    }
-
-    #[inline]
-    pub(crate) fn u32(&mut self, number: u32) {
-        self.put(&number.to_le_bytes());
-    }
-
-    /// A NUL and what follows it, which mostly is nothing.
-    #[inline]
-    pub(crate) fn nul_and(&mut self, tail: &[u8]) {
-        self.put(&[0]);
-        if !tail.is_empty() {
-            self.put(tail);
         }
     }
 }

@@ -1,0 +1,18 @@
+//! Reading from a slice and writing into one, by the rules of the field tables.
+
+mod faults;
+mod reader;
+mod writer;
+
+pub(crate) use faults::cut;
+pub(crate) use reader::Reader;
+pub(crate) use writer::Writer;
+
+/// A length as errors carry it.
+pub(crate) fn to_u32(len: usize) -> u32 {
+    u32::try_from(len).unwrap_or(u32::MAX)
+}
+
+pub(crate) fn to_len(size: u32) -> usize {
+    usize::try_from(size).unwrap_or(usize::MAX)
+}

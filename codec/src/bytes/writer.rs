@@ -1,0 +1,140 @@
+//! Writing into a slice.
+
+use super::faults::too_long;
+use super::{to_len, to_u32};
+use crate::error::{Error, ErrorKind};
+use crate::layout::{Field, Stream};
+
+/// Writes into a buffer that was found large enough before the first byte.
+pub(crate) struct Writer<'b> {
+    rest: &'b mut [u8],
+}
+
+impl<'b> Writer<'b> {
+    /// Takes exactly `len` bytes of `buf`, or nothing at all.
+    #[inline]
+    pub(crate) fn run(
+        stream: Stream,
+        len: usize,
+        buf: &'b mut [u8],
+        write: impl FnOnce(&mut Writer<'_>),
+    ) -> Result<&'b [u8], Error> {
+        let room = Self::room(stream, len, buf)?;
+        write(&mut Writer::new(room));
+        Ok(room)
+    }
+
+    /// Exactly `len` bytes of `buf`, which a stream may have.
+    #[inline]
+    pub(crate) fn room(
+        stream: Stream,
+        len: usize,
+        buf: &'b mut [u8],
+    ) -> Result<&'b mut [u8], Error> {
+        let max = stream.layout().max;
+        if len > to_len(max) {
+            return Err(too_long(Field::whole(stream), max, to_u32(len)));
+        }
+        Self::part(stream, len, buf)
+    }
+
+    #[inline]
+    fn part(stream: Stream, len: usize, buf: &'b mut [u8]) -> Result<&'b mut [u8], Error> {
+        let given = buf.len();
+        buf.get_mut(..len).ok_or_else(|| {
+            let (whole, given) = (Field::whole(stream), to_u32(given));
+            Error::new(ErrorKind::BufferTooSmall, whole, 0, to_u32(len), given)
+        })
+    }
+
+    /// Writes into this.
+    #[inline]
+    pub(crate) fn new(rest: &'b mut [u8]) -> Self {
+        Self { rest }
+    }
+
+    /// As [`run`](Self::run), for `behind` bytes behind a front.
+    #[inline]
+    pub(crate) fn run_behind(
+        stream: Stream,
+        front: usize,
+        behind: usize,
+        buf: &'b mut [u8],
+        write: impl FnOnce(&mut Writer<'_>),
+    ) -> Result<&'b [u8], Error> {
+        let room = Self::room_behind(stream, front, behind, buf)?;
+        write(&mut Writer::new(room));
+        Ok(room)
+    }
+
+    /// As [`room`](Self::room), for `behind` bytes behind a front. No sum can overflow then, which
+    /// the compiler sees, so that writing needs no further checks.
+    #[inline]
+    pub(crate) fn room_behind(
+        stream: Stream,
+        front: usize,
+        behind: usize,
+        buf: &'b mut [u8],
+    ) -> Result<&'b mut [u8], Error> {
+        let max = stream.layout().max;
+        if to_len(max).checked_sub(front).is_none_or(|most| behind > most) {
+            let len = to_u32(front.saturating_add(behind));
+            return Err(too_long(Field::whole(stream), max, len));
+        }
+        // Never wraps: the sum is at most `max`.
+        Self::part(stream, front.wrapping_add(behind), buf)
+    }
+
+    /// Writes these bytes, which are all of the stream.
+    #[inline]
+    pub(crate) fn copy(stream: Stream, bytes: &[u8], buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        Self::run(stream, bytes.len(), buf, |out| out.put(bytes))
+    }
+
+    /// As [`run`](Self::run), for more than the stream that errors are told of.
+    #[inline]
+    pub(crate) fn fill(
+        stream: Stream,
+        len: usize,
+        buf: &'b mut [u8],
+        write: impl FnOnce(&mut Writer<'_>),
+    ) -> Result<&'b [u8], Error> {
+        let room = Self::part(stream, len, buf)?;
+        write(&mut Writer::new(room));
+        Ok(room)
+    }
+
+    /// The next `len` bytes to write; none if there were fewer, which cannot be.
+    #[inline]
+    pub(crate) fn next(&mut self, len: usize) -> &'b mut [u8] {
+        match core::mem::take(&mut self.rest).split_at_mut_checked(len) {
+            Some((head, rest)) => {
+                self.rest = rest;
+                head
+            }
+            None => &mut [],
+        }
+    }
+
+    pub(crate) fn put(&mut self, bytes: &[u8]) {
+        let rest = core::mem::take(&mut self.rest);
+        if let Some((head, tail)) = rest.split_at_mut_checked(bytes.len()) {
+            head.copy_from_slice(bytes);
+            self.rest = tail;
+        }
+    }
+
+    #[inline]
+    pub(crate) fn u32(&mut self, number: u32) {
+        self.put(&number.to_le_bytes());
+    }
+
+    /// A NUL and what follows it, which mostly is nothing.
+    #[inline]
+    pub(crate) fn nul_and(&mut self, tail: &[u8]) {
+        self.put(&[0]);
+        if !tail.is_empty() {
+            self.put(tail);
+        }
+    }
+}
