@@ -113,14 +113,8 @@ impl fmt::Display for Refusal {
     }
 }
 
-impl core::error::Error for Refusal {
-    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        match self {
-            Self::Stream(error) => Some(error),
-            _ => None,
-        }
-    }
-}
+// No source: a stream's error is shown as the refusal, and who shows a chain would show it twice.
+impl core::error::Error for Refusal {}
 
 impl<'a> Call<'a> {
     /// The function that is called and what it is asked.
