@@ -108,7 +108,6 @@ mod any;
 mod bridge;
 mod bytes;
 mod bytes_stream;
-mod nul;
 mod number;
 
 #[cfg(feature = "alloc")]

@@ -7,7 +7,7 @@ use super::faults::{cut, not_all, not_between, too_long};
 use super::{to_len, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
-use crate::nul::{not_maybe_terminated, not_terminated, split_nul, split_padded, text_len};
+use crate::text::end::{not_maybe_terminated, not_terminated, split_nul, split_padded, text_len};
 use crate::text::{CncStr, TextRef};
 
 /// What is left of a stream, and where that begins.

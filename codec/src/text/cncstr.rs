@@ -3,11 +3,11 @@
 use core::fmt::{self, Write as _};
 use core::hash::{Hash, Hasher};
 
+use super::end::text_len;
 use super::{char_to_cp1252, cp1252_to_char};
 use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::field;
-use crate::nul::text_len;
 
 /// CP1252 text without a NUL, borrowed from a stream or from a Rust string.
 ///

@@ -3,10 +3,10 @@
 use core::fmt;
 
 use super::CncStr;
+use super::end::split_nul;
 use crate::bytes::{Writer, to_len, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
-use crate::nul::split_nul;
 
 /// A text field with its end: one NUL, a NUL and more bytes, or no NUL at all.
 ///

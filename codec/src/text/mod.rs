@@ -18,6 +18,7 @@
 
 mod cncstr;
 mod cp1252;
+pub(crate) mod end;
 mod field;
 #[cfg(feature = "alloc")]
 mod owned;

@@ -1,9 +1,9 @@
 //! Where texts end.
 
+use super::{CncStr, TextRef};
 use crate::bytes::{to_len, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
-use crate::text::{CncStr, TextRef};
 
 /// The text before the first NUL and the bytes behind it.
 #[inline]
