@@ -22,7 +22,7 @@ type Row = (
 
 /// Every function, where the manuals put it. What a gate lets through by itself rests on its effect.
 #[rustfmt::skip]
-const ROWS: [Row; 30] = [
+const ROWS: &[Row] = &[
     ("number of objects", Read, 553, (0x13_0101, 0), ("", "object-count"), Query, ("COM-1", "2.1.1")),
     ("object descriptors", Read, 553, (0x13_0101, 1), ("", "object-descriptors"), Query, ("COM-2", "2.1.1")),
     ("number of variable elements", ReadWrite, 552, (0x12_2301, 0x44), ("variable-kind", "variable-count"), Query, ("VAR-2", "4.3.1")),
@@ -57,7 +57,6 @@ const ROWS: [Row; 30] = [
 
 #[test]
 fn functions_are_where_the_manuals_put_them() {
-    assert_eq!(ROWS.len(), Function::ALL.len());
     for (function, row) in Function::ALL.iter().zip(ROWS) {
         let spec = function.spec();
         let name = |stream: Option<Stream>| stream.map_or("", |stream| stream.layout().name);
@@ -65,10 +64,13 @@ fn functions_are_where_the_manuals_put_them() {
         let streams = (name(spec.request), name(spec.reply));
         let (port, basis) = (spec.task.port().0, (spec.clause, spec.section));
         let found: Row = (spec.name, spec.service, port, address, streams, spec.effect, basis);
-        assert_eq!(found, row);
+        assert_eq!(found, *row, "{function:?}: ROWS has the order of Function::ALL");
         assert!(spec.offset.holds(IndexOffset::new(row.3.1)), "{}", spec.name);
         assert_eq!(spec.effect == Query, spec.service != Write, "{}", spec.name);
     }
+    let rows: Vec<&str> = ROWS.iter().map(|row| row.0).collect();
+    let functions: Vec<&str> = Function::ALL.iter().map(|one| one.spec().name).collect();
+    assert_eq!(rows, functions, "a row is missing at the end, or one too many");
 }
 
 /// Each kind of dynamic parameters has its own four offsets, and no other offset is one.

@@ -8,7 +8,10 @@ use crate::address::{IndexGroup, IndexOffset};
 #[cfg_attr(test, derive(Debug, PartialEq, Eq))]
 pub(super) struct Functions(pub(super) u32);
 
-const _: () = assert!(Function::ALL.len() < 32);
+const _: () = assert!(
+    Function::ALL.len() < 32,
+    "more than 31 functions: `Functions` and its bits, and `NOTHING`, have to be wider"
+);
 
 /// Those of which something is so.
 macro_rules! those_where {
