@@ -1,4 +1,4 @@
-"""What has to be in a packed crate, and what must not: `packed.py CRATE UNPACKED`."""
+"""What has to be in a packed crate, and what must not: `packed.py CRATE UNPACKED SOURCE`."""
 
 import os
 import pathlib
@@ -13,6 +13,8 @@ FIELDS = ("description", "documentation", "license", "readme", "rust-version")
 KEYWORD = re.compile(r"[A-Za-z0-9][A-Za-z0-9_+-]{0,19}")
 # Several times what the largest has: more is something that got in by mistake.
 PACKED_MAX = 1 << 20
+# What cargo writes anew, or adds.
+CARGOS = ("Cargo.toml", "Cargo.toml.orig", "Cargo.lock", ".cargo_vcs_info.json")
 # Homes, and places of this machine; a path such as /tmp/a in an example says nothing about it.
 HOMES = (r"/home/\w", r"/root/", r"/Users/\w", r"[A-Z]:\\\\?Users")
 PLACES = (str(ROOT), os.environ.get("CARGO_HOME"), os.environ.get("CARGO_TARGET_DIR"))
@@ -37,7 +39,7 @@ def dependencies(manifest):
                 yield f"{kind}: {name} = {what}"
 
 
-def files(folder, version):
+def files(folder, version, source):
     for name in LICENCES:
         if not (folder / name).exists() or (folder / name).read_bytes() != (ROOT / name).read_bytes():
             yield f"{name} is not that of the workspace"
@@ -45,15 +47,18 @@ def files(folder, version):
     if not changelog.exists() or f"\n## {version}\n" not in changelog.read_text(encoding="utf-8"):
         yield f"CHANGELOG.md has no {version}"
     for path in sorted(path for path in folder.rglob("*") if path.is_file()):
-        if found := MACHINE.search(path.read_bytes()):
-            yield f"{path.relative_to(folder)} names {found[0].decode(errors='replace')}"
+        name, given = path.relative_to(folder), path.read_bytes()
+        if found := MACHINE.search(given):
+            yield f"{name} names {found[0].decode(errors='replace')}"
+        if str(name) not in CARGOS and given != (source / name).read_bytes():
+            yield f"{name} is not that of {source}"
 
 
-def main(crate, folder):
+def main(crate, folder, source):
     manifest = tomllib.loads((folder / "Cargo.toml").read_text(encoding="utf-8"))
     package = manifest["package"]
     packed = crate.stat().st_size
-    faults = [*metadata(package), *dependencies(manifest), *files(folder, package["version"])]
+    faults = [*metadata(package), *dependencies(manifest), *files(folder, package["version"], source)]
     if not (folder / package.get("readme", "README.md")).exists():
         faults.append("no README")
     if packed > PACKED_MAX:
