@@ -145,33 +145,34 @@ impl View<'_> {
                     format!("{} at offset {} in {}", reject.class, reject.offset, reject.field);
                 let expected = format!("refused: {place}");
                 match reaction {
-                    Reaction::Answer(Answer::Reject(_)) => match self.sibling(vector) {
-                        Ok(()) => (Verdict::Pass, expected, String::new()),
-                        Err(why) => (Verdict::Vacuous, expected, why),
-                    },
+                    Reaction::Answer(Answer::Reject(_)) => {
+                        match self.sibling(&vector.sibling, "decode") {
+                            Ok(()) => (Verdict::Pass, expected, String::new()),
+                            Err(why) => (Verdict::Vacuous, expected, why),
+                        }
+                    }
                     other => (Verdict::Fail, expected, describe(other)),
                 }
             }
         }
     }
 
-    /// Whether the sibling of a refused vector was accepted: else it may be refused for any reason.
-    fn sibling(&self, vector: &Vector) -> Result<(), String> {
-        let wanted = vector.sibling.as_deref().unwrap_or_default();
-        let found = self.cases.iter().enumerate().find_map(|(place, case)| match &case.body {
-            Body::Vector(vector) if vector.id == wanted => Some((place, *vector)),
-            _ => None,
-        });
-        let Some((place, sibling)) = found else {
+    /// Whether the sibling of what was refused was accepted: else it may be refused for any reason.
+    fn sibling(&self, sibling: &Option<String>, op: &str) -> Result<(), String> {
+        let wanted = sibling.as_deref().unwrap_or_default();
+        let is_wanted = |case: &Case| match &case.body {
+            Body::Vector(vector) => vector.id == wanted,
+            Body::Sequence(sequence) => sequence.id == wanted,
+            _ => false,
+        };
+        let Some(place) = self.cases.iter().position(is_wanted) else {
             return Err(format!("{wanted}, which lacks this fault, was not tried"));
         };
-        match self.reactions.get(&(place, "decode".to_owned())) {
+        match self.reactions.get(&(place, op.to_owned())) {
             Some(Reaction::Answer(Answer::Ok(_))) => Ok(()),
-            Some(other) => Err(format!(
-                "refused, but {}, which lacks this fault: {}",
-                sibling.id,
-                describe(other)
-            )),
+            Some(other) => {
+                Err(format!("refused, but {wanted}, which lacks this fault: {}", describe(other)))
+            }
             None => Err(format!("{wanted}, which lacks this fault, was not answered")),
         }
     }
@@ -202,33 +203,16 @@ impl View<'_> {
                 let line = reject.line.map(|line| format!(" in line {line}")).unwrap_or_default();
                 let expected = format!("refused: {}{line}", reject.class);
                 match reaction {
-                    Reaction::Answer(Answer::Reject(_)) => match self.other_text(sequence) {
-                        Ok(()) => (Verdict::Pass, expected, String::new()),
-                        Err(why) => (Verdict::Vacuous, expected, why),
-                    },
+                    Reaction::Answer(Answer::Reject(_)) => {
+                        let op = if sequence.kind() == "nc-text" { "packets" } else { "check" };
+                        match self.sibling(&sequence.sibling, op) {
+                            Ok(()) => (Verdict::Pass, expected, String::new()),
+                            Err(why) => (Verdict::Vacuous, expected, why),
+                        }
+                    }
                     other => (Verdict::Fail, expected, describe(other)),
                 }
             }
-        }
-    }
-
-    fn other_text(&self, sequence: &Sequence) -> Result<(), String> {
-        let wanted = sequence.sibling.as_deref().unwrap_or_default();
-        let mut cases = self.cases.iter().enumerate();
-        let found = cases.find_map(|(place, case)| match &case.body {
-            Body::Sequence(sequence) if sequence.id == wanted => Some(place),
-            _ => None,
-        });
-        let reaction = found.and_then(|place| {
-            let op = if sequence.kind() == "nc-text" { "packets" } else { "check" };
-            self.reactions.get(&(place, op.to_owned()))
-        });
-        match reaction {
-            Some(Reaction::Answer(Answer::Ok(_))) => Ok(()),
-            Some(other) => {
-                Err(format!("refused, but {wanted}, which lacks this fault: {}", describe(other)))
-            }
-            None => Err(format!("{wanted}, which lacks this fault, was not answered")),
         }
     }
 }
