@@ -242,7 +242,7 @@ pub(super) struct Page<'b> {
 }
 
 impl Page<'_> {
-    fn add(&mut self, rule: Rule, verdict: Verdict, expected: String, found: String) {
+    fn add(&mut self, rule: Rule, verdict: Verdict, expected: impl Display, found: impl Display) {
         if let Some((_, record, _)) = &mut self.page {
             record.add(rule, verdict, expected, found, || Some(self.scene.evidence()));
         }
@@ -250,8 +250,7 @@ impl Page<'_> {
 
     /// Something that may have been so or not: it was not captured.
     pub(super) fn open(&mut self, rule: impl Into<Rule>, found: impl Display) {
-        let expected = "all of it in the capture".to_owned();
-        self.add(rule.into(), Verdict::Inconclusive, expected, found.to_string());
+        self.add(rule.into(), Verdict::Inconclusive, "all of it in the capture", found);
     }
 
     /// Whether the case judges by this requirement.

@@ -84,7 +84,7 @@ impl<'s> Probe<'s> {
         found: impl Display,
     ) -> bool {
         let rule = rule.into();
-        self.record(rule, rule.verdict(kept), expected.to_string(), found.to_string());
+        self.record(rule, rule.verdict(kept), expected, found);
         kept
     }
 
@@ -122,7 +122,13 @@ impl<'s> Probe<'s> {
         if kept { Ok(()) } else { Err(Stop::Judged) }
     }
 
-    fn record(&mut self, rule: Rule, verdict: Verdict, expected: String, found: String) {
+    fn record(
+        &mut self,
+        rule: Rule,
+        verdict: Verdict,
+        expected: impl Display,
+        found: impl Display,
+    ) {
         let last = &self.last;
         self.record.add(rule, verdict, expected, found, || last.clone());
     }

@@ -46,8 +46,8 @@ impl Record {
         &mut self,
         rule: Rule,
         verdict: Verdict,
-        expected: String,
-        found: String,
+        expected: impl Display,
+        found: impl Display,
         evidence: impl FnOnce() -> Option<Evidence>,
     ) {
         self.checks = self.checks.saturating_add(1);
@@ -65,6 +65,7 @@ impl Record {
         }
         let evidence = if passed { None } else { evidence() };
         let (requirement, level) = (rule.id, rule.level);
+        let (expected, found) = (expected.to_string(), found.to_string());
         let judgement =
             Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
         self.judgements.push(judgement);

@@ -3,12 +3,13 @@
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::{
     Call, CountDynamic, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex,
-    ReadByName, Request, Service,
+    ReadByName, Request,
 };
 use ads_cnc::{Kind, VariableType};
 
 use super::maybe;
 use crate::profile::Claim;
+use crate::services::clause;
 use crate::suite::case::{Step, Stop};
 use crate::suite::described::kinds;
 use crate::suite::probe::{Probe, harness};
@@ -79,7 +80,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     }
     let mut buf = vec![0; request.encoded_len()];
     let call = request.encode(&mut buf).map_err(harness)?;
-    let rule = if call.service == Service::Read { "ADS-1" } else { "ADS-3" };
+    let rule = clause(call.service);
     let Some(whole) = maybe(probe, request)?.filter(|data| !data.is_empty()) else {
         return Ok(());
     };
