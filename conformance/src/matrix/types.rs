@@ -7,10 +7,13 @@ use ads_cnc::sda::*;
 use ads_cnc::streaming::*;
 use ads_cnc::*;
 
-/// Names are spelled once, and each has to be a type.
+/// Names are spelled once, and each has to be a type that reads the stream.
 macro_rules! types {
     ($( $stream:ident: $( $reading:ident $( <$life:lifetime> )? ),+; )+) => {
-        $( $( const _: Option<$reading $( <$life> )?> = None; )+ )+
+        $( $( const _: () = assert!(matches!(
+            <$reading $( <$life> )? as Decode<'static>>::STREAM,
+            Stream::$stream
+        )); )+ )+
 
         /// The types that read and write a stream.
         pub(super) fn of_stream(stream: Stream) -> &'static [&'static str] {
