@@ -10,7 +10,6 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::Encode;
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
-use ads_cnc::limits::ADS_DATA_MAX;
 use ads_cnc::operation::{Call, Service};
 
 use crate::capture::Capture;
@@ -275,8 +274,8 @@ impl Client {
         let asked = Instant::now();
         let mut chunk = [0; 4096];
         loop {
-            let max = u32::try_from(ADS_DATA_MAX).unwrap_or(u32::MAX).saturating_add(16);
-            if let Some((frame, len)) = FrameRef::split(received, max).map_err(Fault::Malformed)? {
+            let split = FrameRef::split(received, u32::MAX).map_err(Fault::Malformed)?;
+            if let Some((frame, len)) = split {
                 let header = frame.header();
                 if header.invoke_id == sent.invoke_id {
                     if let Some(more) = received.len().checked_sub(len).filter(|more| *more > 0) {

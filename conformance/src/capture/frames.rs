@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use ads_cnc::ads::{AmsHeader, AmsTcpHeader, Command, FrameRef, StateFlags};
-use ads_cnc::limits::{ADS_DATA_MAX, AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::{Decode as _, Error};
 
 use super::tcp::Mark;
@@ -105,7 +105,7 @@ impl Frames {
             out(Found::Router);
             return true;
         }
-        match FrameRef::split(&self.bytes, most()) {
+        match FrameRef::split(&self.bytes, u32::MAX) {
             Ok(None) => false,
             Ok(Some((_, length))) => {
                 if let Some(span) = self.span(length) {
@@ -190,11 +190,6 @@ impl Frames {
 /// Bytes of what is no frame that are shown.
 const SHOWN: usize = 64;
 
-/// The most data of a frame: that of a service, and the numbers before it.
-fn most() -> u32 {
-    u32::try_from(ADS_DATA_MAX).unwrap_or(u32::MAX).saturating_add(16)
-}
-
 /// How long a message between a client and its local router is, if this is the header of one:
 /// those that open and close a port, and what the router tells. None has as many bytes as an AMS header.
 fn router(tcp: &[u8]) -> Option<usize> {
@@ -210,5 +205,5 @@ fn is_plausible(bytes: &[u8]) -> bool {
     let Some(Ok(header)) = header.map(AmsHeader::decode) else { return false };
     let known = (Command::READ_DEVICE_INFO..=Command::READ_WRITE).contains(&header.command);
     let flags = matches!(header.state_flags, StateFlags::REQUEST | StateFlags::RESPONSE);
-    known && flags && FrameRef::split(bytes, most()).is_ok()
+    known && flags && FrameRef::split(bytes, u32::MAX).is_ok()
 }

@@ -12,11 +12,8 @@ use ads_cnc::ads::AmsNetId;
 
 use super::knob::Deed;
 use super::script::Script;
-use crate::cnc::NET_ID;
+use crate::cnc::{FRAME_MAX, NET_ID};
 use crate::net;
-
-/// The longest frame that is taken.
-const FRAME_MAX: usize = 0x1_0000;
 
 /// The most connections of one scenario.
 const CONNECTIONS_MAX: usize = 64;

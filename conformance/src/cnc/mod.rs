@@ -39,6 +39,7 @@ pub use answer::Cnc;
 pub use control::ControlError;
 pub(crate) use model::Configured;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
+pub(crate) use respond::FRAME_MAX;
 pub(crate) use respond::INFO;
 pub use respond::{DATA_MAX, NET_ID};
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};

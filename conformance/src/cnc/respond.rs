@@ -19,6 +19,11 @@ use crate::services::{reply_stream, request_stream, service_of};
 /// and is refused as the answer to a request.
 pub const DATA_MAX: u32 = 0x1_0000;
 
+/// Bytes of the longest frame.
+pub(crate) const FRAME_MAX: usize = FrameRef::HEADERS_LEN + 0x1_0000;
+
+const _: () = assert!(DATA_MAX == 0x1_0000);
+
 /// The AMS NetId of the simulated CNC, unless it is given another.
 pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::layout::Stream;
-use ads_cnc::limits::{ADS_DATA_MAX, AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::{Call, Refusal, Service};
 use ads_cnc::{Decode as _, Error};
 
@@ -17,18 +17,12 @@ use super::typed::Values;
 use super::value::bytes as in_words;
 use crate::services::{reply_stream, request_stream, service_of};
 
-/// The most data of a frame: that of a service and the numbers before it.
-const DATA_MAX: u32 = {
-    assert!(ADS_DATA_MAX == 0x40_0000);
-    0x40_0010
-};
-
 /// Requests by who asked whom under which ID.
 type Asked = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;
 
 /// Whether the bytes begin with a frame, or with one whose headers are whole and agree.
 pub fn looks_like_frame(bytes: &[u8]) -> bool {
-    match FrameRef::split(bytes, DATA_MAX) {
+    match FrameRef::split(bytes, u32::MAX) {
         Ok(Some(_)) => true,
         Ok(None) => bytes.len() >= FrameRef::HEADERS_LEN,
         Err(_) => false,
@@ -60,7 +54,7 @@ struct Frames<'q> {
 impl Frames<'_> {
     /// One frame; how many bytes it takes, if another may follow.
     fn frame(&mut self, at: usize, bytes: &[u8]) -> Option<usize> {
-        let split = FrameRef::split(bytes, DATA_MAX);
+        let split = FrameRef::split(bytes, u32::MAX);
         let (tcp, rest) = halves(bytes, AMS_TCP_HEADER_LEN);
         let whole = self.header(Stream::AmsTcpHeader, at, tcp);
         if let (true, Err(error)) = (whole, &split)

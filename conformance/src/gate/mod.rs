@@ -35,7 +35,6 @@ use std::ops::RangeInclusive;
 
 use ads_cnc::address::{Access, ComTable, Group};
 use ads_cnc::ads::{AmsNetId, AmsPort, Command, FrameRef, StateFlags};
-use ads_cnc::limits::ADS_DATA_MAX;
 use ads_cnc::operation::{Call, Effect, Function, Request, Service, Task};
 use ads_cnc::streaming;
 
@@ -270,8 +269,7 @@ const SUMS: RangeInclusive<u32> = 0xF080..=0xF08F;
 
 /// The one frame that these bytes are.
 fn whole(bytes: &[u8]) -> Result<FrameRef<'_>, Reason> {
-    let max = u32::try_from(ADS_DATA_MAX).unwrap_or(u32::MAX).saturating_add(16);
-    match FrameRef::split(bytes, max) {
+    match FrameRef::split(bytes, u32::MAX) {
         Ok(Some((frame, len))) if len == bytes.len() => Ok(frame),
         Ok(_) => Err(Reason::NoFrame),
         Err(error) => Err(Reason::Malformed(error)),

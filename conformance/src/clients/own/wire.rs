@@ -11,13 +11,11 @@ use super::Flaw;
 use super::spoil::{Asked, believe, misread, spoil_frame};
 use crate::client::{SOURCE_PORT, answer, frame, net_id_of};
 use crate::clients::Place;
+use crate::cnc::DATA_MAX;
 use crate::net;
 
 /// How long it waits for a reply.
 const TIMEOUT: Duration = Duration::from_secs(3);
-
-/// The longest frame it takes.
-const DATA_MAX: u32 = 0x1_0000;
 
 /// Why there is no result.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,15 +5,9 @@ use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
 use ads_cnc::ads::{AmsNetId, FrameRef};
-use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 
 use super::ServerOptions;
-use crate::cnc::{Cnc, DATA_MAX};
-
-/// Bytes of the longest frame.
-const FRAME_MAX: usize = AMS_TCP_HEADER_LEN + AMS_HEADER_LEN + 0x1_0000;
-
-const _: () = assert!(DATA_MAX == 0x1_0000);
+use crate::cnc::{Cnc, DATA_MAX, FRAME_MAX};
 
 /// Room for the longest frame and what comes with it.
 const RECEIVED_MAX: usize = FRAME_MAX + 16 * 1024;
