@@ -9,8 +9,11 @@ use std::{env, thread};
 use super::common::Serve;
 use super::shown::{Shown, fits, words};
 
-/// How long one call may take.
+/// How long one call may take: what cargo has to build takes minutes.
 const PATIENCE: Duration = Duration::from_secs(900);
+
+/// How long one that does not end may take to show what it should.
+const PATIENCE_ENDLESS: Duration = Duration::from_secs(60);
 
 pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -77,7 +80,7 @@ impl Bench {
         let out = File::create(&path).unwrap();
         let mut process =
             self.command(&call, &out).stdout(out).stdin(Stdio::null()).spawn().unwrap();
-        let end = Instant::now() + PATIENCE;
+        let end = Instant::now() + if is_endless { PATIENCE_ENDLESS } else { PATIENCE };
         let read = || fs::read_to_string(&path).unwrap();
         loop {
             if let Some(status) = process.try_wait().unwrap() {
