@@ -1,5 +1,5 @@
 //! What the documents show of the tools is what they print: each call in a block ```console is made,
-//! here or where a list says, and its output compared.
+//! here, in readme/gate.rs or where a list says, and its output compared.
 
 #[path = "readme/bench.rs"]
 mod bench;
@@ -8,6 +8,8 @@ mod common;
 #[cfg(target_os = "linux")]
 #[path = "readme/dependencies.rs"]
 mod dependencies;
+#[path = "readme/documents.rs"]
+mod documents;
 #[path = "readme/links.rs"]
 mod links;
 #[path = "readme/sections.rs"]
@@ -16,15 +18,10 @@ mod sections;
 mod shown;
 
 use std::fs;
-use std::path::Path;
 use std::process::Command;
 
-use bench::{Bench, root};
-use shown::{Shown, calls};
-
-/// Calls that need more than this project, or minutes: the gate makes them by the ignored test below.
-const IN_THE_GATE: [&str; 4] =
-    ["cargo run ", "ads-cnc selftest", "ads-cnc run --testee ", "ads-cnc run --client "];
+use bench::root;
+use documents::{IN_THE_GATE, documents, is_in_the_gate, make};
 
 /// Calls that are not made for the documents: where they are, or what is instead of them.
 const ELSEWHERE: [(&str, &str, &str); 4] = [
@@ -35,66 +32,14 @@ const ELSEWHERE: [(&str, &str, &str); 4] = [
     ("cat ", "conformance/tests/readme/bench.rs", "strip_prefix(\"cat \")"),
 ];
 
-/// All documents by their paths.
-fn texts() -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    add(&root(), "", &mut found);
-    found.sort();
-    found
-}
-
-fn add(folder: &Path, prefix: &str, found: &mut Vec<(String, String)>) {
-    for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
-        let name = entry.file_name().into_string().unwrap();
-        let is_left_out = ["target", ".git", "corpus", "node_modules"].contains(&name.as_str());
-        let path = format!("{prefix}{name}");
-        if entry.file_type().unwrap().is_dir() && !is_left_out {
-            add(&entry.path(), &format!("{path}/"), found);
-        } else if name.ends_with(".md") {
-            found.push((path, fs::read_to_string(entry.path()).unwrap()));
-        }
-    }
-}
-
-/// The documents that show calls.
-fn documents() -> Vec<(String, Vec<Shown>)> {
-    let shown = texts().into_iter().map(|(path, text)| (path, calls(&text)));
-    shown.filter(|(_, shown)| !shown.is_empty()).collect()
-}
-
 fn is_elsewhere(call: &str) -> bool {
     ELSEWHERE.iter().any(|(start, ..)| call.starts_with(start))
-}
-
-fn is_in_the_gate(call: &str) -> bool {
-    IN_THE_GATE.iter().any(|start| call.starts_with(start) || call == start.trim_end())
-}
-
-/// Makes the calls of each document in its order, as one may need what another left.
-fn make(is_meant: impl Fn(&str) -> bool) -> usize {
-    let mut made = 0;
-    for (path, shown) in documents() {
-        let bench = Bench::new(&path.replace('/', "-"), &shown);
-        for one in shown.iter().filter(|one| is_meant(&one.call)) {
-            bench.make(one);
-            made += 1;
-        }
-    }
-    made
 }
 
 #[test]
 fn calls_show_what_the_documents_have() {
     let made = make(|call| !is_elsewhere(call) && !is_in_the_gate(call));
     assert!(made >= 15, "{made} calls");
-}
-
-/// `ADS_CNC_TOOL` names the tool as it was built for release, which takes minutes less.
-#[test]
-#[ignore = "needs Python 3, and minutes; .ci/run runs it"]
-fn calls_of_the_gate_show_what_the_documents_have() {
-    let made = make(is_in_the_gate);
-    assert!(made >= 8, "{made} calls");
 }
 
 /// No call is left out but for a reason that holds.
@@ -113,7 +58,7 @@ fn what_is_not_made_here_is_made_elsewhere() {
     for start in IN_THE_GATE {
         assert!(has(start), "no call begins with {start}");
     }
-    assert!(read(".ci/run").contains("--test readme -- --ignored"));
+    assert!(read(".ci/run").contains("--test readme_gate"));
     for (start, path, text) in ELSEWHERE {
         assert!(has(start), "no call begins with {start}");
         assert!(read(path).contains(text), "{path}: {text}");

@@ -1,6 +1,7 @@
 //! Links between the documents lead to what is there.
 
-use super::{root, texts};
+use super::documents::texts;
+use super::root;
 
 #[test]
 fn links_lead_somewhere() {
