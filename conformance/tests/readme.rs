@@ -17,7 +17,9 @@ mod sections;
 #[path = "readme/shown.rs"]
 mod shown;
 
+use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use bench::root;
@@ -40,6 +42,28 @@ fn is_elsewhere(call: &str) -> bool {
 fn calls_show_what_the_documents_have() {
     let made = make(|call| !is_elsewhere(call) && !is_in_the_gate(call));
     assert!(made >= 15, "{made} calls");
+}
+
+/// Whoever reads what the gate says finds what each script of it is for.
+#[test]
+fn contributors_are_told_of_each_script_of_the_gate() {
+    let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
+    let (gate, told) = (read(".ci/run"), read(".github/CONTRIBUTING.md"));
+    let words = gate.lines().filter(|line| !line.trim_start().starts_with('#'));
+    let words =
+        words.flat_map(|line| line.split(|at: char| at.is_whitespace() || "\"$()".contains(at)));
+    let is_script = |word: &&str| {
+        let folder = word.split('/').next().unwrap_or_default();
+        [".ci", "codec", "conformance", "fuzz", "spec-vectors"].contains(&folder)
+            && Path::new(word).extension().is_none_or(|extension| extension == "py")
+            && root().join(word).is_file()
+    };
+    let scripts: BTreeSet<&str> = words.filter(is_script).collect();
+    assert!(scripts.len() >= 15, "{scripts:?}");
+    // Each is run where a document shows it.
+    for script in scripts.iter().filter(|script| !script.contains("/adapters/")) {
+        assert!(told.contains(script), "{script}");
+    }
 }
 
 /// No call is left out but for a reason that holds.
