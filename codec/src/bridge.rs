@@ -8,7 +8,6 @@ use alloc::vec::Vec;
 use binrw::io::{self, Read, Seek, SeekFrom};
 use binrw::meta::ReadEndian;
 use binrw::{BinRead, BinResult, Endian};
-use zerocopy::little_endian::U32;
 use zerocopy::{FromBytes, IntoBytes};
 
 use crate::bytes::{to_len, to_u32};
@@ -25,6 +24,7 @@ where
 }
 
 /// As [`read`], with what the view has found out already.
+#[inline]
 pub(crate) fn read_with<T, A>(stream: Stream, accepted: &[u8], found: A) -> Result<T, Error>
 where
     T: for<'a> BinRead<Args<'a> = A> + ReadEndian,
@@ -51,6 +51,7 @@ pub(crate) struct Fixed<T>(pub(crate) T);
 impl<T: FromBytes + IntoBytes> BinRead for Fixed<T> {
     type Args<'a> = ();
 
+    #[inline]
     fn read_options<R: Read + Seek>(
         reader: &mut R,
         _: Endian,
@@ -65,12 +66,10 @@ impl<T: FromBytes + IntoBytes> BinRead for Fixed<T> {
 /// `count` numbers; the view has found them to be there.
 #[binrw::parser(reader)]
 pub(crate) fn numbers(count: u32) -> BinResult<Vec<u32>> {
-    let count = to_len(count);
-    let mut numbers = Vec::with_capacity(count);
-    pieces(reader, count.saturating_mul(size_of::<U32>()), |piece| {
-        let piece = <[U32]>::ref_from_bytes(piece).unwrap_or_default();
-        numbers.extend(piece.iter().map(|number| number.get()));
-    })?;
+    let mut numbers = filled::<u32>(reader, to_len(count))?;
+    for number in &mut numbers {
+        *number = u32::from_le(*number);
+    }
     Ok(numbers)
 }
 
@@ -109,18 +108,18 @@ impl From<TextRef<'_>> for TextLen {
 /// Text, and its NUL and what follows if there is one.
 #[binrw::parser(reader)]
 pub(crate) fn text(len: TextLen) -> BinResult<Text> {
-    let text = CncString::without_nul(bytes(reader, len.text)?);
+    let text = CncString::without_nul(filled(reader, len.text)?);
     let Some(tail) = len.tail else {
         return Ok(Text { text, tail: None });
     };
     reader.read_exact(&mut [0])?;
-    Ok(Text { text, tail: Some(bytes(reader, tail)?) })
+    Ok(Text { text, tail: Some(filled(reader, tail)?) })
 }
 
 /// Text of so many bytes, and its NUL.
 #[binrw::parser(reader)]
 pub(crate) fn leading_text(len: usize) -> BinResult<CncString> {
-    let text = CncString::without_nul(bytes(reader, len)?);
+    let text = CncString::without_nul(filled(reader, len)?);
     reader.read_exact(&mut [0])?;
     Ok(text)
 }
@@ -133,23 +132,20 @@ pub(crate) fn rest() -> BinResult<Vec<u8>> {
     Ok(bytes)
 }
 
-fn bytes(reader: &mut impl Read, len: usize) -> BinResult<Vec<u8>> {
-    let mut bytes = Vec::with_capacity(len);
-    pieces(reader, len, |piece| bytes.extend_from_slice(piece))?;
-    Ok(bytes)
-}
-
-/// So many bytes, piece by piece: a reader only fills what has been filled before, and to do that
-/// with all of a vector costs more.
-fn pieces(reader: &mut impl Read, len: usize, mut each: impl FnMut(&[u8])) -> BinResult<()> {
-    let mut piece = [0; 64];
-    let mut left = len;
-    while let Some(piece) = piece.get_mut(..left.min(64)).filter(|piece| !piece.is_empty()) {
-        reader.read_exact(piece)?;
-        each(piece);
-        left = left.saturating_sub(piece.len());
+/// So many from the reader, which only fills what has been filled before. Not by `vec![0; n]`:
+/// allocators that clear what they give are slower for the little there is.
+#[inline]
+fn filled<T: Copy + FromBytes + IntoBytes>(
+    reader: &mut impl Read,
+    count: usize,
+) -> BinResult<Vec<T>> {
+    let mut filled = Vec::with_capacity(count);
+    // Mostly there are neither dimensions nor anything behind a text's NUL.
+    if count > 0 {
+        filled.resize(count, T::new_zeroed());
+        reader.read_exact(filled.as_mut_slice().as_mut_bytes())?;
     }
-    Ok(())
+    Ok(filled)
 }
 
 /// Bytes that are left, which is what may be allocated.
@@ -184,6 +180,7 @@ impl Read for Source<'_> {
         Ok(len)
     }
 
+    #[inline]
     fn read_exact(&mut self, out: &mut [u8]) -> io::Result<()> {
         let Some((head, rest)) = self.rest.split_at_checked(out.len()) else {
             return Err(io::ErrorKind::UnexpectedEof.into());
