@@ -83,6 +83,19 @@ fn read_with_data<'a>(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
     Err(Refusal::Stream(call.read_with_data()))
 }
 
+fn call<'b, O: Operation>(operation: &O, buf: &'b mut [u8]) -> Result<Call<'b>, Error> {
+    let data = operation.encode(buf)?;
+    let spec = const { O::FUNCTION.spec() };
+    Ok(Call {
+        port: spec.task.port(),
+        service: spec.service,
+        index_group: operation.index_group(),
+        index_offset: operation.index_offset(),
+        read_length: operation.read_length(),
+        data,
+    })
+}
+
 /// Declares [`Request`] and passes what operations have in common on to them.
 macro_rules! requests {
     ($( $function:ident($operation:ty) => $reply:ident, )+) => {
@@ -123,17 +136,7 @@ macro_rules! requests {
             /// # Errors
             /// Those of [`Operation::encode`].
             pub fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<Call<'b>, Error> {
-                let data = match self { $(
-                    Self::$function(operation) => operation.encode(buf),
-                )+ }?;
-                let (index_group, index_offset, read_length) = match self { $(
-                    Self::$function(operation) => {
-                        (operation.index_group(), operation.index_offset(), operation.read_length())
-                    }
-                )+ };
-                let spec = self.function().spec();
-                let (port, service) = (spec.task.port(), spec.service);
-                Ok(Call { port, service, index_group, index_offset, read_length, data })
+                match self { $( Self::$function(operation) => call(operation, buf), )+ }
             }
 
             /// How many bytes the data of the call has.
