@@ -5,7 +5,7 @@
 //! groups, one for each sort of offsets, and one the function that a service reaches where a sort
 //! of each meet.
 
-use super::sorts::{Functions, NOTHING, Sorts};
+use super::sorts::{Functions, NOTHING, ROOM, Sorts};
 use super::{Function, Service};
 use crate::address::{IndexGroup, IndexOffset};
 use crate::ads::AmsPort;
@@ -77,6 +77,11 @@ fn element(offset: IndexOffset) -> usize {
 const GROUPS: Sorts = Sorts::EMPTY.with(&[[Functions::NONE]]).with(&OF_COM).with(&OF_CLASSES);
 const OFFSETS: Sorts = Sorts::EMPTY.with(&OF_ELEMENTS);
 
+const _: () = assert!(
+    GROUPS.len() < ROOM && OFFSETS.len() < ROOM,
+    "one more sort of groups or of offsets would be left out: `ROOM` has to be larger"
+);
+
 const GROUPS_OF_COM: [[u8; 2]; 4] = GROUPS.numbers(&OF_COM, 1);
 static GROUPS_OF_CLASSES: [[u8; 4]; 0x5A] = GROUPS.numbers(&OF_CLASSES, 1);
 static OFFSETS_OF_ELEMENTS: [[u8; 1]; 0x99] = OFFSETS.numbers(&OF_ELEMENTS, 3);
@@ -127,8 +132,8 @@ impl Place {
         self.group > 0
     }
 
-    /// The place in the table of functions of the one that the service reaches; none has it if
-    /// there is none.
+    /// The place in the table of functions of the one that the service reaches, or [`NOTHING`]. That
+    /// there always is one, the compiler is not told: it would cost two instructions.
     #[inline]
     pub(super) fn reached(self, service: Service) -> Option<usize> {
         let service = match service {

@@ -1,5 +1,6 @@
 //! Typed operations, and all of them as one type.
 
+use super::sorts::ROOM;
 use super::{
     AxisHandleByName, AxisReadByName, AxisWriteByName, Call, CountDynamic, CountElements,
     CountObjects, CountVariables, DescribeByIndex, DescribeByName, DescribeExtended,
@@ -159,7 +160,7 @@ macro_rules! requests {
             /// What is asked of the function at a place of the table.
             #[inline]
             pub(super) fn decode(function: usize, call: &Call<'a>) -> Result<Self, Refusal> {
-                match DECODERS.get(function & 31) {
+                match DECODERS.get(function & (ROOM - 1)) {
                     Some(decode) => decode(call),
                     None => Err(call.refusal()),
                 }
@@ -167,8 +168,8 @@ macro_rules! requests {
         }
 
         // Apart: in one body they would be larger, and save all registers for any of them.
-        static DECODERS: [Decoder; 32] = {
-            let mut decoders: [Decoder; 32] = [refused; 32];
+        static DECODERS: [Decoder; ROOM] = {
+            let mut decoders: [Decoder; ROOM] = [refused; ROOM];
             let (mut left, mut functions): (&mut [Decoder], _) = (&mut decoders, Function::ALL);
             while let ([decoder, rest @ ..], [function, others @ ..]) = (left, functions) {
                 *decoder = match function { $(

@@ -8,9 +8,12 @@ use crate::address::{IndexGroup, IndexOffset};
 #[cfg_attr(test, derive(Debug, PartialEq, Eq))]
 pub(super) struct Functions(pub(super) u32);
 
+/// For all functions, one more that stands for none, and all sorts. A power of two.
+pub(super) const ROOM: usize = 32;
+
 const _: () = assert!(
-    Function::ALL.len() < 32,
-    "more than 31 functions: `Functions` and its bits, and `NOTHING`, have to be wider"
+    Function::ALL.len() < ROOM,
+    "more than 31 functions: `ROOM` has to be larger, and `Functions` to have more bits"
 );
 
 /// Those of which something is so.
@@ -67,13 +70,16 @@ impl Functions {
 }
 
 /// No function's place in the table of functions.
-pub(super) const NOTHING: u8 = 31;
+pub(super) const NOTHING: u8 = {
+    let [nothing, ..] = ROOM.wrapping_sub(1).to_le_bytes();
+    nothing
+};
 
 /// Sets of functions, each once.
-pub(super) struct Sorts(pub(super) [Option<Functions>; 32]);
+pub(super) struct Sorts(pub(super) [Option<Functions>; ROOM]);
 
 impl Sorts {
-    pub(super) const EMPTY: Self = Self([const { None }; 32]);
+    pub(super) const EMPTY: Self = Self([const { None }; ROOM]);
 
     pub(super) const fn with<const N: usize>(mut self, rows: &[[Functions; N]]) -> Self {
         let mut rows = rows;
@@ -87,7 +93,7 @@ impl Sorts {
                     }
                     left = rest;
                 }
-                // There are not 32, or the tables below would be too short.
+                // There is a place: the tables assert it.
                 if let [place, ..] = left {
                     *place = Some(*set);
                 }
