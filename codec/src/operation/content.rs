@@ -2,7 +2,7 @@
 //! STM-1).
 
 use super::request::sealed::Sealed;
-use super::{Call, Function, Operation, Refusal, Request};
+use super::{Call, Function, Operation, Refusal, Request, Task};
 use crate::address::{
     Access, Attribute, Channel, ComGroup, ElementAddress, Group, IndexGroup, IndexOffset, OfCom,
 };
@@ -26,7 +26,7 @@ fn object(group: IndexGroup, offset: IndexOffset) -> Result<(OfCom, IndexOffset)
         let wanted = ComGroup { access: Access::Element, ..com }.index_group().get();
         return Err(Error::new(ErrorKind::Mismatch, INSTANCE, 0, wanted, group.get()));
     }
-    content(Group::Com(com), offset)?;
+    content(Task::Com, group, offset)?;
     Ok((OfCom::known(group), offset))
 }
 
@@ -42,8 +42,8 @@ const fn object_parts((group, offset): (OfCom, IndexOffset)) -> (ComGroup, Index
 }
 
 /// No content is where a function is (SDA-12).
-fn content(group: Group, offset: IndexOffset) -> Result<(), Error> {
-    match Function::at(group, offset) {
+fn content(task: Task, group: IndexGroup, offset: IndexOffset) -> Result<(), Error> {
+    match Function::at(task, group, offset) {
         Some(_) => Err(Error::new(ErrorKind::Function, ELEMENT, 0, 0, offset.get())),
         None => Ok(()),
     }
@@ -51,7 +51,7 @@ fn content(group: Group, offset: IndexOffset) -> Result<(), Error> {
 
 /// An element's content that is no function; the first element counts the others.
 fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
-    content(Group::Class(element.class_group()), element.index_offset())?;
+    content(Task::Sda, element.group(Attribute::Content), element.index_offset())?;
     Ok(element)
 }
 

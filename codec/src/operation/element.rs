@@ -1,10 +1,9 @@
 //! Operations on instances and on the attributes of their elements (SDA-1 … SDA-10).
 
 use super::request::sealed::Sealed;
-use super::{Call, Function, Operation, Refusal, Request};
+use super::{Call, Function, Operation, Refusal, Request, Task};
 use crate::address::{
-    Addressing, Attribute, Class, ClassGroup, ElementAddress, Group, IndexGroup, IndexOffset,
-    OfClass,
+    Addressing, Attribute, Class, ClassGroup, ElementAddress, IndexGroup, IndexOffset, OfClass,
 };
 use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
@@ -188,8 +187,8 @@ impl CountElements {
     /// [`ErrorKind::Function`](crate::ErrorKind::Function) for an element of the decoder that is
     /// another function (SDA-12).
     pub fn new(first: ElementAddress) -> Result<Self, Error> {
-        let (group, offset) = (Group::Class(first.class_group()), first.index_offset());
-        match Function::at(group, offset) {
+        let (group, offset) = (first.group(Attribute::Content), first.index_offset());
+        match Function::at(Task::Sda, group, offset) {
             None | Some(Function::CountElements) => Ok(Self::unchecked(first)),
             Some(_) => Err(Error::new(ErrorKind::Function, ELEMENT, 0, 0, offset.get())),
         }

@@ -2,7 +2,7 @@
 
 use super::places::Place;
 use super::{GroupRule, OffsetRule, Service, Task};
-use crate::address::{Attribute, Class, Group, IndexOffset};
+use crate::address::{Attribute, Class, IndexGroup, IndexOffset};
 use crate::dynamic::DynamicKind;
 use crate::layout::Stream;
 
@@ -231,11 +231,7 @@ functions! {
 
 impl Function {
     /// The function whose address this is; none for content (SDA-12).
-    pub(crate) fn at(group: Group, offset: IndexOffset) -> Option<Self> {
-        let task = match group {
-            Group::Com(_) => Task::Com,
-            Group::Class(_) => Task::Sda,
-        };
-        Place::of(task.port(), group.index_group(), offset).function()
+    pub(crate) fn at(task: Task, group: IndexGroup, offset: IndexOffset) -> Option<Self> {
+        Place::of(task.port(), group, offset).function()
     }
 }
