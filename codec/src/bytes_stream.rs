@@ -4,7 +4,7 @@
 macro_rules! bytes_stream {
     (
         $(#[$doc:meta])*
-        $view:ident, $owned:ident, $stream:ident {
+        $view:ident, $(#[$owned_doc:meta])* $owned:ident, $stream:ident {
             $(#[$field_doc:meta])*
             bytes: $field:path, $min:literal to $max:expr
         }
@@ -32,12 +32,13 @@ macro_rules! bytes_stream {
 
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
                 use $crate::stream::Decode as _;
-                Self::decode(self.bytes)?;
-                $crate::bytes::Writer::copy(Self::STREAM, self.bytes, buf)
+                let bytes = Self::decode(self.bytes)?.bytes;
+                $crate::bytes::Writer::fill(Self::STREAM, bytes.len(), buf, |out| out.put(bytes))
             }
         }
 
         #[doc = concat!("[`", stringify!($view), "`], owned.")]
+        $(#[$owned_doc])*
         #[cfg(feature = "alloc")]
         #[derive(Clone, Debug, PartialEq, Eq, Hash)]
         pub struct $owned {

@@ -200,6 +200,32 @@ fn value(stream: Stream) -> usize {
     }
 }
 
+/// What ends with its stream has the room that the stream leaves it, so that one check of the
+/// length is enough.
+#[test]
+fn last_fields_are_as_long_as_their_streams_let_them() {
+    let mut held = Vec::new();
+    for stream in Stream::all() {
+        let Some(row) = stream.layout().fields.last() else { continue };
+        if let Size::Terminated { max, .. } | Size::MayTerminate { max } | Size::Rest { max, .. } =
+            row.size
+        {
+            assert_eq!(row.offset + max, stream.layout().max, "{stream}");
+            held.push(stream);
+        }
+    }
+    for stream in [
+        Stream::VariableKind,
+        Stream::VariableIndexKind,
+        Stream::VariableName,
+        Stream::VariableHandleWrite,
+        Stream::VariableNameWrite,
+        Stream::DynamicNameRequest,
+    ] {
+        assert!(held.contains(&stream), "{stream}");
+    }
+}
+
 /// The named limits are the tables' numbers, and hang together as the clauses say.
 #[test]
 fn limits_are_those_of_the_tables() {

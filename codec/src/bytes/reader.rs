@@ -155,11 +155,13 @@ impl<'a> Reader<'a> {
         Ok(<[U32]>::ref_from_bytes(bytes).unwrap_or_default())
     }
 
-    /// All that is left: text, the NUL that must end it, NULs that may pad it.
+    /// All that is left: text, the NUL that must end it, NULs that may pad it. The stream's end is
+    /// its own, so that it is no longer than `max`.
     pub(crate) fn terminated(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
-        let (len, at) = (text_len(self.window(max)), self.at);
+        let at = self.at;
         let bytes = self.take_all();
-        match split_padded(bytes, max, len) {
+        let len = text_len(bytes);
+        match split_padded(bytes, len) {
             Some(text) => Ok(text),
             None => Err(not_terminated(field, at, max, bytes, len)),
         }
@@ -167,22 +169,18 @@ impl<'a> Reader<'a> {
 
     /// Text up to and including the NUL that must end it.
     pub(crate) fn leading(&mut self, field: Field, max: u32) -> Result<CncStr<'a>, Error> {
-        let Some((text, _)) = split_nul(self.window(max)) else {
+        let window = self.bytes.get(..to_len(max)).unwrap_or(self.bytes);
+        let Some((text, _)) = split_nul(window) else {
             return Err(self.error(ErrorKind::MissingNul, field, max));
         };
+        // Once more, but the compiler makes less of it than of one split of all.
         self.take(field, to_u32(text.len()).saturating_add(1))?;
         Ok(CncStr::without_nul(text))
     }
 
-    /// At most `max` bytes of what is left.
-    #[inline]
-    fn window(&self, max: u32) -> &'a [u8] {
-        self.bytes.get(..to_len(max)).unwrap_or(self.bytes)
-    }
-
     /// All that is left.
     #[inline]
-    fn take_all(&mut self) -> &'a [u8] {
+    pub(crate) fn take_all(&mut self) -> &'a [u8] {
         self.at = self.at.saturating_add(self.left());
         core::mem::take(&mut self.bytes)
     }
@@ -205,15 +203,16 @@ impl<'a> Reader<'a> {
     }
 
     /// All that is left, one byte at least: text, and NULs at its end if any.
-    pub(crate) fn may_terminate(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
-        let (len, at) = (text_len(self.window(max)), self.at);
+    pub(crate) fn may_terminate(&mut self, field: Field) -> Result<TextRef<'a>, Error> {
+        let at = self.at;
         let bytes = self.take_all();
-        match split_padded(bytes, max, len) {
+        let len = text_len(bytes);
+        match split_padded(bytes, len) {
             Some(text) => Ok(text),
             None if len == bytes.len() && len > 0 => {
                 Ok(TextRef::with_tail(CncStr::without_nul(bytes), None))
             }
-            None => Err(not_maybe_terminated(field, at, max, bytes, len)),
+            None => Err(not_maybe_terminated(field, at, bytes, len)),
         }
     }
 

@@ -26,11 +26,7 @@ impl<'b> Writer<'b> {
 
     /// Exactly `len` bytes of `buf`, which a stream may have.
     #[inline]
-    pub(crate) fn room(
-        stream: Stream,
-        len: usize,
-        buf: &'b mut [u8],
-    ) -> Result<&'b mut [u8], Error> {
+    fn room(stream: Stream, len: usize, buf: &'b mut [u8]) -> Result<&'b mut [u8], Error> {
         let max = stream.layout().max;
         if len > to_len(max) {
             return Err(too_long(Field::whole(stream), max, to_u32(len)));
@@ -49,7 +45,7 @@ impl<'b> Writer<'b> {
 
     /// Writes into this.
     #[inline]
-    pub(crate) fn new(rest: &'b mut [u8]) -> Self {
+    fn new(rest: &'b mut [u8]) -> Self {
         Self { rest }
     }
 
@@ -70,7 +66,7 @@ impl<'b> Writer<'b> {
     /// As [`room`](Self::room), for `behind` bytes behind a front. No sum can overflow then, which
     /// the compiler sees, so that writing needs no further checks.
     #[inline]
-    pub(crate) fn room_behind(
+    fn room_behind(
         stream: Stream,
         front: usize,
         behind: usize,

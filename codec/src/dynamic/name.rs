@@ -73,6 +73,6 @@ crate::text::text_stream! {
         /// Name of the parameter.
         name: dynamic_name_request::NAME
     }
-    read may_terminate(to_u32(DYNAMIC_NAME_MAX)),
+    read may_terminate(),
     check check_may_terminate(to_u32(DYNAMIC_NAME_MAX))
 }

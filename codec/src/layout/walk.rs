@@ -115,10 +115,10 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
                     let bytes = bytes.get(..used).unwrap_or(bytes);
                     self.visit(field, 0, at, bytes);
                 }
-                Size::MayTerminate { max } => {
+                Size::MayTerminate { .. } => {
                     let at = self.input.at();
                     let bytes = self.input.as_bytes();
-                    self.input.may_terminate(field, max)?;
+                    self.input.may_terminate(field)?;
                     self.visit(field, 0, at, bytes);
                 }
                 Size::FromOne => {

@@ -58,13 +58,12 @@ impl<'a> CncStr<'a> {
     /// # Errors
     /// [`ErrorKind::InnerNul`]
     pub fn from_bytes(bytes: &'a [u8]) -> Result<Self, Error> {
-        match bytes.iter().position(|&byte| byte == 0) {
-            None => Ok(Self(Source::Bytes(bytes))),
-            Some(at) => {
-                let at = to_u32(at);
-                Err(Error::new(ErrorKind::InnerNul, field::text::TEXT, at, 0, at))
-            }
+        let at = text_len(bytes);
+        if at < bytes.len() {
+            let at = to_u32(at);
+            return Err(Error::new(ErrorKind::InnerNul, field::text::TEXT, at, 0, at));
         }
+        Ok(Self(Source::Bytes(bytes)))
     }
 
     /// The part before the first NUL, or all.

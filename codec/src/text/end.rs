@@ -36,12 +36,9 @@ const HIGHEST_BITS: usize = LOWEST_BITS << 7;
 
 /// Text of `len` bytes, if a NUL follows, and only NULs follow that.
 #[inline]
-pub(crate) fn split_padded(bytes: &[u8], max: u32, len: usize) -> Option<TextRef<'_>> {
+pub(crate) fn split_padded(bytes: &[u8], len: usize) -> Option<TextRef<'_>> {
     match bytes.split_at_checked(len)? {
-        (text, [_, tail @ ..])
-            if bytes.len() <= to_len(max)
-                && (tail.is_empty() || padding_len(tail) == tail.len()) =>
-        {
+        (text, [_, tail @ ..]) if tail.is_empty() || padding_len(tail) == tail.len() => {
             Some(TextRef::with_tail(CncStr::without_nul(text), Some(tail)))
         }
         _ => None,
@@ -59,33 +56,30 @@ fn padding_len(tail: &[u8]) -> usize {
 #[cold]
 #[inline(never)]
 pub(crate) fn not_terminated(field: Field, at: u32, max: u32, bytes: &[u8], len: usize) -> Error {
-    let given = to_u32(bytes.len());
-    let window = bytes.get(..to_len(max)).unwrap_or(bytes);
-    let Some((_, [_, tail @ ..])) = window.split_at_checked(len) else {
-        return Error::new(ErrorKind::MissingNul, field, at, max, given);
-    };
-    let used = len.saturating_add(padding_len(tail)).saturating_add(1);
-    let (end, given) = (at.saturating_add(to_u32(used)), at.saturating_add(given));
-    Error::new(ErrorKind::Trailing, Field::whole(field.stream()), end, end, given)
+    match bytes.split_at_checked(len) {
+        Some((_, [_, tail @ ..])) => not_padded(field, at, len, tail),
+        _ => Error::new(ErrorKind::MissingNul, field, at, max, to_u32(bytes.len())),
+    }
 }
 
-/// Why these bytes are no text of `len` bytes either with its NUL or without.
+/// Why these bytes are no text of `len` bytes with its NUL, nor one without.
 #[cold]
 #[inline(never)]
-pub(crate) fn not_maybe_terminated(
-    field: Field,
-    at: u32,
-    max: u32,
-    bytes: &[u8],
-    len: usize,
-) -> Error {
-    match to_u32(bytes.len()) {
-        0 => Error::new(ErrorKind::Truncated, field, at, 1, 0),
-        given if text_len(bytes) == bytes.len() => {
-            Error::new(ErrorKind::TooLong, field, at, max, given)
-        }
-        _ => not_terminated(field, at, max, bytes, len),
+pub(crate) fn not_maybe_terminated(field: Field, at: u32, bytes: &[u8], len: usize) -> Error {
+    match bytes.split_at_checked(len) {
+        Some((_, [_, tail @ ..])) => not_padded(field, at, len, tail),
+        _ => Error::new(ErrorKind::Truncated, field, at, 1, 0),
     }
+}
+
+/// Behind a text of `len` bytes and its NUL there is something else than NULs.
+#[cold]
+#[inline(never)]
+pub(crate) fn not_padded(field: Field, at: u32, len: usize, tail: &[u8]) -> Error {
+    let behind = at.saturating_add(to_u32(len)).saturating_add(1);
+    let end = behind.saturating_add(to_u32(padding_len(tail)));
+    let given = behind.saturating_add(to_u32(tail.len()));
+    Error::new(ErrorKind::Trailing, Field::whole(field.stream()), end, end, given)
 }
 
 #[cfg(test)]
@@ -104,10 +98,8 @@ mod tests {
                     assert_eq!(text_len(&bytes), nul, "{bytes:?}");
                     assert_eq!(split_nul(&bytes), Some((&bytes[..nul], &bytes[nul + 1..])));
                     let is_padded = bytes[nul..].iter().all(|&byte| byte == 0);
-                    let max = u32::try_from(len).unwrap();
-                    let split = split_padded(&bytes, max, nul).map(|text| text.tail());
+                    let split = split_padded(&bytes, nul).map(|text| text.tail());
                     assert_eq!(split, is_padded.then_some(Some(&bytes[nul + 1..])), "{bytes:?}");
-                    assert_eq!(split_padded(&bytes, max - 1, nul), None);
                     if nul % 3 == 0 {
                         bytes[nul] = filler;
                     }

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::CncStr;
-use super::end::split_nul;
+use super::end::{not_padded, split_nul};
 use crate::bytes::{Writer, to_len, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
@@ -125,13 +125,10 @@ impl<'a> TextRef<'a> {
     /// Behind the NUL, if there is one, only NULs.
     #[inline]
     fn check_padding(&self, tail: &[u8], field: Field, at: u32) -> Result<(), Error> {
-        let Some(padding) = tail.iter().position(|&byte| byte != 0) else {
-            return Ok(());
-        };
-        let used = self.text.len().saturating_add(padding).saturating_add(1);
-        let end = at.saturating_add(to_u32(used));
-        let given = at.saturating_add(to_u32(self.field_len()));
-        Err(Error::new(ErrorKind::Trailing, Field::whole(field.stream()), end, end, given))
+        match tail.iter().all(|&byte| byte == 0) {
+            true => Ok(()),
+            false => Err(not_padded(field, at, self.text.len(), tail)),
+        }
     }
 }
 

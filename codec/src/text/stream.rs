@@ -81,7 +81,7 @@ macro_rules! text_stream {
         };
     };
     (@read $input:ident, $reader:ident, $field:path, ($($arg:expr),*)) => {
-        $input.$reader($field, $($arg),*)
+        $input.$reader($field $(, $arg)*)
     };
     (@check $text:expr, $checker:ident, $field:path, ($($arg:expr),*)) => {
         $text.$checker($field, 0, $($arg),*)

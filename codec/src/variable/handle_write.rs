@@ -4,8 +4,8 @@ use super::{Handle, Numbers};
 use crate::bytes::{Reader, Writer, to_u32};
 use crate::error::Error;
 use crate::layout::Stream;
-use crate::layout::field::variable_handle_write::{HANDLE, INDEX_COUNT, VALUE};
-use crate::limits::{HANDLE_VALUE_MAX, INDICES_MAX};
+use crate::layout::field::variable_handle_write::{HANDLE, INDEX_COUNT};
+use crate::limits::INDICES_MAX;
 use crate::stream::{Decode, Encode};
 
 #[doc = include_str!("../../doc/variable-handle-write.md")]
@@ -47,7 +47,7 @@ impl<'a> Decode<'a> for HandleWriteRef<'a> {
         let handle = Handle(input.u32(HANDLE)?);
         let count = input.u32(INDEX_COUNT)?;
         let indices = input.numbers(INDEX_COUNT, count, to_u32(INDICES_MAX))?;
-        let value = input.rest(VALUE, 0, to_u32(HANDLE_VALUE_MAX))?;
+        let value = input.take_all();
         Ok(Self { handle, indices: Numbers::from_wire(indices), value })
     }
 }
@@ -60,13 +60,12 @@ impl Encode for HandleWriteRef<'_> {
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let count = self.indices.check(INDEX_COUNT, 4, INDICES_MAX)?;
         let value_at = count.saturating_mul(4).saturating_add(8);
-        let room = Writer::room_behind(Self::STREAM, value_at, self.value.len(), buf)?;
-        let mut out = Writer::new(room);
-        out.u32(self.handle.0);
-        out.u32(to_u32(count));
-        self.indices.write(&mut out);
-        out.put(self.value);
-        Ok(room)
+        Writer::run_behind(Self::STREAM, value_at, self.value.len(), buf, |out| {
+            out.u32(self.handle.0);
+            out.u32(to_u32(count));
+            self.indices.write(out);
+            out.put(self.value);
+        })
     }
 }
 

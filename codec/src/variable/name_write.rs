@@ -3,8 +3,8 @@
 use crate::bytes::{Reader, Writer, to_u32};
 use crate::error::Error;
 use crate::layout::Stream;
-use crate::layout::field::variable_name_write::{NAME, VALUE};
-use crate::limits::{NAME_VALUE_MAX, TEXT_MAX};
+use crate::layout::field::variable_name_write::NAME;
+use crate::limits::TEXT_MAX;
 use crate::stream::{Decode, Encode};
 use crate::text::{CncStr, TextRef};
 
@@ -40,7 +40,7 @@ impl<'a> Decode<'a> for NameWriteRef<'a> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
         let mut input = Reader::new(Self::STREAM, bytes)?;
         let name = input.leading(NAME, to_u32(TEXT_MAX))?;
-        let value = input.rest(VALUE, 0, to_u32(NAME_VALUE_MAX))?;
+        let value = input.take_all();
         Ok(Self { name, value })
     }
 }
@@ -53,11 +53,10 @@ impl Encode for NameWriteRef<'_> {
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let name = TextRef::from(self.name);
         let len = name.check_open(NAME, 0, 1, to_u32(TEXT_MAX))?;
-        let room = Writer::room_behind(Self::STREAM, len, self.value.len(), buf)?;
-        let mut out = Writer::new(room);
-        name.write(&mut out);
-        out.put(self.value);
-        Ok(room)
+        Writer::run_behind(Self::STREAM, len, self.value.len(), buf, |out| {
+            name.write(out);
+            out.put(self.value);
+        })
     }
 }
 
