@@ -109,7 +109,6 @@ impl Encode for FrameRef<'_> {
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         // No frame has more, but the compiler sees here that no sum of lengths overflows.
         let data_length = to_u32(self.data.len().min(DATA_MAX));
-        check(data_length, u32::MAX)?;
         let length = data_length.saturating_add(to_u32(AMS_HEADER_LEN));
         Writer::fill(Stream::AmsTcpHeader, self.encoded_len(), buf, |out| {
             out.put(AmsTcpHeader { reserved: 0, length }.layout().as_bytes());
