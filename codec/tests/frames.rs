@@ -62,6 +62,9 @@ fn a_call_is_the_request_of_its_service() {
         assert_eq!(Call::of_frame(&frame(command)), Ok(Some(call)));
         assert_eq!(Call::of_frame(&frame(Command::READ_STATE)), Ok(None));
         let header = AmsHeader::request(TARGET, SOURCE, command, 7);
+        // Whoever watches both ways looks at the flags first.
+        let flagged = AmsHeader { state_flags: StateFlags::RESPONSE, ..header };
+        assert_eq!(Call::of_frame(&FrameRef::new(flagged, bytes).unwrap()), Ok(Some(call)));
         let cut = FrameRef::new(header, &bytes[..bytes.len() - 1]).unwrap();
         assert_eq!(Call::of_frame(&cut).unwrap_err().kind(), Truncated);
     }

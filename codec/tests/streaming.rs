@@ -28,7 +28,7 @@ fn results_say_whether_to_write_again() {
     use ads_cnc::ads::AdsError;
 
     let refused = [6, 7, 0x701, 0x702, 0x703, 0x704, 0x705];
-    for number in 0..0x1_0000 {
+    for number in (0..0x1_0000).chain([u32::MAX]) {
         let wanted = match number {
             0 => Ack::Accepted,
             number if refused.contains(&number) => Ack::Refused,

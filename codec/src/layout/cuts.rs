@@ -11,7 +11,7 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
-    /// The bytes of the fixed fields that a record begins with, as far as a `u8` tells them.
+    /// The bytes of the fixed fields that a record begins with.
     pub(super) const fn count(fields: &[FieldSpec]) -> usize {
         let (mut count, mut left) = (0_usize, fields);
         while let [row, rest @ ..] = left {

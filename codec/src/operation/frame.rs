@@ -7,6 +7,7 @@ use crate::stream::{Decode, Encode};
 
 impl<'a> Call<'a> {
     /// The call that a frame carries; none if its command is none of the three services.
+    /// Whether the flags say that it is a request is not looked at.
     ///
     /// ```
     /// use ads_cnc::Encode;
