@@ -2,7 +2,7 @@
 //! program through a slow decoder, malformed frames beside a client that works on undisturbed.
 //!
 //! ```text
-//! cargo run --release -p ads-cnc-conformance --example soak [SECONDS [FRAMES [MEGABYTES]]]
+//! cargo run --release -p ads-cnc-load --bin soak [SECONDS [FRAMES [MEGABYTES]]]
 //! ```
 //!
 //! Whatever goes wrong ends it with an error. The seed of the malformed frames is fixed.

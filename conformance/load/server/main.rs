@@ -13,13 +13,14 @@ mod load;
 mod server;
 mod work;
 
+use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::{Parser, Subcommand};
 
 use figures::Figures;
 use load::{Load, Slice};
-use server::Server;
+use server::{SERVE, Server};
 use work::{Result, Work};
 
 #[derive(Parser)]
@@ -46,10 +47,6 @@ struct Args {
     /// Only this request: its name is in the headings.
     #[arg(long)]
     only: Option<String>,
-
-    /// As cargo says to benchmarks.
-    #[arg(long, hide = true, global = true)]
-    bench: bool,
 }
 
 #[derive(Subcommand)]
@@ -70,7 +67,15 @@ enum Other {
     Names,
 }
 
-fn main() -> Result<()> {
+fn main() -> Result<ExitCode> {
+    if std::env::args().nth(1).as_deref() == Some(SERVE) {
+        return Ok(ads_cnc_conformance::cli::main());
+    }
+    compared()?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn compared() -> Result<()> {
     let args = Args::parse();
     let works = Work::all()?;
     let find = |name: &str| {

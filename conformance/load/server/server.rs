@@ -23,6 +23,9 @@ pub(crate) struct Server {
 
 const ECHO: &str = "echo";
 
+/// As of the command `ads-cnc`.
+pub(crate) const SERVE: &str = "serve";
+
 impl Server {
     /// This program once more.
     pub(crate) fn echo(work: &Work) -> Result<Self> {
@@ -32,10 +35,10 @@ impl Server {
         Self::start(ECHO, command)
     }
 
-    /// The simulated CNC.
+    /// The simulated CNC, by the same program again: no older build of the command can be taken.
     pub(crate) fn cnc() -> Result<Self> {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
-        command.args(["serve", "--listen", "127.0.0.1:0", "--log", "warn"]);
+        let mut command = Command::new(std::env::current_exe()?);
+        command.args([SERVE, "--listen", "127.0.0.1:0", "--log", "warn"]);
         let mut server = Self::start("ads-cnc serve", command)?;
         server.about.clear();
         Ok(server)
@@ -45,7 +48,7 @@ impl Server {
     pub(crate) fn pyads(python: &str, work: &Work) -> Result<Self> {
         let value: String = work.expected.iter().map(|byte| format!("{byte:02x}")).collect();
         let mut command = Command::new(python);
-        command.arg(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/server/pyads_server.py")).args([
+        command.arg(concat!(env!("CARGO_MANIFEST_DIR"), "/server/pyads_server.py")).args([
             work.group.to_string(),
             work.offset.to_string(),
             value,
