@@ -93,8 +93,8 @@ mod tests {
     #[test]
     fn ends_are_found_in_a_word() {
         // Miri is slow, and what it looks for does not hang on which byte it is.
-        for around in (0..=u8::MAX).step_by(if cfg!(miri) { 63 } else { 1 }) {
-            for byte in (0..=u8::MAX).step_by(if cfg!(miri) { 3 } else { 1 }) {
+        for around in (0..=u8::MAX).step_by(if cfg!(miri) { 85 } else { 1 }) {
+            for byte in (0..=u8::MAX).step_by(if cfg!(miri) { 5 } else { 1 }) {
                 for at in 0..WORD {
                     let mut word = [around; WORD];
                     word[at] = byte;
@@ -109,7 +109,7 @@ mod tests {
     /// A line is split where it ends, and what is noted in it is known, wherever it stands.
     #[test]
     fn lines_are_split_at_every_length() {
-        for len in 0..50 {
+        for len in (0..50).step_by(if cfg!(miri) { 17 } else { 1 }) {
             for end in ["", "\n", "\r\n", "\rX", "\nM30 and twenty bytes more"] {
                 for marked in (0..len).map(Some).chain([None]) {
                     let mut line = b"X".repeat(len);

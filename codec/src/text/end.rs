@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn the_first_nul_ends_a_text() {
         for filler in [1, 0x7F, 0x80, 0x81, 0xFF] {
-            for len in 0..40_usize {
+            for len in (0..40_usize).step_by(if cfg!(miri) { 13 } else { 1 }) {
                 let mut bytes = std::vec![filler; len];
                 assert_eq!(text_len(&bytes), len);
                 for nul in (0..len).rev() {
