@@ -23,17 +23,21 @@
 //! is here the manuals do not describe; its source is the vendors' public help pages.
 
 mod address;
+mod codes;
 mod device;
 mod frame;
 mod header;
-mod service;
+mod reply;
+mod request;
 
 pub use address::{AmsAddr, AmsNetId, AmsPort};
+pub use codes::{AdsError, Command, StateFlags};
 pub use device::{AdsState, DeviceInfoReply, DeviceStateReply};
 pub use frame::FrameRef;
-pub use header::{AdsError, AmsHeader, AmsTcpHeader, Command, StateFlags};
+pub use header::{AmsHeader, AmsTcpHeader};
 #[cfg(feature = "alloc")]
-pub use service::{ReadReply, ReadWriteReply, ReadWriteRequest, WriteRequest};
-pub use service::{
-    ReadReplyRef, ReadRequest, ReadWriteReplyRef, ReadWriteRequestRef, WriteReply, WriteRequestRef,
-};
+pub use reply::{ReadReply, ReadWriteReply};
+pub use reply::{ReadReplyRef, ReadWriteReplyRef, WriteReply};
+pub use request::{ReadRequest, ReadWriteRequestRef, WriteRequestRef};
+#[cfg(feature = "alloc")]
+pub use request::{ReadWriteRequest, WriteRequest};

@@ -1,9 +1,8 @@
-//! The three services, as requested and as answered.
+//! Requests of the three services.
 
 use zerocopy::IntoBytes as _;
 use zerocopy::little_endian::U32;
 
-use super::AdsError;
 use crate::address::{IndexGroup, IndexOffset};
 #[cfg(feature = "alloc")]
 use crate::bridge;
@@ -60,46 +59,6 @@ impl Encode for ReadRequest {
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         let numbers = [self.index_group.get(), self.index_offset.get(), self.length];
         Writer::copy(Self::STREAM, numbers.map(U32::new).as_bytes(), buf)
-    }
-}
-
-#[doc = include_str!("../../doc/write-reply.md")]
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
-///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
-/// [`Trailing`](crate::ErrorKind::Trailing).
-///
-/// ```
-/// use ads_cnc::ads::{AdsError, WriteReply};
-/// use ads_cnc::Decode;
-///
-/// assert_eq!(WriteReply::decode(&[4, 7, 0, 0])?.result, AdsError::INVALID_ACCESS);
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
-pub struct WriteReply {
-    /// ADS error number.
-    pub result: AdsError,
-}
-
-impl<'a> Decode<'a> for WriteReply {
-    const STREAM: Stream = Stream::WriteReply;
-
-    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let result = Reader::number(field::write_reply::RESULT, bytes)?;
-        Ok(Self { result: AdsError(result) })
-    }
-}
-
-impl Encode for WriteReply {
-    fn encoded_len(&self) -> usize {
-        4
-    }
-
-    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::copy(Self::STREAM, &self.result.0.to_le_bytes(), buf)
     }
 }
 
@@ -227,126 +186,6 @@ macro_rules! request_with_data {
     };
 }
 
-/// Declares a reply with data in both readings: result, the length of the data, the data.
-macro_rules! reply_with_data {
-    ($doc:literal, $stream:ident, $fields:ident, $ref:ident, $owned:ident, $wire:ident) => {
-        #[doc = include_str!($doc)]
-        ///
-        /// A reply whose result is not 0 may stop behind it (ADS-6): it has no data then.
-        ///
-        /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
-        ///
-        /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
-        /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
-        ///
-        /// ```
-        #[doc = concat!("use ads_cnc::{Decode, ads::", stringify!($ref), "};")]
-        ///
-        #[doc = concat!("let reply = ", stringify!($ref), "::decode(&[0, 0, 0, 0, 1, 0, 0, 0, 9])?;")]
-        /// assert!(reply.result.is_none());
-        /// assert_eq!(reply.data, Some(&[9][..]));
-        /// # Ok::<(), ads_cnc::Error>(())
-        /// ```
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub struct $ref<'a> {
-            /// ADS error number.
-            pub result: AdsError,
-            /// The data; none if the reply stops behind the result.
-            pub data: Option<&'a [u8]>,
-        }
-
-        impl<'a> Decode<'a> for $ref<'a> {
-            const STREAM: Stream = Stream::$stream;
-
-            fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-                let mut input = Reader::new(Self::STREAM, bytes)?;
-                let result = AdsError(input.u32(field::$fields::RESULT)?);
-                if !result.is_none() && input.is_empty() {
-                    return Ok(Self { result, data: None });
-                }
-                let length = input.u32(field::$fields::LENGTH)?;
-                let data = input.take(field::$fields::DATA, length)?;
-                input.finish()?;
-                Ok(Self { result, data: Some(data) })
-            }
-        }
-
-        impl Encode for $ref<'_> {
-            fn encoded_len(&self) -> usize {
-                self.data.map_or(4, |data| data.len().saturating_add(8))
-            }
-
-            fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-                let Some(data) = self.data else {
-                    // Only an error may do without; success without data has none to give.
-                    if self.result.is_none() {
-                        let (kind, field) =
-                            (crate::error::ErrorKind::Truncated, field::$fields::LENGTH);
-                        return Err(Error::new(kind, field, 4, 4, 0));
-                    }
-                    return Writer::run(Self::STREAM, 4, buf, |out| out.u32(self.result.0));
-                };
-                Writer::run_behind(Self::STREAM, 8, data.len(), buf, |out| {
-                    out.u32(self.result.0);
-                    out.u32(to_u32(data.len()));
-                    out.put(data);
-                })
-            }
-        }
-
-        #[doc = concat!("[`", stringify!($ref), "`], owned.")]
-        ///
-        /// ```
-        #[doc = concat!("use ads_cnc::{Encode, ads::{AdsError, ", stringify!($owned), "}};")]
-        ///
-        /// let (result, data) = (AdsError::NONE, Some(vec![9]));
-        #[doc = concat!("let reply = ", stringify!($owned), " { result, data };")]
-        /// assert_eq!(reply.to_vec()?, [0, 0, 0, 0, 1, 0, 0, 0, 9]);
-        /// # Ok::<(), ads_cnc::Error>(())
-        /// ```
-        #[cfg(feature = "alloc")]
-        #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-        pub struct $owned {
-            /// ADS error number.
-            pub result: AdsError,
-            /// The data; none if the reply stops behind the result.
-            pub data: Option<alloc::vec::Vec<u8>>,
-        }
-
-        #[cfg(feature = "alloc")]
-        #[binrw::binread]
-        #[br(little)]
-        struct $wire {
-            result: u32,
-            #[br(parse_with = bridge::counted_unless_end)]
-            data: Option<alloc::vec::Vec<u8>>,
-        }
-
-        #[cfg(feature = "alloc")]
-        impl<'a> Decode<'a> for $owned {
-            const STREAM: Stream = Stream::$stream;
-
-            fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-                $ref::decode(bytes)?;
-                let $wire { result, data } = bridge::read(Self::STREAM, bytes)?;
-                Ok(Self { result: AdsError(result), data })
-            }
-        }
-
-        #[cfg(feature = "alloc")]
-        impl $owned {
-            /// The reply, borrowed.
-            #[inline]
-            pub fn as_ref(&self) -> $ref<'_> {
-                $ref { result: self.result, data: self.data.as_deref() }
-            }
-        }
-
-        #[cfg(feature = "alloc")]
-        crate::stream::encode_as_ref!($owned);
-    };
-}
-
 request_with_data!(
     "../../doc/write-request.md",
     "```
@@ -386,22 +225,4 @@ assert_eq!(ReadWriteRequest::decode(bytes)?.data, b\"V.E\\0\");
 ```",
     ReadWriteRequest, read_write_request, ReadWriteRequestRef, ReadWriteRequest,
     ReadWriteRequestWire, numbers 4, read_length: "The most bytes to read."
-);
-
-reply_with_data!(
-    "../../doc/read-reply.md",
-    ReadReply,
-    read_reply,
-    ReadReplyRef,
-    ReadReply,
-    ReadReplyWire
-);
-
-reply_with_data!(
-    "../../doc/read-write-reply.md",
-    ReadWriteReply,
-    read_write_reply,
-    ReadWriteReplyRef,
-    ReadWriteReply,
-    ReadWriteReplyWire
 );
