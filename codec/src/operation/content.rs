@@ -1,10 +1,9 @@
-//! Operations on content: of COM objects, of elements, and of the program stream (COM-5, SDA-4,
-//! STM-1).
+//! Operations on content: of COM objects and of elements (COM-5, SDA-4).
 
 use super::request::sealed::Sealed;
 use super::{Call, Function, Operation, Refusal, Request, Task};
 use crate::address::{
-    Access, Attribute, Channel, ComGroup, ElementAddress, Group, IndexGroup, IndexOffset, OfCom,
+    Access, Attribute, ComGroup, ElementAddress, Group, IndexGroup, IndexOffset, OfCom,
 };
 use crate::bytes::to_u32;
 use crate::content::ContentRef;
@@ -14,7 +13,6 @@ use crate::layout::field::index_group::INSTANCE;
 use crate::layout::field::index_offset::ELEMENT;
 use crate::limits::ADS_DATA_MAX;
 use crate::stream::{Decode, Encode, NoData};
-use crate::streaming::{self, ProgramStreamRef};
 
 /// Where a COM object's content is; a descriptor says it (COM-5).
 fn object(group: IndexGroup, offset: IndexOffset) -> Result<(OfCom, IndexOffset), Error> {
@@ -290,7 +288,7 @@ impl<'a> WriteObject<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] for a group that is none of COM's content, [`ErrorKind::Function`]
-    /// for the program stream, which [`WriteProgramStream`] writes.
+    /// for the program stream, which [`WriteProgramStream`](super::WriteProgramStream) writes.
     pub fn new(group: IndexGroup, offset: IndexOffset, content: &'a [u8]) -> Result<Self, Error> {
         Ok(Self { place: object(group, offset)?, content: ContentRef { bytes: content } })
     }
@@ -316,69 +314,5 @@ impl<'a> WriteElement<'a> {
     /// element of an instance.
     pub fn new(address: ElementAddress, content: &'a [u8]) -> Result<Self, Error> {
         Ok(Self { element: element(address)?, content: ContentRef { bytes: content } })
-    }
-}
-
-/// Writes NC text to the stream of a channel: Write at offset 0x90 of the channel's COM group, port
-/// 553. It moves the machine.
-///
-/// A refusal may be temporary: see [`streaming::Sender`].
-///
-/// Manual: `stream-en`, sections 3.2 and 5.
-///
-/// ```
-/// use ads_cnc::address::Channel;
-/// use ads_cnc::operation::{Operation, WriteProgramStream};
-///
-/// let op = WriteProgramStream::new(Channel::new(1)?, b"N10 G01 X200 F1000\r\n");
-/// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_0101, 0x90));
-/// assert_eq!(op.encode(&mut [0; 992])?, b"N10 G01 X200 F1000\r\n");
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct WriteProgramStream<'a> {
-    /// Which channel.
-    pub channel: Channel,
-    /// Whole lines of NC text; [`streaming::Sender`] hands them out.
-    pub packet: ProgramStreamRef<'a>,
-}
-
-impl<'a> WriteProgramStream<'a> {
-    /// For a channel and a packet.
-    pub const fn new(channel: Channel, packet: &'a [u8]) -> Self {
-        Self { channel, packet: ProgramStreamRef { bytes: packet } }
-    }
-
-    pub(super) fn dispatched(call: &Call<'a>) -> Result<Request<'a>, Refusal> {
-        let packet = ProgramStreamRef::decode(call.data).map_err(Refusal::Stream)?;
-        Ok(Request::WriteProgramStream(Self { channel: super::variable::channel(call), packet }))
-    }
-}
-
-impl Sealed for WriteProgramStream<'_> {}
-
-impl Operation for WriteProgramStream<'_> {
-    const FUNCTION: Function = Function::WriteProgramStream;
-
-    type Reply<'r> = NoData;
-
-    fn index_group(&self) -> IndexGroup {
-        self.channel.com(Access::Element)
-    }
-
-    fn index_offset(&self) -> IndexOffset {
-        streaming::INDEX_OFFSET
-    }
-
-    fn read_length(&self) -> u32 {
-        0
-    }
-
-    fn encoded_len(&self) -> usize {
-        self.packet.encoded_len()
-    }
-
-    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        self.packet.encode(buf)
     }
 }

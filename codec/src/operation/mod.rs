@@ -26,6 +26,7 @@ mod dynamic;
 mod element;
 mod frame;
 mod places;
+mod program_stream;
 mod reply;
 mod request;
 mod rules;
@@ -38,12 +39,13 @@ mod write;
 pub use axis::{AxisHandleByName, AxisReadByName, AxisWriteByName};
 pub use call::{Call, Refusal};
 pub use com::{CountObjects, ObjectList, ReadDescriptors};
-pub use content::{ReadElement, ReadObject, WriteElement, WriteObject, WriteProgramStream};
+pub use content::{ReadElement, ReadObject, WriteElement, WriteObject};
 pub use dynamic::{CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName};
 pub use element::{
     CountElements, FindInstance, ReadElementLength, ReadElementName, ReadElementType,
     ReadElementUnit, ReadElementWriteFlag,
 };
+pub use program_stream::WriteProgramStream;
 pub use reply::Reply;
 pub use request::{Operation, Request};
 pub use rules::{GroupRule, OffsetRule};
