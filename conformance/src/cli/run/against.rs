@@ -1,0 +1,139 @@
+//! The suite against a device, or against the embedded CNC.
+
+use std::path::Path;
+
+use ads_cnc::Kind;
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{CountObjects, CountVariables, Function, ObjectList, Task};
+
+use super::{Run, Stopped};
+use crate::cli::forms::show;
+use crate::cli::{complain, run_dry};
+use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
+use crate::defect::Seed;
+use crate::profile::{Claim, Profile};
+use crate::report::{About, DeviceReport, Report, TargetReport};
+use crate::session::{self, Trouble};
+use crate::suite::{self, Needs, Outcome, Plan, RequirementVerdict, Session};
+use crate::waivers::Waivers;
+
+impl Run {
+    pub(super) fn device(
+        &self,
+        seed: u32,
+        waivers: Waivers,
+        profile: Profile,
+    ) -> Result<Report, Stopped> {
+        let plan = self.plan(seed)?;
+        let target = self.target.clone().with_timeout(profile.timeout);
+        let mut session = target.with_malformed(self.malformed).open()?;
+        // Silence is judged case by case only of one that speaks at all: an error of ADS does.
+        let greeted = match profile.claims(Function::CountObjects) {
+            Claim::No => {
+                let first = profile.channels.first().copied().unwrap_or(1);
+                let channel =
+                    Channel::new(first).map_err(|error| Trouble::Internal(error.to_string()))?;
+                session.call(&CountVariables::new(channel, Kind::V_E)).map(drop)
+            }
+            _ => session.call(&CountObjects::new(ObjectList::PLATFORM)).map(drop),
+        };
+        match greeted {
+            Ok(()) | Err(Trouble::Ads { .. } | Trouble::Reply(_)) => {}
+            Err(Trouble::NotSent) => {
+                let (client, _) = session.into_parts();
+                let listed = show(|out| run_dry::list(&profile, client.gate().allowed(), out));
+                listed.map_err(|error| Trouble::Internal(error.to_string()))?;
+                return Err(Trouble::NotSent.into());
+            }
+            Err(trouble) => return Err(trouble.into()),
+        }
+        let (target, device) = (*session.target(), of_itself(&mut session));
+        let (client, _) = session.into_parts();
+        let session = Session::new(client, profile);
+        let target = TargetReport {
+            name: "device".to_owned(),
+            address: Some(target.addr.to_string()),
+            net_id: Some(target.net_id.to_string()),
+            device,
+            ..TargetReport::default()
+        };
+        self.judge(plan, session, None, self.about(target, seed, waivers))
+    }
+
+    /// Starts the embedded CNC, runs everything against it and stops it.
+    pub(super) fn embedded(
+        &self,
+        seed: u32,
+        waivers: Waivers,
+        profile: Profile,
+        defect: Option<Seed>,
+    ) -> Result<Report, Stopped> {
+        let plan = self.plan(seed)?;
+        let internal = |error| Trouble::Internal(format!("the default model: {error}"));
+        let settings = Settings { edition: Some(profile.edition), version: None };
+        let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
+        let cnc = Cnc::new(model.map_err(internal)?).with_defect(defect.clone());
+        let session = session::Session::embedded_to_try(cnc)?;
+        let mut session = self.target.recorded(session)?;
+        let (target, device) = (*session.target(), of_itself(&mut session));
+        // The CNC runs as long as it is held.
+        let (client, running) = session.into_parts();
+        let mut session = Session::new(client, profile);
+        if let Some(server) = &running {
+            session = session.with_cnc(server.cnc());
+        }
+        let target = TargetReport {
+            name: match &defect {
+                None => "embedded CNC".to_owned(),
+                Some(defect) => format!("embedded CNC with the defect {}", defect.id),
+            },
+            address: Some(target.addr.to_string()),
+            net_id: Some(target.net_id.to_string()),
+            device,
+            ..TargetReport::default()
+        };
+        self.judge(plan, session, defect.as_ref(), self.about(target, seed, waivers))
+    }
+
+    fn judge(
+        &self,
+        plan: Plan,
+        mut session: Session,
+        defect: Option<&Seed>,
+        about: About,
+    ) -> Result<Report, Stopped> {
+        let (client, allow) = (&session.client, self.target.has_file());
+        let useless = client.gate().allowed().and_then(|one| one.useless(client.target().net_id));
+        if let Some(why) = &useless {
+            complain(format_args!("nothing is written: the file for --allow-write {why}"));
+        }
+        let outcomes = suite::run(plan.cases.clone(), Some(&mut session), defect, about.seed);
+        session.client.end_capture().map_err(|error| self.lost_capture(&error))?;
+        if allow && useless.is_none() && !outcomes.iter().any(has_written) {
+            complain(
+                "nothing was written: nothing that the file for --allow-write names was found",
+            );
+        }
+        let (outcomes, left_out) = plan.finish(outcomes);
+        let (frames, profile) = (session.frames, Some(session.profile));
+        Ok(Report::new(About { frames, profile, ..about }, &outcomes, &left_out))
+    }
+
+    fn lost_capture(&self, error: &std::io::Error) -> Trouble {
+        let file = self.target.capture().unwrap_or(Path::new("the capture"));
+        Trouble::Internal(format!("{}: {error}", file.display()))
+    }
+}
+
+/// Whether it is a case that writes, and something came of it.
+fn has_written(outcome: &Outcome) -> bool {
+    let judged = |one: &RequirementVerdict| one.verdict.is_judged();
+    outcome.case.needs == Needs::Writes && outcome.verdicts.iter().any(judged)
+}
+
+/// What the target says of itself; it need not.
+fn of_itself(session: &mut session::Session) -> Option<DeviceReport> {
+    let info = session.device_info(Task::Com).ok()?;
+    let state = session.device_state(Task::Com).ok();
+    Some(DeviceReport::new(&info, state.map(|state| state.ads_state)))
+}
