@@ -1,0 +1,153 @@
+//! What was found and the bytes that show it, as the template wants them.
+
+use serde::Serialize;
+
+use crate::report::bytes::Shown;
+use crate::report::console::worded;
+use crate::report::hex::character;
+use crate::report::model::{EvidenceReport, FailureReport};
+use crate::report::{BytesReport, FieldReport};
+use crate::verdict::Verdict;
+
+#[derive(Serialize)]
+pub(super) struct FindingView {
+    verdict: Verdict,
+    word: String,
+    clauses: Vec<FailureReport>,
+    expected: String,
+    found: String,
+    more: usize,
+    evidence: Option<EvidenceView>,
+}
+
+#[derive(Serialize)]
+struct EvidenceView {
+    call: String,
+    result: String,
+    sent: Option<BytesView>,
+    received: Option<BytesView>,
+    expected: Option<BytesView>,
+    frame_sent: String,
+    frame_received: String,
+}
+
+#[derive(Serialize)]
+struct BytesView {
+    stream: Option<String>,
+    length: usize,
+    rows: Vec<RowView>,
+    faults: Vec<String>,
+}
+
+#[derive(Serialize, Default)]
+struct RowView {
+    /// Items that are passed over; then there is nothing else.
+    more: usize,
+    offset: usize,
+    bytes: Vec<ByteView>,
+    /// Zeros behind the bytes that are not shown.
+    zeros: usize,
+    field: String,
+    value: String,
+    meaning: String,
+    differs: bool,
+    /// What should be there.
+    instead: Option<Box<RowView>>,
+}
+
+#[derive(Serialize)]
+struct ByteView {
+    hex: String,
+    character: char,
+    differs: bool,
+}
+
+pub(super) fn finding(all: &[&FailureReport]) -> Option<FindingView> {
+    let first = *all.first()?;
+    Some(FindingView {
+        verdict: first.verdict,
+        word: worded(first.verdict, first.waived),
+        clauses: all
+            .iter()
+            .map(|&failure| FailureReport { evidence: None, ..failure.clone() })
+            .collect(),
+        expected: first.expected.clone(),
+        found: first.found.clone(),
+        more: first.more,
+        evidence: first.evidence.as_ref().map(evidence),
+    })
+}
+
+fn evidence(evidence: &EvidenceReport) -> EvidenceView {
+    let EvidenceReport { call, result, sent, received, expected, frame_sent, frame_received } =
+        evidence;
+    // With the same fields, what was expected stands below what was received instead.
+    let fits = received.as_ref().zip(expected.as_ref()).is_some_and(|(received, expected)| {
+        let places = |bytes: &BytesReport| -> Vec<usize> {
+            bytes.fields.iter().map(|field| field.offset).collect()
+        };
+        places(received) == places(expected)
+    });
+    let is_same =
+        sent.as_ref().map(BytesReport::bytes) == received.as_ref().map(BytesReport::bytes);
+    let below = expected.as_ref().filter(|_| fits);
+    EvidenceView {
+        call: call.clone(),
+        result: result.clone(),
+        sent: sent.as_ref().filter(|_| !is_same).map(|bytes| view(bytes, None)),
+        received: received.as_ref().map(|bytes| view(bytes, below)),
+        expected: expected.as_ref().filter(|_| !fits).map(|bytes| view(bytes, None)),
+        frame_sent: frame_sent.clone(),
+        frame_received: frame_received.clone(),
+    }
+}
+
+fn view(bytes: &BytesReport, expected: Option<&BytesReport>) -> BytesView {
+    let instead = |field: &FieldReport| {
+        let fields = expected.map(|expected| expected.fields.as_slice()).unwrap_or_default();
+        let mut there = fields.iter().filter(|one| one.offset == field.offset);
+        there.find(|one| !one.differs.is_empty() || !field.differs.is_empty())
+    };
+    let row_of = |shown| match shown {
+        Shown::More(more) => RowView { more, ..RowView::default() },
+        Shown::Field(field) => {
+            RowView { instead: instead(field).map(|one| Box::new(row(one))), ..row(field) }
+        }
+    };
+    BytesView {
+        stream: bytes.stream.clone(),
+        length: bytes.length,
+        rows: bytes.shown().into_iter().map(row_of).collect(),
+        faults: bytes.faults.clone(),
+    }
+}
+
+/// Zeros at the end of a field that are shown.
+const ZEROS: usize = 8;
+
+fn row(field: &FieldReport) -> RowView {
+    let bytes: Vec<u8> = field.bytes().collect();
+    let used = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last.saturating_add(1));
+    let marked = field.differs.iter().max().map_or(0, |last| last.saturating_add(1));
+    let shown = used.max(marked).saturating_add(ZEROS);
+    RowView {
+        more: 0,
+        offset: field.offset,
+        zeros: bytes.len().saturating_sub(shown),
+        bytes: bytes
+            .iter()
+            .take(shown)
+            .enumerate()
+            .map(|(place, &byte)| ByteView {
+                hex: format!("{byte:02x}"),
+                character: character(byte),
+                differs: field.differs.contains(&place),
+            })
+            .collect(),
+        field: field.field.clone(),
+        value: field.value.clone(),
+        meaning: field.meaning.clone(),
+        differs: !field.differs.is_empty(),
+        instead: None,
+    }
+}

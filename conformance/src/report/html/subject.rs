@@ -1,0 +1,153 @@
+//! A subject's requirements and cases, as the template wants them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
+use super::finding::{FindingView, finding};
+use crate::report::console::{counts, heading, worded};
+use crate::report::model::{CaseReport, Report};
+use crate::suite::Subject;
+use crate::verdict::Verdict;
+
+#[derive(Serialize)]
+pub(super) struct SubjectView {
+    name: &'static str,
+    heading: &'static str,
+    counts: String,
+    areas: Vec<AreaView>,
+    groups: Vec<GroupView>,
+}
+
+#[derive(Serialize)]
+struct AreaView {
+    area: String,
+    counts: Vec<Chip>,
+    total: usize,
+    requirements: Vec<RequirementView>,
+}
+
+#[derive(Serialize)]
+struct RequirementView {
+    id: String,
+    title: String,
+    verdict: Verdict,
+    waived: bool,
+}
+
+/// Cases that belong together: a stream's vectors, or those of one area.
+#[derive(Serialize)]
+struct GroupView {
+    title: String,
+    counts: Vec<Chip>,
+    /// Whether it is folded up at first.
+    folded: bool,
+    cases: Vec<CaseView>,
+}
+
+#[derive(Serialize)]
+struct CaseView {
+    id: String,
+    title: String,
+    verdict: Verdict,
+    word: String,
+    waived: bool,
+    areas: String,
+    requirements: Vec<String>,
+    note: Option<String>,
+    findings: Vec<FindingView>,
+}
+
+pub(super) fn subject(report: &Report, who: Subject) -> SubjectView {
+    let mut groups: BTreeMap<(bool, String), Vec<&CaseReport>> = BTreeMap::new();
+    for case in report.cases.iter().filter(|case| case.subject == who) {
+        let group = match &case.stream {
+            Some(stream) => (true, stream.clone()),
+            None => (false, case.id.split('-').next().unwrap_or_default().to_owned()),
+        };
+        groups.entry(group).or_default().push(case);
+    }
+    let (mut counted, mut listed) = (String::new(), Vec::new());
+    for subject in report.subjects.iter().filter(|one| one.subject == who) {
+        counted = counts(&subject.totals, subject.waived);
+        listed.extend(subject.areas.iter().map(|area| {
+            AreaView {
+                area: area.area.clone(),
+                counts: chips(area.requirements.iter().map(|one| (one.verdict, one.waived))),
+                total: area.requirements.len(),
+                requirements: area
+                    .requirements
+                    .iter()
+                    .map(|one| RequirementView {
+                        id: one.requirement.clone(),
+                        title: ads_cnc_vectors::requirement(&one.requirement).map_or_else(
+                            || "The protocol with the suite".to_owned(),
+                            |requirement| requirement.title.clone(),
+                        ),
+                        verdict: one.verdict,
+                        waived: one.waived,
+                    })
+                    .collect(),
+            }
+        }));
+    }
+    SubjectView {
+        name: who.name(),
+        heading: heading(who),
+        counts: counted,
+        areas: listed,
+        groups: {
+            let groups = groups.into_iter().map(|((_, title), cases)| group(title, cases));
+            let (folded, open): (Vec<_>, Vec<_>) = groups.partition(|group| group.folded);
+            open.into_iter().chain(folded).collect()
+        },
+    }
+}
+
+fn group(title: String, mut cases: Vec<&CaseReport>) -> GroupView {
+    // What needs attention first.
+    cases.sort_by(|one, other| {
+        let rank =
+            |case: &CaseReport| (case.waived, u8::MAX.saturating_sub(case.verdict.gravity()));
+        rank(one).cmp(&rank(other)).then_with(|| one.id.cmp(&other.id))
+    });
+    let counts = chips(cases.iter().map(|case| (case.verdict, case.waived)));
+    let folded = cases.iter().all(|case| case.waived || !case.verdict.is_trouble());
+    let cases = cases.into_iter().map(case).collect();
+    GroupView { title, counts, folded, cases }
+}
+
+/// Class and text of a number of verdicts.
+type Chip = (String, String);
+
+fn chips(verdicts: impl Iterator<Item = (Verdict, bool)>) -> Vec<Chip> {
+    let mut totals: BTreeMap<(Verdict, bool), usize> = BTreeMap::new();
+    for key in verdicts {
+        let number = totals.entry(key).or_default();
+        *number = number.saturating_add(1);
+    }
+    let chip = |((verdict, waived), number): ((Verdict, bool), usize)| {
+        let class = if waived { format!("{verdict} waived") } else { verdict.to_string() };
+        (class, format!("{number} {}", worded(verdict, waived)))
+    };
+    totals.into_iter().map(chip).collect()
+}
+
+pub(super) fn areas(case: &CaseReport) -> BTreeSet<&str> {
+    let ids = case.requirements.iter().map(|one| one.requirement.as_str());
+    ids.filter_map(|id| id.split('-').next()).collect()
+}
+
+fn case(case: &CaseReport) -> CaseView {
+    CaseView {
+        id: case.id.clone(),
+        title: case.title.clone(),
+        verdict: case.verdict,
+        word: worded(case.verdict, case.waived),
+        waived: case.waived,
+        areas: areas(case).into_iter().collect::<Vec<_>>().join(" "),
+        requirements: case.requirements.iter().map(|one| one.requirement.clone()).collect(),
+        note: case.note.clone(),
+        findings: case.findings().into_iter().filter_map(|all| finding(&all)).collect(),
+    }
+}
