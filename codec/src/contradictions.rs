@@ -181,16 +181,16 @@
 //!
 //! | | `stream-en` says | here | steered by |
 //! |---|---|---|---|
-//! | E-29 | each line ends in CR LF (2.2, 4.1); the driver (5) can send a line without, or part of one | every line ends in CR LF, none is parted | [`NcText::new`](crate::streaming::NcText::new) for what is sent, [`Interface::read`](crate::streaming::Interface::read) for what came; [`WriteProgramStream`](crate::operation::WriteProgramStream) takes any bytes |
+//! | E-29 | each line ends in CR LF (2.2, 4.1); the driver (5) can send a line without, or part of one | every line ends in CR LF, none is parted | [`NcText::new`](crate::streaming::NcText::new) for what is sent, [`StreamingInterface::read`](crate::streaming::StreamingInterface::read) for what came; [`WriteProgramStream`](crate::operation::WriteProgramStream) takes any bytes |
 //! | E-43 | packets by read accesses (2.2), three first packets (2.3.6) | writes, in their order | [`Sender`](crate::streaming::Sender) |
 //! | E-57 | a write is repeated if the CNC cannot take it now (4.2); the driver (5) repeats any, without end | after `Later` the same packet, as often as is asked for; after `Refused` none | [`Ack`](crate::streaming::Ack) |
 //! | E-59 | 992 bytes a write (3.1); as long as is needed, a whole line at least (3.2) | 992 bytes, so that a line has at most 990 characters and CR LF | [`STREAM_PACKET_MAX`](crate::limits::STREAM_PACKET_MAX), [`NC_LINE_MAX`](crate::limits::NC_LINE_MAX) |
 //! | E-64 | the channel two digits behind 0x201 (3.2), or added to 0x20100 (5); both editions of the ADS manual: added to 0x120100 | added, with the logical bit or without; channel 10 is 0x12010A or 0x2010A | [`WriteProgramStream`](crate::operation::WriteProgramStream) of [`Channel::new`](crate::address::Channel::new) or [`Channel::by_index`](crate::address::Channel::by_index) |
 //! | E-65 | the object is read and written (3.2); only writing is described | it is written only | [`ReadObject::new`](crate::operation::ReadObject::new) refuses it; [`ReadRequest`](crate::ads::ReadRequest) does not |
 //! | E-67 | `$BREAK` is not among the permitted words, but in the example, both 2.3.3 | permitted | [`Findings`](crate::streaming::Findings) |
-//! | E-70 | behind a program end, wait until the interface is empty (2.2); nothing tells so | a client has to be told from outside; text behind an end is a finding | [`FindingKind::BehindEnd`](crate::streaming::FindingKind::BehindEnd), [`Interface::is_empty`](crate::streaming::Interface::is_empty) of a CNC |
+//! | E-70 | behind a program end, wait until the interface is empty (2.2); nothing tells so | a client has to be told from outside; text behind an end is a finding | [`FindingKind::BehindEnd`](crate::streaming::FindingKind::BehindEnd), [`StreamingInterface::is_empty`](crate::streaming::StreamingInterface::is_empty) of a CNC |
 //! | E-71 | M17 and M29 end streaming (2.2), or a called subroutine, and the stream goes on (2.3.2) | each is taken for an end of the stream; a finding stops nothing | [`ProgramEnd`](crate::streaming::ProgramEnd), which a finding names |
-//! | E-73 | 4094 bytes are the most of a stream (3.1), which goes on as long as it is written (2.1) | the most that is written and not read yet; a text may be longer | [`STREAM_MAX`](crate::limits::STREAM_MAX), [`Interface`](crate::streaming::Interface) |
+//! | E-73 | 4094 bytes are the most of a stream (3.1), which goes on as long as it is written (2.1) | the most that is written and not read yet; a text may be longer | [`STREAM_MAX`](crate::limits::STREAM_MAX), [`StreamingInterface`](crate::streaming::StreamingInterface) |
 //!
 //! # Service Interface
 //!
@@ -198,7 +198,7 @@
 //! |---|---|---|---|
 //! | E-20 | both, 2: the program waits for RESPONSE, or for RESPONSE_STATE | RESPONSE_STATE | [`SysServiceWait::keep_waiting`](crate::service::SysServiceWait::keep_waiting) |
 //! | E-21 | both, 2: the UUID of the example with a digit less in the NC program | refused | [`ServiceId`](crate::service::ServiceId) |
-//! | E-35 | a response state must not be 0 (`service-en`), "in this example" (`service-de`) | a host refuses to answer 0; the interface takes it | [`Host::answer`](crate::service::Host::answer), [`Interface::write`](crate::service::Interface::write) |
+//! | E-35 | a response state must not be 0 (`service-en`), "in this example" (`service-de`) | a host refuses to answer 0; the interface takes it | [`Host::answer`](crate::service::Host::answer), [`ServiceInterface::write`](crate::service::ServiceInterface::write) |
 //! | E-60 | both, 2: no length of UUID; the public help pages: 21 bytes for a STRING, 128 with an option | 128, as of the other texts, which is assumed | [`SERVICE_TEXT_MAX`](crate::limits::SERVICE_TEXT_MAX) |
 //! | E-61 | both, 2: the service looks whether REQUEST_STATE is 0, or the interface does before it starts it | the service: a host reads it until it is not 0 | [`Host::poll`](crate::service::Host::poll) |
 //! | E-62 | the cycle SysServiceWait is in `service-en` 3 alone | as there; without its parameters it is the wait of section 2 | [`SysServiceWait::default`](crate::service::SysServiceWait) |

@@ -117,7 +117,7 @@ fn errors_name_the_first_fault() {
 /// and a last line that is open.
 #[test]
 fn what_the_printed_driver_sends_wrongly_shows_on_read() {
-    let mut interface = Interface::new();
+    let mut interface = StreamingInterface::new();
     assert_eq!(interface.write(b"N10 G0 X0\r\n"), Ack::Accepted);
     assert_eq!(interface.write(b"N20 M30"), Ack::Accepted);
     let error = interface.read().unwrap_err();
@@ -139,7 +139,7 @@ fn what_the_printed_driver_sends_wrongly_shows_on_read() {
 #[test]
 fn the_interface_holds_4094_bytes() {
     let line = [b' '; STREAM_PACKET_MAX];
-    let mut interface = Interface::new();
+    let mut interface = StreamingInterface::new();
     for _ in 0..4 {
         assert_eq!(interface.write(&line), Ack::Accepted);
     }

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::CncStr;
 use ads_cnc::service::ServiceVariable::{RequestState, Uuid};
-use ads_cnc::service::{Call, CallStep, Interface, ServiceId, SysServiceWait};
+use ads_cnc::service::{CallStep, ServiceCall, ServiceId, ServiceInterface, SysServiceWait};
 #[cfg(unix)]
 use ads_cnc_conformance::cnc::program::{Script, ScriptConfig};
 use ads_cnc_conformance::cnc::{Cnc, Server};
@@ -52,14 +52,14 @@ impl Bench {
         tool
     }
 
-    fn with<T>(&self, then: impl FnOnce(&mut Interface) -> T) -> T {
+    fn with<T>(&self, then: impl FnOnce(&mut ServiceInterface) -> T) -> T {
         self.cnc.with_service(2, then).unwrap()
     }
 
     /// Asks as an NC program does, and waits for the response and its state.
     fn ask(&self, id: &str, request: &str) -> (String, u32) {
         let (id, request) = (ServiceId::new(id).unwrap(), CncStr::new(request).unwrap());
-        let mut call = Call::with_state(id, request, 7, SysServiceWait::default()).unwrap();
+        let mut call = ServiceCall::with_state(id, request, 7, SysServiceWait::default()).unwrap();
         let begun = Instant::now();
         loop {
             let now = begun.elapsed();
@@ -363,7 +363,7 @@ fn a_late_answer_is_dropped() {
         interface.write(RequestState, &[1, 0, 0, 0]).unwrap();
     });
     wait_for("begun", &mut stderr);
-    bench.with(Interface::reset);
+    bench.with(ServiceInterface::reset);
     wait_for("dropped, the request is no longer there", &mut stderr);
     assert_eq!(bench.ask(ID, "0"), ("0".to_owned(), 1));
     assert_eq!(text(&ended(tool).stdout).lines().count(), 1);

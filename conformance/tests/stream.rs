@@ -10,7 +10,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::streaming::{Ack, Interface};
+use ads_cnc::streaming::{Ack, StreamingInterface};
 use ads_cnc_conformance::cnc::program::{Pace, ProgramConfig};
 use ads_cnc_conformance::cnc::{Cnc, Server};
 use ads_cnc_conformance::net;
@@ -71,7 +71,7 @@ const OK: Answer = Answer::Result(AdsError::NONE);
 #[test]
 fn a_program_arrives_whole() {
     let ran = Arc::new(Mutex::new(Vec::new()));
-    let (runs, mut cnc, mut writes) = (Arc::clone(&ran), Interface::new(), 0);
+    let (runs, mut cnc, mut writes) = (Arc::clone(&ran), StreamingInterface::new(), 0);
     let addr = fake(move |_, packet| {
         writes += 1;
         if writes % 7 == 0 {

@@ -45,7 +45,7 @@ pub use load::{
 };
 pub use sequence::{
     ExternalService, FillPiece, Given, HexPiece, Piece, Pieces, Sequence, SequenceAccept,
-    SequenceExpect, SequenceReject, ServiceAction, ServiceInterface, ServiceStep, StreamAck,
+    SequenceExpect, SequenceReject, ServiceAction, ServiceSequence, ServiceStep, StreamAck,
     StreamAction, StreamError, StreamStep, Streaming, WaitParameters,
 };
 pub use vector::{

@@ -238,7 +238,7 @@ pub struct ServiceStep {
 /// A program and services at the Service Interface.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ServiceInterface {
+pub struct ServiceSequence {
     /// The services by name.
     pub services: BTreeMap<String, ExternalService>,
     /// What happens.
@@ -256,7 +256,7 @@ pub enum Given {
     /// Steps at the streaming interface.
     Streaming(Streaming),
     /// Steps at the Service Interface.
-    Service(ServiceInterface),
+    Service(ServiceSequence),
 }
 
 /// The case holds.

@@ -19,11 +19,11 @@ use crate::text::CncStr;
 /// use core::time::Duration;
 ///
 /// use ads_cnc::CncStr;
-/// use ads_cnc::service::{Call, CallStep, ServiceId, ServiceVariable, SysServiceWait};
+/// use ads_cnc::service::{ServiceCall, CallStep, ServiceId, ServiceVariable, SysServiceWait};
 ///
 /// let id = ServiceId::new("19719079-BA06-4740-BC02-DE5215211751")?;
 /// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
-/// let mut call = Call::new(id, CncStr::new("some-command")?, wait)?;
+/// let mut call = ServiceCall::new(id, CncStr::new("some-command")?, wait)?;
 ///
 /// let uuid = &b"19719079-BA06-4740-BC02-DE5215211751\0"[..];
 /// assert_eq!(call.step(), CallStep::Write(ServiceVariable::Uuid, uuid));
@@ -32,7 +32,7 @@ use crate::text::CncStr;
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Call {
+pub struct ServiceCall {
     uuid: ServiceText,
     request: ServiceText,
     state: [u8; 4],
@@ -51,26 +51,26 @@ enum Phase {
     Done(u32),
 }
 
-/// What a call needs next; shown at [`Call`].
+/// What a call needs next; shown at [`ServiceCall`].
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
 /// ```
 /// use ads_cnc::CncStr;
-/// use ads_cnc::service::{Call, CallStep, ServiceId, ServiceVariable, SysServiceWait};
+/// use ads_cnc::service::{ServiceCall, CallStep, ServiceId, ServiceVariable, SysServiceWait};
 ///
 /// let id = ServiceId::new("19719079-BA06-4740-BC02-DE5215211751")?;
-/// let call = Call::new(id, CncStr::new("some-command")?, SysServiceWait::default())?;
+/// let call = ServiceCall::new(id, CncStr::new("some-command")?, SysServiceWait::default())?;
 /// assert!(matches!(call.step(), CallStep::Write(ServiceVariable::Uuid, _)));
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CallStep<'a> {
-    /// Read this variable and pass its value to [`Call::read`].
+    /// Read this variable and pass its value to [`ServiceCall::read`].
     Read(ServiceVariable),
-    /// Write this value to this variable, then call [`Call::written`].
+    /// Write this value to this variable, then call [`ServiceCall::written`].
     Write(ServiceVariable, &'a [u8]),
-    /// Let some time pass, then call [`Call::poll`].
+    /// Let some time pass, then call [`ServiceCall::poll`].
     Wait {
         /// When the longest wait ends, if there is one: no need to poll later than that.
         until: Option<Duration>,
@@ -86,7 +86,7 @@ pub enum CallStep<'a> {
     TimedOut,
 }
 
-impl Call {
+impl ServiceCall {
     /// A request to a service, with the request state 1 of the examples.
     ///
     /// # Errors

@@ -146,10 +146,10 @@ pub enum HostStep<'a> {
 ///
 /// ```
 /// use ads_cnc::CncStr;
-/// use ads_cnc::service::{Host, Interface, HostStep, Outcome, ServiceId, ServiceVariable::*};
+/// use ads_cnc::service::{Host, ServiceInterface, HostStep, Outcome, ServiceId, ServiceVariable::*};
 ///
 /// let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
-/// let (mut host, mut interface) = (Host::new(&ids), Interface::new());
+/// let (mut host, mut interface) = (Host::new(&ids), ServiceInterface::new());
 /// interface.write(Uuid, b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0")?;
 /// interface.write(RequestState, &[1, 0, 0, 0])?;
 /// while let HostStep::Read(variable) = host.step() {

@@ -16,9 +16,9 @@ use crate::error::Error;
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
 /// ```
-/// use ads_cnc::service::{Interface, ServiceVariable::*};
+/// use ads_cnc::service::{ServiceInterface, ServiceVariable::*};
 ///
-/// let mut interface = Interface::new();
+/// let mut interface = ServiceInterface::new();
 /// interface.write(Request, b"3\0")?;
 /// interface.write(RequestState, &[1, 0, 0, 0])?;
 /// assert_eq!(interface.read(Request), b"3\0");
@@ -30,7 +30,7 @@ use crate::error::Error;
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Interface {
+pub struct ServiceInterface {
     uuid: ServiceText,
     request: ServiceText,
     request_state: [u8; 4],
@@ -45,9 +45,9 @@ pub struct Interface {
 /// [`Host`]: super::Host
 ///
 /// ```
-/// use ads_cnc::service::{Clears, Interface, ServiceVariable::*};
+/// use ads_cnc::service::{Clears, ServiceInterface, ServiceVariable::*};
 ///
-/// let mut interface = Interface::with(Clears::Never);
+/// let mut interface = ServiceInterface::with(Clears::Never);
 /// interface.write(RequestState, &[1, 0, 0, 0])?;
 /// interface.write(ResponseState, &[1, 0, 0, 0])?;
 /// assert_eq!(interface.read(RequestState), [1, 0, 0, 0]);
@@ -62,7 +62,7 @@ pub enum Clears {
     Never,
 }
 
-impl Interface {
+impl ServiceInterface {
     /// An interface that nobody has used yet.
     pub const fn new() -> Self {
         Self::with(Clears::OnResponseState)
@@ -122,7 +122,7 @@ impl Interface {
     }
 }
 
-impl Default for Interface {
+impl Default for ServiceInterface {
     fn default() -> Self {
         Self::new()
     }

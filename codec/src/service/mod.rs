@@ -15,10 +15,10 @@
 //! | who | here |
 //! |---|---|
 //! | the external service, or several of them on one channel | [`Host`] |
-//! | the CNC program that asks | [`Call`]; only its wait, as the cycle has it: [`SysServiceWait`] |
-//! | the interface between them, in the CNC | [`Interface`] |
+//! | the CNC program that asks | [`ServiceCall`]; only its wait, as the cycle has it: [`SysServiceWait`] |
+//! | the interface between them, in the CNC | [`ServiceInterface`] |
 //!
-//! `Host` and `Call` say which variable is to be read or written next; the caller does it, over
+//! `Host` and `ServiceCall` say which variable is to be read or written next; the caller does it, over
 //! ADS by [`ReadByName`](crate::operation::ReadByName) for one, and says how it went.
 //!
 //! Manual: `service-en` and `service-de` 1.03, sections 1 and 2; the cycle is in `service-en`,
@@ -29,13 +29,13 @@
 //! use core::time::Duration;
 //!
 //! use ads_cnc::CncStr;
-//! use ads_cnc::service::{Call, CallStep, Host, HostStep, Interface, ServiceId, SysServiceWait};
+//! use ads_cnc::service::{ServiceCall, CallStep, Host, HostStep, ServiceInterface, ServiceId, SysServiceWait};
 //!
 //! let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
 //! let mut host = Host::new(&ids);
-//! let mut interface = Interface::new();
+//! let mut interface = ServiceInterface::new();
 //! let now = Duration::ZERO;
-//! let mut program = Call::new(ids[0], CncStr::new("ping")?, SysServiceWait::default())?;
+//! let mut program = ServiceCall::new(ids[0], CncStr::new("ping")?, SysServiceWait::default())?;
 //!
 //! let answer = loop {
 //!     // The CNC's side …
@@ -75,9 +75,9 @@ mod value;
 mod variable;
 mod wait;
 
-pub use call::{Call, CallStep};
+pub use call::{CallStep, ServiceCall};
 pub use host::{Host, HostStep, Outcome};
 pub use id::ServiceId;
-pub use interface::{Clears, Interface};
+pub use interface::{Clears, ServiceInterface};
 pub use variable::ServiceVariable;
 pub use wait::{LongestWait, SysServiceWait, WaitStep, Waiting};

@@ -14,9 +14,9 @@ use crate::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 /// STM-15).
 ///
 /// ```
-/// use ads_cnc::streaming::{Ack, Interface};
+/// use ads_cnc::streaming::{Ack, StreamingInterface};
 ///
-/// let mut interface = Interface::new();
+/// let mut interface = StreamingInterface::new();
 /// assert_eq!(interface.write(b"N10 G0 X0\r\n"), Ack::Accepted);
 /// assert_eq!(interface.write(b"N20 M30\r\n"), Ack::Accepted);
 /// assert_eq!(interface.read()?, b"N10 G0 X0\r\nN20 M30\r\n");
@@ -31,12 +31,12 @@ use crate::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 /// # Ok::<(), ads_cnc::streaming::LineError>(())
 /// ```
 #[derive(Clone)]
-pub struct Interface {
+pub struct StreamingInterface {
     bytes: [u8; STREAM_MAX],
     len: usize,
 }
 
-impl Interface {
+impl StreamingInterface {
     /// An empty interface.
     pub const fn new() -> Self {
         Self { bytes: [0; STREAM_MAX], len: 0 }
@@ -92,15 +92,15 @@ impl Interface {
     }
 }
 
-impl Default for Interface {
+impl Default for StreamingInterface {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl fmt::Debug for Interface {
+impl fmt::Debug for StreamingInterface {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Interface({} of {STREAM_MAX} bytes)", self.len)
+        write!(f, "StreamingInterface({} of {STREAM_MAX} bytes)", self.len)
     }
 }
 

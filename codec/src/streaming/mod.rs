@@ -3,7 +3,7 @@
 //! | manual (`stream-en`) | here |
 //! |---|---|
 //! | 2.2, lines and packets | [`NcText`], [`Packets`] |
-//! | 2.2, start, order, reset, the interface's end | [`Interface`] |
+//! | 2.2, start, order, reset, the interface's end | [`StreamingInterface`] |
 //! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain | [`Findings`]; packet by packet, with `alloc`: `Checker` |
 //! | 3.1, sizes | [`limits`](crate::limits) |
 //! | 3.2, the object | [`WriteProgramStream`](crate::operation::WriteProgramStream), [`ProgramStreamRef`], [`OBJECT_NAME`] |
@@ -14,13 +14,13 @@
 //! (STM-4, STM-7). Nothing here sends anything, and nothing but `Checker` allocates.
 //!
 //! ```
-//! use ads_cnc::streaming::{Ack, Interface, NcText, Sender};
+//! use ads_cnc::streaming::{Ack, StreamingInterface, NcText, Sender};
 //!
 //! // Everything that can be wrong with the text is found before the first packet is out.
 //! let text = NcText::new(b"N10 G01 X200 F1000\nN20 X240 Y100\nN30 M30")?;
 //! assert_eq!(text.findings().next(), None);
 //!
-//! let mut cnc = Interface::new();
+//! let mut cnc = StreamingInterface::new();
 //! let mut sender = Sender::new(text);
 //! while let Some(packet) = sender.packet() {
 //!     let ack = cnc.write(packet);
@@ -58,7 +58,7 @@ pub use check::{Finding, FindingKind, Findings};
 #[cfg(feature = "alloc")]
 pub use checker::{CheckedLines, Checker, Found};
 pub use error::{LineError, LineErrorKind};
-pub use interface::Interface;
+pub use interface::StreamingInterface;
 pub use packets::Packets;
 #[cfg(feature = "alloc")]
 pub use program_stream::ProgramStream;

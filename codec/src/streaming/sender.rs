@@ -18,10 +18,10 @@ use crate::limits::STREAM_PACKET_MAX;
 /// Manual: `stream-en`, sections 4.2 and 5 (STM-6).
 ///
 /// ```
-/// use ads_cnc::streaming::{Ack, Interface};
+/// use ads_cnc::streaming::{Ack, StreamingInterface};
 ///
-/// assert_eq!(Interface::new().write(b"M30\r\n"), Ack::Accepted);
-/// assert_eq!(Interface::new().write(&[b' '; 993]), Ack::Refused);
+/// assert_eq!(StreamingInterface::new().write(b"M30\r\n"), Ack::Accepted);
+/// assert_eq!(StreamingInterface::new().write(&[b' '; 993]), Ack::Refused);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ack {

@@ -15,7 +15,7 @@ use ads_cnc::ads::{AmsPort, FrameRef};
 use ads_cnc::layout::Stream;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::{Call, Service};
-use ads_cnc::streaming::{Ack, Interface, NcText, Sender};
+use ads_cnc::streaming::{Ack, NcText, Sender, StreamingInterface};
 use ads_cnc::{Decode as _, Encode as _, Error, HandleReadRef};
 use common::{CALLS, Subject};
 use counting::{allocations, measure};
@@ -170,7 +170,7 @@ fn streaming_allocates_nothing() {
             while packets.next_into(&mut buf).is_some() {}
             let mut packets = text.packets();
             while packets.next_borrowed().is_some() {}
-            let (mut sender, mut interface) = (Sender::new(text), Interface::new());
+            let (mut sender, mut interface) = (Sender::new(text), StreamingInterface::new());
             while let Some(packet) = sender.packet() {
                 let ack = interface.write(packet);
                 sender.acknowledge(ack).unwrap();
@@ -236,14 +236,16 @@ fn typed_values_hold_no_more_than_their_bytes() {
 #[test]
 fn services_allocate_nothing() {
     use ads_cnc::CncStr;
-    use ads_cnc::service::{Call, CallStep, Host, HostStep, Interface, ServiceId, SysServiceWait};
+    use ads_cnc::service::{
+        CallStep, Host, HostStep, ServiceCall, ServiceId, ServiceInterface, SysServiceWait,
+    };
 
     let mut answered = false;
     let (_, count) = measure(|| {
         let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47").unwrap()];
-        let (mut host, mut interface) = (Host::new(&ids), Interface::new());
+        let (mut host, mut interface) = (Host::new(&ids), ServiceInterface::new());
         let (text, now) = (CncStr::new("3").unwrap(), std::time::Duration::ZERO);
-        let mut call = Call::new(ids[0], text, SysServiceWait::default()).unwrap();
+        let mut call = ServiceCall::new(ids[0], text, SysServiceWait::default()).unwrap();
         for _ in 0..100 {
             match call.step() {
                 CallStep::Read(variable) => call.read(interface.read(variable), now).unwrap(),

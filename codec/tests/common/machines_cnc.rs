@@ -20,7 +20,7 @@ enum Phase {
 
 /// A program's request beside what it should be.
 pub(crate) struct CheckedCall {
-    call: Call,
+    call: ServiceCall,
     values: [(ServiceVariable, Vec<u8>); 3],
     keep_waiting: u32,
     /// How long it waits, and from when on until when.
@@ -40,7 +40,7 @@ impl CheckedCall {
         let wait = SysServiceWait::from_parameters(p1, p2, p3);
         assert_eq!(wait.is_err(), p2.is_some() && p3.is_none());
         let request = text(request);
-        let call = Call::with_state(id, CncStr::from_bytes(request).unwrap(), asked, wait?);
+        let call = ServiceCall::with_state(id, CncStr::from_bytes(request).unwrap(), asked, wait?);
         assert_eq!(call.is_ok(), request.len() < 128 && asked != 0);
         let ended = |text: &[u8]| [text, b"\0"].concat();
         let values = [
@@ -118,14 +118,14 @@ impl CheckedCall {
 
 /// An interface beside five vectors.
 pub(crate) struct CheckedVariables {
-    interface: Interface,
+    interface: ServiceInterface,
     clears: Clears,
     values: [Vec<u8>; 5],
 }
 
 impl CheckedVariables {
     pub(crate) fn new(clears: Clears) -> Self {
-        Self { interface: Interface::with(clears), clears, values: Self::start() }
+        Self { interface: ServiceInterface::with(clears), clears, values: Self::start() }
     }
 
     fn start() -> [Vec<u8>; 5] {

@@ -45,7 +45,7 @@ pub(crate) struct ServiceBend {
     pub(crate) failed: fn(&mut Host<'_>),
     pub(crate) restart: fn(&mut Host<'_>),
     /// Whoever writes.
-    pub(crate) write: fn(&mut Interface, ServiceVariable, &[u8]),
+    pub(crate) write: fn(&mut ServiceInterface, ServiceVariable, &[u8]),
     /// Which service the host says is asked.
     pub(crate) asked: fn(usize, &str) -> usize,
 }
@@ -61,10 +61,10 @@ impl ServiceBend {
 
 /// All that takes part, and the model: how often each service was asked and has served.
 pub(crate) struct World<'s> {
-    interface: Interface,
+    interface: ServiceInterface,
     hosts: Vec<Host<'s>>,
     ids: &'s [ServiceId],
-    call: Option<(Asked, Call)>,
+    call: Option<(Asked, ServiceCall)>,
     asked: Vec<usize>,
     served: Vec<usize>,
     /// Whether each answer is the right one; chaos makes wrong ones.
@@ -85,7 +85,7 @@ impl<'s> World<'s> {
             true => vec![Host::new(ids)],
             false => ids.chunks(1).map(Host::new).collect(),
         };
-        let (interface, count) = (Interface::with(clears), vec![0; ids.len()]);
+        let (interface, count) = (ServiceInterface::with(clears), vec![0; ids.len()]);
         Self {
             interface,
             hosts,
@@ -113,7 +113,7 @@ impl<'s> World<'s> {
             let Some((service, text)) = next.next() else { return };
             let request = format!("{service}{text}");
             let (id, request) = (self.ids[service], CncStr::new(&request).unwrap());
-            let call = Call::new(id, request, SysServiceWait::default()).unwrap();
+            let call = ServiceCall::new(id, request, SysServiceWait::default()).unwrap();
             self.asked[service] += 1;
             self.call = Some(((service, text), call));
             return;

@@ -115,16 +115,16 @@ pub(crate) struct EndsBend {
     /// What it says to have sent.
     pub(crate) sent: fn(Progress) -> Progress,
     /// What the interface is given.
-    pub(crate) write: fn(&mut Interface, &[u8]) -> Ack,
-    pub(crate) reset: fn(&mut Interface),
+    pub(crate) write: fn(&mut StreamingInterface, &[u8]) -> Ack,
+    pub(crate) reset: fn(&mut StreamingInterface),
 }
 
 impl EndsBend {
     pub(crate) const NONE: Self = Self {
         ack: |ack| ack,
         sent: |sent| sent,
-        write: Interface::write,
-        reset: Interface::reset,
+        write: StreamingInterface::write,
+        reset: StreamingInterface::reset,
     };
 }
 
@@ -212,14 +212,14 @@ impl<'t> CheckedSender<'t> {
 
 /// An interface beside a vector of bytes.
 pub(crate) struct CheckedInterface {
-    interface: Interface,
+    interface: StreamingInterface,
     held: Vec<u8>,
     bend: EndsBend,
 }
 
 impl CheckedInterface {
     pub(crate) fn new(bend: EndsBend) -> Self {
-        Self { interface: Interface::new(), held: Vec::new(), bend }
+        Self { interface: StreamingInterface::new(), held: Vec::new(), bend }
     }
 
     /// All or nothing is taken.

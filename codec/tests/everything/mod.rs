@@ -14,10 +14,8 @@ use ads_cnc::operation::{
     Call, Function, Operation, ReadElement, ReadObject, Service, WriteElement,
 };
 use ads_cnc::sda::*;
-use ads_cnc::service::{
-    CallStep, Host, HostStep, Interface as Services, ServiceId, SysServiceWait,
-};
-use ads_cnc::streaming::{Ack, Interface, NcText, ProgramStreamRef, Sender};
+use ads_cnc::service::{CallStep, Host, HostStep, ServiceId, ServiceInterface, SysServiceWait};
+use ads_cnc::streaming::{Ack, NcText, ProgramStreamRef, Sender, StreamingInterface};
 use ads_cnc::value::{Boolean, EncodeValue as _, Item, Items, StringsRef};
 use ads_cnc::*;
 use core::hint::black_box;
@@ -177,7 +175,7 @@ fn items<T: Item>(elements: Elements<'_>) -> Result<usize, Error> {
 fn streams(bytes: &[u8]) -> usize {
     let Ok(text) = NcText::new(bytes) else { return 0 };
     let mut sender = Sender::new(text);
-    let mut interface = Interface::new();
+    let mut interface = StreamingInterface::new();
     for _ in 0..black_box(3) {
         let Some(packet) = sender.packet() else { break };
         let ack = interface.write(packet);
@@ -192,9 +190,9 @@ fn streams(bytes: &[u8]) -> usize {
 fn services(bytes: &[u8]) -> Result<usize, Error> {
     let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
     let mut host = Host::new(&ids);
-    let mut interface = Services::new();
+    let mut interface = ServiceInterface::new();
     let wait = SysServiceWait::from_parameters(Some(0), Some(5000), Some(1))?;
-    let mut call = service::Call::new(ids[0], CncStr::from_bytes(bytes)?, wait)?;
+    let mut call = service::ServiceCall::new(ids[0], CncStr::from_bytes(bytes)?, wait)?;
     for now in 0..black_box(20) {
         let now = Duration::from_millis(now);
         match call.step() {

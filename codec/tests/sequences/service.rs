@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use ads_cnc::service::*;
 use ads_cnc::{CncStr, Error, ErrorKind};
-use ads_cnc_vectors::{Given, Pieces, ServiceAction, ServiceInterface, ServiceStep};
+use ads_cnc_vectors::{Given, Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
 use super::{cases, stated_fault};
 
@@ -30,7 +30,7 @@ type Fault = Option<&'static str>;
 
 /// Goes through the steps up to the first at fault.
 fn run<'c>(
-    given: &'c ServiceInterface,
+    given: &'c ServiceSequence,
     clears: Clears,
     id: &str,
 ) -> Option<(&'static str, &'c str)> {
@@ -59,11 +59,11 @@ fn run<'c>(
 }
 
 struct Scene<'c> {
-    given: &'c ServiceInterface,
+    given: &'c ServiceSequence,
     clears: Clears,
-    channels: BTreeMap<u32, Interface>,
+    channels: BTreeMap<u32, ServiceInterface>,
     hosts: BTreeMap<&'c str, Host<'c>>,
-    call: Option<Call>,
+    call: Option<ServiceCall>,
     now: Duration,
 }
 
@@ -120,9 +120,9 @@ impl Scene<'_> {
         }
     }
 
-    fn channel(&mut self, step: &ServiceStep) -> &mut Interface {
+    fn channel(&mut self, step: &ServiceStep) -> &mut ServiceInterface {
         let clears = self.clears;
-        let new = || Interface::with(clears);
+        let new = || ServiceInterface::with(clears);
         self.channels.entry(step.channel.unwrap_or(1)).or_insert_with(new)
     }
 
@@ -186,7 +186,7 @@ impl Scene<'_> {
     }
 }
 
-fn ask(step: &ServiceStep) -> Result<Call, Error> {
+fn ask(step: &ServiceStep) -> Result<ServiceCall, Error> {
     let id = ServiceId::new(step.uuid.as_deref().expect("a UUID"))?;
     let wait = step.wait.clone().unwrap_or_default();
     let parameter = |value: &Option<String>| value.as_ref().map(|_| number(value));
@@ -195,8 +195,8 @@ fn ask(step: &ServiceStep) -> Result<Call, Error> {
     let request = text(&step.request);
     let request = CncStr::from_bytes(&request)?;
     match &step.request_state {
-        Some(_) => Call::with_state(id, request, number(&step.request_state), wait),
-        None => Call::new(id, request, wait),
+        Some(_) => ServiceCall::with_state(id, request, number(&step.request_state), wait),
+        None => ServiceCall::new(id, request, wait),
     }
 }
 

@@ -1,6 +1,8 @@
 //! The streaming interface and a client, step by step.
 
-use ads_cnc::streaming::{Ack, FindingKind, Interface, LINE_END_ERROR, NcText, ProgramEnd, Sender};
+use ads_cnc::streaming::{
+    Ack, FindingKind, LINE_END_ERROR, NcText, ProgramEnd, Sender, StreamingInterface,
+};
 use ads_cnc_vectors::{Given, Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
 use super::{cases, stated_fault};
@@ -18,7 +20,7 @@ fn streams_go_as_stated() {
 fn run<'c>(given: &'c Streaming, id: &str) -> Option<(&'static str, &'c str)> {
     let text = given.text.as_ref().map(Pieces::bytes);
     let mut cnc = Cnc {
-        interface: Interface::new(),
+        interface: StreamingInterface::new(),
         sender: text.as_deref().map(|text| Sender::new(NcText::new(text).expect("a good text"))),
         running: false,
         program: Vec::new(),
@@ -40,7 +42,7 @@ fn run<'c>(given: &'c Streaming, id: &str) -> Option<(&'static str, &'c str)> {
 }
 
 struct Cnc<'a> {
-    interface: Interface,
+    interface: StreamingInterface,
     sender: Option<Sender<'a>>,
     running: bool,
     /// What was taken since the start.

@@ -33,13 +33,13 @@ pub(crate) fn square_root(request: &str) -> (String, u32) {
 /// The interface of a channel, with a record of what was written to it.
 #[derive(Default)]
 pub(crate) struct Channel {
-    pub(crate) interface: Interface,
+    pub(crate) interface: ServiceInterface,
     pub(crate) written: Vec<(ServiceVariable, Vec<u8>)>,
 }
 
 impl Channel {
     pub(crate) fn with(clears: Clears) -> Self {
-        Self { interface: Interface::with(clears), written: Vec::new() }
+        Self { interface: ServiceInterface::with(clears), written: Vec::new() }
     }
 
     pub(crate) fn write(&mut self, variable: ServiceVariable, value: &[u8]) {
@@ -125,7 +125,7 @@ impl Channel {
     /// Steps of the program that are no waits; says how it ended, if it did.
     pub(crate) fn run(
         &mut self,
-        call: &mut Call,
+        call: &mut ServiceCall,
         now: Duration,
     ) -> Option<Result<(u32, String), ()>> {
         call.poll();
@@ -154,8 +154,8 @@ pub(crate) enum Did {
     Wait,
 }
 
-pub(crate) fn call(uuid: &str, request: &str, parameters: [Option<u32>; 3]) -> Call {
+pub(crate) fn call(uuid: &str, request: &str, parameters: [Option<u32>; 3]) -> ServiceCall {
     let [p1, p2, p3] = parameters;
     let wait = SysServiceWait::from_parameters(p1, p2, p3).unwrap();
-    Call::new(id(uuid), text(request), wait).unwrap()
+    ServiceCall::new(id(uuid), text(request), wait).unwrap()
 }

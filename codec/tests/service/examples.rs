@@ -25,7 +25,7 @@ fn the_five_variables_have_their_names_and_types() {
             "V.G.SERVICE.RESPONSE"
         ]
     );
-    let interface = Interface::new();
+    let interface = ServiceInterface::new();
     for variable in ServiceVariable::ALL {
         assert_eq!(ServiceVariable::by_name(variable.name()), Some(variable));
         assert_eq!(VariablePath::new(variable.name()).unwrap().parts().count(), 2);
@@ -236,7 +236,8 @@ fn only_a_request_state_starts_a_service() {
         channel.rest(&mut host);
         assert_eq!(channel.skip_reads(&mut host), Did::Wait);
     }
-    let zero = Call::with_state(id(ROOT), text("3"), 0, SysServiceWait::default()).unwrap_err();
+    let zero =
+        ServiceCall::with_state(id(ROOT), text("3"), 0, SysServiceWait::default()).unwrap_err();
     assert_eq!(Fault::of(zero), fault(OutOfRange, "request_state", 0, (1, 0)));
 }
 

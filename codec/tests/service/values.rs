@@ -18,9 +18,9 @@ fn texts_have_128_bytes() {
 
         // The program's request, and a text that is 127 bytes with its NUL.
         let shorter = &letter.repeat(126);
-        assert!(Call::new(id(ROOT), text(shorter), wait).is_ok());
-        let mut program = Call::new(id(ROOT), text(&fits), wait).unwrap();
-        let error = Call::new(id(ROOT), text(&over), wait).unwrap_err();
+        assert!(ServiceCall::new(id(ROOT), text(shorter), wait).is_ok());
+        let mut program = ServiceCall::new(id(ROOT), text(&fits), wait).unwrap();
+        let error = ServiceCall::new(id(ROOT), text(&over), wait).unwrap_err();
         assert_eq!(Fault::of(error), too_long("request"));
 
         // It reaches the service, and the longest response the program.
@@ -42,7 +42,7 @@ fn texts_have_128_bytes() {
         // The interface.
         let (fits, over) = (vec![b'x'; 127], vec![b'x'; 128]);
         for (variable, field) in [(Uuid, "uuid"), (Request, "request"), (Response, "response")] {
-            let mut interface = Interface::new();
+            let mut interface = ServiceInterface::new();
             interface.write(variable, &[&fits[..], b"\0behind"].concat()).unwrap();
             assert_eq!(interface.read(variable), [&fits[..], b"\0"].concat());
             let before = interface.clone();
@@ -129,7 +129,7 @@ fn states_have_four_bytes() {
     assert_eq!(Fault::of(waiting.read(&[1; 3], millis(0)).unwrap_err()), cut("response_state"));
     assert_eq!(waiting.step(), WaitStep::Read(ResponseState));
 
-    let mut interface = Interface::new();
+    let mut interface = ServiceInterface::new();
     interface.write(RequestState, &[2, 0, 0, 0]).unwrap();
     let before = interface.clone();
     for (variable, field) in [(RequestState, "request_state"), (ResponseState, "response_state")] {
@@ -146,7 +146,7 @@ fn states_have_four_bytes() {
 fn a_request_state_resets_the_response_state() {
     for clears in [Clears::OnResponseState, Clears::Never] {
         for state in [0, 1, 7_u32] {
-            let mut interface = Interface::with(clears);
+            let mut interface = ServiceInterface::with(clears);
             interface.write(Response, b"r\0").unwrap();
             interface.write(ResponseState, &[9, 0, 0, 0]).unwrap();
             interface.write(Uuid, b"u\0").unwrap();
@@ -157,7 +157,7 @@ fn a_request_state_resets_the_response_state() {
             assert_eq!(interface.read(RequestState), state.to_le_bytes());
             assert_eq!(interface.read(Response), b"r\0");
             interface.reset();
-            assert_eq!(interface, Interface::with(clears));
+            assert_eq!(interface, ServiceInterface::with(clears));
         }
     }
 }
@@ -166,7 +166,7 @@ fn a_request_state_resets_the_response_state() {
 #[test]
 fn a_response_state_clears_the_request_state_or_does_not() {
     for (clears, left) in [(Clears::OnResponseState, 0), (Clears::Never, 3)] {
-        let mut interface = Interface::with(clears);
+        let mut interface = ServiceInterface::with(clears);
         interface.write(RequestState, &[3, 0, 0, 0]).unwrap();
         interface.write(Response, b"r\0").unwrap();
         assert_eq!(interface.read(RequestState), [3, 0, 0, 0]);

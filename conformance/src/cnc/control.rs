@@ -113,7 +113,7 @@ impl Cnc {
     pub fn with_service<T>(
         &self,
         channel: u8,
-        then: impl FnOnce(&mut service::Interface) -> T,
+        then: impl FnOnce(&mut service::ServiceInterface) -> T,
     ) -> Result<T, ControlError> {
         self.of_channel(channel, |channel| then(&mut channel.service))
     }

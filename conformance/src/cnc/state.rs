@@ -35,7 +35,7 @@ pub(super) struct ChannelState {
     variables: Values,
     elements: [Values; 6],
     pub(super) parameters: Parameters,
-    pub(super) service: service::Interface,
+    pub(super) service: service::ServiceInterface,
     /// Its streaming program, with what is in the interface.
     pub(super) program: Program,
     /// Its NC program that asks services, if it has one.
@@ -75,7 +75,7 @@ impl State {
                     .unwrap_or_default()
             }),
             parameters: Parameters::new(&channel.parameters),
-            service: service::Interface::new(),
+            service: service::ServiceInterface::new(),
             program: Program::new(channel.program.clone()),
             // The model was checked: it is one.
             script: channel.script.clone().and_then(|script| Script::new(script).ok()),

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use ads_cnc::service::{CallStep, Host, HostStep, Interface, ServiceId, ServiceVariable};
+use ads_cnc::service::{CallStep, Host, HostStep, ServiceId, ServiceInterface, ServiceVariable};
 use ads_cnc::{CncStr, CncString, Error, ErrorKind};
 use ads_cnc_conformance::cnc::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
 };
-use ads_cnc_vectors::{Given, Pieces, ServiceAction, ServiceInterface, ServiceStep};
+use ads_cnc_vectors::{Given, Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
 use crate::{cases, stated_fault};
 
@@ -23,7 +23,7 @@ fn services_go_as_stated() {
 type Fault = Option<&'static str>;
 
 /// Goes through the steps up to the first at fault.
-fn run<'c>(given: &'c ServiceInterface, id: &str) -> Option<(&'static str, &'c str)> {
+fn run<'c>(given: &'c ServiceSequence, id: &str) -> Option<(&'static str, &'c str)> {
     let ids: BTreeMap<&str, [ServiceId; 1]> = given
         .services
         .iter()
@@ -48,8 +48,8 @@ fn run<'c>(given: &'c ServiceInterface, id: &str) -> Option<(&'static str, &'c s
 }
 
 struct Scene<'c> {
-    given: &'c ServiceInterface,
-    channels: BTreeMap<u32, Interface>,
+    given: &'c ServiceSequence,
+    channels: BTreeMap<u32, ServiceInterface>,
     hosts: BTreeMap<&'c str, Host<'c>>,
     script: Option<Script>,
     now: Duration,
@@ -112,7 +112,7 @@ impl Scene<'_> {
         }
     }
 
-    fn channel(&mut self, step: &ServiceStep) -> &mut Interface {
+    fn channel(&mut self, step: &ServiceStep) -> &mut ServiceInterface {
         self.channels.entry(step.channel.unwrap_or(1)).or_default()
     }
 

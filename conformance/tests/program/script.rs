@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use ads_cnc::service::{CallStep, Host, HostStep, Interface, ServiceId, ServiceVariable};
+use ads_cnc::service::{CallStep, Host, HostStep, ServiceId, ServiceInterface, ServiceVariable};
 use ads_cnc::{CncStr, CncString, ErrorKind};
 use ads_cnc_conformance::cnc::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
@@ -45,7 +45,7 @@ fn square_roots_over_and_over() {
     let config = ScriptConfig::square_root().unwrap();
     let ids = [config.requests[0].uuid];
     let mut script = Script::new(config).unwrap();
-    let (mut interface, mut host) = (Interface::new(), Host::new(&ids));
+    let (mut interface, mut host) = (ServiceInterface::new(), Host::new(&ids));
     for now in 0..60_000 {
         script.advance(ms(now), &mut interface);
         let answer = match host.step() {
@@ -82,7 +82,7 @@ fn square_roots_over_and_over() {
 #[test]
 fn steps_are_small() {
     let mut script = script(Wait::Loop, Repeat::Times(1), ZERO);
-    let mut interface = Interface::new();
+    let mut interface = ServiceInterface::new();
     let mut seen = Vec::new();
     for now in 0..5 {
         let step = script.next_step();
@@ -121,7 +121,7 @@ fn steps_are_small() {
 /// The cycle gives up, the loop does not.
 #[test]
 fn nobody_answers() {
-    let mut interface = Interface::new();
+    let mut interface = ServiceInterface::new();
     let mut by_cycle = script(PRINTED, Repeat::Times(3), ms(10));
     by_cycle.advance(ZERO, &mut interface);
     by_cycle.advance(ms(3_600_000), &mut interface);
@@ -140,7 +140,7 @@ fn nobody_answers() {
 /// Answers that nobody fetches do not pile up, and lost time is let go.
 #[test]
 fn a_long_time_costs_little() {
-    let mut interface = Interface::new();
+    let mut interface = ServiceInterface::new();
     let at_once = Wait::Cycle { p1: Some(5), p2: None, p3: None };
     let mut script =
         Script::new(ScriptConfig { cycle: ZERO, ..config(at_once, Repeat::Endless, ZERO) })
@@ -155,7 +155,7 @@ fn a_long_time_costs_little() {
 
 #[test]
 fn nothing_to_ask() {
-    let mut interface = Interface::new();
+    let mut interface = ServiceInterface::new();
     for (requests, repeat) in
         [(vec![], Repeat::Endless), (vec![request(Wait::Loop)], Repeat::Times(0))]
     {
@@ -164,7 +164,7 @@ fn nothing_to_ask() {
         script.advance(ms(100), &mut interface);
         assert_eq!(script.state(), ScriptState::Finished);
     }
-    assert_eq!(interface, Interface::new());
+    assert_eq!(interface, ServiceInterface::new());
 }
 
 #[test]
@@ -212,7 +212,7 @@ fn all_goes_as_if_it_ran_all_the_time(
         ..config(wait, Repeat::Endless, ms(pause))
     };
     let (mut busy, mut lazy) = (Script::new(config.clone()).unwrap(), Script::new(config).unwrap());
-    let (mut busy_at, mut lazy_at) = (Interface::new(), Interface::new());
+    let (mut busy_at, mut lazy_at) = (ServiceInterface::new(), ServiceInterface::new());
     let mut now = ZERO;
     lazy.advance(now, &mut lazy_at);
     for (wait, state, ticks) in accesses {

@@ -87,7 +87,7 @@ fn world_bend(defect: Defect) -> ServiceBend {
             interface.write(variable, value).unwrap();
             if variable == ServiceVariable::RequestState && value != [0; 4] && before != [0; 4] {
                 let asked = Clears::Never;
-                let mut other = ads_cnc::service::Interface::with(asked);
+                let mut other = ads_cnc::service::ServiceInterface::with(asked);
                 for variable in ServiceVariable::ALL {
                     other.write(variable, interface.read(variable)).unwrap();
                 }

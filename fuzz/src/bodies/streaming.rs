@@ -1,7 +1,7 @@
 //! NC text, its packets, and both ends of the stream.
 
 use ads_cnc::limits::NC_LINE_MAX;
-use ads_cnc::streaming::{Ack, Interface, NcText};
+use ads_cnc::streaming::{Ack, NcText, StreamingInterface};
 
 use super::input::Input;
 use crate::common::streaming::{CheckedInterface, CheckedSender, EndsBend, TextBend, check_text};
@@ -173,7 +173,7 @@ fn bend(defect: Defect) -> EndsBend {
     if defect.is(6) {
         bend.reset = |interface| {
             if interface.len() <= 992 {
-                Interface::reset(interface);
+                StreamingInterface::reset(interface);
             }
         };
     }

@@ -24,30 +24,30 @@ pub(super) fn service(bytes: &[u8]) -> Result<(), Error> {
     service::Waiting::poll(&mut waiting);
     seen(service::Waiting::step(&waiting));
 
-    let mut interface = service::Interface::with(any(Clears::Never));
+    let mut interface = service::ServiceInterface::with(any(Clears::Never));
     if any(true) {
-        interface = service::Interface::new();
+        interface = service::ServiceInterface::new();
     }
-    seen(service::Interface::write(&mut interface, variable, bytes));
-    seen(service::Call::new(ids[0], cnc(bytes), wait));
-    let mut call = service::Call::with_state(ids[0], cnc(bytes), any(1), wait)?;
+    seen(service::ServiceInterface::write(&mut interface, variable, bytes));
+    seen(service::ServiceCall::new(ids[0], cnc(bytes), wait));
+    let mut call = service::ServiceCall::with_state(ids[0], cnc(bytes), any(1), wait)?;
     let mut host = service::Host::new(&ids);
     for _ in 0..any(9) {
-        match service::Call::step(&call) {
+        match service::ServiceCall::step(&call) {
             CallStep::Read(variable) => {
-                let value = service::Interface::read(&interface, variable);
-                seen(service::Call::read(
+                let value = service::ServiceInterface::read(&interface, variable);
+                seen(service::ServiceCall::read(
                     &mut call,
                     if any(true) { value } else { bytes },
                     any(NOW),
                 ));
             }
-            CallStep::Write(..) => service::Call::written(&mut call, any(NOW)),
-            _ => service::Call::poll(&mut call),
+            CallStep::Write(..) => service::ServiceCall::written(&mut call, any(NOW)),
+            _ => service::ServiceCall::poll(&mut call),
         }
         match service::Host::step(&host) {
             HostStep::Read(variable) => {
-                let value = service::Interface::read(&interface, variable);
+                let value = service::ServiceInterface::read(&interface, variable);
                 seen(service::Host::read(&mut host, if any(true) { value } else { bytes }));
             }
             HostStep::Write(..) if any(true) => service::Host::written(&mut host),
@@ -58,19 +58,22 @@ pub(super) fn service(bytes: &[u8]) -> Result<(), Error> {
         seen(service::Host::outcome(&host));
     }
     service::Host::restart(&mut host);
-    service::Interface::reset(&mut interface);
+    service::ServiceInterface::reset(&mut interface);
     Ok(())
 }
 
 pub(super) fn streaming(bytes: &[u8]) -> Result<(), LineError> {
-    let mut interface = streaming::Interface::new();
-    seen(streaming::Interface::write(&mut interface, bytes));
-    seen((streaming::Interface::len(&interface), streaming::Interface::is_empty(&interface)));
-    if let Err(error) = streaming::Interface::read(&mut interface) {
+    let mut interface = streaming::StreamingInterface::new();
+    seen(streaming::StreamingInterface::write(&mut interface, bytes));
+    seen((
+        streaming::StreamingInterface::len(&interface),
+        streaming::StreamingInterface::is_empty(&interface),
+    ));
+    if let Err(error) = streaming::StreamingInterface::read(&mut interface) {
         seen((streaming::LineError::line(&error), streaming::LineError::column(&error)));
         seen(streaming::LineErrorKind::clause(streaming::LineError::kind(&error)));
     }
-    streaming::Interface::reset(&mut interface);
+    streaming::StreamingInterface::reset(&mut interface);
     seen(streaming::Ack::of(ads::AdsError(any(0))));
 
     let text = streaming::NcText::new(bytes)?;

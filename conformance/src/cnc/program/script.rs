@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use ads_cnc::service::ServiceVariable::{RequestState, ResponseState, Uuid};
-use ads_cnc::service::{Call, CallStep, Interface, ServiceId, SysServiceWait};
+use ads_cnc::service::{CallStep, ServiceCall, ServiceId, ServiceInterface, SysServiceWait};
 use ads_cnc::{CncStr, CncString, Error};
 
 use super::answer::{Answer, Answers, Outcome};
@@ -122,12 +122,12 @@ pub enum ScriptState {
 /// use std::time::Duration;
 ///
 /// use ads_cnc::CncStr;
-/// use ads_cnc::service::{Host, HostStep, Interface};
+/// use ads_cnc::service::{Host, HostStep, ServiceInterface};
 /// use ads_cnc_conformance::cnc::program::{Outcome, Script, ScriptConfig};
 ///
 /// let config = ScriptConfig::square_root()?;
 /// let ids = [config.requests[0].uuid];
-/// let (mut script, mut interface, mut host) = (Script::new(config)?, Interface::new(), Host::new(&ids));
+/// let (mut script, mut interface, mut host) = (Script::new(config)?, ServiceInterface::new(), Host::new(&ids));
 /// for milliseconds in 0..2000 {
 ///     script.advance(Duration::from_millis(milliseconds), &mut interface);
 ///     match host.step() {
@@ -156,13 +156,13 @@ pub enum ScriptState {
 #[derive(Clone, Debug)]
 pub struct Script {
     /// Each before its first step.
-    requests: Vec<Call>,
+    requests: Vec<ServiceCall>,
     pause: Duration,
     cycle: Duration,
     repeat: Repeat,
     passes: u32,
     /// The present request, by its place; none if all were made.
-    present: Option<(usize, Call)>,
+    present: Option<(usize, ServiceCall)>,
     /// When the next step is done; at once before the first.
     due: Option<Duration>,
     pausing: bool,
@@ -217,7 +217,7 @@ impl Script {
     }
 
     /// Makes up for the time that has passed.
-    pub fn advance(&mut self, now: Duration, interface: &mut Interface) {
+    pub fn advance(&mut self, now: Duration, interface: &mut ServiceInterface) {
         for _ in 0..Self::STEPS {
             let due = *self.due.get_or_insert(now);
             if due > now || self.present.is_none() {
@@ -235,7 +235,7 @@ impl Script {
     }
 
     /// Does one step now, whether it is time or not.
-    pub fn step(&mut self, now: Duration, interface: &mut Interface) {
+    pub fn step(&mut self, now: Duration, interface: &mut ServiceInterface) {
         self.pausing = false;
         self.due = Some(now.saturating_add(self.cycle));
         let Some((at, call)) = &mut self.present else { return };
@@ -327,11 +327,11 @@ impl Script {
 const NANOSECOND: Duration = Duration::from_nanos(1);
 
 impl Request {
-    fn call(&self) -> Result<Call, Error> {
+    fn call(&self) -> Result<ServiceCall, Error> {
         let wait = match self.wait {
             Wait::Loop => SysServiceWait::default(),
             Wait::Cycle { p1, p2, p3 } => SysServiceWait::from_parameters(p1, p2, p3)?,
         };
-        Call::with_state(self.uuid, self.text.as_cnc_str(), self.state, wait)
+        ServiceCall::with_state(self.uuid, self.text.as_cnc_str(), self.state, wait)
     }
 }

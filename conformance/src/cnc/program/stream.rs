@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::streaming::{Ack, Checker, Interface};
+use ads_cnc::streaming::{Ack, Checker, StreamingInterface};
 
 use super::executed::{Executed, lines};
 use super::habit::Habit;
@@ -48,7 +48,7 @@ impl Default for ProgramConfig {
 
 /// The program that gets its lines through the streaming interface of a channel.
 ///
-/// - Writes go to the [`Interface`]; what it cannot take now is refused, with warning 11012
+/// - Writes go to the [`StreamingInterface`]; what it cannot take now is refused, with warning 11012
 ///   (STM-3, STM-6).
 /// - The decoder, when it has run all lines it has, reads everything that is there at once
 ///   (STM-12), and runs it line by line. A line counts as run when its time at the [`Pace`] is
@@ -73,7 +73,7 @@ impl Default for ProgramConfig {
 #[derive(Clone, Debug)]
 pub struct Program {
     config: ProgramConfig,
-    interface: Interface,
+    interface: StreamingInterface,
     checker: Checker,
     phase: Phase,
     clock: Clock,
@@ -96,7 +96,7 @@ impl Program {
     /// A channel that was switched on.
     pub fn new(config: ProgramConfig) -> Self {
         let mut program = Self {
-            interface: Interface::new(),
+            interface: StreamingInterface::new(),
             checker: Checker::new(),
             phase: Phase::Over(State::Stopped),
             clock: Clock::default(),

@@ -6,9 +6,9 @@ use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{ReadByName, WriteByName};
-use ads_cnc::service::{CallStep, Host, HostStep, Interface, ServiceId, ServiceVariable};
+use ads_cnc::service::{CallStep, Host, HostStep, ServiceId, ServiceInterface, ServiceVariable};
 use ads_cnc::{CncStr, CncString, Error, ErrorKind, VariableType};
-use ads_cnc_vectors::{Pieces, ServiceAction, ServiceInterface, ServiceStep};
+use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
 use super::{Done, Fault, differs, lacks, within};
 use crate::cnc::Cnc;
@@ -18,7 +18,7 @@ use crate::suite::probe::{Probe, harness};
 use crate::suite::stream::heard;
 
 /// Goes through the steps up to the first at fault, and leaves the interfaces as at the start.
-pub(super) fn run<'c>(probe: &mut Probe<'_>, given: &'c ServiceInterface) -> Done<Fault<'c>> {
+pub(super) fn run<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {
     let cnc = probe.cnc()?;
     let channels = crate::suite::service::channels(probe)?;
     for step in &given.steps {
@@ -46,7 +46,7 @@ fn channel_of(channels: &[Channel], step: &ServiceStep) -> Step<Channel> {
 fn steps<'c>(
     probe: &mut Probe<'_>,
     cnc: &Arc<Cnc>,
-    given: &'c ServiceInterface,
+    given: &'c ServiceSequence,
     channels: &[Channel],
 ) -> Done<Fault<'c>> {
     let mut ids: BTreeMap<&str, [ServiceId; 1]> = BTreeMap::new();
@@ -70,7 +70,7 @@ fn steps<'c>(
 struct Scene<'s, 'p, 'c> {
     probe: &'s mut Probe<'p>,
     cnc: &'s Arc<Cnc>,
-    given: &'c ServiceInterface,
+    given: &'c ServiceSequence,
     channels: &'s [Channel],
     hosts: BTreeMap<&'c str, Host<'s>>,
     script: Option<Script>,
@@ -216,7 +216,7 @@ impl Scene<'_, '_, '_> {
             "other" => {
                 let taken = self.put(step, variable, &value)?;
                 // Which of the faults it is, an error number does not tell: the bytes do.
-                let error = || Interface::new().write(variable, &value).err();
+                let error = || ServiceInterface::new().write(variable, &value).err();
                 let odd = || error().map_or("outcome", |error| class(&error));
                 Ok((!taken).then(odd))
             }
