@@ -7,7 +7,8 @@ build() {
     [ ${#chosen[@]} -eq 0 ] || names=("${chosen[@]}")
     for name in "${names[@]}"; do
         # Lines in a backtrace are worth their size.
-        CARGO_PROFILE_RELEASE_DEBUG=line-tables-only cargo "+$toolchain" fuzz build \
+        CARGO_PROFILE_RELEASE_DEBUG=line-tables-only \
+            RUSTFLAGS="${RUSTFLAGS:-}${FUZZ_RUSTFLAGS:+ $FUZZ_RUSTFLAGS}" cargo "+$toolchain" fuzz build \
             --fuzz-dir fuzz --features libfuzzer --release --debug-assertions \
             --sanitizer "$sanitizer" --target-dir "$target_dir/fuzz-$sanitizer" ${name:+"$name"} ||
             broken "the targets don't build (sanitizer: $sanitizer)"

@@ -18,11 +18,13 @@ case "${ARCHITECTURE:-x86_64}" in
 esac
 
 # The flags for C and C++ are read from the environment by what builds libFuzzer, if it is built at
-# all: CUSTOM_LIBFUZZER_PATH names the container's own. Those for Rust are added to by cargo fuzz.
+# all: CUSTOM_LIBFUZZER_PATH names the container's own. Those for Rust are added to by cargo fuzz, and
+# by FUZZ_RUSTFLAGS as in fuzz/nightly.
 target_dir="${CARGO_TARGET_DIR:-$WORK/target}"
 profile=release
 fuzz() {
-    CARGO_PROFILE_RELEASE_DEBUG=line-tables-only cargo fuzz build --fuzz-dir fuzz \
+    CARGO_PROFILE_RELEASE_DEBUG=line-tables-only \
+        RUSTFLAGS="${RUSTFLAGS:-}${FUZZ_RUSTFLAGS:+ $FUZZ_RUSTFLAGS}" cargo fuzz build --fuzz-dir fuzz \
         --features libfuzzer --release --debug-assertions --target "$triple" \
         --target-dir "$target_dir" --sanitizer "$@"
 }
