@@ -77,9 +77,7 @@ pub(crate) fn numbers(count: u32) -> BinResult<Vec<u32>> {
 #[binrw::parser(reader)]
 pub(crate) fn records<T: Clone + FromBytes + IntoBytes>() -> BinResult<Vec<T>> {
     let count = left(reader)?.checked_div(size_of::<T>()).unwrap_or(0);
-    let mut records = alloc::vec![T::new_zeroed(); count];
-    reader.read_exact(records.as_mut_bytes())?;
-    Ok(records)
+    filled(reader, count)
 }
 
 /// A length and so many bytes, or nothing at the end of the stream.
@@ -135,7 +133,7 @@ pub(crate) fn rest() -> BinResult<Vec<u8>> {
 /// So many from the reader, which only fills what has been filled before. Not by `vec![0; n]`:
 /// allocators that clear what they give are slower for the little there is.
 #[inline]
-fn filled<T: Copy + FromBytes + IntoBytes>(
+fn filled<T: Clone + FromBytes + IntoBytes>(
     reader: &mut impl Read,
     count: usize,
 ) -> BinResult<Vec<T>> {
