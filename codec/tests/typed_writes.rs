@@ -212,7 +212,7 @@ proptest! {
         check_numbers(&bytes, &bytes);
         check_numbers(&bytes.iter().map(|&byte| byte as i8).collect::<Vec<_>>(), &bytes);
         check_numbers(&bytes.iter().map(|&byte| Boolean(byte)).collect::<Vec<_>>(), &bytes);
-        check_typed(&bytes);
+        check_typed(&bytes, |_| ());
     }
 
     /// By its indices an element is where nested loops over the dimensions find it.

@@ -63,12 +63,13 @@ macro_rules! targets {
 targets! {
     ADS_BYTES: "ads_bytes", |data, defect| bytes::check(bytes::ADS, data, defect), bytes::DEFECTS,
         "headers, requests and replies: borrowed reading, owned reading and walk by the field table \
-         agree, errors included; what they accept encodes to the same bytes, as many as announced";
+         agree, errors included; what they accept encodes to the same bytes, as many as announced, \
+         into no smaller buffer";
     COM_BYTES: "com_bytes", |data, defect| bytes::check(bytes::COM, data, defect), bytes::DEFECTS,
         "object counts, descriptors, contents: the same";
     VARIABLE_BYTES: "variable_bytes", |data, defect| bytes::check(bytes::VARIABLE, data, defect),
-        bytes::DEFECTS, "kinds, names, descriptions, handles and values of variables: the same; \
-         values also as any type, with one dimension";
+        bytes::VARIABLE_DEFECTS, "kinds, names, descriptions, handles and values of variables: the \
+         same; values of up to 128 bytes also as any type, in one dimension and in two";
     SDA_BYTES: "sda_bytes", |data, defect| bytes::check(bytes::SDA, data, defect), bytes::DEFECTS,
         "object addresses, attributes of elements: the same";
     DYNAMIC_BYTES: "dynamic_bytes", |data, defect| bytes::check(bytes::DYNAMIC, data, defect),
@@ -97,14 +98,15 @@ targets! {
         |data, defect| values::check(bytes::STREAMING, data, defect), values::DEFECTS, "the same";
     OPERATION_DISPATCH: "operation_dispatch", operation::dispatch, operation::DISPATCH_DEFECTS,
         "a server's dispatch of any service, index group, index offset and data never panics; what \
-         it takes encodes to the same call and is dispatched to the same request";
+         it takes encodes to a call with the same service, address and data, into no smaller buffer, \
+         and that is dispatched to the same request";
     OPERATION_REQUEST: "operation_request", operation::request, operation::REQUEST_DEFECTS,
         "an operation of any function, made of any parameters, is encoded to a call that a server \
          dispatches to that operation, or is refused; within the documented ranges it is refused \
          only where another function is";
     OPERATION_REPLY: "operation_reply", operation::reply, operation::REPLY_DEFECTS,
-        "a request takes for a reply what its function's stream takes, no more than was asked \
-         for, and encodes it to the same bytes";
+        "a request takes for a reply what its function's stream takes, no more than the request \
+         has room for, and encodes it to the same bytes, into no smaller buffer";
     ADS_FRAMES: "ads_frames", frames::frames, frames::DEFECTS,
         "a stream of AMS frames, whole or damaged, cut anywhere, gives the frames that it gives \
          uncut, one by one, and then the same fault or rest; each shows with its last byte and \
@@ -121,10 +123,12 @@ targets! {
          whole, in the text's order, however lines end; any bytes can be checked";
     SERVICE_HOST: "service_host", service::world, service::WORLD_DEFECTS,
         "a program, one host or two, and the Service Interface in any order of steps, whatever \
-         fails: each request is served once and gets the answer to itself, after chaos too";
+         fails: each request is served once and gets the answer to itself, after chaos too; but with \
+         two hosts, a write of RESPONSE_STATE that fails has not arrived";
     SERVICE_MACHINES: "service_machines", service::machines, service::MACHINES_DEFECTS,
         "a host, a program's request and the five variables, told anything: no request is served \
-         that was not found twice, writes keep their order, errors change nothing";
+         that was not found twice, writes keep their order, errors change nothing but that a host \
+         may wait";
     TEXT_CP1252: "text_cp1252", text::cp1252, text::DEFECTS,
         "text of any bytes and of any characters is what encoding_rs makes of it, faults \
          included, and comes back both ways";
@@ -165,7 +169,7 @@ targets! {
     #[cfg(feature = "tools")]
     TOOLS_GATE: "tools_gate", tools::gate::check, tools::gate::DEFECTS,
         "nothing passes the gate that does not only ask, is not named by the file for this target \
-         and time, or is never sent";
+         and time, or is never sent; what only asks passes whatever else is allowed";
     #[cfg(feature = "tools")]
     CNC_SESSION: "cnc_session", tools::session::check, tools::session::DEFECTS,
         "of whatever comes over a connection each good frame is answered once, with its invoke ID \

@@ -3,12 +3,12 @@
 use std::fmt::Debug;
 
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, FrameRef};
-use ads_cnc::layout::Stream;
+use ads_cnc::layout::{Field, Stream};
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{Call, Function, Refusal, Request, Service, Task};
 use ads_cnc::{Decode, Encode, Error, ErrorKind, NoData};
 
-use super::{Reading, Subject};
+use super::{Fault, Reading, Subject};
 
 /// What a buffer holds where nothing was written.
 const UNTOUCHED: u8 = 0x55;
@@ -19,15 +19,39 @@ const UNTOUCHED: u8 = 0x55;
 pub(crate) struct Bend {
     /// To the length that is announced, or the error.
     pub(crate) len: fn(Result<usize, Error>) -> Result<usize, Error>,
+    /// To the parts of an error.
+    pub(crate) fault: fn(Fault) -> Fault,
     /// To the bytes that were written.
     pub(crate) written: fn(&mut [u8]),
+    /// To a buffer that was too small.
+    pub(crate) small: fn(&mut [u8]),
+    /// To the bytes that were written into a vector.
+    pub(crate) vec: fn(&mut Vec<u8>),
+    /// To how many bytes a segment has.
+    pub(crate) segment: fn(usize) -> usize,
     /// To the answer whether both readings hold the same.
     pub(crate) same: fn(&[u8], bool) -> bool,
+    /// To the bytes of a value that were written as a type's.
+    pub(crate) typed: fn(&mut [u8]),
 }
 
 impl Bend {
     /// Nothing is wrong.
-    pub(crate) const NONE: Self = Self { len: |len| len, written: |_| (), same: |_, same| same };
+    pub(crate) const NONE: Self = Self {
+        len: |len| len,
+        fault: |fault| fault,
+        written: |_| (),
+        small: |_| (),
+        vec: |_| (),
+        segment: |len| len,
+        same: |_, same| same,
+        typed: |_| (),
+    };
+
+    /// An announced length or an error as it is compared, with the stream of its field.
+    fn told<T>(&self, told: Result<T, Error>) -> Result<(), (Fault, Field)> {
+        told.map(drop).map_err(|error| ((self.fault)(Fault::of(error)), error.field()))
+    }
 }
 
 /// All readings and the walk agree, errors included, and what they accept they encode to the same
@@ -39,10 +63,11 @@ pub(crate) fn check(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
 /// The same of a codec that may be wrong.
 pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     let subject = Subject::of(stream);
-    let verdict = walk(stream, bytes);
+    let verdict = walk(stream, bytes, bend);
+    let wanted = Bend::NONE.told(verdict);
     for reading in subject.readings() {
         let len = (bend.len)((reading.len)(bytes));
-        assert_eq!(len.map(drop), verdict, "{stream}: {} and walk of {bytes:x?}", reading.name);
+        assert_eq!(bend.told(len), wanted, "{stream}: {} and walk of {bytes:x?}", reading.name);
         if let Ok(len) = len {
             assert_eq!(len, bytes.len(), "{stream}: encoded_len of {bytes:x?}");
             check_encode(reading, bytes, bend);
@@ -52,12 +77,13 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
     {
         let same = (subject.same)(bytes).map(|same| (bend.same)(bytes, same));
         assert_eq!(same, verdict.map(|()| true), "{stream}: view and owned of {bytes:x?}");
-        let vec = (subject.to_vec)(bytes);
+        let mut vec = (subject.to_vec)(bytes);
+        vec.iter_mut().for_each(bend.vec);
         assert_eq!(vec, verdict.map(|()| bytes.to_vec()), "{stream}: to_vec of {bytes:x?}");
     }
     // More bytes are more of the same, and take their time.
     if stream == Stream::VariableValue && verdict.is_ok() && bytes.len() <= 128 {
-        super::check_typed(bytes);
+        super::check_typed(bytes, bend.typed);
     }
     verdict
 }
@@ -80,19 +106,19 @@ where
     let mut bytes = value.to_vec().unwrap_or_else(|error| panic!("{value:?}: {error}"));
     (bend.written)(&mut bytes);
     assert_eq!(Ok(bytes.len()), (bend.len)(Ok(value.encoded_len())), "{value:?}");
-    check_too_small(bytes.len(), |buf| value.encode(buf).map(drop));
+    check_too_small(bytes.len(), bend, |buf| value.encode(buf).map(drop));
     assert_eq!(T::decode(&bytes).as_ref(), Ok(value));
     assert_eq!(check_bent(T::STREAM, &bytes, bend), Ok(()), "{value:?}");
     bytes
 }
 
 /// Segments of accepted bytes tile them; an error lies inside the stream that it names.
-fn walk(stream: Stream, bytes: &[u8]) -> Result<(), Error> {
+fn walk(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     let mut end = 0;
     let verdict = stream.walk(bytes, |segment| {
         assert_eq!(segment.offset as usize, end, "{stream}: {segment:?}");
         assert_eq!(segment.bytes, &bytes[end..end + segment.bytes.len()]);
-        end += segment.bytes.len();
+        end += (bend.segment)(segment.bytes.len());
     });
     match verdict {
         Ok(()) => assert_eq!(end, bytes.len(), "{stream}: bytes in no segment of {bytes:x?}"),
@@ -113,15 +139,20 @@ fn check_encode(reading: Reading, bytes: &[u8], bend: &Bend) {
     assert_eq!(large[..bytes.len()], *bytes);
     assert_eq!(large[bytes.len()..], [UNTOUCHED; 3]);
 
-    check_too_small(bytes.len(), |buf| (reading.encode)(bytes, buf));
+    check_too_small(bytes.len(), bend, |buf| (reading.encode)(bytes, buf));
 }
 
 /// Every buffer that is too small is refused by the bytes needed and there, and nothing is written.
-fn check_too_small<T: Debug>(len: usize, encode: impl Fn(&mut [u8]) -> Result<T, Error>) {
+fn check_too_small<T: Debug>(
+    len: usize,
+    bend: &Bend,
+    encode: impl Fn(&mut [u8]) -> Result<T, Error>,
+) {
     for less in [0, len / 2, len.saturating_sub(1)] {
         if less < len {
             let mut small = vec![UNTOUCHED; less];
             let error = encode(&mut small).expect_err("the buffer is too small");
+            (bend.small)(&mut small);
             assert_eq!(error.kind(), ErrorKind::BufferTooSmall);
             let (expected, found) = (error.expected() as usize, error.found() as usize);
             assert_eq!((expected, found), (len, less));
@@ -132,25 +163,27 @@ fn check_too_small<T: Debug>(len: usize, encode: impl Fn(&mut [u8]) -> Result<T,
 
 /// What a call is dispatched to encodes to the same call, and that is dispatched to the same.
 pub(crate) fn check_call(call: &Call<'_>) -> Result<(), Refusal> {
-    check_call_bent(call, |_| ())
+    check_call_bent(call, &Bend::NONE, |_| ()).map(drop)
 }
 
-/// The same where `bend` puts something wrong into the call that is encoded.
+/// The same of a codec that may be wrong, where `wrong` is what it does to the call that is encoded.
+/// Returns the function.
 pub(crate) fn check_call_bent(
     call: &Call<'_>,
-    bend: impl Fn(&mut Call<'_>),
-) -> Result<(), Refusal> {
-    check_frame(call);
+    bend: &Bend,
+    wrong: impl Fn(&mut Call<'_>),
+) -> Result<Function, Refusal> {
+    check_frame(call, bend);
     let request = call.dispatch()?;
     let mut buf = vec![0; request.encoded_len()];
     let mut again = request.encode(&mut buf).unwrap_or_else(|error| panic!("{request:?}: {error}"));
-    bend(&mut again);
+    wrong(&mut again);
 
     let address = |call: &Call<'_>| (call.service, call.index_group, call.index_offset);
     assert_eq!(address(&again), address(call), "{request:?}");
     assert_eq!(again.data, call.data, "{request:?}");
     assert_eq!(request.encoded_len(), call.data.len(), "{request:?}");
-    check_too_small(call.data.len(), |buf| request.encode(buf).map(drop));
+    check_too_small(call.data.len(), bend, |buf| request.encode(buf).map(drop));
     assert_eq!(again.dispatch(), Ok(request));
 
     let spec = request.function().spec();
@@ -159,11 +192,11 @@ pub(crate) fn check_call_bent(
     // SDA and GEO stand in for each other.
     let is_com = |call: &Call<'_>| Task::from_port(call.port) == Some(Task::Com);
     assert_eq!(is_com(&again), is_com(call));
-    Ok(())
+    Ok(request.function())
 }
 
 /// A call comes out of a frame as it went in; a Write has no read length there, a Read no data.
-fn check_frame(call: &Call<'_>) {
+fn check_frame(call: &Call<'_>, bend: &Bend) {
     let mut bytes = vec![0; call.encoded_len()];
     let data = match call.encode(&mut bytes) {
         Ok(data) => data,
@@ -174,7 +207,7 @@ fn check_frame(call: &Call<'_>) {
         }
     };
     assert_eq!(data.len(), call.encoded_len());
-    check_too_small(data.len(), |buf| call.encode(buf).map(drop));
+    check_too_small(data.len(), bend, |buf| call.encode(buf).map(drop));
     let end = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: call.port };
     let header = AmsHeader::request(end, end, call.service.command(), 1);
     let frame = FrameRef::new(header, data).expect("no more data than a service has");
@@ -195,11 +228,15 @@ pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), R
 /// A request takes for a reply what the stream of its function's reply takes, as long as it is no
 /// longer than was asked for; that encodes to the same bytes.
 pub(crate) fn check_reply(call: &Call<'_>, bytes: &[u8]) -> Result<(), Error> {
-    check_reply_bent(call, bytes, &Bend::NONE)
+    check_reply_bent(call, bytes, &Bend::NONE).map(drop)
 }
 
-/// The same of a codec that may be wrong.
-pub(crate) fn check_reply_bent(call: &Call<'_>, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
+/// The same of a codec that may be wrong. Returns the function.
+pub(crate) fn check_reply_bent(
+    call: &Call<'_>,
+    bytes: &[u8],
+    bend: &Bend,
+) -> Result<Function, Error> {
     let request = call.dispatch().expect("a call that is answered");
     let reply = request.decode_reply(bytes);
     let wanted = match request.function().spec().reply {
@@ -220,7 +257,7 @@ pub(crate) fn check_reply_bent(call: &Call<'_>, bytes: &[u8], bend: &Bend) -> Re
         assert!(most.is_ok_and(|most| bytes.len() <= most), "{request:?}: {bytes:x?}");
     }
     if bytes.len() <= asked || verdict.is_ok() {
-        assert_eq!(verdict.map(drop), wanted, "{request:?}: {bytes:x?}");
+        assert_eq!(bend.told(verdict), Bend::NONE.told(wanted), "{request:?}: {bytes:x?}");
     }
     let reply = reply?;
     let mut large = vec![UNTOUCHED; bytes.len() + 3];
@@ -228,44 +265,6 @@ pub(crate) fn check_reply_bent(call: &Call<'_>, bytes: &[u8], bend: &Bend) -> Re
     (bend.written)(&mut large[..bytes.len()]);
     assert_eq!(large[..bytes.len()], *bytes);
     assert_eq!(large[bytes.len()..], [UNTOUCHED; 3]);
-    check_too_small(bytes.len(), |buf| reply.encode(buf).map(drop));
-    Ok(())
-}
-
-/// An error in the parts that tests compare.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Fault {
-    pub(crate) kind: ErrorKind,
-    pub(crate) field: &'static str,
-    pub(crate) offset: usize,
-    pub(crate) expected: usize,
-    pub(crate) found: usize,
-}
-
-impl Fault {
-    pub(crate) fn of(error: Error) -> Self {
-        Self {
-            kind: error.kind(),
-            field: error.field().name(),
-            offset: error.offset() as usize,
-            expected: error.expected() as usize,
-            found: error.found() as usize,
-        }
-    }
-}
-
-/// A fault as a person writes it down; of the numbers, the one expected comes first.
-pub(crate) fn fault(
-    kind: ErrorKind,
-    field: &'static str,
-    offset: usize,
-    (expected, found): (usize, usize),
-) -> Fault {
-    Fault { kind, field, offset, expected, found }
-}
-
-/// The fault of what has to be refused.
-#[track_caller]
-pub(crate) fn fault_of<T>(result: Result<T, Error>) -> Fault {
-    Fault::of(result.err().expect("an error"))
+    check_too_small(bytes.len(), bend, |buf| reply.encode(buf).map(drop));
+    Ok(request.function())
 }

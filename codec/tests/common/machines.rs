@@ -22,16 +22,21 @@ pub(crate) struct HostBend {
     /// The value a host is told, of what was read and what was read of the variable before that.
     pub(crate) read: for<'v> fn(&'v [u8], Option<&'v [u8]>) -> &'v [u8],
     pub(crate) state: fn(u32) -> u32,
+    pub(crate) written: fn(&mut Host<'_>),
     pub(crate) failed: fn(&mut Host<'_>),
     pub(crate) poll: fn(&mut Host<'_>),
+    /// After a value that is none.
+    pub(crate) refused: fn(&mut Host<'_>),
 }
 
 impl HostBend {
     pub(crate) const NONE: Self = Self {
         read: |value, _| value,
         state: |state| state,
+        written: |host| host.written(),
         failed: |host| host.failed(),
         poll: |host| host.poll(),
+        refused: |_| (),
     };
 }
 
@@ -82,6 +87,7 @@ impl<'s> CheckedHost<'s> {
         let told = (self.bend.read)(value, last.map(|(_, value)| &value[..]));
         let read = self.host.read(told);
         if let Err(error) = read {
+            (self.bend.refused)(&mut self.host);
             let valid = if is_text(variable) { text(value).len() < 128 } else { value.len() == 4 };
             assert!(!valid, "{error}: {value:x?}");
             assert!(self.step() == Step::Wait || self.step() == before);
@@ -127,7 +133,7 @@ impl<'s> CheckedHost<'s> {
     /// RESPONSE, REQUEST_STATE, RESPONSE_STATE.
     pub(crate) fn written(&mut self) {
         let before = self.step();
-        self.host.written();
+        (self.bend.written)(&mut self.host);
         let wanted = match &before {
             Step::Write(ServiceVariable::Response, _) => {
                 Step::Write(ServiceVariable::RequestState, vec![0; 4])

@@ -7,6 +7,7 @@
 mod calls;
 #[cfg(feature = "alloc")]
 pub(crate) mod checker;
+mod faults;
 pub(crate) mod findings;
 mod frames;
 mod laws;
@@ -25,12 +26,13 @@ pub(crate) mod text;
 mod typed;
 
 pub(crate) use calls::{CALLS, CallSample};
+pub(crate) use faults::{Fault, fault, fault_of};
 pub(crate) use frames::{
     Frames, SPLIT, Split, check_frames, check_split, check_verdicts_stay, frame, frame_header,
 };
 pub(crate) use laws::{
-    Bend, Fault, check, check_bent, check_call, check_call_bent, check_reply, check_reply_bent,
-    check_request, fault, fault_of,
+    Bend, check, check_bent, check_call, check_call_bent, check_reply, check_reply_bent,
+    check_request,
 };
 #[cfg(feature = "alloc")]
 pub(crate) use laws::{check_value, check_value_bent};

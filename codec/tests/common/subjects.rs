@@ -112,7 +112,7 @@ macro_rules! subjects {
     (@made $view:ty, $owned:ty) => { |bytes, bend| super::check_value_bent(&made::<$owned>(bytes), bend) };
 }
 
-/// All streams. Fuzz inputs name a stream by its place here: add at the end only.
+/// All streams.
 pub(crate) static SUBJECTS: &[Subject] = subjects! {
     AmsTcpHeader: AmsTcpHeader;
     AmsHeader: AmsHeader;

@@ -3,8 +3,9 @@
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Item, StringsRef};
 use ads_cnc::{ErrorKind, Numbers};
 
-/// All ways of reading the bytes by a type agree, and each writes the same bytes again.
-pub(crate) fn check_typed(bytes: &[u8]) {
+/// All ways of reading the bytes by a type agree, and each writes the same bytes again; `wrong` is
+/// what a codec does to those that are written element by element, if it is wrong.
+pub(crate) fn check_typed(bytes: &[u8], wrong: fn(&mut [u8])) {
     for data_type in DataType::ALL {
         let each = data_type.size().map_or(3, |size| size as usize);
         let count = bytes.len() / each;
@@ -15,12 +16,12 @@ pub(crate) fn check_typed(bytes: &[u8]) {
         let fits = bytes.len().checked_rem(each).map_or(bytes.is_empty(), |left| left == 0);
         assert_eq!(elements.is_ok(), fits, "{data_type:?}: {bytes:x?}");
         let Ok(elements) = elements else { continue };
-        check_elements(elements, bytes);
+        check_elements(elements, bytes, wrong);
         check_order(data_type, bytes, count as u32);
     }
 }
 
-fn check_elements(elements: Elements<'_>, bytes: &[u8]) {
+fn check_elements(elements: Elements<'_>, bytes: &[u8], wrong: fn(&mut [u8])) {
     let iter = elements.iter();
     assert_eq!((iter.len(), iter.clone().count()), (elements.len(), elements.len()));
     let mut again: Vec<u8> = Vec::new();
@@ -31,6 +32,7 @@ fn check_elements(elements: Elements<'_>, bytes: &[u8]) {
         again.resize(at + element.value_len(), 0);
         element.encode_value(&mut again[at..]).unwrap();
     }
+    wrong(&mut again);
     assert_eq!(again, bytes);
     assert_eq!(elements.get(elements.len()).map(|element| element.data_type()), None);
 

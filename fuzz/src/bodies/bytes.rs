@@ -1,9 +1,9 @@
 //! Bytes → decode → encode: the same bytes.
 
-use ads_cnc::Error;
 use ads_cnc::layout::Stream;
+use ads_cnc::{Error, ErrorKind};
 
-use crate::common::{self, Bend};
+use crate::common::{self, Bend, Fault};
 use crate::{Defect, Outcome};
 
 /// The streams of a family. An input picks one by its place with its first byte: add at the end.
@@ -33,16 +33,40 @@ pub(crate) fn shown(error: Error) -> (String, u32, u32, u32) {
     )
 }
 
-/// The seeded defects of decoding and encoding bytes, by number.
-pub(crate) const DEFECTS: &[&str] = &[
-    "the last byte loses its top bit when it is encoded",
-    "an error is one byte off if it is behind the first eight bytes",
-    "the length of what has eight bytes or more is announced one too long",
-    "the readings differ if the last byte is odd",
-    "of more than 32 bytes one of 0xB5 becomes 0xB4 when it is encoded",
-];
+macro_rules! defects {
+    ($($more:literal)?) => {
+        &[
+            "the last byte loses its top bit when it is encoded",
+            "an error is one byte off if it is behind the first eight bytes",
+            "the length of what has eight bytes or more is announced one too long",
+            "the readings differ if the last byte is odd",
+            "of more than 32 bytes one of 0xB5 becomes 0xB4 when it is encoded",
+            "a buffer that is too small is written into",
+            "an error is of another kind",
+            "an error names no field",
+            "an error has found one more than there is if that is more than eight",
+            "a vector has a byte too much if the last is 0",
+            "a segment of more than four bytes is shown as one byte less",
+            $($more,)?
+        ]
+    };
+}
 
-pub(crate) fn bend(defect: Defect) -> Bend {
+/// The seeded defects of decoding and encoding bytes, by number.
+pub(crate) const DEFECTS: &[&str] = defects!();
+
+/// Values are read by a type too.
+pub(crate) const VARIABLE_DEFECTS: &[&str] = defects!(
+    "bytes of a value behind the sixteenth lose their top bit when they are written by a type"
+);
+
+/// Those of a target that has some of them, by their numbers here; 0 is none.
+pub(crate) fn bend_among(some: &[u8], defect: Defect) -> Bend {
+    let number = (1..).zip(some).find(|(own, _)| defect.is(*own));
+    bend(number.map_or(Defect::NONE, |(_, number)| Defect::new(*number)))
+}
+
+fn bend(defect: Defect) -> Bend {
     let mut bend = Bend::NONE;
     if defect.is(1) {
         bend.written = |bytes| {
@@ -52,7 +76,10 @@ pub(crate) fn bend(defect: Defect) -> Bend {
         };
     }
     if defect.is(2) {
-        bend.len = |len| len.or_else(|error| if error.offset() > 8 { Ok(0) } else { Err(error) });
+        bend.fault = |fault| match fault.offset {
+            offset @ 9.. => Fault { offset: offset - 1, ..fault },
+            _ => fault,
+        };
     }
     if defect.is(3) {
         bend.len = |len| len.map(|len| if len >= 8 { len + 1 } else { len });
@@ -67,6 +94,34 @@ pub(crate) fn bend(defect: Defect) -> Bend {
                 *byte = 0xB4;
             }
         };
+    }
+    if defect.is(6) {
+        bend.small = |small| small.iter_mut().take(1).for_each(|first| *first = 0);
+    }
+    if defect.is(7) {
+        bend.fault = |fault| Fault { kind: ErrorKind::Missing, ..fault };
+    }
+    if defect.is(8) {
+        bend.fault = |fault| Fault { field: "", ..fault };
+    }
+    if defect.is(9) {
+        bend.fault = |fault| match fault.found {
+            found @ 9.. => Fault { found: found + 1, ..fault },
+            _ => fault,
+        };
+    }
+    if defect.is(10) {
+        bend.vec = |vec| {
+            if vec.last() == Some(&0) {
+                vec.push(0);
+            }
+        };
+    }
+    if defect.is(11) {
+        bend.segment = |len| if len > 4 { len - 1 } else { len };
+    }
+    if defect.is(12) {
+        bend.typed = |bytes| bytes.iter_mut().skip(16).for_each(|byte| *byte &= 0x7F);
     }
     bend
 }

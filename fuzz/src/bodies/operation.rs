@@ -9,18 +9,22 @@ use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::{Call, Function, ReadDescriptors, Service};
 use ads_cnc::text::cp1252_to_char;
 
-use super::bytes::{bend, shown};
+use super::bytes::{bend_among, shown};
 use super::input::Input;
-use crate::common::{self, Parameters};
+use crate::common::{self, Bend, Parameters};
 use crate::{Defect, Outcome};
 
 /// A call: port (2 bytes), service (1), group, offset and read length (4 each), data.
 ///
-/// Dispatch refuses it, or finds a request that encodes to the same call and is dispatched to
-/// itself.
+/// Dispatch refuses it, or finds a request that encodes to a call with the same service, address and
+/// data, which is dispatched to itself.
 pub(crate) fn dispatch(data: &[u8], defect: Defect) -> Outcome {
     let Some(call) = read_call(data) else { return Outcome::unread() };
-    let bent = common::check_call_bent(&call, |again| {
+    let mut bend = Bend::NONE;
+    if defect.is(3) {
+        bend.small = |small| small.iter_mut().take(1).for_each(|first| *first = 0);
+    }
+    let bent = common::check_call_bent(&call, &bend, |again| {
         if defect.is(1) {
             again.index_group = IndexGroup::new(again.index_group.get() & !0x10_0000);
         }
@@ -29,7 +33,7 @@ pub(crate) fn dispatch(data: &[u8], defect: Defect) -> Outcome {
         }
     });
     match bent {
-        Ok(()) => Outcome::accepted(data),
+        Ok(function) => Outcome::accepted((function, data)),
         Err(refusal) => Outcome::refused(format!("{refusal:?}")),
     }
 }
@@ -37,6 +41,7 @@ pub(crate) fn dispatch(data: &[u8], defect: Defect) -> Outcome {
 pub(crate) const DISPATCH_DEFECTS: &[&str] = &[
     "a logical group is encoded as one by index",
     "what is behind the eighth byte of a request is lost",
+    "a buffer that is too small is written into",
 ];
 
 /// The first byte picks the function, of the rest its operation is made: see [`parameters`].
@@ -133,7 +138,7 @@ fn is_documented(of: &Parameters<'_>) -> bool {
 
 /// A call with two bytes for the length of its data ([`dispatch`]), and what is answered.
 ///
-/// A request takes for a reply what its function's stream takes, but no more than was asked for;
+/// A request takes for a reply what its function's stream takes, but no more than its function has;
 /// it encodes to the same bytes.
 pub(crate) fn reply(data: &[u8], defect: Defect) -> Outcome {
     let mut input = Input::new(data);
@@ -143,7 +148,8 @@ pub(crate) fn reply(data: &[u8], defect: Defect) -> Outcome {
         return Outcome::refused(format!("{refusal:?}"));
     }
     let bytes = input.bytes(usize::MAX);
-    let mut bend = bend(defect);
+    // All but the fourth are those of any bytes.
+    let mut bend = bend_among(&[1, 2, 3, 0, 6, 7, 8], defect);
     if defect.is(4) {
         bend.len = |len| {
             len.or_else(|error| match error.kind() {
@@ -153,7 +159,7 @@ pub(crate) fn reply(data: &[u8], defect: Defect) -> Outcome {
         };
     }
     match common::check_reply_bent(&call, bytes, &bend) {
-        Ok(()) => Outcome::accepted(data),
+        Ok(function) => Outcome::accepted((function, data)),
         Err(error) => Outcome::refused(shown(error)),
     }
 }
@@ -163,6 +169,9 @@ pub(crate) const REPLY_DEFECTS: &[&str] = &[
     "an error is one byte off if it is behind the first eight bytes",
     "the length of what has eight bytes or more is announced one too long",
     "more than was asked for is taken",
+    "a buffer that is too small is written into",
+    "an error is of another kind",
+    "an error names no field",
 ];
 
 /// Writes what [`reply`] reads.

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use ads_cnc::service::{Clears, ServiceId, ServiceVariable};
+use ads_cnc::service::{Clears, HostStep, ServiceId, ServiceVariable};
 
 use super::input::Input;
 use crate::common::machines::{CheckedHost, HostBend};
@@ -224,6 +224,8 @@ pub(crate) const MACHINES_DEFECTS: &[&str] = &[
     "a response state loses its upper four bits",
     "the time runs twice as fast",
     "the fifth byte of a state is overlooked",
+    "REQUEST_STATE is not cleared behind a response",
+    "a value that is none lets the host begin anew",
 ];
 
 fn host_bend(defect: Defect) -> HostBend {
@@ -242,6 +244,17 @@ fn host_bend(defect: Defect) -> HostBend {
     }
     if defect.is(4) {
         bend.poll = |host| host.restart();
+    }
+    if defect.is(8) {
+        bend.written = |host| {
+            if matches!(host.step(), HostStep::Write(ServiceVariable::Response, _)) {
+                host.written();
+            }
+            host.written();
+        };
+    }
+    if defect.is(9) {
+        bend.refused = |host| host.restart();
     }
     bend
 }

@@ -25,6 +25,8 @@ pub(crate) const DEFECTS: &[&str] = &[
     "the last byte of hex with a hyphen in it is lost",
     "a text with an escape is printed as it is",
     "of several frames only the first is shown",
+    "a stream without a fault is shown twice if it has fields",
+    "frames that the codec refuses have no fault",
 ];
 
 /// The first byte picks what is explained: a stream (0), data of a place (1), a place (2), frames
@@ -59,7 +61,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         plain.push(0x1B);
     }
     check_printed(&plain);
-    let late = |at: usize| defect.is(2) && at > 8;
+    let late = |at: usize| defect.is(2) && at > 8 || defect.is(7) && what > 2;
     let told = explanation.parts.iter().flat_map(|part| &part.faults);
     let faulty = told.filter(|fault| !late(fault.offset)).count() > 0;
     match what {
@@ -92,6 +94,10 @@ fn bend(explanation: &mut Explanation, defect: Defect) {
         && explanation.parts.iter().filter(|part| part.title.contains("AMS/TCP")).count() > 1
     {
         explanation.parts.truncate(3);
+    }
+    if defect.is(6) && matches!(explanation.outcome, Found::Explained) {
+        let again = explanation.parts.iter().find(|part| !part.rows.is_empty()).cloned();
+        explanation.parts.extend(again);
     }
 }
 
