@@ -223,8 +223,8 @@ prove_target() {
     [ "${defects:-0}" -gt 0 ] || row "$1" "$1" - "none seeded" - -
 }
 
-# One target against one defect. What it finds has to pass without the defect, or it would be no
-# proof of anything.
+# One target against one defect. What it finds has to be a broken law, not an input that took long,
+# and to pass without the defect, or it would be no proof of anything.
 prove() {
     local target="$1" number="$2" log="$output/logs/$1.$2.log" scratch start took
     local verdict program options folders executions bound=$((seconds > 0 ? seconds : asan_seconds))
@@ -239,9 +239,9 @@ prove() {
         "$scratch/found" ${folders[@]+"${folders[@]}"} >"$log" 2>&1 || true
     took="$(awk -v a="$start" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - a }')"
     executions="$(statistic "$log" number_of_executed_units)"
-    if [ "$(files "$scratch/artifacts")" -gt 0 ]; then
+    if [ "$(files "$scratch/artifacts" -name 'crash-*')" -gt 0 ]; then
         verdict=found
-        find "$scratch/artifacts" -type f -exec "$program" "${LIMITS[@]}" {} + >>"$log" 2>&1 ||
+        find "$scratch/artifacts" -name 'crash-*' -exec "$program" "${LIMITS[@]}" {} + >>"$log" 2>&1 ||
             verdict="fails without it"
     elif [ "${executions:-0}" -gt 0 ]; then
         verdict="not found"
