@@ -1,6 +1,7 @@
 //! Code page 1252 (GEN-3), judged by another implementation of it.
 
 mod common;
+mod kept;
 
 use ads_cnc::CncStr;
 use ads_cnc::text::{char_to_cp1252, cp1252_to_char};
@@ -74,7 +75,7 @@ fn owned_texts_are_the_borrowed_ones() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..Default::default() })]
+    #![proptest_config(kept::cases(256, file!()))]
 
     #[test]
     fn any_bytes_obey_the_laws_of_texts(bytes in prop::collection::vec(any::<u8>(), 0..40)) {

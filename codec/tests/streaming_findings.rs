@@ -69,7 +69,7 @@ fn names_of_files_end() {
 /// A comment may stand between an address and its number.
 #[test]
 fn numbers_behind_comments_are_passed() {
-    for text in ["X(a)5 M30\nX1\n", "X(a)12.5M30\nX1\n"] {
+    for text in ["X(a)5 M30\nX1\n", "X(a)12.5M30\nX1\n", "X(a)5.M30\nX1\n"] {
         let wanted = "line 2, column 1: text behind the M30 of line 1 (STM-10)";
         assert_eq!(findings(text), [wanted], "{text}");
     }

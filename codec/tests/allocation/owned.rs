@@ -6,7 +6,7 @@ use std::hint::black_box;
 use ads_cnc::layout::{FieldSpec, Size, Stream};
 
 use crate::common::Subject;
-use crate::counting::{allocated, allocations};
+use crate::counting::{allocated, allocations, measure};
 use crate::inputs::{LONG, each_input};
 use crate::{excess, start};
 
@@ -138,4 +138,32 @@ fn owned_readings_are_seen_to_allocate() {
         black_box((owned.len)(&request).unwrap());
     });
     assert!(decoding > 0);
+}
+
+/// A checker remembers no more of a program without end than of a long one, however long its labels
+/// are and whether or not it begins anew.
+#[test]
+fn checkers_hold_no_more_than_the_labels_that_they_know() {
+    use ads_cnc::streaming::Checker;
+
+    // Two generations; a label is a node's share, a key of its own and its characters.
+    const MOST: usize = 2 * (Checker::LABELS_KNOWN * 160 + 2 * Checker::CHARACTERS_KNOWN);
+    for (length, each) in [(1, "[{}]"), (990, "[{}]"), (1, "%\n[{}]")] {
+        let held = |labels: usize| {
+            let lines = |n| each.replace("{}", &format!("{n:A>length$}")) + "\r\n";
+            measure(|| {
+                let mut checker = Checker::new();
+                (0..labels).for_each(|n| drop(black_box(&mut checker).check(lines(n).as_bytes())));
+            })
+            .0
+        };
+        let known = Checker::LABELS_KNOWN.min(Checker::CHARACTERS_KNOWN / length);
+        let (long, endless) = (held(3 * known), held(6 * known));
+        assert!(endless <= MOST, "{endless} of {MOST}");
+        assert!(endless <= long + long / 4, "{length}: {long}, then {endless}");
+        // Labels of another program are forgotten at once.
+        let forgets = each.starts_with('%');
+        assert_eq!(forgets, endless < 4096, "{endless}");
+        assert_ne!(forgets, long > Checker::CHARACTERS_KNOWN / 2, "{long}");
+    }
 }
