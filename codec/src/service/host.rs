@@ -28,6 +28,11 @@ use crate::text::CncStr;
 /// repeated. Of a write that failed, report [`failed`](Self::failed): it may have arrived all the
 /// same, and the program gone on with it. So the host looks before it writes again.
 ///
+/// In one case that does not help, as nothing in the interface tells it: of two hosts on one channel
+/// one is told that its write of RESPONSE_STATE failed, and it arrived. If the program has then asked
+/// the other's service, and asks the first's again while that looks, the state is written once more
+/// and ends a request that nobody has served. One host for all services of a channel is safe.
+///
 /// When the CNC was reset or the connection is a new one, [`restart`](Self::restart).
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
