@@ -27,7 +27,7 @@ pub mod seeds;
 pub mod targets;
 
 pub use defect::Defect;
-pub use outcome::Outcome;
+pub use outcome::{Digest, Outcome};
 pub use replay::{Folder, corpus, dictionaries, regressions, replay};
 pub use targets::{TARGETS, Target};
 

@@ -1,6 +1,6 @@
 //! What an input led to.
 
-use std::hash::{DefaultHasher, Hash, Hasher as _};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// What an input led to: the same for every build of the codec that reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,8 +37,46 @@ impl Outcome {
 }
 
 fn digest(what: impl Hash) -> u64 {
-    // Without a random key: two programs of one toolchain agree.
-    let mut hasher = DefaultHasher::new();
-    what.hash(&mut hasher);
-    hasher.finish()
+    let mut digest = Digest::default();
+    what.hash(&mut digest);
+    digest.finish()
+}
+
+/// A hash that is the same on every machine, whatever its byte order and the size of its words; but
+/// for slices of numbers, which are hashed as they lie in memory.
+///
+/// It has no random key, so two programs of one toolchain agree.
+#[derive(Clone, Debug, Default)]
+pub struct Digest(DefaultHasher);
+
+impl Hasher for Digest {
+    fn write(&mut self, bytes: &[u8]) {
+        self.0.write(bytes);
+    }
+
+    fn write_u16(&mut self, number: u16) {
+        self.0.write(&number.to_le_bytes());
+    }
+
+    fn write_u32(&mut self, number: u32) {
+        self.0.write(&number.to_le_bytes());
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        self.0.write(&number.to_le_bytes());
+    }
+
+    /// Lengths.
+    fn write_usize(&mut self, number: usize) {
+        self.write_u64(number as u64);
+    }
+
+    /// Which variant of an enum it is.
+    fn write_isize(&mut self, number: isize) {
+        self.write_u64(number as u64);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0.finish()
+    }
 }

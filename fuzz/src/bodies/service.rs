@@ -36,7 +36,7 @@ pub(crate) fn world(data: &[u8], defect: Defect) -> Outcome {
         next = after.into_iter();
     }
     world.finish(&mut next);
-    Outcome::accepted((what, world.served()))
+    Outcome::accepted((what, format!("{:?}", world.served())))
 }
 
 /// Which service is asked (bit 0), and what (bit 1).
