@@ -37,7 +37,11 @@ fn values_vary() {
         .collect();
         let variable: Description = made(&bytes);
         seen.insert(match variable.name.tail {
-            None => "open name",
+            None => {
+                // Without a character it would be none.
+                assert!(!variable.name.text.as_bytes().is_empty());
+                "open name"
+            }
             Some(tail) if tail.is_empty() => "one NUL",
             Some(_) => "bytes behind the NUL",
         });
