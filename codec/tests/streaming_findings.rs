@@ -233,6 +233,7 @@ fn text_behind_program_ends_is_found_and_behind_nothing_else() {
         ("XP1M29", "M29"),
         ("X.5M30", "M30"),
         ("X 10M30", "M30"),
+        ("WAIT M30", "M30"),
         ("X1 M30 Y2", "M30"),
         ("N9M30", "M30"),
         ("$IF P1 == 1 M30", "M30"),
