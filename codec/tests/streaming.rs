@@ -233,6 +233,16 @@ fn text() -> impl Strategy<Value = Vec<u8>> {
     )
 }
 
+/// An open last line that a packet has room to close is not as sent, and nor is what comes with it;
+/// where there is none, what stands before it is.
+#[test]
+fn open_lines_are_borrowed_up_to() {
+    for (last, borrowed) in [(987, None), (988, Some(&b"X\r\n"[..]))] {
+        let text = [&b"X\r\n"[..], &b"Y".repeat(last)].concat();
+        assert_eq!(NcText::new(&text).unwrap().packets().next_borrowed(), borrowed, "{last}");
+    }
+}
+
 proptest! {
     #![proptest_config(kept::cases(1000, file!()))]
 
