@@ -80,6 +80,43 @@ fn a_write_that_failed_is_not_repeated_over_what_is_anothers() {
     }
 }
 
+/// What [`Host`] says of two on one channel: a state that arrived though its write failed is written
+/// again, and the program takes it for the answer to what it asks meanwhile.
+#[test]
+fn of_two_hosts_one_may_end_a_request_that_nobody_served() {
+    let (own, others) = ([id(ROOT)], [id(COMMAND)]);
+    let (mut host, mut other) = (Host::new(&own), Host::new(&others));
+    let mut channel = Channel::default();
+    let mut program = call(ROOT, "3", [None; 3]);
+    channel.run(&mut program, millis(0));
+    assert_eq!(channel.skip_reads(&mut host), Did::Serve);
+    host.answer(text("first"), 1).unwrap();
+    channel.reach(&mut host, ResponseState);
+    channel.write(ResponseState, &[1, 0, 0, 0]);
+    host.failed();
+    assert_eq!(channel.run(&mut program, millis(1)), Some(Ok((1, "first".to_string()))));
+
+    let mut program = call(COMMAND, "3", [None; 3]);
+    channel.run(&mut program, millis(2));
+    assert_eq!(channel.skip_reads(&mut other), Did::Serve);
+    other.answer(text("other"), 1).unwrap();
+    channel.reach(&mut other, ResponseState);
+    for variable in [ResponseState, RequestState] {
+        assert_eq!(channel.step(&mut host), Did::Read(variable));
+    }
+    assert_eq!(channel.step(&mut other), Did::Write(ResponseState));
+    assert_eq!(channel.run(&mut program, millis(3)), Some(Ok((1, "other".to_string()))));
+
+    let mut program = call(ROOT, "4", [None; 3]);
+    let CallStep::Write(Uuid, value) = program.step() else { unreachable!() };
+    channel.write(Uuid, value);
+    program.written(millis(4));
+    assert_eq!(channel.step(&mut host), Did::Read(Uuid));
+    assert_eq!(channel.run(&mut program, millis(5)), None);
+    assert_eq!(channel.step(&mut host), Did::Write(ResponseState));
+    assert_eq!(channel.run(&mut program, millis(6)), Some(Ok((1, "other".to_string()))));
+}
+
 /// A failed step that is no write, and calls out of turn, change nothing.
 #[test]
 fn calls_out_of_turn_do_nothing() {
