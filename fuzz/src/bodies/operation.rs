@@ -11,7 +11,7 @@ use ads_cnc::text::cp1252_to_char;
 
 use super::bytes::{bend_among, shown};
 use super::input::Input;
-use crate::common::{self, Bend, Parameters};
+use crate::common::{self, Parameters};
 use crate::{Defect, Outcome};
 
 /// A call: port (2 bytes), service (1), group, offset and read length (4 each), data.
@@ -20,11 +20,8 @@ use crate::{Defect, Outcome};
 /// data, which is dispatched to itself.
 pub(crate) fn dispatch(data: &[u8], defect: Defect) -> Outcome {
     let Some(call) = read_call(data) else { return Outcome::unread() };
-    let mut bend = Bend::NONE;
-    if defect.is(3) {
-        bend.small = |small| small.iter_mut().take(1).for_each(|first| *first = 0);
-    }
-    let bent = common::check_call_bent(&call, &bend, |again| {
+    // The third is that of any bytes.
+    let bent = common::check_call_bent(&call, &bend_among(&[0, 0, 6], defect), |again| {
         if defect.is(1) {
             again.index_group = IndexGroup::new(again.index_group.get() & !0x10_0000);
         }

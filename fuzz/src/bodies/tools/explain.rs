@@ -61,9 +61,9 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         plain.push(0x1B);
     }
     check_printed(&plain);
-    let late = |at: usize| defect.is(2) && at > 8 || defect.is(7) && what > 2;
+    let overlooked = |at: usize| defect.is(2) && at > 8 || defect.is(7) && what > 2;
     let told = explanation.parts.iter().flat_map(|part| &part.faults);
-    let faulty = told.filter(|fault| !late(fault.offset)).count() > 0;
+    let faulty = told.filter(|fault| !overlooked(fault.offset)).count() > 0;
     match what {
         0 => accepts(stream, bytes, typed, faulty),
         1 => {
