@@ -1,8 +1,9 @@
 //! What is run, in which order, and which failures are put up with.
 
 use std::collections::BTreeSet;
+use std::io::{BufRead as _, BufReader};
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 use std::{env, fs, process};
 
 use serde_json::Value;
@@ -142,6 +143,59 @@ fn what_would_be_run_is_listed() {
     let rows: Vec<&str> =
         rows.as_array().unwrap().iter().map(|row| row["id"].as_str().unwrap()).collect();
     assert_eq!(rows, ["VAR-8", "VAR-11", "VAR-14"]);
+}
+
+/// The list counts the cases that a run against the same target does not leave out.
+#[test]
+fn the_list_of_a_device_has_the_cases_that_run() {
+    let device = Device::start();
+    let target = ["--target", &device.addr, "--net-id", "127.0.0.1.1.1", "--seed", "5"];
+    let json = |args: &[&str]| -> Value {
+        let output = ads_cnc(&[args, &target, &["--json", "-"]].concat());
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let listed = json(&["run", "--list"]);
+    let listed = listed.as_array().unwrap().iter();
+    let listed: BTreeSet<&str> = listed
+        .filter(|one| one.get("not_run").is_none())
+        .map(|one| one["id"].as_str().unwrap())
+        .collect();
+    let report = json(&["run"]);
+    let left_out = ["not sent to a device", "--allow-write", "the embedded", "printed examples"];
+    let run = report["cases"].as_array().unwrap().iter().filter(|case| {
+        let note = case["note"].as_str().unwrap_or_default();
+        !left_out.iter().any(|why| note.contains(why))
+    });
+    let run: BTreeSet<&str> = run.map(|case| case["id"].as_str().unwrap()).collect();
+    assert_eq!(listed, run);
+    assert!(listed.len() > 80, "{}", listed.len());
+}
+
+/// A simulated CNC in a process of its own.
+struct Device {
+    serve: Child,
+    addr: String,
+}
+
+impl Device {
+    fn start() -> Self {
+        let mut serve = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+            .args(["serve", "--listen", "127.0.0.1:0"])
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(serve.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let addr = line.strip_prefix("listening on ").unwrap().split(',').next().unwrap();
+        Self { addr: addr.to_owned(), serve }
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        self.serve.kill().unwrap();
+        self.serve.wait().unwrap();
+    }
 }
 
 /// A file of waivers that goes away.

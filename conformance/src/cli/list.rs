@@ -30,18 +30,9 @@ impl Listed {
     }
 }
 
-/// The cases of a plan in their order.
-pub(super) fn of_plan(plan: &Plan, is_device: bool) -> Vec<Listed> {
-    let why = |case: &Case| match case.needs {
-        Needs::Malformed if is_device => {
-            Some("sends what no client should: not sent to a device".to_owned())
-        }
-        Needs::Embedded if is_device => {
-            Some("takes something that is done to a CNC from within".to_owned())
-        }
-        _ => None,
-    };
-    let run = plan.selected().map(|case| Listed::new(case, why(case)));
+/// The cases of a plan in their order; `unmet` tells why one is not run.
+pub(super) fn of_plan(plan: &Plan, unmet: impl Fn(Needs) -> Option<String>) -> Vec<Listed> {
+    let run = plan.selected().map(|case| Listed::new(case, unmet(case.needs)));
     let foreign = plan.foreign.iter().map(|(case, why)| Listed::new(case, Some(why.clone())));
     run.chain(foreign).collect()
 }

@@ -174,7 +174,7 @@ impl Run {
         }
         let seed = self.seed.unwrap_or_else(suite::any_seed);
         if self.list {
-            return self.list(seed);
+            return self.list(seed, &profile);
         }
         let report = match &self.testee {
             _ if self.client.is_wanted() => self.of_client(seed, waivers),
@@ -240,7 +240,7 @@ impl Run {
         Ok(Report::new(about, &outcomes, &left_out))
     }
 
-    fn list(&self, seed: u32) -> Exit {
+    fn list(&self, seed: u32, profile: &Profile) -> Exit {
         let plan = match self.plan(seed) {
             Ok(plan) => plan,
             Err(why) => {
@@ -248,7 +248,23 @@ impl Run {
                 return Exit::Nothing;
             }
         };
-        let listed = list::of_plan(&plan, self.target.is_device() && !self.malformed);
+        // The CNC that is started here is open to everything.
+        let gate = self
+            .target
+            .is_device()
+            .then(|| self.target.clone().with_malformed(self.malformed).gate());
+        let gate = match gate.transpose() {
+            Ok(gate) => gate,
+            Err(trouble) => {
+                complain(&trouble);
+                return trouble.exit();
+            }
+        };
+        let unmet = |needs: Needs| {
+            let unmet = needs.unmet(gate.as_ref()?, profile, false);
+            unmet.map(|(_, why)| why.to_owned())
+        };
+        let listed = list::of_plan(&plan, unmet);
         let written = match self.reports.json() {
             Some(file) => write(file, |out| list::to_json(&listed, out)),
             None => show(|out| list::to_text(&listed, out)),

@@ -157,7 +157,8 @@ impl TargetArgs {
         }
     }
 
-    fn gate(&self) -> Result<Gate, Trouble> {
+    /// The gate in front of the device.
+    pub(super) fn gate(&self) -> Result<Gate, Trouble> {
         let allowed = self.allow_write.as_deref().map(Allowed::from_file).transpose();
         let allowed = allowed.map_err(|error| Trouble::Usage(error.to_string()))?;
         let gate = Gate::queries().with_allowed(allowed);

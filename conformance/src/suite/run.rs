@@ -44,29 +44,9 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
     if let Some(why) = session.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
         return Outcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
     }
-    match case.needs {
-        Needs::Malformed if !session.client.gate().lets_malformed_pass() => {
-            let note = "sends what no client should: not sent to a device";
-            return Outcome::untried(case, Verdict::NotRun, note);
-        }
-        Needs::Writes if !session.client.gate().may_let_writes_pass() => {
-            let note = "writes: only what a file for --allow-write names";
-            return Outcome::untried(case, Verdict::NotRun, note);
-        }
-        Needs::MalformedWrites if session.client.gate().embedded().is_none() => {
-            let note = "writes what no client should: to the embedded CNC only";
-            return Outcome::untried(case, Verdict::NotRun, note);
-        }
-        Needs::Embedded if session.cnc.is_none() => {
-            let note =
-                "takes something that is done to a CNC from within: to the embedded one only";
-            return Outcome::untried(case, Verdict::NotRun, note);
-        }
-        Needs::PrintedExamples if !session.profile.printed_examples => {
-            let note = "the target does not claim to answer the printed examples";
-            return Outcome::untried(case, Verdict::NotApplicable, note);
-        }
-        _ => {}
+    let (gate, inside) = (session.client.gate(), session.cnc.is_some());
+    if let Some((verdict, why)) = case.needs.unmet(gate, &session.profile, inside) {
+        return Outcome::untried(case, verdict, why);
     }
     let mut probe = Probe::new(session);
     let step = match case.body {
