@@ -16,7 +16,12 @@ use ads_cnc_conformance::verdict::Verdict;
 
 /// Runs the suite against an embedded CNC with this defect, or its vectors against the codec.
 fn run(defect: Option<&Defect>, wanted: impl Fn(&Case) -> bool) -> Vec<Outcome> {
-    run_against(Cnc::with_default_model().unwrap(), Profile::EMBEDDED, defect, wanted)
+    run_against(Cnc::with_default_model().unwrap(), profile(), defect, wanted)
+}
+
+fn profile() -> Profile {
+    let model = Model::default_model().unwrap();
+    Profile { printed_examples: true, ..model.profile() }
 }
 
 fn run_against(
@@ -180,7 +185,7 @@ fn a_cnc_of_the_german_edition_raises_nothing() {
     let edition = Edition::German;
     let settings = Settings { edition: Some(edition), version: None };
     let model = Model::with_settings(DEFAULT_MODEL, "default", settings).unwrap();
-    let profile = Profile { edition, ..Profile::EMBEDDED };
+    let profile = Profile { edition, ..profile() };
     let cases = |case: &Case| case.needs != Needs::Codec;
     let outcomes = run_against(Cnc::new(model), profile, None, cases);
     let raised = outcomes

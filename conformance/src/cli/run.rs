@@ -10,7 +10,7 @@ use super::list;
 use super::run_client::ClientArgs;
 use super::target::{REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect, run_testee};
-use crate::cnc;
+use crate::cnc::{self, Model};
 use crate::gate::Moment;
 use crate::profile::{self, Profile};
 use crate::report::{self, About, Report, TargetReport};
@@ -202,7 +202,13 @@ impl Run {
     /// What the file says, or what holds without one; --edition is about both.
     fn profile(&self) -> Result<Profile, String> {
         let read = self.profile.as_deref().map(Profile::from_file).transpose();
-        let without = if self.is_embedded() { Profile::EMBEDDED } else { Profile::DEVICE };
+        let without = match self.is_embedded() {
+            true => {
+                let model = Model::default_model().map_err(|error| error.to_string())?;
+                Profile { printed_examples: true, ..model.profile() }
+            }
+            false => Profile::DEVICE,
+        };
         let profile = read.map_err(|error| error.to_string())?.unwrap_or(without);
         let edition = self.edition.unwrap_or(profile.edition);
         Ok(Profile { edition, ..profile })

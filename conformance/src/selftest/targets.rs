@@ -67,18 +67,14 @@ fn run(
     let internal = |error| Trouble::Internal(format!("the default model: {error}"));
     let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
     let cnc = Cnc::new(model.map_err(internal)?).with_defect(Some(seed.clone()));
+    let profile = cnc.model().profile();
+    let profile = Profile { printed_examples: seed.printed, ..profile };
     let session = session::Session::embedded_to_try(cnc)?;
     // The CNC runs as long as it is held.
     let (client, running) = session.into_parts();
     let client = match seed.kind {
         Kind::Different => client,
         Kind::Codec | Kind::Cnc => client.with_timeout(IMPATIENCE),
-    };
-    let embedded = if seed.has_own_model() { Profile::DEVICE } else { Profile::EMBEDDED };
-    let profile = Profile {
-        edition: settings.edition.unwrap_or(embedded.edition),
-        printed_examples: seed.printed,
-        ..embedded
     };
     let mut session = Session::new(client, profile);
     if let Some(server) = &running {

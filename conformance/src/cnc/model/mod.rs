@@ -4,6 +4,7 @@
 //! `ads-cnc serve --print-model` writes it out.
 
 mod build;
+mod claims;
 mod configured;
 mod document;
 mod error;

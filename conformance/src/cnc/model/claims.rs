@@ -1,0 +1,43 @@
+//! What a device with this model would claim.
+
+use std::collections::BTreeSet;
+
+use super::{Meaning, Model};
+use crate::profile::Profile;
+
+impl Model {
+    /// The full profile of a device with this model. Whether it answers the printed examples, the
+    /// model does not tell: no.
+    pub fn profile(&self) -> Profile {
+        let active = || self.channels.iter().filter(|channel| channel.active);
+        let is_absent = |number: &u8| !self.channels.iter().any(|one| one.number == *number);
+        let count = |many: usize| u32::try_from(many).unwrap_or(u32::MAX);
+        let empty = active().flat_map(|channel| {
+            let places = (1_u32..).zip(&channel.places);
+            let empty = places.filter(|(_, axis)| axis.is_none());
+            empty.map(|(place, _)| (u32::from(channel.number), place))
+        });
+        let by_name_only = active().take(1).flat_map(|channel| &channel.variables.list);
+        let by_name_only = by_name_only.filter(|variable| variable.handle.is_none());
+        let elements = self.classes.iter();
+        let elements =
+            elements.flat_map(|class| class.channel.items.iter().chain(&class.axis.items));
+        // Writing such a number exchanges axes, which writing the old number does not undo.
+        let exchange = self.channel_axis.items.iter().chain(elements);
+        let exchange = exchange.filter(|item| item.writable && item.meaning == Meaning::AxisNumber);
+        let unwritten: BTreeSet<String> = exchange.map(|item| item.name.to_string()).collect();
+        Profile {
+            name: "simulated".into(),
+            edition: self.edition,
+            cnc_version: self.version,
+            channels: active().map(|channel| channel.number.into()).collect(),
+            absent_channel: (1..=u8::MAX).find(is_absent).map(u32::from),
+            platform_axes: count(self.axes.len()),
+            spindles: Some(count(self.spindles)),
+            empty_places: empty.collect(),
+            by_name_only: by_name_only.map(|one| one.name.to_string().into()).collect(),
+            unwritten: unwritten.into_iter().map(Into::into).collect(),
+            ..Profile::DEVICE
+        }
+    }
+}
