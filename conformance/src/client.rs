@@ -5,6 +5,7 @@ mod judge;
 mod target;
 
 use std::io;
+use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -13,6 +14,7 @@ use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, Fra
 use ads_cnc::operation::{Call, Service};
 
 use crate::capture::Capture;
+use crate::cnc::{Cnc, InProcess};
 use crate::exchange::{Answer, Exchange, Fault, Violation};
 use crate::gate::{Gate, Moment, Permit};
 use crate::net::Wire;
@@ -33,11 +35,21 @@ pub struct Client {
     source: AmsNetId,
     gate: Gate,
     wire: Option<Wire>,
+    dial: Dial,
     capture: Option<Capture>,
     dry: bool,
     last: Option<Instant>,
     invoke_id: u32,
     piece: Option<usize>,
+}
+
+/// How a connection is opened, the first one and those after a lost one.
+#[derive(Clone, Debug)]
+enum Dial {
+    /// Over TCP, to the target's address.
+    Tcp,
+    /// To a CNC of this process, without a socket.
+    InProcess(Arc<Cnc>),
 }
 
 /// Between the pieces of a frame that is sent in pieces.
@@ -52,8 +64,21 @@ impl Client {
     /// # Errors
     /// If nobody listens there, or the gate is open wider than is safe for another machine.
     pub fn connect(target: Target, gate: Gate) -> io::Result<Self> {
-        let mut client = Self::unconnected(target, gate)?;
-        let wire = Wire::connect(target.addr, target.timeout)?;
+        Self::dialled(target, gate, Dial::Tcp)
+    }
+
+    /// Connects to a CNC of this process without a socket. The CNC's clock, which must stand, runs
+    /// while an answer is awaited in vain.
+    ///
+    /// # Errors
+    /// If the gate is open wider than is safe for another machine.
+    pub fn in_process(target: Target, gate: Gate, cnc: Arc<Cnc>) -> io::Result<Self> {
+        Self::dialled(target, gate, Dial::InProcess(cnc))
+    }
+
+    fn dialled(target: Target, gate: Gate, dial: Dial) -> io::Result<Self> {
+        let mut client = Self { dial, ..Self::unconnected(target, gate)? };
+        let wire = client.dial()?;
         client.source = target.source.unwrap_or(net_id_of(wire.local().ip()));
         client.wire = Some(wire);
         Ok(client)
@@ -65,6 +90,15 @@ impl Client {
     /// If the gate is open wider than is safe for another machine.
     pub fn dry(target: Target, gate: Gate) -> io::Result<Self> {
         Ok(Self { dry: true, ..Self::unconnected(target, gate)? })
+    }
+
+    fn dial(&self) -> io::Result<Wire> {
+        match &self.dial {
+            Dial::Tcp => Wire::connect(self.target.addr, self.target.timeout),
+            Dial::InProcess(cnc) => {
+                Ok(Wire::over(Box::new(InProcess::new(Arc::clone(cnc), self.target.net_id))))
+            }
+        }
     }
 
     fn unconnected(target: Target, gate: Gate) -> io::Result<Self> {
@@ -81,6 +115,7 @@ impl Client {
             source: target.source.unwrap_or(net_id_of(target.addr.ip())),
             gate,
             wire: None,
+            dial: Dial::Tcp,
             capture: None,
             dry: false,
             last: None,
@@ -124,6 +159,14 @@ impl Client {
     /// Sends frames in pieces of so many bytes from now on, or whole again.
     pub(crate) const fn set_piece(&mut self, piece: Option<usize>) {
         self.piece = piece;
+    }
+
+    /// Lets time pass, for the target too.
+    pub(crate) fn wait(&self, time: Duration) {
+        match &self.dial {
+            Dial::Tcp => thread::sleep(time),
+            Dial::InProcess(cnc) => cnc.pass(time),
+        }
     }
 
     /// The gate in front of the target.
@@ -254,8 +297,7 @@ impl Client {
         let wire = match self.wire.take() {
             Some(wire) => wire,
             None => {
-                let wire = Wire::connect(self.target.addr, self.target.timeout);
-                let wire = wire.map_err(Fault::gone)?;
+                let wire = self.dial().map_err(Fault::gone)?;
                 if let Some(capture) = &mut self.capture {
                     capture.opened(wire.local(), self.target.addr);
                 }

@@ -2,6 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "this is the one place")]
 
+use std::fmt;
 use std::io::{self, Read as _, Write as _};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::time::Duration;
@@ -43,10 +44,37 @@ pub(crate) fn rehearse(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStr
     Ok(stream)
 }
 
-/// A connection to a target. What leaves on it has passed the gate.
+/// The other end of a [`Wire`]: a socket, or a CNC of this process.
+pub trait Peer: fmt::Debug + Send {
+    /// Takes bytes.
+    ///
+    /// # Errors
+    /// Those of the system.
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()>;
+
+    /// Gives the bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end.
+    ///
+    /// # Errors
+    /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if nothing
+    /// arrived.
+    fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize>;
+}
+
+impl Peer for TcpStream {
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.write_all(bytes)
+    }
+
+    fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize> {
+        self.set_read_timeout(Some(timeout))?;
+        self.read(buf)
+    }
+}
+
+/// A connection to a target. Every frame sent on it has passed the gate.
 #[derive(Debug)]
 pub struct Wire {
-    stream: TcpStream,
+    peer: Box<dyn Peer>,
     local: SocketAddr,
 }
 
@@ -59,7 +87,12 @@ impl Wire {
         let stream = TcpStream::connect_timeout(&addr, timeout)?;
         stream.set_nodelay(true)?;
         let local = stream.local_addr()?;
-        Ok(Self { stream, local })
+        Ok(Self { peer: Box::new(stream), local })
+    }
+
+    /// Connects to a peer of this process, without a socket.
+    pub fn over(peer: Box<dyn Peer>) -> Self {
+        Self { peer, local: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)) }
     }
 
     /// The address of this end.
@@ -72,7 +105,7 @@ impl Wire {
     /// # Errors
     /// Those of the system.
     pub fn send(&mut self, permit: Permit<'_>) -> io::Result<()> {
-        self.stream.write_all(permit.frame())
+        self.peer.send(permit.frame())
     }
 
     /// As [`send`](Self::send), so many bytes at a time, one pause after the other.
@@ -86,7 +119,7 @@ impl Wire {
         pause: Duration,
     ) -> io::Result<()> {
         for piece in permit.frame().chunks(piece.max(1)) {
-            self.stream.write_all(piece)?;
+            self.peer.send(piece)?;
             std::thread::sleep(pause);
         }
         Ok(())
@@ -98,7 +131,6 @@ impl Wire {
     /// Those of the system, [`io::ErrorKind::WouldBlock`] or [`io::ErrorKind::TimedOut`] if nothing
     /// came.
     pub fn receive(&mut self, buf: &mut [u8], timeout: Duration) -> io::Result<usize> {
-        self.stream.set_read_timeout(Some(timeout))?;
-        self.stream.read(buf)
+        self.peer.receive(buf, timeout)
     }
 }

@@ -27,6 +27,7 @@ mod answer;
 mod clock;
 mod content;
 mod control;
+mod in_process;
 mod model;
 mod parameters;
 pub mod program;
@@ -37,6 +38,7 @@ mod within;
 
 pub use answer::Cnc;
 pub use control::ControlError;
+pub(crate) use in_process::InProcess;
 pub(crate) use model::Configured;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
 pub(crate) use respond::FRAME_MAX;

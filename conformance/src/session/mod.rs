@@ -10,7 +10,10 @@ use std::time::Duration;
 
 use ads_cnc::ads::{DeviceInfoReply, DeviceStateReply};
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Operation, Task};
+use ads_cnc::operation::{
+    Call, CountObjects, CountVariables, Function, ObjectList, Operation, Task,
+};
+use ads_cnc::{Kind, address::Channel};
 
 use crate::capture::Capture;
 use crate::client::{Client, Inquiry, Said, Target};
@@ -18,6 +21,7 @@ use crate::cnc::{Cnc, NET_ID, Server};
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Gate;
 use crate::net;
+use crate::profile::{Claim, Profile};
 use crate::report::hex;
 
 pub use trouble::Trouble;
@@ -87,6 +91,17 @@ impl Session {
             Target { timeout: EMBEDDED_TIMEOUT, ..Target::local(server.addr(), server.net_id()) };
         let client = Client::connect(target, gate).map_err(failed)?;
         Ok(Self::over(client, Some(server)))
+    }
+
+    /// Connects to a CNC of this process without a socket. Its clock must stand.
+    ///
+    /// # Errors
+    /// If the gate is open wider than is safe for another machine.
+    pub(crate) fn in_process(cnc: Arc<Cnc>, gate: Gate) -> Result<Self, Trouble> {
+        let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
+        let client = Client::in_process(target, gate, cnc);
+        let client = client.map_err(|error| Trouble::unreachable(&target, &error))?;
+        Ok(Self::over(client, None))
     }
 
     /// Starts a CNC in this process that anything may be sent to which is ever sent: it is thrown
@@ -182,6 +197,27 @@ impl Session {
             Err(fault) => return Err(Trouble::fault(&self.client, fault, self.answered)),
         }
         operation.decode_reply(&self.reply).map_err(Trouble::Reply)
+    }
+
+    /// Asks one query that the profile claims. A device that answers none has nothing to be judged
+    /// by.
+    ///
+    /// # Errors
+    /// If there is no answer. An ADS error is one.
+    pub(crate) fn greet(&mut self, profile: &Profile) -> Result<(), Trouble> {
+        let greeted = match profile.claims(Function::CountObjects) {
+            Claim::No => {
+                let first = profile.channels.first().copied().unwrap_or(1);
+                let channel =
+                    Channel::new(first).map_err(|error| Trouble::Internal(error.to_string()))?;
+                self.call(&CountVariables::new(channel, Kind::V_E)).map(drop)
+            }
+            _ => self.call(&CountObjects::new(ObjectList::PLATFORM)).map(drop),
+        };
+        match greeted {
+            Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(()),
+            greeted => greeted,
+        }
     }
 
     /// Name and version of the device, as a task of it says.

@@ -2,16 +2,14 @@
 
 use std::path::Path;
 
-use ads_cnc::Kind;
-use ads_cnc::address::Channel;
-use ads_cnc::operation::{CountObjects, CountVariables, Function, ObjectList, Task};
+use ads_cnc::operation::Task;
 
 use super::{Run, Stopped};
 use crate::cli::forms::show;
 use crate::cli::{complain, run_dry};
 use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::Seed;
-use crate::profile::{Claim, Profile};
+use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
 use crate::suite::{self, Needs, Outcome, Plan, RequirementVerdict, Session};
@@ -27,18 +25,9 @@ impl Run {
         let plan = self.plan(seed)?;
         let target = self.target.clone().with_timeout(profile.timeout);
         let mut session = target.with_malformed(self.malformed).open()?;
-        // Silence is judged case by case only of one that speaks at all: an error of ADS does.
-        let greeted = match profile.claims(Function::CountObjects) {
-            Claim::No => {
-                let first = profile.channels.first().copied().unwrap_or(1);
-                let channel =
-                    Channel::new(first).map_err(|error| Trouble::Internal(error.to_string()))?;
-                session.call(&CountVariables::new(channel, Kind::V_E)).map(drop)
-            }
-            _ => session.call(&CountObjects::new(ObjectList::PLATFORM)).map(drop),
-        };
-        match greeted {
-            Ok(()) | Err(Trouble::Ads { .. } | Trouble::Reply(_)) => {}
+        // Silence is judged case by case only of a device that answers at all.
+        match session.greet(&profile) {
+            Ok(()) => {}
             Err(Trouble::NotSent) => {
                 let (client, _) = session.into_parts();
                 let listed = show(|out| run_dry::list(&profile, client.gate().allowed(), out));

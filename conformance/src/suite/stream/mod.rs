@@ -9,7 +9,6 @@ mod words;
 pub(super) use sent::{Sent, heard, send, send_until_taken};
 pub(super) use stage::HELD_MAX;
 
-use std::thread;
 use std::time::{Duration, Instant};
 
 use ads_cnc::address::{Channel, ComTable};
@@ -232,7 +231,7 @@ fn channel(probe: &Probe<'_>) -> Step<Channel> {
 ///
 /// An error number does not tell for now from for good: that it is taken later does.
 fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u32>> {
-    let (begun, mut refused) = (Instant::now(), 0_u32);
+    let (begun, mut waited, mut refused) = (Instant::now(), Duration::ZERO, 0_u32);
     // Of the embedded CNC it is known how fast it is.
     let (wait, patience) = match probe.session.cnc.is_some() {
         true => (Duration::from_millis(5), Duration::from_millis(300)),
@@ -243,7 +242,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
         if sent.is_taken() {
             return Ok(Some(refused));
         }
-        if begun.elapsed() > patience {
+        if begun.elapsed().max(waited) > patience {
             let room = match &probe.session.cnc {
                 Some(cnc) => {
                     let held = cnc.with_program(channel.number(), |program| program.held());
@@ -255,7 +254,8 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
             return if room { Ok(None) } else { Err(Stop::Inconclusive(why)) };
         }
         refused = refused.saturating_add(1);
-        thread::sleep(wait);
+        probe.session.client.wait(wait);
+        waited = waited.saturating_add(wait);
     }
 }
 

@@ -1,7 +1,6 @@
 //! What came of a write to a stream.
 
 use std::fmt;
-use std::thread;
 use std::time::Duration;
 
 use ads_cnc::address::Channel;
@@ -73,7 +72,7 @@ pub(in crate::suite) fn send_until_taken(
         if !sent.is_refused() {
             break;
         }
-        thread::sleep(Duration::from_millis(1));
+        probe.session.client.wait(Duration::from_millis(1));
         sent = send(probe, channel, data)?;
     }
     Ok(sent)
