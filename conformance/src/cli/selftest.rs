@@ -6,8 +6,11 @@ use std::sync::Mutex;
 
 use clap::Args;
 
+use super::complain;
 use super::forms::{is_stdout, lost, show, write};
 use crate::selftest;
+use crate::selftest::detection::Scope;
+use crate::suite::any_seed;
 use crate::verdict::Exit;
 
 /// Tries the suite on itself: every seeded defect has to be caught, everybody right left in peace.
@@ -27,7 +30,20 @@ pub(super) struct SelfTest {
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
 
-    /// Show each that was tried
+    /// Measure every seeded defect of a CNC in every mode [default: those that changed since the
+    /// published table was written, and a sample of 60]
+    #[arg(long)]
+    all: bool,
+
+    /// Seed of the sample [default: random; shown on stderr]
+    #[arg(long, value_name = "N", conflicts_with = "all")]
+    seed: Option<u32>,
+
+    /// Measure as --all does, and write detection.tsv and detection.md into this folder
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["seed", "only"])]
+    renew: Option<PathBuf>,
+
+    /// Show each that was tried, and each defect that is missed
     #[arg(long, short)]
     verbose: bool,
 
@@ -49,7 +65,26 @@ impl SelfTest {
                 let _unseen = write!(io::stderr(), "\r{done} of {all}{end}");
             }
         };
-        let test = selftest::run(&self.only, tell);
+        let seed = self.seed.unwrap_or_else(any_seed);
+        let scope = match self.all || self.renew.is_some() {
+            true => Scope::All,
+            false => {
+                complain(format_args!("sample by --seed {seed}"));
+                Scope::Sample(seed)
+            }
+        };
+        let test = selftest::run(&self.only, scope, tell);
+        if let Some(folder) = &self.renew {
+            let table = &test.detection.table;
+            let files = [("detection.tsv", table.to_text()), ("detection.md", table.to_markdown())];
+            for (name, text) in files {
+                let file = folder.join(name);
+                if let Err(error) = std::fs::write(&file, text) {
+                    complain(format_args!("{}: {error}", file.display()));
+                    return Exit::Internal;
+                }
+            }
+        }
         let json = |file: &PathBuf| {
             write(file, |out| {
                 serde_json::to_writer_pretty(&mut *out, &test)?;

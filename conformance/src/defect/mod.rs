@@ -174,7 +174,15 @@ impl Seed {
 
     /// Whether the CNC is another one: with channels, variables and objects of its own.
     pub const fn has_own_model(&self) -> bool {
-        matches!(self.how, How::Cnc(Twist::Model(_)))
+        self.own_model().is_some()
+    }
+
+    /// The model of that other CNC.
+    pub(crate) const fn own_model(&self) -> Option<&'static str> {
+        match self.how {
+            How::Cnc(Twist::Model(model)) => Some(model),
+            _ => None,
+        }
     }
 
     /// Whether a codec can have it.

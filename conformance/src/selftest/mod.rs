@@ -7,6 +7,7 @@
 
 mod clients;
 mod codecs;
+pub mod detection;
 mod reasons;
 mod show;
 mod targets;
@@ -18,9 +19,11 @@ use std::thread;
 
 use serde::Serialize;
 
+use crate::defect::{self, Kind};
 use crate::session::Trouble;
 use crate::suite::Outcome;
 use crate::verdict::{Exit, Verdict};
+use detection::{Checked, Scope};
 
 pub use show::print;
 
@@ -104,6 +107,8 @@ pub struct SelfTest {
     pub tried: Vec<Tried>,
     /// Reasons for survivors that are none.
     pub stale: Vec<String>,
+    /// What is detected of CNCs from outside, and what of it was measured again.
+    pub detection: Checked,
 }
 
 impl SelfTest {
@@ -123,7 +128,8 @@ impl SelfTest {
             Outcomes::Survived | Outcomes::Elsewhere => one.reason.is_none(),
             Outcomes::FalseAlarm | Outcomes::Broken => true,
         };
-        match self.tried.iter().any(wrong) || !self.stale.is_empty() {
+        let differs = !self.detection.differences.is_empty();
+        match self.tried.iter().any(wrong) || !self.stale.is_empty() || differs {
             _ if self.tried.is_empty() => Exit::Nothing,
             true => Exit::Failure,
             false => Exit::Success,
@@ -141,44 +147,62 @@ struct Candidate {
     run: Box<dyn Fn() -> Result<Option<Vec<Outcome>>, Trouble> + Send + Sync>,
 }
 
-/// Tries all whose ID, group or target begins with one of these words; all if there is none.
-/// `tell` hears of each when it is done: how many are, of how many.
-pub fn run(only: &[String], tell: impl Fn(usize, usize) + Sync) -> SelfTest {
-    let wanted = |one: &Candidate| {
+/// Tries all whose ID, group or target begins with one of these words; all if there is none. Of the
+/// table of detection as much as `scope` wants is measured again. `tell` is told after each how many
+/// are done, of how many.
+pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) -> SelfTest {
+    let wanted = |id: &str, group: Group, targets: &[&str]| {
         only.is_empty()
             || only.iter().any(|word| {
-                one.id.starts_with(word.as_str())
-                    || one.group.name() == word
-                    || one.targets.iter().any(|id| crate::suite::names(word, id))
+                id.starts_with(word.as_str())
+                    || group.name() == word
+                    || targets.iter().any(|target| crate::suite::names(word, target))
             })
     };
     let mut candidates = codecs::candidates();
     candidates.extend(targets::candidates());
     candidates.extend(clients::candidates());
-    candidates.retain(wanted);
-    let all = candidates.len();
-    let left = Mutex::new((candidates.into_iter().enumerate(), Vec::with_capacity(all)));
+    candidates.retain(|one| wanted(&one.id, one.group, &one.targets));
     // Most of their time they wait for each other's ends of a connection.
-    let workers = thread::available_parallelism().map_or(1, usize::from).saturating_mul(3);
+    let tried = parallel(&candidates, 3, attempt, &tell);
+    let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
+    let seeds = defect::all().iter().filter(|seed| seed.is_for_cnc());
+    let seeds = seeds.filter(|seed| {
+        let group = if seed.kind == Kind::Different { Group::Different } else { Group::Cnc };
+        wanted(&seed.id, group, &seed.requirements)
+    });
+    let scope = if only.is_empty() { scope } else { Scope::All };
+    let detection = Checked::new(seeds.collect(), scope, only.is_empty(), &tell);
+    SelfTest { tried, stale, detection }
+}
+
+/// Does the work on each item, in as many threads for each processor; the results in the order of
+/// the items.
+fn parallel<T: Sync, R: Send>(
+    items: &[T],
+    threads: usize,
+    work: impl Fn(&T) -> R + Sync,
+    tell: &(impl Fn(usize, usize) + Sync),
+) -> Vec<R> {
+    let left = Mutex::new((items.iter().enumerate(), Vec::with_capacity(items.len())));
+    let workers = thread::available_parallelism().map_or(1, usize::from).saturating_mul(threads);
     thread::scope(|scope| {
         for _ in 0..workers {
             scope.spawn(|| {
                 loop {
                     let next = lock(&left).0.next();
-                    let Some((place, candidate)) = next else { return };
-                    let tried = attempt(&candidate);
+                    let Some((place, item)) = next else { return };
+                    let result = work(item);
                     let mut left = lock(&left);
-                    left.1.push((place, tried));
-                    tell(left.1.len(), all);
+                    left.1.push((place, result));
+                    tell(left.1.len(), items.len());
                 }
             });
         }
     });
-    let (_, mut tried) = left.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    tried.sort_by_key(|(place, _)| *place);
-    let tried: Vec<Tried> = tried.into_iter().map(|(_, tried)| tried).collect();
-    let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
-    SelfTest { tried, stale }
+    let (_, mut results) = left.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    results.sort_by_key(|(place, _)| *place);
+    results.into_iter().map(|(_, result)| result).collect()
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {

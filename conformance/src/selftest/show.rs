@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use super::detection::{Checked, Figures, Mode};
 use super::{Group, Outcomes, SelfTest, Tried};
 use crate::verdict::Exit;
 
@@ -31,6 +32,8 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
             continue;
         }
         match group {
+            // Below, by what is sent to it.
+            Group::Cnc => {}
             Group::Different => {
                 let alarms = all.saturating_sub(right);
                 writeln!(out, "{:<10}  {alarms} false alarms of {all}", group.name())?;
@@ -51,8 +54,55 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
             }
         }
     }
+    detection(test, verbose, out)?;
     let verdict = if test.exit() == Exit::Success { "PASSED" } else { "NOT PASSED" };
     writeln!(out, "{verdict}  exit code {}", test.exit().code())
+}
+
+/// What is detected of a CNC from outside, and within.
+fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
+    let Checked { table, measured, differences } = &test.detection;
+    for difference in differences {
+        writeln!(out, "DIFFERS      {difference}")?;
+    }
+    writeln!(out, "\nDefects of a CNC, detected from outside; {measured} measured again now")?;
+    writeln!(
+        out,
+        "{:<10} {:>8} {:>7} {:>10} {:>7} {:>13} {:>13}",
+        "mode", "defects", "caught", "elsewhere", "missed", "undetectable", "false alarms"
+    )?;
+    for mode in Mode::ALL {
+        let Figures { caught, elsewhere, missed, undetectable, quiet, alarms } =
+            table.figures(mode);
+        let variants = quiet.saturating_add(alarms);
+        let defects: usize = [caught, elsewhere, missed, undetectable].iter().sum();
+        let alarms = format!("{alarms} of {variants}");
+        writeln!(
+            out,
+            "{:<10} {defects:>8} {caught:>7} {elsewhere:>10} {missed:>7} {undetectable:>13} {alarms:>13}",
+            mode.name()
+        )?;
+    }
+    let (right, all) = test.rate(Group::Cnc);
+    if all > 0 {
+        let missed = all.saturating_sub(right);
+        writeln!(out, "{:<10} {all:>8} {right:>7} {:>10} {missed:>7}", "inside", "")?;
+    }
+    let ((fields, fields_most), (others, others_most)) = (table.blame(true), table.blame(false));
+    writeln!(
+        out,
+        "Requirements that fail, read-only: {fields} by a defect of one field ({fields_most} at the 90th \
+         percentile),\n{others} by others ({others_most})"
+    )?;
+    if verbose {
+        for mode in Mode::ALL {
+            writeln!(out, "\nMissed, {}:", mode.name())?;
+            for (row, request) in table.missed(mode) {
+                writeln!(out, "  {}: {request}", row.id)?;
+            }
+        }
+    }
+    Ok(())
 }
 
 fn percent(part: usize, all: usize) -> String {

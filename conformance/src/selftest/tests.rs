@@ -1,5 +1,6 @@
 //! What counts as caught, and what the self-test says of it.
 
+use super::detection::{Found, Mode, Table};
 use super::*;
 use crate::suite::{self, RequirementVerdict};
 
@@ -60,7 +61,9 @@ fn tried(result: Outcomes, reason: Option<&str>) -> Tried {
 }
 
 fn test(tried: Vec<Tried>) -> SelfTest {
-    SelfTest { tried, stale: Vec::new() }
+    let table = Table::published().unwrap();
+    let detection = Checked { table, measured: 0, differences: Vec::new() };
+    SelfTest { tried, stale: Vec::new(), detection }
 }
 
 #[test]
@@ -79,8 +82,12 @@ fn only_a_reason_lets_a_defect_survive() {
     for wrong in [FalseAlarm, Broken] {
         assert_eq!(test(vec![tried(wrong, Some("why"))]).exit(), Exit::Failure, "{wrong:?}");
     }
-    let stale = SelfTest { tried: vec![tried(Caught, None)], stale: vec!["cnc old".to_owned()] };
+    let caught = || test(vec![tried(Caught, None)]);
+    let stale = SelfTest { stale: vec!["cnc old".to_owned()], ..caught() };
     assert_eq!(stale.exit(), Exit::Failure);
+    let mut differs = caught();
+    differs.detection.differences.push("cnc.com.id-twice, all: missed now".to_owned());
+    assert_eq!(differs.exit(), Exit::Failure);
 }
 
 #[test]
@@ -91,7 +98,7 @@ fn what_changes_nothing_counts_neither_way() {
     let mut shown = Vec::new();
     print(&test, false, &mut shown).unwrap();
     let shown = String::from_utf8(shown).unwrap();
-    let line = "cnc         1 caught of 2 (50.0 %), beside 2 that change nothing here";
+    let line = "inside            2       1                  1\n";
     assert!(shown.contains(line), "{shown}");
     assert!(shown.contains("SURVIVED     cnc        an-id  [VAR-4]"), "{shown}");
 }
@@ -108,4 +115,25 @@ fn every_reason_is_of_something_that_is_tried() {
     let ids: std::collections::BTreeSet<_> =
         candidates.iter().map(|one| (one.group, one.id.clone())).collect();
     assert_eq!(ids.len(), candidates.len(), "an ID is there twice");
+}
+
+/// The committed files are those that one renewal wrote, and each defect has its row.
+#[test]
+fn the_table_is_whole() {
+    let table = Table::published().unwrap();
+    assert_eq!(table.to_text(), include_str!("../../doc/detection.tsv"));
+    assert_eq!(table.to_markdown(), include_str!("../../doc/detection.md"));
+    assert_eq!(
+        table.inputs,
+        detection::inputs(),
+        "renew it: ads-cnc selftest --renew conformance/doc"
+    );
+    let seeds = defect::all().iter().filter(|seed| seed.is_for_cnc());
+    let ids: Vec<&str> = seeds.map(|seed| seed.id.as_str()).collect();
+    assert_eq!(table.rows.iter().map(|row| row.id.as_str()).collect::<Vec<_>>(), ids);
+    for mode in Mode::ALL {
+        let all = table.rows.iter().map(|row| (&row.id, &row.modes[&mode].result));
+        let alarms: Vec<_> = all.filter(|(_, result)| **result == Found::Alarm).collect();
+        assert!(alarms.is_empty(), "{}: {alarms:?}", mode.name());
+    }
 }

@@ -1,0 +1,151 @@
+//! The committed table against what is measured now.
+
+use serde::{Serialize, Serializer};
+
+use super::{Detection, Figures, Found, Mode, Row, Table, hash, inputs, measure};
+use crate::defect::Seed;
+use crate::selftest::parallel;
+use crate::suite::order;
+
+/// How much is measured again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Every defect that changed, and [`SAMPLE`] others that this seed picks.
+    Sample(u32),
+    /// Every defect.
+    All,
+}
+
+/// How many defects a sample has.
+pub const SAMPLE: usize = 60;
+
+/// The table, and what was measured of it again.
+#[derive(Clone, Debug, Serialize)]
+pub struct Checked {
+    /// The figures of each mode.
+    #[serde(serialize_with = "figures")]
+    pub table: Table,
+    /// How many defects were measured now.
+    pub measured: usize,
+    /// What is not as the committed table has it.
+    pub differences: Vec<String>,
+}
+
+impl Checked {
+    /// Measures as many of these defects as wanted. `whole` is whether they are all there are.
+    pub(crate) fn new(
+        seeds: Vec<&'static Seed>,
+        scope: Scope,
+        whole: bool,
+        tell: &(impl Fn(usize, usize) + Sync),
+    ) -> Self {
+        let mut differences = Vec::new();
+        let published = Table::published().unwrap_or_else(|| {
+            differences.push("the table cannot be read".to_owned());
+            Table { inputs: String::new(), rows: Vec::new() }
+        });
+        if published.inputs != inputs() {
+            differences.push(
+                "cases, levels of requirements or the default model changed since the table was \
+                 written"
+                    .to_owned(),
+            );
+        }
+        if whole {
+            let gone =
+                published.rows.iter().filter(|row| !seeds.iter().any(|one| one.id == row.id));
+            differences.extend(gone.map(|row| format!("{}: there is no such defect", row.id)));
+        }
+        let seeds = match scope {
+            Scope::All => seeds,
+            Scope::Sample(seed) => sample(seeds, seed, &published, tell),
+        };
+        let measured = parallel(&seeds, 1, |seed| measure(seed), tell);
+        let mut rows = Vec::new();
+        for (seed, row) in seeds.iter().zip(measured) {
+            match row {
+                Ok(row) => {
+                    differences.extend(differing(published.row(seed), &row));
+                    rows.push(row);
+                }
+                Err(trouble) => differences.push(format!("{}: {trouble}", seed.id)),
+            }
+        }
+        let measured = rows.len();
+        let table = match scope {
+            Scope::All if whole => Table { inputs: inputs(), rows },
+            _ => published,
+        };
+        Self { table, measured, differences }
+    }
+}
+
+/// Those that changed since the table was written, and some others.
+fn sample(
+    mut seeds: Vec<&'static Seed>,
+    seed: u32,
+    published: &Table,
+    tell: &(impl Fn(usize, usize) + Sync),
+) -> Vec<&'static Seed> {
+    let hashes = parallel(&seeds, 1, |seed| hash(seed).ok(), tell);
+    let changed = seeds
+        .iter()
+        .zip(hashes)
+        .filter(|(seed, hash)| published.row(seed).map(|row| &row.hash) != hash.as_ref());
+    let mut wanted: Vec<&Seed> = changed.map(|(seed, _)| *seed).collect();
+    seeds.retain(|one| !wanted.iter().any(|changed| changed.id == one.id));
+    seeds.sort_by_key(|one| order(seed, &one.id));
+    wanted.extend(seeds.into_iter().take(SAMPLE));
+    wanted
+}
+
+/// What of a row is another than it was.
+fn differing(before: Option<&Row>, now: &Row) -> Vec<String> {
+    let id = &now.id;
+    let Some(before) = before else { return vec![format!("{id}: not in the table")] };
+    let mut differences = Vec::new();
+    if before.hash != now.hash {
+        differences.push(format!("{id}: the defect does something else than when it was measured"));
+    }
+    for (mode, detection) in &now.modes {
+        let shown = |detection: Option<&Detection>| {
+            detection.map_or("nothing".to_owned(), |one| {
+                let requirements: Vec<&str> = one.requirements.iter().map(String::as_str).collect();
+                format!("{} {} in {} cases", one.result, requirements.join(" "), one.cases.len())
+            })
+        };
+        let was = before.modes.get(mode);
+        if was != Some(detection) {
+            let (mode, was, is) = (mode.name(), shown(was), shown(Some(detection)));
+            differences.push(format!("{id}, {mode}: {was} in the table, {is} now"));
+        }
+    }
+    differences
+}
+
+/// As JSON has it: the figures, and what is missed.
+fn figures<S: Serializer>(table: &Table, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct OfMode<'t> {
+        mode: &'static str,
+        #[serde(flatten)]
+        figures: Figures,
+        missed_defects: Vec<&'t str>,
+    }
+    let modes = Mode::ALL.into_iter().map(|mode| OfMode {
+        mode: mode.name(),
+        figures: table.figures(mode),
+        missed_defects: table.missed(mode).map(|(row, _)| row.id.as_str()).collect(),
+    });
+    serializer.collect_seq(modes)
+}
+
+impl Table {
+    /// The defects that are missed in a mode, each with the request that would have shown it.
+    pub fn missed(&self, mode: Mode) -> impl Iterator<Item = (&Row, &str)> {
+        self.rows.iter().filter_map(move |row| match row.modes.get(&mode).map(|one| &one.result) {
+            Some(Found::Missed(request)) => Some((row, request.as_str())),
+            _ => None,
+        })
+    }
+}

@@ -1,0 +1,294 @@
+//! What the suite detects from outside: every seeded defect of a CNC, in each mode in which a user
+//! can run the suite against a device.
+//!
+//! A CNC of this process is asked through the gate, as `ads-cnc run --target` asks a device: with
+//! the same cases, defaults and limits, and with nothing of the simulator's inside. Its clock moves
+//! on only while an answer is awaited in vain, so that a run takes no time and gives the same result
+//! each time. No device holds the values that the manuals print in examples, so no profile claims
+//! them.
+
+mod check;
+mod requests;
+mod table;
+mod witness;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, Mutex, OnceLock};
+
+use ads_cnc::address::{Channel, ChannelAxis};
+use ads_cnc::edition::Edition;
+
+use crate::cnc::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
+use crate::defect::Seed;
+use crate::gate::{Allowed, Entry, Gate, Moment};
+use crate::objects::{self, Access, Options};
+use crate::profile::Profile;
+use crate::session::{self, Trouble};
+use crate::suite::{self, Needs, Outcome, Selection};
+use crate::verdict::Verdict;
+
+use super::Outcomes;
+pub use check::{Checked, SAMPLE, Scope};
+pub use table::{Figures, Row, Table, inputs};
+
+/// How the suite is run against a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Mode {
+    /// Queries only, and no profile.
+    ReadOnly,
+    /// Queries only, with a profile that tells everything about the device.
+    Profiled,
+    /// Without a profile; a file for `--allow-write` names every writable value.
+    Writes,
+    /// Such a file, the full profile, and malformed requests.
+    All,
+}
+
+impl Mode {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::ReadOnly, Self::Profiled, Self::Writes, Self::All];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ReadOnly => "read-only",
+            Self::Profiled => "profiled",
+            Self::Writes => "writes",
+            Self::All => "all",
+        }
+    }
+
+    const fn has_profile(self) -> bool {
+        matches!(self, Self::Profiled | Self::All)
+    }
+
+    fn gate(self, allowed: &Allowed) -> Gate {
+        let gate = Gate::queries();
+        match self {
+            Self::ReadOnly | Self::Profiled => gate,
+            Self::Writes => gate.with_allowed(Some(allowed.clone())),
+            Self::All => gate.with_allowed(Some(allowed.clone())).and_malformed(),
+        }
+    }
+}
+
+/// What came of one defect in one mode.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Detection {
+    /// How it came out.
+    pub result: Found,
+    /// The requirements that fail.
+    pub requirements: BTreeSet<String>,
+    /// The cases that fail.
+    pub cases: BTreeSet<String>,
+}
+
+/// How a defect came out in one mode.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// A requirement that its row declares broken fails.
+    Caught,
+    /// Only other requirements fail.
+    Elsewhere,
+    /// Nothing fails. This request would have shown it.
+    Missed(String),
+    /// Nothing fails, and no request that the mode may send tells it from a right CNC: from the one
+    /// without a defect, or from that of this witness.
+    Undetectable(String),
+    /// Of a correct variant: nothing fails, as it should be.
+    Quiet,
+    /// Of a correct variant: something fails.
+    Alarm,
+}
+
+/// A CNC to run the suite against, without a defect.
+struct Device {
+    model: &'static str,
+    settings: Settings,
+    profile: Profile,
+    /// Every writable value, but for the numbers of axes.
+    allowed: Allowed,
+    /// The answers that a CNC without a defect gives, by what its gate lets through.
+    right: [OnceLock<Vec<u64>>; 3],
+    /// Its correct variants by a digest of all answers they give in a mode.
+    variants: Mutex<BTreeMap<Mode, Arc<BTreeMap<u64, &'static str>>>>,
+}
+
+impl Device {
+    fn new(model: &'static str, settings: Settings) -> Result<Self, Trouble> {
+        let internal = |error| Trouble::Internal(format!("the model: {error}"));
+        let built = Model::with_settings(model, "the model", settings).map_err(internal)?;
+        let profile = built.profile();
+        let allowed = everything_writable(Cnc::new(built), &profile)?;
+        Ok(Self {
+            model,
+            settings,
+            profile,
+            allowed,
+            right: Default::default(),
+            variants: Mutex::default(),
+        })
+    }
+
+    /// The CNC of the default model, by an edition.
+    fn of_edition(edition: Edition) -> Result<&'static Self, Trouble> {
+        static ENGLISH: OnceLock<Device> = OnceLock::new();
+        static GERMAN: OnceLock<Device> = OnceLock::new();
+        let device = match edition {
+            Edition::German => &GERMAN,
+            _ => &ENGLISH,
+        };
+        if device.get().is_none() {
+            let settings = Settings { edition: Some(edition), version: None };
+            // Another thread may have been faster, with the same.
+            let _same = device.set(Self::new(DEFAULT_MODEL, settings)?);
+        }
+        device.get().ok_or_else(|| Trouble::Internal("no device".to_owned()))
+    }
+
+    /// A CNC of it, with this defect if there is one.
+    fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Cnc>, Trouble> {
+        let internal = |error| Trouble::Internal(format!("the model: {error}"));
+        let model = Model::with_settings(self.model, "the model", self.settings);
+        let cnc = Cnc::new(model.map_err(internal)?);
+        Ok(Arc::new(cnc.with_standing_clock().with_defect(seed.cloned())))
+    }
+
+    /// The answers of the CNC without a defect to every request that a mode may send.
+    fn right(&self, mode: Mode) -> Result<&[u64], Trouble> {
+        let [queries, writes, all] = &self.right;
+        let right = match mode {
+            Mode::ReadOnly | Mode::Profiled => queries,
+            Mode::Writes => writes,
+            Mode::All => all,
+        };
+        if right.get().is_none() {
+            let _same = right.set(witness::answers(self, None, mode, None)?.answers);
+        }
+        Ok(right.get().map_or(&[], Vec::as_slice))
+    }
+
+    /// What the suite finds, run as a user runs it.
+    fn outcomes(&self, seed: Option<&Seed>, mode: Mode) -> Result<Vec<Outcome>, Trouble> {
+        let profile = if mode.has_profile() { self.profile.clone() } else { Profile::DEVICE };
+        let mut session = session::Session::in_process(self.cnc(seed)?, mode.gate(&self.allowed))?;
+        if session.greet(&profile).is_err() {
+            // There is no report of a device that answers nothing.
+            return Ok(Vec::new());
+        }
+        let (client, _) = session.into_parts();
+        let mut session = suite::Session::new(client, profile);
+        let cases = suite::cases().into_iter().filter(|case| case.needs != Needs::Codec).collect();
+        let plan = Selection::default().plan(cases, 1);
+        let plan = plan.map_err(|error| Trouble::Internal(error.to_string()))?;
+        let outcomes = suite::run(plan.cases.clone(), Some(&mut session), None, 1);
+        Ok(plan.finish(outcomes).0)
+    }
+}
+
+/// What a file for `--allow-write` would name: each value that the CNC says can be written, with
+/// what it does not list.
+fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> {
+    let cnc = Arc::new(cnc.with_standing_clock());
+    let mut session = session::Session::in_process(cnc, Gate::queries())?;
+    let mut entries = Vec::new();
+    for variables in [false, true] {
+        let options = Options { variables, exact: true, ..Options::default() };
+        let found = objects::walk(&mut session, &options, &mut |_| {})?;
+        let writable = found.objects.iter().filter(|one| one.access == Access::ReadWrite);
+        let writable = writable.filter(|one| !profile.leaves(&one.name.to_string()));
+        entries.extend(writable.map(|one| one.place.entry()));
+    }
+    let parse = |name: &str| name.parse().map_err(|_| Trouble::Internal(name.to_owned()));
+    for channel in profile.channels.iter().filter_map(|&number| Channel::new(number).ok()) {
+        entries.extend([Entry::Stream(channel), Entry::Service(channel)]);
+        for axis in (1..=3).filter_map(|place| ChannelAxis::new(place).ok()) {
+            let name = parse("V.A.WCS")?;
+            entries.push(Entry::Variable { channel, axis: Some(axis), name });
+        }
+        for name in profile.by_name_only.iter() {
+            entries.push(Entry::Variable { channel, axis: None, name: parse(name)? });
+        }
+    }
+    let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
+    Ok(Allowed { target: NET_ID, expires, entries })
+}
+
+/// Measures a defect, or a correct variant, in every mode.
+///
+/// # Errors
+/// A fault of the suite, or of the simulated CNC.
+pub fn measure(seed: &Seed) -> Result<Row, Trouble> {
+    let detect = |mode| detect(seed, mode).map(|detection| (mode, detection));
+    let modes = Mode::ALL.into_iter().map(detect).collect::<Result<BTreeMap<_, _>, _>>()?;
+    Ok(Row { id: seed.id.clone(), hash: hash(seed)?, modes })
+}
+
+/// A hash of what the row says of the defect, and of the answers up to the first that is another
+/// than that of the CNC without it.
+///
+/// # Errors
+/// A fault of the simulated CNC.
+pub fn hash(seed: &Seed) -> Result<String, Trouble> {
+    let devices = devices(seed)?;
+    let Seed { id, requirements, what, edition, .. } = seed;
+    let mut text = format!("{id} {requirements:?} {what} {edition:?}");
+    for device in devices.iter().take(1) {
+        let right = device.right(Mode::All)?;
+        let answers = witness::answers(device, Some(seed), Mode::All, Some(right))?.answers;
+        text = format!("{text} {answers:?}");
+    }
+    Ok(table::hash(&text))
+}
+
+/// The CNCs that a defect is tried on: that of the edition that it shows in, or of both; of a
+/// variant with a model of its own that one.
+fn devices(seed: &Seed) -> Result<Vec<&'static Device>, Trouble> {
+    if let Some(model) = seed.own_model() {
+        return witness::of_model(model).map(|device| vec![device]);
+    }
+    let editions = match seed.edition {
+        Some(edition) => vec![edition],
+        None => vec![Edition::English, Edition::German],
+    };
+    editions.into_iter().map(Device::of_edition).collect()
+}
+
+/// What the suite finds of a defect in a mode: on the CNC of each edition, up to the first on which
+/// it is caught.
+fn detect(seed: &Seed, mode: Mode) -> Result<Detection, Trouble> {
+    let devices = devices(seed)?;
+    let mut outcomes = Vec::new();
+    for device in &devices {
+        outcomes.extend(device.outcomes(Some(seed), mode)?);
+        if super::judge(&seed.requirements, &outcomes).1 == Outcomes::Caught {
+            break;
+        }
+    }
+    let (failed, result) = super::judge(&seed.requirements, &outcomes);
+    let result = match result {
+        Outcomes::Caught | Outcomes::Elsewhere if witness::is_right(seed).is_some() => Found::Alarm,
+        Outcomes::Caught => Found::Caught,
+        Outcomes::Quiet => Found::Quiet,
+        Outcomes::FalseAlarm => Found::Alarm,
+        Outcomes::Broken => return Err(Trouble::Internal(failed.join(" "))),
+        _ if !failed.is_empty() => Found::Elsewhere,
+        _ => witness::of(seed, &devices, mode)?,
+    };
+    // A declared requirement that is no must is caught by a warning.
+    let counts = |id: &str, verdict: Verdict| match verdict {
+        Verdict::Fail | Verdict::Vacuous => true,
+        Verdict::Warning | Verdict::Differs => {
+            result == Found::Caught && seed.requirements.contains(&id)
+        }
+        _ => false,
+    };
+    let (mut requirements, mut cases) = (BTreeSet::new(), BTreeSet::new());
+    for outcome in &outcomes {
+        for one in outcome.verdicts.iter().filter(|one| counts(one.requirement, one.verdict)) {
+            requirements.insert(one.requirement.to_owned());
+            cases.insert(outcome.case.id.clone());
+        }
+    }
+    Ok(Detection { result, requirements, cases })
+}

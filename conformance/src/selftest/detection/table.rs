@@ -1,0 +1,246 @@
+//! The committed table: what the suite detects of each seeded defect, in each mode.
+//!
+//! One line for each defect and outcome, fields separated by tabs: defect, hash of the defect,
+//! modes, outcome, what shows it, requirements that fail, cases that fail. A correct variant of the
+//! CNC is `quiet` where nothing fails.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::{self, Write as _};
+
+use serde::Serialize;
+
+use super::{Detection, Found, Mode};
+use crate::cnc::DEFAULT_MODEL;
+use crate::cnc::program::digest;
+use crate::defect::{self, Kind, Seed};
+use crate::suite;
+
+/// The table of this version, which `selftest --renew` writes.
+const PUBLISHED: &str = include_str!("../../../doc/detection.tsv");
+
+/// What is measured of one defect or variant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// The defect's ID.
+    pub id: String,
+    /// A hash of what the row says of the defect, and of what the CNC answers with it.
+    pub hash: String,
+    /// What came of it, mode by mode.
+    pub modes: BTreeMap<Mode, Detection>,
+}
+
+/// All rows, and a hash of what they all rest on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Table {
+    /// A hash of the cases, the levels of the requirements and the default model.
+    pub inputs: String,
+    /// In the order of the defects.
+    pub rows: Vec<Row>,
+}
+
+/// How many defects came out how in one mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Figures {
+    /// By a requirement that the defect's row declares broken.
+    pub caught: usize,
+    /// By other requirements alone.
+    pub elsewhere: usize,
+    /// By none, though a request would show it.
+    pub missed: usize,
+    /// By none, and no request would show it.
+    pub undetectable: usize,
+    /// Correct variants by which nothing fails.
+    pub quiet: usize,
+    /// Correct variants by which a requirement fails.
+    pub alarms: usize,
+}
+
+/// The hash of what all rows rest on.
+pub fn inputs() -> String {
+    let mut text = DEFAULT_MODEL.to_owned();
+    for case in suite::cases() {
+        // Writing to a string does not fail.
+        let _ = write!(text, "\n{} {:?} {:?}", case.id, case.requirements, case.needs);
+    }
+    for one in ads_cnc_vectors::requirements() {
+        let _ = write!(text, "\n{} {:?}", one.id, one.level);
+    }
+    hash(&text)
+}
+
+/// 16 digits of a text.
+pub(super) fn hash(text: &str) -> String {
+    format!("{:016x}", digest(text.as_bytes()))
+}
+
+impl Table {
+    /// The table of this version; none if it cannot be read.
+    pub fn published() -> Option<Self> {
+        Self::parse(PUBLISHED)
+    }
+
+    /// The row of a defect.
+    pub fn row(&self, seed: &Seed) -> Option<&Row> {
+        self.rows.iter().find(|row| row.id == seed.id)
+    }
+
+    /// How many came out how in a mode.
+    pub fn figures(&self, mode: Mode) -> Figures {
+        let mut figures = Figures::default();
+        for row in &self.rows {
+            let Some(detection) = row.modes.get(&mode) else { continue };
+            let count = match &detection.result {
+                Found::Caught => &mut figures.caught,
+                Found::Elsewhere => &mut figures.elsewhere,
+                Found::Missed(_) => &mut figures.missed,
+                Found::Undetectable(_) => &mut figures.undetectable,
+                Found::Quiet => &mut figures.quiet,
+                Found::Alarm => &mut figures.alarms,
+            };
+            *count = count.saturating_add(1);
+        }
+        figures
+    }
+
+    /// How many requirements fail by a defect of a single field, in the mode without writes and
+    /// profile: the median and the 90th percentile of those that are caught at all.
+    pub fn blame(&self, of_fields: bool) -> (usize, usize) {
+        let of_field = |row: &&Row| {
+            let seed = defect::by_id(&row.id);
+            seed.is_some_and(|seed| {
+                seed.field().is_some() == of_fields && seed.kind != Kind::Different
+            })
+        };
+        let rows = self.rows.iter().filter(of_field);
+        let found = rows.filter_map(|row| row.modes.get(&Mode::ReadOnly));
+        let counts = found.map(|found| found.requirements.len()).filter(|&count| count > 0);
+        let mut counts: Vec<usize> = counts.collect();
+        counts.sort_unstable();
+        let at = |tenths: usize| {
+            let place = counts.len().saturating_mul(tenths).checked_div(10).unwrap_or_default();
+            counts.get(place).copied().unwrap_or_default()
+        };
+        (at(5), at(9))
+    }
+
+    /// As it is committed.
+    pub fn to_text(&self) -> String {
+        let mut text = format!("inputs\t{}\n", self.inputs);
+        for Row { id, hash, modes } in &self.rows {
+            let mut alike: Vec<(Vec<&str>, &Detection)> = Vec::new();
+            for (mode, detection) in modes {
+                match alike.iter_mut().find(|(_, one)| *one == detection) {
+                    Some((names, _)) => names.push(mode.name()),
+                    None => alike.push((vec![mode.name()], detection)),
+                }
+            }
+            for (names, Detection { result, requirements, cases }) in alike {
+                let (result, shown) = result.words();
+                let words = |words: &BTreeSet<String>| {
+                    words.iter().map(String::as_str).collect::<Vec<_>>().join(" ")
+                };
+                let _ = writeln!(
+                    text,
+                    "{id}\t{hash}\t{}\t{result}\t{shown}\t{}\t{}",
+                    names.join(" "),
+                    words(requirements),
+                    words(cases),
+                );
+            }
+        }
+        text
+    }
+
+    fn parse(text: &str) -> Option<Self> {
+        let (first, rest) = text.split_once('\n')?;
+        let mut table =
+            Self { inputs: first.strip_prefix("inputs\t")?.to_owned(), rows: Vec::new() };
+        for line in rest.lines() {
+            let fields: Vec<&str> = line.split('\t').collect();
+            let [id, hash, names, result, shown, requirements, cases] = fields[..] else {
+                return None;
+            };
+            let words = |words: &str| words.split_whitespace().map(str::to_owned).collect();
+            let detection = Detection {
+                result: Found::of_words(result, shown)?,
+                requirements: words(requirements),
+                cases: words(cases),
+            };
+            if table.rows.last().is_none_or(|row| row.id != id) {
+                let (id, hash) = (id.to_owned(), hash.to_owned());
+                table.rows.push(Row { id, hash, modes: BTreeMap::new() });
+            }
+            let row = table.rows.last_mut()?;
+            for name in names.split(' ') {
+                let mode = Mode::ALL.into_iter().find(|mode| mode.name() == name)?;
+                row.modes.insert(mode, detection.clone());
+            }
+        }
+        Some(table)
+    }
+
+    /// The figures and the list of what is missed, as a document.
+    pub fn to_markdown(&self) -> String {
+        let mut text = "# What the suite detects from outside\n\n\
+            Written by `ads-cnc selftest --renew`, like the [table](detection.tsv) of every defect \
+            with the requirements\nand cases that detect it. [TOOLS](../TOOLS.md#selftest) explains \
+            the modes and the columns.\n\n"
+            .to_owned();
+        text += "| mode | defects | caught | by another clause | missed | undetectable | false alarms |\n\
+            |---|---|---|---|---|---|---|\n";
+        for mode in Mode::ALL {
+            let Figures { caught, elsewhere, missed, undetectable, quiet, alarms } =
+                self.figures(mode);
+            let variants = quiet.saturating_add(alarms);
+            let defects = [caught, elsewhere, missed, undetectable].iter().sum::<usize>();
+            let _ = writeln!(
+                text,
+                "| {} | {defects} | {caught} | {elsewhere} | {missed} | {undetectable} | {alarms} of {variants} |",
+                mode.name()
+            );
+        }
+        text += "\n## Missed\n\nEach with the first request that would have shown it.\n";
+        for mode in Mode::ALL {
+            let _ = write!(text, "\n### {}\n\n", mode.name());
+            for (row, request) in self.missed(mode) {
+                let what = defect::by_id(&row.id).map_or("", |seed| seed.what.as_str());
+                let _ = writeln!(text, "- `{}`: {what}. {request}", row.id);
+            }
+        }
+        text
+    }
+}
+
+impl fmt::Display for Found {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.words() {
+            (result, "") => f.write_str(result),
+            (result, shown) => write!(f, "{result} ({shown})"),
+        }
+    }
+}
+
+impl Found {
+    fn words(&self) -> (&'static str, &str) {
+        match self {
+            Self::Caught => ("caught", ""),
+            Self::Elsewhere => ("elsewhere", ""),
+            Self::Missed(request) => ("missed", request),
+            Self::Undetectable(witness) => ("undetectable", witness),
+            Self::Quiet => ("quiet", ""),
+            Self::Alarm => ("false-alarm", ""),
+        }
+    }
+
+    fn of_words(result: &str, shown: &str) -> Option<Self> {
+        Some(match result {
+            "caught" => Self::Caught,
+            "elsewhere" => Self::Elsewhere,
+            "missed" => Self::Missed(shown.to_owned()),
+            "undetectable" => Self::Undetectable(shown.to_owned()),
+            "quiet" => Self::Quiet,
+            "false-alarm" => Self::Alarm,
+            _ => return None,
+        })
+    }
+}

@@ -1,0 +1,120 @@
+//! Why a defect cannot be detected in a mode: a right CNC gives the same answers to every request
+//! that the mode may send.
+//!
+//! That right CNC is the one without the defect, a correct variant of it, or one with another
+//! model. In a mode with a profile, it is one of which the same profile is true.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use super::requests::{Asked, ask_everything};
+use super::{Device, Found, Mode};
+use crate::cnc::Settings;
+use crate::cnc::program::digest;
+use crate::defect::{self, Change, Defect, Kind, Seed};
+use crate::session::{Session, Trouble};
+
+/// Fields whose value is free, so that a one-to-one change of it gives a right CNC too: stream, field,
+/// changes, and why.
+const FREE: &[(&str, &str, &[Change], &str)] = &[
+    ("device-info-reply", "major", ONE_TO_ONE, "a CNC may have any version"),
+    ("device-info-reply", "minor", ONE_TO_ONE, "a CNC may have any version"),
+    ("device-info-reply", "build", ONE_TO_ONE, "a CNC may have any version"),
+    ("device-info-reply", "name", &[Change::FlipLow, Change::Invert], "a CNC may have any name"),
+    ("device-state-reply", "ads_state", ONE_TO_ONE, "a CNC may be in any state"),
+    ("device-state-reply", "device_state", ONE_TO_ONE, "a CNC may be in any state"),
+    ("object-descriptor", "id", ONE_TO_ONE, "the number is unique, and nothing more is documented"),
+    ("object-descriptor", "not_assigned", ONE_TO_ONE, "nothing is assigned to these bytes"),
+    ("object-descriptor", "write_access", &[Change::SwapBytes], "every number but 0 is TRUE"),
+    ("read-reply", "result", &[Change::SwapBytes], "no error number is documented"),
+    ("write-reply", "result", &[Change::SwapBytes], "no error number is documented"),
+    ("read-write-reply", "result", &[Change::SwapBytes], "no error number is documented"),
+    ("device-info-reply", "result", &[Change::SwapBytes], "no error number is documented"),
+    ("device-state-reply", "result", &[Change::SwapBytes], "no error number is documented"),
+];
+
+const ONE_TO_ONE: &[Change] = &[Change::FlipLow, Change::Invert, Change::SwapBytes];
+
+/// Why a CNC with this change of a field is a right one.
+pub(super) fn is_right(seed: &Seed) -> Option<&'static str> {
+    let Defect { stream, field, change, .. } = seed.field()?;
+    let free = FREE.iter().find(|(in_stream, name, changes, _)| {
+        stream.layout().name == *in_stream && field.name() == *name && changes.contains(change)
+    });
+    free.map(|(.., why)| *why)
+}
+
+/// The witness, or the first request that tells the defect from the CNC without it.
+pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result<Found, Trouble> {
+    if let Some(why) = is_right(seed) {
+        return Ok(Found::Undetectable(format!("a right CNC: {why}")));
+    }
+    let mut told = None;
+    let mut witnesses: Vec<&str> = Vec::new();
+    for device in devices {
+        let right = device.right(mode)?;
+        let Some(request) = answers(device, Some(seed), mode, Some(right))?.difference else {
+            continue;
+        };
+        told = told.or(Some(request));
+        let all = answers(device, Some(seed), mode, None)?.answers;
+        let Some(variant) = variants(device, mode)?.get(&whole(&all)).copied() else {
+            return Ok(Found::Missed(told.unwrap_or_default()));
+        };
+        witnesses.push(variant);
+    }
+    match witnesses.first() {
+        None => Ok(Found::Undetectable("no answer differs".to_owned())),
+        Some(variant) => Ok(Found::Undetectable(format!("as {variant}"))),
+    }
+}
+
+/// The answers of a CNC to everything that a mode may send.
+pub(super) fn answers(
+    device: &Device,
+    seed: Option<&Seed>,
+    mode: Mode,
+    right: Option<&[u64]>,
+) -> Result<Asked, Trouble> {
+    let cnc = device.cnc(seed)?;
+    let session = Session::in_process(Arc::clone(&cnc), mode.gate(&device.allowed))?;
+    let (client, _) = session.into_parts();
+    Ok(ask_everything(client, cnc, right))
+}
+
+type Variants = Arc<BTreeMap<u64, &'static str>>;
+
+/// The correct variants of a device by a digest of all their answers.
+fn variants(device: &'static Device, mode: Mode) -> Result<Variants, Trouble> {
+    let mut known = device.variants.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(variants) = known.get(&mode) {
+        return Ok(Arc::clone(variants));
+    }
+    let mut variants = BTreeMap::new();
+    let different = defect::all().iter().filter(|seed| seed.kind == Kind::Different);
+    for seed in different.filter(|seed| seed.own_model().is_none()) {
+        if seed.edition.is_none_or(|edition| Some(edition) == device.settings.edition) {
+            let answers = answers(device, Some(seed), mode, None)?.answers;
+            variants.insert(whole(&answers), seed.id.as_str());
+        }
+    }
+    Ok(Arc::clone(known.entry(mode).or_insert(Arc::new(variants))))
+}
+
+fn whole(answers: &[u64]) -> u64 {
+    digest(&answers.iter().flat_map(|answer| answer.to_le_bytes()).collect::<Vec<u8>>())
+}
+
+/// The device with this model, which is one of the correct variants.
+pub(super) fn of_model(model: &'static str) -> Result<&'static Device, Trouble> {
+    static DEVICES: OnceLock<Mutex<BTreeMap<&'static str, &'static Device>>> = OnceLock::new();
+    let devices = DEVICES.get_or_init(Mutex::default);
+    let mut devices = devices.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(device) = devices.get(model) {
+        return Ok(device);
+    }
+    // Three of them, for as long as the process lives.
+    let device: &Device = Box::leak(Box::new(Device::new(model, Settings::default())?));
+    devices.insert(model, device);
+    Ok(device)
+}
