@@ -28,13 +28,15 @@ pub enum Verdict {
     NotObserved,
     /// Not asked for.
     NotRun,
+    /// The run was interrupted before it was done.
+    Interrupted,
     /// The suite itself failed.
     HarnessError,
 }
 
 impl Verdict {
     /// All of them, in the order of reports.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Pass,
         Self::Fail,
         Self::Warning,
@@ -44,6 +46,7 @@ impl Verdict {
         Self::NotApplicable,
         Self::NotObserved,
         Self::NotRun,
+        Self::Interrupted,
         Self::HarnessError,
     ];
 
@@ -68,6 +71,7 @@ impl Verdict {
             Self::NotApplicable => "not-applicable",
             Self::NotObserved => "not-observed",
             Self::NotRun => "not-run",
+            Self::Interrupted => "interrupted",
             Self::HarnessError => "harness-error",
         }
     }
@@ -79,7 +83,8 @@ impl Verdict {
 
     /// Whether a run with it is no success.
     pub const fn is_trouble(self) -> bool {
-        matches!(self, Self::Fail | Self::Vacuous | Self::Inconclusive | Self::HarnessError)
+        let open = matches!(self, Self::Inconclusive | Self::Interrupted);
+        open || matches!(self, Self::Fail | Self::Vacuous | Self::HarnessError)
     }
 
     /// Whether somebody may put up with it.
@@ -91,11 +96,12 @@ impl Verdict {
     /// How much of a reader's attention it needs; the verdict of a group is its gravest.
     pub const fn gravity(self) -> u8 {
         match self {
-            Self::HarnessError => 9,
-            Self::Fail => 8,
-            Self::Vacuous => 7,
-            Self::Warning => 6,
-            Self::Inconclusive => 5,
+            Self::HarnessError => 10,
+            Self::Fail => 9,
+            Self::Vacuous => 8,
+            Self::Warning => 7,
+            Self::Inconclusive => 6,
+            Self::Interrupted => 5,
             Self::Differs => 4,
             Self::Pass => 3,
             Self::NotObserved => 2,
@@ -120,12 +126,14 @@ pub enum Exit {
     Failure,
     /// The command line is wrong.
     Usage,
-    /// Nothing was judged, or something stayed inconclusive.
+    /// Nothing was judged, or something stayed inconclusive, or the run was interrupted.
     Nothing,
     /// Refused for safety.
     Refused,
     /// A waiver no longer holds.
     Stale,
+    /// A value was changed and could not be restored.
+    LeftChanged,
     /// An internal error.
     Internal,
 }
@@ -140,6 +148,7 @@ impl Exit {
             Self::Nothing => 3,
             Self::Refused => 4,
             Self::Stale => 5,
+            Self::LeftChanged => 6,
             Self::Internal => 70,
         }
     }
@@ -150,8 +159,9 @@ impl Exit {
     }
 
     /// All of them, in the order in which they win over one another.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Internal,
+        Self::LeftChanged,
         Self::Usage,
         Self::Refused,
         Self::Failure,
@@ -179,6 +189,8 @@ pub struct Tally {
     pub refused: bool,
     /// A waiver no longer holds.
     pub stale: bool,
+    /// A value was changed and could not be restored.
+    pub left_changed: bool,
 }
 
 impl Tally {
@@ -192,7 +204,7 @@ impl Tally {
         }
         match verdict {
             Verdict::Fail | Verdict::Vacuous => self.failed = true,
-            Verdict::Inconclusive => self.open = true,
+            Verdict::Inconclusive | Verdict::Interrupted => self.open = true,
             Verdict::HarnessError => self.broken = true,
             _ => {}
         }
@@ -200,11 +212,12 @@ impl Tally {
 
     /// The first that holds.
     pub const fn exit(self) -> Exit {
-        let Self { judged, failed, open, broken, refused, stale } = self;
-        match (broken, refused, failed, stale) {
+        let Self { judged, failed, open, broken, refused, stale, left_changed } = self;
+        match (broken, left_changed, refused, failed, stale) {
             (true, ..) => Exit::Internal,
-            (_, true, ..) => Exit::Refused,
-            (_, _, true, _) => Exit::Failure,
+            (_, true, ..) => Exit::LeftChanged,
+            (_, _, true, ..) => Exit::Refused,
+            (_, _, _, true, _) => Exit::Failure,
             (.., true) => Exit::Stale,
             _ if open || !judged => Exit::Nothing,
             _ => Exit::Success,
@@ -226,12 +239,14 @@ mod tests {
     #[test]
     fn the_first_cause_decides() {
         use Verdict::*;
-        let cases: [(&[Verdict], u8); 9] = [
+        let cases: [(&[Verdict], u8); 11] = [
             (&[], 3),
             (&[NotRun, NotApplicable, NotObserved], 3),
             (&[Pass, NotRun], 0),
             (&[Pass, Warning, Differs], 0),
             (&[Pass, Inconclusive], 3),
+            (&[Pass, Interrupted], 3),
+            (&[Fail, Interrupted], 1),
             (&[Pass, Fail, Inconclusive], 1),
             (&[Pass, Vacuous], 1),
             (&[Fail, HarnessError], 70),
@@ -257,6 +272,12 @@ mod tests {
         assert_eq!(exit(&[(Fail, true), (Inconclusive, false)], true, false), 5);
         assert_eq!(exit(&[(Fail, false)], true, true), 4);
         assert_eq!(exit(&[(HarnessError, false)], true, true), 70);
+        let left = |verdict| {
+            let mut tally = Tally { left_changed: true, refused: true, ..Tally::default() };
+            tally.add(verdict, false);
+            tally.exit().code()
+        };
+        assert_eq!((left(Fail), left(Pass), left(HarnessError)), (6, 6, 70));
         for exit in Exit::ALL {
             assert_eq!(Exit::from_code(exit.code()), Some(exit));
         }

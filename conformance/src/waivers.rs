@@ -138,7 +138,7 @@ impl Waiver {
         let state = match found {
             _ if over => WaiverState::Expired,
             Some(found) if found == *verdict => WaiverState::Used,
-            Some(Verdict::NotRun) => WaiverState::NotRun,
+            Some(Verdict::NotRun | Verdict::Interrupted) => WaiverState::NotRun,
             Some(_) => WaiverState::Otherwise,
             None if left => WaiverState::NotRun,
             None => WaiverState::Unmatched,

@@ -133,6 +133,7 @@ impl Check {
             profile: None,
             waivers,
             frames: usize::try_from(checked.tally.frames).unwrap_or(usize::MAX),
+            left_changed: Vec::new(),
         };
         let report = Report::new(about, &outcomes, &left_out);
         let extracted = match self.extract(&checked) {

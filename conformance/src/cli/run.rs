@@ -296,6 +296,7 @@ impl Run {
             profile: None,
             waivers,
             frames: 0,
+            left_changed: Vec::new(),
         }
     }
 

@@ -4,8 +4,8 @@ use ads_cnc::edition::Edition;
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
 use super::model::{
-    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
-    RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
+    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, LeftChanged, ProfileReport,
+    Report, RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
 };
 use super::{BytesReport, hex};
 use crate::clients::CLIENT;
@@ -37,6 +37,8 @@ pub struct About {
     pub waivers: Waivers,
     /// Frames exchanged.
     pub frames: usize,
+    /// Values that were changed and could not be restored.
+    pub left_changed: Vec<LeftChanged>,
 }
 
 /// What was left out of a run because something else was selected.
@@ -53,7 +55,8 @@ pub struct LeftOut {
 impl Report {
     /// Puts the outcomes of a run together.
     pub fn new(about: About, outcomes: &[Outcome], left_out: &[LeftOut]) -> Self {
-        let About { time, edition, seed, only, target, profile, waivers, frames } = about;
+        let About { time, edition, seed, only, target, profile, waivers, frames, left_changed } =
+            about;
         let waivers = waivers.apply(outcomes, left_out, time);
         let cases: Vec<CaseReport> =
             outcomes.iter().map(|outcome| case(outcome, &waivers)).collect();
@@ -66,6 +69,7 @@ impl Report {
         }
         // The embedded CNC refuses nothing; a device for which the gate closed was not judged whole.
         tally.refused = outcomes.iter().any(|outcome| outcome.refused);
+        tally.left_changed = !left_changed.is_empty();
         tally.stale = waivers.iter().any(|waiver| waiver.state.is_stale());
         let is_whole = |left: &&LeftOut| !outcomes.iter().any(|one| one.case.id == left.id);
         let subjects: Vec<SubjectReport> = Subject::ALL
@@ -77,6 +81,7 @@ impl Report {
             .collect();
         Self {
             format: FORMAT,
+            left_changed,
             suite: env!("CARGO_PKG_VERSION").to_owned(),
             vectors: ads_cnc_vectors::VERSION.to_owned(),
             time: time.to_string(),
@@ -296,6 +301,7 @@ mod tests {
                 profile: None,
                 waivers: Waivers::default(),
                 frames: 0,
+                left_changed: Vec::new(),
             };
             let all: Vec<Outcome> = verdicts.iter().map(|(id, one)| outcome(*id, *one)).collect();
             Report::new(about, &all, &[]).exit_code

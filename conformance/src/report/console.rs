@@ -16,6 +16,7 @@ use crate::verdict::{Exit, Verdict};
 /// # Errors
 /// Those of `out`.
 pub fn print(report: &Report, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
+    report.left_changed.iter().try_for_each(|left| writeln!(out, "{left}"))?;
     head(report, out)?;
     for subject in &report.subjects {
         cases(report, subject.subject, verbose, out)?;
@@ -258,6 +259,7 @@ fn explain(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         (Verdict::Vacuous, "refused as it should be, but so is what should be accepted: fails"),
         (Verdict::Inconclusive, "what came back does not tell"),
         (Verdict::NotObserved, "nothing in this run touches it"),
+        (Verdict::Interrupted, "the run was ended before it was done"),
     ] {
         if known(verdict) {
             writeln!(out, "{verdict}: {meaning}")?;

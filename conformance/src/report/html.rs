@@ -41,7 +41,10 @@ const fn meaning(exit: Exit) -> &'static str {
         Exit::Success => "Everything judged is in order.",
         Exit::Failure => "Something required is not met.",
         Exit::Usage => "The command line was wrong.",
-        Exit::Nothing => "Nothing was judged, or what came back does not tell.",
+        Exit::Nothing => {
+            "Nothing was judged, or what came back does not tell, or the run was interrupted."
+        }
+        Exit::LeftChanged => "A value was changed and could not be restored.",
         Exit::Refused => "Something was refused for safety, so the target was not judged whole.",
         Exit::Stale => "Nothing fails, but a waiver no longer holds.",
         Exit::Internal => "The suite itself failed.",
@@ -77,6 +80,7 @@ struct ReportView<'r> {
     target: String,
     device: Option<String>,
     claims: Option<Vec<(String, String)>>,
+    left_changed: Vec<String>,
     verdicts: Vec<Verdict>,
     areas: BTreeSet<&'r str>,
     subjects: Vec<SubjectView>,
@@ -99,6 +103,7 @@ impl<'r> ReportView<'r> {
             target: describe(&report.target),
             device: report.target.device.as_ref().map(ToString::to_string),
             claims: report.profile.as_ref().map(claims),
+            left_changed: report.left_changed.iter().map(ToString::to_string).collect(),
             verdicts: Verdict::ALL.into_iter().filter(occurs).collect(),
             areas: cases.iter().flat_map(areas).collect(),
             subjects: report.subjects.iter().map(|one| subject(report, one.subject)).collect(),

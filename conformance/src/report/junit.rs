@@ -11,7 +11,8 @@ use crate::verdict::Verdict;
 
 /// Writes the report as JUnit XML.
 ///
-/// A fail or a vacuous verdict is a failure, an inconclusive one or a harness error an error.
+/// A fail or a vacuous verdict is a failure; an inconclusive one, an interrupted case or a harness
+/// error is an error. A value that was left changed is a failure of a suite `left-changed`.
 /// What was not run or judged is skipped, and so is what a waiver puts up with. Warnings and
 /// differences pass, with what they are in `system-out`. A waiver that does not hold is a failure
 /// of a suite `waivers`.
@@ -25,11 +26,21 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         report.waivers.iter().filter(|waiver| waiver.state.is_stale()).collect();
     let of_case = |tests: &Tests, case: &CaseReport| tests.plus(kind(case));
     let all = report.cases.iter().fold(Tests::default(), |tests, case| of_case(&tests, case));
-    let all = stale.iter().fold(all, |tests, _| tests.plus(Kind::Failure));
+    let failed =
+        |tests: Tests, number: usize| (0..number).fold(tests, |tests, _| tests.plus(Kind::Failure));
+    let left = &report.left_changed;
+    let all = failed(failed(all, stale.len()), left.len());
     let mut root = BytesStart::new("testsuites");
     root.push_attribute(("name", "ads-cnc"));
     all.put(&mut root);
     xml.write_event(Event::Start(root))?;
+    if !left.is_empty() {
+        begin_suite(&mut xml, report, "left-changed", failed(Tests::default(), left.len()))?;
+        for one in left {
+            failure(&mut xml, (&one.name, "left-changed"), (&one.to_string(), "left-changed"))?;
+        }
+        end(&mut xml, "testsuite")?;
+    }
     for subject in &report.subjects {
         let cases = || report.cases.iter().filter(|case| case.subject == subject.subject);
         let tests = cases().fold(Tests::default(), |tests, case| of_case(&tests, case));
@@ -38,9 +49,11 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         end(&mut xml, "testsuite")?;
     }
     if !stale.is_empty() {
-        let tests = stale.iter().fold(Tests::default(), |tests, _| tests.plus(Kind::Failure));
-        begin_suite(&mut xml, report, "waivers", tests)?;
-        stale.iter().try_for_each(|waiver| stale_waiver(&mut xml, waiver))?;
+        begin_suite(&mut xml, report, "waivers", failed(Tests::default(), stale.len()))?;
+        for waiver in stale {
+            let name = format!("{} {}", waiver.test, waiver.requirement);
+            failure(&mut xml, (&name, "waivers"), (&in_words(waiver), "stale"))?;
+        }
         end(&mut xml, "testsuite")?;
     }
     end(&mut xml, "testsuites")?;
@@ -63,7 +76,7 @@ fn kind(case: &CaseReport) -> Kind {
         _ if case.waived => Kind::Skipped,
         Verdict::Pass | Verdict::Warning | Verdict::Differs => Kind::Passed,
         Verdict::Fail | Verdict::Vacuous => Kind::Failure,
-        Verdict::Inconclusive | Verdict::HarnessError => Kind::Error,
+        Verdict::Inconclusive | Verdict::Interrupted | Verdict::HarnessError => Kind::Error,
         Verdict::NotApplicable | Verdict::NotObserved | Verdict::NotRun => Kind::Skipped,
     }
 }
@@ -181,15 +194,19 @@ fn waiver<'r>(report: &'r Report, case: &CaseReport) -> Option<&'r WaiverReport>
     used.filter(|_| case.waived).find(|waiver| waiver.test == case.id)
 }
 
-fn stale_waiver(xml: &mut Xml<'_>, waiver: &WaiverReport) -> io::Result<()> {
+/// A test that is no case and has failed.
+fn failure(
+    xml: &mut Xml<'_>,
+    (name, class): (&str, &str),
+    (message, kind): (&str, &str),
+) -> io::Result<()> {
     let mut test = BytesStart::new("testcase");
-    let name = format!("{} {}", waiver.test, waiver.requirement);
-    test.push_attribute(("name", clean(&name).as_str()));
-    test.push_attribute(("classname", "waivers"));
+    test.push_attribute(("name", clean(name).as_str()));
+    test.push_attribute(("classname", class));
     xml.write_event(Event::Start(test))?;
     let mut failure = BytesStart::new("failure");
-    failure.push_attribute(("message", clean(&in_words(waiver)).as_str()));
-    failure.push_attribute(("type", "stale"));
+    failure.push_attribute(("message", clean(message).as_str()));
+    failure.push_attribute(("type", kind));
     xml.write_event(Event::Empty(failure))?;
     end(xml, "testcase")
 }

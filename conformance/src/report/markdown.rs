@@ -16,6 +16,9 @@ const FAILURES_MAX: usize = 48_000;
 pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, time, editions, seed, only, target, profile, .. } = report;
     let verdict = if report.exit() == Exit::Success { "passed" } else { "not passed" };
+    for left in &report.left_changed {
+        writeln!(out, "**{}**\n", plain(&left.to_string()))?;
+    }
     writeln!(out, "## ads-cnc: {} {verdict}\n", plain(&target.name))?;
     writeln!(out, "| | |\n|---|---|")?;
     let profile = profile.as_ref().map(|profile| profile.name.clone());
@@ -45,7 +48,8 @@ fn totals(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         for area in &subject.areas {
             let waived = area.requirements.iter().filter(|one| one.waived).count();
             let quiet = |verdict: Verdict| {
-                !matches!(verdict, Verdict::Pass | Verdict::NotRun | Verdict::NotObserved)
+                let unseen = matches!(verdict, Verdict::NotRun | Verdict::NotObserved);
+                !unseen && !matches!(verdict, Verdict::Pass | Verdict::Interrupted)
             };
             let named = area.requirements.iter().filter(|one| quiet(one.verdict));
             let named: Vec<String> = named

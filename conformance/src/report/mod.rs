@@ -23,8 +23,8 @@ pub use html::to_html;
 pub use junit::to_junit;
 pub use markdown::to_markdown;
 pub use model::{
-    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
-    RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
+    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, LeftChanged, ProfileReport,
+    Report, RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
 };
 pub(crate) use tame::{tame, tame_lines};
 

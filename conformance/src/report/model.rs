@@ -2,6 +2,7 @@
 //! is made from it alone.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use ads_cnc_vectors::Level;
 use serde::{Deserialize, Serialize};
@@ -23,6 +24,9 @@ pub type Totals = BTreeMap<Verdict, usize>;
 pub struct Report {
     /// Number of this structure: [`FORMAT`].
     pub format: u32,
+    /// Values that were changed and could not be restored.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_changed: Vec<LeftChanged>,
     /// Version of the suite.
     pub suite: String,
     /// Version of the vectors.
@@ -54,6 +58,27 @@ pub struct Report {
     pub subjects: Vec<SubjectReport>,
     /// Every case in the order it was run.
     pub cases: Vec<CaseReport>,
+}
+
+/// A value that was changed and could not be restored.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LeftChanged {
+    /// What it is the value of.
+    pub name: String,
+    /// What it was, in hex.
+    pub was: String,
+    /// What it is, in hex, as it was read or written last; none if that is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub is: Option<String>,
+}
+
+/// As every form of a report says it.
+impl fmt::Display for LeftChanged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, was, is } = self;
+        write!(f, "LEFT CHANGED: {name}, was {was}, is {}", is.as_deref().unwrap_or("not known"))
+    }
 }
 
 /// Who was judged.

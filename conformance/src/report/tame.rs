@@ -1,7 +1,7 @@
 //! Text of others as it may be shown: whoever was judged may say anything, and nothing of it moves
 //! the cursor of a terminal or begins a line.
 
-use super::model::{CaseReport, EvidenceReport, FailureReport, Report, TargetReport};
+use super::model::{CaseReport, EvidenceReport, FailureReport, LeftChanged, Report, TargetReport};
 
 /// Text with what a terminal or a reader's eye would act on as escapes.
 pub(crate) fn tame(text: &str) -> String {
@@ -39,6 +39,10 @@ impl Report {
         }
         if let Some(said) = stderr {
             *said = tame_lines(said);
+        }
+        for LeftChanged { name, was, is } in &mut self.left_changed {
+            (*name, *was) = (tame(name), tame(was));
+            *is = is.as_deref().map(tame);
         }
         for CaseReport { title, note, failures, .. } in &mut self.cases {
             *title = tame(title);
