@@ -2,8 +2,16 @@
 
 mod spoken;
 
-use std::process::{Child, Command};
+use std::io;
+use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
+
+#[cfg(unix)]
+use process_wrap::std::ProcessGroup;
+use process_wrap::std::{ChildWrapper, CommandWrap};
+#[cfg(windows)]
+use process_wrap::std::{CreationFlags, JobObject};
 
 pub(crate) use spoken::front;
 pub use spoken::{LINE_MAX, Spoken, Stderr, Unheard, cut, read_line, text};
@@ -23,37 +31,85 @@ pub fn shell(line: &str) -> Command {
     command
 }
 
-/// Ctrl-C is for this tool alone, which answers for the command; and what the command starts can be
-/// ended with it.
-#[cfg(unix)]
-pub fn apart(command: &mut Command) {
-    use std::os::unix::process::CommandExt as _;
+type Shared = Mutex<Box<dyn ChildWrapper>>;
 
-    command.process_group(0);
-}
+/// Commands that run.
+static RUNNING: Mutex<Vec<Weak<Shared>>> = Mutex::new(Vec::new());
 
-/// Ctrl-C is for this tool alone, which answers for the command.
-#[cfg(windows)]
-pub fn apart(command: &mut Command) {
-    use std::os::windows::process::CommandExt as _;
+/// A command that was started. When it is dropped, it is ended with what it has started, also if it
+/// has ended itself: on Unix the processes of its group - one that has made a group or a session of
+/// its own goes on -, on Windows those of its job.
+///
+/// Ctrl-C of a terminal is for this tool alone, which answers for the command.
+#[derive(Debug)]
+pub struct Running(Arc<Shared>);
 
-    const CREATE_NEW_PROCESS_GROUP: u32 = 0x200;
-    command.creation_flags(CREATE_NEW_PROCESS_GROUP);
-}
-
-/// Nothing can be done to keep a command apart here.
-#[cfg(not(any(unix, windows)))]
-pub fn apart(_: &mut Command) {}
-
-/// Ends a command that runs, and what it has started.
-pub fn end(child: &mut Child) {
-    #[cfg(unix)]
-    if let Ok(group) = i32::try_from(child.id()) {
-        use nix::sys::signal::{Signal, killpg};
-        use nix::unistd::Pid;
-
-        // Nobody has waited for it: its number is still its own.
-        let _gone = killpg(Pid::from_raw(group), Signal::SIGKILL);
+impl Running {
+    /// Starts a command.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub fn start(command: Command) -> io::Result<Self> {
+        let mut command = CommandWrap::from(command);
+        #[cfg(unix)]
+        command.wrap(ProcessGroup::leader());
+        #[cfg(windows)]
+        command
+            .wrap(CreationFlags(windows::Win32::System::Threading::CREATE_NEW_PROCESS_GROUP))
+            .wrap(JobObject);
+        // Held while it starts: what ends all commands ends this one too.
+        let mut running = lock(&RUNNING);
+        let child = Arc::new(Mutex::new(command.spawn()?));
+        running.retain(|one| one.strong_count() > 0);
+        running.push(Arc::downgrade(&child));
+        Ok(Self(child))
     }
-    let _ended = child.kill().and_then(|()| child.wait());
+
+    /// Its stdin, if that is a pipe and was not taken before.
+    pub fn take_stdin(&self) -> Option<ChildStdin> {
+        lock(&self.0).stdin().take()
+    }
+
+    /// Its stdout, if that is a pipe and was not taken before.
+    pub fn take_stdout(&self) -> Option<ChildStdout> {
+        lock(&self.0).stdout().take()
+    }
+
+    /// Its stderr, if that is a pipe and was not taken before.
+    pub fn take_stderr(&self) -> Option<ChildStderr> {
+        lock(&self.0).stderr().take()
+    }
+
+    /// How it has ended, if it has.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub fn try_wait(&self) -> io::Result<Option<ExitStatus>> {
+        lock(&self.0).try_wait()
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let mut child = lock(&self.0);
+        // What it has started may run on when it has ended. Of a group of which nothing runs any
+        // more the number is not given anew in so short a time.
+        let _ended = child.start_kill();
+        let _waited = child.inner_mut().wait();
+    }
+}
+
+/// Ends all commands that run; none can be started any more.
+pub(crate) fn end_all() {
+    let running = lock(&RUNNING);
+    for child in running.iter().filter_map(Weak::upgrade) {
+        // Who holds it ends it just now, or looks whether it has ended.
+        let _ended = lock(&child).start_kill();
+    }
+    std::mem::forget(running);
+}
+
+fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Whatever panicked, what it has written is whole.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

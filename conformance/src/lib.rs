@@ -61,6 +61,7 @@ mod duration;
 pub mod exchange;
 pub mod explain;
 pub mod gate;
+mod interrupt;
 pub mod matrix;
 pub mod named;
 pub mod net;

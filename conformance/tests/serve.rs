@@ -22,17 +22,16 @@ fn works(serve: &Serve) -> std::net::TcpStream {
     stream
 }
 
-/// Ctrl-C ends it in order, with clients or without: exit code 0, and the log says so.
+/// A signal ends it in order, with clients or without: exit code 0, and the log says so.
 #[cfg(unix)]
 #[test]
 fn an_interrupt_ends_it_cleanly() {
     use std::time::{Duration, Instant};
 
-    for with_clients in [false, true] {
+    for (name, with_clients) in [("INT", false), ("INT", true), ("TERM", true), ("HUP", true)] {
         let mut serve = Serve::logging(&["--log", "info"]);
         let mut client = with_clients.then(|| works(&serve));
-        let id = serve.process.id().to_string();
-        assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+        common::signal(name, serve.process.id());
         let begun = Instant::now();
         let status = loop {
             match serve.process.try_wait().unwrap() {
@@ -59,25 +58,27 @@ fn an_interrupt_ends_it_cleanly() {
 fn what_was_run_is_written_in_the_end() {
     use common::file::TestFile;
 
-    let ran = TestFile::new(".nc", b"");
     let program = TestFile::new(".nc", b"N10 X1\nN20 X2\nN30 $FOR P1=0,10,1\nN40 X4\n");
     let allow = TestFile::allowing("[[stream]]\nchannel = 2\n");
-    let executed = format!("2={}", ran.path());
-    let options = ["--log", "info", "--pace", "fast", "--executed", &executed];
-    let mut serve = Serve::logging(&options);
-    let stream = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
-        .args(["stream", program.path(), "--force", "--channel", "2"])
-        .args(["--target", &serve.addr, "--net-id", &serve.net_id, "--allow-write", allow.path()])
-        .output();
-    assert_eq!(stream.unwrap().status.code(), Some(0));
-    let id = serve.process.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
-    assert_eq!(serve.process.wait().unwrap().code(), Some(0));
-    assert_eq!(std::fs::read(&ran.0).unwrap(), b"N10 X1\r\nN20 X2\r\n");
-    let mut log = String::new();
-    serve.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
-    assert!(log.contains("streaming was aborted: streaming.nc:3:5: $FOR in a stream"), "{log}");
-    assert!(log.contains("channel=2 lines=2 bytes=16"), "{log}");
+    for name in ["INT", "TERM", "HUP"] {
+        let ran = TestFile::new(".nc", b"");
+        let executed = format!("2={}", ran.path());
+        let options = ["--log", "info", "--pace", "fast", "--executed", &executed];
+        let mut serve = Serve::logging(&options);
+        let stream = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+            .args(["stream", program.path(), "--force", "--channel", "2"])
+            .args(["--target", &serve.addr, "--net-id", &serve.net_id])
+            .args(["--allow-write", allow.path()])
+            .output();
+        assert_eq!(stream.unwrap().status.code(), Some(0));
+        common::signal(name, serve.process.id());
+        assert_eq!(serve.process.wait().unwrap().code(), Some(0), "SIG{name}");
+        assert_eq!(std::fs::read(&ran.0).unwrap(), b"N10 X1\r\nN20 X2\r\n", "SIG{name}");
+        let mut log = String::new();
+        serve.process.stderr.take().unwrap().read_to_string(&mut log).unwrap();
+        assert!(log.contains("streaming was aborted: streaming.nc:3:5: $FOR in a stream"), "{log}");
+        assert!(log.contains("channel=2 lines=2 bytes=16"), "{log}");
+    }
 }
 
 /// The log says why a connection ended, and of which client; other clients work on.

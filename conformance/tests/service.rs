@@ -281,33 +281,36 @@ fn wait_for(what: &str, from: &mut impl BufRead) {
     assert!(found, "nothing says {what:?}");
 }
 
-#[cfg(unix)]
-fn interrupt(tool: &Child) {
-    let id = tool.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
-}
-
-/// Ctrl-C ends it, and what it runs is ended and answered for.
+/// A signal ends it, and what it runs is ended and answered for.
 #[cfg(unix)]
 #[test]
-fn ctrl_c_ends_it_cleanly() {
-    let bench = Bench::start();
-    let mut tool = bench.tool(&["--uuid", ID], &["sleep", "1000"]).spawn().unwrap();
-    wait_for("waiting", &mut BufReader::new(tool.stderr.as_mut().unwrap()));
-    interrupt(&tool);
-    ended(tool);
+fn a_signal_ends_it_cleanly() {
+    for name in ["INT", "TERM", "HUP"] {
+        let bench = Bench::start();
+        let mut tool = bench.tool(&["--uuid", ID], &["sleep", "1000"]).spawn().unwrap();
+        wait_for("waiting", &mut BufReader::new(tool.stderr.as_mut().unwrap()));
+        common::signal(name, tool.id());
+        ended(tool);
 
-    let script = "echo begun | tee /dev/stderr; sleep 1000 | sleep 1000";
-    let mut tool = bench.tool(&["--uuid", ID], &["sh", "-c", script]).spawn().unwrap();
-    let stderr = tool.stderr.take().unwrap();
-    let answer = thread::scope(|scope| {
-        let asked = scope.spawn(|| bench.ask(ID, "do"));
-        wait_for("begun", &mut BufReader::new(stderr));
-        interrupt(&tool);
-        asked.join().unwrap()
-    });
-    assert_eq!(answer, ("begun".to_owned(), 1003));
-    ended(tool);
+        let script = "echo begun $$ | tee /dev/stderr; sleep 1000 | sleep 1000";
+        let mut tool = bench.tool(&["--uuid", ID], &["sh", "-c", script]).spawn().unwrap();
+        let mut stderr = BufReader::new(tool.stderr.take().unwrap());
+        let (answer, process) = thread::scope(|scope| {
+            let asked = scope.spawn(|| bench.ask(ID, "do"));
+            let mut lines = stderr.by_ref().lines().map(Result::unwrap);
+            let line = lines.find(|line| line.starts_with("begun ")).unwrap();
+            common::signal(name, tool.id());
+            (asked.join().unwrap(), line)
+        });
+        assert_eq!(answer, (process.clone(), 1003), "SIG{name}");
+        ended(tool);
+        let group = process.strip_prefix("begun ").unwrap();
+        let all =
+            text(&Command::new("ps").args(["-A", "-o", "pgid=,stat="]).output().unwrap().stdout);
+        let mut all = all.lines().filter_map(|line| line.trim().split_once(' '));
+        let left = all.any(|(of, state)| of == group && !state.trim_start().starts_with('Z'));
+        assert!(!left, "SIG{name} leaves some of the group {group}");
+    }
 }
 
 /// What the command has started ends with it, and holds nobody up.
@@ -321,14 +324,50 @@ fn a_time_limit_ends_all_that_was_started() {
     assert!(begun.elapsed() < PATIENCE);
 }
 
-/// A command may leave something running that holds its stdout: its answer is given all the same.
+/// A command may leave something running that holds its stdout: its answer is given all the same,
+/// and what holds it is ended.
 #[cfg(unix)]
 #[test]
 fn what_stays_behind_holds_nobody_up() {
     let ((response, state), output) =
-        Bench::start().once(&[], &["sh", "-c", "sleep 5 & echo done"], "");
-    assert_eq!((&response[..], state), ("done", 1));
-    assert!(text(&output.stderr).contains("still has its stdout"));
+        Bench::start().once(&[], &["sh", "-c", "sleep 1000 & echo $!"], "");
+    assert_eq!(state, 1);
+    assert!(text(&output.stderr).contains("still had its stdout"));
+    assert!(!runs(&response), "{response} runs");
+}
+
+/// Whether a process runs; one that has ended and that nobody has waited for does not.
+#[cfg(unix)]
+fn runs(id: &str) -> bool {
+    let shown = Command::new("ps").args(["-o", "stat=", "-p", id]).output().unwrap();
+    let state = text(&shown.stdout);
+    !state.trim().is_empty() && !state.trim_start().starts_with('Z')
+}
+
+/// What makes a session of its own is not ended; it costs a thread each, of which there are few.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_leaves_the_group_is_bounded() {
+    let bench = Bench::start();
+    let kept = TestFile::new(".txt", b"");
+    let script = format!("setsid sleep 1000 & echo $! | tee -a {}", kept.path());
+    let options = ["--uuid", ID, "--answers", "11", "--poll", "5ms"];
+    let mut tool = bench.tool(&options, &["sh", "-c", &script]).spawn().unwrap();
+    let stderr = tool.stderr.take().unwrap();
+    let reader = thread::spawn(move || std::io::read_to_string(stderr).unwrap());
+    let states: Vec<u32> = (0..10).map(|_| bench.ask(ID, "").1).collect();
+    let threads = std::fs::read_dir(format!("/proc/{}/task", tool.id())).unwrap().count();
+    let (_, last) = bench.ask(ID, "");
+    let status = tool.wait().unwrap();
+    let left = std::fs::read_to_string(&kept.0).unwrap();
+    for id in left.lines() {
+        let _gone = Command::new("kill").args(["-KILL", id]).output().unwrap();
+    }
+    let said = reader.join().unwrap();
+    assert_eq!((&states[..8], &states[8..], last), (&[1; 8][..], &[1004; 2][..], 1004), "{said}");
+    assert!(threads <= 12, "{threads} threads");
+    assert_eq!((status.code(), left.lines().count()), (Some(0), 8), "{said}");
+    assert!(said.contains("8 processes that earlier commands have started"), "{said}");
 }
 
 /// However much a command writes, it is not held up, and no more than fits is kept.

@@ -232,34 +232,36 @@ fn a_program_comes_from_stdin_too() {
     assert_eq!(packets.lock().unwrap()[..], [(1, b"N10 M30\r\n".to_vec())]);
 }
 
-/// Ctrl-C while it waits: what was sent and what was not.
+/// A signal while it waits: what was sent and what was not.
 #[cfg(unix)]
 #[test]
-fn ctrl_c_says_what_was_sent() {
-    let (tell, told) = std::sync::mpsc::channel();
-    let (addr, packets) = kept(move |count| {
-        if count == 1 {
-            return OK;
-        }
-        tell.send(()).unwrap();
-        BUSY
-    });
-    let allow = TestFile::allowing(STREAM_1);
-    let file = TestFile::new(".nc", program().as_bytes());
-    let addr = addr.to_string();
-    let options = to(&addr, &allow);
-    let mut command = tool(file.path(), &options);
-    command.args(["--retry-after", "10min"]).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let process = command.spawn().unwrap();
-    told.recv().unwrap();
-    let pid = process.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
-    let output = process.wait_with_output().unwrap();
-    let (shown, said) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!((code(&output), packets.lock().unwrap().len()), (3, 2), "{said}");
-    assert!(shown.contains("has taken lines 1 to 72 in 1 packet"), "{shown}");
-    assert!(shown.ends_with("\n  not sent or not taken: lines 73 to 1000\n"), "{shown}");
-    assert!(said.contains("interrupted"), "{said}");
+fn a_signal_says_what_was_sent() {
+    for name in ["INT", "TERM", "HUP"] {
+        let (tell, told) = std::sync::mpsc::channel();
+        let (addr, packets) = kept(move |count| {
+            if count == 1 {
+                return OK;
+            }
+            tell.send(()).unwrap();
+            BUSY
+        });
+        let allow = TestFile::allowing(STREAM_1);
+        let file = TestFile::new(".nc", program().as_bytes());
+        let addr = addr.to_string();
+        let options = to(&addr, &allow);
+        let mut command = tool(file.path(), &options);
+        command.args(["--retry-after", "10min"]).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let process = command.spawn().unwrap();
+        told.recv().unwrap();
+        common::signal(name, process.id());
+        let output = process.wait_with_output().unwrap();
+        let (shown, said) = (text(&output.stdout), text(&output.stderr));
+        assert_eq!((code(&output), packets.lock().unwrap().len()), (3, 2), "SIG{name}: {said}");
+        assert!(shown.contains("has taken lines 1 to 72 in 1 packet"), "SIG{name}: {shown}");
+        let left = "\n  not sent or not taken: lines 73 to 1000\n";
+        assert!(shown.ends_with(left), "SIG{name}: {shown}");
+        assert!(said.contains("interrupted"), "SIG{name}: {said}");
+    }
 }
 
 /// A slow CNC runs every line once, in order.

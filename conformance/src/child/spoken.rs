@@ -2,13 +2,14 @@
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead, BufReader, Read, Write as _};
-use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::process::{ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::{apart, end};
+use super::Running;
+use crate::interrupt;
 use crate::report::tame_lines;
 
 /// The longest line that is taken.
@@ -44,6 +45,8 @@ impl Stderr {
 pub enum Unheard {
     /// None came in time.
     Silence,
+    /// This process is to end.
+    Interrupted,
     /// It has closed its stdout.
     Closed,
     /// What came is no line, and nothing behind it is read.
@@ -55,11 +58,9 @@ pub enum Unheard {
 /// A command that runs; ended with all that it has started when it is dropped.
 #[derive(Debug)]
 pub struct Spoken {
-    child: Child,
+    child: Running,
     to: Sender<Vec<u8>>,
     from: Receiver<Result<Vec<u8>, String>>,
-    /// Its end has been seen: its number is nobody's or another's.
-    is_over: bool,
 }
 
 impl Spoken {
@@ -69,14 +70,13 @@ impl Spoken {
     /// Those of the system.
     pub fn start(mut command: Command, stderr: &Stderr) -> io::Result<Self> {
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        apart(&mut command);
-        let mut child = command.spawn()?;
+        let child = Running::start(command)?;
         let (to, lines) = mpsc::channel();
         let (tell, from) = mpsc::sync_channel(4);
-        if let Some(stdin) = child.stdin.take() {
+        if let Some(stdin) = child.take_stdin() {
             spawn("to command", move || write(stdin, &lines))?;
         }
-        if let Some(stdout) = child.stdout.take() {
+        if let Some(stdout) = child.take_stdout() {
             let tell = move || {
                 let mut stdout = BufReader::new(stdout);
                 while let Some(line) = read_line(&mut stdout, LINE_MAX) {
@@ -88,11 +88,11 @@ impl Spoken {
             };
             spawn("from command", tell)?;
         }
-        if let Some(from) = child.stderr.take() {
+        if let Some(from) = child.take_stderr() {
             let kept = stderr.clone();
             spawn("command's stderr", move || kept.keep(from))?;
         }
-        Ok(Self { child, to, from, is_over: false })
+        Ok(Self { child, to, from })
     }
 
     /// Says a line. Who has ended reads nothing: its end is seen when the answer is waited for.
@@ -106,11 +106,19 @@ impl Spoken {
     /// # Errors
     /// What came instead.
     pub fn hear(&self, timeout: Duration) -> Result<String, Unheard> {
-        match self.from.recv_timeout(timeout) {
-            Ok(Ok(line)) => text(line),
-            Ok(Err(why)) => Err(Unheard::Garbled(why)),
-            Err(RecvTimeoutError::Timeout) => Err(Unheard::Silence),
-            Err(RecvTimeoutError::Disconnected) => Err(Unheard::Closed),
+        let begun = Instant::now();
+        loop {
+            let left = timeout.saturating_sub(begun.elapsed());
+            match self.from.recv_timeout(left.min(interrupt::LOOK)) {
+                Ok(Ok(line)) => return text(line),
+                Ok(Err(why)) => return Err(Unheard::Garbled(why)),
+                Err(RecvTimeoutError::Disconnected) => return Err(Unheard::Closed),
+                Err(RecvTimeoutError::Timeout) if interrupt::came() => {
+                    return Err(Unheard::Interrupted);
+                }
+                Err(RecvTimeoutError::Timeout) if left.is_zero() => return Err(Unheard::Silence),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
         }
     }
 
@@ -137,7 +145,7 @@ impl Spoken {
             Err(RecvTimeoutError::Timeout) => true,
             Err(RecvTimeoutError::Disconnected) => false,
         };
-        let status = wait(&mut self.child, limit, || {
+        let status = wait(&self.child, limit, || {
             if !listen(POLL) {
                 thread::sleep(POLL);
             }
@@ -147,7 +155,6 @@ impl Spoken {
         while status.is_some() && until.is_some_and(|until| Instant::now() < until) && listen(POLL)
         {
         }
-        self.is_over = status.is_some();
         (status, unasked)
     }
 }
@@ -162,14 +169,6 @@ fn show(line: &Result<Vec<u8>, String>) -> String {
     match line {
         Ok(line) => cut(&String::from_utf8_lossy(line)),
         Err(why) => why.clone(),
-    }
-}
-
-impl Drop for Spoken {
-    fn drop(&mut self) {
-        if !self.is_over {
-            end(&mut self.child);
-        }
     }
 }
 
@@ -232,12 +231,12 @@ pub fn text(line: Vec<u8>) -> Result<String, Unheard> {
     })
 }
 
-fn wait(child: &mut Child, limit: Duration, mut meanwhile: impl FnMut()) -> Option<ExitStatus> {
+fn wait(child: &Running, limit: Duration, mut meanwhile: impl FnMut()) -> Option<ExitStatus> {
     let until = Instant::now().checked_add(limit)?;
     loop {
         match child.try_wait() {
             Ok(Some(status)) => return Some(status),
-            Ok(None) if Instant::now() < until => meanwhile(),
+            Ok(None) if Instant::now() < until && !interrupt::came() => meanwhile(),
             _ => return None,
         }
     }

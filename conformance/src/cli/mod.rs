@@ -8,7 +8,6 @@ mod executed;
 mod explain;
 mod forms;
 mod get;
-mod interrupt;
 mod list;
 mod log;
 mod model;

@@ -1,5 +1,6 @@
 //! `ads-cnc run`: the suite against a target.
 
+use std::io::{self, Write as _};
 use std::path::PathBuf;
 
 use ads_cnc::edition::Edition;
@@ -11,11 +12,13 @@ use super::run_client::ClientArgs;
 use super::target::{REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect, run_testee};
 use crate::cnc::{self, Model};
+use crate::defect::Seed;
 use crate::gate::Moment;
+use crate::interrupt::Interrupt;
 use crate::profile::{self, Profile};
 use crate::report::{self, About, Report, TargetReport};
 use crate::session::Trouble;
-use crate::suite::{self, Case, Needs, Plan, Selection, Subject, Unmatched};
+use crate::suite::{self, Case, Changes, Needs, Plan, Selection, Subject, Unmatched};
 use crate::verdict::Exit;
 use crate::waivers::Waivers;
 
@@ -31,8 +34,9 @@ const SELECTION: &str = "Selection";
 /// documented for. Some ask for what is not there, by one beyond the last, to see it refused.
 #[derive(Args, Debug)]
 #[command(
-    after_help = "Exit codes: 0 passed, 1 failed, 2 wrong usage, 3 nothing judged or inconclusive, \
-        4 refused for safety, 5 a waiver no longer holds, 70 internal error",
+    after_help = "Exit codes: 0 passed, 1 failed, 2 wrong usage, 3 nothing judged, inconclusive or \
+        interrupted, 4 refused for safety, 5 a waiver no longer holds, 6 a value was left changed, \
+        70 internal error",
     after_long_help = after_long_help()
 )]
 pub(super) struct Run {
@@ -123,10 +127,25 @@ Known failures, a file for --waivers:
   One that does not hold - its day is over, nothing that ran is called that, or the verdict is
   another one - makes the run end with 5 unless something fails.
 
+Signals:
+  On SIGINT (Ctrl-C), SIGTERM and SIGHUP the value under test is restored and read back, a testee or
+  a client is ended, and the reports are written with what was done until then; the other cases are
+  interrupted. A second signal ends the run at once and prints which value is left changed.
+
 Exit codes, the first that holds:
-  70 internal error, 2 wrong usage, 4 refused for safety, 1 a fail or a vacuous verdict, 5 a waiver
-  that does not hold, 3 nothing judged or something inconclusive, 0. Warnings and differences leave 0."
+  70 internal error, 6 a value was changed and could not be restored, 2 wrong usage, 4 refused for
+  safety, 1 a fail or a vacuous verdict, 5 a waiver that does not hold, 3 nothing judged, something
+  inconclusive or interrupted, 0. Warnings and differences leave 0."
     )
+}
+
+/// Says what could not be restored; whether there is anything.
+fn tell_left(changes: &Changes) -> bool {
+    let left = changes.left();
+    for one in &left {
+        let _unprinted = writeln!(io::stderr(), "{one}");
+    }
+    !left.is_empty()
 }
 
 /// Why there is no report.
@@ -165,6 +184,10 @@ impl Run {
             }
         };
         if let (Some(command), true) = (&self.testee, self.check_protocol) {
+            if let Err(error) = Interrupt::catch() {
+                complain(Trouble::uncaught(&error));
+                return Exit::Internal;
+            }
             let mut exit = Exit::Success;
             let checked = show(|out| {
                 exit = run_testee::check(command, self.target.timeout(), out)?;
@@ -176,12 +199,48 @@ impl Run {
         if self.list {
             return self.list(seed, &profile);
         }
+        let changes = Changes::default();
+        let exit = self.judged(seed, waivers, profile, defect, &changes);
+        let is_left = tell_left(&changes);
+        match exit {
+            Exit::Internal => exit,
+            _ if is_left => Exit::LeftChanged,
+            exit => exit,
+        }
+    }
+
+    /// Runs what is to be run, in order to the end also if a signal comes, and writes the reports.
+    fn judged(
+        &self,
+        seed: u32,
+        waivers: Waivers,
+        profile: Profile,
+        defect: Option<Seed>,
+        changes: &Changes,
+    ) -> Exit {
+        let (first, last) = (changes.clone(), changes.clone());
+        let first_words = move || {
+            if !first.left().is_empty() {
+                complain("interrupted: what was changed is restored; a second signal ends at once");
+            }
+        };
+        let last_words = move || tell_left(&last).then_some(Exit::LeftChanged);
+        let interrupt = match Interrupt::catch_telling(first_words, last_words) {
+            Ok(interrupt) => interrupt,
+            Err(error) => {
+                complain(Trouble::uncaught(&error));
+                return Exit::Internal;
+            }
+        };
         let report = match &self.testee {
-            _ if self.client.is_wanted() => self.of_client(seed, waivers),
+            _ if self.client.is_wanted() => self.of_client(seed, waivers, &interrupt),
             Some(command) => self.testee(command, seed, waivers),
             None if self.is_embedded() => self.embedded(seed, waivers, profile, defect),
-            None => self.device(seed, waivers, profile),
+            None => self.device(seed, waivers, profile, changes),
         };
+        if interrupt.came() && !self.client.waits() {
+            complain("interrupted: the reports have what was done until then");
+        }
         match report {
             Ok(report) => self.write(&report),
             Err(Stopped::Usage(why)) => {
@@ -278,9 +337,14 @@ impl Run {
         written.map_or_else(super::forms::lost, |()| Exit::Success)
     }
 
-    fn of_client(&self, seed: u32, waivers: Waivers) -> Result<Report, Stopped> {
+    fn of_client(
+        &self,
+        seed: u32,
+        waivers: Waivers,
+        interrupt: &Interrupt,
+    ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let judged = self.client.judge(&plan).map_err(Stopped::Usage)?;
+        let judged = self.client.judge(&plan, interrupt).map_err(Stopped::Usage)?;
         let (outcomes, left_out) = plan.finish(judged.outcomes);
         let about = self.about(judged.target, seed, waivers);
         Ok(Report::new(About { frames: judged.frames, ..about }, &outcomes, &left_out))

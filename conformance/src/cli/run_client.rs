@@ -6,8 +6,8 @@ use std::time::Duration;
 use clap::Args;
 
 use super::complain;
-use super::interrupt::Interrupt;
 use crate::clients::{self, Judged, Process, Scenario, Stage};
+use crate::interrupt::Interrupt;
 use crate::report::TargetReport;
 use crate::suite::{Case, Outcome, Plan};
 
@@ -47,6 +47,11 @@ impl ClientArgs {
         self.client.is_some() || self.client_listen.is_some()
     }
 
+    /// Whether it waits for whoever connects: a signal is one way to end that.
+    pub(super) const fn waits(&self) -> bool {
+        self.client.is_none() && self.client_listen.is_some()
+    }
+
     /// The cases to choose from.
     pub(super) fn cases(&self) -> Vec<Case> {
         match &self.client {
@@ -59,12 +64,12 @@ impl ClientArgs {
     ///
     /// # Errors
     /// Why nobody can be waited for.
-    pub(super) fn judge(&self, plan: &Plan) -> Result<OfClient, String> {
+    pub(super) fn judge(&self, plan: &Plan, interrupt: &Interrupt) -> Result<OfClient, String> {
         let addr = self.client_listen.unwrap_or(SocketAddr::from(([127, 0, 0, 1], 0)));
         let stage = Stage::new(addr).map_err(|error| format!("{addr}: {error}"))?;
         match &self.client {
             Some(command) => Ok(self.told(command, &stage, plan)),
-            None => waited(&stage),
+            None => waited(&stage, interrupt),
         }
     }
 
@@ -97,8 +102,7 @@ impl ClientArgs {
 }
 
 /// Serves who comes of itself.
-fn waited(stage: &Stage) -> Result<OfClient, String> {
-    let interrupt = Interrupt::catch().map_err(|trouble| trouble.to_string())?;
+fn waited(stage: &Stage, interrupt: &Interrupt) -> Result<OfClient, String> {
     let (addr, net_id) = (stage.addr(), stage.net_id());
     let mut told = false;
     // Asked for the first time when somebody can come.

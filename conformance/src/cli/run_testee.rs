@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::time::Duration;
 
+use crate::interrupt;
 use crate::report::TargetReport;
 use crate::suite::{Case, Outcome, Subject};
 use crate::testee::{Finding, Hello, Judged, Process, Terms, check_protocol, judge};
@@ -50,7 +51,12 @@ fn target(command: &str, hello: Option<Hello>, stderr: &str) -> TargetReport {
 pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io::Result<Exit> {
     let mut process = Process::new(command, timeout);
     let mut faults = 0_usize;
-    for Finding { what, sent, received, fault } in check_protocol(&mut process) {
+    let findings = check_protocol(&mut process);
+    if interrupt::came() {
+        writeln!(out, "Interrupted: the protocol was not gone through.")?;
+        return Ok(Exit::Nothing);
+    }
+    for Finding { what, sent, received, fault } in findings {
         match &fault {
             None => writeln!(out, "ok     {what}")?,
             Some(fault) => {

@@ -9,7 +9,6 @@ use std::time::Duration;
 use ads_cnc::ads::AmsNetId;
 
 use super::executed::{self, ExecutedTo};
-use super::interrupt::Interrupt;
 use super::model::ModelArgs;
 use super::{complain, find_defect, refuse};
 use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
@@ -17,7 +16,9 @@ use crate::cnc::{
     CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
 };
 use crate::defect;
+use crate::interrupt::Interrupt;
 use crate::net;
+use crate::session::Trouble;
 use crate::verdict::Exit;
 
 /// For the end of the help.
@@ -30,14 +31,14 @@ Examples:
   ads-cnc serve --executed 1=executed.nc
 
 It speaks AMS/TCP, as a device does, and answers at the AMS ports 551 (GEO), 552 (SDA) and 553
-(COM). A client needs no route. Ctrl-C ends it.
+(COM). A client needs no route. SIGINT (Ctrl-C), SIGTERM and SIGHUP end it.
 
 There are at most 64 connections. Each holds at most 192 KiB of requests and answers, one answer in
 the making of at most 64 KiB, and a thread's stack of 1 MiB. A frame that is longer than 64 KiB or
 does not hold together ends its own connection, as the log says. So does a new connection without
 a whole request for 10 s, and one that leaves a frame unfinished for 10 s.
 
-Exit codes: 0 ended by Ctrl-C; 2 wrong usage, and a model that is refused; 70 internal error, and an
+Exit codes: 0 ended by a signal; 2 wrong usage, and a model that is refused; 70 internal error, and an
 address that cannot be listened on.";
 
 /// So the help says.
@@ -129,7 +130,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     };
     let interrupt = match Interrupt::catch() {
         Ok(interrupt) => interrupt,
-        Err(why) => return refuse(why.exit(), why),
+        Err(error) => return refuse(Exit::Internal, Trouble::uncaught(&error)),
     };
     if let Some(defect) = &defect {
         tracing::warn!("serving with a seeded defect: {defect}");

@@ -16,6 +16,7 @@ use super::script::Script;
 use super::stage::{Stage, Turn};
 use super::{Actor, CLIENT, Defect, Own, asked, requests, scenarios, watch};
 use crate::cnc::Cnc;
+use crate::interrupt;
 use crate::suite::{Body, Case, Needs, Outcome, Record, Rule, Stop, Subject};
 use crate::verdict::Verdict;
 
@@ -40,6 +41,11 @@ pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Ju
     let place = |port| Place { addr: stage.addr(), net_id: stage.net_id(), port };
     let hello = match actor.hello(&place(552)) {
         Ok(hello) => hello,
+        Err(_) if interrupt::came() => {
+            let all = scenarios.iter().map(Scenario::case);
+            let outcomes = all.map(Outcome::interrupted).collect();
+            return Judged { hello: None, outcomes, requests };
+        }
         Err(reaction) => {
             manners.check(CLIENT, false, None, "an answer to hello", reaction);
             let why = "there was no answer to hello";
@@ -55,6 +61,10 @@ pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Ju
     let mut lost = 0_usize;
     for scenario in scenarios {
         let case = scenario.case();
+        if interrupt::came() {
+            outcomes.push(Outcome::interrupted(case));
+            continue;
+        }
         let word = scenario.action.split(' ').next().unwrap_or_default();
         if !hello.actions.iter().any(|one| one == word) {
             let note = format!("the client has no {word}");
@@ -72,6 +82,11 @@ pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Ju
             None => 552,
         };
         let played = play(actor, stage, scenario, &place(port));
+        if interrupt::came() {
+            // Whether it would have answered is not known.
+            outcomes.push(Outcome::interrupted(case));
+            continue;
+        }
         let (outcome, is_lost, count) = match played {
             Ok(played) => played,
             Err(error) => {
@@ -84,6 +99,10 @@ pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Ju
         requests = requests.saturating_add(count);
         outcomes.push(outcome);
         one_line(actor, &mut manners);
+    }
+    if interrupt::came() {
+        outcomes.push(Outcome::interrupted(of_manners(manners).case));
+        return Judged { hello: Some(hello), outcomes, requests };
     }
     if lost < LOST_MAX {
         let bye = actor.bye();

@@ -46,6 +46,7 @@ impl Process {
             Ok(line) => Ok((line, running)),
             Err(Unheard::Garbled(why) | Unheard::NoText(why)) => Err(Reaction::Garbled(why)),
             Err(Unheard::Silence) => Err(Reaction::Hung(timeout)),
+            Err(Unheard::Interrupted) => Err(Reaction::Broken("interrupted".to_owned())),
             Err(Unheard::Closed) => Err(Reaction::Died(match running.ended(GRACE) {
                 Some(status) => status.to_string(),
                 None => "it closed its stdout".to_owned(),

@@ -80,6 +80,11 @@ impl Trouble {
         }
     }
 
+    /// Signals cannot be caught.
+    pub(crate) fn uncaught(error: &io::Error) -> Self {
+        Self::Internal(format!("signals cannot be caught: {error}"))
+    }
+
     pub(super) fn unreachable(target: &Target, error: &io::Error) -> Self {
         let addr = target.addr;
         Self::NoAnswer(match error.kind() {

@@ -165,6 +165,8 @@ pub enum Stop {
     Inconclusive(String),
     /// The gate refused.
     Refused(String),
+    /// The run is to end.
+    Interrupted,
     /// The suite itself is wrong.
     Harness(String),
 }

@@ -43,6 +43,7 @@ mod still;
 mod stream;
 mod survey;
 mod texts;
+mod undo;
 mod values;
 mod variable;
 mod vectors;
@@ -68,6 +69,7 @@ pub use run::run;
 pub use select::{Plan, Selection, Unmatched, any_seed};
 pub(crate) use select::{names, order};
 pub use session::Session;
+pub use undo::Changes;
 pub(crate) use variable::holds_together;
 pub use vectors::siblings_of;
 

@@ -29,7 +29,15 @@ pub struct RequirementVerdict {
     pub judgements: Vec<Judgement>,
 }
 
+/// Why a case did not come to its end.
+const INTERRUPTED: &str = "interrupted before its end";
+
 impl Outcome {
+    /// A case that was not begun when the run was interrupted.
+    pub(crate) fn interrupted(case: Case) -> Self {
+        Self::untried(case, Verdict::Interrupted, "interrupted before it was begun")
+    }
+
     /// A case that was not tried.
     pub(crate) fn untried(case: Case, verdict: Verdict, note: impl Into<String>) -> Self {
         let verdicts = case.requirements.iter().map(|&requirement| RequirementVerdict {
@@ -53,6 +61,7 @@ impl Outcome {
             Some(Stop::NotApplicable(why)) => (Verdict::NotApplicable, Some(why.clone())),
             Some(Stop::Inconclusive(why)) => (Verdict::Inconclusive, Some(why.clone())),
             Some(Stop::Refused(why)) => (Verdict::NotRun, Some(why.clone())),
+            Some(Stop::Interrupted) => (Verdict::Interrupted, Some(INTERRUPTED.to_owned())),
             Some(Stop::Harness(why)) => (Verdict::HarnessError, Some(why.clone())),
         };
         let undeclared = judgements

@@ -13,7 +13,7 @@ use super::probe::Probe;
 use crate::values::until_nul;
 
 /// A value by one way to it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     Handle { channel: Channel, handle: Handle, indices: Vec<u32> },
     Name { channel: Channel, name: CncString },
@@ -95,6 +95,8 @@ pub(super) struct Trial<'t> {
     pub(super) what: &'t str,
     pub(super) rules: &'t [Rule],
     pub(super) is_text: bool,
+    /// By which the handle of a variable was asked for.
+    pub(super) name: Option<&'t CncString>,
 }
 
 impl Probe<'_> {
@@ -127,6 +129,7 @@ impl Probe<'_> {
             let why = format!("{} of {} bytes cannot be written", trial.what, value.len());
             return Err(Stop::Inconclusive(why));
         };
+        self.session.changes.is_now(place, Some(value));
         let exchange = self.send(write)?;
         let kept = exchange.answer().is_some_and(|answer| answer.success().is_some());
         for &rule in trial.rules {
@@ -155,9 +158,13 @@ impl Probe<'_> {
         if !self.put(trial, place, &before)? {
             return Ok(());
         }
-        let tried = self.change(trial, place, &before, &other, then);
-        let restored = self.restore(trial, place, &before);
-        tried.and(restored)
+        self.changing(
+            trial,
+            place,
+            &before,
+            |probe| probe.change(trial, place, &before, &other, then),
+            |probe| probe.restore(trial, place, &before),
+        )
     }
 
     fn change(
@@ -184,18 +191,19 @@ impl Probe<'_> {
         then(self, before, other)
     }
 
-    fn restore(&mut self, trial: &Trial<'_>, place: &Place, before: &[u8]) -> Step {
-        self.put(trial, place, before)?;
+    /// Whether the old value is there again, or one that moves by itself.
+    fn restore(&mut self, trial: &Trial<'_>, place: &Place, before: &[u8]) -> Step<bool> {
+        let taken = self.put(trial, place, before)?;
         let after = self.value_at(place)?.unwrap_or_default();
         let kept = same(&after, before, trial.is_text);
         if !kept && self.moves(place)? {
-            return Ok(());
+            return Ok(taken);
         }
         for &rule in trial.rules {
             let expected = format!("{} of {} again", Hex(before.to_vec()), trial.what);
             self.check(rule, kept, expected, Hex(after.clone()));
         }
-        Ok(())
+        Ok(kept)
     }
 
     /// Writes to what must refuse it the value that is there already; `sibling`, if there is one,

@@ -15,6 +15,7 @@ use super::record::{Checks, Record};
 use super::session::Session;
 use crate::cnc::Cnc;
 use crate::exchange::{Exchange, Fault, Violation};
+use crate::interrupt;
 use crate::profile::Claim;
 use crate::verdict::Verdict;
 
@@ -32,11 +33,13 @@ pub struct Probe<'s> {
     record: Record,
     last: Option<Evidence>,
     asked: usize,
+    /// Whether it was kept from asking, as the run is to end.
+    pub(super) interrupted: bool,
 }
 
 impl<'s> Probe<'s> {
     pub(super) fn new(session: &'s mut Session) -> Self {
-        Self { session, record: Record::default(), last: None, asked: 0 }
+        Self { session, record: Record::default(), last: None, asked: 0, interrupted: false }
     }
 
     pub(super) fn into_findings(self) -> (Vec<Judgement>, usize) {
@@ -129,6 +132,10 @@ impl<'s> Probe<'s> {
         expected: impl Display,
         found: impl Display,
     ) {
+        if self.interrupted {
+            // What was not asked for any more is no fault of the target.
+            return;
+        }
         let last = &self.last;
         self.record.add(rule, verdict, expected, found, || last.clone());
     }
@@ -157,7 +164,11 @@ impl<'s> Probe<'s> {
     }
 
     /// Whether there is a target left.
-    pub(super) fn target(&self) -> Step {
+    pub(super) fn target(&mut self) -> Step {
+        if interrupt::came() {
+            self.interrupted = true;
+            return Err(Stop::Interrupted);
+        }
         match &self.session.gone {
             Some(why) => Err(Stop::Inconclusive(format!("no target left: {why}"))),
             None => Ok(()),

@@ -1,11 +1,14 @@
 //! Running cases.
 
+use std::panic::{self, AssertUnwindSafe};
+
 use super::case::{Body, Case, Needs, Stop, Subject};
 use super::outcome::Outcome;
 use super::probe::Probe;
 use super::session::Session;
 use super::{printed, replay};
 use crate::defect::Seed;
+use crate::interrupt;
 use crate::testee::{self, Terms};
 use crate::verdict::Verdict;
 
@@ -33,6 +36,9 @@ pub fn run(
         }
     };
     outcomes.extend(target.into_iter().map(|case| one(case, session.as_deref_mut())));
+    if let Some(session) = session {
+        Probe::new(session).put_back_rest();
+    }
     outcomes
 }
 
@@ -40,6 +46,9 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
     let Some(session) = session else {
         return Outcome::untried(case, Verdict::NotRun, "no target");
     };
+    if interrupt::came() {
+        return Outcome::interrupted(case);
+    }
     // Frames are judged by what there was of them, whatever became of the target.
     if let Some(why) = session.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
         return Outcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
@@ -48,15 +57,90 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
     if let Some((verdict, why)) = case.needs.unmet(gate, &session.profile, inside) {
         return Outcome::untried(case, verdict, why);
     }
+    let writes = matches!(case.needs, Needs::Writes | Needs::MalformedWrites);
+    if writes && session.changes.any_given_up() {
+        let note = "writes: nothing more is written when a value could not be restored";
+        return Outcome::untried(case, Verdict::NotRun, note);
+    }
     let mut probe = Probe::new(session);
-    let step = match case.body {
+    let begun = panic::catch_unwind(AssertUnwindSafe(|| match case.body {
         Body::Probe(body) => body(&mut probe),
         Body::Printed(vector) => printed::ask(&mut probe, vector),
         Body::Sequence(sequence) => replay::run(&mut probe, sequence),
         Body::Vector(_) | Body::Manners | Body::Client | Body::Traffic => {
             Err(Stop::Harness("this case needs no target".to_owned()))
         }
+    }));
+    let step = match begun {
+        Ok(Ok(())) if probe.interrupted => Err(Stop::Interrupted),
+        Ok(step) => step,
+        // Its message is on stderr.
+        Err(_) => Err(Stop::Harness("the case panicked".to_owned())),
     };
+    let step = step.and(probe.put_back());
     let (judgements, checks) = probe.into_findings();
     Outcome::tried(case, judgements, checks, step.err())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use ads_cnc::CncString;
+    use ads_cnc::address::Channel;
+
+    use super::*;
+    use crate::client::{Client, Target};
+    use crate::cnc::{Cnc, NET_ID, Server};
+    use crate::gate::{Allowed, Gate};
+    use crate::net;
+    use crate::profile::Profile;
+    use crate::suite::case::Step;
+    use crate::suite::place::{Place, Trial};
+
+    const NAME: &str = "V.E.vartest";
+
+    fn place() -> Place {
+        let name = NAME.parse::<CncString>().unwrap();
+        Place::Name { channel: Channel::new(1).unwrap(), name }
+    }
+
+    fn panics(probe: &mut Probe<'_>) -> Step {
+        let trial = Trial { what: NAME, rules: &[], is_text: false, name: None };
+        probe.try_write(&trial, &place(), |probe, before, new| {
+            assert_eq!(probe.value_at(&place()).unwrap().as_deref(), Some(new));
+            assert_ne!(before, new);
+            panic!("in a case")
+        })
+    }
+
+    /// A case that panics has changed nothing in the end, and the next one is run.
+    #[test]
+    fn what_a_panic_leaves_is_restored() {
+        let listener = net::listen(([127, 0, 0, 1], 0).into()).unwrap();
+        let cnc = Arc::new(Cnc::with_default_model().unwrap());
+        let server = Server::start(listener, cnc).unwrap();
+        let file = format!(
+            "target = \"{NET_ID}\"\nexpires = 2999-01-01T00:00:00Z\n\
+             [[variable]]\nchannel = 1\nname = \"{NAME}\"\n"
+        );
+        let gate = Gate::queries().with_allowed(Some(Allowed::from_toml(&file).unwrap()));
+        let client = Client::connect(Target::local(server.addr(), NET_ID), gate).unwrap();
+        let mut session = Session::new(client, Profile::DEVICE);
+        let before = Probe::new(&mut session).value_at(&place()).unwrap();
+        let case = |body: fn(&mut Probe<'_>) -> Step| Case {
+            id: "write-and-panic".to_owned(),
+            title: String::new(),
+            subject: Subject::Target,
+            requirements: vec!["VAR-13"],
+            needs: Needs::Writes,
+            body: Body::Probe(body),
+        };
+        let cases = vec![case(panics), case(|probe| probe.value_at(&place()).map(drop))];
+        let outcomes = run(cases, Some(&mut session), None, 1);
+        let verdicts: Vec<Verdict> = outcomes.iter().map(Outcome::verdict).collect();
+        assert_eq!(verdicts, [Verdict::HarnessError, Verdict::NotObserved]);
+        assert_eq!(Probe::new(&mut session).value_at(&place()).unwrap(), before);
+        assert!(session.changes().left().is_empty());
+    }
 }

@@ -8,6 +8,7 @@ use ads_cnc::operation::Service;
 
 use super::case::Evidence;
 use super::inventory::Inventory;
+use super::undo::Changes;
 use crate::client::Client;
 use crate::cnc::Cnc;
 use crate::exchange::Violation;
@@ -38,6 +39,8 @@ pub struct Session {
     pub violations: Vec<(Violation, Evidence)>,
     /// What came of requests that had to be refused.
     pub(super) refusals: Refusals,
+    /// Values that are not as they were.
+    pub(super) changes: Changes,
 }
 
 /// How a target refuses.
@@ -64,7 +67,19 @@ impl Session {
             gone: None,
             violations: Vec::new(),
             refusals: Refusals::default(),
+            changes: Changes::default(),
         }
+    }
+
+    /// With a list of what is changed that others look at too.
+    #[must_use]
+    pub fn with_changes(self, changes: Changes) -> Self {
+        Self { changes, ..self }
+    }
+
+    /// What is not as it was.
+    pub const fn changes(&self) -> &Changes {
+        &self.changes
     }
 
     /// With the CNC that is asked, as it is in this process: some cases do to it from within what

@@ -63,27 +63,38 @@ fn written(probe: &mut Probe<'_>) -> Step {
             continue;
         };
         any = true;
-        let all: Vec<u8> = (0x80..=0xFF).filter(|byte| !UNASSIGNED.contains(byte)).collect();
-        let mut judged = Ok(());
-        for (bytes, rule) in [(&all[..], Rule::from("GEN-3")), (&UNASSIGNED, assumed("GEN-3"))] {
-            // One byte is left for the NUL.
-            for piece in bytes.chunks(before.len().saturating_sub(1)) {
-                // As long as what was there: a text of another length may be refused.
-                let mut value = piece.to_vec();
-                value.resize(before.len(), 0);
-                let at = (&place, what.as_str());
-                judged = judged.and_then(|()| is_read_again(probe, at, rule, &value));
-            }
-        }
         let rules = [Rule::from("GEN-3")];
-        let trial = Trial { what: &what, rules: &rules, is_text: true };
-        probe.put(&trial, &place, &before)?;
-        judged?;
+        let trial = Trial { what: &what, rules: &rules, is_text: true, name: None };
+        probe.changing(
+            &trial,
+            &place,
+            &before,
+            |probe| characters(probe, &place, &what, before.len()),
+            |probe| {
+                let taken = probe.put(&trial, &place, &before)?;
+                Ok(taken && probe.value_at(&place)?.is_some_and(|read| same(&read, &before, true)))
+            },
+        )?;
     }
     match any {
         true => Ok(()),
         false => Err(Stop::NotApplicable("no text may be written".to_owned())),
     }
+}
+
+/// Writes all characters, as many as fit each time.
+fn characters(probe: &mut Probe<'_>, place: &Place, what: &str, size: usize) -> Step {
+    let all: Vec<u8> = (0x80..=0xFF).filter(|byte| !UNASSIGNED.contains(byte)).collect();
+    for (bytes, rule) in [(&all[..], Rule::from("GEN-3")), (&UNASSIGNED, assumed("GEN-3"))] {
+        // One byte is left for the NUL.
+        for piece in bytes.chunks(size.saturating_sub(1)) {
+            // As long as what was there: a text of another length may be refused.
+            let mut value = piece.to_vec();
+            value.resize(size, 0);
+            is_read_again(probe, (place, what), rule, &value)?;
+        }
+    }
+    Ok(())
 }
 
 fn is_read_again(
@@ -94,7 +105,7 @@ fn is_read_again(
 ) -> Step {
     // Which texts are taken is documented nowhere.
     let taken = [assumed("GEN-3")];
-    if !probe.put(&Trial { what, rules: &taken, is_text: true }, place, value)? {
+    if !probe.put(&Trial { what, rules: &taken, is_text: true, name: None }, place, value)? {
         return Ok(());
     }
     let read = probe.value_at(place)?.unwrap_or_default();

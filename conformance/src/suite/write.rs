@@ -86,9 +86,9 @@ pub(super) fn each(
     }
 }
 
-pub(super) fn trial<'t>(variable: &Description, what: &'t str, rules: &'t [Rule]) -> Trial<'t> {
+pub(super) fn trial<'t>(variable: &'t Description, what: &'t str, rules: &'t [Rule]) -> Trial<'t> {
     let is_text = variable.var_type == VariableType::STRING;
-    Trial { what, rules, is_text }
+    Trial { what, rules, is_text, name: Some(&variable.name.text) }
 }
 
 /// The handle of a name, asked for by it: a file that names it allows the handle then.
@@ -189,7 +189,7 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
         if probe.may_write(&place, &what)? {
             any = true;
             let rules = [assumed(rule)];
-            let trial = Trial { what: &what, rules: &rules, is_text: false };
+            let trial = Trial { what: &what, rules: &rules, is_text: false, name: None };
             probe.try_write(&trial, &place, |probe, _, new| {
                 // What is taken is there, though.
                 let read = probe.value_at(&place)?.unwrap_or_default();

@@ -198,6 +198,7 @@ fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[One]) {
 /// Whether a value is taken.
 pub(super) fn write(probe: &mut Probe<'_>, place: &Place, value: &[u8]) -> Step<bool> {
     let Some(write) = place.write(value).ok().filter(is_sendable) else { return Ok(false) };
+    probe.session.changes.is_now(place, Some(value));
     let exchange = probe.send(write)?;
     Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
 }

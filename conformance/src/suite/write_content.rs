@@ -108,7 +108,7 @@ fn objects(probe: &mut Probe<'_>) -> Step {
         let what = object.name.to_string();
         let is_text = object.type_name.as_cnc_str() == "STRING";
         let rules = ["COM-5", "COM-2"].map(Rule::from);
-        let trial = Trial { what: &what, rules: &rules, is_text };
+        let trial = Trial { what: &what, rules: &rules, is_text, name: None };
         probe.try_write(&trial, &place_of(object), |_, _, _| Ok(()))?;
     }
     nothing(!all.is_empty())
@@ -122,7 +122,7 @@ fn read_only_objects(probe: &mut Probe<'_>) -> Step {
     for object in &all {
         let what = object.name.to_string();
         let rules = ["COM-2".into()];
-        let trial = Trial { what: &what, rules: &rules, is_text: false };
+        let trial = Trial { what: &what, rules: &rules, is_text: false, name: None };
         probe.write_refused(&trial, &place_of(object), known.as_ref())?;
     }
     nothing(!all.is_empty())
@@ -182,7 +182,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     for one in &all {
         let twins = twins(probe, one)?;
         let rules = ["SDA-9".into()];
-        let trial = Trial { what: &one.what, rules: &rules, is_text: one.is_text };
+        let trial = Trial { what: &one.what, rules: &rules, is_text: one.is_text, name: None };
         let mut taken = Vec::new();
         probe.try_write(&trial, &one.place, |probe, _, new| {
             for (rule, twin, place, before) in &twins {
@@ -279,7 +279,7 @@ fn read_only_elements(probe: &mut Probe<'_>) -> Step {
     let all = flagged(probe, false)?;
     for Named { place, what, .. } in &all {
         let rules = ["SDA-9".into()];
-        let trial = Trial { what, rules: &rules, is_text: false };
+        let trial = Trial { what, rules: &rules, is_text: false, name: None };
         probe.write_refused(&trial, place, known.as_ref())?;
     }
     nothing(!all.is_empty())

@@ -5,7 +5,7 @@ use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Step, online};
 use super::declare;
-use super::place::Place;
+use super::place::{Place, Trial};
 use super::probe::Probe;
 use super::write::each;
 use super::write_all::write;
@@ -39,12 +39,21 @@ fn texts(probe: &mut Probe<'_>) -> Step {
                 continue;
             };
             any = true;
-            let tried = of_lengths(probe, id, &place, (&name, variable.size));
-            write(probe, &place, &before)?;
-            let after = probe.value_at(&place)?.unwrap_or_default();
-            let kept = until_nul(&after) == until_nul(&before);
-            probe.check(id, kept, format!("{} of {name} again", Hex(before)), Hex(after));
-            tried?;
+            let what = name.to_string();
+            let trial = Trial { what: &what, rules: &[], is_text: true, name: Some(&name) };
+            probe.changing(
+                &trial,
+                &place,
+                &before,
+                |probe| of_lengths(probe, id, &place, (&name, variable.size)),
+                |probe| {
+                    write(probe, &place, &before)?;
+                    let after = probe.value_at(&place)?.unwrap_or_default();
+                    let kept = until_nul(&after) == until_nul(&before);
+                    let expected = format!("{} of {name} again", Hex(before.clone()));
+                    Ok(probe.check(id, kept, expected, Hex(after)))
+                },
+            )?;
         }
         Ok(any)
     })

@@ -79,7 +79,7 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         any = true;
         let rules = [Rule::from("ADR-12")];
         let is_text = object.type_name.as_cnc_str() == "STRING";
-        let trial = Trial { what: &format!("{what} by index"), rules: &rules, is_text };
+        let trial = Trial { what: &format!("{what} by index"), rules: &rules, is_text, name: None };
         probe.try_write(&trial, &place, |probe, _, _| {
             let (read, number) = (probe.value_at(&place)?, probe.value_at(&logical)?);
             let same = number == read || probe.value_at(&place)? != read;
@@ -110,7 +110,7 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
         let (Some(element), Place::Element { length, .. }) = (twin, place) else { continue };
         any = true;
         let twin = Place::Element { element, length: *length };
-        let trial = Trial { what, rules: &[], is_text: *is_text };
+        let trial = Trial { what, rules: &[], is_text: *is_text, name: None };
         probe.try_write(&trial, place, |probe, _, new| {
             let (before, read) = (probe.value_at(place)?, probe.value_at(&twin)?);
             let stood = probe.value_at(place)? == before && before.as_deref() == Some(new);
@@ -135,7 +135,7 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
             any = true;
             let (what, rules) = (name.to_string(), [Rule::from("VAR-18")]);
             let place = Place::Name { channel, name };
-            let trial = Trial { what: &what, rules: &rules, is_text: false };
+            let trial = Trial { what: &what, rules: &rules, is_text: false, name: None };
             probe.try_write(&trial, &place, |_, _, _| Ok(()))?;
         }
     }

@@ -6,7 +6,8 @@ use super::plan::{Asked, Purpose, plan};
 use super::tell::describe;
 use super::view::{Reactions, View};
 use super::{Reaction, Testee};
-use crate::suite::{self, Case, Outcome, Subject};
+use crate::interrupt;
+use crate::suite::{self, Case, Outcome, Stop, Subject};
 use crate::verdict::Verdict;
 
 /// What the protocol asks of a testee, beside the requirements of the catalogue.
@@ -46,6 +47,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     cases.iter_mut().for_each(|case| case.subject = terms.subject);
     let hello = match testee.hello() {
         Ok(hello) => hello,
+        Err(_) if interrupt::came() => return interrupted(cases),
         Err(reaction) => return without_hello(cases, &reaction, terms.subject),
     };
     let capabilities = &hello.capabilities;
@@ -71,6 +73,11 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     let (mut lost, mut restarts, mut asked, mut gone) = (0_usize, 0_usize, 0_usize, None);
     for Asked { purpose, question } in plan(&cases, capabilities, &edition, terms.seed) {
         let reaction = testee.ask(&question);
+        if interrupt::came() {
+            // Whether it would have answered is not known.
+            gone = Some(Stop::Interrupted);
+            break;
+        }
         asked = asked.saturating_add(1);
         if matches!(reaction, Reaction::Crashed(_) | Reaction::Silent(_) | Reaction::Broken(_)) {
             (lost, restarts) = (lost.saturating_add(1), restarts.saturating_add(1));
@@ -85,7 +92,8 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             Purpose::MadeUp => manners.made_up(&question, &reaction),
         }
         if lost >= LOST_MAX {
-            gone = Some(format!("{LOST_MAX} questions in a row without an answer"));
+            let why = format!("{LOST_MAX} questions in a row without an answer");
+            gone = Some(Stop::Inconclusive(format!("the testee is gone: {why}")));
             break;
         }
     }
@@ -98,9 +106,18 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     let mut outcomes: Vec<Outcome> = (0..wanted).filter_map(|place| view.outcome(place)).collect();
     // Our own codec is asked without a protocol in between.
     if terms.subject != Subject::Codec {
-        outcomes.push(manners.outcome(terms.subject));
+        let manners = manners.outcome(terms.subject);
+        outcomes.push(match interrupt::came() {
+            true => Outcome::interrupted(manners.case),
+            false => manners,
+        });
     }
     Judged { hello: Some(hello), outcomes, asked, restarts }
+}
+
+fn interrupted(cases: Vec<Case>) -> Judged {
+    let outcomes = cases.into_iter().map(Outcome::interrupted).collect();
+    Judged { hello: None, outcomes, asked: 0, restarts: 0 }
 }
 
 fn without_hello(cases: Vec<Case>, reaction: &Reaction, subject: Subject) -> Judged {

@@ -5,6 +5,7 @@ use std::time::Duration;
 use super::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use super::{Reaction, Testee};
 use crate::child::{self, START, Spoken, Stderr, Unheard, cut, front};
+use crate::interrupt;
 
 /// How long it has for ending after `bye`.
 const GRACE: Duration = Duration::from_secs(2);
@@ -52,6 +53,9 @@ impl Process {
     }
 
     fn start(&mut self) -> Result<(), Reaction> {
+        if interrupt::came() {
+            return Err(Reaction::Broken("interrupted".to_owned()));
+        }
         self.starts = self.starts.saturating_add(1);
         let started = Spoken::start(child::shell(&self.line), &self.stderr);
         let running =
@@ -81,6 +85,10 @@ impl Process {
             Err(Unheard::Silence) => {
                 self.running = None;
                 Err(Reaction::Silent(timeout))
+            }
+            Err(Unheard::Interrupted) => {
+                self.running = None;
+                Err(Reaction::Broken("interrupted".to_owned()))
             }
             Err(Unheard::Closed) => Err(Reaction::Crashed(self.ended())),
         }

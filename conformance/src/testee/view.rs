@@ -24,7 +24,8 @@ pub(super) struct View<'v> {
     pub(super) hello: &'v Hello,
     pub(super) edition: String,
     pub(super) terms: Terms<'v>,
-    pub(super) gone: Option<String>,
+    /// Why not everything was asked.
+    pub(super) gone: Option<Stop>,
 }
 
 /// What came of one question.
@@ -54,11 +55,15 @@ impl View<'_> {
         let mut judgements = Vec::new();
         for question in &claimed {
             let Some(reaction) = self.reactions.get(&(place, question.op.clone())) else {
-                let why = self.gone.clone().unwrap_or_default();
-                stop = Some(Stop::Inconclusive(format!("the testee is gone: {why}")));
+                stop.clone_from(&self.gone);
                 continue;
             };
             let check = self.check(case, question, reaction);
+            if check.verdict == Verdict::Vacuous && self.gone.is_some() {
+                // What it is held against may not have been asked.
+                stop.clone_from(&self.gone);
+                continue;
+            }
             judgements.extend(case.requirements.iter().map(|&id| self.judgement(id, &check)));
         }
         Some(Outcome::tried(case.clone(), judgements, claimed.len(), stop))

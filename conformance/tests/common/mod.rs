@@ -5,6 +5,7 @@
 pub(crate) mod fake;
 pub(crate) mod file;
 pub(crate) mod harmless;
+pub(crate) mod proxy;
 pub(crate) mod task;
 
 use std::io::{BufRead as _, BufReader};
@@ -65,4 +66,12 @@ pub(crate) fn connect(addr: std::net::SocketAddr) -> TcpStream {
     stream.set_nodelay(true).unwrap();
     stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
     stream
+}
+
+/// Sends a signal by its name, as `TERM`.
+#[cfg(unix)]
+pub(crate) fn signal(name: &str, process: u32) {
+    let option = format!("-{name}");
+    let sent = Command::new("kill").args([&option, &process.to_string()]).status().unwrap();
+    assert!(sent.success(), "SIG{name} to {process}");
 }

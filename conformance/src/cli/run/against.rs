@@ -12,7 +12,7 @@ use crate::defect::Seed;
 use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
-use crate::suite::{self, Needs, Outcome, Plan, RequirementVerdict, Session};
+use crate::suite::{self, Changes, Needs, Outcome, Plan, RequirementVerdict, Session};
 use crate::waivers::Waivers;
 
 impl Run {
@@ -21,6 +21,7 @@ impl Run {
         seed: u32,
         waivers: Waivers,
         profile: Profile,
+        changes: &Changes,
     ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
         let target = self.target.clone().with_timeout(profile.timeout);
@@ -38,7 +39,7 @@ impl Run {
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
-        let session = Session::new(client, profile);
+        let session = Session::new(client, profile).with_changes(changes.clone());
         let target = TargetReport {
             name: "device".to_owned(),
             address: Some(target.addr.to_string()),
@@ -104,8 +105,10 @@ impl Run {
             );
         }
         let (outcomes, left_out) = plan.finish(outcomes);
+        let left_changed = session.changes().left();
         let (frames, profile) = (session.frames, Some(session.profile));
-        Ok(Report::new(About { frames, profile, ..about }, &outcomes, &left_out))
+        let about = About { frames, profile, left_changed, ..about };
+        Ok(Report::new(about, &outcomes, &left_out))
     }
 
     fn lost_capture(&self, error: &std::io::Error) -> Trouble {

@@ -1,7 +1,8 @@
 //! Runs a command for a request.
 
 use std::io::{Read, Write as _};
-use std::process::{self, Child, Stdio};
+use std::process::{self, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
@@ -10,16 +11,20 @@ use std::time::{Duration, Instant};
 use ads_cnc::CncStr;
 use ads_cnc::service::ServiceId;
 
-use super::super::interrupt::Interrupt;
 use super::response::{Answer, Ended, KEPT, answer};
 use super::utf8;
-use crate::child::{apart, end};
+use crate::child::Running;
+use crate::interrupt::Interrupt;
 
 /// How long stdout may stay open when the command has ended: what it has started may hold it.
 const GRACE: Duration = Duration::from_millis(500);
 
 /// How often it looks whether the command has ended.
 const LOOK: Duration = Duration::from_millis(5);
+
+/// How many processes may hold the stdout of commands that have ended: each takes a thread. Only one
+/// that has made a session of its own outlives its command.
+const HOLDERS_MAX: usize = 8;
 
 /// What is run for each request.
 pub(super) struct Command<'s> {
@@ -28,6 +33,8 @@ pub(super) struct Command<'s> {
     pub(super) channel: u8,
     pub(super) limit: Duration,
     pub(super) interrupt: &'s Interrupt,
+    /// Threads that read the stdout of a command.
+    pub(super) readers: Arc<AtomicUsize>,
 }
 
 impl Command<'_> {
@@ -36,17 +43,21 @@ impl Command<'_> {
         let started = Instant::now();
         match self.start(uuid, state) {
             Err(why) => answer(&Ended::NotStarted(why), &[]),
-            Ok(mut child) => {
-                let stdout = Capture::start(&mut child);
-                if let Some(mut stdin) = child.stdin.take() {
+            Ok(child) => {
+                let stdout = Capture::start(&child, &self.readers);
+                if let Some(mut stdin) = child.take_stdin() {
                     // A command need not read it. It fits every pipe.
                     let _unread = writeln!(stdin, "{}", utf8(request));
                 }
-                let ended = self.wait(&mut child, started);
-                let (stdout, closed) = stdout.end(&ended);
-                let mut answer = answer(&ended, &stdout);
+                let ended = self.wait(&child, started);
+                let closed = !matches!(ended, Ended::Exited(_)) || stdout.closes();
+                // With all that it has started and that still runs.
+                drop(child);
+                stdout.closes();
+                let mut answer = answer(&ended, &stdout.kept());
                 if !closed {
-                    let warning = "something that the command has started still has its stdout";
+                    let warning = "a process that the command has started still had its stdout, \
+                                   and was ended unless it has a session of its own";
                     answer.warnings.push(warning.to_owned());
                 }
                 answer
@@ -54,7 +65,13 @@ impl Command<'_> {
         }
     }
 
-    fn start(&self, uuid: ServiceId, state: u32) -> Result<Child, String> {
+    fn start(&self, uuid: ServiceId, state: u32) -> Result<Running, String> {
+        if self.readers.load(Ordering::SeqCst) >= HOLDERS_MAX {
+            return Err(format!(
+                "{HOLDERS_MAX} processes that earlier commands have started still have their \
+                 stdout; end them"
+            ));
+        }
         let (program, arguments) = self.words.split_first().ok_or("there is none")?;
         let mut command = process::Command::new(program);
         command
@@ -65,27 +82,21 @@ impl Command<'_> {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::inherit());
-        apart(&mut command);
-        command.spawn().map_err(|error| format!("{program}: {error}"))
+        Running::start(command).map_err(|error| format!("{program}: {error}"))
     }
 
-    fn wait(&self, child: &mut Child, started: Instant) -> Ended {
+    fn wait(&self, child: &Running, started: Instant) -> Ended {
         loop {
             match child.try_wait() {
                 Ok(Some(status)) => return Ended::Exited(status),
                 Ok(None) => {}
-                Err(error) => {
-                    end(child);
-                    return Ended::NotStarted(error.to_string());
-                }
+                Err(error) => return Ended::NotStarted(error.to_string()),
             }
             let left = self.limit.saturating_sub(started.elapsed());
             if left.is_zero() {
-                end(child);
                 return Ended::TimeOver(self.limit);
             }
             if self.interrupt.sleep(left.min(LOOK)) {
-                end(child);
                 return Ended::Interrupted;
             }
         }
@@ -99,26 +110,33 @@ struct Capture {
 }
 
 impl Capture {
-    fn start(child: &mut Child) -> Self {
+    fn start(child: &Running, readers: &Arc<AtomicUsize>) -> Self {
         let (tell, closed) = mpsc::channel::<()>();
         let kept = Arc::new(Mutex::new(Vec::new()));
-        if let Some(stdout) = child.stdout.take() {
-            let keep = Arc::clone(&kept);
+        if let Some(stdout) = child.take_stdout() {
+            let (keep, reading) = (Arc::clone(&kept), Arc::clone(readers));
+            readers.fetch_add(1, Ordering::SeqCst);
             let read = move || {
                 read(stdout, &keep);
+                reading.fetch_sub(1, Ordering::SeqCst);
                 drop(tell);
             };
-            // Without a thread there is no output, which the answer shows.
-            let _thread = thread::Builder::new().name("stdout".to_owned()).spawn(read);
+            if thread::Builder::new().name("stdout".to_owned()).spawn(read).is_err() {
+                // There is no output, which the answer shows.
+                readers.fetch_sub(1, Ordering::SeqCst);
+            }
         }
         Self { kept, closed }
     }
 
-    /// What was written, and whether that is all.
-    fn end(self, ended: &Ended) -> (Vec<u8>, bool) {
-        let open = self.closed.recv_timeout(GRACE) == Err(RecvTimeoutError::Timeout);
-        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        (kept, !open || !matches!(ended, Ended::Exited(_)))
+    /// Whether nobody has it open any more within [`GRACE`], and all that was written is kept.
+    fn closes(&self) -> bool {
+        self.closed.recv_timeout(GRACE) != Err(RecvTimeoutError::Timeout)
+    }
+
+    /// What was written.
+    fn kept(&self) -> Vec<u8> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }
 

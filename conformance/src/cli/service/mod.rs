@@ -4,6 +4,7 @@ mod command;
 mod response;
 
 use std::io::{self, Write as _};
+use std::sync::Arc;
 use std::time::Duration;
 
 use ads_cnc::CncStr;
@@ -13,11 +14,11 @@ use ads_cnc::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable};
 use clap::Args;
 
 use super::complain;
-use super::interrupt::Interrupt;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
 use crate::cnc::program::{Repeat, Script, ScriptConfig};
 use crate::duration::some_time;
 use crate::gate::Entry;
+use crate::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 use crate::verdict::Exit;
 use command::Command;
@@ -88,16 +89,19 @@ The response state
   1         exit code 0
   2, 3, …   this exit code
   1001      exit code 1, which would look like success
-  1002      the time limit was over; the command was ended, on Unix with what it has started
-  1003      ended by a signal, or by Ctrl-C here
-  1004      the command could not be started
+  1002      the time limit was over; the command was ended
+  1003      ended by a signal, or as the service was ended
+  1004      the command could not be started, or 8 processes that earlier ones have started still have
+            their stdout
   A response of these that would be empty says why.
 
-An answer that comes when its request is gone is dropped. Ctrl-C ends; a command that runs is ended
-and answered for. When the connection is lost it ends with an error: to read, it connects once more,
+What a command has started ends with it, unless it has made a session of its own.
+
+An answer that comes when its request is gone is dropped. SIGINT (Ctrl-C), SIGTERM and SIGHUP end the
+service; a command that runs is ended and answered for. A second signal ends it at once. When the connection is lost it ends with an error: to read, it connects once more,
 but a write whose answer did not come may have arrived.
 
-Exit codes: 0 ended by Ctrl-C, --once or --answers; 1 the CNC refuses; 2 wrong usage; 3 no
+Exit codes: 0 ended by a signal, --once or --answers; 1 the CNC refuses; 2 wrong usage; 3 no
 connection, or lost; 4 refused for safety; 70 internal error.";
 
 fn uuid(text: &str) -> Result<ServiceId, String> {
@@ -164,7 +168,7 @@ impl Service {
             writes.try_for_each(|variable| session.check(&write(channel, variable, &[0; 4])?))
         };
         self.target.ask_gate(check)?;
-        let interrupt = Interrupt::catch()?;
+        let interrupt = Interrupt::catch().map_err(|error| Trouble::uncaught(&error))?;
         let mut session = self.open()?;
         check(&session)?;
         let mut serving = Serving {
@@ -174,6 +178,7 @@ impl Service {
                 channel: channel.number(),
                 limit: self.time_limit,
                 interrupt: &interrupt,
+                readers: Arc::default(),
             },
             channel,
             served: None,

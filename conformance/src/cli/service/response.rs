@@ -33,7 +33,7 @@ pub(super) enum Ended {
     Exited(ExitStatus),
     /// It took longer than this.
     TimeOver(Duration),
-    /// Ctrl-C.
+    /// A signal to this process.
     Interrupted,
     /// It could not be started.
     NotStarted(String),

@@ -15,10 +15,10 @@ use ads_cnc::streaming::{NcText, Sender};
 use clap::Args;
 
 use super::complain;
-use super::interrupt::Interrupt;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
 use crate::duration::duration;
 use crate::gate::Entry;
+use crate::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 use crate::verdict::Exit;
 use check::Checked;
@@ -80,11 +80,11 @@ not have run yet: wait until it has before the next program. A line that cannot 
 So is what ends streaming, a loop or a jump back; as the check may be wrong about it, --force sends
 it. What would be lost or left over is warned of.
 
-Ctrl-C ends between two packets. It does not stop the machine, which runs what it has; nor is a
-packet sent twice whose answer did not come.
+SIGINT (Ctrl-C), SIGTERM and SIGHUP end it between two packets. That does not stop the machine, which
+runs what it has; nor is a packet sent twice whose answer did not come.
 
 Exit codes: 0 all of it was taken; 1 the text is faulty, or the CNC refuses it; 2 wrong usage;
-3 unfinished: Ctrl-C, no connection or no answer; 4 refused for safety; 70 internal error.
+3 unfinished: a signal, no connection or no answer; 4 refused for safety; 70 internal error.
 Once it sends, stdout says which lines were taken, and which were not if it ends before its time.";
 
 impl Stream {
@@ -143,7 +143,7 @@ impl Stream {
         let write =
             WriteProgramStream::new(self.channel.channel, first.packet().unwrap_or_default());
         self.target.ask_gate(|session| session.check(&write))?;
-        let interrupt = Interrupt::catch()?;
+        let interrupt = Interrupt::catch().map_err(|error| Trouble::uncaught(&error))?;
         let mut session = self.open()?;
         let mut sending = Sending {
             sender: Sender::new(text),

@@ -8,8 +8,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::{Ack, Sender};
 
-use super::super::interrupt::Interrupt;
 use super::progress::{Progress, Rate, Size};
+use crate::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 
 /// What happens when a packet is refused for now.
@@ -22,7 +22,7 @@ pub(super) struct Retry {
 pub(super) enum End {
     /// All of it was taken.
     Done,
-    /// Ctrl-C.
+    /// A signal.
     Interrupted,
     /// A packet was refused for now, once too often.
     GivenUp(AdsError),

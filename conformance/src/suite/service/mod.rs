@@ -14,6 +14,7 @@ use ads_cnc_vectors::Hex;
 use crate::profile::{Claim, Section};
 use crate::suite::case::{Case, Rule, Step, Stop, assumed};
 use crate::suite::declare;
+use crate::suite::place::{Place, Trial, same};
 use crate::suite::probe::{Probe, harness};
 use crate::suite::stream::heard;
 use crate::values::until_nul;
@@ -196,10 +197,10 @@ fn response(probe: &mut Probe<'_>) -> Step {
             return Err(Stop::Inconclusive(why));
         }
         let before = (get(probe, channel, Response)?, get(probe, channel, ResponseState)?);
-        let tried = answer(probe, channel);
-        put(probe, channel, Response, &before.0)?;
-        put(probe, channel, ResponseState, &before.1)?;
-        tried?;
+        // The response is restored first: the state tells a program that it is there.
+        restoring(probe, (channel, ResponseState, &before.1), |probe| {
+            restoring(probe, (channel, Response, &before.0), |probe| answer(probe, channel))
+        })?;
         let after = (get(probe, channel, Response)?, get(probe, channel, ResponseState)?);
         let same = (until_nul(&after.0), &after.1) == (until_nul(&before.0), &before.1);
         probe.check("SVC-1", same, "the old response again", format!("{after:02x?}"));
@@ -208,6 +209,23 @@ fn response(probe: &mut Probe<'_>) -> Step {
         true => Ok(()),
         false => Err(Stop::NotApplicable("no service may be answered for".to_owned())),
     }
+}
+
+/// Does what changes a variable, and restores what was there.
+fn restoring(
+    probe: &mut Probe<'_>,
+    (channel, variable, was): (Channel, ServiceVariable, &[u8]),
+    change: impl FnOnce(&mut Probe<'_>) -> Step,
+) -> Step {
+    let name = variable.name().parse().map_err(harness)?;
+    let place = Place::Name { channel, name };
+    let is_text = variable.var_type() == VariableType::STRING;
+    let what = variable.name().to_string();
+    let trial = Trial { what: &what, rules: &[], is_text, name: None };
+    probe.changing(&trial, &place, was, change, |probe| {
+        put(probe, channel, variable, was)?;
+        Ok(same(&get(probe, channel, variable)?, was, is_text))
+    })
 }
 
 /// As a service does, though nobody asked.

@@ -84,10 +84,14 @@ fn at(
         None => Ok(None),
     };
     let (before, mut meanwhile) = (look(probe)?, None);
-    probe.try_write(&Trial { what, rules: &rules, is_text }, place, |probe, _, _| {
-        meanwhile = look(probe)?;
-        Ok(())
-    })?;
+    probe.try_write(
+        &Trial { what, rules: &rules, is_text, name: None },
+        place,
+        |probe, _, _| {
+            meanwhile = look(probe)?;
+            Ok(())
+        },
+    )?;
     let after = look(probe)?;
     // One that moves of itself says nothing.
     if let (Some(before), Some(meanwhile)) = (&before, meanwhile)

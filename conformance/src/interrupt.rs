@@ -1,0 +1,81 @@
+//! Signals that end a process - SIGINT, SIGTERM and SIGHUP, on Windows the events of a console -
+//! and how a tool puts things in order before it ends.
+
+use std::io;
+use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver};
+use std::time::Duration;
+
+use crate::child;
+use crate::verdict::Exit;
+
+static CAME: AtomicBool = AtomicBool::new(false);
+
+/// What a shell gives a process that Ctrl-C has ended.
+const INTERRUPTED: i32 = 130;
+
+/// How often a wait that can be interrupted looks whether it is.
+pub(crate) const LOOK: Duration = Duration::from_millis(20);
+
+/// Whether a caught signal has come.
+pub(crate) fn came() -> bool {
+    CAME.load(Ordering::SeqCst)
+}
+
+/// A signal no longer ends the process: the tool does, when it has put things in order. A second
+/// one ends it at once, with all commands that it has started.
+#[derive(Debug)]
+pub(crate) struct Interrupt(Receiver<()>);
+
+impl Interrupt {
+    /// Catches the signals; possible once in a process.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub(crate) fn catch() -> io::Result<Self> {
+        Self::catch_telling(|| (), || None)
+    }
+
+    /// Catches the signals. `first_words` is called at the first one. `last_words` is called before a
+    /// second one ends the process, and gives the exit code if it is another than that of an
+    /// interrupted process.
+    ///
+    /// # Errors
+    /// Those of the system.
+    pub(crate) fn catch_telling(
+        first_words: impl Fn() + Send + 'static,
+        last_words: impl Fn() -> Option<Exit> + Send + 'static,
+    ) -> io::Result<Self> {
+        let (tell, told) = mpsc::channel();
+        let handler = move || {
+            if CAME.swap(true, Ordering::SeqCst) {
+                let code = last_words().map_or(INTERRUPTED, |exit| exit.code().into());
+                child::end_all();
+                process::exit(code);
+            }
+            // Who does not wait looks.
+            let _waiting = tell.send(());
+            first_words();
+        };
+        ctrlc::set_handler(handler).map_err(io::Error::other)?;
+        Ok(Self(told))
+    }
+
+    /// Waits until a signal comes.
+    pub(crate) fn wait(&self) {
+        // The other end is never dropped.
+        let _came = self.0.recv();
+    }
+
+    /// Whether a signal has come.
+    pub(crate) fn came(&self) -> bool {
+        came()
+    }
+
+    /// Waits for this time, or less if a signal comes; whether one has come.
+    pub(crate) fn sleep(&self, time: Duration) -> bool {
+        // Told once; who asks again looks.
+        self.came() || self.0.recv_timeout(time).is_ok()
+    }
+}

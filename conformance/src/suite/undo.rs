@@ -1,0 +1,221 @@
+//! Values that cases change: each is restored and read back, whatever ends the case.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use ads_cnc::CncString;
+use ads_cnc::operation::{CountObjects, DescribeByName, HandleByName, ReadDescriptors, Request};
+use ads_cnc::{Decode as _, ObjectCount};
+use ads_cnc_vectors::Hex;
+
+use super::case::{Step, Stop};
+use super::inventory::OBJECTS_MAX;
+use super::place::{Place, Trial, same};
+use super::probe::Probe;
+use crate::exchange::{Exchange, Fault};
+use crate::gate::Entry;
+use crate::report::{LeftChanged, tame};
+
+/// How often a value is written back.
+const WRITES_MAX: u32 = 5;
+
+/// Before the second time; twice as long before each that follows.
+const PAUSE: Duration = Duration::from_millis(200);
+
+/// Values that were changed and not yet seen as they were; those that could not be restored stay.
+/// Clones share them: what ends the process looks at them too.
+#[derive(Clone, Debug, Default)]
+pub struct Changes(Arc<Mutex<Vec<Change>>>);
+
+/// A value that was changed.
+#[derive(Clone, Debug)]
+struct Change {
+    place: Place,
+    /// Of a variable: by which its handle is asked for.
+    name: Option<CncString>,
+    what: String,
+    is_text: bool,
+    was: Vec<u8>,
+    /// What it was last written or read as.
+    is: Option<Vec<u8>>,
+    /// Whether it could not be restored.
+    given_up: bool,
+}
+
+impl Changes {
+    /// What is not as it was, the first change first.
+    pub fn left(&self) -> Vec<LeftChanged> {
+        let all = self.all();
+        let left = all.iter().map(|change| LeftChanged {
+            name: tame(&change.what),
+            was: Hex(change.was.clone()).to_string(),
+            is: change.is.as_ref().map(|is| Hex(is.clone()).to_string()),
+        });
+        left.collect()
+    }
+
+    /// Whether something could not be restored.
+    pub(super) fn any_given_up(&self) -> bool {
+        self.all().iter().any(|change| change.given_up)
+    }
+
+    /// The last that is to be restored.
+    fn last(&self) -> Option<Change> {
+        self.all().iter().rfind(|change| !change.given_up).cloned()
+    }
+
+    /// What is written to this place from now on is not what was there.
+    fn begin(&self, change: Change) {
+        self.all().push(change);
+    }
+
+    /// What is there now, as far as anybody knows.
+    pub(super) fn is_now(&self, place: &Place, value: Option<&[u8]>) {
+        for change in self.all().iter_mut().filter(|change| change.place == *place) {
+            change.is = value.map(<[u8]>::to_vec);
+        }
+    }
+
+    /// The value at this place was seen as it was.
+    fn end(&self, place: &Place) {
+        self.all().retain(|change| change.place != *place);
+    }
+
+    fn all(&self) -> MutexGuard<'_, Vec<Change>> {
+        // A list that somebody panicked beside is whole.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Probe<'_> {
+    /// Runs what changes the value at a place, and restores it, whatever comes of that. `restore`
+    /// does so as a part of the case and says whether the value is as it was; if it is not, it is
+    /// written back again.
+    pub(super) fn changing(
+        &mut self,
+        trial: &Trial<'_>,
+        place: &Place,
+        was: &[u8],
+        change: impl FnOnce(&mut Self) -> Step,
+        restore: impl FnOnce(&mut Self) -> Step<bool>,
+    ) -> Step {
+        self.session.changes.begin(Change {
+            place: place.clone(),
+            name: trial.name.cloned(),
+            what: trial.what.to_owned(),
+            is_text: trial.is_text,
+            was: was.to_vec(),
+            is: None,
+            given_up: false,
+        });
+        let changed = change(self);
+        let restored = match restore(self) {
+            Ok(true) => {
+                self.session.changes.end(place);
+                Ok(())
+            }
+            restored => restored.map(drop),
+        };
+        let put_back = self.put_back();
+        changed.and(restored).and(put_back)
+    }
+
+    /// Restores all that is changed, the last change first; also if the run is interrupted and if
+    /// nothing more is asked of the target otherwise.
+    pub(super) fn put_back(&mut self) -> Step {
+        let mut all = Ok(());
+        while let Some(change) = self.session.changes.last() {
+            all = all.and(self.put_back_one(change));
+        }
+        all
+    }
+
+    /// Tries again what could not be restored.
+    pub(super) fn put_back_rest(&mut self) {
+        self.session.changes.all().iter_mut().for_each(|change| change.given_up = false);
+        // What is left is shown.
+        let _left = self.put_back();
+    }
+
+    fn put_back_one(&mut self, mut change: Change) -> Step {
+        let (changes, place) = (self.session.changes.clone(), change.place.clone());
+        let mut written = false;
+        for times in 0..=WRITES_MAX {
+            if times > 1 {
+                thread::sleep(PAUSE.saturating_mul(1 << times.saturating_sub(2).min(8)));
+            }
+            // A write whose answer was lost may have been done.
+            let now = self.look(&change);
+            changes.is_now(&place, now.as_deref());
+            let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
+            // What moves by itself will not be as it was.
+            if is_same || written && now.is_some() && self.look(&change) != now {
+                changes.end(&place);
+                return Ok(());
+            }
+            if times < WRITES_MAX {
+                written |= self.write_back(&mut change);
+            }
+        }
+        let mut all = changes.all();
+        all.iter_mut().filter(|one| one.place == place).for_each(|one| one.given_up = true);
+        Err(Stop::Inconclusive(format!("{} could not be restored", change.what)))
+    }
+
+    fn look(&mut self, change: &Change) -> Option<Vec<u8>> {
+        let exchange = self.insist(change.place.read().ok()?)?;
+        exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec)
+    }
+
+    /// Whether it was taken.
+    fn write_back(&mut self, change: &mut Change) -> bool {
+        let send = |probe: &mut Self, change: &Change| {
+            change.place.write(&change.was).ok().and_then(|write| probe.insist(write))
+        };
+        let mut sent = send(self, change);
+        if sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(Fault::Refused(_)))) {
+            // On another connection the gate knows of no handle and of no list of objects.
+            self.ask_again(change);
+            sent = send(self, change);
+        }
+        sent.is_some_and(|sent| sent.answer().is_some_and(|answer| answer.success().is_some()))
+    }
+
+    /// Asks for what tells the gate that the place is what a file names.
+    fn ask_again(&mut self, change: &mut Change) {
+        match (&change.place, change.name.clone()) {
+            (Place::Handle { channel, .. }, Some(name)) => {
+                let (channel, name) = (*channel, name.as_cnc_str());
+                self.insist(HandleByName { channel, name: name.into() });
+                self.insist(DescribeByName { channel, name: name.into() });
+            }
+            (Place::Object { .. }, _) => {
+                let allowed = self.session.client.gate().allowed();
+                let entries = allowed.map(|allowed| allowed.entries.clone()).unwrap_or_default();
+                for entry in entries {
+                    let Entry::Object { list, .. } = entry else { continue };
+                    let list = list.list();
+                    let Some(count) = self.insist(CountObjects::new(list)) else { continue };
+                    let count = count.answer().and_then(|answer| answer.success());
+                    let count = count.and_then(|data| ObjectCount::decode(data).ok());
+                    for first in 1..=count.map_or(0, |count| count.0.min(OBJECTS_MAX)) {
+                        if let Ok(one) = ReadDescriptors::new(list, first, 1) {
+                            self.insist(one);
+                        }
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Sends a request, whatever ends the case or the run otherwise.
+    fn insist<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Exchange> {
+        let request = request.into();
+        let mut buf = vec![0; request.encoded_len()];
+        let call = request.encode(&mut buf).ok()?;
+        self.session.frames = self.session.frames.saturating_add(1);
+        Some(self.session.client.call(&call))
+    }
+}

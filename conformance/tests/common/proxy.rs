@@ -1,0 +1,88 @@
+//! What stands between a tool and a CNC, and looks at each frame.
+
+use std::io::{self, Read as _, Write as _};
+use std::net::{SocketAddr, TcpStream};
+use std::thread;
+
+use ads_cnc::Encode as _;
+use ads_cnc::ads::{AdsError, Command, FrameRef, WriteReply};
+use ads_cnc_conformance::net;
+
+use super::connect;
+
+/// What becomes of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Deed {
+    /// The CNC gets it, and the tool the answer.
+    Pass,
+    /// Nobody gets it, and nobody answers.
+    Lose,
+    /// The CNC gets it, and nobody answers.
+    LoseAnswer,
+    /// The connection ends before the CNC has it.
+    Close,
+    /// It is answered by an error, and the CNC does not have it.
+    Reject,
+}
+
+/// Serves a CNC, one connection after the other, as it is told for each frame.
+pub(crate) fn proxy(
+    cnc: SocketAddr,
+    mut deed: impl FnMut(&FrameRef<'_>) -> Deed + Send + 'static,
+) -> SocketAddr {
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let addr = listener.local_addr().unwrap();
+    thread::spawn(move || {
+        for client in listener.incoming() {
+            // Either may be gone at any time.
+            let _gone = pass(&client.unwrap(), &connect(cnc), &mut deed);
+        }
+    });
+    addr
+}
+
+fn pass(
+    mut client: &TcpStream,
+    mut cnc: &TcpStream,
+    deed: &mut impl FnMut(&FrameRef<'_>) -> Deed,
+) -> io::Result<()> {
+    let mut received = Vec::new();
+    while let Some(bytes) = frame(&mut client, &mut received)? {
+        let (frame, _) = FrameRef::split(&bytes, u32::MAX).unwrap().unwrap();
+        match deed(&frame) {
+            deed @ (Deed::Pass | Deed::LoseAnswer) => {
+                cnc.write_all(&bytes)?;
+                let answer = self::frame(&mut cnc, &mut Vec::new())?;
+                if deed == Deed::Pass {
+                    client.write_all(&answer.unwrap_or_default())?;
+                }
+            }
+            Deed::Lose => {}
+            Deed::Close => return Ok(()),
+            Deed::Reject => {
+                let data = WriteReply { result: AdsError::INVALID_ACCESS }.to_vec().unwrap();
+                let reply = FrameRef::new(frame.header().response(), &data).unwrap();
+                client.write_all(&reply.to_vec().unwrap())?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn frame(from: &mut &TcpStream, received: &mut Vec<u8>) -> io::Result<Option<Vec<u8>>> {
+    let mut chunk = [0; 4096];
+    loop {
+        if let Some((_, len)) = FrameRef::split(received, u32::MAX).unwrap() {
+            return Ok(Some(received.drain(..len).collect()));
+        }
+        match from.read(&mut chunk)? {
+            0 => return Ok(None),
+            len => received.extend_from_slice(&chunk[..len]),
+        }
+    }
+}
+
+/// Whether it is a Write.
+pub(crate) fn is_write(frame: &FrameRef<'_>) -> bool {
+    frame.header().command == Command::WRITE
+}

@@ -1,0 +1,360 @@
+//! A run that writes and is interrupted, or whose restoring writes are lost or rejected: what it has
+//! changed is as it was, or it says what is not.
+
+#![cfg(unix)]
+
+mod common;
+
+use std::net::SocketAddr;
+use std::process::{Command, Output, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use ads_cnc::address::Channel;
+use ads_cnc::operation::ReadByName;
+use ads_cnc_conformance::client::Target;
+use ads_cnc_conformance::cnc::{Cnc, NET_ID, Server};
+use ads_cnc_conformance::gate::Gate;
+use ads_cnc_conformance::net;
+use ads_cnc_conformance::session::Session;
+use common::file::TestFile;
+use common::proxy::{Deed, is_write, proxy};
+use common::signal;
+use serde_json::Value;
+
+/// Variables of the default model that may be written.
+const NAMES: [&str; 4] = ["V.E.test", "V.E.vartest", "V.E.Testvar", "V.E.Variable_1"];
+
+/// Cases that write them.
+const CASES: [&str; 4] =
+    ["write-by-name", "write-by-handle", "write-elements-by-name", "write-elements-by-handle"];
+
+fn channel() -> Channel {
+    Channel::new(1).unwrap()
+}
+
+struct Bench {
+    server: Server,
+    allow: TestFile,
+    json: TestFile,
+    /// In milliseconds.
+    timeout: u32,
+}
+
+impl Bench {
+    fn start(table: &str) -> Self {
+        let cnc = Arc::new(Cnc::with_default_model().unwrap());
+        let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+        let server = Server::start(listener, cnc).unwrap();
+        let (allow, json) = (TestFile::allowing(table), TestFile::new(".json", b""));
+        Self { server, allow, json, timeout: 1000 }
+    }
+
+    fn of_variables(names: &[&str]) -> Self {
+        let table = |name| format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n");
+        Self::start(&names.iter().map(table).collect::<String>())
+    }
+
+    fn tool(&self, addr: SocketAddr, cases: &[&str]) -> Command {
+        let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+        tool.args(["run", "--target", &addr.to_string(), "--net-id", &NET_ID.to_string()])
+            .args(["--allow-write", self.allow.path(), "--json", self.json.path()])
+            .args(["--seed", "7", "--timeout", &self.timeout.to_string()])
+            .args(cases.iter().flat_map(|case| ["--only", case]))
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        tool
+    }
+
+    /// A connection that no proxy is in between.
+    fn session(&self) -> Session {
+        Session::connect(Target::local(self.server.addr(), NET_ID), Gate::queries()).unwrap()
+    }
+
+    fn values(&self, names: &[&str]) -> Vec<Vec<u8>> {
+        let mut session = self.session();
+        let mut read = |name: &&str| {
+            session.call(&ReadByName::new(channel(), *name).unwrap()).unwrap().bytes.to_vec()
+        };
+        names.iter().map(&mut read).collect()
+    }
+
+    fn report(&self) -> Value {
+        serde_json::from_slice(&std::fs::read(&self.json.0).unwrap()).unwrap()
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn verdicts(report: &Value) -> Vec<&str> {
+    let cases = report["cases"].as_array().unwrap();
+    cases.iter().map(|case| case["verdict"].as_str().unwrap()).collect()
+}
+
+/// Runs it with a signal at the nth write: as the proxy has it, or as the CNC has answered it.
+fn interrupted(bench: &Bench, name: &'static str, nth: usize, cases: &[&str]) -> Output {
+    let process = Arc::new(AtomicU32::new(0));
+    let (to, mut writes) = (Arc::clone(&process), 0);
+    let addr = proxy(bench.server.addr(), move |frame| {
+        let was = writes;
+        writes += usize::from(is_write(frame));
+        // Even ones before the CNC has the write, odd ones at the request that follows it.
+        let before = nth % 2 == 0 && was < nth && writes == nth;
+        if before || nth % 2 == 1 && was == nth {
+            if let id @ 1.. = to.swap(0, Ordering::SeqCst) {
+                signal(name, id);
+                // It has seen it before the next answer comes.
+                thread::sleep(Duration::from_millis(50));
+            }
+        }
+        Deed::Pass
+    });
+    let tool = bench.tool(addr, cases).spawn().unwrap();
+    process.store(tool.id(), Ordering::SeqCst);
+    tool.wait_with_output().unwrap()
+}
+
+/// Whenever the signal comes, the CNC has its old values, and the reports are there.
+#[test]
+fn a_signal_at_any_write_leaves_nothing_changed() {
+    let each = |name: &'static str, writes: &mut dyn Iterator<Item = usize>| {
+        for nth in writes {
+            let bench = Bench::of_variables(&NAMES);
+            let before = bench.values(&NAMES);
+            let output = interrupted(&bench, name, nth, &CASES);
+            let said = text(&output.stderr);
+            assert_eq!(output.status.code(), Some(3), "SIG{name} at write {nth}: {said}");
+            assert_eq!(bench.values(&NAMES), before, "SIG{name} at write {nth}: {said}");
+            assert!(said.contains("interrupted") && !said.contains("LEFT"), "{said}");
+            let report = bench.report();
+            assert_eq!(report["exit_code"], 3);
+            assert!(verdicts(&report).contains(&"interrupted"), "{report}");
+            assert!(!verdicts(&report).contains(&"fail"), "{report}");
+            let shown = text(&output.stdout);
+            assert!(shown.contains("interrupted before its end"), "{shown}");
+        }
+    };
+    thread::scope(|scope| {
+        scope.spawn(|| each("INT", &mut (1..=25)));
+        scope.spawn(|| each("TERM", &mut (1..=25)));
+        scope.spawn(|| each("HUP", &mut [2, 5, 8].into_iter()));
+    });
+}
+
+/// The four ways to a value, and the cases that write it alone: the third write is the one that
+/// restores.
+fn ways() -> [(&'static str, String, &'static str); 4] {
+    let name = "[[variable]]\nchannel = 1\nname = \"V.E.vartest\"\n".to_owned();
+    let object = "[[object]]\nchannel = 1\nname = \"mc_command_single_block_w\"\n".to_owned();
+    let element = "[[element]]\ngroup = 0x123301\noffset = 2\n".to_owned();
+    [
+        ("V.E.vartest", name.clone(), "write-by-name"),
+        ("V.E.vartest", name, "write-by-handle"),
+        ("mc_command_single_block_w", object, "write-objects"),
+        ("example.feed", element, "write-elements"),
+    ]
+}
+
+/// What the CNC has at the end is what each write that it took says; the first is of what was there.
+type Writes = Arc<Mutex<Vec<(Vec<u8>, Deed)>>>;
+
+/// A CNC that takes two writes, and of which these deeds become of those that follow.
+fn hostile(bench: &Bench, deed: impl Fn(usize) -> Deed + Send + 'static) -> (SocketAddr, Writes) {
+    let writes = Writes::default();
+    let keep = Arc::clone(&writes);
+    let addr = proxy(bench.server.addr(), move |frame| {
+        if !is_write(frame) {
+            return Deed::Pass;
+        }
+        let mut writes = keep.lock().unwrap();
+        let deed = writes.len().checked_sub(2).map_or(Deed::Pass, &deed);
+        writes.push((frame.data().to_vec(), deed));
+        deed
+    });
+    (addr, writes)
+}
+
+/// A restoring write that is lost or rejected once is done again.
+#[test]
+fn a_lost_or_rejected_restore_is_repeated() {
+    for (what, table, case) in ways() {
+        for deed in [Deed::Lose, Deed::LoseAnswer, Deed::Close, Deed::Reject] {
+            let bench = Bench::start(&table);
+            let (addr, writes) =
+                hostile(&bench, move |number| if number == 0 { deed } else { Deed::Pass });
+            let output = bench.tool(addr, &[case]).output().unwrap();
+            let said = text(&output.stderr);
+            // A device that does so fails, and yet nothing is left changed.
+            assert_eq!(output.status.code(), Some(1), "{what} {case} {deed:?}: {said}");
+            assert!(!said.contains("LEFT CHANGED"), "{what} {case} {deed:?}: {said}");
+            let writes = writes.lock().unwrap();
+            let restored = writes.iter().rev().find(|(_, deed)| *deed != Deed::Lose).unwrap();
+            assert_ne!(writes[1].0, writes[0].0, "nothing was changed");
+            assert_eq!(restored.0, writes[0].0, "{what} {case} {deed:?}: {said}");
+            // What was done though its answer was lost is not done again.
+            let expected = if deed == Deed::LoseAnswer { 3 } else { 4 };
+            assert_eq!(writes.len(), expected, "{what} {case} {deed:?}");
+        }
+    }
+}
+
+/// One that is never done is given up after a bounded number of tries, and said at every place.
+#[test]
+fn what_cannot_be_restored_is_said_everywhere() {
+    for (what, table, case) in ways() {
+        let bench = Bench::start(&table);
+        let (addr, writes) = hostile(&bench, |_| Deed::Reject);
+        let forms = ["html", "markdown", "junit", "badge"];
+        let files = forms.map(|form| TestFile::new(form, b""));
+        let mut tool = bench.tool(addr, &[case, "write-elements-by-name", "write-read-only"]);
+        for (form, file) in forms.iter().zip(&files) {
+            tool.args([&format!("--{form}"), file.path()]);
+        }
+        let json = bench.json.path().to_owned();
+        let output = tool.output().unwrap();
+        let (shown, said) = (text(&output.stdout), text(&output.stderr));
+        assert_eq!(output.status.code(), Some(6), "{what} {case}: {said}");
+        let writes = writes.lock().unwrap();
+        // The one of the case, and two times five.
+        assert_eq!(writes.len(), 2 + 1 + 5 + 5, "{what} {case}");
+        assert!(writes[2..].iter().all(|(data, _)| *data == writes[0].0));
+
+        let line = said.lines().last().unwrap();
+        assert!(line.starts_with(&format!("LEFT CHANGED: {what}")), "{said}");
+        let (was, is) = line.split_once(", was ").unwrap().1.split_once(", is ").unwrap();
+        assert!(was != is && is != "not known", "{line}");
+        assert_eq!(shown.lines().next(), Some(line));
+        let report = bench.report();
+        assert_eq!(report["exit_code"], 6);
+        let left = &report["left_changed"][0];
+        assert_eq!((left["was"].as_str(), left["is"].as_str()), (Some(was), Some(is)), "{left}");
+        let of = |form: usize| std::fs::read_to_string(&files[form].0).unwrap();
+        let plain = |text: &str| text.replace('\\', "");
+        let header = of(0).split_once("<header>").unwrap().1.to_owned();
+        assert!(header.trim_start().contains(line), "{header}");
+        assert!(plain(&of(1)).starts_with(&format!("**{line}**\n")), "{}", of(1));
+        let first = of(2).split_once("<testsuite ").unwrap().1.to_owned();
+        assert!(first.starts_with("name=\"left-changed\"") && first.contains(line), "{first}");
+        assert!(of(3).contains("left changed"), "{}", of(3));
+        // The forms that are made later are the same.
+        let again = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(["report", &json]).output();
+        assert_eq!(text(&again.unwrap().stdout).lines().next(), Some(line));
+    }
+}
+
+/// Nothing more is written when something could not be restored.
+#[test]
+fn no_other_value_is_changed_then() {
+    let bench = Bench::of_variables(&NAMES);
+    let (addr, writes) = hostile(&bench, |_| Deed::Reject);
+    let output = bench.tool(addr, &CASES).output().unwrap();
+    assert_eq!(output.status.code(), Some(6));
+    let writes = writes.lock().unwrap();
+    assert!(writes[2..].iter().all(|(data, _)| *data == writes[0].0));
+    let report = bench.report();
+    let notes = report["cases"].as_array().unwrap().iter().filter_map(|case| case["note"].as_str());
+    let note = "nothing more is written when a value could not be restored";
+    assert_eq!(notes.filter(|one| one.contains(note)).count(), CASES.len() - 1, "{report}");
+}
+
+/// A device that is gone in the middle is not waited for without end.
+#[test]
+fn a_device_that_is_gone_is_said() {
+    for deed in [Deed::Close, Deed::Lose] {
+        let bench = Bench::of_variables(&["V.E.vartest"]);
+        let mut writes = 0;
+        let addr = proxy(bench.server.addr(), move |frame| {
+            writes += usize::from(is_write(frame));
+            if writes > 2 { deed } else { Deed::Pass }
+        });
+        let begun = Instant::now();
+        let output = bench.tool(addr, &["write-by-name"]).output().unwrap();
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(6), "{said}");
+        let line = said.lines().last().unwrap();
+        assert!(line.starts_with("LEFT CHANGED: V.E.vartest, was "), "{said}");
+        assert!(line.ends_with(", is not known"), "{said}");
+        assert!(begun.elapsed() < Duration::from_secs(60), "{:?}", begun.elapsed());
+    }
+}
+
+/// A signal while restoring writes are rejected or lost: it goes on to restore, and says what it
+/// could not. The one that is lost fails.
+#[test]
+fn a_signal_does_not_end_the_restoring() {
+    for (deed, code) in [(Deed::Pass, 1), (Deed::Reject, 6)] {
+        let bench = Bench::of_variables(&["V.E.vartest"]);
+        let before = bench.values(&["V.E.vartest"]);
+        let process = Arc::new(AtomicU32::new(0));
+        let id = Arc::clone(&process);
+        let (addr, _writes) = hostile(&bench, move |number| {
+            if let id @ 1.. = id.swap(0, Ordering::SeqCst) {
+                signal("TERM", id);
+            }
+            if number == 0 { Deed::Lose } else { deed }
+        });
+        let mut tool = bench.tool(addr, &["write-by-name"]);
+        let tool = tool.spawn().unwrap();
+        process.store(tool.id(), Ordering::SeqCst);
+        let output = tool.wait_with_output().unwrap();
+        let said = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{deed:?}: {said}");
+        assert_eq!(bench.values(&["V.E.vartest"]) == before, code == 1, "{deed:?}: {said}");
+        assert_eq!(said.contains("LEFT CHANGED: V.E.vartest, was "), code == 6, "{said}");
+        assert_eq!(bench.report()["exit_code"], code);
+    }
+}
+
+/// A second signal ends it at once, and says what is left changed.
+#[test]
+fn a_second_signal_ends_at_once() {
+    let bench = Bench { timeout: 20_000, ..Bench::of_variables(&["V.E.vartest"]) };
+    let (tell, told) = std::sync::mpsc::channel();
+    let (addr, _writes) = hostile(&bench, move |_| {
+        let _gone = tell.send(());
+        Deed::Lose
+    });
+    let tool = bench.tool(addr, &["write-by-name"]).spawn().unwrap();
+    told.recv().unwrap();
+    signal("INT", tool.id());
+    thread::sleep(Duration::from_millis(300));
+    signal("INT", tool.id());
+    let begun = Instant::now();
+    let output = tool.wait_with_output().unwrap();
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(6), "{said}");
+    assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
+    let line = said.lines().last().unwrap();
+    assert!(line.starts_with("LEFT CHANGED: V.E.vartest, was "), "{said}");
+}
+
+/// Elements and objects are restored as well, at any write.
+#[test]
+fn a_signal_leaves_objects_and_elements_as_they_were() {
+    for (name, table, case) in ways().into_iter().skip(2) {
+        // Of three writes each: of what is there, of another value, and of what was there.
+        for nth in 1..=3 {
+            let bench = Bench::start(&table);
+            let value = || {
+                let addr = bench.server.addr().to_string();
+                let target = ["--target", &addr, "--net-id", "127.0.0.1.1.1"];
+                let mut get = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+                let output = get.args(["get", name]).args(target).output().unwrap();
+                assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+                text(&output.stdout)
+            };
+            let before = value();
+            let output = interrupted(&bench, "INT", nth, &[case]);
+            let said = text(&output.stderr);
+            // With the answer to the last one it is over.
+            let code = output.status.code();
+            assert!(code == Some(3) || nth == 3 && code == Some(0), "write {nth}: {said}");
+            assert_eq!(value(), before, "{name} at write {nth}: {said}");
+        }
+    }
+}
