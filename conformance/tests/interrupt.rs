@@ -77,7 +77,7 @@ impl Bench {
     fn values(&self, names: &[&str]) -> Vec<Vec<u8>> {
         let mut session = self.session();
         let mut read = |name: &&str| {
-            session.call(&ReadByName::new(channel(), *name).unwrap()).unwrap().bytes.to_vec()
+            session.call(&ReadByName::new(channel(), name).unwrap()).unwrap().bytes.to_vec()
         };
         names.iter().map(&mut read).collect()
     }
@@ -104,13 +104,14 @@ fn interrupted(bench: &Bench, name: &'static str, nth: usize, cases: &[&str]) ->
         let was = writes;
         writes += usize::from(is_write(frame));
         // Even ones before the CNC has the write, odd ones at the request that follows it.
-        let before = nth % 2 == 0 && was < nth && writes == nth;
-        if before || nth % 2 == 1 && was == nth {
-            if let id @ 1.. = to.swap(0, Ordering::SeqCst) {
-                signal(name, id);
-                // It has seen it before the next answer comes.
-                thread::sleep(Duration::from_millis(50));
-            }
+        let is_due = match nth.is_multiple_of(2) {
+            true => was < nth && writes == nth,
+            false => was == nth,
+        };
+        if is_due && let id @ 1.. = to.swap(0, Ordering::SeqCst) {
+            signal(name, id);
+            // It has seen it before the next answer comes.
+            thread::sleep(Duration::from_millis(50));
         }
         Deed::Pass
     });
