@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use ads_cnc::Encode as _;
@@ -18,6 +18,7 @@ use serde_json::json;
 use super::judge::Target;
 use crate::client::frame;
 use crate::codec::decode_stream;
+use crate::report::json as json_text;
 use crate::services;
 
 /// Vectors of one capture; more are left out.
@@ -236,8 +237,7 @@ impl Collector {
                 .create_new(true)
                 .open(file)
                 .map_err(|error| named(file, error))?;
-            serde_json::to_writer_pretty(&mut out, &document)?;
-            writeln!(out).map_err(|error| named(file, error))?;
+            json_text::write(&document, &mut out).map_err(|error| named(file, error))?;
         }
         Ok(files.into_keys().collect())
     }

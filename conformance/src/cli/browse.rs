@@ -13,7 +13,7 @@ use super::target::{REACHING_A_DEVICE, TargetArgs, channel};
 use crate::objects::{
     Found, Object, ObjectReport, ObjectsReport, Options, Pattern, columns, csv, table, walk,
 };
-use crate::report::hex;
+use crate::report::{hex, json};
 use crate::session::{Session, Trouble};
 use crate::values::plain;
 use crate::verdict::Exit;
@@ -149,9 +149,7 @@ impl Browse {
                     });
                 let (objects, notes) = (objects.collect(), found.notes.clone());
                 let report = ObjectsReport::new(session.target(), objects, notes);
-                serde_json::to_writer_pretty(&mut out, &report)
-                    .map_err(io::Error::from)
-                    .and_then(|()| writeln!(out))
+                json::write(&report, &mut out)
             }
             format => {
                 let columns = columns(self.variables);

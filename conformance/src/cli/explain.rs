@@ -137,9 +137,7 @@ impl Explain {
         let explanation = explain(&question, &given.unwrap_or_default());
         let mut out = BufWriter::new(io::stdout().lock());
         let shown = match self.json {
-            true => serde_json::to_writer_pretty(&mut out, &explanation)
-                .map_err(io::Error::from)
-                .and_then(|()| writeln!(out)),
+            true => crate::report::json::write(&explanation, &mut out),
             false => print(&explanation, self.paint(), &mut out),
         };
         written(shown.and_then(|()| out.flush()))?;

@@ -74,9 +74,7 @@ impl Get {
         let shown = if self.json {
             let one = ObjectReport::read(&object, &Ok(bytes.clone()));
             let report = ObjectsReport::new(session.target(), vec![one], Vec::new());
-            serde_json::to_writer_pretty(&mut out, &report)
-                .map_err(io::Error::from)
-                .and_then(|()| writeln!(out))
+            crate::report::json::write(&report, &mut out)
         } else if self.hex {
             show(&hex_lines(&bytes), "", &mut out)
         } else if self.plain {

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
+use crate::report;
 use crate::suite::{Case, Needs, Plan, Subject};
 
 /// A case.
@@ -50,6 +51,5 @@ pub(super) fn to_text(listed: &[Listed], out: &mut dyn Write) -> io::Result<()> 
 }
 
 pub(super) fn to_json(listed: &[Listed], out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, listed)?;
-    writeln!(out)
+    report::json::write(&listed, out)
 }

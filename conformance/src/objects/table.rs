@@ -85,7 +85,8 @@ pub fn table(heads: &[&str], rows: &[Vec<String>], out: &mut impl Write) -> io::
     Ok(())
 }
 
-/// Writes rows of cells as comma-separated values with CR LF, as in RFC 4180.
+/// Writes rows of cells as comma-separated values with CR LF, as in RFC 4180. A cell that a
+/// spreadsheet would take for a formula has an apostrophe before it.
 ///
 /// # Errors
 /// Those of `out`.
@@ -99,10 +100,22 @@ pub fn csv(heads: &[&str], rows: &[Vec<String>], out: &mut impl Write) -> io::Re
 }
 
 fn quoted(cell: &str) -> String {
+    let cell = match is_formula(cell) {
+        true => format!("'{cell}"),
+        false => cell.to_owned(),
+    };
     match cell.contains([',', '"', '\r', '\n']) {
         true => format!("\"{}\"", cell.replace('"', "\"\"")),
-        false => cell.to_owned(),
+        false => cell,
     }
+}
+
+/// Whether a spreadsheet may take a cell for more than text. Numbers, several of an array too, are
+/// no formulas, nor is a sign alone.
+fn is_formula(cell: &str) -> bool {
+    let begins = cell.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);
+    let is_number = |part: &str| part.parse::<f64>().is_ok();
+    begins && cell.len() > 1 && !cell.split(',').all(is_number)
 }
 
 #[cfg(test)]
@@ -114,5 +127,27 @@ mod tests {
         let (mut out, row) = (Vec::new(), vec!["a,b".to_owned(), "\"c\"".to_owned()]);
         csv(&["one", "two"], &[row], &mut out).unwrap();
         assert_eq!(out, b"one,two\r\n\"a,b\",\"\"\"c\"\"\"\r\n");
+    }
+
+    #[test]
+    fn no_cell_is_a_formula() {
+        for (cell, shown) in [
+            ("=cmd|'/C calc'!A0", "'=cmd|'/C calc'!A0"),
+            ("+1+1", "'+1+1"),
+            ("-2+3", "'-2+3"),
+            ("@SUM(A1)", "'@SUM(A1)"),
+            ("=1,2", "\"'=1,2\""),
+            ("\t=1", "'\t=1"),
+            ("-,=1", "\"'-,=1\""),
+            ("-inf", "-inf"),
+            ("-1.5e-7", "-1.5e-7"),
+            ("-1,2,-3", "\"-1,2,-3\""),
+            ("-", "-"),
+            ("a=b", "a=b"),
+        ] {
+            let mut out = Vec::new();
+            csv(&["head"], &[vec![cell.to_owned()]], &mut out).unwrap();
+            assert_eq!(String::from_utf8(out).unwrap(), format!("head\r\n{shown}\r\n"));
+        }
     }
 }

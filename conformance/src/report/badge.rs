@@ -48,6 +48,5 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         color,
         is_error: report.exit() == Exit::Internal,
     };
-    serde_json::to_writer_pretty(&mut *out, &badge)?;
-    writeln!(out)
+    super::json::write(&badge, out)
 }

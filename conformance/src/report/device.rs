@@ -5,6 +5,8 @@ use std::fmt;
 use ads_cnc::ads::{AdsState, DeviceInfoReply};
 use serde::{Deserialize, Serialize};
 
+use super::tame;
+
 /// What a device says of itself.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -37,7 +39,7 @@ impl DeviceReport {
 impl fmt::Display for DeviceReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // A device may say anything: nothing of it moves the cursor.
-        write!(f, "{:?} {}", self.name, self.version)?;
+        write!(f, "\"{}\" {}", tame(&self.name), self.version)?;
         self.state.iter().try_for_each(|state| write!(f, ", state {state}"))
     }
 }

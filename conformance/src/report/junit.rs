@@ -31,7 +31,7 @@ pub fn to_junit(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let left = &report.left_changed;
     let all = failed(failed(all, stale.len()), left.len());
     let mut root = BytesStart::new("testsuites");
-    root.push_attribute(("name", "ads-cnc"));
+    put(&mut root, "name", "ads-cnc");
     all.put(&mut root);
     xml.write_event(Event::Start(root))?;
     if !left.is_empty() {
@@ -105,22 +105,22 @@ impl Tests {
         for (name, number) in
             [("tests", tests), ("failures", failures), ("errors", errors), ("skipped", skipped)]
         {
-            element.push_attribute((name, number.to_string().as_str()));
+            put(element, name, &number.to_string());
         }
     }
 }
 
 fn begin_suite(xml: &mut Xml<'_>, report: &Report, name: &str, tests: Tests) -> io::Result<()> {
     let mut suite = BytesStart::new("testsuite");
-    suite.push_attribute(("name", name));
+    put(&mut suite, "name", name);
     tests.put(&mut suite);
-    suite.push_attribute(("timestamp", report.time.trim_end_matches('Z')));
+    put(&mut suite, "timestamp", report.time.trim_end_matches('Z'));
     xml.write_event(Event::Start(suite))?;
     xml.write_event(Event::Start(BytesStart::new("properties")))?;
     for (name, value) in properties(report) {
         let mut property = BytesStart::new("property");
-        property.push_attribute(("name", name));
-        property.push_attribute(("value", clean(&value).as_str()));
+        put(&mut property, "name", name);
+        put(&mut property, "value", &value);
         xml.write_event(Event::Empty(property))?;
     }
     end(xml, "properties")
@@ -152,9 +152,9 @@ fn in_words(waiver: &WaiverReport) -> String {
 fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()> {
     let group = case.stream.as_deref().or_else(|| case.id.split('-').next()).unwrap_or_default();
     let mut test = BytesStart::new("testcase");
-    test.push_attribute(("name", clean(&case.id).as_str()));
-    test.push_attribute(("classname", clean(&format!("{}.{group}", case.subject)).as_str()));
-    test.push_attribute(("assertions", case.checks.to_string().as_str()));
+    put(&mut test, "name", &case.id);
+    put(&mut test, "classname", &format!("{}.{group}", case.subject));
+    put(&mut test, "assertions", &case.checks.to_string());
     let findings = text(case)?;
     let message = match (&case.note, case.failures.first()) {
         (_, Some(first)) => {
@@ -177,10 +177,10 @@ fn case(xml: &mut Xml<'_>, report: &Report, case: &CaseReport) -> io::Result<()>
     };
     let mut inner = BytesStart::new(element);
     if element != "system-out" {
-        inner.push_attribute(("message", clean(&message).as_str()));
+        put(&mut inner, "message", &message);
     }
     if matches!(kind(case), Kind::Failure | Kind::Error) {
-        inner.push_attribute(("type", case.verdict.name()));
+        put(&mut inner, "type", case.verdict.name());
     }
     xml.write_event(Event::Start(inner))?;
     xml.write_event(Event::Text(BytesText::new(&clean(&findings))))?;
@@ -201,12 +201,12 @@ fn failure(
     (message, kind): (&str, &str),
 ) -> io::Result<()> {
     let mut test = BytesStart::new("testcase");
-    test.push_attribute(("name", clean(name).as_str()));
-    test.push_attribute(("classname", class));
+    put(&mut test, "name", name);
+    put(&mut test, "classname", class);
     xml.write_event(Event::Start(test))?;
     let mut failure = BytesStart::new("failure");
-    failure.push_attribute(("message", clean(message).as_str()));
-    failure.push_attribute(("type", kind));
+    put(&mut failure, "message", message);
+    put(&mut failure, "type", kind);
     xml.write_event(Event::Empty(failure))?;
     end(xml, "testcase")
 }
@@ -222,6 +222,10 @@ fn text(case: &CaseReport) -> io::Result<String> {
 
 fn end(xml: &mut Xml<'_>, name: &str) -> io::Result<()> {
     xml.write_event(Event::End(BytesEnd::new(name)))
+}
+
+fn put(element: &mut BytesStart<'_>, name: &str, value: &str) {
+    element.push_attribute((name, clean(value).as_str()));
 }
 
 /// Without the characters that XML cannot have, even escaped.

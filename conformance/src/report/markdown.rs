@@ -53,10 +53,13 @@ fn totals(report: &Report, out: &mut dyn Write) -> io::Result<()> {
             };
             let named = area.requirements.iter().filter(|one| quiet(one.verdict));
             let named: Vec<String> = named
-                .map(|one| format!("{} {}", one.requirement, worded(one.verdict, one.waived)))
+                .map(|one| {
+                    let requirement = plain(&one.requirement);
+                    format!("{requirement} {}", worded(one.verdict, one.waived))
+                })
                 .collect();
             let counts = counts(&area.totals, waived);
-            writeln!(out, "| {} | {counts} | {} |", area.area, named.join("; "))?;
+            writeln!(out, "| {} | {counts} | {} |", plain(&area.area), named.join("; "))?;
         }
     }
     Ok(())
@@ -81,8 +84,8 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         }
         shown = shown.saturating_add(1);
         let (verdict, title) = (worded(case.verdict, case.waived), plain(&case.title));
-        let fence = fence(&text);
-        writeln!(out, "<details><summary>{verdict}: <code>{}</code> {title}</summary>\n", case.id)?;
+        let (fence, id) = (fence(&text), html(&case.id));
+        writeln!(out, "<details><summary>{verdict}: <code>{id}</code> {title}</summary>\n")?;
         writeln!(out, "{fence}text\n{}{fence}\n\n</details>\n", end_line(&text))?;
     }
     match failed.len().saturating_sub(shown) {
@@ -98,10 +101,17 @@ fn waivers(waivers: &[WaiverReport], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "\n### Waivers\n\n| case | requirement | expected | state | until | reason |")?;
     writeln!(out, "|---|---|---|---|---|---|")?;
     for WaiverReport { test, requirement, verdict, reason, expires, state, .. } in waivers {
-        let (test, reason, state) = (plain(test), plain(reason), state.name());
+        let [test, requirement, reason, expires] =
+            [test, requirement, reason, expires].map(|text| plain(text));
+        let state = state.name();
         writeln!(out, "| {test} | {requirement} | {verdict} | {state} | {expires} | {reason} |")?;
     }
     Ok(())
+}
+
+/// Text within an element of HTML, where Markdown has no escapes.
+fn html(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// Text that is nothing but text.

@@ -7,6 +7,7 @@ mod console;
 mod device;
 pub(crate) mod hex;
 mod html;
+pub(crate) mod json;
 mod junit;
 mod markdown;
 mod model;
@@ -33,6 +34,5 @@ pub(crate) use tame::{tame, tame_lines};
 /// # Errors
 /// Those of `out`.
 pub fn to_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, report)?;
-    writeln!(out)
+    json::write(report, out)
 }

@@ -4,7 +4,7 @@ use ads_cnc::Element;
 use ads_cnc::text::cp1252_to_char;
 
 use super::Type;
-use crate::report::hex;
+use crate::report::{self, hex};
 
 /// The most columns of a line.
 const WIDTH: usize = 72;
@@ -13,11 +13,7 @@ const PER_LINE: usize = 10;
 
 /// Text of which a terminal acts on nothing.
 pub fn printable(text: &str) -> String {
-    let shown = |character: char| match character.is_control() {
-        true => character.escape_default().to_string(),
-        false => character.to_string(),
-    };
-    text.chars().map(shown).collect()
+    report::tame(text)
 }
 
 /// The whole value on one line, as it can be given again; none if its type is not known or the
