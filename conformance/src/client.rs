@@ -102,7 +102,8 @@ impl Client {
     }
 
     fn unconnected(target: Target, gate: Gate) -> io::Result<Self> {
-        if gate.lets_malformed_pass() && !target.addr.ip().is_loopback() {
+        let gate = gate.to_address(target.addr.ip());
+        if gate.lets_malformed_pass() && !target.addr.ip().to_canonical().is_loopback() {
             let why = "malformed requests are sent to a CNC on this machine only";
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
         }

@@ -356,9 +356,7 @@ fn texts(value: &Value) -> Vec<String> {
             let items = items.iter().enumerate();
             items.flat_map(|(at, item)| below(&at.to_string(), item)).collect()
         }
-        Value::Object(fields) => {
-            fields.iter().flat_map(|(key, value)| below(key, value)).collect()
-        }
+        Value::Object(fields) => fields.iter().flat_map(|(key, value)| below(key, value)).collect(),
         _ => Vec::new(),
     }
 }

@@ -105,20 +105,48 @@ fn a_device_is_only_read() {
     assert!(shown.contains("not sent to a device"), "{shown}");
 }
 
-/// What no client should send is sent on demand, and to nobody but a CNC on this machine.
+/// Malformed requests go to a target on this machine that a file permits them for. Without that the
+/// target is not even connected to: a loopback address is no proof that nothing moves.
 #[test]
-fn malformed_requests_are_an_option_of_their_own() {
+fn malformed_requests_need_a_file_that_permits_them() {
     let serve = Serve::start(&[]);
+    let file = std::env::temp_dir().join(format!("ads-cnc-malformed-{}.toml", std::process::id()));
+    let head = "target = \"127.0.0.1.1.1\"\nexpires = 9999-12-31T23:59:59Z\n";
     let net_id = ["--net-id", "127.0.0.1.1.1"];
-    let run = ["run", "--malformed", "--target", &serve.addr];
-    let shown = ads_cnc(&[&run[..], &net_id].concat());
+    let run = |addr: &str, tables: &str| {
+        std::fs::write(&file, format!("{head}{tables}")).unwrap();
+        let file = ["--allow-write", file.to_str().unwrap()];
+        ads_cnc(&[&["run", "--malformed", "--target", addr], &net_id[..], &file].concat())
+    };
+    let shown = run(&serve.addr, "malformed = true");
     assert_eq!(shown.status.code(), Some(0), "{}", text(&shown.stdout));
     assert!(!text(&shown.stdout).contains("not sent to a device"));
 
-    let away = ["run", "--malformed", "--target", "192.0.2.1:48898"];
-    let refused = ads_cnc(&[&away[..], &net_id].concat());
-    assert_eq!(refused.status.code(), Some(4), "{}", text(&refused.stderr));
-    assert!(text(&refused.stderr).contains("this machine only"), "{}", text(&refused.stderr));
+    let away = run("192.0.2.1:48898", "address = \"192.0.2.1\"\nmalformed = true");
+    assert_eq!(away.status.code(), Some(4), "{}", text(&away.stderr));
+    let named = run(&serve.addr, "[[variable]]\nchannel = 1\nname = \"V.E.test\"");
+    let other = run(&serve.addr, "malformed = true\naddress = \"192.0.2.1\"");
+    std::fs::remove_file(&file).unwrap();
+    let without =
+        ads_cnc(&[&["run", "--malformed", "--target", &serve.addr], &net_id[..]].concat());
+    for (refused, why) in [
+        (named, "malformed = true"),
+        (without, "malformed = true"),
+        (other, "for the address 192.0.2.1, not for 127.0.0.1"),
+    ] {
+        assert_eq!(refused.status.code(), Some(4), "{}", text(&refused.stderr));
+        assert!(text(&refused.stderr).contains(why), "{}", text(&refused.stderr));
+    }
+}
+
+/// A file is read whether there is a target that something of it may be written to or not.
+#[test]
+fn a_file_is_read_without_a_target() {
+    for rest in [&["--only", "vec-handle"][..], &["--list"]] {
+        let lost = ads_cnc(&[&["run", "--allow-write", "/no/such/file.toml"], rest].concat());
+        assert_eq!(lost.status.code(), Some(2), "{}", text(&lost.stderr));
+        assert!(text(&lost.stderr).contains("/no/such/file.toml"), "{}", text(&lost.stderr));
+    }
 }
 
 /// A device that says nothing of itself is judged all the same, and not as failed.
@@ -265,9 +293,12 @@ fn a_file_that_lets_nothing_be_written_is_said() {
     };
     let (own, later) = (serve.net_id.as_str(), "9999-12-31T23:59:59Z");
     let found = said(own, "2020-01-01T00:00:00Z", "V.E.Testvar");
-    assert!(found.contains("nothing is written: the file for --allow-write expired"), "{found}");
+    assert!(
+        found.contains("nothing is written: the file of --allow-write was good until"),
+        "{found}"
+    );
     let found = said("192.0.2.77.1.1", later, "V.E.Testvar");
-    assert!(found.contains("is about 192.0.2.77.1.1, not about 127.0.0.1.1.1"), "{found}");
+    assert!(found.contains("is for 192.0.2.77.1.1, not for 127.0.0.1.1.1"), "{found}");
     let found = said(own, later, "V.E.nothere");
     assert!(found.contains("nothing was written: "), "{found}");
     assert_eq!(said(own, later, "V.E.Testvar"), "");

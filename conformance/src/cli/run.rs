@@ -61,8 +61,10 @@ pub(super) struct Run {
     #[arg(long, requires = "testee", conflicts_with_all = ["only", "list", "json", "waivers"])]
     check_protocol: bool,
 
-    /// Also send what no client should, to see it refused: malformed frames, unknown commands. Only to
-    /// a CNC on this machine, and never one that moves anything
+    /// Also send malformed requests and unknown commands, to see them rejected; what they do to a
+    /// CNC that takes them is not known. Needs `malformed = true` in the file of --allow-write, and a
+    /// target on loopback, which is no proof that nothing moves: the CNC of an industrial PC is asked
+    /// there too, and whatever an SSH tunnel leads to
     #[arg(long, requires = "target")]
     malformed: bool,
 
@@ -174,8 +176,11 @@ impl Run {
             let printed = show(|out| out.write_all(profile::EXAMPLE.as_bytes()));
             return printed.map_or_else(super::forms::lost, |()| Exit::Success);
         }
-        let checked = find_defect(self.defect.as_deref())
-            .and_then(|defect| Ok((defect, self.reports.waivers()?, self.profile()?)));
+        let checked = find_defect(self.defect.as_deref()).and_then(|defect| {
+            // A file that is wrong is wrong without a target too.
+            self.target.allowed().map_err(|trouble| trouble.to_string())?;
+            Ok((defect, self.reports.waivers()?, self.profile()?))
+        });
         let (defect, waivers, profile) = match checked {
             Ok(checked) => checked,
             Err(why) => {

@@ -32,12 +32,14 @@ Reaching a device:
   asked, and nothing is written without --allow-write.
 
 What may be written, a file for --allow-write:
-  target = \"192.0.2.7.1.1\"             # AMS NetId of the device, nothing else
+  target = \"192.0.2.7.1.1\"             # AMS NetId of the device; 127.0.0.1.1.1 on loopback only
+  address = \"192.0.2.7\"                # IP address of the device [default: any]
   expires = 2026-05-04T17:30:00+02:00  # from then on nothing is written
   [[variable]]                         # or [[object]], [[element]], [[stream]], [[service]]
   channel = 1
   name = \"V.E.name\"
-  A write that is refused says which entry it needs.";
+  A write that is refused says which entry it needs. A write by a handle or by the name of an object
+  is also refused if the device gives the same handle or address to a name that the file lacks.";
 
 /// Whom to talk to. Without --target a simulated CNC is started for the purpose.
 #[derive(Args, Clone, Debug)]
@@ -157,12 +159,24 @@ impl TargetArgs {
         }
     }
 
+    /// What the file for --allow-write says, whether there is a target or not.
+    pub(super) fn allowed(&self) -> Result<Option<Allowed>, Trouble> {
+        let allowed = self.allow_write.as_deref().map(Allowed::from_file).transpose();
+        allowed.map_err(|error| Trouble::Usage(error.to_string()))
+    }
+
     /// The gate in front of the device.
     pub(super) fn gate(&self) -> Result<Gate, Trouble> {
-        let allowed = self.allow_write.as_deref().map(Allowed::from_file).transpose();
-        let allowed = allowed.map_err(|error| Trouble::Usage(error.to_string()))?;
-        let gate = Gate::queries().with_allowed(allowed);
-        Ok(if self.malformed { gate.and_malformed() } else { gate })
+        let gate = Gate::queries().with_allowed(self.allowed()?);
+        match (self.device()?, self.malformed) {
+            (Some(target), true) => {
+                let gate = gate.and_malformed().to_address(target.addr.ip());
+                let checked = gate.check_malformed(target.net_id, Moment::now());
+                checked.map_err(|refusal| Trouble::Refused(Box::new(refusal)))?;
+                Ok(gate)
+            }
+            _ => Ok(gate),
+        }
     }
 
     /// Connects to the device, or starts this CNC.
@@ -239,7 +253,13 @@ pub(super) fn default_cnc() -> Result<Cnc, Trouble> {
 /// A gate that lets this write through to an embedded CNC.
 pub(super) fn embedded_gate(entry: Entry) -> Gate {
     let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
-    Gate::queries().with_allowed(Some(Allowed { target: NET_ID, expires, entries: vec![entry] }))
+    Gate::queries().with_allowed(Some(Allowed {
+        target: NET_ID,
+        address: None,
+        malformed: false,
+        expires,
+        entries: vec![entry],
+    }))
 }
 
 pub(super) fn channel(text: &str) -> Result<Channel, String> {

@@ -78,6 +78,7 @@ pub(super) fn write(
     bytes: &[u8],
 ) -> Result<(), AdsError> {
     let item = items(model, owner).get(index).ok_or(AdsError::INVALID_OFFSET)?;
+    tracing::debug!(name = %item.name, ?owner, "write to a content");
     if !item.writable {
         return Err(AdsError::INVALID_ACCESS);
     }

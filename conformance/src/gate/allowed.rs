@@ -1,6 +1,7 @@
 //! What may be written: entries, and what each of them lets through.
 
 use std::fmt;
+use std::net::IpAddr;
 
 use ads_cnc::address::{Addressing, Channel, ChannelAxis, IndexGroup, IndexOffset, PlatformAxis};
 use ads_cnc::ads::AmsNetId;
@@ -8,7 +9,8 @@ use ads_cnc::operation::{ObjectList, Operation as _, Request};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString};
 
-use super::{Learnt, Moment};
+use super::{Doubt, Learnt, Moment, Reason};
+use crate::cnc::NET_ID;
 
 /// What may be written, to whom and until when.
 ///
@@ -16,8 +18,10 @@ use super::{Learnt, Moment};
 ///
 /// ```
 /// let file = r#"
-/// target = "192.0.2.7.1.1"             # the AMS NetId of the device, nothing else
+/// target = "192.0.2.7.1.1"             # the AMS NetId of the device
+/// address = "192.0.2.7"                # its IP address; without it any that has the NetId
 /// expires = 2026-05-04T17:30:00+02:00  # from then on nothing is written
+/// malformed = false                    # whether run --malformed may send it malformed requests
 ///
 /// [[variable]]                 # with its elements; "V.E.list[3]" is one element alone
 /// channel = 1                  # or rank = 1, the first of the active channels
@@ -52,8 +56,12 @@ use super::{Learnt, Moment};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Allowed {
-    /// The one target it is about.
+    /// The AMS NetId of the one target that it is for.
     pub target: AmsNetId,
+    /// The IP address of the target, if the file binds it.
+    pub address: Option<IpAddr>,
+    /// Whether malformed requests may be sent to the target.
+    pub malformed: bool,
     /// When it is over.
     pub expires: Moment,
     /// What may be written.
@@ -61,13 +69,30 @@ pub struct Allowed {
 }
 
 impl Allowed {
-    /// Why nothing may be written to this target now, whatever is named.
-    pub fn useless(&self, target: AmsNetId) -> Option<String> {
-        let over = self.expires <= Moment::now();
-        match (self.target == target, over) {
-            (false, _) => Some(format!("is about {}, not about {target}", self.target)),
-            (true, true) => Some(format!("expired at {}", self.expires)),
-            (true, false) => None,
+    /// Why nothing may be sent to this target now, whatever the file names; `address` is the one
+    /// that the connection goes to, if it is known.
+    ///
+    /// # Errors
+    /// The first reason.
+    pub(super) fn check_target(
+        &self,
+        target: AmsNetId,
+        address: Option<IpAddr>,
+        now: Moment,
+    ) -> Result<(), Reason> {
+        if self.target != target {
+            return Err(Reason::OtherTarget { allowed: self.target, target });
+        }
+        if self.address.is_some() && self.address != address {
+            return Err(Reason::OtherAddress { allowed: self.address, address });
+        }
+        // Routers know their own machine by this NetId: another machine's would take it for itself.
+        if target == NET_ID && !address.is_some_and(|address| address.is_loopback()) {
+            return Err(Reason::LocalNetId(address));
+        }
+        match now >= self.expires {
+            true => Err(Reason::Expired(self.expires)),
+            false => Ok(()),
         }
     }
 }
@@ -149,22 +174,26 @@ impl Entry {
     }
 
     /// Whether it allows a request that is no query.
-    pub(super) fn allows(&self, request: &Request<'_>, learnt: &Learnt) -> bool {
+    ///
+    /// # Errors
+    /// Why what it names may not be what is written.
+    pub(super) fn allows(&self, request: &Request<'_>, learnt: &Learnt) -> Result<bool, Doubt> {
         match (self, request) {
             (Self::Object { list, name }, Request::WriteObject(op)) => {
-                learnt.place(list.list(), name) == Some((op.index_group(), op.index_offset()))
+                learnt.is_object(list.list(), name, (op.index_group(), op.index_offset()))
             }
-            (_, Request::WriteByHandle(op)) => learnt
-                .names(op.channel, op.handle)
-                .any(|(axis, name)| self.allows_variable(op.channel, *axis, name.as_cnc_str())),
-            (_, Request::WriteByName(op)) => self.allows_variable(op.channel, None, op.name),
+            // Each name of the handle is looked at there, whichever entry allows it.
+            (Self::Variable { .. } | Self::Service(_), Request::WriteByHandle(op)) => {
+                learnt.is_variable(op.channel, op.handle)
+            }
+            (_, Request::WriteByName(op)) => Ok(self.allows_variable(op.channel, None, op.name)),
             (_, Request::AxisWriteByName(op)) => {
-                self.allows_variable(op.channel, Some(op.axis), op.name)
+                Ok(self.allows_variable(op.channel, Some(op.axis), op.name))
             }
             (Self::Content { .. } | Self::Stream(_), _) => {
-                Self::needed(request).as_ref() == Some(self)
+                Ok(Self::needed(request).as_ref() == Some(self))
             }
-            _ => false,
+            _ => Ok(false),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::fs;
+use std::net::IpAddr;
 use std::path::{Path, PathBuf};
 
 use ads_cnc::address::{
@@ -58,13 +59,23 @@ impl Allowed {
             let why = error.to_string().trim_end().to_owned();
             AllowFileError { file: None, why }
         })?;
-        let File { target, expires, variable, object, element, stream, service } = file;
+        let File {
+            target,
+            address,
+            malformed,
+            expires,
+            variable,
+            object,
+            element,
+            stream,
+            service,
+        } = file;
         let mut entries: Vec<Entry> = variable.into_iter().map(|VariableTable(one)| one).collect();
         entries.extend(object.into_iter().map(|ObjectTable(one)| one));
         entries.extend(element.into_iter().map(|ElementTable(one)| one));
         entries.extend(stream.into_iter().map(|ChannelTable(channel)| Entry::Stream(channel)));
         entries.extend(service.into_iter().map(|ChannelTable(channel)| Entry::Service(channel)));
-        Ok(Self { target, expires, entries })
+        Ok(Self { target, address, malformed, expires, entries })
     }
 }
 
@@ -73,6 +84,10 @@ impl Allowed {
 struct File {
     #[serde(deserialize_with = "net_id")]
     target: AmsNetId,
+    #[serde(default, deserialize_with = "address")]
+    address: Option<IpAddr>,
+    #[serde(default)]
+    malformed: bool,
     #[serde(deserialize_with = "moment")]
     expires: Moment,
     #[serde(default)]
@@ -92,6 +107,12 @@ fn net_id<'de, D: Deserializer<'de>>(value: D) -> Result<AmsNetId, D::Error> {
     let shaped =
         |_| D::Error::custom("an AMS NetId is six numbers with dots, as \"192.0.2.7.1.1\"");
     text.parse().map_err(shaped)
+}
+
+fn address<'de, D: Deserializer<'de>>(value: D) -> Result<Option<IpAddr>, D::Error> {
+    let text = String::deserialize(value)?;
+    let shaped = |_| D::Error::custom("an IP address is needed without a port, as \"192.0.2.7\"");
+    text.parse().map(|address: IpAddr| Some(address.to_canonical())).map_err(shaped)
 }
 
 fn moment<'de, D: Deserializer<'de>>(value: D) -> Result<Moment, D::Error> {

@@ -1,50 +1,139 @@
-//! What the answers of a session say of the things that a file names.
+//! Which names the replies of a session give to handles and to addresses of objects.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ads_cnc::address::{Channel, ChannelAxis, IndexGroup, IndexOffset};
+use ads_cnc::address::{Addressing, Channel, ChannelAxis, Group, IndexGroup, IndexOffset};
 use ads_cnc::operation::{Call, ObjectList, Reply, Request};
-use ads_cnc::{CncStr, CncString, DescriptorsRef, Handle};
+use ads_cnc::{CncStr, CncString, DescriptorsRef, Handle, VariablePath};
 
-use super::{Allowed, Entry};
+use super::{Allowed, Doubt, Entry};
 
-/// Handles and places of objects that a session came to know; of names that the file has only.
+/// The most handles, names and addresses that are kept of a connection. With more than that nothing
+/// is written by a handle or by the name of an object.
+pub(super) const LEARNT_MAX: usize = 65_536;
+
+/// What the replies of one connection say. What contradicts a write is kept as well as what allows
+/// it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Learnt {
-    handles: BTreeMap<(Channel, u32), BTreeSet<Name>>,
+    /// By the channel as it was addressed: whether a rank and a number are one channel is not known.
+    handles: BTreeMap<(Channel, u32), Named>,
+    /// The handle of each variable that the file names; none if replies give it several.
+    variables: BTreeMap<(Channel, CncString), Option<u32>>,
+    /// The lists that the file names an object of.
     lists: BTreeMap<IndexGroup, Objects>,
+    /// The name of the object at an address, and another one that some list gives it.
+    contents: BTreeMap<(IndexGroup, IndexOffset), (CncString, Option<CncString>)>,
+    kept: usize,
+    full: bool,
 }
 
-/// A variable's name; with the axis if it was asked for over the axis interface.
-type Name = (Option<ChannelAxis>, CncString);
+/// The names of one handle.
+#[derive(Clone, Debug, Default)]
+struct Named {
+    /// Those that the file names.
+    allowed: BTreeMap<CncString, Sources>,
+    /// The one of the axis interface, at which axis.
+    of_axis: Option<(ChannelAxis, CncString)>,
+    /// One that the file does not name; more of them make no difference.
+    foreign: Option<CncString>,
+}
+
+/// Which replies gave a handle to a name.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sources {
+    handle_by_name: bool,
+    description: bool,
+}
+
+impl Sources {
+    const HANDLE_BY_NAME: Self = Self { handle_by_name: true, description: false };
+    const DESCRIPTION: Self = Self { handle_by_name: false, description: true };
+}
 
 /// What is known of a list of objects.
 #[derive(Clone, Debug, Default)]
 struct Objects {
     count: Option<u32>,
     seen: BTreeSet<u32>,
-    places: BTreeMap<CncString, BTreeSet<(IndexGroup, IndexOffset)>>,
+    addresses: BTreeMap<CncString, BTreeSet<(IndexGroup, IndexOffset)>>,
 }
 
 impl Learnt {
-    /// The names by which a handle was asked for.
-    pub(super) fn names(&self, channel: Channel, handle: Handle) -> impl Iterator<Item = &Name> {
-        self.handles.get(&(channel, handle.0)).into_iter().flatten()
+    /// Whether a reply gave this handle to any name, as far as all of them are kept.
+    pub(super) fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
+        self.full || self.handles.contains_key(&(channel, handle.0))
     }
 
-    /// Where the object of this name is. Only a list that was seen whole tells that there is no
-    /// other of the same name.
-    pub(super) fn place(
+    /// Whether the file names the variable of a handle.
+    ///
+    /// # Errors
+    /// Why the handle may be that of another variable all the same.
+    pub(super) fn is_variable(&self, channel: Channel, handle: Handle) -> Result<bool, Doubt> {
+        let Some(named) = self.handles.get(&(channel, handle.0)) else { return Ok(false) };
+        let Some(name) = named.allowed.keys().next() else { return Ok(false) };
+        if self.full {
+            return Err(Doubt::TooMuch);
+        }
+        if let Some(foreign) = &named.foreign {
+            return Err(Doubt::Shared(foreign.clone()));
+        }
+        // On the axis interface the same variable has its name without the axis.
+        let without_axis = |name: &CncString| {
+            VariablePath::from_text(name.as_cnc_str()).and_then(|path| path.without_axis()).ok()
+        };
+        if let Some((_, of_axis)) = &named.of_axis
+            && !named.allowed.keys().any(|name| without_axis(name).as_ref() == Some(of_axis))
+        {
+            return Err(Doubt::Shared(of_axis.clone()));
+        }
+        let several = |name: &&CncString| {
+            self.variables.get(&(channel, (*name).clone())) != Some(&Some(handle.0))
+        };
+        if let Some(name) = named.allowed.keys().find(several) {
+            return Err(Doubt::Several(name.clone()));
+        }
+        match named.allowed.values().any(|from| from.handle_by_name && from.description) {
+            true => Ok(true),
+            false => Err(Doubt::Unconfirmed(name.clone())),
+        }
+    }
+
+    /// Whether the one object of a name in a list is at this address. Only a list that was read
+    /// whole tells that there is no other of the same name.
+    ///
+    /// # Errors
+    /// Why another object may be there all the same.
+    pub(super) fn is_object(
         &self,
         list: ObjectList,
         name: &CncString,
-    ) -> Option<(IndexGroup, IndexOffset)> {
-        let objects = self.lists.get(&list.index_group())?;
-        let seen = u32::try_from(objects.seen.len()).ok()?;
-        let mut places = objects.places.get(name)?.iter();
-        match (objects.count == Some(seen), places.next(), places.next()) {
-            (true, Some(place), None) => Some(*place),
-            _ => None,
+        address: (IndexGroup, IndexOffset),
+    ) -> Result<bool, Doubt> {
+        let Some(objects) = self.lists.get(&list.index_group()) else { return Ok(false) };
+        let addresses = objects.addresses.get(name);
+        let Some(addresses) = addresses.filter(|all| all.contains(&address)) else {
+            return Ok(false);
+        };
+        if self.full {
+            return Err(Doubt::TooMuch);
+        }
+        if !objects.is_whole() {
+            return Ok(false);
+        }
+        if addresses.len() > 1 {
+            return Err(Doubt::Several(name.clone()));
+        }
+        if !is_of(list, address.0) {
+            return Err(Doubt::Elsewhere(name.clone()));
+        }
+        match self.contents.get(&address) {
+            Some((one, None)) if one == name => Ok(true),
+            Some((one, other)) => {
+                let other = other.as_ref().filter(|_| one == name).unwrap_or(one);
+                Err(Doubt::Shared(other.clone()))
+            }
+            None => Ok(false),
         }
     }
 
@@ -53,13 +142,23 @@ impl Learnt {
         let Ok(reply) = request.decode_reply(reply) else { return };
         match (request, reply) {
             (Request::HandleByName(op), Reply::Handle(handle)) => {
-                self.handle(allowed, op.channel, None, op.name.text(), handle);
+                let from = Sources::HANDLE_BY_NAME;
+                self.handle(allowed, (op.channel, handle), op.name.text(), from);
+            }
+            (Request::DescribeByIndex(op), Reply::Description(variable)) => {
+                let (key, from) = ((op.channel, variable.handle), Sources::DESCRIPTION);
+                self.handle(allowed, key, variable.name.text(), from);
+            }
+            (Request::DescribeByName(op), Reply::DescriptionByName(variable)) => {
+                let (key, from) = ((op.channel, variable.handle), Sources::DESCRIPTION);
+                self.handle(allowed, key, op.name.text(), from);
             }
             (Request::AxisHandleByName(op), Reply::Handle(handle)) => {
-                self.handle(allowed, op.channel, Some(op.axis), op.name.text(), handle);
+                self.handle_of_axis((op.channel, handle), (op.axis, op.name.text()));
             }
             (Request::CountObjects(op), Reply::ObjectCount(count)) => {
-                if let Some(objects) = self.objects(allowed, op.list) {
+                if is_named(allowed, op.list) {
+                    let objects = self.lists.entry(op.list.index_group()).or_default();
                     // Another list than before, if it has another length.
                     if objects.count != Some(count.0) {
                         *objects = Objects { count: Some(count.0), ..Objects::default() };
@@ -67,21 +166,35 @@ impl Learnt {
                 }
             }
             (Request::ReadDescriptors(op), Reply::Descriptors(all)) => {
-                if let Some(objects) = self.objects(allowed, op.list()) {
-                    objects.learn(op.first(), &all);
-                }
+                self.objects(allowed, op.list(), op.first(), &all);
             }
             _ => {}
         }
     }
 
+    /// Whether there is room for one more.
+    fn has_room(&mut self) -> bool {
+        self.full |= self.kept >= LEARNT_MAX;
+        self.kept = self.kept.saturating_add(1);
+        !self.full
+    }
+
+    /// The names of a handle, for one more.
+    fn named(&mut self, (channel, handle): (Channel, Handle)) -> Option<&mut Named> {
+        let key = (channel, handle.0);
+        let is_new = !self.handles.contains_key(&key);
+        if is_new && !self.has_room() {
+            return None;
+        }
+        Some(self.handles.entry(key).or_default())
+    }
+
     fn handle(
         &mut self,
         allowed: &Allowed,
-        channel: Channel,
-        axis: Option<ChannelAxis>,
+        (channel, handle): (Channel, Handle),
         name: CncStr<'_>,
-        handle: Handle,
+        from: Sources,
     ) {
         // A handle reaches all elements, so the entry has to as well: an index in its name does not.
         let whole = |entry: &Entry| match entry {
@@ -89,29 +202,95 @@ impl Learnt {
             _ => true,
         };
         let mut entries = allowed.entries.iter().filter(|entry| whole(entry));
-        let is_named = entries.any(|entry| entry.allows_variable(channel, axis, name));
-        if is_named {
-            let names = self.handles.entry((channel, handle.0)).or_default();
-            names.insert((axis, name.into()));
+        let is_allowed = entries.any(|entry| entry.allows_variable(channel, None, name));
+        let text = CncString::from(name);
+        if !is_allowed {
+            if let Some(named) = self.named((channel, handle)) {
+                named.foreign.get_or_insert(text);
+            }
+            return;
+        }
+        let variable = (channel, text.clone());
+        if !self.variables.contains_key(&variable) && !self.has_room() {
+            return;
+        }
+        let known = self.variables.entry(variable).or_insert(Some(handle.0));
+        *known = known.filter(|known| *known == handle.0);
+        if let Some(named) = self.named((channel, handle)) {
+            let sources = named.allowed.entry(text).or_default();
+            sources.handle_by_name |= from.handle_by_name;
+            sources.description |= from.description;
         }
     }
 
-    /// The list, if the file has an object of it by name.
-    fn objects(&mut self, allowed: &Allowed, asked: ObjectList) -> Option<&mut Objects> {
-        let is_named = allowed
-            .entries
-            .iter()
-            .any(|entry| matches!(entry, Entry::Object { list, .. } if list.list() == asked));
-        is_named.then(|| self.lists.entry(asked.index_group()).or_default())
+    fn handle_of_axis(&mut self, key: (Channel, Handle), (axis, name): (ChannelAxis, CncStr<'_>)) {
+        let asked = (axis, CncString::from(name));
+        let Some(named) = self.named(key) else { return };
+        let known = named.of_axis.get_or_insert_with(|| asked.clone());
+        // Of two axes it is the variable of neither.
+        if *known != asked {
+            named.foreign.get_or_insert(asked.1);
+        }
+    }
+
+    fn objects(
+        &mut self,
+        allowed: &Allowed,
+        list: ObjectList,
+        first: u32,
+        all: &DescriptorsRef<'_>,
+    ) {
+        let is_of_list = |entry: &Entry, name: &CncString| matches!(entry, Entry::Object { list: of, name: one } if of.list() == list && one == name);
+        for (index, object) in (first..).zip(all.iter()) {
+            let address = (object.index_group(), object.index_offset());
+            let name = CncString::from(object.name());
+            let is_new = !self.contents.contains_key(&address);
+            if is_new && !self.has_room() {
+                return;
+            }
+            let (one, other) = self.contents.entry(address).or_insert_with(|| (name.clone(), None));
+            if *one != name {
+                other.get_or_insert_with(|| name.clone());
+            }
+            if !is_named(allowed, list) {
+                continue;
+            }
+            let group = list.index_group();
+            let known = self.lists.get(&group).is_some_and(|list| list.seen.contains(&index));
+            if !known && !self.has_room() {
+                return;
+            }
+            let objects = self.lists.entry(group).or_default();
+            objects.seen.insert(index);
+            if allowed.entries.iter().any(|entry| is_of_list(entry, &name)) {
+                objects.addresses.entry(name).or_default().insert(address);
+            }
+        }
     }
 }
 
 impl Objects {
-    fn learn(&mut self, first: u32, all: &DescriptorsRef<'_>) {
-        for (index, object) in (first..).zip(all.iter()) {
-            self.seen.insert(index);
-            let place = (object.index_group(), object.index_offset());
-            self.places.entry(object.name().into()).or_default().insert(place);
-        }
+    /// Whether each object was read that the list has.
+    fn is_whole(&self) -> bool {
+        let Some(count) = self.count else { return false };
+        let seen = self.seen.range(1..=count.max(1)).count();
+        count > 0 && u32::try_from(seen) == Ok(count)
     }
+}
+
+/// Whether the file names an object of a list.
+fn is_named(allowed: &Allowed, asked: ObjectList) -> bool {
+    let mut entries = allowed.entries.iter();
+    entries.any(|entry| matches!(entry, Entry::Object { list, .. } if list.list() == asked))
+}
+
+/// Whether a content may be that of a list's own object. Which number a rank has is not known.
+fn is_of(list: ObjectList, group: IndexGroup) -> bool {
+    let (list, Some(Group::Com(content))) = (list.parts(), group.parts()) else { return false };
+    let same = list.instance == content.instance;
+    list.table == content.table
+        && match (list.addressing, content.addressing) {
+            (Addressing::Index, Addressing::Logical) => true,
+            (list, content) => list == content && same,
+        }
 }

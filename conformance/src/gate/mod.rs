@@ -28,12 +28,13 @@ mod refusal;
 pub use allowed::{Allowed, Entry, List};
 pub use file::AllowFileError;
 pub use moment::Moment;
-pub use refusal::{Reason, Refusal};
+pub use refusal::{Doubt, Reason, Refusal};
 
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::ops::RangeInclusive;
 
-use ads_cnc::address::{Access, ComTable, Group};
+use ads_cnc::Handle;
+use ads_cnc::address::{Access, Channel, ComTable, Group};
 use ads_cnc::ads::{AmsNetId, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Effect, Function, Request, Service, Task};
 use ads_cnc::streaming;
@@ -44,9 +45,12 @@ use learnt::Learnt;
 /// Decides over every frame before a byte of it is sent.
 #[derive(Clone, Debug, Default)]
 pub struct Gate {
+    /// Whether malformed frames pass, if a file permits them.
     malformed: bool,
     /// Of a CNC in this process, which is thrown away.
     embedded: Option<SocketAddr>,
+    /// Where the frames go, if that is known.
+    peer: Option<IpAddr>,
     allowed: Option<Allowed>,
     learnt: Learnt,
 }
@@ -85,16 +89,10 @@ impl Gate {
         Self::default()
     }
 
-    /// Anything but documented writes and what is never sent: for a CNC on this machine that
-    /// cannot move. [`Client`](crate::client::Client) takes no other target with it.
-    pub fn with_malformed() -> Self {
-        Self { malformed: true, ..Self::default() }
-    }
-
-    /// And every documented write besides: for the CNC that this server of this process has, which
+    /// Anything but what is never sent: for the CNC that this server of this process has, which
     /// moves nothing. [`Client`](crate::client::Client) takes no other address with it.
     pub fn of_embedded(server: &Server) -> Self {
-        Self { embedded: Some(server.addr()), ..Self::with_malformed() }
+        Self { embedded: Some(server.addr()), ..Self::default() }
     }
 
     /// The only address that it may stand in front of, if there is but one.
@@ -118,16 +116,44 @@ impl Gate {
         Self { allowed, ..self }
     }
 
-    /// And what no client should send; [`Client`](crate::client::Client) takes no target with it but
-    /// a CNC on this machine.
+    /// And what no client should send, to the target that a file permits that for.
+    /// [`Client`](crate::client::Client) takes no target with it but a CNC on this machine.
     #[must_use]
     pub fn and_malformed(self) -> Self {
         Self { malformed: true, ..self }
     }
 
-    /// Whether malformed frames pass.
-    pub const fn lets_malformed_pass(&self) -> bool {
-        self.malformed
+    /// With the address that the frames go to, which a file may bind.
+    #[must_use]
+    pub fn to_address(self, peer: IpAddr) -> Self {
+        Self { peer: Some(peer.to_canonical()), ..self }
+    }
+
+    /// Whether malformed frames may pass: some of them may be writes to whoever takes them.
+    pub fn lets_malformed_pass(&self) -> bool {
+        let permits = |allowed: &Allowed| allowed.malformed;
+        self.embedded.is_some() || self.malformed && self.allowed.as_ref().is_some_and(permits)
+    }
+
+    /// Why nothing of what the file allows may be sent to this target now.
+    ///
+    /// # Errors
+    /// The first reason; none if there is no file.
+    pub fn check_target(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
+        let Some(allowed) = &self.allowed else { return Ok(()) };
+        allowed.check_target(target, self.peer, now).map_err(Refusal::from)
+    }
+
+    /// Whether malformed requests may be sent to this target now.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn check_malformed(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
+        match &self.allowed {
+            _ if self.embedded.is_some() => Ok(()),
+            Some(allowed) if allowed.malformed => self.check_target(target, now),
+            _ => Err(Reason::NoMalformed(target).into()),
+        }
     }
 
     /// Whether this frame may be sent now. It depends on nothing but the gate and what is given.
@@ -136,13 +162,16 @@ impl Gate {
     /// Why not, and which entry would allow it.
     pub fn check<'f>(&self, frame: &'f [u8], now: Moment) -> Result<Permit<'f>, Refusal> {
         let permit = |repeatable| Ok(Permit { frame, repeatable });
-        let malformed = |reason: Reason| match self.malformed {
-            true => permit(false),
-            false => Err(reason.into()),
-        };
         let whole = match whole(frame) {
             Ok(whole) => whole,
-            Err(reason) => return malformed(reason),
+            // To whom it goes is not known either.
+            Err(_) if self.embedded.is_some() => return permit(false),
+            Err(reason) => return Err(reason.into()),
+        };
+        let target = whole.header().target.net_id;
+        let malformed = |reason: Reason| match self.lets_malformed_pass() {
+            true => self.check_malformed(target, now).and_then(|()| permit(false)),
+            false => Err(reason.into()),
         };
         let header = whole.header();
         // What is never sent is not sent with odd flags either.
@@ -171,11 +200,17 @@ impl Gate {
         permit(repeatable)
     }
 
-    /// Keeps what an answer says of handles and of the places of objects, which files name.
+    /// Keeps what a reply says of handles and of addresses of objects: whether a write by one is of
+    /// what the file names.
     pub fn learn(&mut self, call: &Call<'_>, reply: &[u8]) {
         if let Some(allowed) = &self.allowed {
             self.learnt.learn(allowed, call, reply);
         }
+    }
+
+    /// Whether a reply on this connection gave this handle to any name.
+    pub fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
+        self.learnt.knows_handle(channel, handle)
     }
 
     /// Forgets what answers said: whoever answers next may be another.
@@ -186,16 +221,18 @@ impl Gate {
     /// Whether it can be repeated.
     fn check_call(&self, call: &Call<'_>, to: AmsNetId, now: Moment) -> Result<bool, Refusal> {
         never(call)?;
+        let lets_malformed_pass = self.lets_malformed_pass();
         let request = match call.dispatch() {
             Ok(request) => request,
-            Err(_) if self.malformed => return Ok(false),
+            Err(_) if lets_malformed_pass => return self.check_malformed(to, now).map(|()| false),
             Err(refusal) => return Err(Reason::Unknown(refusal).into()),
         };
         let spec = request.function().spec();
         let at_home = call.port == spec.task.port()
             || (call.port == AmsPort::GEO && OF_CLASSES.contains(&request.function()));
         match spec.effect {
-            Effect::Query if at_home || self.malformed => Ok(true),
+            Effect::Query if at_home => Ok(true),
+            Effect::Query if lets_malformed_pass => self.check_malformed(to, now).map(|()| true),
             // An entry does not tell the tasks apart: it is about SDA and COM.
             _ if call.port != spec.task.port() => {
                 Err(Reason::Port(call.port, request.function()).into())
@@ -217,17 +254,19 @@ impl Gate {
         let Some(allowed) = &self.allowed else {
             return Err(Refusal::needing(Reason::NoFile(function, to), needed));
         };
-        let named = allowed.entries.iter().any(|entry| entry.allows(request, &self.learnt));
-        if !named {
-            return Err(Refusal::needing(Reason::NoEntry(function), needed));
+        let mut doubt = None;
+        let mut named = false;
+        for entry in &allowed.entries {
+            match entry.allows(request, &self.learnt) {
+                Ok(allows) => named |= allows,
+                Err(why) => doubt = Some(why),
+            }
         }
-        if allowed.target != to {
-            return Err(Reason::OtherTarget { allowed: allowed.target, target: to }.into());
+        match (named, doubt) {
+            (true, _) => self.check_target(to, now),
+            (false, Some(doubt)) => Err(Reason::Doubtful(function, doubt).into()),
+            (false, None) => Err(Refusal::needing(Reason::NoEntry(function), needed)),
         }
-        if now >= allowed.expires {
-            return Err(Reason::Expired(allowed.expires).into());
-        }
-        Ok(())
     }
 }
 

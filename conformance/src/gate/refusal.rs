@@ -1,12 +1,14 @@
 //! Why a frame does not pass, and what would let it.
 
 use std::fmt;
+use std::net::IpAddr;
 
-use ads_cnc::Error;
 use ads_cnc::address::IndexGroup;
 use ads_cnc::ads::{AmsNetId, AmsPort, Command, StateFlags};
 use ads_cnc::operation::{self, Function};
+use ads_cnc::{CncString, Error};
 
+use super::learnt::LEARNT_MAX;
 use super::{Entry, Moment};
 
 /// A frame the gate did not let through.
@@ -53,8 +55,57 @@ pub enum Reason {
         /// The one asked for.
         target: AmsNetId,
     },
+    /// The file is for another IP address.
+    OtherAddress {
+        /// The one it allows.
+        allowed: Option<IpAddr>,
+        /// The one that the connection goes to, if it is known.
+        address: Option<IpAddr>,
+    },
+    /// The file is for 127.0.0.1.1.1, which is the local machine, and the address is another's.
+    LocalNetId(Option<IpAddr>),
     /// The file was good until then.
     Expired(Moment),
+    /// The file names what is to be written, but what the device says of it leaves open whether the
+    /// handle or the address is that of something else.
+    Doubtful(Function, Doubt),
+    /// No file permits malformed requests.
+    NoMalformed(AmsNetId),
+}
+
+/// Why a handle or an address may be that of something which the file does not name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    /// The device gives it to this name too.
+    Shared(CncString),
+    /// The device gives several to this name.
+    Several(CncString),
+    /// Not both of HandleByName and a description gave it to this name.
+    Unconfirmed(CncString),
+    /// The address of the object of this name is that of another channel or axis.
+    Elsewhere(CncString),
+    /// There are more names than are kept.
+    TooMuch,
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Shared(name) => {
+                write!(f, "the device gives it to {name} too, which the file does not name")
+            }
+            Self::Several(name) => write!(f, "the device gives several to {name}"),
+            Self::Unconfirmed(name) => {
+                write!(f, "the handle by name and the description of {name} have not both given it")
+            }
+            Self::Elsewhere(name) => {
+                write!(f, "it is in another channel or axis than the list that has {name}")
+            }
+            Self::TooMuch => {
+                write!(f, "the device has more names than the {LEARNT_MAX} that are compared")
+            }
+        }
+    }
 }
 
 impl Refusal {
@@ -74,12 +125,29 @@ impl Refusal {
                 format!("If nothing can come to harm, add to the file of --allow-write:\n\n{entry}")
             }
             (Reason::NoFile(..) | Reason::NoEntry(_), None) => {
-                "A handle can be written after this session has asked for it by a name that the \
-                 file of --allow-write has."
+                "A handle can be written by after the device has given it, by HandleByName and in \
+                 a description, to a name that the file of --allow-write has."
                     .to_owned()
             }
             (Reason::OtherTarget { .. }, _) => {
                 "Write a file for this target; see that it is the right one.".to_owned()
+            }
+            (Reason::OtherAddress { .. }, _) => {
+                "See whether it is the right device; the file says its address.".to_owned()
+            }
+            (Reason::LocalNetId(_), _) => {
+                "Write a file for the NetId that the device's own router shows.".to_owned()
+            }
+            (Reason::NoMalformed(target), _) => format!(
+                "If nothing can come to harm, permit it in a file for --allow-write:\n\n\
+                 target = \"{target}\"\n\
+                 expires = …  # a date and time such as 2026-05-04T17:30:00+02:00\n\
+                 malformed = true"
+            ),
+            (Reason::Doubtful(..), _) => {
+                "A variable can be written by its name; an object by its group and offset, if the \
+                 file has them."
+                    .to_owned()
             }
             (Reason::Expired(_), _) => {
                 "See whether nothing can come to harm, and set another time.".to_owned()
@@ -128,6 +196,26 @@ impl fmt::Display for Refusal {
             Reason::OtherTarget { allowed, target } => {
                 write!(f, "the file of --allow-write is for {allowed}, not for {target}")
             }
+            Reason::OtherAddress { allowed, address } => write!(
+                f,
+                "the file of --allow-write is for the address {}, not for {}",
+                shown(allowed),
+                shown(address)
+            ),
+            Reason::LocalNetId(address) => write!(
+                f,
+                "the file of --allow-write is for 127.0.0.1.1.1, which is the NetId of whichever \
+                 machine is asked, and {} is not this one",
+                shown(address)
+            ),
+            Reason::Doubtful(function, doubt) => write!(
+                f,
+                "\"{}\" may reach what the file of --allow-write does not name: {doubt}",
+                name(function)
+            ),
+            Reason::NoMalformed(target) => {
+                write!(f, "no file permits malformed requests to {target}")
+            }
             Reason::Expired(moment) => {
                 write!(f, "the file of --allow-write was good until {moment}")
             }
@@ -136,3 +224,7 @@ impl fmt::Display for Refusal {
 }
 
 impl std::error::Error for Refusal {}
+
+fn shown(address: &Option<IpAddr>) -> String {
+    address.map_or_else(|| "one that is not known".to_owned(), |address| address.to_string())
+}

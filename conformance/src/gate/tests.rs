@@ -3,10 +3,14 @@ use ads_cnc::address::{
 };
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use ads_cnc::operation::{
-    AxisWriteByName, Call, CountObjects, HandleByName, ReadDescriptors, Request, Service,
-    WriteByHandle, WriteByName, WriteElement, WriteObject, WriteProgramStream,
+    AxisHandleByName, AxisWriteByName, Call, CountObjects, DescribeByIndex, DescribeByName,
+    HandleByName, ObjectList, ReadDescriptors, Request, Service, WriteByHandle, WriteByName,
+    WriteElement, WriteObject, WriteProgramStream,
 };
-use ads_cnc::{Descriptor, Encode as _, Handle, Numbers};
+use ads_cnc::{
+    Description, DescriptionByName, Descriptor, Encode as _, Handle, Kind, Numbers, VariableAccess,
+    VariableType,
+};
 
 use super::*;
 
@@ -24,6 +28,11 @@ fn file(tables: &str) -> String {
 
 fn gate(tables: &str) -> Gate {
     Gate::queries().with_allowed(Some(Allowed::from_toml(&file(tables)).unwrap()))
+}
+
+/// Of a file that names nothing, but permits malformed requests.
+fn malformed() -> Gate {
+    gate("malformed = true").and_malformed()
 }
 
 fn frame(command: Command, port: AmsPort, data: &[u8]) -> Vec<u8> {
@@ -161,7 +170,7 @@ fn what_is_never_sent_no_opt_in_sends() {
     for frame in never {
         assert!(check(&frame).is_err());
         assert!(gate(everything).check(&frame, now()).is_err());
-        let refusal = Gate::with_malformed().check(&frame, now()).unwrap_err();
+        let refusal = malformed().check(&frame, now()).unwrap_err();
         assert!(!refusal.to_string().is_empty() && refusal.needed.is_none());
     }
 }
@@ -173,7 +182,7 @@ fn each_write_has_its_entry() {
         let refusal = check(frame).unwrap_err();
         assert_eq!(refusal.needed.as_ref().unwrap().to_string(), *table);
         assert!(refusal.advice().contains(table));
-        assert!(Gate::with_malformed().check(frame, now()).is_err());
+        assert!(malformed().check(frame, now()).is_err());
 
         let gate = gate(table);
         assert!(!gate.check(frame, now()).unwrap().is_repeatable());
@@ -237,26 +246,146 @@ fn learn<'a>(gate: &mut Gate, request: impl Into<Request<'a>>, reply: &[u8]) {
     gate.learn(&request.encode(&mut buf).unwrap(), reply);
 }
 
+fn by_handle(handle: u32) -> Vec<u8> {
+    request(WriteByHandle::new(channel(1), Handle(handle), Numbers::from(&[4]), &[1]))
+}
+
+fn give_handle(gate: &mut Gate, name: &str, handle: u32) {
+    learn(gate, HandleByName::new(channel(1), name).unwrap(), &handle.to_le_bytes());
+}
+
+/// A description by index.
+fn describe(gate: &mut Gate, name: &str, handle: u32) {
+    let description = Description {
+        handle: Handle(handle),
+        var_type: VariableType::UNS32,
+        access: VariableAccess::READ_WRITE,
+        size: 4,
+        dimensions: Vec::new(),
+        name: name.parse().unwrap(),
+    };
+    learn(gate, DescribeByIndex::new(channel(1), 0, Kind::V_E), &description.to_vec().unwrap());
+}
+
+fn doubt(gate: &Gate, frame: &[u8]) -> Option<Doubt> {
+    match gate.check(frame, now()) {
+        Err(Refusal { reason: Reason::Doubtful(_, doubt), .. }) => Some(doubt),
+        _ => None,
+    }
+}
+
 #[test]
 fn a_handle_is_good_for_what_was_asked() {
     let mut gate = gate(
         "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
                          [[variable]]\nchannel = 1\nname = \"V.E.b[1]\"",
     );
-    let write =
-        |handle| request(WriteByHandle::new(channel(1), Handle(handle), Numbers::from(&[4]), &[1]));
-    let refusal = gate.check(&write(7), now()).unwrap_err();
+    let refusal = gate.check(&by_handle(7), now()).unwrap_err();
     assert!(refusal.advice().contains("handle"), "{}", refusal.advice());
     for (name, handle) in [("V.E.a", 7_u32), ("V.E.other", 8), ("V.E.b[1]", 9)] {
-        let op = HandleByName::new(channel(1), name).unwrap();
-        learn(&mut gate, op, &handle.to_le_bytes());
+        give_handle(&mut gate, name, handle);
     }
-    assert!(gate.check(&write(7), now()).is_ok());
+    let unconfirmed = || Some(Doubt::Unconfirmed("V.E.a".parse().unwrap()));
+    assert_eq!(doubt(&gate, &by_handle(7)), unconfirmed());
+    for (name, handle) in [("V.E.a", 7_u32), ("V.E.other", 8), ("V.E.b", 9)] {
+        describe(&mut gate, name, handle);
+    }
+    assert!(gate.check(&by_handle(7), now()).is_ok());
     // No entry, and one for an element, whose handle reaches the others too.
-    assert!(gate.check(&write(8), now()).is_err());
-    assert!(gate.check(&write(9), now()).is_err());
+    assert!(matches!(gate.check(&by_handle(8), now()).unwrap_err().reason, Reason::NoEntry(_)));
+    assert!(matches!(gate.check(&by_handle(9), now()).unwrap_err().reason, Reason::NoEntry(_)));
     gate.forget();
-    assert!(gate.check(&write(7), now()).is_err());
+    assert!(gate.check(&by_handle(7), now()).is_err());
+    describe(&mut gate, "V.E.a", 7);
+    assert_eq!(doubt(&gate, &by_handle(7)), unconfirmed());
+}
+
+/// A handle that the device gives to anything else too, whichever reply it does so in.
+#[test]
+fn a_handle_of_several_names_is_not_written_by() {
+    let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
+                 [[variable]]\nchannel = 1\nname = \"V.A.p.X\"";
+    let confirmed = |name: &str| {
+        let mut gate = gate(table);
+        give_handle(&mut gate, name, 7);
+        describe(&mut gate, name, 7);
+        assert!(gate.check(&by_handle(7), now()).is_ok(), "{name}");
+        gate
+    };
+    let shared = |name: &str| Some(Doubt::Shared(name.parse().unwrap()));
+    let mut by_name = confirmed("V.E.a");
+    give_handle(&mut by_name, "V.E.b", 7);
+    assert_eq!(doubt(&by_name, &by_handle(7)), shared("V.E.b"));
+
+    let mut by_index = confirmed("V.E.a");
+    describe(&mut by_index, "V.E.b", 7);
+    assert_eq!(doubt(&by_index, &by_handle(7)), shared("V.E.b"));
+
+    let mut described = confirmed("V.E.a");
+    let reply = DescriptionByName {
+        handle: Handle(7),
+        var_type: VariableType::UNS32,
+        access: VariableAccess::READ_WRITE,
+        size: 4,
+        dimensions: Vec::new(),
+    };
+    let reply = reply.to_vec().unwrap();
+    learn(&mut described, DescribeByName::new(channel(1), "V.E.b").unwrap(), &reply);
+    assert_eq!(doubt(&described, &by_handle(7)), shared("V.E.b"));
+
+    // In another channel a handle is another.
+    let mut other = confirmed("V.E.a");
+    let of_other = HandleByName::new(channel(2), "V.E.b").unwrap();
+    learn(&mut other, of_other, &7_u32.to_le_bytes());
+    assert!(other.check(&by_handle(7), now()).is_ok());
+
+    // The handle of another name that the file has is all right, several for one name are not.
+    let mut both = confirmed("V.E.a");
+    give_handle(&mut both, "V.A.p.X", 7);
+    assert!(both.check(&by_handle(7), now()).is_ok());
+    give_handle(&mut both, "V.E.a", 8);
+    assert_eq!(doubt(&both, &by_handle(7)), Some(Doubt::Several("V.E.a".parse().unwrap())));
+    assert_eq!(doubt(&both, &by_handle(8)), Some(Doubt::Several("V.E.a".parse().unwrap())));
+
+    // On the axis interface the axis is no part of the name.
+    let of_axis = |gate: &mut Gate, axis: u32, name: &str| {
+        let axis = ChannelAxis::new(axis).unwrap();
+        let ask = AxisHandleByName::new(channel(1), axis, name).unwrap();
+        learn(gate, ask, &7_u32.to_le_bytes());
+    };
+    let mut axis = confirmed("V.A.p.X");
+    of_axis(&mut axis, 1, "V.A.p");
+    assert!(axis.check(&by_handle(7), now()).is_ok());
+    of_axis(&mut axis, 2, "V.A.p");
+    assert_eq!(doubt(&axis, &by_handle(7)), shared("V.A.p"));
+    let mut axis = confirmed("V.A.p.X");
+    of_axis(&mut axis, 1, "V.A.q");
+    assert_eq!(doubt(&axis, &by_handle(7)), shared("V.A.q"));
+}
+
+/// What does not fit any more closes the gate; nothing that was learnt makes room for it.
+#[test]
+fn what_is_learnt_is_bounded() {
+    let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
+                 [[object]]\nchannel = 1\nname = \"b_w\"";
+    let mut gate = gate(table);
+    give_handle(&mut gate, "V.E.a", 7);
+    describe(&mut gate, "V.E.a", 7);
+    let kept = u32::try_from(learnt::LEARNT_MAX).unwrap();
+    for handle in 100..98 + kept {
+        give_handle(&mut gate, "V.E.other", handle);
+    }
+    assert!(gate.check(&by_handle(7), now()).is_ok());
+    for _ in 0..2 {
+        give_handle(&mut gate, "V.E.other", 1);
+        assert_eq!(doubt(&gate, &by_handle(7)), Some(Doubt::TooMuch));
+    }
+    assert!(gate.check(&by_name("V.E.a"), now()).is_ok());
+    assert!(gate.knows_handle(channel(1), Handle(2)));
+    gate.forget();
+    describe(&mut gate, "V.E.a", 7);
+    give_handle(&mut gate, "V.E.a", 7);
+    assert!(gate.check(&by_handle(7), now()).is_ok());
 }
 
 #[test]
@@ -287,6 +416,86 @@ fn an_object_is_known_by_its_name_when_the_list_is() {
     learn(&mut twice, CountObjects::new(channel(1)), &three);
     learn(&mut twice, ask(1, 3), &list([("a_w", 1), ("b_w", 2), ("b_w", 3)]));
     assert!(twice.check(&write(2), now()).is_err() && twice.check(&write(3), now()).is_err());
+
+    // Beyond the last there is none: what a device says to be there does not make the list whole.
+    let mut beyond = gate(table);
+    learn(&mut beyond, CountObjects::new(channel(1)), &three);
+    learn(&mut beyond, ask(2, 3), &list([("b_w", 2), ("c_w", 3), ("d_w", 4)]));
+    assert!(beyond.check(&write(2), now()).is_err());
+
+    // Two names at one address, in one list or in two.
+    let shared = Some(Doubt::Shared("c_w".parse().unwrap()));
+    let mut same = gate(table);
+    learn(&mut same, CountObjects::new(channel(1)), &three);
+    learn(&mut same, ask(1, 3), &list([("c_w", 2), ("b_w", 2), ("a_w", 3)]));
+    assert_eq!(doubt(&same, &write(2)), shared);
+    let mut other = known.clone();
+    learn(&mut other, ReadDescriptors::new(ObjectList::PLATFORM, 1, 1).unwrap(), &object("c_w", 2));
+    assert_eq!(doubt(&other, &write(2)), shared);
+
+    // An address in another channel.
+    let mut elsewhere = gate(&table.replace("channel = 1", "channel = 2"));
+    learn(&mut elsewhere, CountObjects::new(channel(2)), &[1, 0, 0, 0]);
+    let of_other = ReadDescriptors::new(channel(2), 1, 1).unwrap();
+    learn(&mut elsewhere, of_other, &object("b_w", 2));
+    assert_eq!(doubt(&elsewhere, &write(2)), Some(Doubt::Elsewhere("b_w".parse().unwrap())));
+}
+
+/// A file may bind the address that its NetId is asked at, and has to be about this machine if it
+/// is about the NetId that each machine has for itself.
+#[test]
+fn a_file_binds_an_address() {
+    let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"";
+    let to = |gate: &Gate, address: &str| gate.clone().to_address(address.parse().unwrap());
+    let bound = gate(&format!("address = \"192.0.2.10\"\n{table}"));
+    let write = by_name("V.E.a");
+    assert!(to(&bound, "192.0.2.10").check(&write, now()).is_ok());
+    assert!(to(&bound, "::ffff:192.0.2.10").check(&write, now()).is_ok());
+    for other in [to(&bound, "192.0.2.11"), to(&bound, "2001:db8::1"), bound] {
+        let refusal = other.check(&write, now()).unwrap_err();
+        assert!(matches!(refusal.reason, Reason::OtherAddress { .. }), "{refusal}");
+        assert!(other.check_target(TARGET, now()).is_err());
+    }
+
+    let text = file(table).replace("192.0.2.7.1.1", "127.0.0.1.1.1");
+    let local = Gate::queries().with_allowed(Some(Allowed::from_toml(&text).unwrap()));
+    let mut write = write;
+    write[6..12].copy_from_slice(&[127, 0, 0, 1, 1, 1]);
+    for here in ["127.0.0.1", "127.1.2.3", "::1", "::ffff:127.0.0.1"] {
+        assert!(to(&local, here).check(&write, now()).is_ok(), "{here}");
+    }
+    for other in [to(&local, "192.0.2.10"), to(&local, "::"), local] {
+        let refusal = other.check(&write, now()).unwrap_err();
+        assert!(matches!(refusal.reason, Reason::LocalNetId(_)), "{refusal}");
+    }
+}
+
+/// What no client should send passes for the target of a file that permits it, for its time; the
+/// option alone, or the file alone, lets nothing of it pass.
+#[test]
+fn malformed_requests_need_a_file() {
+    let bad = at(AmsPort::SDA, Service::ReadWrite, 0xF005, 0, b"x");
+    let odd = at(AmsPort::SDA, Service::Write, 0x12_2301, 0x44, b"V.E\0");
+    let end = Moment::from_rfc3339("2026-05-04T15:30:00Z").unwrap();
+    for frame in [&bad, &odd] {
+        assert!(malformed().check(frame, now()).is_ok());
+        for gate in [Gate::queries().and_malformed(), gate(""), gate("malformed = true")] {
+            assert!(gate.check(frame, now()).is_err());
+        }
+        assert!(gate("malformed = false").and_malformed().check(frame, now()).is_err());
+        let late = malformed().check(frame, end).unwrap_err();
+        assert!(matches!(late.reason, Reason::Expired(_)), "{late}");
+        let mut other = frame.clone();
+        other[6] ^= 1;
+        let refusal = malformed().check(&other, now()).unwrap_err();
+        assert!(matches!(refusal.reason, Reason::OtherTarget { .. }), "{refusal}");
+        // To whom it goes is not known.
+        assert!(malformed().check(&frame[..frame.len() - 1], now()).is_err());
+    }
+    let refusal = Gate::queries().and_malformed().check_malformed(TARGET, now()).unwrap_err();
+    assert!(refusal.advice().contains("malformed = true"), "{}", refusal.advice());
+    assert!(malformed().check_malformed(TARGET, now()).is_ok());
+    assert!(malformed().check_malformed(TARGET, end).is_err());
 }
 
 #[test]
@@ -333,6 +542,8 @@ fn a_bad_file_is_refused_with_its_line() {
         "expires = 2026-05-04T17:30:00Z",
         "target = \"192.0.2.7.1.1\"",
         "target = \"192.0.2.7\"\nexpires = 2026-05-04T17:30:00Z",
+        "target = \"192.0.2.7.1.1\"\naddress = \"192.0.2.7:48898\"\nexpires = 2026-05-04T17:30:00Z",
+        "target = \"192.0.2.7.1.1\"\nmalformed = 1\nexpires = 2026-05-04T17:30:00Z",
         "target = \"192.0.2.7.1.1\"\nexpires = 2026-05-04T17:30:00",
         "target = \"192.0.2.7.1.1\"\nexpires = 2026-05-04",
         "target = \"192.0.2.7.1.1\"\nexpires = \"tomorrow\"",

@@ -108,17 +108,8 @@ fn tame_value(value: Value) -> Value {
 }
 
 fn tame_target(target: &mut TargetReport) {
-    let TargetReport {
-        name,
-        version,
-        language,
-        command,
-        address,
-        net_id,
-        device,
-        stderr,
-        file,
-    } = target;
+    let TargetReport { name, version, language, command, address, net_id, device, stderr, file } =
+        target;
     all([name]);
     all([version, language, command, address, net_id, file].into_iter().flatten());
     if let Some(said) = stderr {

@@ -110,7 +110,7 @@ impl Session {
     /// # Errors
     /// Those of [`embedded`](Self::embedded).
     pub fn embedded_to_try(cnc: Cnc) -> Result<Self, Trouble> {
-        let session = Self::embedded(cnc, Gate::with_malformed())?;
+        let session = Self::embedded(cnc, Gate::queries())?;
         match session.embedded.as_ref().map(Gate::of_embedded) {
             Some(gate) => session.behind(gate),
             None => Ok(session),

@@ -115,7 +115,7 @@ impl Probe<'_> {
     }
 
     /// Whether this place may be written, and is not to be left alone.
-    pub(super) fn may_write(&self, place: &Place, name: &str) -> Step<bool> {
+    pub(super) fn may_write(&mut self, place: &Place, name: &str) -> Step<bool> {
         let left = self.session.profile.leaves(name);
         match place.write(&[]) {
             Ok(write) if !left => self.may(write),

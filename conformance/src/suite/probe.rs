@@ -1,5 +1,6 @@
 //! What a case works with: it asks the target and judges the answers.
 
+mod handle;
 mod refused;
 
 use std::fmt::Display;
@@ -15,6 +16,7 @@ use super::record::{Checks, Record};
 use super::session::Session;
 use crate::cnc::Cnc;
 use crate::exchange::{Exchange, Fault, Violation};
+use crate::gate::Reason;
 use crate::interrupt;
 use crate::profile::Claim;
 use crate::verdict::Verdict;
@@ -35,11 +37,14 @@ pub struct Probe<'s> {
     asked: usize,
     /// Whether it was kept from asking, as the run is to end.
     pub(super) interrupted: bool,
+    /// Why something that the file names is not written.
+    doubt: Option<String>,
 }
 
 impl<'s> Probe<'s> {
     pub(super) fn new(session: &'s mut Session) -> Self {
-        Self { session, record: Record::default(), last: None, asked: 0, interrupted: false }
+        let (record, last, doubt) = (Record::default(), None, None);
+        Self { session, record, last, asked: 0, interrupted: false, doubt }
     }
 
     pub(super) fn into_findings(self) -> (Vec<Judgement>, usize) {
@@ -58,13 +63,28 @@ impl<'s> Probe<'s> {
         first.ok_or(Stop::NotApplicable("the target claims no channel".into()))
     }
 
-    /// Whether a request may be sent; nothing is.
-    pub(super) fn may<'a>(&self, request: impl Into<Request<'a>>) -> Step<bool> {
+    /// Whether a request may be sent; of a write by handle the device confirms the handle first.
+    pub(super) fn may<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<bool> {
         let request = request.into();
-        let mut buf = vec![0; request.encoded_len()];
-        let call = request.encode(&mut buf).map_err(harness)?;
-        let claimed = self.claims(request.function()) != Claim::No;
-        Ok(claimed && self.session.client.check(&call).is_ok())
+        if self.claims(request.function()) == Claim::No {
+            return Ok(false);
+        }
+        self.confirm_handle(&request)?;
+        let checked = self.check_gate(&request)?;
+        if let Err(Some(refusal)) = &checked
+            && matches!(refusal.reason, Reason::Doubtful(..))
+        {
+            self.doubt.get_or_insert_with(|| refusal.to_string());
+        }
+        Ok(checked.is_ok())
+    }
+
+    /// How the case ends: one that could not write what the file names did not run to its end.
+    pub(super) fn end(&mut self, step: Step) -> Step {
+        match (self.doubt.take(), step) {
+            (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::Refused(why)),
+            (_, step) => step,
+        }
     }
 
     /// The CNC itself, to do to it from within what nobody can ask for.
@@ -207,6 +227,7 @@ impl<'s> Probe<'s> {
     /// Sends an operation.
     pub fn send<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<Exchange> {
         let request = request.into();
+        self.confirm_handle(&request)?;
         let mut buf = vec![0; request.encoded_len()];
         let call = request.encode(&mut buf).map_err(harness)?;
         self.call(&call)

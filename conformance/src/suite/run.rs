@@ -78,6 +78,7 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
         Err(_) => Err(Stop::Harness("the case panicked".to_owned())),
     };
     let step = step.and(probe.put_back());
+    let step = probe.end(step);
     let (judgements, checks) = probe.into_findings();
     Outcome::tried(case, judgements, checks, step.err())
 }

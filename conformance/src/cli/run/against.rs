@@ -9,6 +9,7 @@ use crate::cli::forms::show;
 use crate::cli::{complain, run_dry};
 use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::Seed;
+use crate::gate::Moment;
 use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
@@ -93,13 +94,13 @@ impl Run {
         about: About,
     ) -> Result<Report, Stopped> {
         let (client, allow) = (&session.client, self.target.has_file());
-        let useless = client.gate().allowed().and_then(|one| one.useless(client.target().net_id));
-        if let Some(why) = &useless {
-            complain(format_args!("nothing is written: the file for --allow-write {why}"));
+        let usable = client.gate().check_target(client.target().net_id, Moment::now());
+        if let Err(why) = &usable {
+            complain(format_args!("nothing is written: {why}"));
         }
         let outcomes = suite::run(plan.cases.clone(), Some(&mut session), defect, about.seed);
         session.client.end_capture().map_err(|error| self.lost_capture(&error))?;
-        if allow && useless.is_none() && !outcomes.iter().any(has_written) {
+        if allow && usable.is_ok() && !outcomes.iter().any(has_written) {
             complain(
                 "nothing was written: nothing that the file for --allow-write names was found",
             );

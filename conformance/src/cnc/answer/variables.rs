@@ -130,6 +130,7 @@ impl Running<'_> {
             (Named::Variable(at), indices) => self.write(channel, at, indices, op.value),
             (Named::Parameter, _) => {
                 let (_, name) = parameter(op.name)?;
+                tracing::debug!(channel, %name, "write to a parameter");
                 let value = op.value.try_into().map_err(|_| AdsError::INVALID_SIZE)?;
                 let channel = self.state.channels.get_mut(channel);
                 let found = channel.and_then(|one| one.parameters.value_mut(&name));
@@ -184,6 +185,12 @@ impl Running<'_> {
 
     fn write(&mut self, channel: usize, at: At, indices: Numbers<'_>, bytes: &[u8]) -> Answer {
         let variable = self.variable(channel, at)?;
+        if tracing::enabled!(tracing::Level::DEBUG)
+            && let (Ok(name), Some(model)) =
+                (self.name(channel, at), self.model.channels.get(channel))
+        {
+            tracing::debug!(channel = model.number, %name, "write to a variable");
+        }
         let part = variable.part(indices).ok_or(AdsError::INVALID_DATA)?;
         if !variable.is_writable() {
             return Err(AdsError::INVALID_ACCESS);

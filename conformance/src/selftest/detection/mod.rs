@@ -67,7 +67,10 @@ impl Mode {
         match self {
             Self::ReadOnly | Self::Profiled => gate,
             Self::Writes => gate.with_allowed(Some(allowed.clone())),
-            Self::All => gate.with_allowed(Some(allowed.clone())).and_malformed(),
+            Self::All => {
+                let allowed = Allowed { malformed: true, ..allowed.clone() };
+                gate.with_allowed(Some(allowed)).and_malformed()
+            }
         }
     }
 }
@@ -211,7 +214,7 @@ fn everything_writable(cnc: Cnc, profile: &Profile) -> Result<Allowed, Trouble> 
         }
     }
     let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
-    Ok(Allowed { target: NET_ID, expires, entries })
+    Ok(Allowed { target: NET_ID, address: None, malformed: false, expires, entries })
 }
 
 /// Measures a defect, or a correct variant, in every mode.

@@ -183,7 +183,7 @@ const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 
 fn response(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
-    let may = |probe: &Probe<'_>, channel: Channel| -> Step<bool> {
+    let may = |probe: &mut Probe<'_>, channel: Channel| -> Step<bool> {
         probe.may(WriteByName::new(channel, Response.name(), b"\0").map_err(harness)?)
     };
     let mut any = false;

@@ -212,7 +212,7 @@ fn comment(len: usize) -> Vec<u8> {
 
 /// The first channel whose stream may be written. The embedded CNC's is set up anew: whatever was
 /// sent before, it waits for lines.
-fn channel(probe: &Probe<'_>) -> Step<Channel> {
+fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
     for channel in probe.channels()? {
         if probe.may(WriteProgramStream::new(channel, b"\r\n"))? {
             if let Some(cnc) = &probe.session.cnc {

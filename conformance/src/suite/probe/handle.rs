@@ -1,0 +1,48 @@
+//! What the gate has to know of a handle before something is written by it.
+
+use ads_cnc::operation::{Function, HandleByName, Request};
+
+use super::super::case::Step;
+use super::{Probe, harness};
+use crate::exchange::Fault;
+use crate::gate::{Doubt, Reason, Refusal};
+use crate::profile::Claim;
+
+impl Probe<'_> {
+    /// Asks for what confirms the handle of a write: descriptions of the channel if this connection
+    /// has not seen them, and the handle of the name that they give it to.
+    pub(super) fn confirm_handle(&mut self, request: &Request<'_>) -> Step {
+        let Request::WriteByHandle(op) = request else { return Ok(()) };
+        if self.check_gate(request)?.is_ok() {
+            return Ok(());
+        }
+        let number = u32::from(op.channel.number());
+        let is_described = self.session.variables.iter().any(|((channel, _), all)| {
+            *channel == number && all.iter().any(|variable| variable.handle == op.handle)
+        });
+        if is_described && !self.session.client.gate().knows_handle(op.channel, op.handle) {
+            // They were read on another connection, maybe of a device that has been restarted since.
+            self.session.variables.retain(|(channel, _), _| *channel != number);
+            self.variables(op.channel)?;
+        }
+        if let Err(Some(Refusal { reason: Reason::Doubtful(_, Doubt::Unconfirmed(name)), .. })) =
+            self.check_gate(request)?
+            && self.claims(Function::HandleByName) != Claim::No
+        {
+            self.try_ask(HandleByName { channel: op.channel, name: name.as_cnc_str().into() })?;
+        }
+        Ok(())
+    }
+
+    /// Whether a request could be sent, and why the gate rejects it if that is why not. Nothing is
+    /// sent.
+    pub(super) fn check_gate(&self, request: &Request<'_>) -> Step<Result<(), Option<Refusal>>> {
+        let mut buf = vec![0; request.encoded_len()];
+        let call = request.encode(&mut buf).map_err(harness)?;
+        match self.session.client.check(&call) {
+            Ok(()) => Ok(Ok(())),
+            Err(Fault::Refused(refusal)) => Ok(Err(Some(*refusal))),
+            Err(_) => Ok(Err(None)),
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! Nothing is written but what a file for `--allow-write` names, whatever the device says of handles
+//! and addresses. What is written is counted in the simulated CNC, behind its defect, by its log.
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::net::{SocketAddr, TcpStream};
+use std::process::{Command, Output};
+use std::sync::Mutex;
+use std::thread::{self, JoinHandle};
+
+use ads_cnc_conformance::{defect, net};
+use common::file::TestFile;
+use common::harmless::number;
+use common::{Serve, connect};
+
+/// A simulated CNC, and a thread that reads its log.
+struct Logged {
+    serve: Serve,
+    log: JoinHandle<Vec<String>>,
+}
+
+impl Logged {
+    fn start(options: &[&str]) -> Self {
+        let log = ["--log", "ads_cnc_conformance::cnc=debug"];
+        let mut serve = Serve::logging(&[&log[..], options].concat());
+        let stderr = BufReader::new(serve.process.stderr.take().unwrap());
+        let writes = |line: &String| line.contains("write to a ");
+        let log =
+            thread::spawn(move || stderr.lines().map_while(Result::ok).filter(writes).collect());
+        Self { serve, log }
+    }
+
+    /// How often each variable, parameter and content was written.
+    fn end(self) -> BTreeMap<String, usize> {
+        drop(self.serve);
+        let mut writes = BTreeMap::new();
+        for line in self.log.join().unwrap() {
+            let (_, what) = line.split_once("write to a ").unwrap();
+            *writes.entry(what.to_owned()).or_default() += 1;
+        }
+        writes
+    }
+}
+
+/// The cases that write, to what the file names.
+fn run(addr: &str, file: &TestFile, cases: &[&str]) -> Output {
+    let only: Vec<&str> = cases.iter().flat_map(|case| ["--only", case]).collect();
+    let target = ["--target", addr, "--net-id", "127.0.0.1.1.1", "--timeout", "500"];
+    let allow = ["--seed", "1", "--allow-write", file.path()];
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    command.arg("run").args(target).args(allow).args(only).output().unwrap()
+}
+
+/// A file, the one thing that it names as the log has it, and the cases that write such things.
+struct Named {
+    table: &'static str,
+    log: &'static str,
+    cases: &'static [&'static str],
+}
+
+const VARIABLE: Named = Named {
+    table: "[[variable]]\nchannel = 1\nname = \"V.E.Variable_1\"\n",
+    log: "variable channel=1 name=V.E.Variable_1",
+    cases: &["write-by-handle", "write-by-name"],
+};
+const ARRAY: Named = Named {
+    table: "[[variable]]\nchannel = 1\nname = \"V.E.test\"\n",
+    log: "variable channel=1 name=V.E.test",
+    cases: &["write-by-handle", "write-elements-by-handle"],
+};
+const OBJECT: Named = Named {
+    table: "[[object]]\nchannel = 1\nname = \"example_subroutine_w\"\n",
+    log: "content name=example_subroutine_w owner=Channel(0)",
+    cases: &["write-objects", "write-objects-by-index"],
+};
+
+/// What of a run against a CNC with this defect is written beside the named, and how often that is.
+fn tried(defect: &str, named: &Named) -> (usize, BTreeMap<String, usize>) {
+    let cnc = Logged::start(&["--defect", defect]);
+    let file = TestFile::allowing(named.table);
+    let output = run(&cnc.serve.addr, &file, named.cases);
+    assert!(matches!(output.status.code(), Some(0..=4)), "{defect}: {output:?}");
+    let mut writes = cnc.end();
+    (writes.remove(named.log).unwrap_or(0), writes)
+}
+
+/// Tries defects in turn; those that write what is not named, and how many write what is.
+fn all(defects: Vec<(&'static str, &'static Named)>) -> (BTreeMap<String, usize>, usize) {
+    let (queue, found) = (Mutex::new(defects.into_iter()), Mutex::new((BTreeMap::new(), 0)));
+    thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                loop {
+                    let next = queue.lock().unwrap().next();
+                    let Some((id, named)) = next else { break };
+                    let (count, others) = tried(id, named);
+                    let mut found = found.lock().unwrap();
+                    found.1 += usize::from(count > 0);
+                    for (what, count) in others {
+                        found.0.insert(format!("{id}: {what}"), count);
+                    }
+                }
+            });
+        }
+    });
+    found.into_inner().unwrap()
+}
+
+fn seeds(is: impl Fn(&str) -> bool, named: &'static Named) -> Vec<(&'static str, &'static Named)> {
+    let seeds = defect::all().iter().filter(|seed| seed.is_for_cnc() && is(&seed.id));
+    seeds.map(|seed| (seed.id.as_str(), named)).collect()
+}
+
+/// Every defect of handles: told, described, kept, and how they are understood.
+#[test]
+fn wrong_handles_reach_nothing_else() {
+    let is = |id: &str| id.contains("handle");
+    let defects = [seeds(is, &VARIABLE), seeds(is, &ARRAY)].concat();
+    assert!(defects.len() > 60, "{}", defects.len());
+    let (mut others, written) = all(defects);
+    // It says nothing wrong of any handle: it takes that of a good write for another one.
+    let misread = "variable-handle-write.handle.flip: variable channel=1 name=V.E.Variable_2";
+    assert!(others.remove(misread).is_some_and(|count| count < 3), "{others:?}");
+    assert!(others.is_empty(), "{others:#?}");
+    assert!(written > 60, "{written}");
+}
+
+/// Every defect of descriptors of objects, of their lists and of addresses, but for those that do a
+/// good write elsewhere.
+#[test]
+fn wrong_addresses_reach_nothing_else() {
+    let is = |id: &str| {
+        ["object-descriptor.", "object-count.", "cnc.com.", "cnc.adr."]
+            .iter()
+            .any(|start| id.starts_with(start))
+    };
+    let defects = seeds(is, &OBJECT);
+    assert!(defects.len() > 110, "{}", defects.len());
+    let (others, written) = all(defects);
+    assert!(others.is_empty(), "{others:#?}");
+    assert!(written > 60, "{written}");
+}
+
+/// A frame to its last byte; none if the connection ends.
+fn frame(stream: &mut TcpStream) -> Option<Vec<u8>> {
+    let mut frame = vec![0; 6];
+    stream.read_exact(&mut frame).ok()?;
+    frame.resize(6 + number(&frame, 2) as usize, 0);
+    stream.read_exact(&mut frame[6..]).ok()?;
+    Some(frame)
+}
+
+/// A device that answers as the CNC does, but for what is changed of its replies.
+fn lying(cnc: &str, change: fn(&[u8], &mut [u8])) -> SocketAddr {
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let (addr, cnc) = (listener.local_addr().unwrap(), cnc.parse().unwrap());
+    thread::spawn(move || {
+        for client in listener.incoming() {
+            let (mut client, mut cnc) = (client.unwrap(), connect(cnc));
+            thread::spawn(move || {
+                while let Some(request) = frame(&mut client) {
+                    cnc.write_all(&request).unwrap();
+                    let Some(mut reply) = frame(&mut cnc) else { break };
+                    change(&request, &mut reply);
+                    if client.write_all(&reply).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+    });
+    addr
+}
+
+/// Where the data of a reply begin: behind the headers, the result and the length.
+const DATA: usize = 46;
+
+fn is_asked(request: &[u8], group: u32, offset: u32) -> bool {
+    request.len() >= 46 && (number(request, 38), number(request, 42)) == (group, offset)
+}
+
+fn put(reply: &mut [u8], at: usize, value: u32) {
+    if let Some(four) = reply.get_mut(at..at + 4) {
+        four.copy_from_slice(&value.to_le_bytes());
+    }
+}
+
+/// V.E.Testvar's, as the simulated CNC has it.
+fn handle_of_another(cnc: &str) -> u32 {
+    let target = ["--target", cnc, "--net-id", "127.0.0.1.1.1"];
+    let get = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["get", "V.E.Testvar"])
+        .args(target)
+        .output()
+        .unwrap();
+    let shown = String::from_utf8(get.stdout).unwrap();
+    let (_, handle) = shown.lines().next().unwrap().rsplit_once("handle 0x").unwrap();
+    u32::from_str_radix(handle, 16).unwrap()
+}
+
+const OTHER: u32 = 0x4040_0003;
+
+/// The handle of one variable for the name of another, for all names, and in the descriptions by name
+/// too.
+#[test]
+fn a_handle_of_another_variable_is_not_written_by() {
+    let every: fn(&[u8], &mut [u8]) = |request, reply| {
+        if is_asked(request, 0x12_2301, 0x46) {
+            put(reply, DATA, OTHER);
+        }
+    };
+    let one: fn(&[u8], &mut [u8]) = |request, reply| {
+        if is_asked(request, 0x12_2301, 0x46) && request.ends_with(b"V.E.test\0") {
+            put(reply, DATA, OTHER);
+        }
+    };
+    let described: fn(&[u8], &mut [u8]) = |request, reply| {
+        let by_name = [0x46, 0x4C].iter().any(|&offset| is_asked(request, 0x12_2301, offset));
+        if by_name && request.ends_with(b"V.E.test\0") {
+            put(reply, DATA, OTHER);
+        }
+    };
+    for change in [every, one, described] {
+        let cnc = Logged::start(&[]);
+        assert_eq!(handle_of_another(&cnc.serve.addr), OTHER);
+        let addr = lying(&cnc.serve.addr, change).to_string();
+        let file = TestFile::allowing(ARRAY.table);
+        let output = run(&addr, &file, &["write-by-handle", "write-elements-by-handle"]);
+        let shown = String::from_utf8(output.stdout).unwrap();
+        // A safety refusal, and no verdict on the device.
+        assert_eq!(output.status.code(), Some(4), "{shown}");
+        assert!(shown.contains("which the file does not name"), "{shown}");
+        assert!(!shown.contains("FAIL"), "{shown}");
+        assert_eq!(cnc.end(), BTreeMap::new());
+
+        // By its name it is written all the same.
+        let cnc = Logged::start(&[]);
+        let addr = lying(&cnc.serve.addr, change).to_string();
+        run(&addr, &file, &["write-by-name"]);
+        let mut writes = cnc.end();
+        assert!(writes.remove(ARRAY.log).is_some_and(|count| count > 2), "{writes:?}");
+        assert_eq!(writes, BTreeMap::new());
+    }
+}
+
+/// A list in which an object has the address of another.
+#[test]
+fn an_address_of_two_objects_is_not_written() {
+    let change: fn(&[u8], &mut [u8]) = |request, reply| {
+        if request.len() < 42 || number(request, 38) & !0x10_0000 != 0x3_0101 {
+            return;
+        }
+        let objects = reply.get_mut(DATA..).unwrap_or_default().chunks_exact_mut(84);
+        for object in objects.filter(|object| object[20..].starts_with(b"example_subroutine_w\0")) {
+            put(object, 16, 1);
+        }
+    };
+    let cnc = Logged::start(&[]);
+    let addr = lying(&cnc.serve.addr, change).to_string();
+    let file = TestFile::allowing(OBJECT.table);
+    let output = run(&addr, &file, OBJECT.cases);
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(4), "{shown}");
+    assert!(shown.contains("the device gives it to mc_command_single_block_w too"), "{shown}");
+    let set = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(["set", "example_subroutine_w", "TRUE", "--target", &addr])
+        .args(["--net-id", "127.0.0.1.1.1", "--allow-write", file.path()])
+        .output()
+        .unwrap();
+    let why = String::from_utf8(set.stderr).unwrap();
+    assert_eq!(set.status.code(), Some(4), "{why}");
+    assert!(why.contains("mc_command_single_block_w"), "{why}");
+    assert_eq!(cnc.end(), BTreeMap::new());
+}
