@@ -63,9 +63,23 @@ pub(super) fn sent() -> Vec<Seed> {
     };
     let by_name = Call { index_offset: IndexOffset::new(0x4A), data: b"V.E.A\0\x01", ..write };
     let begin = [&[2][..], entries].concat();
-    let learnt = gate::write_call(0, &named, &[7, 0, 0, 0]);
+    // Handle 7, UNS32, READ_WRITE, 4 bytes, no dimension.
+    let description = [7, 6, 2, 4, 0].map(u32::to_le_bytes).concat();
+    let describe = Call { index_offset: IndexOffset::new(0x4C), read_length: 2048, ..named };
+    let confirmed = |group: IndexGroup| {
+        let (named, describe) =
+            (Call { index_group: group, ..named }, Call { index_group: group, ..describe });
+        let asked = gate::write_call(0, &named, &[7, 0, 0, 0]);
+        [asked, gate::write_call(0, &describe, &description)].concat()
+    };
+    let learnt = confirmed(group);
     let writes = gate::write_call(3, &write, &[]);
     seeds.push(("by-handle".to_owned(), [&begin[..], &learnt, &writes].concat()));
+    let other = gate::write_call(0, &Call { data: b"V.E.B\0", ..named }, &[7, 0, 0, 0]);
+    seeds.push((
+        "by-handle-of-two".to_owned(),
+        [&begin[..], &learnt, &writes, &other, &writes].concat(),
+    ));
     seeds.push(("forgotten".to_owned(), [&begin[..], &learnt, &[1], &writes].concat()));
     let writes = gate::write_call(3, &by_name, &[]);
     seeds.push(("by-name".to_owned(), [&begin[..], &writes].concat()));
@@ -82,7 +96,7 @@ pub(super) fn sent() -> Vec<Seed> {
         let writes = gate::write_call(3, call, &[]);
         seeds.push((format!("by-name-{name}"), [&begin[..], &writes].concat()));
     }
-    let learnt = gate::write_call(0, &Call { index_group: channel_2, ..named }, &[7, 0, 0, 0]);
+    let learnt = confirmed(channel_2);
     let writes = gate::write_call(3, &write, &[]);
     seeds.push(("by-handle-of-another".to_owned(), [&begin[..], &learnt, &writes].concat()));
     let writes = gate::write_call(3, &by_name, &[]);
@@ -110,6 +124,7 @@ pub(super) fn sent() -> Vec<Seed> {
     let mut control = [&[1, 0, 0x23], &writes[1..]].concat();
     control.push(5);
     seeds.push(("malformed".to_owned(), [&[1], &raw[1..]].concat()));
+    seeds.push(("malformed-permitted".to_owned(), [&[3], &control[1..]].concat()));
     seeds.push(("another-command".to_owned(), control));
     seeds
 }

@@ -47,7 +47,9 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
     let mut gate = Gate::queries();
     if file {
         let (target, expires) = (AmsNetId(TARGET), moment(END));
-        gate = gate.with_allowed(Some(Allowed { target, expires, entries: entries.clone() }));
+        let entries = entries.clone();
+        let allowed = Allowed { target, address: None, malformed, expires, entries };
+        gate = gate.with_allowed(Some(allowed));
     }
     if malformed {
         gate = gate.and_malformed();
@@ -79,6 +81,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
             _ => frame(&mut input, kind),
         };
         let passes = passes(&gate, &frame, now, defect);
+        let malformed = malformed && file && !over;
         assert!(!passes || rule.permits(&frame, TARGET, malformed), "{settings:#x} {frame:02x?}");
         // What passes by default passes with whatever is allowed besides.
         assert!(passes || gate::check(&frame).is_err(), "{frame:02x?}");

@@ -67,8 +67,10 @@ pub(crate) fn allow(data: &[u8], defect: Defect) -> Outcome {
     let Some(text) = text(data) else { return Outcome::unread() };
     let read = placed(text, LINE, defect, Allowed::from_toml, alike);
     if let Ok(allowed) = &read {
-        let Allowed { target, expires, entries } = allowed;
+        let Allowed { target, address, malformed, expires, entries } = allowed;
         let mut shown = format!("target = \"{target}\"\nexpires = {expires}\n");
+        shown.extend(address.map(|address| format!("address = \"{address}\"\n")));
+        shown.push_str(&format!("malformed = {malformed}\n"));
         for entry in entries {
             let table = entry.to_string();
             let table = if defect.is(3) { table.replace("rank", "channel") } else { table };
@@ -79,6 +81,7 @@ pub(crate) fn allow(data: &[u8], defect: Defect) -> Outcome {
             let again =
                 Allowed::from_toml(&shown).unwrap_or_else(|error| panic!("{error}\n{shown}"));
             assert_eq!((again.target, again.expires), (*target, *expires), "{shown}");
+            assert_eq!((again.address, again.malformed), (*address, *malformed), "{shown}");
             assert_eq!(&again.entries, entries, "{shown}");
         }
     }

@@ -12,8 +12,9 @@ type At = (bool, u32);
 /// What a session may do.
 pub(super) struct Rule<'e> {
     entries: &'e [Entry],
-    /// By channel, axis and handle: the name that was asked for.
-    handles: Vec<(At, u32, u32, Vec<u8>)>,
+    /// By channel and handle: the name that was asked for, and the one that was described.
+    handles: Vec<(At, u32, Vec<u8>)>,
+    described: Vec<(At, u32, Vec<u8>)>,
     /// Descriptors that were seen, with the list's index group.
     objects: Vec<(u32, Vec<u8>)>,
 }
@@ -47,21 +48,29 @@ fn until_nul(data: &[u8]) -> Option<&[u8]> {
 
 impl<'e> Rule<'e> {
     pub(super) const fn new(entries: &'e [Entry]) -> Self {
-        Self { entries, handles: Vec::new(), objects: Vec::new() }
+        Self { entries, handles: Vec::new(), described: Vec::new(), objects: Vec::new() }
     }
 
     pub(super) fn forget(&mut self) {
-        (self.handles, self.objects) = (Vec::new(), Vec::new());
+        *self = Self::new(self.entries);
     }
 
     /// An answer came.
     pub(super) fn learn(&mut self, call: &Call<'_>, reply: &[u8]) {
         let (group, offset) = (call.index_group.get(), call.index_offset.get());
-        let axis = offset >> 16;
-        if let (Some(at), Ok(handle)) = (decoder(group), <[u8; 4]>::try_from(reply)) {
-            let is_asked = offset == 0x46 || axis > 0 && offset & 0xFFFF == 4;
-            if let (true, Some(name)) = (is_asked, until_nul(call.data)) {
-                self.handles.push((at, axis, u32::from_le_bytes(handle), name.to_vec()));
+        if let (Some(at), Some(handle)) = (decoder(group), reply.first_chunk()) {
+            let handle = u32::from_le_bytes(*handle);
+            let named = |name: Option<&[u8]>| name.map(|name| (at, handle, name.to_vec()));
+            match offset {
+                0x46 if reply.len() == 4 => self.handles.extend(named(until_nul(call.data))),
+                // Behind the handle, type, access, size and the dimensions.
+                0x45 if reply.len() > 20 => {
+                    let skip = 20 + 4 * usize::try_from(number(reply, 16)).unwrap_or(usize::MAX);
+                    let name = reply.get(skip..);
+                    self.described.extend(named(name.map(|name| until_nul(name).unwrap_or(name))));
+                }
+                0x4C if reply.len() >= 20 => self.described.extend(named(until_nul(call.data))),
+                _ => {}
             }
         }
         if group & !0x10_FFFF == 0x3_0000 && !reply.is_empty() && reply.len().is_multiple_of(84) {
@@ -128,8 +137,10 @@ impl<'e> Rule<'e> {
                         return false;
                     };
                     let mut asked = self.handles.iter();
-                    return asked.any(|(at, axis, told, name)| {
-                        (*at, *told) == (channel, handle) && self.names(channel, *axis, name, true)
+                    return asked.any(|one| {
+                        (one.0, one.1) == (channel, handle)
+                            && self.described.contains(one)
+                            && self.names(channel, 0, &one.2, true)
                     });
                 }
                 (0, 0x4A) | (1.., 6) => {
@@ -154,10 +165,10 @@ impl<'e> Rule<'e> {
     /// Whether a frame may be sent.
     pub(super) fn permits(&self, frame: &[u8], target: [u8; 6], malformed: bool) -> bool {
         if !is_whole(frame) {
-            return malformed;
+            return false;
         }
         let named = frame[6..12] == target && self.is_named(frame);
-        if !malformed {
+        if !malformed || frame[6..12] != target {
             return is_harmless(frame) || named;
         }
         let command = u16::from_le_bytes([frame[22], frame[23]]);
