@@ -117,14 +117,15 @@ fn seeds(is: impl Fn(&str) -> bool, named: &'static Named) -> Vec<(&'static str,
 #[test]
 fn wrong_handles_reach_nothing_else() {
     let is = |id: &str| id.contains("handle");
-    let defects = [seeds(is, &VARIABLE), seeds(is, &ARRAY)].concat();
-    assert!(defects.len() > 60, "{}", defects.len());
+    let of_array = |id: &str| is(id) && id.starts_with("cnc.");
+    let defects = [seeds(is, &VARIABLE), seeds(of_array, &ARRAY)].concat();
+    assert!(defects.len() > 50, "{}", defects.len());
     let (mut others, written) = all(defects);
     // It says nothing wrong of any handle: it takes that of a good write for another one.
     let misread = "variable-handle-write.handle.flip: variable channel=1 name=V.E.Variable_2";
     assert!(others.remove(misread).is_some_and(|count| count < 3), "{others:?}");
     assert!(others.is_empty(), "{others:#?}");
-    assert!(written > 60, "{written}");
+    assert!(written > 40, "{written}");
 }
 
 /// Every defect of descriptors of objects, of their lists and of addresses, but for those that do a

@@ -342,3 +342,42 @@ fn json_keeps_to_its_schema() {
         }
     }
 }
+
+/// What a device has in its texts moves no terminal and is no formula, in every form.
+#[test]
+fn texts_of_a_device_do_not_act() {
+    let model = text(&ads_cnc(&["serve", "--print-model"]).stdout);
+    let unit = "name = \"example.block\", type = \"SGN32\", unit = \"";
+    assert!(model.contains(&format!("{unit}-\"")));
+    let hostile = "=cmd|'/C calc'!A0\\u001b[2J\\u007f\\u0090\\u009d";
+    let model = model.replace(&format!("{unit}-\""), &format!("{unit}{hostile}\""));
+    let value = "value = \"main.nc\"";
+    assert!(model.contains(value));
+    let model = model.replace(value, "value = \"@SUM(A1)\\u0090\\u007f\"");
+    let model = Temporary::new("hostile", &model);
+    let device = Device::start(&["--model", model.0.to_str().unwrap()]);
+    let shown = |format: &str| {
+        let output =
+            device.call(&["browse", "--filter", "example.", "--content", "--format", format]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let shown = text(&output.stdout);
+        assert!(!shown.contains(|one: char| one.is_control() && !matches!(one, '\n' | '\r')));
+        shown
+    };
+    assert!(shown("table").contains("calc'!A0\\u{1b}[2J\\u{7f}\\u{90}\\u{9d}"));
+    let csv = shown("csv");
+    assert!(csv.contains(",'=cmd|'/C calc'!A0\\u{1b}") && csv.contains(",'@SUM(A1)"), "{csv}");
+    assert!(csv.lines().flat_map(|line| line.split(',')).all(|cell| !cell.starts_with(['=', '@'])));
+    let json = shown("json");
+    assert!(
+        json.contains("A0\\u001b[2J\\u007f\\u0090\\u009d") && json.contains("(A1)\\u0090\\u007f")
+    );
+    let read: Value = serde_json::from_str(&json).unwrap();
+    let is_read = |one: &Value| one["unit"] == "=cmd|'/C calc'!A0\u{1b}[2J\u{7f}\u{90}\u{9d}";
+    assert!(read["objects"].as_array().unwrap().iter().any(is_read), "{json}");
+    for form in [&["get", "example.program", "--json"][..], &["get", "example.program"]] {
+        let output = device.call(&[form, &["--of", "path preparation channel 1"]].concat());
+        let shown = [output.stdout, output.stderr].concat();
+        assert!(!text(&shown).contains(|one: char| one.is_control() && one != '\n'), "{form:?}");
+    }
+}

@@ -156,13 +156,13 @@ impl Learnt {
             (Request::AxisHandleByName(op), Reply::Handle(handle)) => {
                 self.handle_of_axis((op.channel, handle), (op.axis, op.name.text()));
             }
-            (Request::CountObjects(op), Reply::ObjectCount(count)) => {
-                if is_named(allowed, op.list) {
-                    let objects = self.lists.entry(op.list.index_group()).or_default();
-                    // Another list than before, if it has another length.
-                    if objects.count != Some(count.0) {
-                        *objects = Objects { count: Some(count.0), ..Objects::default() };
-                    }
+            (Request::CountObjects(op), Reply::ObjectCount(count))
+                if is_named(allowed, op.list) =>
+            {
+                let objects = self.lists.entry(op.list.index_group()).or_default();
+                // Another list than before, if it has another length.
+                if objects.count != Some(count.0) {
+                    *objects = Objects { count: Some(count.0), ..Objects::default() };
                 }
             }
             (Request::ReadDescriptors(op), Reply::Descriptors(all)) => {

@@ -5,6 +5,10 @@
 //! queries to the port they are documented for, ReadDeviceInfo and ReadState. Whatever changes
 //! something needs an entry in a file that says what, on whom and until when: [`Allowed`].
 //!
+//! A file names variables and objects, a write has a handle or an address, and which that is the
+//! device says. So the gate learns each name that a reply gives to a handle or an address, and lets
+//! no write pass by one that any reply gives to what the file does not name: see [`Doubt`].
+//!
 //! ```
 //! use ads_cnc::Encode;
 //! use ads_cnc_conformance::gate;
