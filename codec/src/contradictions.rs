@@ -187,9 +187,9 @@
 //! | E-59 | 992 bytes a write (3.1); as long as is needed, a whole line at least (3.2) | 992 bytes, so that a line has at most 990 characters and CR LF | [`STREAM_PACKET_MAX`](crate::limits::STREAM_PACKET_MAX), [`NC_LINE_MAX`](crate::limits::NC_LINE_MAX) |
 //! | E-64 | the channel two digits behind 0x201 (3.2), or added to 0x20100 (5); both editions of the ADS manual: added to 0x120100 | added, with the logical bit or without; channel 10 is 0x12010A or 0x2010A | [`WriteProgramStream`](crate::operation::WriteProgramStream) of [`Channel::new`](crate::address::Channel::new) or [`Channel::by_index`](crate::address::Channel::by_index) |
 //! | E-65 | the object is read and written (3.2); only writing is described | it is written only | [`ReadObject::new`](crate::operation::ReadObject::new) refuses it; [`ReadRequest`](crate::ads::ReadRequest) does not |
-//! | E-67 | `$BREAK` is not among the permitted words, but in the example, both 2.3.3 | permitted | [`Findings`](crate::streaming::Findings) |
-//! | E-70 | behind a program end, wait until the interface is empty (2.2); nothing tells so | a client has to be told from outside; text behind an end is a finding | [`FindingKind::BehindEnd`](crate::streaming::FindingKind::BehindEnd), [`StreamingInterface::is_empty`](crate::streaming::StreamingInterface::is_empty) of a CNC |
-//! | E-71 | M17 and M29 end streaming (2.2), or a called subroutine, and the stream goes on (2.3.2) | each is taken for an end of the stream; a finding stops nothing | [`ProgramEnd`](crate::streaming::ProgramEnd), which a finding names |
+//! | E-67 | `$BREAK` is not among the permitted words, but in the example, both 2.3.3 | permitted | `streaming::Findings`, with `alloc` |
+//! | E-70 | behind a program end, wait until the interface is empty (2.2); nothing tells so | a client has to be told from outside; text behind an end is a finding | `streaming::FindingKind::BehindEnd`, [`StreamingInterface::is_empty`](crate::streaming::StreamingInterface::is_empty) of a CNC |
+//! | E-71 | M17 and M29 end streaming (2.2), or a called subroutine, and the stream goes on (2.3.2) | each is taken for an end of the stream; a finding stops nothing | `streaming::ProgramEnd`, which a finding names |
 //! | E-73 | 4094 bytes are the most of a stream (3.1), which goes on as long as it is written (2.1) | the most that is written and not read yet; a text may be longer | [`STREAM_MAX`](crate::limits::STREAM_MAX), [`StreamingInterface`](crate::streaming::StreamingInterface) |
 //!
 //! # Service Interface

@@ -41,7 +41,7 @@
 //! | manual | here |
 //! |---|---|
 //! | `stream-en` 2.1, 2.2, data streaming | [`streaming`] |
-//! | 2.3.3, 2.3.4, 2.3.6, loops, comments, jumps | [`streaming::Findings`] |
+//! | 2.3.3, 2.3.4, 2.3.6, loops, comments, jumps | `streaming::Findings`, with `alloc` |
 //! | 2.3.1, 2.3.2, 2.3.5, 2.3.7, flushing, subroutines, block search, contours | NC text like any other |
 //! | 3, parameters and object | [`limits`], [`streaming::OBJECT_NAME`], [`streaming::ProgramStreamRef`] |
 //! | 4.1, line ends | [`streaming::LineError`] |
@@ -55,7 +55,7 @@
 //! at odds, [`contradictions`] says what is done here and how to do otherwise.
 //!
 //! # Features
-//! - `alloc` (default): the owned readings.
+//! - `alloc` (default): the owned readings, and the checks of an NC program.
 //! - `std`: `std` in the dependencies. The crate itself never needs it.
 //! - `arbitrary`: `Arbitrary` for the owned readings.
 

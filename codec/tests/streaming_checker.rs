@@ -1,4 +1,4 @@
-//! The checks of a text that comes packet by packet, held against those of the whole text.
+//! The checks of a text that comes packet by packet: where it is cut matters only where it is said to.
 #![cfg(feature = "alloc")]
 
 mod common;
@@ -158,7 +158,7 @@ fn lots() -> impl Strategy<Value = Vec<Vec<Vec<u8>>>> {
 proptest! {
 #![proptest_config(kept::cases(2000, file!()))]
 
-/// After each lot: what is found in it is what the one-shot form finds there in all that came.
+/// After each lot: what is found in it is what is found there in all that came, as one lot.
 #[test]
 fn lot_by_lot_is_as_the_whole_so_far(lots in lots()) {
     let mut checked = CheckedLots::new(|_, _| ());

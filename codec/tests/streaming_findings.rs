@@ -1,4 +1,5 @@
 //! What a streamed text may contain.
+#![cfg(feature = "alloc")]
 
 mod common;
 mod kept;

@@ -1,15 +1,15 @@
-//! The checks of a text that comes packet by packet.
+//! The checks of a text, whole or packet by packet.
 
 use core::fmt;
 
 use super::labels::{self, Labels};
 use super::scan::{Carry, Place, Scan, Token, Word};
-use super::{Finding, FindingKind, ProgramEnd};
+use super::{Finding, FindingKind, NcText, ProgramEnd};
 
 /// Checks a program as the CNC gets it: some lines, later some more.
 ///
-/// It finds what [`Findings`](super::Findings) finds in the whole text, by the same rules, and
-/// tells where a program ends. Comment blocks, labels, program ends and line numbers go over from
+/// It finds what [`Findings`] has of the whole text, by the same rules, and tells where a program
+/// ends. Comment blocks, labels, program ends and line numbers go over from
 /// one lot of lines to the next. Two things it cannot see: lines that are still to come, and what
 /// is long gone.
 /// - A jump goes back if its label is in its own line or above, and not below *in the lines that
@@ -43,8 +43,14 @@ use super::{Finding, FindingKind, ProgramEnd};
 #[derive(Clone)]
 pub struct Checker {
     carry: Carry,
+    judge: Judge,
+}
+
+/// What is known of the lines so far.
+#[derive(Clone)]
+struct Judge {
     labels: Labels,
-    /// The program end behind which no line with code has been seen.
+    /// The program end after which no line with code has been seen.
     end: Option<(ProgramEnd, u32)>,
 }
 
@@ -91,7 +97,8 @@ impl Checker {
 
     /// Begins with the first line of a program.
     pub fn new() -> Self {
-        Self { carry: Carry::START, labels: Labels::default(), end: None }
+        let labels = Labels::of_at_most(labels::LABELS, labels::CHARACTERS);
+        Self { carry: Carry::START, judge: Judge { labels, end: None } }
     }
 
     /// Goes on with these lines: what is found in them, in their order.
@@ -99,14 +106,9 @@ impl Checker {
     /// They are whole; an open one counts as if it were ended. They count as checked, even if not
     /// all that is found is asked for.
     pub fn check<'c>(&'c mut self, lines: &'c [u8]) -> CheckedLines<'c> {
-        self.labels.keep(self.carry.program);
         let scan = Scan::behind(self.carry, lines);
-        let mut ahead = scan.clone();
-        while let Some((label, line)) = ahead.next_label() {
-            self.labels.pass(&label, line);
-        }
-        self.carry = ahead.carry();
-        CheckedLines { scan, labels: &self.labels, end: &mut self.end }
+        self.carry = self.judge.look_ahead(scan.clone());
+        CheckedLines { scan, judge: &mut self.judge }
     }
 
     /// How many lines were checked.
@@ -116,8 +118,49 @@ impl Checker {
 
     /// The comment block that is open: a finding if no more lines come.
     pub fn open_comment(&self) -> Option<Finding> {
-        let Place { line, column } = self.carry.block?;
+        self.carry.open_comment()
+    }
+}
+
+impl Carry {
+    fn open_comment(self) -> Option<Finding> {
+        let Place { line, column } = self.block?;
         Some(Finding { line, column, kind: FindingKind::OpenComment })
+    }
+}
+
+impl Judge {
+    /// Learns the labels of these lines; what carries over from them.
+    fn look_ahead(&mut self, mut scan: Scan<'_>) -> Carry {
+        self.labels.keep(scan.carry().program);
+        while let Some((label, line)) = scan.next_label() {
+            self.labels.pass(&label, line);
+        }
+        scan.carry()
+    }
+
+    /// What is found next in lines that were looked at ahead.
+    fn next(&mut self, scan: &mut Scan<'_>) -> Option<Found> {
+        scan.find_map(|token| self.word(&token))
+    }
+
+    fn word(&mut self, Token { place: Place { line, column }, word }: &Token<'_>) -> Option<Found> {
+        let kind = match word {
+            Word::Code => {
+                let (end, of) = self.end.take()?;
+                FindingKind::BehindEnd { end, of }
+            }
+            Word::Goto(label) => {
+                let to = self.labels.last(label).filter(|last| last <= line)?;
+                FindingKind::BackwardJump { to }
+            }
+            Word::Loop(word) => FindingKind::Loop(*word),
+            Word::End(end) => {
+                self.end.get_or_insert((*end, *line));
+                return Some(Found::End { end: *end, line: *line, column: *column });
+            }
+        };
+        Some(Found::Finding(Finding { line: *line, column: *column, kind }))
     }
 }
 
@@ -145,8 +188,7 @@ impl fmt::Debug for Checker {
 /// ```
 pub struct CheckedLines<'c> {
     scan: Scan<'c>,
-    labels: &'c Labels,
-    end: &'c mut Option<(ProgramEnd, u32)>,
+    judge: &'c mut Judge,
 }
 
 impl<'c> CheckedLines<'c> {
@@ -154,41 +196,13 @@ impl<'c> CheckedLines<'c> {
     pub const fn below(&self) -> &'c [u8] {
         self.scan.below()
     }
-
-    fn judge(
-        &mut self,
-        Token { place: Place { line, column }, word }: &Token<'_>,
-    ) -> Option<Found> {
-        let kind = match word {
-            Word::Code => {
-                let (end, of) = self.end.take()?;
-                FindingKind::BehindEnd { end, of }
-            }
-            Word::Label(_) => return None,
-            Word::Goto(label) => {
-                let to = self.labels.last(label).filter(|last| last <= line)?;
-                FindingKind::BackwardJump { to }
-            }
-            Word::Loop(word) => FindingKind::Loop(*word),
-            Word::End(end) => {
-                self.end.get_or_insert((*end, *line));
-                return Some(Found::End { end: *end, line: *line, column: *column });
-            }
-        };
-        Some(Found::Finding(Finding { line: *line, column: *column, kind }))
-    }
 }
 
 impl Iterator for CheckedLines<'_> {
     type Item = Found;
 
     fn next(&mut self) -> Option<Found> {
-        while let Some(token) = self.scan.next() {
-            if let Some(found) = self.judge(&token) {
-                return Some(found);
-            }
-        }
-        None
+        self.judge.next(&mut self.scan)
     }
 }
 
@@ -202,5 +216,91 @@ impl Drop for CheckedLines<'_> {
 impl fmt::Debug for CheckedLines<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("CheckedLines").finish_non_exhaustive()
+    }
+}
+
+/// The findings in a text, in its order; an open comment block comes last.
+///
+/// What this manual leaves open is decided so; *online* is what the maker's public help for the NC
+/// language says, *assumed* what nobody says:
+/// - Words and labels compare without regard to case (assumed). A `$` word ends where its letters
+///   end; nothing stands between `$` and the word (online).
+/// - Parentheses nest (online). Text between two `"` in a line is neither code nor comment
+///   (assumed).
+/// - `#COMMENT BEGIN` and `END` count at the start of a line, behind `/` and the block number at
+///   most; the blocks do not nest, and what else stands in them is not looked at (online: nesting
+///   can be switched on).
+/// - A label is `N40:` or `[NAME]` at the start of a line, behind `/` and, a name, behind the
+///   block number; `N040:` is the same label (assumed), blanks before the colon are permitted
+///   (the name and the blanks: online). Labels belong to the program they are in; one begins at
+///   each line whose first character is `%` (online).
+/// - A jump goes forward if its label is in any line below. It goes back if the label is in its
+///   own line or above, and not below (assumed). A label that is nowhere is no finding: it may
+///   be in a text that follows. A jump to an expression (`$GOTO NV.E.X`) is not judged.
+/// - A program end is M2, M30, M17 or M29; leading zeros do not matter (M02: online, the others
+///   assumed), what follows the digits must not be `.` or `_`. It counts even where `$IF` or a
+///   jump may pass it by (assumed): if it is met, what follows is lost or left over.
+/// - One finding for each line with a program end: the first line below that is neither blank
+///   nor comment (assumed).
+/// - A line joined to the next by `\` is checked as two (assumed).
+///
+/// The text is read twice: for labels first, of which the last line of each is kept, then for words.
+/// The memory is that of the labels: their names, and about 80 bytes for each.
+///
+/// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6.
+///
+/// ```
+/// use ads_cnc::streaming::NcText;
+///
+/// let text = NcText::new(b"\
+/// %back\n\
+/// N40: G01 X40 (not $WHILE)\n\
+/// N50 $GOTO N40\n\
+/// N60 M30\n\
+/// N70 G0 X0\n")?;
+/// let findings: Vec<String> = text.findings().map(|finding| finding.to_string()).collect();
+/// assert_eq!(findings, [
+///     "line 3, column 5: $GOTO back to line 2 (STM-8)",
+///     "line 5, column 1: text behind the M30 of line 4 (STM-10)",
+/// ]);
+/// # Ok::<(), ads_cnc::streaming::LineError>(())
+/// ```
+#[derive(Clone)]
+pub struct Findings<'a> {
+    scan: Scan<'a>,
+    judge: Judge,
+    done: bool,
+}
+
+impl<'a> Findings<'a> {
+    pub(super) fn new(text: NcText<'a>) -> Self {
+        let scan = Scan::behind(Carry::START, text.bytes());
+        let labels = Labels::of_at_most(usize::MAX, usize::MAX);
+        let mut judge = Judge { labels, end: None };
+        judge.look_ahead(scan.clone());
+        Self { scan, judge, done: false }
+    }
+}
+
+impl Iterator for Findings<'_> {
+    type Item = Finding;
+
+    fn next(&mut self) -> Option<Finding> {
+        while let Some(found) = self.judge.next(&mut self.scan) {
+            if let Found::Finding(finding) = found {
+                return Some(finding);
+            }
+        }
+        if self.done {
+            return None;
+        }
+        self.done = true;
+        self.scan.carry().open_comment()
+    }
+}
+
+impl fmt::Debug for Findings<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Findings").finish_non_exhaustive()
     }
 }

@@ -29,34 +29,6 @@ pub(super) fn split_at_end(bytes: &[u8]) -> (&[u8], &[u8]) {
     bytes.split_at_checked(bytes.len().saturating_sub(rest.len())).unwrap_or((bytes, &[]))
 }
 
-/// As [`split_at_end`], and whether something is noted in the line; it may be close behind it.
-pub(super) fn split_noting(bytes: &[u8], note: impl Fn(u8) -> u8) -> (&[u8], &[u8], bool) {
-    if let [CR | LF, ..] = bytes {
-        return (&[], bytes, false);
-    }
-    let (mut rest, mut noted) = (bytes, 0);
-    loop {
-        let Some((word, behind)) = rest.split_first_chunk::<WORD>() else {
-            noted = rest.iter().fold(noted, |noted, &byte| noted | note(byte));
-            break;
-        };
-        let (mut notes, mut ends) = (0, 0);
-        for &byte in word {
-            notes |= note(byte);
-            ends |= u8::from(byte == CR) | u8::from(byte == LF);
-        }
-        noted |= notes;
-        if ends != 0 {
-            break;
-        }
-        rest = behind;
-    }
-    let (_, rest) = split_at_end(rest);
-    let len = bytes.len().saturating_sub(rest.len());
-    let (line, rest) = bytes.split_at_checked(len).unwrap_or((bytes, &[]));
-    (line, rest, noted != 0)
-}
-
 /// Bytes looked at together.
 pub(super) const WORD: usize = 16;
 
@@ -106,22 +78,15 @@ mod tests {
         }
     }
 
-    /// A line is split where it ends, and what is noted in it is known, wherever it stands.
+    /// A line is split where it ends.
     #[test]
     fn lines_are_split_at_every_length() {
         for len in (0..50).step_by(if cfg!(miri) { 17 } else { 1 }) {
             for end in ["", "\n", "\r\n", "\rX", "\nM30 and twenty bytes more"] {
-                for marked in (0..len).map(Some).chain([None]) {
-                    let mut line = b"X".repeat(len);
-                    marked.into_iter().for_each(|at| line[at] = b'M');
-                    let text = [&line[..], end.as_bytes()].concat();
-                    assert_eq!(split_at_end(&text), (&line[..], end.as_bytes()));
-                    let (found, rest, noted) = split_noting(&text, |byte| u8::from(byte == b'M'));
-                    assert_eq!((found, rest), (&line[..], end.as_bytes()));
-                    assert!(noted || marked.is_none(), "{text:?}");
-                }
+                let line = b"X".repeat(len);
+                let text = [&line[..], end.as_bytes()].concat();
+                assert_eq!(split_at_end(&text), (&line[..], end.as_bytes()));
             }
         }
-        assert!(!split_noting(b"X1 Y2 Z3 X1 Y2 Z3 X1 Y2 Z3\r\n", super::super::lex::mark).2);
     }
 }

@@ -1,11 +1,11 @@
-//! The labels of lines that are gone, in bounded memory.
+//! The labels of lines, those that are gone included.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use super::scan::Label;
 
-/// So many labels, the latest, are known at least …
+/// How many labels, the latest, a checker of packets knows at least …
 pub(super) const LABELS: usize = 8192;
 
 /// … if all of them together have no more characters than this.
@@ -13,26 +13,38 @@ pub(super) const CHARACTERS: usize = 256 * 1024;
 
 /// The last line of each label of the present program, and of those before it that came with the
 /// same lines.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Labels {
     recent: Generation,
     /// Full; forgotten when the recent one is.
     before: Generation,
+    /// The most labels of a generation.
+    labels: usize,
+    /// The most characters of a generation, but for its last label.
+    characters: usize,
 }
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Generation {
     /// By program and name.
     lines: BTreeMap<(u32, Vec<u8>), u32>,
     characters: usize,
 }
 
+impl Generation {
+    const EMPTY: Self = Self { lines: BTreeMap::new(), characters: 0 };
+}
+
 impl Labels {
+    pub(super) const fn of_at_most(labels: usize, characters: usize) -> Self {
+        Self { recent: Generation::EMPTY, before: Generation::EMPTY, labels, characters }
+    }
+
     /// The scan comes by a label.
     pub(super) fn pass(&mut self, label: &Label<'_>, line: u32) {
         let recent = &mut self.recent;
-        if recent.lines.len() >= LABELS || recent.characters >= CHARACTERS {
-            self.before = core::mem::take(recent);
+        if recent.lines.len() >= self.labels || recent.characters >= self.characters {
+            self.before = core::mem::replace(recent, Generation::EMPTY);
         }
         let name = label.key();
         let characters = name.len();

@@ -4,20 +4,22 @@
 //! |---|---|
 //! | 2.2, lines and packets | [`NcText`], [`Packets`] |
 //! | 2.2, start, order, reset, the interface's end | [`StreamingInterface`] |
-//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain | [`Findings`]; packet by packet, with `alloc`: `Checker` |
+//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain, with `alloc` | `Findings`; packet by packet, `Checker` |
 //! | 3.1, sizes | [`limits`](crate::limits) |
 //! | 3.2, the object | [`WriteProgramStream`](crate::operation::WriteProgramStream), [`ProgramStreamRef`], [`OBJECT_NAME`] |
 //! | 4.1, line ends | [`LineError`], [`LINE_END_ERROR`] |
 //! | 4.2 and 5, acknowledgement and repetition | [`Sender`], [`Ack`], [`RETRY_AFTER`] |
 //!
 //! A packet is whole lines of ASCII, each ended by CR LF, without a NUL or a length before it
-//! (STM-4, STM-7). Nothing here sends anything, and nothing but `Checker` allocates.
+//! (STM-4, STM-7). Nothing here sends anything, and nothing but `Findings` and `Checker`
+//! allocates.
 //!
 //! ```
 //! use ads_cnc::streaming::{Ack, StreamingInterface, NcText, Sender};
 //!
 //! // Everything that can be wrong with the text is found before the first packet is out.
 //! let text = NcText::new(b"N10 G01 X200 F1000\nN20 X240 Y100\nN30 M30")?;
+//! # #[cfg(feature = "alloc")]
 //! assert_eq!(text.findings().next(), None);
 //!
 //! let mut cnc = StreamingInterface::new();
@@ -37,26 +39,30 @@ use core::time::Duration;
 
 use crate::address::IndexOffset;
 
+#[cfg(feature = "alloc")]
 mod check;
 #[cfg(feature = "alloc")]
 mod checker;
 mod ends;
 mod error;
 mod interface;
-mod jumps;
 #[cfg(feature = "alloc")]
 mod labels;
+#[cfg(feature = "alloc")]
 mod lex;
 mod packets;
 mod program_stream;
+#[cfg(feature = "alloc")]
 mod scan;
 mod sender;
 mod text;
+#[cfg(feature = "alloc")]
 mod words;
 
-pub use check::{Finding, FindingKind, Findings};
 #[cfg(feature = "alloc")]
-pub use checker::{CheckedLines, Checker, Found};
+pub use check::{Finding, FindingKind};
+#[cfg(feature = "alloc")]
+pub use checker::{CheckedLines, Checker, Findings, Found};
 pub use error::{LineError, LineErrorKind};
 pub use interface::StreamingInterface;
 pub use packets::Packets;
@@ -65,6 +71,7 @@ pub use program_stream::ProgramStream;
 pub use program_stream::ProgramStreamRef;
 pub use sender::{Ack, NoPacketOut, Progress, Sender, SenderState};
 pub use text::{Lines, NcText};
+#[cfg(feature = "alloc")]
 pub use words::{LoopWord, ProgramEnd};
 
 /// Index offset of the stream in the COM group of a channel, `0x20100` + channel (STM-1).

@@ -1,6 +1,6 @@
 //! What of an NC text the checks need, word by word, without its comments.
 
-use super::ends::{behind_end, split_noting};
+use super::ends::behind_end;
 use super::lex::*;
 use super::words::{LoopWord, ProgramEnd};
 use crate::bytes::to_u32;
@@ -21,7 +21,6 @@ pub(super) struct Token<'a> {
 pub(super) enum Word<'a> {
     /// The first of a line that is neither blank nor comment; other words may follow from it on.
     Code,
-    Label(Label<'a>),
     Goto(Label<'a>),
     Loop(LoopWord),
     End(ProgramEnd),
@@ -37,17 +36,6 @@ pub(super) struct Label<'a> {
 }
 
 impl Label<'_> {
-    /// FNV-1a, without regard to case.
-    pub(super) fn hash(&self) -> u32 {
-        let start = 0x811C_9DC5 ^ self.program.wrapping_mul(2) ^ u32::from(self.named);
-        self.text.iter().fold(start, |hash, byte| {
-            (hash ^ u32::from(byte.to_ascii_lowercase())).wrapping_mul(0x0100_0193)
-        })
-    }
-}
-
-#[cfg(feature = "alloc")]
-impl Label<'_> {
     pub(super) const fn program(&self) -> u32 {
         self.program
     }
@@ -56,13 +44,6 @@ impl Label<'_> {
     pub(super) fn key(&self) -> alloc::vec::Vec<u8> {
         let text = self.text.iter().map(u8::to_ascii_lowercase);
         core::iter::once(u8::from(self.named)).chain(text).collect()
-    }
-}
-
-impl PartialEq for Label<'_> {
-    fn eq(&self, other: &Self) -> bool {
-        (self.program, self.named) == (other.program, other.named)
-            && self.text.eq_ignore_ascii_case(other.text)
     }
 }
 
@@ -108,16 +89,10 @@ enum Stage {
     Blank,
     /// As before; the line begins a program, and its name may look like anything.
     Title,
-    /// The code begins here.
-    Head,
     Body,
 }
 
 impl<'a> Scan<'a> {
-    pub(super) const fn new(text: &'a [u8]) -> Self {
-        Self::behind(Carry::START, text)
-    }
-
     /// Goes on with the lines behind those of which this carries over.
     pub(super) const fn behind(carry: Carry, text: &'a [u8]) -> Self {
         let Carry { lines, program, block } = carry;
@@ -141,16 +116,8 @@ impl<'a> Scan<'a> {
     }
 
     /// The lines behind the present one.
-    #[cfg(feature = "alloc")]
     pub(super) const fn below(&self) -> &'a [u8] {
         self.below
-    }
-
-    /// The labels below the present line, within so many bytes, and their lines; words are not
-    /// looked at.
-    pub(super) fn labels(mut self, within: usize) -> impl Iterator<Item = (Label<'a>, u32)> {
-        self.below = self.below.get(..within).unwrap_or(self.below);
-        core::iter::from_fn(move || self.next_label())
     }
 
     /// Goes to the next line that has a label: that, and the line.
@@ -230,10 +197,6 @@ impl<'a> Scan<'a> {
     /// What the code of a line begins with.
     fn head(&mut self) -> Word<'a> {
         match (self.stage, self.label) {
-            (Stage::Head, Some((label, rest))) => {
-                (self.stage, self.rest) = (Stage::Body, rest);
-                return Word::Label(label);
-            }
             (Stage::Title, _) => self.rest = &[],
             (_, None) => {
                 self.stage = Stage::Body;
@@ -241,7 +204,7 @@ impl<'a> Scan<'a> {
                     self.rest = self.body;
                 }
             }
-            (_, Some(_)) => self.stage = Stage::Head,
+            (_, Some((_, rest))) => (self.stage, self.rest) = (Stage::Body, rest),
         }
         Word::Code
     }
@@ -385,22 +348,5 @@ impl<'a> Iterator for Scan<'a> {
                 return None;
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// FNV-1a as published, begun differently for each program and sort of label.
-    #[test]
-    fn labels_are_hashed_by_all_they_are() {
-        let hash = |program, named, text: &[u8]| Label { program, named, text }.hash();
-        assert_eq!(hash(0, false, b"a"), 0xE40C_292C);
-        assert_eq!(hash(0, false, b"foobar"), 0xBF9C_F968);
-        assert_eq!(hash(0, false, b"FooBar"), 0xBF9C_F968);
-        assert_eq!(hash(0, true, b""), 0x811C_9DC4);
-        assert_eq!(hash(6, false, b""), 0x811C_9DC9);
-        assert_eq!(hash(6, true, b""), 0x811C_9DC8);
     }
 }

@@ -2,8 +2,10 @@
 
 use core::fmt;
 
+#[cfg(feature = "alloc")]
+use super::Findings;
 use super::ends::{CR, LF, behind_end, is_end, split_at_end};
-use super::{Findings, LineError, LineErrorKind, Packets};
+use super::{LineError, LineErrorKind, Packets};
 use crate::bytes::to_u32;
 use crate::limits::NC_LINE_MAX;
 
@@ -84,7 +86,8 @@ impl<'a> NcText<'a> {
     }
 
     /// What streaming does not permit in the text, or what would be lost.
-    pub const fn findings(&self) -> Findings<'a> {
+    #[cfg(feature = "alloc")]
+    pub fn findings(&self) -> Findings<'a> {
         Findings::new(*self)
     }
 }

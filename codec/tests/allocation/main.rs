@@ -154,7 +154,7 @@ fn frames_allocate_nothing() {
     }
 }
 
-/// Streaming allocates nothing: neither packets nor findings nor either end.
+/// Streaming allocates nothing: neither packets nor either end.
 #[test]
 fn streaming_allocates_nothing() {
     let jumps: String = (0..200).map(|n| format!("N{n}: X1\n$GOTO N{}\n", n / 2)).collect();
@@ -164,7 +164,6 @@ fn streaming_allocates_nothing() {
     for text in [jumps.clone(), jumps.replace('\n', "\r\n"), "$FOR\nM30\nX1".into()] {
         let (peak, count) = measure(|| {
             let text = NcText::new(text.as_bytes()).unwrap();
-            assert!(text.findings().count() > 1);
             assert_eq!(text.lines().count(), text.line_count());
             let (mut packets, mut buf) = (text.packets(), [0; STREAM_PACKET_MAX]);
             while packets.next_into(&mut buf).is_some() {}

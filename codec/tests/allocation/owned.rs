@@ -167,3 +167,22 @@ fn checkers_hold_no_more_than_the_labels_that_they_know() {
         assert_ne!(forgets, long > Checker::CHARACTERS_KNOWN / 2, "{long}");
     }
 }
+
+/// The check of a whole text holds its labels and nothing that grows with anything else.
+#[test]
+fn findings_hold_no_more_than_the_labels_of_the_text() {
+    use ads_cnc::streaming::NcText;
+
+    let peak = |lines: &dyn Fn(usize) -> String| {
+        let text: String = (0..20_000).map(lines).collect();
+        let text = NcText::new(text.as_bytes()).unwrap();
+        measure(|| assert!(black_box(text.findings()).count() < 20_001)).0
+    };
+    assert!(peak(&|n| format!("$GOTO N{n}\n$DO\n(N{n})\n")) < 1024);
+    let names = 20_000 * "N10000".len();
+    let labels = peak(&|n| format!("N{}:\n", 10_000 + n));
+    assert!((names..20_000 * 88).contains(&labels), "{labels}");
+    // The same labels again cost nothing.
+    let again = peak(&|n| format!("N{}:\n", n % 65));
+    assert!(again < 65 * 160, "{again}");
+}

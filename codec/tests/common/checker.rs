@@ -20,7 +20,7 @@ pub(crate) fn check_lines(
     (findings, ends)
 }
 
-/// By the one-shot form: a line more is behind the end.
+/// The first program end of a text: a line added comes after it.
 fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     findings_of(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| {
         match finding.kind {
@@ -30,8 +30,8 @@ fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     })
 }
 
-/// A program that comes in lots of whole lines: after each, what is found in it is what the
-/// one-shot form finds there in all that came.
+/// A program that comes in lots of whole lines: after each, what is found in it is what is found
+/// there in all that came, as one lot.
 pub(crate) struct CheckedLots {
     checker: Checker,
     so_far: Vec<u8>,

@@ -8,6 +8,7 @@ mod calls;
 #[cfg(feature = "alloc")]
 pub(crate) mod checker;
 mod faults;
+#[cfg(feature = "alloc")]
 pub(crate) mod findings;
 mod frames;
 mod laws;

@@ -2,6 +2,7 @@
 
 mod nc;
 mod service;
+#[cfg(feature = "alloc")]
 mod streaming;
 
 use ads_cnc_vectors::{Sequence, SequenceExpect, sequences};

@@ -1,8 +1,12 @@
 //! NC text: packets, refusals and findings.
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
-use ads_cnc::streaming::{Ack, FindingKind, LineErrorKind, NcText, Sender};
-use ads_cnc_vectors::{Given, Pieces, SequenceExpect, SequenceReject};
+#[cfg(feature = "alloc")]
+use ads_cnc::streaming::FindingKind;
+use ads_cnc::streaming::{Ack, LineErrorKind, NcText, Sender};
+#[cfg(feature = "alloc")]
+use ads_cnc_vectors::SequenceReject;
+use ads_cnc_vectors::{Given, Pieces, SequenceExpect};
 
 use super::cases;
 
@@ -49,6 +53,7 @@ fn sent(text: NcText<'_>) -> Vec<Vec<u8>> {
     std::iter::from_fn(next).collect()
 }
 
+#[cfg(feature = "alloc")]
 #[test]
 fn programs_are_checked() {
     for case in cases("nc-check", 50) {

@@ -23,7 +23,9 @@ pub fn all() -> impl Iterator<Item = Case> {
     let streams = streams().flat_map(|entry| entry.cases);
     let growth = growth::CASES.iter().copied().flatten();
     let calls = [dispatch::FUNCTIONS, dispatch::REFUSALS].into_iter().flatten();
-    let texts = [streaming::PACKETS, streaming::CHECKS, streaming::HOSTILE].into_iter().flatten();
+    let texts = [streaming::PACKETS, streaming::CHECKS, streaming::UNUSUAL, streaming::GROWTH]
+        .into_iter()
+        .flatten();
     let all = lists.chain(streams).chain(frames::CASES).chain(growth).chain(calls).chain(texts);
     all.copied()
 }

@@ -52,19 +52,48 @@ checks! {
     "a program, 1 MB": program, 1_000_000;
     "positions, 100 KB": |at| format!("N{at}0 G01 X{at}.125 Y-{at}.5 Z0.001 F1200"), 100_000;
     "comments, 100 KB": |at| format!("({at} is all (that (is) said) here) ; and this"), 100_000;
-    // What nobody writes: shown, for it must not grow faster than the text.
-    HOSTILE &[];
+    // What nobody writes: shown.
+    UNUSUAL &[];
     "empty lines, 100 KB": |_| String::new(), 100_000;
-    "labels, 100 KB": |at| format!("N{at}: X1"), 100_000;
-    "labels, 1 MB": |at| format!("N{at}: X1"), 1_000_000;
-    "jumps ahead, 100 KB": |at| format!("$GOTO N{at}1"), 100_000;
-    "jumps to lines above, 10 KB": |at| format!("N{at}: $GOTO N{}", at / 2), 10_000;
-    "jumps to lines above, 100 KB": |at| format!("N{at}: $GOTO N{}", at / 2), 100_000;
-    "jumps to one line above, 100 KB": |at| format!("N{at}: $GOTO N0"), 100_000;
-    "open brackets, 100 KB": |_| "$GOTO[".repeat(150), 100_000;
-    "open brackets, 1 MB": |_| "$GOTO[".repeat(150), 1_000_000;
     "open quotes, 100 KB": |_| "\"(".repeat(400), 100_000;
     "names, 100 KB": |at| format!("V.E.NAME_{at}.M30 = V.P.M2_{at} + _M30"), 100_000;
+}
+
+/// A hundred times the text may cost 10^(2 × 1.1) times the instructions, which is 1.58 for each
+/// byte: the labels are in a sorted tree.
+macro_rules! grows {
+    ($($subject:literal: $lines:expr;)+) => {
+        pub(super) const GROWTH: &[Case] = &[$(
+            Case::new(concat!("check of ", $subject), "1 KB", || whole(1_000, $lines)),
+            Case::new(concat!("check of ", $subject), "100 KB", || whole(100_000, $lines))
+                .within(&[Limit::Instructions("1 KB", 1.58)]),
+            Case::new(concat!("check of ", $subject), "10 MB", || whole(10_000_000, $lines))
+                .within(&[Limit::Instructions("100 KB", 1.58)]),
+        )+];
+    };
+}
+
+// A line by its number and by how many there are.
+grows! {
+    "labels": |at, _| format!("N{at}: X1");
+    "jumps to lines above": |at, _| format!("N{at}: $GOTO N{}", at / 2);
+    "jumps to 65 labels in turn": |at, _| match at {
+        0..65 => format!("N{at}: X1"),
+        _ => format!("$GOTO N{}", at % 65),
+    };
+    "labels, then a jump to each": |at, of| match at < of / 2 {
+        true => format!("N{at}: X1"),
+        false => format!("$GOTO N{}", at - of / 2),
+    };
+    "jumps far ahead": |at, of| match at < of / 2 {
+        true => format!("$GOTO N{at}"),
+        false => format!("N{}: X1", at - of / 2),
+    };
+    "jumps far ahead from labels": |at, of| match at < of / 2 {
+        true => format!("[A{at}] $GOTO N{at}"),
+        false => format!("N{}: X1", at - of / 2),
+    };
+    "open brackets": |_, _| "$GOTO[".repeat(150);
 }
 
 /// What a program is like: motion, comments, subroutines, conditions, labels and jumps.
@@ -147,6 +176,13 @@ fn checked(text: Vec<u8>) -> Work {
             std::hint::black_box(checker.check(lot).count());
         }
     })
+}
+
+/// About so many bytes.
+fn whole(size: usize, line: fn(usize, usize) -> String) -> Work {
+    // The longest line of the size is near the end.
+    let lines = size / (line(size / 16, size).len() + 1);
+    findings(text(&|at| line(at, lines), "\n", size))
 }
 
 fn findings(text: Vec<u8>) -> Work {

@@ -80,6 +80,7 @@ pub(super) fn streaming(bytes: &[u8]) -> Result<(), LineError> {
     seen((streaming::NcText::bytes(&text), streaming::NcText::is_wire(&text)));
     seen((streaming::NcText::line_count(&text), streaming::NcText::wire_len(&text)));
     streaming::NcText::lines(&text).for_each(seen);
+    #[cfg(feature = "alloc")]
     for finding in streaming::NcText::findings(&text) {
         seen(streaming::FindingKind::clause(finding.kind));
         seen(streaming::FindingKind::ends_streaming(finding.kind));

@@ -44,7 +44,9 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     show::<dynamic::DynamicKind>(any(dynamic::DynamicKind::VS));
     show::<operation::Service>(any(operation::Service::Write));
     show::<service::ServiceVariable>(any(service::ServiceVariable::Uuid));
+    #[cfg(feature = "alloc")]
     show::<streaming::LoopWord>(any(streaming::LoopWord::For));
+    #[cfg(feature = "alloc")]
     show::<streaming::ProgramEnd>(any(streaming::ProgramEnd::M2));
     show::<streaming::NoPacketOut>(any(streaming::NoPacketOut));
     refusals(bytes);
@@ -68,12 +70,15 @@ fn refusals(bytes: &[u8]) {
 
 fn programs(bytes: &[u8]) {
     match streaming::NcText::new(bytes) {
+        #[cfg(feature = "alloc")]
         Ok(program) => {
             for finding in program.findings() {
                 show::<streaming::FindingKind>(finding.kind);
                 show::<streaming::Finding>(finding);
             }
         }
+        #[cfg(not(feature = "alloc"))]
+        Ok(_) => {}
         Err(error) => {
             show::<streaming::LineErrorKind>(error.kind());
             show::<streaming::LineError>(error);
