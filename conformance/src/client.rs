@@ -55,6 +55,9 @@ enum Dial {
 /// Between the pieces of a frame that is sent in pieces.
 const PAUSE: Duration = Duration::from_millis(1);
 
+/// The most frames with another invoke ID, before an answer, that are told one by one.
+const STRAYS_TOLD: u64 = 3;
+
 /// Before the first: no byte of it is 0 or like another, as a response has to have all four.
 const FIRST_INVOKE_ID: u32 = 0x5403_0201;
 
@@ -244,14 +247,19 @@ impl Client {
         if self.dry {
             return Err(Fault::NotSent);
         }
-        let mut came = self.exchange(permit, header, received, violations);
+        let mut strays = 0;
+        let mut came = self.exchange(permit, header, received, violations, &mut strays);
         let lost = matches!(came, Err(Fault::Closed | Fault::Io(_)));
         if lost && permit.is_repeatable() {
             // A connection may have been closed for being idle. Whether a write was done before
             // that nobody knows: it is not sent twice.
             received.clear();
             self.disconnect();
-            came = self.exchange(permit, header, received, violations);
+            came = self.exchange(permit, header, received, violations, &mut strays);
+        }
+        if let Some(more) = strays.checked_sub(STRAYS_TOLD).filter(|more| *more > 0) {
+            let what = format!("{more} more answers to other invoke IDs; {STRAYS_TOLD} are shown");
+            violations.push(Violation { requirement: "ADS-5", what });
         }
         Ok(came)
     }
@@ -293,6 +301,7 @@ impl Client {
         sent: AmsHeader,
         received: &mut Vec<u8>,
         violations: &mut Vec<Violation>,
+        strays: &mut u64,
     ) -> Result<AmsHeader, Fault> {
         self.keep_pace();
         let wire = match self.wire.take() {
@@ -329,10 +338,16 @@ impl Client {
                     received.truncate(len);
                     return Ok(header);
                 }
-                let (id, asked) = (header.invoke_id, sent.invoke_id);
-                let what = format!("an answer to invoke ID {id:#x}, asked was {asked:#x}");
-                violations.push(Violation { requirement: "ADS-5", what });
+                *strays = strays.saturating_add(1);
+                if *strays <= STRAYS_TOLD {
+                    let (id, asked) = (header.invoke_id, sent.invoke_id);
+                    let what = format!("an answer to invoke ID {id:#x}, asked was {asked:#x}");
+                    violations.push(Violation { requirement: "ADS-5", what });
+                }
                 received.drain(..len);
+                if asked.elapsed() >= self.target.timeout {
+                    return Err(Fault::Silence(self.target.timeout));
+                }
                 continue;
             }
             let left = self.target.timeout.saturating_sub(asked.elapsed());

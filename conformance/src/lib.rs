@@ -14,6 +14,7 @@
 //! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
 //! | [`services`] | what the three ADS services have on the wire |
 //! | [`gate`] | what may be sent to a target |
+//! | [`deadline`] | when a tool stops asking |
 //! | [`session`] | a CNC to ask, typed: what tools work with |
 //! | [`objects`], [`named`] | what a CNC has, all of it or one thing by its name |
 //! | [`values`] | values as people read and write them |
@@ -56,6 +57,7 @@ pub mod client;
 pub mod clients;
 pub mod cnc;
 pub mod codec;
+pub mod deadline;
 pub mod defect;
 mod duration;
 pub mod exchange;

@@ -9,9 +9,10 @@ use super::complain;
 use super::model::ModelArgs;
 use super::name::written;
 use super::progress::Progress;
-use super::target::{REACHING_A_DEVICE, TargetArgs, channel};
+use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
 use crate::objects::{
-    Found, Object, ObjectReport, ObjectsReport, Options, Pattern, columns, csv, table, walk,
+    Found, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern, REQUESTS_MAX,
+    columns, csv, table, walk,
 };
 use crate::report::{hex, json};
 use crate::session::{Session, Trouble};
@@ -67,6 +68,9 @@ pub(super) struct Browse {
     target: TargetArgs,
 
     #[command(flatten)]
+    deadline: DeadlineArgs,
+
+    #[command(flatten)]
     model: ModelArgs,
 }
 
@@ -77,8 +81,14 @@ Examples:
   ads-cnc browse --variables --filter 'V.G.*'
   ads-cnc browse --format csv --target 192.0.2.10 --net-id 192.0.2.10.1.1 --rate 200 > objects.csv
 
-Exit codes: 0 listed; 2 wrong usage; 3 no answer, or nothing fits; 4 refused for safety;
-70 internal error. What a CNC refuses to tell is noted on stderr and left out.";
+At most 100000 objects are listed, 1000000 requests sent and 8 MiB of values read.
+
+Exit codes: 0 listed; 2 wrong usage; 3 no answer, nothing fits, or a maximum or the deadline was
+reached; 4 refused for safety; 70 internal error. What a CNC refuses to tell is noted on stderr and
+left out.";
+
+/// So the help says.
+const _: () = assert!(OBJECTS_MAX == 100_000 && REQUESTS_MAX == 1_000_000);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
@@ -90,6 +100,9 @@ enum Format {
     Json,
 }
 
+/// The most bytes of all contents together.
+const CONTENTS_MAX: usize = 8 << 20;
+
 /// A value, or why it was not read.
 type Content = Result<Vec<u8>, String>;
 
@@ -99,7 +112,7 @@ impl Browse {
     }
 
     fn run(&self) -> Result<Exit, Trouble> {
-        let mut session = self.model.open(&self.target)?;
+        let mut session = self.model.open(&self.target)?.with_deadline(self.deadline.begin());
         let options = Options {
             channels: self.channel.clone(),
             lists: self.of.as_deref().map(Pattern::whole),
@@ -108,13 +121,13 @@ impl Browse {
             exact: self.exact,
         };
         let mut progress = Progress::new();
-        let found = walk(&mut session, &options, &mut |seen| {
+        let mut found = walk(&mut session, &options, &mut |seen| {
             progress.tell(|| {
                 format!("{}: {} found, {} requests", seen.list, seen.objects, seen.requests)
             });
         })?;
         let contents = match self.content {
-            true => Some(read_all(&mut session, &found.objects, &mut progress)?),
+            true => Some(read_all(&mut session, &mut found, &mut progress)?),
             false => None,
         };
         drop(progress);
@@ -128,7 +141,7 @@ impl Browse {
             );
             return Ok(Exit::Nothing);
         }
-        Ok(Exit::Success)
+        Ok(if found.is_cut { Exit::Nothing } else { Exit::Success })
     }
 
     fn write(
@@ -175,19 +188,35 @@ impl Browse {
 
 fn read_all(
     session: &mut Session,
-    objects: &[Object],
+    found: &mut Found,
     progress: &mut Progress,
 ) -> Result<Vec<Content>, Trouble> {
+    let (objects, mut bytes) = (&found.objects, 0_usize);
     let mut contents = Vec::with_capacity(objects.len());
+    let mut enough = None;
     for (place, object) in objects.iter().enumerate() {
         progress.tell(|| format!("values: {place} of {}", objects.len()));
+        if let Some(why) = &enough {
+            contents.push(Err(String::clone(why)));
+            continue;
+        }
         let size = object.ty.size.unwrap_or(0);
         let content = match size {
             0..=CONTENT_MAX => object.place.read(session, size),
             _ => Err(Trouble::Unable(format!("{size} bytes; get reads them"))),
         };
         contents.push(match content {
-            Ok(bytes) => Ok(bytes),
+            Ok(content) => {
+                bytes = bytes.saturating_add(content.len());
+                if bytes > CONTENTS_MAX {
+                    enough = Some(format!("not read, as {} MiB were", CONTENTS_MAX >> 20));
+                }
+                Ok(content)
+            }
+            Err(Trouble::Enough(why)) => {
+                enough = Some(format!("not read: {why}"));
+                Err(format!("not read: {why}"))
+            }
             // One that cannot be read is no reason to read no other.
             Err(
                 why @ (Trouble::Ads { .. }
@@ -198,6 +227,10 @@ fn read_all(
             ) => Err(why.to_string()),
             Err(trouble) => return Err(trouble),
         });
+    }
+    if let Some(why) = enough {
+        found.notes.push(format!("not all values are listed: {why}"));
+        found.is_cut = true;
     }
     Ok(contents)
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use super::complain;
 use super::model::ModelArgs;
 use super::name::{NameArgs, headline, written};
-use super::target::{REACHING_A_DEVICE, TargetArgs};
+use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use crate::named::find;
 use crate::objects::{Object, ObjectReport, ObjectsReport};
 use crate::session::Trouble;
@@ -42,6 +42,9 @@ pub(super) struct Get {
     target: TargetArgs,
 
     #[command(flatten)]
+    deadline: DeadlineArgs,
+
+    #[command(flatten)]
     model: ModelArgs,
 }
 
@@ -66,7 +69,7 @@ impl Get {
     }
 
     fn run(&self) -> Result<Exit, Trouble> {
-        let mut session = self.model.open(&self.target)?;
+        let mut session = self.model.open(&self.target)?.with_deadline(self.deadline.begin());
         let mut object = find(&mut session, &self.name.question())?;
         let bytes = object.place.read(&mut session, object.ty.size.unwrap_or(0))?;
         object.ty = object.ty.fitted(u32::try_from(bytes.len()).unwrap_or(u32::MAX));

@@ -9,7 +9,7 @@ use clap::Args;
 use super::forms::{Reports, show, write};
 use super::list;
 use super::run_client::ClientArgs;
-use super::target::{REACHING_A_DEVICE, TargetArgs};
+use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect, run_testee};
 use crate::cnc::{self, Model};
 use crate::defect::Seed;
@@ -42,6 +42,9 @@ const SELECTION: &str = "Selection";
 pub(super) struct Run {
     #[command(flatten)]
     target: TargetArgs,
+
+    #[command(flatten)]
+    deadline: DeadlineArgs,
 
     #[command(flatten)]
     client: ClientArgs,
@@ -304,7 +307,14 @@ impl Run {
         let edition = self.edition.map(cnc::edition_name);
         let timeout = self.target.timeout();
         let cases = plan.cases.clone();
-        let judged = run_testee::run(command, timeout, cases, seed, edition.as_deref());
+        let judged = run_testee::run(
+            command,
+            timeout,
+            cases,
+            seed,
+            edition.as_deref(),
+            self.deadline.begin(),
+        );
         let (outcomes, left_out) = plan.finish(judged.outcomes);
         let about = self.about(judged.target, seed, waivers);
         Ok(Report::new(about, &outcomes, &left_out))
@@ -349,7 +359,8 @@ impl Run {
         interrupt: &Interrupt,
     ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let judged = self.client.judge(&plan, interrupt).map_err(Stopped::Usage)?;
+        let judged = self.client.judge(&plan, self.deadline.begin(), interrupt);
+        let judged = judged.map_err(Stopped::Usage)?;
         let (outcomes, left_out) = plan.finish(judged.outcomes);
         let about = self.about(judged.target, seed, waivers);
         Ok(Report::new(About { frames: judged.frames, ..about }, &outcomes, &left_out))

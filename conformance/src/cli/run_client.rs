@@ -6,7 +6,9 @@ use std::time::Duration;
 use clap::Args;
 
 use super::complain;
+use super::serve::check_address;
 use crate::clients::{self, Judged, Process, Scenario, Stage};
+use crate::deadline::Deadline;
 use crate::interrupt::Interrupt;
 use crate::report::TargetReport;
 use crate::suite::{Case, Outcome, Plan};
@@ -28,6 +30,11 @@ pub(super) struct ClientArgs {
     /// where the CNC is [default for --client: a free port of loopback]
     #[arg(long, help_heading = CLIENT, value_name = "ADDRESS", conflicts_with_all = ["target", "testee", "defect", "dry_run", "allow_write", "rate", "profile"])]
     client_listen: Option<SocketAddr>,
+
+    /// Let --client-listen be another address than loopback too: whoever reaches it can read and write
+    /// the simulated CNC
+    #[arg(long, help_heading = CLIENT, requires = "client_listen")]
+    allow_remote: bool,
 
     /// How long a client has for each action, in milliseconds
     #[arg(long, help_heading = CLIENT, value_name = "MS", default_value_t = 10_000)]
@@ -64,16 +71,22 @@ impl ClientArgs {
     ///
     /// # Errors
     /// Why nobody can be waited for.
-    pub(super) fn judge(&self, plan: &Plan, interrupt: &Interrupt) -> Result<OfClient, String> {
+    pub(super) fn judge(
+        &self,
+        plan: &Plan,
+        deadline: Deadline,
+        interrupt: &Interrupt,
+    ) -> Result<OfClient, String> {
         let addr = self.client_listen.unwrap_or(SocketAddr::from(([127, 0, 0, 1], 0)));
+        check_address(addr, self.allow_remote)?;
         let stage = Stage::new(addr).map_err(|error| format!("{addr}: {error}"))?;
         match &self.client {
-            Some(command) => Ok(self.told(command, &stage, plan)),
-            None => waited(&stage, interrupt),
+            Some(command) => Ok(self.told(command, &stage, plan, deadline)),
+            None => waited(&stage, deadline, interrupt),
         }
     }
 
-    fn told(&self, command: &str, stage: &Stage, plan: &Plan) -> OfClient {
+    fn told(&self, command: &str, stage: &Stage, plan: &Plan, deadline: Deadline) -> OfClient {
         let mut all = clients::scenarios();
         let mut wanted = Vec::new();
         for case in &plan.cases {
@@ -82,7 +95,7 @@ impl ClientArgs {
             }
         }
         let timeout = Duration::from_millis(self.client_timeout);
-        let mut process = Process::new(command, timeout);
+        let mut process = Process::new(command, timeout).with_deadline(deadline);
         let Judged { hello, outcomes, requests } = clients::judge(&mut process, stage, &wanted);
         let stderr = clients::Actor::stderr(&process);
         let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
@@ -102,7 +115,7 @@ impl ClientArgs {
 }
 
 /// Serves who comes of itself.
-fn waited(stage: &Stage, interrupt: &Interrupt) -> Result<OfClient, String> {
+fn waited(stage: &Stage, deadline: Deadline, interrupt: &Interrupt) -> Result<OfClient, String> {
     let (addr, net_id) = (stage.addr(), stage.net_id());
     let mut told = false;
     // Asked for the first time when somebody can come.
@@ -113,9 +126,12 @@ fn waited(stage: &Stage, interrupt: &Interrupt) -> Result<OfClient, String> {
             ));
             told = true;
         }
-        !interrupt.came()
+        !(interrupt.came() || deadline.is_over())
     };
     let (outcome, frames) = clients::listen(stage, go_on).map_err(|error| error.to_string())?;
+    if deadline.is_over() {
+        complain(&deadline);
+    }
     let target = TargetReport {
         name: "client".to_owned(),
         address: Some(addr.to_string()),

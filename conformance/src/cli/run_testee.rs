@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::time::Duration;
 
+use crate::deadline::Deadline;
 use crate::interrupt;
 use crate::report::TargetReport;
 use crate::suite::{Case, Outcome, Subject};
@@ -25,8 +26,9 @@ pub(super) fn run(
     cases: Vec<Case>,
     seed: u32,
     edition: Option<&str>,
+    deadline: Deadline,
 ) -> OfTestee {
-    let mut process = Process::new(command, timeout);
+    let mut process = Process::new(command, timeout).with_deadline(deadline);
     let terms = Terms { seed, subject: Subject::Testee, edition, strict: false };
     let Judged { hello, outcomes, .. } = judge(&mut process, cases, terms);
     OfTestee { target: target(command, hello, &process.stderr()), outcomes }

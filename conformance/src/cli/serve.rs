@@ -103,7 +103,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     if args.print_model {
         return print_model();
     }
-    if let Err(why) = args.check_address() {
+    if let Err(why) = check_address(args.listen, args.allow_remote) {
         return refuse(Exit::Usage, why);
     }
     let defect = match find_defect(args.defect.as_deref()) {
@@ -168,25 +168,28 @@ impl Args {
         };
         ServerOptions { net_id: self.net_id, idle, frame: Some(ServerOptions::FRAME) }
     }
+}
 
-    fn check_address(&self) -> Result<(), String> {
-        let addr = self.listen;
-        if addr.ip().is_loopback() {
-            return Ok(());
-        }
-        let open = "the simulated CNC asks nobody who he is";
-        if self.allow_remote {
-            complain(format_args!(
-                "warning: {addr} is not a loopback address: {open}, and whoever reaches it can read \
-                 and write"
-            ));
-            return Ok(());
-        }
-        Err(format!(
-            "{addr} is not a loopback address; {open}, so it is served on this machine only, for \
-             example on 127.0.0.1:48898, unless --allow-remote says otherwise"
-        ))
+/// Whether the simulated CNC may listen there.
+///
+/// # Errors
+/// That the address can be reached from other machines, which was not allowed.
+pub(super) fn check_address(addr: SocketAddr, allow_remote: bool) -> Result<(), String> {
+    if addr.ip().is_loopback() {
+        return Ok(());
     }
+    let open = "the simulated CNC asks nobody who he is";
+    if allow_remote {
+        complain(format_args!(
+            "warning: {addr} is not a loopback address: {open}, and whoever reaches it can read \
+             and write"
+        ));
+        return Ok(());
+    }
+    Err(format!(
+        "{addr} is not a loopback address; {open}, so it is served on this machine only, for \
+         example on 127.0.0.1:48898, unless --allow-remote says otherwise"
+    ))
 }
 
 fn start(addr: SocketAddr, cnc: Arc<Cnc>, options: ServerOptions) -> Result<Server, String> {

@@ -15,6 +15,7 @@ use super::complain;
 use crate::capture::{AMS_TCP_PORT, Capture};
 use crate::client::Target;
 use crate::cnc::{Cnc, NET_ID};
+use crate::deadline::Deadline;
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::session::{Session, TIMEOUT, Trouble};
 use crate::verdict::Exit;
@@ -85,6 +86,25 @@ pub(super) struct TargetArgs {
     /// Whether some of the capture could not be written.
     #[arg(skip)]
     lost: Arc<AtomicBool>,
+}
+
+/// How long a tool asks that may have much to ask for.
+#[derive(Args, Clone, Copy, Debug)]
+pub(super) struct DeadlineArgs {
+    /// How long to go on asking in all, in seconds; what was not asked by then is reported so
+    #[arg(long, help_heading = TARGET, value_name = "SECONDS", default_value_t = DEADLINE,
+        value_parser = clap::value_parser!(u64).range(1..))]
+    deadline: u64,
+}
+
+/// A run at two requests a second takes less.
+const DEADLINE: u64 = 4 * 3600;
+
+impl DeadlineArgs {
+    /// From now on.
+    pub(super) fn begin(self) -> Deadline {
+        Deadline::after(Duration::from_secs(self.deadline))
+    }
 }
 
 /// Which channel.

@@ -47,22 +47,22 @@ pub(super) fn evidence(turn: &Turn) -> Evidence {
     let fault = turn.fault.as_ref().map_or_else(String::new, |fault| format!(": {fault}"));
     let mut evidence = Evidence {
         call: format!("bytes that are no request{fault}"),
-        sent: turn.request.clone(),
+        sent: Evidence::start(&turn.request).to_vec(),
         result: format!("{} bytes", turn.sent.len()),
-        frame_sent: turn.request.clone(),
-        frame_received: turn.sent.clone(),
+        frame_sent: Evidence::start(&turn.request).to_vec(),
+        frame_received: Evidence::start(&turn.sent).to_vec(),
         ..Evidence::default()
     };
     let Ok(Some((frame, _))) = FrameRef::split(&turn.request, u32::MAX) else { return evidence };
     let header = frame.header();
     evidence.call = format!("command {} to port {}{fault}", header.command.0, header.target.port);
-    evidence.sent = frame.data().to_vec();
+    evidence.sent = Evidence::start(frame.data()).to_vec();
     if let Ok(Some(call)) = Call::of_frame(&frame) {
         evidence.call = format!(
             "{} {}, {} at port {}",
             call.service, call.index_group, call.index_offset, call.port
         );
-        evidence.sent = call.data.to_vec();
+        evidence.sent = Evidence::start(call.data).to_vec();
         let function = call.dispatch().ok().map(|request| request.function().spec());
         evidence.request_stream =
             function.and_then(|spec| spec.request).map(|stream| stream.layout().name);
@@ -74,7 +74,8 @@ pub(super) fn evidence(turn: &Turn) -> Evidence {
     {
         let service = service_of(reply.header().command);
         let decoded = service.and_then(|service| decode_reply(service, reply.data()).ok());
-        evidence.received = decoded.and_then(|(_, data)| data).map(<[u8]>::to_vec);
+        evidence.received =
+            decoded.and_then(|(_, data)| data).map(|data| Evidence::start(data).to_vec());
     }
     evidence
 }

@@ -71,6 +71,10 @@ pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Ju
             outcomes.push(Outcome::untried(case, Verdict::NotApplicable, note));
             continue;
         }
+        if let Some(why) = actor.over() {
+            outcomes.push(Outcome::untried(case, Verdict::Inconclusive, why));
+            continue;
+        }
         if lost >= LOST_MAX {
             let note = format!("the client is gone: {LOST_MAX} times in a row without an answer");
             outcomes.push(Outcome::untried(case, Verdict::Inconclusive, note));
@@ -163,16 +167,17 @@ fn play(
     }
     stage.begin(script);
     let reaction = actor.act(place, &scenario.id, &action);
-    let (turns, script) = stage.end();
+    let (turns, beyond, script) = stage.end();
     let script = script.ok_or("the CNC of the scenario is still in use")?;
     let mut findings = Findings::default();
-    requests::judge(&turns, &mut findings);
+    requests::judge(&turns, &mut None, &mut findings);
     // Who sees a loop word or a lie need not ask at all.
     asked::judge(&scenario.asks, &turns, may_write(scenario), &mut findings);
     if let Some(watch) = scenario.watch {
         watch::judge(watch, scenario, &script, &turns, &mut findings);
     }
     let stop = said(scenario, &script, &reaction, turns.last(), &mut findings);
+    let stop = stop.or(beyond.stop());
     let is_lost = matches!(reaction, Reaction::Died(_) | Reaction::Hung(_) | Reaction::Broken(_));
     let mut case = scenario.case();
     // A client may ask more than it has to; that is judged too.

@@ -58,6 +58,11 @@ pub trait Actor {
         Vec::new()
     }
 
+    /// Why it is not to be told any more.
+    fn over(&self) -> Option<String> {
+        None
+    }
+
     /// What it had to say beside its answers.
     fn stderr(&self) -> String {
         String::new()

@@ -4,7 +4,7 @@ use ads_cnc::operation::Function;
 
 use super::findings::Findings;
 use super::script::Script;
-use super::stage::Stage;
+use super::stage::{Stage, Turn};
 use super::{CLIENT, requests};
 use crate::cnc::{Cnc, ModelError};
 use crate::suite::{Body, Case, Needs, Outcome, Stop, Subject};
@@ -31,12 +31,22 @@ pub fn requests_case() -> Case {
 ///
 /// # Errors
 /// None: a test builds the model.
-pub fn listen(stage: &Stage, go_on: impl FnMut() -> bool) -> Result<(Outcome, usize), ModelError> {
+pub fn listen(
+    stage: &Stage,
+    mut go_on: impl FnMut() -> bool,
+) -> Result<(Outcome, usize), ModelError> {
     stage.begin(Script::new(Cnc::with_default_model()?));
-    stage.watch(go_on);
-    let (turns, _) = stage.end();
-    let mut findings = Findings::default();
-    requests::judge(&turns, &mut findings);
+    let (mut findings, mut before, mut count) = (Findings::default(), None, 0_usize);
+    let mut judge = |turns: &[Turn]| {
+        count = count.saturating_add(turns.len());
+        requests::judge(turns, &mut before, &mut findings);
+    };
+    stage.watch(|| {
+        judge(&stage.turns());
+        go_on()
+    });
+    let (turns, beyond, _) = stage.end();
+    judge(&turns);
     let mut requirements = Vec::new();
     for judgement in &findings.record.judgements {
         if !requirements.contains(&judgement.requirement) {
@@ -47,9 +57,8 @@ pub fn listen(stage: &Stage, go_on: impl FnMut() -> bool) -> Result<(Outcome, us
         requirements.push(CLIENT);
         Stop::Inconclusive("nobody has sent anything".to_owned())
     });
+    let stop = stop.or(beyond.stop());
+    let count = count.saturating_add(beyond.requests);
     let case = Case { requirements, ..requests_case() };
-    Ok((
-        Outcome::tried(case, findings.record.judgements, findings.record.checks, stop),
-        turns.len(),
-    ))
+    Ok((Outcome::tried(case, findings.record.judgements, findings.record.checks, stop), count))
 }

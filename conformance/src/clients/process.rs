@@ -5,6 +5,7 @@ use std::time::Duration;
 use super::message::{Answer, Hello, PROTOCOL, Place, Reaction, environment, told};
 use super::{Action, Actor};
 use crate::child::{self, START, Spoken, Stderr, Unheard, cut};
+use crate::deadline::Deadline;
 
 /// How long it has for ending when all is said.
 const GRACE: Duration = Duration::from_secs(2);
@@ -23,6 +24,7 @@ pub struct Process {
     stderr: Stderr,
     /// What it has said without being asked.
     unasked: Vec<String>,
+    deadline: Option<Deadline>,
 }
 
 impl Process {
@@ -30,7 +32,13 @@ impl Process {
     pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
         let stderr = Stderr::default();
         let (line, unasked) = (line.into(), Vec::new());
-        Self { line, timeout, running: None, stays: false, stderr, unasked }
+        Self { line, timeout, running: None, stays: false, stderr, unasked, deadline: None }
+    }
+
+    /// With a moment after which it is told nothing more.
+    #[must_use]
+    pub fn with_deadline(self, deadline: Deadline) -> Self {
+        Self { deadline: Some(deadline), ..self }
     }
 
     fn start(&self, place: &Place, scenario: &str, action: &str) -> Result<Spoken, Reaction> {
@@ -56,6 +64,10 @@ impl Process {
 }
 
 impl Actor for Process {
+    fn over(&self) -> Option<String> {
+        self.deadline.filter(Deadline::is_over).map(|deadline| deadline.to_string())
+    }
+
     fn hello(&mut self, place: &Place) -> Result<Hello, Reaction> {
         let running = self.start(place, HELLO, HELLO)?;
         let (line, running) = Self::hear(running, START.max(self.timeout))?;

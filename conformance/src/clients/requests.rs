@@ -11,21 +11,21 @@ use crate::cnc::{DATA_MAX, NET_ID};
 use crate::services::{self, service_of};
 use crate::suite::assumed;
 
-/// Judges each request by itself.
-pub(super) fn judge(turns: &[Turn], findings: &mut Findings) {
+/// What is known of the request before: its connection and its invoke ID.
+pub(super) type Before = Option<(usize, Option<Vec<u8>>)>;
+
+/// Judges each request by itself, and its invoke ID by that of the one before.
+pub(super) fn judge(turns: &[Turn], before: &mut Before, findings: &mut Findings) {
     for turn in turns {
         one(turn, findings);
-    }
-    let id = |turn: &Turn| turn.request.get(34..38).map(<[u8]>::to_vec);
-    for pair in turns.windows(2) {
-        if let [first, second] = pair
-            && first.connection == second.connection
-        {
+        let id = turn.request.get(34..38).map(<[u8]>::to_vec);
+        if let Some((_, last)) = before.take().filter(|(of, _)| *of == turn.connection) {
             // Who never changes it cannot tell a late reply from its own.
-            let kept = id(first).is_none() || id(first) != id(second);
+            let kept = last.is_none() || last != id;
             let expected = "another invoke ID than that of the request before";
-            findings.check(assumed("ADS-5"), kept, Some(second), expected, "the same");
+            findings.check(assumed("ADS-5"), kept, Some(turn), expected, "the same");
         }
+        *before = Some((turn.connection, id));
     }
 }
 

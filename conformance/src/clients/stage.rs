@@ -14,9 +14,15 @@ use super::knob::Deed;
 use super::script::Script;
 use crate::cnc::{FRAME_MAX, NET_ID};
 use crate::net;
+use crate::suite::Stop;
 
-/// The most connections of one scenario.
-const CONNECTIONS_MAX: usize = 64;
+/// The most connections of one scenario; of more the number is kept.
+pub(super) const CONNECTIONS_MAX: usize = 64;
+
+/// The most bytes of requests and replies that are kept until they are judged, and what a request
+/// takes beside them.
+pub(super) const KEPT_MAX: usize = 8 << 20;
+const TURN: usize = 128;
 
 /// How long a connection that the client has closed is waited for.
 const LINGER: Duration = Duration::from_millis(200);
@@ -32,6 +38,86 @@ pub(super) struct Turn {
     pub(super) sent: Vec<u8>,
     /// Why it is not a frame.
     pub(super) fault: Option<String>,
+}
+
+/// What a client has sent, and what it got.
+#[derive(Debug, Default)]
+struct Turns {
+    kept: Vec<Turn>,
+    /// How many were taken to be judged.
+    taken: usize,
+    bytes: usize,
+    /// How many were not kept.
+    beyond: usize,
+}
+
+impl Turns {
+    /// The number of a turn; none if there is no room for it.
+    fn keep(&mut self, turn: Turn) -> Option<usize> {
+        self.grow(turn.request.len().saturating_add(TURN));
+        if self.bytes > KEPT_MAX {
+            self.beyond = self.beyond.saturating_add(1);
+            return None;
+        }
+        self.kept.push(turn);
+        Some(self.taken.saturating_add(self.kept.len()).saturating_sub(1))
+    }
+
+    fn grow(&mut self, by: usize) {
+        self.bytes = self.bytes.saturating_add(by);
+    }
+
+    fn of_number(&mut self, number: usize) -> Option<&mut Turn> {
+        self.kept.get_mut(number.checked_sub(self.taken)?)
+    }
+
+    fn take_answered(&mut self) -> Vec<Turn> {
+        let last = self.kept.pop();
+        let turns = self.take();
+        self.bytes = last.as_ref().map_or(0, |last| last.request.len().saturating_add(TURN));
+        self.kept.extend(last);
+        turns
+    }
+
+    /// All that are kept, in their order.
+    fn take(&mut self) -> Vec<Turn> {
+        let turns = std::mem::take(&mut self.kept);
+        self.taken = self.taken.saturating_add(turns.len());
+        self.bytes = 0;
+        turns
+    }
+}
+
+/// What there was more of than is kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Beyond {
+    /// Requests that were answered and not judged.
+    pub(super) requests: usize,
+    /// Connections that were closed at once.
+    pub(super) connections: usize,
+}
+
+impl Beyond {
+    /// What keeps a case from a pass.
+    pub(super) fn stop(self) -> Option<Stop> {
+        (self != Self::default()).then(|| Stop::Inconclusive(self.to_string()))
+    }
+}
+
+impl std::fmt::Display for Beyond {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { requests, connections } = self;
+        let mebibytes = KEPT_MAX >> 20;
+        match (requests, connections) {
+            (0, _) => {}
+            (_, 0) => write!(f, "{requests} requests beyond {mebibytes} MiB were not judged")?,
+            _ => write!(f, "{requests} requests beyond {mebibytes} MiB were not judged; ")?,
+        }
+        if *connections > 0 {
+            write!(f, "{connections} connections beyond {CONNECTIONS_MAX} were closed at once")?;
+        }
+        Ok(())
+    }
 }
 
 /// A listener with a scenario behind it, one after the other.
@@ -52,7 +138,7 @@ struct Shared {
 #[derive(Debug)]
 struct Scene {
     script: Mutex<Script>,
-    turns: Mutex<Vec<Turn>>,
+    turns: Mutex<Turns>,
     /// Open connections, and how many there have been.
     streams: Mutex<Vec<TcpStream>>,
     threads: Mutex<Vec<JoinHandle<()>>>,
@@ -123,9 +209,18 @@ impl Stage {
         }
     }
 
+    /// The requests that came since this was asked before, but for the last, whose answer may not
+    /// be out.
+    pub(super) fn turns(&self) -> Vec<Turn> {
+        let Some(scene) = lock(&self.shared.scene).clone() else { return Vec::new() };
+        lock(&scene.turns).take_answered()
+    }
+
     /// Ends what is played: every connection is closed.
-    pub(super) fn end(&self) -> (Vec<Turn>, Option<Script>) {
-        let Some(scene) = lock(&self.shared.scene).take() else { return (Vec::new(), None) };
+    pub(super) fn end(&self) -> (Vec<Turn>, Beyond, Option<Script>) {
+        let Some(scene) = lock(&self.shared.scene).take() else {
+            return (Vec::new(), Beyond::default(), None);
+        };
         // A client that has closed may have sent something just before.
         drop(scene.closed.wait_timeout_while(lock(&scene.open), LINGER, |open| *open > 0));
         for stream in lock(&scene.streams).iter() {
@@ -134,10 +229,12 @@ impl Stage {
         for thread in lock(&scene.threads).drain(..) {
             let _panicked = thread.join();
         }
-        let turns = std::mem::take(&mut *lock(&scene.turns));
+        let turns = lock(&scene.turns).take();
+        let connections = scene.count.load(Ordering::SeqCst).saturating_sub(CONNECTIONS_MAX);
+        let beyond = Beyond { requests: lock(&scene.turns).beyond, connections };
         let script = Arc::into_inner(scene)
             .map(|scene| scene.script.into_inner().unwrap_or_else(PoisonError::into_inner));
-        (turns, script)
+        (turns, beyond, script)
     }
 }
 
@@ -245,7 +342,8 @@ impl Scene {
         let deeds = match lock(&self.script).answer(connection, &request) {
             Ok(deeds) => deeds,
             Err(fault) => {
-                if let Some(turn) = lock(&self.turns).get_mut(place) {
+                let mut turns = lock(&self.turns);
+                if let Some(turn) = place.and_then(|place| turns.of_number(place)) {
                     turn.fault = Some(fault);
                 }
                 return Ok(false);
@@ -254,9 +352,12 @@ impl Scene {
         for deed in deeds {
             match deed {
                 Deed::Send(bytes) => {
-                    if let Some(turn) = lock(&self.turns).get_mut(place) {
+                    let mut turns = lock(&self.turns);
+                    if let Some(turn) = place.and_then(|place| turns.of_number(place)) {
                         turn.sent.extend(&bytes);
+                        turns.grow(bytes.len());
                     }
+                    drop(turns);
                     stream.write_all(&bytes)?;
                 }
                 Deed::Pause(time) => thread::sleep(time),
@@ -266,10 +367,8 @@ impl Scene {
         Ok(true)
     }
 
-    fn keep(&self, turn: Turn) -> usize {
-        let mut turns = lock(&self.turns);
-        turns.push(turn);
-        turns.len().saturating_sub(1)
+    fn keep(&self, turn: Turn) -> Option<usize> {
+        lock(&self.turns).keep(turn)
     }
 }
 

@@ -18,6 +18,7 @@ use ads_cnc::{Kind, address::Channel};
 use crate::capture::Capture;
 use crate::client::{Client, Inquiry, Said, Target};
 use crate::cnc::{Cnc, NET_ID, Server};
+use crate::deadline::Deadline;
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Gate;
 use crate::net;
@@ -52,6 +53,7 @@ pub struct Session {
     request: Vec<u8>,
     reply: Vec<u8>,
     answered: bool,
+    deadline: Option<Deadline>,
 }
 
 impl Session {
@@ -148,13 +150,26 @@ impl Session {
     }
 
     fn over(client: Client, embedded: Option<Server>) -> Self {
-        Self { client, embedded, request: Vec::new(), reply: Vec::new(), answered: false }
+        Self {
+            client,
+            embedded,
+            request: Vec::new(),
+            reply: Vec::new(),
+            answered: false,
+            deadline: None,
+        }
     }
 
     /// With a capture of all that is sent and received from now on.
     #[must_use]
     pub fn with_capture(self, capture: Capture) -> Self {
         Self { client: self.client.with_capture(capture), ..self }
+    }
+
+    /// With a moment after which nothing more is asked for: calls fail with [`Trouble::Enough`].
+    #[must_use]
+    pub fn with_deadline(self, deadline: Deadline) -> Self {
+        Self { deadline: Some(deadline), ..self }
     }
 
     /// Calls a function and reads its reply.
@@ -174,6 +189,9 @@ impl Session {
         task: Task,
         operation: &O,
     ) -> Result<O::Reply<'s>, Trouble> {
+        if let Some(deadline) = self.deadline.filter(Deadline::is_over) {
+            return Err(Trouble::Enough(deadline.to_string()));
+        }
         let spec = O::FUNCTION.spec();
         let call = call(task, operation, &mut self.request)?;
         let exchange = self.client.call(&call);

@@ -28,6 +28,8 @@ pub enum Trouble {
     Unsafe(String),
     /// A dry run: an answer would be needed to go on.
     NotSent,
+    /// A maximum of this tool, or its deadline, was reached.
+    Enough(String),
     /// What was to be sent has no form on the wire.
     Unsendable(Error),
     /// No connection, or no answer.
@@ -66,7 +68,7 @@ impl Trouble {
                 Exit::Failure
             }
             Self::Usage(_) | Self::Unsendable(_) => Exit::Usage,
-            Self::NoAnswer(_) | Self::Ams { .. } => Exit::Nothing,
+            Self::NoAnswer(_) | Self::Ams { .. } | Self::Enough(_) => Exit::Nothing,
             Self::Refused(_) | Self::Unsafe(_) => Exit::Refused,
             Self::Internal(_) => Exit::Internal,
         }
@@ -168,6 +170,7 @@ impl fmt::Display for Trouble {
             | Self::Unsafe(why)
             | Self::Unable(why)
             | Self::Internal(why)
+            | Self::Enough(why)
             | Self::NoAnswer(why) => f.write_str(why),
             Self::Refused(refusal) => {
                 write!(f, "not sent, refused for safety: {refusal}")?;

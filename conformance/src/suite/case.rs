@@ -240,35 +240,67 @@ pub struct Evidence {
     pub frame_received: Vec<u8>,
 }
 
+/// The most bytes that are kept of each part of an exchange.
+const EVIDENCE_MAX: usize = 4096;
+
+impl Evidence {
+    /// The bytes, or the first that are kept of many.
+    pub(crate) fn start(bytes: &[u8]) -> &[u8] {
+        bytes.get(..EVIDENCE_MAX).unwrap_or(bytes)
+    }
+
+    /// Adds what the data of the reply should have been.
+    pub(super) fn expect(&mut self, reply: &[u8]) {
+        self.expected = Some(Self::start(reply).to_vec());
+    }
+
+    /// Keeps the first bytes of a long exchange, and says so.
+    fn cut(mut self, sent: &[u8], received: &[u8]) -> Self {
+        (self.frame_sent, self.frame_received) =
+            (Self::start(sent).to_vec(), Self::start(received).to_vec());
+        for (whole, stream) in
+            [(sent, &mut self.request_stream), (received, &mut self.reply_stream)]
+        {
+            if whole.len() > EVIDENCE_MAX {
+                // Half of a stream would be read as a faulty one.
+                *stream = None;
+                let note = format!(" (of {} bytes the first {EVIDENCE_MAX} are kept)", whole.len());
+                self.result.push_str(&note);
+            }
+        }
+        self
+    }
+}
+
 impl<R: Inquiry> From<&Inquired<R>> for Evidence {
     fn from(inquired: &Inquired<R>) -> Self {
-        Self {
+        let received = inquired.received.get(FrameRef::HEADERS_LEN..);
+        let evidence = Self {
             call: inquired.to_string(),
             reply_stream: Some(R::STREAM.layout().name),
-            received: inquired.received.get(FrameRef::HEADERS_LEN..).map(<[u8]>::to_vec),
+            received: received.map(|data| Self::start(data).to_vec()),
             result: inquired.result(),
-            frame_sent: inquired.sent.clone(),
-            frame_received: inquired.received.clone(),
             ..Self::default()
-        }
+        };
+        evidence.cut(&inquired.sent, &inquired.received)
     }
 }
 
 impl From<&Exchange> for Evidence {
     fn from(exchange: &Exchange) -> Self {
         let function = exchange.call().dispatch().ok().map(|request| request.function().spec());
-        Self {
+        let data = exchange.answer().and_then(|answer| answer.data.as_deref());
+        let evidence = Self {
             call: exchange.to_string(),
             request_stream: function
                 .and_then(|spec| spec.request)
                 .map(|stream| stream.layout().name),
             reply_stream: function.and_then(|spec| spec.reply).map(|stream| stream.layout().name),
-            sent: exchange.data.clone(),
-            received: exchange.answer().and_then(|answer| answer.data.clone()),
+            sent: Self::start(&exchange.data).to_vec(),
+            received: data.map(|data| Self::start(data).to_vec()),
             result: exchange.result(),
-            frame_sent: exchange.sent.clone(),
-            frame_received: exchange.received.clone(),
             ..Self::default()
-        }
+        };
+        evidence.cut(&exchange.sent, &exchange.received)
     }
 }

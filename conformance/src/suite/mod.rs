@@ -64,7 +64,7 @@ pub(crate) use com::descriptor_holds_together;
 pub use outcome::{Outcome, RequirementVerdict, gravest};
 pub(crate) use printed::typed;
 pub use probe::Probe;
-pub(crate) use record::{Checks, Record};
+pub(crate) use record::{Checks, Record, TEXT_MAX};
 pub use run::run;
 pub use select::{Plan, Selection, Unmatched, any_seed};
 pub(crate) use select::{names, order};

@@ -15,6 +15,7 @@ use super::case::{Evidence, Judgement, Rule, Step, Stop};
 use super::record::{Checks, Record};
 use super::session::Session;
 use crate::cnc::Cnc;
+use crate::deadline::Deadline;
 use crate::exchange::{Exchange, Fault, Violation};
 use crate::gate::Reason;
 use crate::interrupt;
@@ -39,12 +40,25 @@ pub struct Probe<'s> {
     pub(super) interrupted: bool,
     /// Why something that the file names is not written.
     doubt: Option<String>,
+    deadline: Option<Deadline>,
 }
 
 impl<'s> Probe<'s> {
     pub(super) fn new(session: &'s mut Session) -> Self {
-        let (record, last, doubt) = (Record::default(), None, None);
-        Self { session, record, last, asked: 0, interrupted: false, doubt }
+        Self {
+            session,
+            record: Record::default(),
+            last: None,
+            asked: 0,
+            interrupted: false,
+            doubt: None,
+            deadline: None,
+        }
+    }
+
+    /// Asks for nothing more after this.
+    pub(super) fn with_deadline(self, deadline: Option<Deadline>) -> Self {
+        Self { deadline, ..self }
     }
 
     pub(super) fn into_findings(self) -> (Vec<Judgement>, usize) {
@@ -122,7 +136,7 @@ impl<'s> Probe<'s> {
         found: impl Display,
     ) -> bool {
         if let Some(last) = self.last.as_mut().filter(|_| !kept) {
-            last.expected = Some(reply.to_vec());
+            last.expect(reply);
         }
         let kept = self.check(rule, kept, expected, found);
         if let Some(last) = &mut self.last {
@@ -143,6 +157,11 @@ impl<'s> Probe<'s> {
             self.check(rule, kept, &expected, &found);
         }
         if kept { Ok(()) } else { Err(Stop::Judged) }
+    }
+
+    /// Takes over what other cases have found.
+    pub(super) fn take_over(&mut self, record: Record) {
+        self.record.append(record);
     }
 
     fn record(
@@ -189,6 +208,9 @@ impl<'s> Probe<'s> {
             self.interrupted = true;
             return Err(Stop::Interrupted);
         }
+        if let Some(deadline) = self.deadline.filter(Deadline::is_over) {
+            return Err(Stop::Inconclusive(deadline.to_string()));
+        }
         match &self.session.gone {
             Some(why) => Err(Stop::Inconclusive(format!("no target left: {why}"))),
             None => Ok(()),
@@ -217,8 +239,10 @@ impl<'s> Probe<'s> {
         if session.silences >= SILENCES_MAX {
             session.gone = Some(format!("{SILENCES_MAX} requests in a row without an answer"));
         }
-        for violation in violations {
-            session.violations.push((violation.clone(), evidence.clone()));
+        for Violation { requirement, what } in violations {
+            let rule = Rule::from(*requirement);
+            let evidence = || Some(evidence.clone());
+            session.broken.add(rule, rule.verdict(false), "a frame as required", what, evidence);
         }
         self.last = Some(evidence);
         Ok(())

@@ -3,10 +3,14 @@
 use std::fmt::Display;
 
 use super::case::{Evidence, Judgement, Rule};
+use crate::child::front;
 use crate::verdict::Verdict;
 
-/// The most failed checks a case keeps of one requirement.
+/// The most failed checks a case keeps of one requirement; of the others it keeps the number.
 const KEPT: usize = 3;
+
+/// The most characters that are kept of what was expected, and of what was found.
+pub(crate) const TEXT_MAX: usize = 1024;
 
 /// The checks of one case.
 #[derive(Clone, Debug, Default)]
@@ -65,9 +69,16 @@ impl Record {
         }
         let evidence = if passed { None } else { evidence() };
         let (requirement, level) = (rule.id, rule.level);
-        let (expected, found) = (expected.to_string(), found.to_string());
+        let (expected, found) =
+            (front(&expected.to_string(), TEXT_MAX), front(&found.to_string(), TEXT_MAX));
         let judgement =
             Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
         self.judgements.push(judgement);
+    }
+
+    /// Adds what another record has, which is of other requirements.
+    pub(crate) fn append(&mut self, mut other: Self) {
+        self.judgements.append(&mut other.judgements);
+        self.checks = self.checks.saturating_add(other.checks);
     }
 }

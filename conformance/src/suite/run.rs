@@ -7,6 +7,7 @@ use super::outcome::Outcome;
 use super::probe::Probe;
 use super::session::Session;
 use super::{printed, replay};
+use crate::deadline::Deadline;
 use crate::defect::Seed;
 use crate::interrupt;
 use crate::testee::{self, Terms};
@@ -53,6 +54,10 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
     if let Some(why) = session.gone.as_ref().filter(|_| case.needs != Needs::Frames) {
         return Outcome::untried(case, Verdict::Inconclusive, format!("no target left: {why}"));
     }
+    let late = session.deadline.filter(|_| case.needs != Needs::Frames);
+    if let Some(deadline) = late.filter(Deadline::is_over) {
+        return Outcome::untried(case, Verdict::Inconclusive, deadline.to_string());
+    }
     let (gate, inside) = (session.client.gate(), session.cnc.is_some());
     if let Some((verdict, why)) = case.needs.unmet(gate, &session.profile, inside) {
         return Outcome::untried(case, verdict, why);
@@ -62,7 +67,9 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
         let note = "writes: nothing more is written when a value could not be restored";
         return Outcome::untried(case, Verdict::NotRun, note);
     }
-    let mut probe = Probe::new(session);
+    // A case that writes goes on to its end.
+    let deadline = late.filter(|_| !writes);
+    let mut probe = Probe::new(session).with_deadline(deadline);
     let begun = panic::catch_unwind(AssertUnwindSafe(|| match case.body {
         Body::Probe(body) => body(&mut probe),
         Body::Printed(vector) => printed::ask(&mut probe, vector),

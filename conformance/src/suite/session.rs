@@ -6,12 +6,12 @@ use std::sync::Arc;
 use ads_cnc::Description;
 use ads_cnc::operation::Service;
 
-use super::case::Evidence;
 use super::inventory::Inventory;
+use super::record::Record;
 use super::undo::Changes;
 use crate::client::Client;
 use crate::cnc::Cnc;
-use crate::exchange::Violation;
+use crate::deadline::Deadline;
 use crate::profile::Profile;
 
 /// The connection, and what has been learnt of the target so far.
@@ -35,8 +35,10 @@ pub struct Session {
     pub(super) silences: usize,
     /// Why nothing more is to be had of the target.
     pub(super) gone: Option<String>,
-    /// What frames themselves broke, each with its evidence.
-    pub violations: Vec<(Violation, Evidence)>,
+    /// What frames themselves broke.
+    pub(super) broken: Record,
+    /// After which only cases that write come to their end.
+    pub(super) deadline: Option<Deadline>,
     /// What came of requests that had to be refused.
     pub(super) refusals: Refusals,
     /// Values that are not as they were.
@@ -48,8 +50,8 @@ pub struct Session {
 pub(super) struct Refusals {
     /// By an error number, in whichever header.
     pub(super) by_number: usize,
-    /// By a success without data: its evidence.
-    pub(super) by_nothing: Vec<Evidence>,
+    /// By a success without data.
+    pub(super) by_nothing: Record,
 }
 
 impl Session {
@@ -65,7 +67,8 @@ impl Session {
             answered: Vec::new(),
             silences: 0,
             gone: None,
-            violations: Vec::new(),
+            broken: Record::default(),
+            deadline: None,
             refusals: Refusals::default(),
             changes: Changes::default(),
         }
@@ -80,6 +83,12 @@ impl Session {
     /// What is not as it was.
     pub const fn changes(&self) -> &Changes {
         &self.changes
+    }
+
+    /// With a moment after which nothing more is asked for.
+    #[must_use]
+    pub fn with_deadline(self, deadline: Deadline) -> Self {
+        Self { deadline: Some(deadline), ..self }
     }
 
     /// With the CNC that is asked, as it is in this process: some cases do to it from within what

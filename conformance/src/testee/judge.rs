@@ -1,7 +1,7 @@
 //! Asking a testee everything, and what comes of it.
 
 use super::manners::Manners;
-use super::message::Hello;
+use super::message::{Answer, Hello};
 use super::plan::{Asked, Purpose, plan};
 use super::tell::describe;
 use super::view::{Reactions, View};
@@ -15,6 +15,9 @@ pub const TESTEE: &str = "TESTEE";
 
 /// Questions in a row that end with a crash or in silence, after which no more are asked.
 const LOST_MAX: usize = 12;
+
+/// The most memory that answers may take together, in bytes; those to all vectors take a part of it.
+const ANSWERS_MAX: usize = 32 << 20;
 
 /// How a testee is asked.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +74,12 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     cases.extend(missing);
     let mut reactions = Reactions::new();
     let (mut lost, mut restarts, mut asked, mut gone) = (0_usize, 0_usize, 0_usize, None);
+    let mut kept = 0_usize;
     for Asked { purpose, question } in plan(&cases, capabilities, &edition, terms.seed) {
+        if let Some(why) = testee.over() {
+            gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
+            break;
+        }
         let reaction = testee.ask(&question);
         if interrupt::came() {
             // Whether it would have answered is not known.
@@ -84,6 +92,14 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         } else {
             lost = 0;
         }
+        if let Reaction::Answer(Answer::Ok(output)) = &reaction {
+            kept = kept.saturating_add(output.weight());
+        }
+        if kept > ANSWERS_MAX {
+            let why = format!("its answers take more than {} MiB", ANSWERS_MAX >> 20);
+            gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
+            break;
+        }
         match purpose {
             Purpose::Case(case) => {
                 reactions.insert((case, question.op), reaction);
@@ -93,7 +109,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         }
         if lost >= LOST_MAX {
             let why = format!("{LOST_MAX} questions in a row without an answer");
-            gone = Some(Stop::Inconclusive(format!("the testee is gone: {why}")));
+            gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
         }
     }

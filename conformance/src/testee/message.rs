@@ -8,6 +8,7 @@ use serde_json::Value;
 pub const PROTOCOL: u32 = 1;
 
 pub use crate::child::LINE_MAX;
+use crate::child::front;
 
 /// A line to the testee.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -225,6 +226,45 @@ pub struct Reply {
     pub answer: Answer,
 }
 
+/// The most characters that are kept of a text in an answer.
+const TEXT_MAX: usize = 400;
+
+fn short(text: &str) -> String {
+    front(text, TEXT_MAX)
+}
+
+impl Rejection {
+    fn cut(self) -> Self {
+        let short = |text: Option<String>| text.map(|text| short(&text));
+        Self { class: short(self.class), message: short(self.message), ..self }
+    }
+}
+
+impl Output {
+    /// About how many bytes of memory it takes.
+    pub(super) fn weight(&self) -> usize {
+        let packets = self.packets.iter().flatten().map(|packet| packet.len().saturating_add(NODE));
+        let parts = [self.value.as_ref().map(weight), self.hex.as_ref().map(Vec::len)];
+        parts.into_iter().flatten().chain(packets).fold(NODE, usize::saturating_add)
+    }
+}
+
+/// About what a value of JSON takes beside its text.
+const NODE: usize = 64;
+
+fn weight(value: &Value) -> usize {
+    match value {
+        Value::String(text) => text.len(),
+        Value::Array(all) => all.iter().map(weight).fold(0, usize::saturating_add),
+        Value::Object(all) => {
+            let each = all.iter().map(|(key, value)| key.len().saturating_add(weight(value)));
+            each.fold(0, usize::saturating_add)
+        }
+        _ => 0,
+    }
+    .saturating_add(NODE)
+}
+
 /// The same with every key that an answer may have: who gives two has not answered.
 #[derive(Deserialize)]
 struct Keys {
@@ -261,9 +301,11 @@ impl TryFrom<Keys> for Reply {
         let Keys { seq, ok, reject, unsupported, error } = keys;
         let given = [
             ok.map(|output| ("ok", Answer::Ok(output))),
-            reject.map(|rejection| ("reject", Answer::Reject(rejection))),
-            unsupported.map(|Unsupported { what }| ("unsupported", Answer::Unsupported { what })),
-            error.map(|OwnError { message }| ("error", Answer::Error { message })),
+            reject.map(|rejection| ("reject", Answer::Reject(rejection.cut()))),
+            unsupported.map(|Unsupported { what }| {
+                ("unsupported", Answer::Unsupported { what: short(&what) })
+            }),
+            error.map(|OwnError { message }| ("error", Answer::Error { message: short(&message) })),
         ];
         let mut given = given.into_iter().flatten();
         let (first, answer) =

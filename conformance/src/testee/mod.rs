@@ -48,6 +48,11 @@ pub trait Testee {
     /// How it ended otherwise than it should.
     fn bye(&mut self) -> Result<(), String>;
 
+    /// Why it is not to be asked any more.
+    fn over(&self) -> Option<String> {
+        None
+    }
+
     /// What it had to say beside its answers.
     fn stderr(&self) -> String {
         String::new()

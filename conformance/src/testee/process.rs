@@ -5,6 +5,7 @@ use std::time::Duration;
 use super::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use super::{Reaction, Testee};
 use crate::child::{self, START, Spoken, Stderr, Unheard, cut, front};
+use crate::deadline::Deadline;
 use crate::interrupt;
 
 /// How long it has for ending after `bye`.
@@ -23,6 +24,7 @@ pub struct Process {
     stderr: Stderr,
     sent: Option<String>,
     received: Option<String>,
+    deadline: Option<Deadline>,
     /// How often it was started.
     pub starts: usize,
 }
@@ -38,8 +40,15 @@ impl Process {
             stderr: Stderr::default(),
             sent: None,
             received: None,
+            deadline: None,
             starts: 0,
         }
+    }
+
+    /// With a moment after which nothing more is asked.
+    #[must_use]
+    pub fn with_deadline(self, deadline: Deadline) -> Self {
+        Self { deadline: Some(deadline), ..self }
     }
 
     /// The last of what it wrote to stderr.
@@ -147,6 +156,10 @@ impl Testee for Process {
 
     fn stderr(&self) -> String {
         Process::stderr(self)
+    }
+
+    fn over(&self) -> Option<String> {
+        self.deadline.filter(Deadline::is_over).map(|deadline| deadline.to_string())
     }
 }
 

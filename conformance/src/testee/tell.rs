@@ -2,10 +2,15 @@
 
 use super::Reaction;
 use super::message::{Answer, Output, Question, compact};
+use crate::child::front;
 use crate::show::show;
-use crate::suite::{self, Evidence};
+use crate::suite::{self, Evidence, TEXT_MAX};
 
 pub(super) fn describe(reaction: &Reaction) -> String {
+    front(&described(reaction), TEXT_MAX)
+}
+
+fn described(reaction: &Reaction) -> String {
     match reaction {
         Reaction::Answer(Answer::Ok(output)) => match output {
             Output { value: Some(value), .. } => format!("accepted: {value}"),
@@ -46,7 +51,9 @@ pub(super) fn evidence(
     let stream = ads_cnc::layout::Stream::by_name(&question.stream);
     let stream = stream.map(|stream| stream.layout().name);
     let received = match reaction {
-        Reaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => Some(hex.clone()),
+        Reaction::Answer(Answer::Ok(Output { hex: Some(hex), .. })) => {
+            Some(Evidence::start(hex).to_vec())
+        }
         _ => None,
     };
     let shown = match &question.value {

@@ -10,8 +10,9 @@ use super::message::{Answer, Hello, Output, Question, compact};
 use super::plan::{forms, questions};
 use super::tell::{describe, evidence};
 use super::{Reaction, compare};
+use crate::child::front;
 use crate::show::show;
-use crate::suite::{Body, Case, Evidence, Judgement, Outcome, Rule, Stop};
+use crate::suite::{Body, Case, Evidence, Judgement, Outcome, Rule, Stop, TEXT_MAX};
 use crate::verdict::Verdict;
 
 /// The answers to the questions of a case, by op.
@@ -106,6 +107,7 @@ impl View<'_> {
             _ => None,
         };
         let evidence = evidence(question, reaction, &case.id, canonical);
+        let (expected, found) = (front(&expected, TEXT_MAX), front(&found, TEXT_MAX));
         Check { verdict, evidence, expected, found }
     }
 

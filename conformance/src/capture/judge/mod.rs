@@ -14,7 +14,7 @@ mod variables;
 
 pub(super) use variables::Target;
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::Duration;
 
 use ads_cnc::ads::{AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags};
@@ -41,6 +41,8 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// A frame with what is known of it.
 #[derive(Clone, Debug)]
 struct Seen {
+    /// Its number among all frames.
+    number: u64,
     frame: Vec<u8>,
     header: AmsHeader,
     way: Way,
@@ -85,8 +87,12 @@ impl Cnc {
 pub(super) struct Judge {
     book: Book,
     pub(super) tally: Tally,
+    /// By connection and invoke ID.
     waiting: BTreeMap<(u64, u32), VecDeque<Seen>>,
-    waiting_of: BTreeMap<u64, usize>,
+    /// The same keys by invoke ID.
+    waiting_ids: BTreeSet<(u32, u64)>,
+    /// The numbers of those that wait on each connection, with their invoke IDs.
+    waiting_of: BTreeMap<u64, BTreeMap<u64, u32>>,
     early: Early,
     lost: BTreeMap<u64, Lost>,
     /// The last packet behind a gap of any connection.
@@ -139,6 +145,7 @@ impl Judge {
             book: Book::new(),
             tally: Tally::default(),
             waiting: BTreeMap::new(),
+            waiting_ids: BTreeSet::new(),
             waiting_of: BTreeMap::new(),
             early: Early::default(),
             lost: BTreeMap::new(),
@@ -192,7 +199,7 @@ impl Judge {
         let Ok(Some((whole, _))) = FrameRef::split(&frame, u32::MAX) else { return };
         let header = whole.header();
         self.newest = self.newest.max(span.last.packet);
-        let seen = Seen { header, way, span, frame };
+        let seen = Seen { number: self.tally.frames, header, way, span, frame };
         match is_reply(&header) {
             true => self.reply(seen),
             false => self.request(seen, table),

@@ -1,6 +1,6 @@
 //! Which answer belongs to which request, in whatever order they were captured.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::book::{Scene, Topic};
 use super::super::table::{Table, Way};
@@ -18,6 +18,9 @@ const EARLY_BYTES_MAX: usize = 0x100_0000;
 /// Packets by which an answer may have been captured before its request.
 pub(super) const REORDERED_MAX: u64 = 256;
 
+/// Requests or answers with one invoke ID that are looked at for one that fits.
+const ALIKE_MAX: usize = 64;
+
 /// Answers to nothing that are shown of a connection, and bytes of each; the others are counted.
 const SHOWN: usize = 4;
 const SHOWN_BYTES: usize = 0x400;
@@ -25,24 +28,40 @@ const SHOWN_BYTES: usize = 0x400;
 /// Answers without a request, in the order of the capture.
 #[derive(Debug, Default)]
 pub(super) struct Early {
-    all: VecDeque<Seen>,
+    all: BTreeMap<u64, Seen>,
+    /// Their numbers by invoke ID.
+    ids: BTreeSet<(u32, u64)>,
+    /// Their numbers by connection.
+    connections: BTreeSet<(u64, u64)>,
     bytes: usize,
 }
 
 impl Early {
     fn push(&mut self, reply: Seen) {
         self.bytes = self.bytes.saturating_add(reply.frame.len());
-        self.all.push_back(reply);
+        self.ids.insert((reply.header.invoke_id, reply.number));
+        self.connections.insert((reply.way.connection, reply.number));
+        self.all.insert(reply.number, reply);
     }
 
-    fn remove(&mut self, place: usize) -> Option<Seen> {
-        let reply = self.all.remove(place)?;
+    fn remove(&mut self, number: u64) -> Option<Seen> {
+        let reply = self.all.remove(&number)?;
         self.bytes = self.bytes.saturating_sub(reply.frame.len());
+        self.ids.remove(&(reply.header.invoke_id, number));
+        self.connections.remove(&(reply.way.connection, number));
         Some(reply)
     }
 
-    fn find(&self, what: impl Fn(&Seen) -> bool) -> Option<usize> {
-        self.all.iter().position(what)
+    /// The number of the first that fits, of the first with this invoke ID.
+    fn find(&self, id: u32, fits: impl Fn(&Seen) -> bool) -> Option<u64> {
+        let alike = self.ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
+        let alike = alike.filter_map(|(_, number)| self.all.get(number));
+        alike.into_iter().find(|reply| fits(reply)).map(|reply| reply.number)
+    }
+
+    fn first_of(&self, connection: u64) -> Option<u64> {
+        let mut all = self.connections.range((connection, 0)..=(connection, u64::MAX));
+        all.next().map(|(_, number)| *number)
     }
 
     fn is_full(&self) -> bool {
@@ -69,30 +88,28 @@ impl Judge {
     /// A request that is to be answered, if it was not before it was captured.
     pub(super) fn wait(&mut self, seen: Seen) {
         let id = seen.header.invoke_id;
-        let answered = self.early.find(|reply| {
+        let answered = self.early.find(id, |reply| {
             let last = reply.span.last.packet.saturating_add(REORDERED_MAX);
-            reply.header.invoke_id == id
-                && reply.header.command == seen.header.command
+            reply.header.command == seen.header.command
                 && seen.mirrors(reply)
                 && !seen.follows(reply)
                 && seen.span.last.packet <= last
         });
-        if let Some(reply) = answered.and_then(|place| self.early.remove(place)) {
+        if let Some(reply) = answered.and_then(|number| self.early.remove(number)) {
             self.exchange(&seen, &reply);
             return;
         }
         let connection = seen.way.connection;
-        let number = self.waiting_of.entry(connection).or_default();
-        *number = number.saturating_add(1);
-        if *number > WAITING_MAX {
-            let oldest = self.waiting.range((connection, 0)..=(connection, u32::MAX));
-            let oldest = oldest.min_by_key(|(_, all)| all.front().map(|one| one.span.first.packet));
-            if let Some(key) = oldest.map(|(key, _)| *key) {
-                self.forget(key, 0);
-                count(&mut self.tally.unanswered);
-                self.lost.entry(connection).or_default().joined = true;
-            }
+        let numbers = self.waiting_of.entry(connection).or_default();
+        numbers.insert(seen.number, id);
+        let is_full = numbers.len() > WAITING_MAX;
+        let oldest = numbers.first_key_value().map(|(_, id)| *id);
+        if let Some(oldest) = oldest.filter(|_| is_full) {
+            self.forget((connection, oldest), 0);
+            count(&mut self.tally.unanswered);
+            self.lost.entry(connection).or_default().joined = true;
         }
+        self.waiting_ids.insert((id, connection));
         self.waiting.entry((connection, id)).or_default().push_back(seen);
     }
 
@@ -102,9 +119,10 @@ impl Judge {
         let one = all.remove(place)?;
         if all.is_empty() {
             self.waiting.remove(&key);
+            self.waiting_ids.remove(&(key.1, key.0));
         }
-        if let Some(number) = self.waiting_of.get_mut(&key.0) {
-            *number = number.saturating_sub(1);
+        if let Some(numbers) = self.waiting_of.get_mut(&key.0) {
+            numbers.remove(&one.number);
         }
         Some(one)
     }
@@ -134,39 +152,48 @@ impl Judge {
         let fits = |asked: &Seen| asked.mirrors(reply) && !asked.follows(reply);
         let here = self.waiting.get(&key).and_then(|all| match lost {
             // Whoever uses an invoke ID once more has got the answer before, which was lost.
-            true => (0..all.len()).rev().find(|&place| all.get(place).is_some_and(fits)),
+            true => {
+                let latest = (0..all.len()).rev().take(ALIKE_MAX);
+                latest.into_iter().find(|&place| all.get(place).is_some_and(fits))
+            }
             false => {
-                all.iter().position(fits).or_else(|| all.iter().position(|a| a.mirrors(reply)))
+                let mut first = all.iter().take(ALIKE_MAX);
+                let mirrored = || all.iter().take(ALIKE_MAX).position(|one| one.mirrors(reply));
+                first.position(fits).or_else(mirrored)
             }
         });
         if let Some(place) = here {
             return self.forget(key, place);
         }
         // Two routers may answer each other on whichever of their connections.
-        let mut all = self.waiting.iter().filter(|((_, id), _)| *id == reply.header.invoke_id);
-        let elsewhere = all.find_map(|(key, all)| Some((*key, all.iter().position(fits)?)));
-        let (key, place) = elsewhere?;
+        let id = reply.header.invoke_id;
+        let others = self.waiting_ids.range((id, 0)..=(id, u64::MAX)).take(ALIKE_MAX);
+        let mut others = others.map(|(id, connection)| (*connection, *id));
+        let (key, place) = others.find_map(|key| {
+            let all = self.waiting.get(&key)?;
+            Some((key, all.iter().take(ALIKE_MAX).position(fits)?))
+        })?;
         self.forget(key, place)
     }
 
     /// Gives up the requests of replies for which none will come any more.
     pub(super) fn tidy(&mut self, table: &Table) {
-        while let Some(first) = self.early.all.front() {
+        while let Some((&number, first)) = self.early.all.first_key_value() {
             let back = Way { from: first.way.to, to: first.way.from, ..first.way };
             let last = first.span.last.packet.saturating_add(REORDERED_MAX);
             let late = last < self.newest && !table.waits(&back);
             if !late && !self.early.is_full() {
                 return;
             }
-            let Some(reply) = self.early.remove(0) else { return };
+            let Some(reply) = self.early.remove(number) else { return };
             self.settle(reply);
         }
     }
 
     /// All that is left of a connection's.
     pub(super) fn settle_all(&mut self, connection: u64) {
-        while let Some(place) = self.early.find(|reply| reply.way.connection == connection) {
-            let Some(reply) = self.early.remove(place) else { return };
+        while let Some(number) = self.early.first_of(connection) {
+            let Some(reply) = self.early.remove(number) else { return };
             self.settle(reply);
         }
     }
@@ -180,6 +207,7 @@ impl Judge {
         // One with wrong addresses is one all the same.
         let place = self.waiting.get(&key).filter(|_| is_whole).and_then(|all| {
             all.iter()
+                .take(ALIKE_MAX)
                 .position(|asked| asked.header.command == header.command && !asked.follows(&reply))
         });
         if let Some(asked) = place.and_then(|place| self.forget(key, place)) {

@@ -26,7 +26,9 @@ impl Run {
     ) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
         let target = self.target.clone().with_timeout(profile.timeout);
-        let mut session = target.with_malformed(self.malformed).open()?;
+        let deadline = self.deadline.begin();
+        let session = target.with_malformed(self.malformed).open()?;
+        let mut session = session.with_deadline(deadline);
         // Silence is judged case by case only of a device that answers at all.
         match session.greet(&profile) {
             Ok(()) => {}
@@ -40,7 +42,8 @@ impl Run {
         }
         let (target, device) = (*session.target(), of_itself(&mut session));
         let (client, _) = session.into_parts();
-        let session = Session::new(client, profile).with_changes(changes.clone());
+        let session = Session::new(client, profile);
+        let session = session.with_changes(changes.clone()).with_deadline(deadline);
         let target = TargetReport {
             name: "device".to_owned(),
             address: Some(target.addr.to_string()),

@@ -1,16 +1,15 @@
 //! Objects of the COM task.
 
+use std::collections::BTreeSet;
+
 use ads_cnc::Descriptor;
 use ads_cnc::address::{Channel, IndexGroup, IndexOffset, PlatformAxis};
 use ads_cnc::operation::{ObjectList, ReadDescriptors};
 
 use super::super::{Access, List, Object, Place};
-use super::{NUMBER_MAX, RANGE, Walk};
+use super::{NUMBER_MAX, OBJECTS_MAX, RANGE, Walk};
 use crate::session::Trouble;
 use crate::values::Type;
-
-/// The most objects of one list; a device has some thousands at most.
-const OBJECTS_MAX: u32 = 100_000;
 
 impl Walk<'_> {
     pub(super) fn com(&mut self, channels: &[Channel]) -> Result<(), Trouble> {
@@ -45,12 +44,13 @@ impl Walk<'_> {
             return Ok(Some(Vec::new()));
         }
         let objects = self.descriptors(list, asked, count)?;
+        let known: BTreeSet<_> = known.iter().copied().collect();
         let mut places = Vec::with_capacity(objects.len());
         for object in objects {
             let place = (object.index_group(), object.index_offset());
             places.push(place);
             if meant && !known.contains(&place) && self.is_named(object.name()) {
-                self.found(row(list, &object));
+                self.found(row(list, &object))?;
             }
         }
         Ok(Some(places))

@@ -15,12 +15,12 @@ use crate::values::Type;
 /// The most that an offset has room for.
 const ELEMENTS_MAX: u32 = 0xFFFF;
 
+/// The most names of one element of a class that are told apart.
+const ALIKE_MAX: usize = 64;
+
 /// What an element says of itself.
 #[derive(Clone, Debug)]
 pub(super) struct Attributes {
-    class: Class,
-    of_axis: bool,
-    element: u32,
     name: CncString,
     ty: Type,
     unit: Option<CncString>,
@@ -192,7 +192,7 @@ impl Walk<'_> {
                     unit: one.unit,
                     access: one.access,
                     handle: None,
-                });
+                })?;
             }
         }
         tally.note(list, self);
@@ -207,10 +207,9 @@ impl Walk<'_> {
         element: u32,
         name: CncString,
     ) -> Result<Attributes, Trouble> {
-        let known = self.alike.iter().find(|known| {
-            (known.class, known.of_axis, known.element) == (class, of_axis, element)
-                && known.name == name
-        });
+        let key = (class, of_axis, element);
+        let alike = self.alike.get(&key).map(Vec::as_slice).unwrap_or_default();
+        let known = alike.iter().find(|known| known.name == name);
         if let Some(known) = known.filter(|_| !self.options.exact) {
             return Ok(known.clone());
         }
@@ -225,8 +224,12 @@ impl Walk<'_> {
         let unit = unit.map(|unit| CncString::from(unit.text.text()));
         let flag = self.ask_task(&ReadElementWriteFlag::new(address))?;
         let access = flag.map_or(Access::Unknown, |flag| Access::of_flag(flag.is_writable()));
-        let known = Attributes { class, of_axis, element, name, ty, unit, access };
-        self.alike.push(known.clone());
+        let known = Attributes { name, ty, unit, access };
+        let alike = self.alike.entry(key).or_default();
+        // Of instances that are not alike not all can be known.
+        if alike.len() < ALIKE_MAX {
+            alike.push(known.clone());
+        }
         Ok(known)
     }
 }

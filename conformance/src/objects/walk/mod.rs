@@ -6,6 +6,8 @@ mod variables;
 
 pub(crate) use variables::parameter;
 
+use std::collections::HashMap;
+
 use ads_cnc::address::{Channel, Class, ElementAddress};
 use ads_cnc::operation::{CountObjects, FindInstance, ObjectList, Operation, Task};
 
@@ -19,6 +21,13 @@ pub const GAP: u32 = 8;
 pub const RANGE: u32 = 256;
 /// The most channels, axes, places and spindles.
 const NUMBER_MAX: u32 = 255;
+
+/// The most objects that are listed, and looked at in one list.
+pub const OBJECTS_MAX: u32 = 100_000;
+/// The most requests of a walk.
+pub const REQUESTS_MAX: u64 = 1_000_000;
+/// The most lines of what the CNC did not tell.
+const NOTES_MAX: usize = 1_000;
 
 /// What to look for.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +55,8 @@ pub struct Found {
     pub requests: u64,
     /// What the CNC did not tell.
     pub notes: Vec<String>,
+    /// Whether a maximum ended the walk; a note says which.
+    pub is_cut: bool,
 }
 
 /// How far it is, for whoever waits.
@@ -83,14 +94,15 @@ pub fn walk(
     watch: &mut dyn FnMut(Seen),
 ) -> Result<Found, Trouble> {
     let found = Found::default();
-    let (instances, alike, task) = (Vec::new(), Vec::new(), Task::Sda);
+    let (instances, alike, task) = (Vec::new(), HashMap::new(), Task::Sda);
     let mut walk = Walk { session, options, watch, found, instances, alike, task, geo: Ok(()) };
-    let channels = walk.channels()?;
-    if options.variables {
-        walk.variables(&channels)?;
-    } else {
-        walk.com(&channels)?;
-        walk.elements(&channels)?;
+    match walk.all() {
+        Ok(()) => {}
+        Err(Trouble::Enough(why)) => {
+            walk.found.notes.push(format!("not all is listed: {why}"));
+            walk.found.is_cut = true;
+        }
+        Err(trouble) => return Err(trouble),
     }
     Ok(walk.found)
 }
@@ -106,14 +118,33 @@ struct Walk<'w> {
     task: Task,
     /// Why GEO is not asked.
     geo: Result<(), Trouble>,
-    /// What elements said of themselves, for those that are alike.
-    alike: Vec<Attributes>,
+    /// What elements said of themselves, for those that are alike: by class, whether it is of an
+    /// axis, and number.
+    alike: HashMap<(Class, bool, u32), Vec<Attributes>>,
 }
 
 impl Walk<'_> {
+    fn all(&mut self) -> Result<(), Trouble> {
+        let channels = self.channels()?;
+        if self.options.variables {
+            return self.variables(&channels);
+        }
+        self.com(&channels)?;
+        self.elements(&channels)
+    }
+
+    /// Counts a request, if there may be one more.
+    fn count(&mut self) -> Result<(), Trouble> {
+        if self.found.requests >= REQUESTS_MAX {
+            return Err(Trouble::Enough(format!("{REQUESTS_MAX} requests were sent")));
+        }
+        self.found.requests = self.found.requests.saturating_add(1);
+        Ok(())
+    }
+
     /// The reply; none if the CNC refuses, or answers what cannot be read.
     fn ask<O: Operation>(&mut self, operation: &O) -> Result<Option<O::Reply<'_>>, Trouble> {
-        self.found.requests = self.found.requests.saturating_add(1);
+        self.count()?;
         match self.session.call(operation) {
             Ok(reply) => Ok(Some(reply)),
             Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(None),
@@ -126,7 +157,7 @@ impl Walk<'_> {
         if self.task == Task::Geo && self.geo.is_err() {
             return Ok(None);
         }
-        self.found.requests = self.found.requests.saturating_add(1);
+        self.count()?;
         match self.session.call_at(self.task, operation) {
             Ok(reply) => Ok(Some(reply)),
             Err(Trouble::Ads { .. } | Trouble::Reply(_)) => Ok(None),
@@ -142,7 +173,19 @@ impl Walk<'_> {
     }
 
     fn note(&mut self, list: List, what: impl std::fmt::Display) {
-        self.found.notes.push(format!("{list}: {what}"));
+        match self.found.notes.len() {
+            0..NOTES_MAX => self.found.notes.push(format!("{list}: {what}")),
+            NOTES_MAX => self.found.notes.push("more notes are not shown".to_owned()),
+            _ => {}
+        }
+    }
+
+    /// Notes that there is more in a list than is asked for.
+    fn note_rest(&mut self, list: List, count: u32) {
+        if count > OBJECTS_MAX {
+            self.note(list, format_args!("of {count} the first {OBJECTS_MAX} were asked for"));
+            self.found.is_cut = true;
+        }
     }
 
     fn is_meant(&self, list: List) -> bool {
@@ -168,10 +211,14 @@ impl Walk<'_> {
         self.options.names.as_ref().is_none_or(|names| names.fits(&name.to_string()))
     }
 
-    fn found(&mut self, object: Object) {
+    fn found(&mut self, object: Object) -> Result<(), Trouble> {
+        if usize::try_from(OBJECTS_MAX).is_ok_and(|most| self.found.objects.len() >= most) {
+            return Err(Trouble::Enough(format!("{OBJECTS_MAX} objects were found")));
+        }
         let list = object.list;
         self.found.objects.push(object);
         self.tell(list);
+        Ok(())
     }
 
     /// The channels that are active.

@@ -7,7 +7,7 @@ use ads_cnc::value::DataType;
 use ads_cnc::{CncString, DescriptionRef, Kind};
 
 use super::super::{Access, List, Object, Place};
-use super::{Tally, Walk};
+use super::{OBJECTS_MAX, Tally, Walk};
 use crate::session::Trouble;
 use crate::values::Type;
 
@@ -46,7 +46,7 @@ impl Walk<'_> {
             return Ok(());
         };
         let mut tally = Tally::new(count);
-        for index in 0..count {
+        for index in 0..count.min(OBJECTS_MAX) {
             let variable = self.ask(&DescribeByIndex::new(channel, index, kind))?;
             let Some(object) = variable.map(|variable| row(list, channel, &variable)) else {
                 if tally.refused(index) {
@@ -56,10 +56,11 @@ impl Walk<'_> {
             };
             tally.answered();
             if self.is_named(&object.name) {
-                self.found(object);
+                self.found(object)?;
             }
         }
         tally.note(list, self);
+        self.note_rest(list, count);
         Ok(())
     }
 
@@ -77,7 +78,7 @@ impl Walk<'_> {
             return Ok(());
         };
         let mut tally = Tally::new(count);
-        for index in 1..=count {
+        for index in 1..=count.min(OBJECTS_MAX) {
             let op = DynamicNameByIndex::new(channel, kind, index).map_err(Trouble::Unsendable)?;
             let name = self.ask(&op)?.map(|reply| CncString::from(reply.name.text()));
             let Some(name) = name else {
@@ -88,10 +89,11 @@ impl Walk<'_> {
             };
             tally.answered();
             if self.is_named(&name) {
-                self.found(parameter(channel, kind, name));
+                self.found(parameter(channel, kind, name))?;
             }
         }
         tally.note(list, self);
+        self.note_rest(list, count);
         Ok(())
     }
 }

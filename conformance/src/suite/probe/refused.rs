@@ -43,7 +43,11 @@ impl Probe<'_> {
                     let refusals = &mut self.session.refusals;
                     refusals.by_number = refusals.by_number.saturating_add(1);
                 } else if data.is_empty() && rule.level == Some(Level::Must) {
-                    self.session.refusals.by_nothing.extend(self.last.clone());
+                    let (rule, last) = (Rule::from("ADS-7"), &self.last);
+                    let found = "a success that gives nothing";
+                    let by_nothing = &mut self.session.refusals.by_nothing;
+                    let verdict = rule.verdict(false);
+                    by_nothing.add(rule, verdict, "an error number", found, || last.clone());
                 }
                 self.check(rule, data.is_empty(), expected, exchange.result());
             }

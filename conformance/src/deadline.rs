@@ -1,0 +1,30 @@
+//! When a tool stops asking, whatever a device still has to say.
+
+use std::fmt;
+use std::time::{Duration, Instant};
+
+/// A moment after which nothing more is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Deadline {
+    at: Option<Instant>,
+    after: Duration,
+}
+
+impl Deadline {
+    /// So long from now on; a time beyond the clock never ends.
+    pub fn after(time: Duration) -> Self {
+        Self { at: Instant::now().checked_add(time), after: time }
+    }
+
+    /// Whether it has passed.
+    pub fn is_over(&self) -> bool {
+        self.at.is_some_and(|at| Instant::now() >= at)
+    }
+}
+
+/// That it has passed.
+impl fmt::Display for Deadline {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the deadline of {} s has passed (--deadline)", self.after.as_secs())
+    }
+}
