@@ -263,3 +263,15 @@ fn text_behind_the_nul_of_a_request_is_trailing() {
         assert_eq!(observed(check(stream, bytes), expected), expected);
     }
 }
+
+/// What has no field is walked as it is decoded.
+#[test]
+fn no_data_has_no_tail() {
+    assert!(Stream::NoData.walk(&[], |_| ()).is_ok());
+    for bytes in [&[0][..], &[0; 300]] {
+        assert_eq!(
+            Stream::NoData.walk(bytes, |_| ()),
+            <ads_cnc::NoData as ads_cnc::Decode<'_>>::decode(bytes).map(drop)
+        );
+    }
+}

@@ -3,6 +3,7 @@
 use super::{Field, Size, Stream};
 use crate::bytes::Reader;
 use crate::error::Error;
+use crate::stream::{Decode as _, NoData};
 
 /// The bytes of one field, or of one item of a field that has several.
 ///
@@ -38,6 +39,9 @@ impl Stream {
     /// # Errors
     /// Those of the stream's decoders. A table that is no stream has room for no byte.
     pub fn walk<'a>(self, bytes: &'a [u8], visit: impl FnMut(Segment<'a>)) -> Result<(), Error> {
+        if self == Self::NoData {
+            NoData::decode(bytes)?;
+        }
         let input = match self.layout().ends_itself() {
             true => Reader::ending(self, bytes),
             false => Reader::new(self, bytes)?,
