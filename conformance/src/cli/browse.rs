@@ -11,8 +11,8 @@ use super::name::written;
 use super::progress::Progress;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
 use crate::objects::{
-    Found, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern, REQUESTS_MAX,
-    columns, csv, table, walk,
+    Found, NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern,
+    REQUESTS_MAX, columns, csv, table, walk,
 };
 use crate::report::{hex, json};
 use crate::session::{Session, Trouble};
@@ -81,14 +81,20 @@ Examples:
   ads-cnc browse --variables --filter 'V.G.*'
   ads-cnc browse --format csv --target 192.0.2.10 --net-id 192.0.2.10.1.1 --rate 200 > objects.csv
 
-At most 100000 objects are listed, 1000000 requests sent and 8 MiB of values read.
+At most 100000 objects with 8 MiB of names are listed, 1000000 requests sent and 8 MiB of values
+read.
 
 Exit codes: 0 listed; 2 wrong usage; 3 no answer, nothing fits, or a maximum or the deadline was
 reached; 4 refused for safety; 70 internal error. What a CNC refuses to tell is noted on stderr and
 left out.";
 
 /// So the help says.
-const _: () = assert!(OBJECTS_MAX == 100_000 && REQUESTS_MAX == 1_000_000);
+const _: () = assert!(
+    OBJECTS_MAX == 100_000
+        && REQUESTS_MAX == 1_000_000
+        && NAMES_MAX == 8 << 20
+        && CONTENTS_MAX == 8 << 20
+);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
@@ -175,10 +181,9 @@ impl Browse {
                     row.extend(content.map(|content| cell(object, content, format)));
                     row
                 });
-                let rows: Vec<Vec<String>> = rows.collect();
                 match format {
-                    Format::Csv => csv(&heads, &rows, &mut out),
-                    _ => table(&heads, &rows, &mut out),
+                    Format::Csv => csv(&heads, rows, &mut out),
+                    _ => table(&heads, rows, &mut out),
                 }
             }
         };

@@ -130,7 +130,7 @@ fn waited(stage: &Stage, deadline: Deadline, interrupt: &Interrupt) -> Result<Of
     };
     let (outcome, frames) = clients::listen(stage, go_on).map_err(|error| error.to_string())?;
     if deadline.is_over() {
-        complain(&deadline);
+        complain(deadline);
     }
     let target = TargetReport {
         name: "client".to_owned(),

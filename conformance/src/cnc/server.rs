@@ -37,8 +37,9 @@ pub struct ServerOptions {
     /// Clients that are gone without a word would take the places of others.
     pub idle: Option<Duration>,
     /// How long a new connection may be without its first whole request, and any connection with a
-    /// part of one; for ever if none. Whoever is there for something has said so by then, and
-    /// whoever opens connections only, or leaves requests half sent, locks nobody out for long.
+    /// part of one; for ever if none. Clients that open connections only, or leave requests half
+    /// sent, lock others out no longer than that. Clients that have sent a request may, for `idle`,
+    /// and those that read slowly, for as long as they read.
     pub frame: Option<Duration>,
 }
 

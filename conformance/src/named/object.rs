@@ -21,6 +21,11 @@ pub(super) fn find(session: &mut Session, question: &Question) -> Result<Object,
         ..Options::default()
     };
     let mut found = walk(session, &options, &mut |_| {})?;
+    if found.is_cut {
+        // Whether another has the name too is not known.
+        let why = found.notes.pop().unwrap_or_default();
+        return Err(Trouble::Enough(format!("{name} was not found for certain: {why}")));
+    }
     found.objects.retain(|object| {
         let at = object.place.address().map(|(_, offset)| offset.get());
         object.name == wanted && (offset.is_none() || *offset == at)

@@ -18,7 +18,7 @@
 //! | elements | name, type, length, unit, write flag | with their number; behind [`GAP`] refused in a row |
 //!
 //! Which of SDA and GEO has a class no manual says: SDA is asked, and GEO for a class of which SDA has
-//! nothing. At most [`OBJECTS_MAX`] objects are listed, and [`REQUESTS_MAX`] requests sent. An instance that is not there is one request: (0, 0), an error or the place of another instance is
+//! nothing. At most [`OBJECTS_MAX`] objects are listed with [`NAMES_MAX`] bytes of names, and [`REQUESTS_MAX`] requests sent. An instance that is not there is one request: (0, 0), an error or the place of another instance is
 //! the answer. No number goes beyond 255. Type, length, unit and write flag of an element are asked once of a class, for
 //! its channels and for its axes: an element of the same name at the same place of another is taken
 //! for alike (assumed; [`Options::exact`] asks all).
@@ -36,4 +36,4 @@ pub use place::{Access, Object, Place};
 pub use report::{ObjectReport, ObjectsReport};
 pub use table::{Column, columns, csv, table};
 pub(crate) use walk::parameter;
-pub use walk::{Found, GAP, OBJECTS_MAX, Options, RANGE, REQUESTS_MAX, Seen, walk};
+pub use walk::{Found, GAP, NAMES_MAX, OBJECTS_MAX, Options, RANGE, REQUESTS_MAX, Seen, walk};

@@ -70,15 +70,19 @@ const VARIABLE: &[Column] = &[
 ///
 /// # Errors
 /// Those of `out`.
-pub fn table(heads: &[&str], rows: &[Vec<String>], out: &mut impl Write) -> io::Result<()> {
+pub fn table(
+    heads: &[&str],
+    rows: impl Iterator<Item = Vec<String>> + Clone,
+    out: &mut impl Write,
+) -> io::Result<()> {
     let mut widths: Vec<usize> = heads.iter().map(|head| head.len()).collect();
-    for row in rows {
-        for (width, cell) in widths.iter_mut().zip(row) {
+    for row in rows.clone() {
+        for (width, cell) in widths.iter_mut().zip(&row) {
             *width = (*width).max(cell.chars().count());
         }
     }
     let heads: Vec<String> = heads.iter().map(|head| head.to_uppercase()).collect();
-    for row in std::iter::once(&heads).chain(rows) {
+    for row in std::iter::once(heads).chain(rows) {
         let cells = row.iter().zip(&widths).map(|(cell, &width)| format!("{cell:<width$}"));
         writeln!(out, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;
     }
@@ -90,9 +94,13 @@ pub fn table(heads: &[&str], rows: &[Vec<String>], out: &mut impl Write) -> io::
 ///
 /// # Errors
 /// Those of `out`.
-pub fn csv(heads: &[&str], rows: &[Vec<String>], out: &mut impl Write) -> io::Result<()> {
+pub fn csv(
+    heads: &[&str],
+    rows: impl Iterator<Item = Vec<String>>,
+    out: &mut impl Write,
+) -> io::Result<()> {
     let heads: Vec<String> = heads.iter().map(|&head| head.to_owned()).collect();
-    for row in std::iter::once(&heads).chain(rows) {
+    for row in std::iter::once(heads).chain(rows) {
         let cells: Vec<String> = row.iter().map(|cell| quoted(cell)).collect();
         write!(out, "{}\r\n", cells.join(","))?;
     }
@@ -125,7 +133,7 @@ mod tests {
     #[test]
     fn cells_with_commas_are_quoted() {
         let (mut out, row) = (Vec::new(), vec!["a,b".to_owned(), "\"c\"".to_owned()]);
-        csv(&["one", "two"], &[row], &mut out).unwrap();
+        csv(&["one", "two"], [row].into_iter(), &mut out).unwrap();
         assert_eq!(out, b"one,two\r\n\"a,b\",\"\"\"c\"\"\"\r\n");
     }
 

@@ -11,6 +11,7 @@ use ads_cnc_vectors::Hex;
 use super::case::{Case, Rule, Step, Stop, assumed, online};
 use super::declare;
 use super::probe::{Probe, harness};
+use super::record::Record;
 use super::survey::KINDS;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -267,6 +268,7 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
     if answered.is_empty() && broken.checks == 0 {
         return Err(Stop::Inconclusive("no frame was answered".to_owned()));
     }
+    let mut judged = Record::default();
     for (requirement, services) in [
         ("ADS-1", &[Service::Read][..]),
         ("ADS-2", &[Service::Write]),
@@ -275,12 +277,13 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
         ("ADS-5", &[Service::Read, Service::Write, Service::ReadWrite]),
     ] {
         let is_broken = broken.judgements.iter().any(|one| one.requirement == requirement);
+        judged.append(broken.of(requirement));
         let carried = services.iter().any(|service| answered.contains(service));
         if !is_broken && carried {
             probe.check(requirement, true, "", "");
         }
     }
-    probe.take_over(broken);
+    probe.take_over(judged);
     Ok(())
 }
 

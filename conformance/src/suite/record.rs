@@ -76,6 +76,14 @@ impl Record {
         self.judgements.push(judgement);
     }
 
+    /// What it has of a requirement.
+    pub(crate) fn of(&self, requirement: &str) -> Self {
+        let mine = self.judgements.iter().filter(|one| one.requirement == requirement);
+        let judgements: Vec<Judgement> = mine.cloned().collect();
+        let checks = judgements.iter().map(|one| one.more.saturating_add(1));
+        Self { checks: checks.fold(0, usize::saturating_add), judgements }
+    }
+
     /// Adds what another record has, which is of other requirements.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.judgements.append(&mut other.judgements);

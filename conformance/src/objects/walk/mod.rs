@@ -24,6 +24,8 @@ const NUMBER_MAX: u32 = 255;
 
 /// The most objects that are listed, and looked at in one list.
 pub const OBJECTS_MAX: u32 = 100_000;
+/// The most bytes of all their names and units.
+pub const NAMES_MAX: usize = 8 << 20;
 /// The most requests of a walk.
 pub const REQUESTS_MAX: u64 = 1_000_000;
 /// The most lines of what the CNC did not tell.
@@ -95,7 +97,8 @@ pub fn walk(
 ) -> Result<Found, Trouble> {
     let found = Found::default();
     let (instances, alike, task) = (Vec::new(), HashMap::new(), Task::Sda);
-    let mut walk = Walk { session, options, watch, found, instances, alike, task, geo: Ok(()) };
+    let mut walk =
+        Walk { session, options, watch, found, names: 0, instances, alike, task, geo: Ok(()) };
     match walk.all() {
         Ok(()) => {}
         Err(Trouble::Enough(why)) => {
@@ -112,6 +115,8 @@ struct Walk<'w> {
     options: &'w Options,
     watch: &'w mut dyn FnMut(Seen),
     found: Found,
+    /// Bytes of all names and units so far.
+    names: usize,
     /// The first elements of the instances found.
     instances: Vec<ElementAddress>,
     /// Which of SDA and GEO is asked for elements.
@@ -214,6 +219,13 @@ impl Walk<'_> {
     fn found(&mut self, object: Object) -> Result<(), Trouble> {
         if usize::try_from(OBJECTS_MAX).is_ok_and(|most| self.found.objects.len() >= most) {
             return Err(Trouble::Enough(format!("{OBJECTS_MAX} objects were found")));
+        }
+        let unit = object.unit.as_ref().map_or(0, |unit| unit.as_bytes().len());
+        let names = object.name.as_bytes().len().saturating_add(unit);
+        self.names = self.names.saturating_add(names);
+        if self.names > NAMES_MAX {
+            let why = format!("their names have more than {} MiB", NAMES_MAX >> 20);
+            return Err(Trouble::Enough(why));
         }
         let list = object.list;
         self.found.objects.push(object);

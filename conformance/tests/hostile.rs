@@ -1,0 +1,445 @@
+//! What peers that mean harm can make the tools keep and do: the built command against servers,
+//! testees, clients and captures that have no end of anything.
+
+mod common;
+
+use std::fs;
+use std::io::{self, Read as _, Write as _};
+use std::net::{SocketAddr, TcpStream};
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use ads_cnc::Encode as _;
+use ads_cnc::ads::{AdsError, AmsHeader, Command as AdsCommand, FrameRef, StateFlags};
+use ads_cnc::operation::{Call, Request};
+use ads_cnc_conformance::capture::Capture;
+use ads_cnc_conformance::cnc::{Cnc, NET_ID};
+use ads_cnc_conformance::net;
+use common::connect;
+use common::file::TestFile;
+
+/// The most memory that a tool may ever have had.
+const MEMORY_MAX: u64 = 100 << 20;
+
+/// What came of a tool.
+struct Ended {
+    code: Option<i32>,
+    stdout: String,
+    stderr: String,
+    time: Duration,
+}
+
+/// Runs the command to its end; it may not take more memory than `MEMORY_MAX` at any time.
+#[track_caller]
+fn run(args: &[&str]) -> Ended {
+    run_beside(args, || ()).0
+}
+
+/// The same while something else is done.
+#[track_caller]
+fn run_beside<T>(args: &[&str], beside: impl FnOnce() -> T) -> (Ended, T) {
+    let (out, err) = (TestFile::new(".out", b""), TestFile::new(".err", b""));
+    let begun = Instant::now();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_ads-cnc"))
+        .args(args)
+        .stdin(Stdio::null())
+        .stdout(fs::File::create(&out.0).unwrap())
+        .stderr(fs::File::create(&err.0).unwrap())
+        .spawn()
+        .unwrap();
+    let id = child.id();
+    let watch = thread::spawn(move || {
+        let mut most = 0;
+        // Zombies have no such line.
+        while let Some(now) = peak(id) {
+            most = now.max(most);
+            thread::sleep(Duration::from_millis(2));
+        }
+        most
+    });
+    let done = beside();
+    let until = begun + Duration::from_secs(240);
+    let status = loop {
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        if Instant::now() > until {
+            child.kill().unwrap();
+            panic!("{args:?} did not end; stderr: {}", fs::read_to_string(&err.0).unwrap());
+        }
+        thread::sleep(Duration::from_millis(5));
+    };
+    let (time, most) = (begun.elapsed(), watch.join().unwrap());
+    eprintln!("{} MiB, {} ms: {args:?}", most >> 20, time.as_millis());
+    assert!(most < MEMORY_MAX, "{} MiB: {args:?}", most >> 20);
+    let read = |file: &TestFile| String::from_utf8_lossy(&fs::read(&file.0).unwrap()).into_owned();
+    (Ended { code: status.code(), stdout: read(&out), stderr: read(&err), time }, done)
+}
+
+/// The most memory that a process has had.
+#[cfg(target_os = "linux")]
+fn peak(id: u32) -> Option<u64> {
+    let status = fs::read_to_string(format!("/proc/{id}/status")).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.trim().strip_suffix(" kB")?.trim().parse::<u64>().unwrap() << 10)
+}
+
+/// Elsewhere the tools have to end, and to say what they have to.
+#[cfg(not(target_os = "linux"))]
+fn peak(_: u32) -> Option<u64> {
+    None
+}
+
+/// A server that does this for each request.
+fn serving(
+    react: impl Fn(&FrameRef<'_>, &mut dyn io::Write) -> io::Result<()> + Send + Sync + 'static,
+) -> SocketAddr {
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let addr = listener.local_addr().unwrap();
+    let react = Arc::new(react);
+    thread::spawn(move || {
+        for stream in listener.incoming() {
+            let react = Arc::clone(&react);
+            // The tool may be gone at any time.
+            thread::spawn(move || serve(stream.unwrap(), &*react));
+        }
+    });
+    addr
+}
+
+fn serve(
+    mut stream: TcpStream,
+    react: &impl Fn(&FrameRef<'_>, &mut dyn io::Write) -> io::Result<()>,
+) -> io::Result<()> {
+    stream.set_nodelay(true)?;
+    let (mut received, mut chunk) = (Vec::new(), [0; 4096]);
+    loop {
+        match stream.read(&mut chunk)? {
+            0 => return Ok(()),
+            len => received.extend_from_slice(&chunk[..len]),
+        }
+        while let Ok(Some((frame, len))) = FrameRef::split(&received, 0x1_0000) {
+            react(&frame, &mut stream)?;
+            received.drain(..len);
+        }
+    }
+}
+
+/// The simulated CNC's answer.
+fn right(cnc: &Cnc, frame: &FrameRef<'_>) -> Vec<u8> {
+    let mut answer = Vec::new();
+    cnc.respond(NET_ID, frame, &mut answer);
+    answer
+}
+
+/// A frame to the client of this one, with another invoke ID.
+fn stray(frame: &FrameRef<'_>) -> Vec<u8> {
+    let header = frame.header();
+    let header = AmsHeader { invoke_id: header.invoke_id ^ 0x8000_0000, ..header.response() };
+    FrameRef::new(header, &[0; 8]).unwrap().to_vec().unwrap()
+}
+
+/// A success with data, as the service of the request has it.
+fn success(frame: &FrameRef<'_>, data: &[u8]) -> Vec<u8> {
+    let mut payload = vec![0; 4];
+    if frame.header().command != AdsCommand::WRITE {
+        payload.extend(u32::try_from(data.len()).unwrap().to_le_bytes());
+        payload.extend(data);
+    }
+    FrameRef::new(frame.header().response(), &payload).unwrap().to_vec().unwrap()
+}
+
+fn refusal(frame: &FrameRef<'_>) -> Vec<u8> {
+    let data = ads_cnc::ads::WriteReply { result: AdsError(1793) }.to_vec().unwrap();
+    FrameRef::new(frame.header().response(), &data).unwrap().to_vec().unwrap()
+}
+
+fn against<'a>(addr: &'a str, args: &[&'a str]) -> Vec<&'a str> {
+    [args, &["--target", addr, "--net-id", "127.0.0.1.1.1"]].concat()
+}
+
+#[test]
+fn frames_without_end_that_nobody_asked_for() {
+    let addr = serving(|frame, out| {
+        let strays = stray(frame).repeat(1000);
+        loop {
+            out.write_all(&strays)?;
+        }
+    });
+    let addr = addr.to_string();
+    for timeout in ["2000", "6000"] {
+        let ended = run(&against(&addr, &["get", "V.E.Testvar", "--timeout", timeout]));
+        assert_eq!(ended.code, Some(3), "{}", ended.stderr);
+        let why = format!("does not answer within {timeout} ms");
+        assert!(ended.stderr.contains(&why), "{}", ended.stderr);
+    }
+    for tool in [&["browse"][..], &["browse", "--variables"], &["run"]] {
+        let ended = run(&against(&addr, tool));
+        assert_eq!(ended.code, Some(3), "{tool:?}: {}", ended.stderr);
+    }
+}
+
+#[test]
+fn frames_before_every_answer_of_a_run() {
+    let cnc = Cnc::with_default_model().unwrap();
+    let addr = serving(move |frame, out| {
+        out.write_all(&stray(frame).repeat(300))?;
+        out.write_all(&right(&cnc, frame))
+    });
+    let addr = addr.to_string();
+    let ended = run(&against(&addr, &["run", "--seed", "1"]));
+    assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+    assert!(ended.stdout.contains("an answer to invoke ID"), "{}", ended.stdout);
+}
+
+#[test]
+fn answers_of_a_megabyte_with_wrong_flags_and_addresses() {
+    let data = vec![0x41; 1 << 20];
+    let addr = serving(move |frame, out| {
+        let right = frame.header().response();
+        let header = AmsHeader {
+            state_flags: StateFlags(0x0405),
+            target: right.source,
+            source: right.target,
+            ..right
+        };
+        let answer = success(frame, &data);
+        let payload = &answer[FrameRef::HEADERS_LEN..];
+        out.write_all(&FrameRef::new(header, payload).unwrap().to_vec().unwrap())
+    });
+    let addr = addr.to_string();
+    let (json, html) = (TestFile::new(".json", b""), TestFile::new(".html", b""));
+    let args = ["run", "--seed", "1", "--json", json.path(), "--html", html.path()];
+    let ended = run(&against(&addr, &args));
+    assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+    let report = fs::read_to_string(&json.0).unwrap();
+    assert!(report.len() < 64 << 20, "{}", report.len());
+    assert!(report.contains("the first 4096 are kept"), "nothing says that evidence is cut");
+}
+
+/// Everything is there, as often as it is asked for.
+fn everything() -> SocketAddr {
+    const DESCRIPTION: &[u8] = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0";
+    serving(|frame, out| {
+        let Ok(Some(call)) = Call::of_frame(frame) else { return out.write_all(&refusal(frame)) };
+        let number = frame.header().invoke_id;
+        let data = match call.dispatch() {
+            Ok(
+                Request::CountObjects(_) | Request::CountVariables(_) | Request::CountDynamic(_),
+            ) => u32::MAX.to_le_bytes().to_vec(),
+            Ok(Request::DescribeByIndex(_)) => {
+                [DESCRIPTION, format!("V.E.{number:0>240}\0").as_bytes()].concat()
+            }
+            Ok(Request::DynamicNameByIndex(_)) => format!("P{number:0>80}\0").into_bytes(),
+            Ok(Request::ReadDescriptors(_)) => {
+                let one = |place: u32| {
+                    let mut one = [b'x'; 84];
+                    one[12..16].copy_from_slice(&number.to_le_bytes());
+                    one[16..20].copy_from_slice(&place.to_le_bytes());
+                    one
+                };
+                (0..call.read_length / 84).flat_map(one).collect()
+            }
+            _ => return out.write_all(&refusal(frame)),
+        };
+        out.write_all(&success(frame, &data))
+    })
+}
+
+#[test]
+fn a_device_where_everything_is_there() {
+    let addr = everything().to_string();
+    for tool in [&["browse"][..], &["browse", "--variables"], &["browse", "--format", "json"]] {
+        let ended = run(&against(&addr, tool));
+        assert_eq!(ended.code, Some(3), "{tool:?}: {}", ended.stderr);
+        let (why, least) = match tool.contains(&"--variables") {
+            true => ("their names have more than 8 MiB", 30_000),
+            false => ("100000 objects were found", 100_000),
+        };
+        let why = format!("not all is listed: {why}");
+        assert!(ended.stderr.contains(&why), "{tool:?}: {}", ended.stderr);
+        assert!(ended.stdout.lines().count() > least, "{tool:?}");
+    }
+    // No name fits, so that nothing is found, and all is asked.
+    let ended =
+        run(&against(&addr, &["browse", "--variables", "--filter", "no", "--deadline", "3"]));
+    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
+    assert!(ended.stderr.contains("the deadline of 3 s has passed"), "{}", ended.stderr);
+    let ended = run(&against(&addr, &["get", "no_such_object", "--deadline", "3"]));
+    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
+    assert!(ended.stderr.contains("the deadline of 3 s has passed"), "{}", ended.stderr);
+    let ended = run(&against(&addr, &["run", "--seed", "1", "--deadline", "20"]));
+    assert!(matches!(ended.code, Some(1 | 3)), "{}", ended.stderr);
+}
+
+/// A device that takes its time makes nobody wait beyond the deadline, and the cases that were not
+/// run because of it say so.
+#[test]
+fn a_deadline_ends_a_run() {
+    let cnc = Cnc::with_default_model().unwrap();
+    let addr = serving(move |frame, out| {
+        thread::sleep(Duration::from_millis(100));
+        out.write_all(&right(&cnc, frame))
+    });
+    let (addr, json) = (addr.to_string(), TestFile::new(".json", b""));
+    let args = ["run", "--seed", "1", "--deadline", "2", "--json", json.path()];
+    let ended = run(&against(&addr, &args));
+    assert_eq!(ended.code, Some(3), "{}", ended.stdout);
+    assert!(ended.time < Duration::from_secs(20), "{:?}", ended.time);
+    assert!(ended.stdout.contains("the deadline of 2 s has passed"), "{}", ended.stdout);
+    let report = fs::read_to_string(&json.0).unwrap();
+    assert!(report.matches("the deadline of 2 s has passed").count() > 50);
+}
+
+/// A testee with long words, and one with longer ones still.
+#[cfg(unix)]
+#[test]
+fn a_testee_that_says_much() {
+    const HELLO: &str = r#"{"protocol":1,"testee":{"name":"much"},"capabilities":{"ops":["decode","encode"],"streams":["variable-description","variable-value","variable-name-write"],"editions":["en-1.05"]}}"#;
+    for (bytes, answer) in [
+        (300_000, r#"{"seq":%s,"error":{"message":"%s"}}"#),
+        (300_000, r#"{"seq":%s,"reject":{"class":"%s","message":"%s"}}"#),
+        (300_000, r#"{"seq":%s,"ok":{"value":"%s"}}"#),
+        (4_000_000, r#"{"seq":%s,"error":{"message":"%s"}}"#),
+    ] {
+        let script = format!(
+            "#!/bin/sh\nlong=$(head -c {bytes} /dev/zero | tr '\\0' a)\nread -r hello\n\
+             echo '{HELLO}'\nwhile read -r line; do\n\
+             seq=${{line#*\\\"seq\\\":}}; seq=${{seq%%[,}}]*}}\n\
+             case $line in *bye*) exit 0;; esac\n\
+             printf '{answer}\\n' \"$seq\" \"$long\" \"$long\"\ndone\n"
+        );
+        let script = match answer.matches("%s").count() {
+            2 => script.replace("\"$long\" \"$long\"", "\"$long\""),
+            _ => script,
+        };
+        let (script, json) = (TestFile::new(".sh", script.as_bytes()), TestFile::new(".json", b""));
+        let testee = format!("sh {}", script.path());
+        let ended = run(&[
+            "run",
+            "--testee",
+            &testee,
+            "--only",
+            "VAR",
+            "--seed",
+            "1",
+            "--json",
+            json.path(),
+        ]);
+        assert_eq!(ended.code, Some(1), "{}{}", ended.stdout, ended.stderr);
+        assert!(ended.stdout.lines().all(|line| line.len() < 5000));
+        assert!(fs::metadata(&json.0).unwrap().len() < 64 << 20);
+    }
+}
+
+#[allow(clippy::disallowed_methods, reason = "to the tool under test")]
+fn try_connect(addr: SocketAddr) -> Option<TcpStream> {
+    TcpStream::connect(addr).ok()
+}
+
+/// A client that sends much, over more connections than are served.
+#[test]
+fn a_client_without_end() {
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let addr = listener.local_addr().unwrap();
+    drop(listener);
+    let listen = addr.to_string();
+    let long = {
+        let mut header = AmsHeader::request(
+            ads_cnc::ads::AmsAddr { net_id: NET_ID, port: ads_cnc::ads::AmsPort::SDA },
+            ads_cnc::ads::AmsAddr { net_id: NET_ID, port: ads_cnc::ads::AmsPort(0x8000) },
+            AdsCommand::WRITE,
+            1,
+        );
+        header.invoke_id = 1;
+        let mut payload = vec![0; 12];
+        payload[8..].copy_from_slice(&60_000_u32.to_le_bytes());
+        payload.extend(vec![7; 60_000]);
+        FrameRef::new(header, &payload).unwrap().to_vec().unwrap()
+    };
+    let args = ["run", "--client-listen", &listen, "--seed", "1"];
+    let (ended, ()) = run_beside(&args, || {
+        // It takes a moment to listen.
+        let first = (0..200).find_map(|_| {
+            thread::sleep(Duration::from_millis(50));
+            try_connect(addr)
+        });
+        let mut first = first.expect("the tool listens");
+        first.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+        let mut answer = [0; 42];
+        for number in 0..5000_u32 {
+            let mut request = long.clone();
+            request[34..38].copy_from_slice(&number.to_le_bytes());
+            first.write_all(&request).unwrap();
+            first.read_exact(&mut answer).unwrap();
+        }
+        let more: Vec<_> = (0..80).map(|_| connect(addr)).collect();
+        thread::sleep(Duration::from_millis(300));
+        drop(more);
+    });
+    let said = format!("{}{}", ended.stdout, ended.stderr);
+    assert!(said.contains("17 connections beyond 64 were closed at once"), "{said}");
+    assert!(said.contains("5000"), "{said}");
+    assert!(matches!(ended.code, Some(1 | 3)), "{said}");
+}
+
+#[test]
+fn a_client_is_waited_for_on_loopback_only() {
+    let ended = run(&["run", "--client-listen", "0.0.0.0:0"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+    assert!(ended.stderr.contains("--allow-remote"), "{}", ended.stderr);
+}
+
+/// A capture of requests on one connection; each is answered as is said.
+fn captured(count: u32, answer: impl Fn(u32, &AmsHeader) -> Option<AmsHeader>) -> TestFile {
+    let file = TestFile::new(".pcapng", b"");
+    let mut capture = Capture::create(&file.0).unwrap();
+    let end = |port| SocketAddr::from(([127, 0, 0, 1], port));
+    capture.opened(end(50_000), end(48898));
+    let ams = |port| ads_cnc::ads::AmsAddr { net_id: NET_ID, port: ads_cnc::ads::AmsPort(port) };
+    for number in 0..count {
+        let header = AmsHeader::request(ams(552), ams(0x8000), AdsCommand::READ, number);
+        let payload = [0x03_u8, 0x03, 0x12, 0, 0, 0, 0, 0, 4, 0, 0, 0];
+        capture.sent(&FrameRef::new(header, &payload).unwrap().to_vec().unwrap());
+        if let Some(header) = answer(number, &header) {
+            capture.received(&FrameRef::new(header, &[0; 12]).unwrap().to_vec().unwrap());
+        }
+    }
+    capture.closed();
+    capture.finish().unwrap();
+    file
+}
+
+/// Twice as many requests take no more than about twice the time, however they are answered.
+#[test]
+fn captures_are_checked_in_linear_time() {
+    type Answer = fn(u32, &AmsHeader) -> Option<AmsHeader>;
+    let ways: [(&str, Answer); 5] = [
+        ("answered", |_, header| Some(header.response())),
+        ("not answered", |_, _| None),
+        ("answered from elsewhere", |_, header| {
+            let right = header.response();
+            Some(AmsHeader { target: right.source, source: right.target, ..right })
+        }),
+        ("answered to other invoke IDs", |number, header| {
+            Some(AmsHeader { invoke_id: !number, ..header.response() })
+        }),
+        ("answered by another command with one invoke ID", |_, header| {
+            Some(AmsHeader { invoke_id: 7, command: AdsCommand::WRITE, ..header.response() })
+        }),
+    ];
+    let mut usual = Duration::ZERO;
+    for (what, answer) in ways {
+        let file = captured(60_000, answer);
+        let ended = run(&["check", file.path()]);
+        eprintln!("{what}: {:?}, exit {:?}", ended.time, ended.code);
+        assert!(ended.code.is_some_and(|code| code < 6), "{what}: {}", ended.stderr);
+        if usual.is_zero() {
+            usual = ended.time;
+        }
+        // With a scan of what waits it was thirty times as long and more.
+        assert!(ended.time < usual * 6 + Duration::from_secs(2), "{what}: {:?}", ended.time);
+    }
+}
