@@ -154,7 +154,7 @@ mod tests {
             ("a=b", "a=b"),
         ] {
             let mut out = Vec::new();
-            csv(&["head"], &[vec![cell.to_owned()]], &mut out).unwrap();
+            csv(&["head"], [vec![cell.to_owned()]].into_iter(), &mut out).unwrap();
             assert_eq!(String::from_utf8(out).unwrap(), format!("head\r\n{shown}\r\n"));
         }
     }

@@ -1,11 +1,12 @@
 //! Values that cases change: each is restored and read back, whatever ends the case.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::thread;
 use std::time::Duration;
 
 use ads_cnc::CncString;
-use ads_cnc::operation::{CountObjects, DescribeByName, HandleByName, ReadDescriptors, Request};
+use ads_cnc::operation::{
+    CountObjects, DescribeByName, HandleByName, ReadDescriptors, Request, WriteByName,
+};
 use ads_cnc::{Decode as _, ObjectCount};
 use ads_cnc_vectors::Hex;
 
@@ -34,6 +35,8 @@ struct Change {
     place: Place,
     /// Of a variable: by which its handle is asked for.
     name: Option<CncString>,
+    /// Of a variable: its name, with the indices of the element.
+    element: Option<CncString>,
     what: String,
     is_text: bool,
     was: Vec<u8>,
@@ -41,6 +44,18 @@ struct Change {
     is: Option<Vec<u8>>,
     /// Whether it could not be restored.
     given_up: bool,
+}
+
+impl Change {
+    /// The write that restores a variable by its name where it was changed by its handle.
+    fn by_name(&self) -> Option<Request<'_>> {
+        match (&self.place, &self.element) {
+            (Place::Handle { channel, .. }, Some(name)) => Some(
+                WriteByName { channel: *channel, name: name.as_cnc_str(), value: &self.was }.into(),
+            ),
+            _ => None,
+        }
+    }
 }
 
 impl Changes {
@@ -100,8 +115,16 @@ impl Probe<'_> {
         change: impl FnOnce(&mut Self) -> Step,
         restore: impl FnOnce(&mut Self) -> Step<bool>,
     ) -> Step {
+        let element = match (place, trial.name) {
+            (Place::Handle { indices, .. }, Some(name)) => {
+                let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
+                format!("{name}{indices}").parse().ok()
+            }
+            _ => None,
+        };
         self.session.changes.begin(Change {
             place: place.clone(),
+            element,
             name: trial.name.cloned(),
             what: trial.what.to_owned(),
             is_text: trial.is_text,
@@ -143,7 +166,8 @@ impl Probe<'_> {
         let mut written = false;
         for times in 0..=WRITES_MAX {
             if times > 1 {
-                thread::sleep(PAUSE.saturating_mul(1 << times.saturating_sub(2).min(8)));
+                let pause = PAUSE.saturating_mul(1 << times.saturating_sub(2).min(8));
+                self.session.client.wait(pause);
             }
             // A write whose answer was lost may have been done.
             let now = self.look(&change);
@@ -174,10 +198,19 @@ impl Probe<'_> {
             change.place.write(&change.was).ok().and_then(|write| probe.insist(write))
         };
         let mut sent = send(self, change);
-        if sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(Fault::Refused(_)))) {
+        let is_refused = |sent: &Option<Exchange>| {
+            sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(Fault::Refused(_))))
+        };
+        if is_refused(&sent) {
             // On another connection the gate knows of no handle and of no list of objects.
             self.ask_again(change);
             sent = send(self, change);
+        }
+        // What confirms the handle may be out of reach; the file names the variable.
+        if is_refused(&sent)
+            && let Some(write) = change.by_name()
+        {
+            sent = self.insist(write);
         }
         sent.is_some_and(|sent| sent.answer().is_some_and(|answer| answer.success().is_some()))
     }
