@@ -18,8 +18,9 @@ const EARLY_BYTES_MAX: usize = 0x100_0000;
 /// Packets by which an answer may have been captured before its request.
 pub(super) const REORDERED_MAX: u64 = 256;
 
-/// Requests or answers with one invoke ID that are looked at for one that fits.
-const ALIKE_MAX: usize = 64;
+/// Requests or answers with one invoke ID that are looked at for one that fits: more than may have
+/// been captured in another order.
+const ALIKE_MAX: usize = 512;
 
 /// Answers to nothing that are shown of a connection, and bytes of each; the others are counted.
 const SHOWN: usize = 4;
