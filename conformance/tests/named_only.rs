@@ -81,7 +81,8 @@ fn tried(defect: &str, named: &Named) -> (usize, BTreeMap<String, usize>) {
     let cnc = Logged::start(&["--defect", defect]);
     let file = TestFile::allowing(named.table);
     let output = run(&cnc.serve.addr, &file, named.cases);
-    assert!(matches!(output.status.code(), Some(0..=4)), "{defect}: {output:?}");
+    // A CNC that does not write as it is asked to is left changed at times, which is exit code 6.
+    assert!(matches!(output.status.code(), Some(0..=4 | 6)), "{defect}: {output:?}");
     let mut writes = cnc.end();
     (writes.remove(named.log).unwrap_or(0), writes)
 }

@@ -4,9 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use ads_cnc::CncString;
-use ads_cnc::operation::{
-    CountObjects, DescribeByName, HandleByName, ReadDescriptors, Request, WriteByName,
-};
+use ads_cnc::operation::{CountObjects, DescribeByName, HandleByName, ReadDescriptors, Request};
 use ads_cnc::{Decode as _, ObjectCount};
 use ads_cnc_vectors::Hex;
 
@@ -35,8 +33,8 @@ struct Change {
     place: Place,
     /// Of a variable: by which its handle is asked for.
     name: Option<CncString>,
-    /// Of a variable: its name, with the indices of the element.
-    element: Option<CncString>,
+    /// Of a variable that is written by its handle: the other way to it.
+    by_name: Option<Place>,
     what: String,
     is_text: bool,
     was: Vec<u8>,
@@ -44,18 +42,6 @@ struct Change {
     is: Option<Vec<u8>>,
     /// Whether it could not be restored.
     given_up: bool,
-}
-
-impl Change {
-    /// The write that restores a variable by its name where it was changed by its handle.
-    fn by_name(&self) -> Option<Request<'_>> {
-        match (&self.place, &self.element) {
-            (Place::Handle { channel, .. }, Some(name)) => Some(
-                WriteByName { channel: *channel, name: name.as_cnc_str(), value: &self.was }.into(),
-            ),
-            _ => None,
-        }
-    }
 }
 
 impl Changes {
@@ -115,16 +101,17 @@ impl Probe<'_> {
         change: impl FnOnce(&mut Self) -> Step,
         restore: impl FnOnce(&mut Self) -> Step<bool>,
     ) -> Step {
-        let element = match (place, trial.name) {
-            (Place::Handle { indices, .. }, Some(name)) => {
+        let by_name = match (place, trial.name) {
+            (Place::Handle { channel, indices, .. }, Some(name)) => {
                 let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
-                format!("{name}{indices}").parse().ok()
+                let name = format!("{name}{indices}").parse().ok();
+                name.map(|name| Place::Name { channel: *channel, name })
             }
             _ => None,
         };
         self.session.changes.begin(Change {
             place: place.clone(),
-            element,
+            by_name,
             name: trial.name.cloned(),
             what: trial.what.to_owned(),
             is_text: trial.is_text,
@@ -168,6 +155,10 @@ impl Probe<'_> {
             if times > 1 {
                 let pause = PAUSE.saturating_mul(1 << times.saturating_sub(2).min(8));
                 self.session.client.wait(pause);
+                // Its handle may lead to nothing any more, or not be confirmed again.
+                if let Some(by_name) = change.by_name.take() {
+                    change.place = by_name;
+                }
             }
             // A write whose answer was lost may have been done.
             let now = self.look(&change);
@@ -198,19 +189,10 @@ impl Probe<'_> {
             change.place.write(&change.was).ok().and_then(|write| probe.insist(write))
         };
         let mut sent = send(self, change);
-        let is_refused = |sent: &Option<Exchange>| {
-            sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(Fault::Refused(_))))
-        };
-        if is_refused(&sent) {
+        if sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(Fault::Refused(_)))) {
             // On another connection the gate knows of no handle and of no list of objects.
             self.ask_again(change);
             sent = send(self, change);
-        }
-        // What confirms the handle may be out of reach; the file names the variable.
-        if is_refused(&sent)
-            && let Some(write) = change.by_name()
-        {
-            sent = self.insist(write);
         }
         sent.is_some_and(|sent| sent.answer().is_some_and(|answer| answer.success().is_some()))
     }
