@@ -247,6 +247,47 @@ fn a_handle_of_another_variable_is_not_written_by() {
     }
 }
 
+/// A new connection has confirmed no handle: it is confirmed anew for the write that puts the value
+/// back.
+#[test]
+fn a_lost_connection_leaves_nothing_changed() {
+    let cnc = Logged::start(&[]);
+    let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
+    let (addr, to) = (listener.local_addr().unwrap(), cnc.serve.addr.parse().unwrap());
+    let lost = thread::spawn(move || {
+        let mut writes = 0;
+        for (connection, client) in (1_usize..).zip(listener.incoming()) {
+            let (mut client, mut cnc) = (client.unwrap(), connect(to));
+            while let Some(request) = frame(&mut client) {
+                cnc.write_all(&request).unwrap();
+                let Some(reply) = frame(&mut cnc) else { break };
+                client.write_all(&reply).unwrap();
+                writes += usize::from(is_asked(&request, 0x12_2301, 0x49));
+                // Behind the write of another value.
+                if writes == 2 && connection == 1 {
+                    break;
+                }
+            }
+            if connection == 2 {
+                return writes;
+            }
+        }
+        0
+    });
+    let value = || {
+        let target = ["--target", &cnc.serve.addr, "--net-id", "127.0.0.1.1.1"];
+        let mut get = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+        get.args(["get", "V.E.Variable_1"]).args(target).output().unwrap().stdout
+    };
+    let before = value();
+    let file = TestFile::allowing(VARIABLE.table);
+    let output = run(&addr.to_string(), &file, &["write-by-handle"]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(!before.is_empty() && value() == before);
+    assert_eq!(lost.join().unwrap(), 3);
+    assert_eq!(cnc.end(), BTreeMap::from([(VARIABLE.log.to_owned(), 3)]));
+}
+
 /// A list in which an object has the address of another.
 #[test]
 fn an_address_of_two_objects_is_not_written() {

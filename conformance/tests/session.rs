@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use ads_cnc::address::Channel;
 use ads_cnc::ads::{AdsError, AdsState, AmsNetId};
 use ads_cnc::operation::{
-    CountObjects, HandleByName, ReadByName, ReadDescriptors, Task, WriteByHandle, WriteByName,
-    WriteObject,
+    CountObjects, DescribeByName, HandleByName, ReadByName, ReadDescriptors, Task, WriteByHandle,
+    WriteByName, WriteObject,
 };
 use ads_cnc::{Descriptors, Numbers};
 use ads_cnc_conformance::client::Target;
@@ -58,11 +58,14 @@ fn what_is_allowed_is_written_and_nothing_else() {
 }
 
 #[test]
-fn a_handle_asked_for_by_an_allowed_name_is_written() {
+fn a_handle_confirmed_for_an_allowed_name_is_written() {
     let mut session = embedded(allowing(&variable(WRITABLE)));
     let handle = session.call(&HandleByName::new(channel(), WRITABLE).unwrap()).unwrap();
     let other = session.call(&HandleByName::new(channel(), "V.E.Testvar").unwrap()).unwrap();
     let write = |handle| WriteByHandle::new(channel(), handle, Numbers::from(&[4]), &[8, 0, 0, 0]);
+    // A description has to have it too.
+    assert!(matches!(session.call(&write(handle)), Err(Trouble::Refused(_))));
+    session.call(&DescribeByName::new(channel(), WRITABLE).unwrap()).unwrap();
     session.call(&write(handle)).unwrap();
     assert!(matches!(session.call(&write(other)), Err(Trouble::Refused(_))));
 }

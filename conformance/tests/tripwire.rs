@@ -266,6 +266,17 @@ fn a_dry_run_sends_nothing() {
     }
 }
 
+/// That a target is on loopback is no reason to send it what no client should.
+#[test]
+fn malformed_requests_that_no_file_permits_need_no_connection() {
+    let tripwire = Tripwire::start();
+    let output = tripwire.call(&["run", "--malformed"]);
+    let why = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(4), "{why}");
+    assert!(why.contains("malformed = true"), "{why}");
+    assert_eq!(tripwire.connections().len(), 0);
+}
+
 /// What is wrong in a file is said with its line before anything is sent.
 #[test]
 fn a_bad_file_sends_nothing() {
