@@ -113,8 +113,8 @@ struct Device {
     allowed: Allowed,
     /// The answers that a CNC without a defect gives, by what its gate lets through.
     right: [OnceLock<Vec<u64>>; 3],
-    /// Its correct variants by a digest of all answers they give in a mode.
-    variants: Mutex<BTreeMap<Mode, Arc<BTreeMap<u64, &'static str>>>>,
+    /// Its correct variants, mode by mode.
+    variants: Mutex<BTreeMap<Mode, witness::Variants>>,
 }
 
 impl Device {

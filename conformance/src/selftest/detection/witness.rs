@@ -10,7 +10,6 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use super::requests::{Asked, ask_everything};
 use super::{Device, Found, Mode};
 use crate::cnc::Settings;
-use crate::cnc::program::digest;
 use crate::defect::{self, Change, Defect, Kind, Seed};
 use crate::session::{Session, Trouble};
 
@@ -49,19 +48,26 @@ pub(super) fn of(seed: &Seed, devices: &[&'static Device], mode: Mode) -> Result
     if let Some(why) = is_right(seed) {
         return Ok(Found::Undetectable(format!("a right CNC: {why}")));
     }
-    let mut told = None;
+    let mut shown = None;
     let mut witnesses: Vec<&str> = Vec::new();
     for device in devices {
         let right = device.right(mode)?;
-        let Some(request) = answers(device, Some(seed), mode, Some(right))?.difference else {
-            continue;
-        };
-        told = told.or(Some(request));
-        let all = answers(device, Some(seed), mode, None)?.answers;
-        let Some(variant) = variants(device, mode)?.get(&whole(&all)).copied() else {
-            return Ok(Found::Missed(told.unwrap_or_default()));
-        };
-        witnesses.push(variant);
+        let Asked { answers: mine, difference } = answers(device, Some(seed), mode, Some(right))?;
+        let Some(request) = difference else { continue };
+        shown = shown.or(Some(request));
+        // One that differs from the right CNC elsewhere gives other answers.
+        let alike = variants(device, mode)?.get(&first_difference(&mine)).cloned();
+        let mut witness = None;
+        for variant in alike.unwrap_or_default() {
+            let theirs = answers(device, Some(variant), mode, None)?.answers;
+            if answers(device, Some(seed), mode, Some(&theirs))?.difference.is_none() {
+                witness = Some(variant.id.as_str());
+            }
+        }
+        match witness {
+            Some(witness) => witnesses.push(witness),
+            None => return Ok(Found::Missed(shown.unwrap_or_default())),
+        }
     }
     match witnesses.first() {
         None => Ok(Found::Undetectable("no answer differs".to_owned())),
@@ -82,27 +88,28 @@ pub(super) fn answers(
     Ok(ask_everything(client, cnc, right))
 }
 
-type Variants = Arc<BTreeMap<u64, &'static str>>;
+/// Correct variants, by the place and the digest of the first answer that is another than that of
+/// the CNC without a defect.
+pub(super) type Variants = Arc<BTreeMap<(usize, Option<u64>), Vec<&'static Seed>>>;
 
-/// The correct variants of a device by a digest of all their answers.
+fn first_difference(answers: &[u64]) -> (usize, Option<u64>) {
+    (answers.len(), answers.last().copied())
+}
+
 fn variants(device: &'static Device, mode: Mode) -> Result<Variants, Trouble> {
     let mut known = device.variants.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(variants) = known.get(&mode) {
         return Ok(Arc::clone(variants));
     }
-    let mut variants = BTreeMap::new();
+    let mut variants: BTreeMap<_, Vec<&Seed>> = BTreeMap::new();
     let different = defect::all().iter().filter(|seed| seed.kind == Kind::Different);
     for seed in different.filter(|seed| seed.own_model().is_none()) {
         if seed.edition.is_none_or(|edition| Some(edition) == device.settings.edition) {
-            let answers = answers(device, Some(seed), mode, None)?.answers;
-            variants.insert(whole(&answers), seed.id.as_str());
+            let answers = answers(device, Some(seed), mode, Some(device.right(mode)?))?.answers;
+            variants.entry(first_difference(&answers)).or_default().push(seed);
         }
     }
     Ok(Arc::clone(known.entry(mode).or_insert(Arc::new(variants))))
-}
-
-fn whole(answers: &[u64]) -> u64 {
-    digest(&answers.iter().flat_map(|answer| answer.to_le_bytes()).collect::<Vec<u8>>())
 }
 
 /// The device with this model, which is one of the correct variants.
