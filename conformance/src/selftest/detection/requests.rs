@@ -175,10 +175,9 @@ impl Dialogue<'_> {
     fn spoilt(&mut self, call: &Call<'_>, answered: usize) {
         let longer = [call.data, &[0]].concat();
         let shorter = |count: usize| call.data.get(..call.data.len().checked_sub(count)?);
-        for data in [Some(&longer[..]), shorter(1), shorter(4), Some(&[][..])] {
-            if let Some(data) = data {
-                self.call(&Call { data, ..*call });
-            }
+        let data = [Some(&longer[..]), shorter(1), shorter(4), Some(&[][..])];
+        for data in data.into_iter().flatten() {
+            self.call(&Call { data, ..*call });
         }
         for service in [Service::Read, Service::Write, Service::ReadWrite] {
             self.call(&Call { service, ..*call });
@@ -642,11 +641,11 @@ impl Dialogue<'_> {
         ];
         for channel in self.channels() {
             for (variable, value) in writes {
-                if let Ok(op) = WriteByName::new(channel, &variable.name().to_string(), value) {
+                if let Ok(op) = WriteByName::new(channel, variable.name(), value) {
                     self.ask(op);
                 }
                 for variable in ServiceVariable::ALL {
-                    self.named(channel, &variable.name().to_string());
+                    self.named(channel, variable.name());
                 }
             }
         }
