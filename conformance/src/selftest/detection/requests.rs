@@ -91,7 +91,6 @@ pub(super) struct Dialogue<'t> {
     malformed: BTreeMap<Function, usize>,
     variables: Vec<Variable>,
     contents: Vec<Content>,
-    lists: Vec<ObjectList>,
 }
 
 /// What came of asking everything.
@@ -114,7 +113,6 @@ pub(super) fn ask_everything(client: Client, cnc: Arc<Cnc>, right: Option<&[u64]
         malformed: BTreeMap::new(),
         variables: Vec::new(),
         contents: Vec::new(),
-        lists: Vec::new(),
     };
     dialogue.everything();
     let Dialogue { answers, mut difference, .. } = dialogue;
@@ -143,7 +141,6 @@ impl Dialogue<'_> {
     fn queries(&mut self) {
         self.variables.clear();
         self.contents.clear();
-        self.lists.clear();
         for port in [Task::Geo, Task::Sda, Task::Com].map(Task::port) {
             self.inquire::<DeviceInfoReply>(port);
             self.inquire::<DeviceStateReply>(port);
@@ -388,7 +385,6 @@ impl Dialogue<'_> {
             .collect();
         for list in lists {
             let Some(count) = self.ask(CountObjects::new(list)) else { continue };
-            self.lists.push(list);
             let count = number(&count).unwrap_or_default();
             let listed = count.min(LISTED_MAX);
             let singles =
