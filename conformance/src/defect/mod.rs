@@ -172,12 +172,7 @@ impl Seed {
         matches!(self.how, How::Field(_) | How::Cnc(_))
     }
 
-    /// Whether the CNC is another one: with channels, variables and objects of its own.
-    pub const fn has_own_model(&self) -> bool {
-        self.own_model().is_some()
-    }
-
-    /// The model of that other CNC.
+    /// The model, if the CNC is another one: with channels, variables and objects of its own.
     pub(crate) const fn own_model(&self) -> Option<&'static str> {
         match self.how {
             How::Cnc(Twist::Model(model)) => Some(model),
