@@ -11,6 +11,8 @@ pub struct Case {
     pub prepare: fn() -> Work,
     /// What it may cost.
     pub limits: &'static [Limit],
+    /// Whether it takes too long to be counted for every change.
+    pub is_long: bool,
 }
 
 /// What a case may cost.
@@ -53,7 +55,7 @@ impl Case {
         who: &'static str,
         prepare: fn() -> Work,
     ) -> Self {
-        Self { subject, who, prepare, limits: &[] }
+        Self { subject, who, prepare, limits: &[], is_long: false }
     }
 
     /// With these limits.
@@ -61,8 +63,16 @@ impl Case {
         Self { limits, ..self }
     }
 
+    /// Counted with `--renew` only.
+    pub(crate) const fn long(self) -> Self {
+        Self { is_long: true, ..self }
+    }
+
     /// Whether something depends on what this costs.
     pub(crate) fn is_gated(&self) -> bool {
+        if self.is_long {
+            return false;
+        }
         let is_named = |limit: &Limit| limit.against() == Some(self.who);
         !self.limits.is_empty()
             || crate::all().any(|it| it.subject == self.subject && it.limits.iter().any(is_named))

@@ -68,7 +68,8 @@ macro_rules! grows {
             Case::new(concat!("check of ", $subject), "100 KB", || whole(100_000, $lines))
                 .within(&[Limit::Instructions("1 KB", 1.58)]),
             Case::new(concat!("check of ", $subject), "10 MB", || whole(10_000_000, $lines))
-                .within(&[Limit::Instructions("100 KB", 1.58)]),
+                .within(&[Limit::Instructions("100 KB", 1.58)])
+                .long(),
         )+];
     };
 }
@@ -94,6 +95,23 @@ grows! {
         false => format!("N{}: X1", at - of / 2),
     };
     "open brackets": |_, _| "$GOTO[".repeat(150);
+    "jumps to one label": |at, _| if at == 0 { "N1: X1".into() } else { "$GOTO N1".into() };
+    "jumps without a label": |at, _| format!("$GOTO N{at}");
+    "jumps to names": |at, _| format!("[A{at}] $GOTO [A{}]", at / 2);
+    "labels of many zeros": |at, _| format!("N{}{at}: $GOTO N{at}", "0".repeat(400));
+    "one label again and again": |_, _| "N10: X1".into();
+    "loops": |at, _| format!("N{at} $FOR P1 = 0, 10, 1 $ENDFOR");
+    "program ends": |at, _| format!("N{at} M30");
+    "blocks of comment": |at, _| match at % 2 {
+        0 => "#COMMENT BEGIN".into(),
+        _ => "#COMMENT END".into(),
+    };
+    "a block of comment without an end": |at, _| match at {
+        0 => "#COMMENT BEGIN".into(),
+        _ => format!("N{at}: $GOTO N{at}"),
+    };
+    "open parentheses": |_, _| "(".repeat(900);
+    "open quotes": |_, _| "\"(".repeat(400);
 }
 
 /// What a program is like: motion, comments, subroutines, conditions, labels and jumps.
