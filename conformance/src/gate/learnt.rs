@@ -241,7 +241,8 @@ impl Learnt {
         all: &DescriptorsRef<'_>,
     ) {
         let is_of_list = |entry: &Entry, name: &CncString| matches!(entry, Entry::Object { list: of, name: one } if of.list() == list && one == name);
-        for (index, object) in (first..).zip(all.iter()) {
+        // A device may answer at an index after which there is no other.
+        for (object, index) in all.iter().zip(first..=u32::MAX) {
             let address = (object.index_group(), object.index_offset());
             let name = CncString::from(object.name());
             let is_new = !self.contents.contains_key(&address);

@@ -121,6 +121,8 @@ pub(super) fn sent() -> Vec<Seed> {
     let whole = calls::frame(&object, 1);
     let raw = [&[0, 0, 2, u8::try_from(whole.len()).expect("short")], &whole[..]].concat();
     seeds.push(("raw".to_owned(), raw.clone()));
+    let long = [&[0, 0, 2, raw[3] + 1], &whole[..], &[0]].concat();
+    seeds.push(("raw-and-a-byte".to_owned(), long));
     let mut control = [&[1, 0, 0x23], &writes[1..]].concat();
     control.push(5);
     seeds.push(("malformed".to_owned(), [&[1], &raw[1..]].concat()));
