@@ -1,5 +1,5 @@
-//! Signals that end a process - SIGINT, SIGTERM and SIGHUP, on Windows the events of a console -
-//! and how a tool puts things in order before it ends.
+//! Signals that end a process, on Windows the events of a console, and how a tool puts things in
+//! order before it ends.
 
 use std::io;
 use std::process;
@@ -21,6 +21,28 @@ pub(crate) const LOOK: Duration = Duration::from_millis(20);
 /// Whether a caught signal has come.
 pub(crate) fn came() -> bool {
     CAME.load(Ordering::SeqCst)
+}
+
+/// Those that a terminal, a service manager, a timer or a limit sends; whichever ends the process
+/// and can be caught.
+#[cfg(unix)]
+fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
+    use signal_hook::consts::signal::{
+        SIGALRM, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ,
+    };
+
+    let all =
+        [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ];
+    let mut signals = signal_hook::iterator::Signals::new(all)?;
+    std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
+        signals.forever().for_each(|_| handler());
+    })?;
+    Ok(())
+}
+
+#[cfg(not(unix))]
+fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
+    ctrlc::set_handler(handler).map_err(io::Error::other)
 }
 
 /// A signal no longer ends the process: the tool does, when it has put things in order. A second
@@ -58,7 +80,7 @@ impl Interrupt {
             let _waiting = tell.send(());
             first_words();
         };
-        ctrlc::set_handler(handler).map_err(io::Error::other)?;
+        on_signals(handler)?;
         Ok(Self(told))
     }
 

@@ -144,6 +144,8 @@ fn a_signal_at_any_write_leaves_nothing_changed() {
         scope.spawn(|| each("INT", &mut (1..=25)));
         scope.spawn(|| each("TERM", &mut (1..=25)));
         scope.spawn(|| each("HUP", &mut [2, 5, 8].into_iter()));
+        scope.spawn(|| each("QUIT", &mut [2, 6].into_iter()));
+        scope.spawn(|| each("ALRM", &mut [2].into_iter()));
     });
 }
 

@@ -63,7 +63,9 @@ const HELLO: &str = r#"printf '{"protocol":1,"testee":{"name":"deaf"},"capabilit
 
 #[test]
 fn a_signal_ends_a_testee_with_all_it_has_started() {
-    for (name, greeting) in [("INT", HELLO), ("TERM", HELLO), ("HUP", HELLO), ("TERM", "")] {
+    for (name, greeting) in
+        [("INT", HELLO), ("TERM", HELLO), ("HUP", HELLO), ("QUIT", HELLO), ("TERM", "")]
+    {
         let (code, json, said) = interrupted("--testee", greeting, &[name]);
         assert_eq!(code, Some(3), "SIG{name}: {said}");
         assert!(said.contains("interrupted"), "{said}");
@@ -75,7 +77,7 @@ fn a_signal_ends_a_testee_with_all_it_has_started() {
 
 #[test]
 fn a_signal_ends_a_client_with_all_it_has_started() {
-    for name in ["INT", "TERM", "HUP"] {
+    for name in ["INT", "TERM", "HUP", "QUIT", "USR1"] {
         let (code, json, said) = interrupted("--client", "", &[name]);
         assert_eq!(code, Some(3), "SIG{name}: {said}");
         let report = std::fs::read_to_string(&json.0).unwrap();

@@ -60,7 +60,7 @@ fn what_was_run_is_written_in_the_end() {
 
     let program = TestFile::new(".nc", b"N10 X1\nN20 X2\nN30 $FOR P1=0,10,1\nN40 X4\n");
     let allow = TestFile::allowing("[[stream]]\nchannel = 2\n");
-    for name in ["INT", "TERM", "HUP"] {
+    for name in ["INT", "TERM", "HUP", "QUIT"] {
         let ran = TestFile::new(".nc", b"");
         let executed = format!("2={}", ran.path());
         let options = ["--log", "info", "--pace", "fast", "--executed", &executed];

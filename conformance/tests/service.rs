@@ -285,7 +285,7 @@ fn wait_for(what: &str, from: &mut impl BufRead) {
 #[cfg(unix)]
 #[test]
 fn a_signal_ends_it_cleanly() {
-    for name in ["INT", "TERM", "HUP"] {
+    for name in ["INT", "TERM", "HUP", "QUIT"] {
         let bench = Bench::start();
         let mut tool = bench.tool(&["--uuid", ID], &["sleep", "1000"]).spawn().unwrap();
         wait_for("waiting", &mut BufReader::new(tool.stderr.as_mut().unwrap()));

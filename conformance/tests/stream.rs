@@ -236,7 +236,7 @@ fn a_program_comes_from_stdin_too() {
 #[cfg(unix)]
 #[test]
 fn a_signal_says_what_was_sent() {
-    for name in ["INT", "TERM", "HUP"] {
+    for name in ["INT", "TERM", "HUP", "QUIT"] {
         let (tell, told) = std::sync::mpsc::channel();
         let (addr, packets) = kept(move |count| {
             if count == 1 {
