@@ -54,6 +54,8 @@ pub struct Tally {
     pub refused: u64,
     /// Requests of which no answer was seen.
     pub unanswered: u64,
+    /// Those among them that were forgotten, because too many or too long ones waited.
+    pub forgotten: u64,
     /// Answers of which no request was seen.
     pub unasked: u64,
     /// Frames whose rest never came.
@@ -90,6 +92,10 @@ impl Tally {
             (self.gaps, "gaps: what they touch is inconclusive"),
             (self.skipped, "bytes passed over to find a frame"),
             (self.unanswered, "requests without an answer"),
+            (
+                self.forgotten,
+                "of them forgotten: more than 4096 on a connection, or 16 MiB, waited",
+            ),
             (self.unasked, "answers to no request that was captured"),
             (self.unfinished, "frames unfinished when the connection or the capture ended"),
             (self.router, "messages to a local router, not judged"),

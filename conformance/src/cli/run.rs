@@ -240,6 +240,11 @@ impl Run {
                 return Exit::Internal;
             }
         };
+        // Who waits for a client says first where.
+        let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_embedded();
+        if asks && !self.client.waits() {
+            complain(self.deadline);
+        }
         let report = match &self.testee {
             _ if self.client.is_wanted() => self.of_client(seed, waivers, &interrupt),
             Some(command) => self.testee(command, seed, waivers),

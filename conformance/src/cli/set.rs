@@ -8,7 +8,7 @@ use clap::Args;
 use super::complain;
 use super::model::ModelArgs;
 use super::name::{NameArgs, written};
-use super::target::{REACHING_A_DEVICE, TargetArgs, embedded_gate};
+use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, embedded_gate};
 use crate::named::{by_name_alone, find};
 use crate::objects::{Access, Object, Place};
 use crate::session::{Session, Trouble};
@@ -38,6 +38,9 @@ pub(super) struct Set {
 
     #[command(flatten)]
     model: ModelArgs,
+
+    #[command(flatten)]
+    deadline: DeadlineArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -137,7 +140,7 @@ impl Set {
             Some(object) if embedded && self.target.is_dry() => {
                 Session::dry_embedded(embedded_gate(object.place.entry()))
             }
-            _ => self.model.open(&self.target),
+            _ => Ok(self.model.open(&self.target)?.with_deadline(self.deadline.begin())),
         }
     }
 

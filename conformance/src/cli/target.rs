@@ -1,5 +1,6 @@
 //! Options of all tools that talk to a CNC.
 
+use std::fmt;
 use std::io;
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs as _};
 use std::path::{Path, PathBuf};
@@ -104,6 +105,12 @@ impl DeadlineArgs {
     /// From now on.
     pub(super) fn begin(self) -> Deadline {
         Deadline::after(Duration::from_secs(self.deadline))
+    }
+}
+
+impl fmt::Display for DeadlineArgs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "ends after {} s at the latest (--deadline)", self.deadline)
     }
 }
 

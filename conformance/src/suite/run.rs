@@ -67,9 +67,8 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
         let note = "writes: nothing more is written when a value could not be restored";
         return Outcome::untried(case, Verdict::NotRun, note);
     }
-    // A case that writes goes on to its end.
-    let deadline = late.filter(|_| !writes);
-    let mut probe = Probe::new(session).with_deadline(deadline);
+    // What a case has changed is restored after the deadline too.
+    let mut probe = Probe::new(session).with_deadline(late);
     let begun = panic::catch_unwind(AssertUnwindSafe(|| match case.body {
         Body::Probe(body) => body(&mut probe),
         Body::Printed(vector) => printed::ask(&mut probe, vector),

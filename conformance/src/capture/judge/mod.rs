@@ -93,6 +93,8 @@ pub(super) struct Judge {
     waiting_ids: BTreeSet<(u32, u64)>,
     /// The numbers of those that wait on each connection, with their invoke IDs.
     waiting_of: BTreeMap<u64, BTreeMap<u64, u32>>,
+    /// The bytes of all that wait.
+    waiting_bytes: usize,
     early: Early,
     lost: BTreeMap<u64, Lost>,
     /// The last packet behind a gap of any connection.
@@ -147,6 +149,7 @@ impl Judge {
             waiting: BTreeMap::new(),
             waiting_ids: BTreeSet::new(),
             waiting_of: BTreeMap::new(),
+            waiting_bytes: 0,
             early: Early::default(),
             lost: BTreeMap::new(),
             gap: None,

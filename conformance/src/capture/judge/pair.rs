@@ -8,8 +8,10 @@ use super::super::tally::{count, count_of};
 use super::{Judge, Seen, is_cnc, service_clause, spot};
 use crate::suite::Checks as _;
 
-/// Requests of a connection that wait for their answers; of more the oldest are forgotten.
+/// Requests of a connection that wait for their answers, and bytes of those of all connections; of
+/// more the oldest of the connection are forgotten.
 const WAITING_MAX: usize = 4096;
+const WAITING_BYTES_MAX: usize = 0x100_0000;
 
 /// Answers that wait for their requests, of all connections, and their bytes.
 const EARLY_MAX: usize = 4096;
@@ -103,21 +105,31 @@ impl Judge {
         let connection = seen.way.connection;
         let numbers = self.waiting_of.entry(connection).or_default();
         numbers.insert(seen.number, id);
-        let is_full = numbers.len() > WAITING_MAX;
-        let oldest = numbers.first_key_value().map(|(_, id)| *id);
-        if let Some(oldest) = oldest.filter(|_| is_full) {
-            self.forget((connection, oldest), 0);
+        self.waiting_bytes = self.waiting_bytes.saturating_add(seen.frame.len());
+        while let Some(oldest) = self.oldest_beyond(connection) {
+            if self.forget((connection, oldest), 0).is_none() {
+                break;
+            }
             count(&mut self.tally.unanswered);
+            count(&mut self.tally.forgotten);
             self.lost.entry(connection).or_default().joined = true;
         }
         self.waiting_ids.insert((id, connection));
         self.waiting.entry((connection, id)).or_default().push_back(seen);
     }
 
+    /// The invoke ID of the oldest request that waits on a connection on which too much waits.
+    fn oldest_beyond(&self, connection: u64) -> Option<u32> {
+        let numbers = self.waiting_of.get(&connection)?;
+        let is_full = numbers.len() > WAITING_MAX || self.waiting_bytes > WAITING_BYTES_MAX;
+        numbers.first_key_value().map(|(_, id)| *id).filter(|_| is_full)
+    }
+
     /// One of the requests with this key, which waits no more.
     pub(super) fn forget(&mut self, key: (u64, u32), place: usize) -> Option<Seen> {
         let all = self.waiting.get_mut(&key)?;
         let one = all.remove(place)?;
+        self.waiting_bytes = self.waiting_bytes.saturating_sub(one.frame.len());
         if all.is_empty() {
             self.waiting.remove(&key);
             self.waiting_ids.remove(&(key.1, key.0));

@@ -14,6 +14,7 @@ use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
 use crate::suite::{self, Changes, Needs, Outcome, Plan, RequirementVerdict, Session};
+use crate::verdict::Verdict;
 use crate::waivers::Waivers;
 
 impl Run {
@@ -103,7 +104,8 @@ impl Run {
         }
         let outcomes = suite::run(plan.cases.clone(), Some(&mut session), defect, about.seed);
         session.client.end_capture().map_err(|error| self.lost_capture(&error))?;
-        if allow && usable.is_ok() && !outcomes.iter().any(has_written) {
+        let is_whole = outcomes.iter().all(|one| one.verdict() != Verdict::Interrupted);
+        if allow && usable.is_ok() && is_whole && !outcomes.iter().any(has_written) {
             complain(
                 "nothing was written: nothing that the file for --allow-write names was found",
             );

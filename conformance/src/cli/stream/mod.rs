@@ -197,7 +197,7 @@ impl Stream {
     fn name(&self) -> String {
         match self.file == Path::new("-") {
             true => "stdin".to_owned(),
-            false => self.file.display().to_string(),
+            false => crate::report::tame_lines(&self.file.display().to_string()),
         }
     }
 
