@@ -210,13 +210,14 @@
 //! No byte and no answer here depends on these. The vectors have the examples.
 //!
 //! - Examples of `ads-en` and `ads-de`: E-03 (channels), E-09 (handles), E-10, E-18, E-37, E-38,
-//!   E-54 (names), E-14 (decimal sign), E-27 (contents of an array), E-28 (a missing index).
+//!   E-54, E-89 (names), E-90 (NUL of a kind), E-91 (output of a read by name), E-14 (decimal
+//!   sign), E-27 (contents of an array), E-28 (a missing index).
 //! - Headings and names there: E-05 (column of attributes), E-41 (class of a query), E-48 (base),
 //!   E-49 (name of the HLD).
-//! - `stream-en`: E-19 (name of the parameter), E-58 (local subroutines: a call is NC text like any
-//!   other), E-66 (whether the object describes or writes), E-68 (planning across blocks), E-69
+//! - `stream-en`: E-19 (name of the parameter), E-92 (type of the stream), E-58 (local
+//!   subroutines: a call is NC text like any other), E-66 (whether the object describes or writes), E-68 (planning across blocks), E-69
 //!   (block search), E-72 (as what the program starts).
-//! - The Service Interface: E-22 (a comment), E-63 (heading of an example).
+//! - The Service Interface: E-22, E-93 (comments), E-63 (heading of an example), E-94 (which program).
 //!
 //! # Not said at all
 //!

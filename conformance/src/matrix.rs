@@ -68,14 +68,13 @@ fn row(requirement: &Requirement, cases: &[suite::Case]) -> Row {
     let id = requirement.id.as_str();
     let (mut accepted, mut rejected) = (Vec::new(), Vec::new());
     let (mut streams, mut names) = (BTreeSet::new(), BTreeSet::new());
-    for vector in vectors().iter().filter(|vector| vector.requirements.iter().any(|one| one == id))
-    {
+    for vector in vectors().iter().filter(|vector| vector.cited().contains(&requirement)) {
         let list = if vector.is_accepted() { &mut accepted } else { &mut rejected };
         list.push(vector.id.clone());
         streams.extend(Stream::by_name(&vector.stream));
         names.insert(vector.stream.as_str());
     }
-    for sequence in sequences().iter().filter(|one| one.requirements.iter().any(|one| one == id)) {
+    for sequence in sequences().iter().filter(|one| one.cited().contains(&requirement)) {
         let list = if sequence.is_accepted() { &mut accepted } else { &mut rejected };
         list.push(sequence.id.clone());
         names.insert(sequence.kind());
@@ -183,9 +182,8 @@ mod tests {
         let rows = matrix();
         assert_eq!(rows.len(), requirements().len());
         let listed: usize = rows.iter().map(|row| row.accepted.len() + row.rejected.len()).sum();
-        let cited = |ids: &[String]| ids.len();
-        let vectors: usize = vectors().iter().map(|vector| cited(&vector.requirements)).sum();
-        let sequences: usize = sequences().iter().map(|one| cited(&one.requirements)).sum();
+        let vectors: usize = vectors().iter().map(|vector| vector.cited().len()).sum();
+        let sequences: usize = sequences().iter().map(|one| one.cited().len()).sum();
         assert_eq!(listed, vectors + sequences);
         for row in &rows {
             let by_bytes = !row.accepted.is_empty() || !row.cases.is_empty();

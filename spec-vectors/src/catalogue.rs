@@ -49,8 +49,8 @@ pub enum Basis {
     Assumed,
 }
 
-/// What not doing it means.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+/// What not doing it means, from the gravest to the least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
     /// A failure.
@@ -77,6 +77,8 @@ pub enum Observable {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
+    /// ID of its requirement, a dot and a number, such as `VAR-4.2`. Never reused.
+    pub id: String,
     /// What it says.
     pub text: String,
     /// Its own basis.
@@ -111,6 +113,9 @@ pub struct Requirement {
     pub basis: Basis,
     /// Level of the text.
     pub level: Level,
+    /// Why it binds although no manual states it: a ruling of this project.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ruling: Option<String>,
     /// What belongs to the requirement on another basis.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<Part>,
@@ -128,6 +133,78 @@ pub struct Requirement {
     /// Why nothing judges it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excluded: Option<String>,
+}
+
+/// What a vector or a sequence cites: a requirement, or one of its parts.
+///
+/// ```
+/// use ads_cnc_vectors::{Level, clause};
+///
+/// let nul = clause("VAR-9.1").unwrap();
+/// assert_eq!((nul.requirement.id.as_str(), nul.level()), ("VAR-9", Level::Info));
+/// assert_eq!(clause("VAR-9").unwrap().level(), Level::Must);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Clause {
+    /// The requirement.
+    pub requirement: &'static Requirement,
+    /// The part; `None` if the text of the requirement itself is cited.
+    pub part: Option<&'static Part>,
+}
+
+impl Clause {
+    /// The ID as cited.
+    pub fn id(&self) -> &'static str {
+        self.part.map_or(&self.requirement.id, |part| &part.id)
+    }
+
+    /// What it says.
+    pub fn text(&self) -> &'static str {
+        self.part.map_or(&self.requirement.text, |part| &part.text)
+    }
+
+    /// Where it comes from.
+    pub fn basis(&self) -> Basis {
+        self.part.map_or(self.requirement.basis, |part| part.basis)
+    }
+
+    /// What not doing it means.
+    pub fn level(&self) -> Level {
+        self.part.map_or(self.requirement.level, |part| part.level)
+    }
+}
+
+/// What no document says but a vector or a sequence needs.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Assumption {
+    /// The assumption.
+    pub text: String,
+    /// Whether the expected outcome rests on it; otherwise it only sets the scene.
+    pub decides: bool,
+    /// Whether the bytes that an encoder writes rest on it, though what a decoder reads does not.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub encodes: bool,
+}
+
+/// The weakest level of these clauses; [`Level::Info`] if an assumption decides.
+pub(crate) fn level(cited: &[String], assumed: &[Assumption]) -> Level {
+    if assumed.iter().any(|one| one.decides) {
+        return Level::Info;
+    }
+    let levels = cited.iter().filter_map(|id| crate::clause(id)).map(|one| one.level());
+    levels.max().unwrap_or(Level::Info)
+}
+
+/// The requirements of these clauses, each once.
+pub(crate) fn requirements_of(cited: &[String]) -> Vec<&'static Requirement> {
+    let mut all: Vec<&Requirement> = Vec::new();
+    for clause in cited.iter().filter_map(|id| crate::clause(id)) {
+        if !all.contains(&clause.requirement) {
+            all.push(clause.requirement);
+        }
+    }
+    all
 }
 
 /// One reading of a place that contradicts another, or itself.

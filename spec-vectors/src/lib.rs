@@ -36,11 +36,12 @@ mod sequence;
 mod vector;
 
 pub use catalogue::{
-    Basis, Document, Erratum, Level, Observable, Part, Reading, Requirement, Source, Status,
+    Assumption, Basis, Clause, Document, Erratum, Level, Observable, Part, Reading, Requirement,
+    Source, Status,
 };
 pub use hex::Hex;
 pub use load::{
-    Catalogue, LoadError, VERSION, catalogue, documents, errata, erratum, requirement,
+    Catalogue, LoadError, VERSION, catalogue, clause, documents, errata, erratum, requirement,
     requirements, sequence, sequences, vector, vectors,
 };
 pub use sequence::{

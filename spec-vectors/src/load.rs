@@ -1,6 +1,6 @@
 //! The embedded files, read once.
 
-use crate::catalogue::{Document, Erratum, Requirement};
+use crate::catalogue::{Clause, Document, Erratum, Requirement};
 use crate::sequence::Sequence;
 use crate::vector::Vector;
 use serde::Deserialize;
@@ -84,6 +84,20 @@ pub fn requirements() -> &'static [Requirement] {
 /// ```
 pub fn requirement(id: &str) -> Option<&'static Requirement> {
     requirements().iter().find(|item| item.id == id)
+}
+
+/// The requirement with this ID, or the part with it and its requirement.
+///
+/// ```
+/// assert_eq!(ads_cnc_vectors::clause("VAR-7").unwrap().part, None);
+/// assert_eq!(ads_cnc_vectors::clause("GEN-3.1").unwrap().requirement.title, "Code page");
+/// assert!(ads_cnc_vectors::clause("GEN-3.0").is_none());
+/// ```
+pub fn clause(id: &str) -> Option<Clause> {
+    let (of, _) = id.split_once('.').unwrap_or((id, ""));
+    let requirement = requirement(of)?;
+    let part = requirement.parts.iter().find(|part| part.id == id);
+    (part.is_some() || of == id).then_some(Clause { requirement, part })
 }
 
 /// All errata.

@@ -1,5 +1,6 @@
 //! Sequences: what takes a text or several steps to show. Unknown fields are errors.
 
+use crate::catalogue::{self, Assumption, Level, Requirement};
 use crate::hex::Hex;
 use crate::vector::Provenance;
 use serde::{Deserialize, Serialize};
@@ -233,6 +234,9 @@ pub struct ServiceStep {
     /// Response state, in decimal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub response_state: Option<String>,
+    /// A service may leave this write out, or do it after the steps that follow.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub optional: bool,
 }
 
 /// A program and services at the Service Interface.
@@ -319,11 +323,15 @@ pub struct Sequence {
     pub id: String,
     /// A few words.
     pub title: String,
-    /// IDs of the requirements it bears on; at least one.
+    /// IDs of the requirements, or of parts of them, that its texts, steps or outcome exercise; at
+    /// least one.
     pub requirements: Vec<String>,
     /// IDs of the errata it bears on.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub errata: Vec<String>,
+    /// Short names of the documents whose edition says so, if others say otherwise.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub editions: Vec<String>,
     /// The text or the steps.
     pub given: Given,
     /// What has to come of it.
@@ -335,13 +343,31 @@ pub struct Sequence {
     pub provenance: Provenance,
     /// What no document says but the case needs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub assumed: Vec<String>,
+    pub assumed: Vec<Assumption>,
 }
 
 impl Sequence {
     /// Whether it holds.
     pub fn is_accepted(&self) -> bool {
         matches!(self.expect, SequenceExpect::Accept(_))
+    }
+
+    /// What failing it means: the weakest level of what it cites, and [`Level::Info`] if an
+    /// assumption decides the outcome.
+    ///
+    /// ```
+    /// use ads_cnc_vectors::{Level, sequence};
+    ///
+    /// assert_eq!(sequence("loop-for").unwrap().level(), Level::Must);
+    /// assert_eq!(sequence("loop-lower-case").unwrap().level(), Level::Info);
+    /// ```
+    pub fn level(&self) -> Level {
+        catalogue::level(&self.requirements, &self.assumed)
+    }
+
+    /// The requirements of what it cites, each once.
+    pub fn cited(&self) -> Vec<&'static Requirement> {
+        catalogue::requirements_of(&self.requirements)
     }
 
     /// Word for what it is about, as in its JSON.

@@ -1,6 +1,6 @@
 //! Vectors, one type for each shape of their JSON. Unknown fields are errors.
 
-use crate::catalogue::Source;
+use crate::catalogue::{self, Assumption, Level, Requirement, Source};
 use crate::hex::{Hex, address};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -325,7 +325,8 @@ pub struct Vector {
     pub id: String,
     /// A few words.
     pub title: String,
-    /// IDs of the requirements it bears on; at least one.
+    /// IDs of the requirements, or of parts of them, that its bytes or its outcome exercise; at
+    /// least one.
     pub requirements: Vec<String>,
     /// IDs of the errata it bears on.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -334,6 +335,9 @@ pub struct Vector {
     pub stream: String,
     /// Which way it goes.
     pub direction: Direction,
+    /// Short names of the documents whose edition says so, if others say otherwise.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub editions: Vec<String>,
     /// What is known beside the bytes.
     #[serde(default, skip_serializing_if = "is_empty")]
     pub context: Context,
@@ -348,7 +352,7 @@ pub struct Vector {
     pub provenance: Provenance,
     /// What no document says but the vector needs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub assumed: Vec<String>,
+    pub assumed: Vec<Assumption>,
 }
 
 impl Vector {
@@ -360,6 +364,39 @@ impl Vector {
     /// Whether a codec has to accept it.
     pub fn is_accepted(&self) -> bool {
         matches!(self.expect, Expect::Accept(_))
+    }
+
+    /// What failing it means: the weakest level of what it cites, and [`Level::Info`] if an
+    /// assumption decides the outcome.
+    ///
+    /// ```
+    /// use ads_cnc_vectors::{Level, vector};
+    ///
+    /// assert_eq!(vector("handle-printed").unwrap().level(), Level::Must);
+    /// assert_eq!(vector("kind-no-bytes").unwrap().level(), Level::Info);
+    /// ```
+    pub fn level(&self) -> Level {
+        catalogue::level(&self.requirements, &self.assumed)
+    }
+
+    /// What writing other bytes means: [`Vector::level`], and [`Level::Info`] if an assumption
+    /// decides what an encoder writes.
+    ///
+    /// ```
+    /// use ads_cnc_vectors::{Level, vector};
+    ///
+    /// let description = vector("description-printed-boolean-array").unwrap();
+    /// assert_eq!(description.level(), Level::Must);
+    /// // No manual says whether a NUL follows the name.
+    /// assert_eq!(description.encoding_level(), Level::Info);
+    /// ```
+    pub fn encoding_level(&self) -> Level {
+        if self.assumed.iter().any(|one| one.encodes) { Level::Info } else { self.level() }
+    }
+
+    /// The requirements of what it cites, each once.
+    pub fn cited(&self) -> Vec<&'static Requirement> {
+        catalogue::requirements_of(&self.requirements)
     }
 }
 

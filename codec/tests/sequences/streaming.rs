@@ -28,7 +28,7 @@ fn run<'c>(given: &'c Streaming, id: &str) -> Option<(&'static str, &'c str)> {
     for step in &given.steps {
         let at = format!("{id}: {}", step.id);
         let fault = cnc.step(step, &at);
-        if !matches!(fault, Some("outcome" | "overfull")) {
+        if !matches!(fault, Some("outcome" | "overfull" | "not-started")) {
             assert_eq!(cnc.interface.len(), step.held, "{at}");
         }
         if let Some(fault) = fault {

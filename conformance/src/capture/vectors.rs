@@ -181,6 +181,7 @@ impl Collector {
             title: format!("Captured {way}: {}", stream.replace('-', " ")),
             requirements: clauses.iter().map(ToString::to_string).collect(),
             errata: Vec::new(),
+            editions: Vec::new(),
             stream: stream.to_owned(),
             direction,
             context,

@@ -129,7 +129,7 @@ fn one_line(actor: &mut dyn Actor, manners: &mut Findings) {
 /// until that fails; with a habit through all of them.
 pub fn trial(defect: &Defect, stage: &Stage) -> Vec<Outcome> {
     let mut own = Own { flaw: Some(defect.flaw) };
-    let wanted = defect.requirement;
+    let wanted = Rule::from(defect.requirement).id;
     let judges = |scenario: &Scenario| {
         let whole = wanted.is_empty() || wanted == CLIENT;
         whole || scenario.case().requirements.contains(&wanted)

@@ -207,7 +207,13 @@ fn host(script: &Script, turns: &[Turn], findings: &mut Findings) {
         // Behind RESPONSE_STATE it would take the answer away again (SVC-3).
         let kept = state.is_none_or(|state| cleared < state);
         let expected = "REQUEST_STATE written before RESPONSE_STATE, if at all";
-        findings.check("SVC-3", kept, at(Some(cleared)).map(|one| one.turn), expected, "behind it");
+        findings.check(
+            "SVC-3.1",
+            kept,
+            at(Some(cleared)).map(|one| one.turn),
+            expected,
+            "behind it",
+        );
     }
 }
 

@@ -100,11 +100,18 @@ pub fn by_id(id: &str) -> Option<&'static Seed> {
 /// What a client alone can break has its defects among those of
 /// [clients](crate::clients::defects).
 pub const fn without() -> &'static [(&'static str, &'static str)] {
-    &[(
-        "STM-21",
-        "The simulated CNC does not interpret NC lines, so it has no other syntax errors to report; \
+    &[
+        (
+            "VAR-29",
+            "The offsets of the functions: each of them has defects of its own, by the requirement that \
+             says what it answers.",
+        ),
+        (
+            "STM-21",
+            "The simulated CNC does not interpret NC lines, so it has no other syntax errors to report; \
          how a CNC reports one shows on its screen.",
-    )]
+        ),
+    ]
 }
 
 impl From<Defect> for Seed {

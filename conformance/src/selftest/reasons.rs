@@ -11,18 +11,6 @@ const REASONS: &[(Group, &str, &str)] = &[
          breaks nothing, so no vector has anything else there than 0.",
     ),
     (
-        Group::Codec,
-        "codec.element.length-one-byte",
-        "Nobody documents how wide a length is, and the only one printed is 1. The vectors above 255 \
-         rest on an assumed width: this codec differs at them, which fails nobody.",
-    ),
-    (
-        Group::Codec,
-        "codec.refuses.sum",
-        "That no kind asks for the sum is documented, how none is written is not. This codec refuses \
-         one of the two ways and differs by that, which fails nobody.",
-    ),
-    (
         Group::Cnc,
         "object-descriptor.write_access.swap",
         "Whatever is not 0 is TRUE: 0x0100 says no other thing than 0x0001.",

@@ -15,7 +15,10 @@ const TARGETS_SHOWN: usize = 6;
 /// Those of `out`.
 pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     for one in &test.tried {
-        let fine = matches!(one.result, Outcomes::Caught | Outcomes::Quiet | Outcomes::Same);
+        let fine = matches!(
+            one.result,
+            Outcomes::Caught | Outcomes::Noticed | Outcomes::Quiet | Outcomes::Same
+        );
         if verbose || !fine {
             entry(one, out)?;
         }
@@ -40,12 +43,16 @@ pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
             }
             _ => {
                 let percent = percent(right, all);
-                let same = test.tried.iter().filter(|one| one.group == group);
-                let same = same.filter(|one| one.result == Outcomes::Same).count();
-                let beside = match same {
+                let mine = || test.tried.iter().filter(|one| one.group == group);
+                let same = mine().filter(|one| one.result == Outcomes::Same).count();
+                let noticed = mine().filter(|one| one.result == Outcomes::Noticed).count();
+                let mut beside = match noticed {
                     0 => String::new(),
-                    _ => format!(", beside {same} that change nothing here"),
+                    _ => format!(", {noticed} of them by a warning or a difference"),
                 };
+                if same > 0 {
+                    beside += &format!(", beside {same} that change nothing here");
+                }
                 writeln!(
                     out,
                     "{:<10}  {right} caught of {all} ({percent} %){beside}",
@@ -113,6 +120,7 @@ fn percent(part: usize, all: usize) -> String {
 fn entry(one: &Tried, out: &mut dyn Write) -> io::Result<()> {
     let result = match one.result {
         Outcomes::Caught => "caught",
+        Outcomes::Noticed => "noticed",
         Outcomes::Elsewhere => "ELSEWHERE",
         Outcomes::Survived => "SURVIVED",
         Outcomes::Quiet => "quiet",

@@ -68,10 +68,10 @@ fn test(tried: Vec<Tried>) -> SelfTest {
 
 #[test]
 fn only_a_reason_lets_a_defect_survive() {
-    use Outcomes::{Broken, Caught, Elsewhere, FalseAlarm, Quiet, Same, Survived};
+    use Outcomes::{Broken, Caught, Elsewhere, FalseAlarm, Noticed, Quiet, Same, Survived};
 
     assert_eq!(test(Vec::new()).exit(), Exit::Nothing);
-    for fine in [Caught, Quiet, Same] {
+    for fine in [Caught, Noticed, Quiet, Same] {
         assert_eq!(test(vec![tried(fine, None)]).exit(), Exit::Success, "{fine:?}");
     }
     for open in [Survived, Elsewhere] {

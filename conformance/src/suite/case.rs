@@ -3,7 +3,7 @@
 use std::fmt;
 
 use ads_cnc::ads::FrameRef;
-use ads_cnc_vectors::{Level, Sequence, Vector, requirement};
+use ads_cnc_vectors::{Level, Sequence, Vector, clause};
 use serde::{Deserialize, Serialize};
 
 use super::Probe;
@@ -182,7 +182,9 @@ pub struct Rule {
 
 impl From<&'static str> for Rule {
     fn from(id: &'static str) -> Self {
-        Self { id, level: requirement(id).map(|requirement| requirement.level) }
+        let clause = clause(id);
+        let id = clause.map_or(id, |clause| clause.requirement.id.as_str());
+        Self { id, level: clause.map(|clause| clause.level()) }
     }
 }
 

@@ -3,9 +3,7 @@
 use ads_cnc::address::{Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Service, Task};
-use ads_cnc_vectors::{
-    Context, Direction, Hex, Level, ProvenanceKind, Vector, requirement, vector, vectors,
-};
+use ads_cnc_vectors::{Context, Direction, Hex, ProvenanceKind, Vector, vector, vectors};
 
 use super::case::{Body, Case, Evidence, Needs, Rule, Step, Stop, Subject};
 use super::probe::{Probe, harness};
@@ -29,12 +27,11 @@ pub(super) fn cases() -> Vec<Case> {
 
 /// A case that stands for a vector.
 pub(super) fn case_of(vector: &Vector, prefix: &str, needs: Needs, body: Body) -> Case {
-    let known = vector.requirements.iter().filter_map(|id| requirement(id));
     Case {
         id: format!("{prefix}-{}", vector.id),
         title: vector.title.clone(),
         subject: if needs == Needs::Codec { Subject::Codec } else { Subject::Target },
-        requirements: known.map(|requirement| requirement.id.as_str()).collect(),
+        requirements: vector.cited().into_iter().map(|one| one.id.as_str()).collect(),
         needs,
         body,
     }
@@ -75,10 +72,9 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     let received = exchange.answer().and_then(|answer| answer.success());
     let found = received.map_or_else(|| exchange.result(), |bytes| Hex(bytes.to_vec()).to_string());
     let wrong = wrong_requirements(reply, stream, &expected, received);
-    for id in reply.requirements.iter().filter_map(|id| requirement(id)) {
-        let id = id.id.as_str();
-        // The target claims to answer as printed: what it claims must be so.
-        let rule = Rule { id, level: Some(Level::Must) };
+    for id in reply.cited().into_iter().map(|one| one.id.as_str()) {
+        // The target claims to answer as printed: what it claims must be so, as far as it is printed.
+        let rule = Rule { id, level: Some(reply.level()) };
         let kept = match received {
             Some(bytes) if bytes != expected => !wrong.contains(&id),
             received => received.is_some(),
@@ -116,7 +112,7 @@ fn wrong_requirements<'v>(
             clauses.extend(segment.field.spec().map(|spec| spec.clause));
         }
     });
-    let all = || reply.requirements.iter().map(String::as_str);
+    let all = || reply.cited().into_iter().map(|one| one.id.as_str());
     if !all().any(|id| clauses.contains(&id)) {
         return all().collect();
     }

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use ads_cnc_vectors::{Given, Sequence, requirement, sequence, sequences, vector, vectors};
+use ads_cnc_vectors::{Given, Sequence, sequence, sequences, vector, vectors};
 
 use super::case::{Body, Case, Needs, Subject};
 use super::printed::case_of;
@@ -19,12 +19,11 @@ fn is_text(sequence: &Sequence) -> bool {
 }
 
 fn of_text(sequence: &'static Sequence) -> Case {
-    let known = sequence.requirements.iter().filter_map(|id| requirement(id));
     Case {
         id: format!("seq-{}", sequence.id),
         title: sequence.title.clone(),
         subject: Subject::Codec,
-        requirements: known.map(|requirement| requirement.id.as_str()).collect(),
+        requirements: sequence.cited().into_iter().map(|one| one.id.as_str()).collect(),
         needs: Needs::Codec,
         body: Body::Sequence(sequence),
     }

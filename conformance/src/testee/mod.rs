@@ -3,7 +3,6 @@
 //! The protocol is described in `adapters/README.md`. [`Own`] answers it with this project's codec;
 //! [`Process`] is whoever else does. [`judge`] asks either everything the golden vectors have.
 
-mod assumed;
 mod check;
 mod compare;
 mod judge;
@@ -18,7 +17,6 @@ mod view;
 
 use std::time::Duration;
 
-pub(crate) use assumed::rests_on_assumption;
 pub use check::{Finding, check_protocol};
 pub use judge::{Judged, TESTEE, Terms, judge};
 pub use message::{
@@ -27,8 +25,7 @@ pub use message::{
 };
 pub use miniature::{Act, Miniature};
 pub use own::Own;
-#[cfg(test)]
-pub(crate) use plan::questions;
+pub use plan::questions;
 pub use process::{Process, answered, greeted};
 
 /// Who is judged by the golden vectors.

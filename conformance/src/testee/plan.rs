@@ -98,7 +98,7 @@ fn made_up(number: u64, edition: &str) -> Asked {
 }
 
 /// What a case asks.
-pub(crate) fn questions(case: &Case, edition: &str) -> Vec<Question> {
+pub fn questions(case: &Case, edition: &str) -> Vec<Question> {
     match &case.body {
         Body::Vector(vector) => of_vector(vector, edition),
         Body::Sequence(sequence) => {

@@ -2,9 +2,8 @@
 
 use std::collections::HashMap;
 
-use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector};
+use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector, sequence, vector};
 
-use super::assumed::rests_on_assumption;
 use super::judge::Terms;
 use super::message::{Answer, Hello, Output, Question, compact};
 use super::plan::{forms, questions};
@@ -12,7 +11,7 @@ use super::tell::{describe, evidence};
 use super::{Reaction, compare};
 use crate::child::front;
 use crate::show::show;
-use crate::suite::{Body, Case, Evidence, Judgement, Outcome, Rule, Stop, TEXT_MAX};
+use crate::suite::{Body, Case, Evidence, Judgement, Outcome, Stop, TEXT_MAX};
 use crate::verdict::Verdict;
 
 /// The answers to the questions of a case, by op.
@@ -32,6 +31,8 @@ pub(super) struct View<'v> {
 /// What came of one question.
 struct Check {
     verdict: Verdict,
+    /// The most that it can mean.
+    level: Level,
     expected: String,
     found: String,
     evidence: Evidence,
@@ -71,15 +72,17 @@ impl View<'_> {
     }
 
     fn judgement(&self, id: &'static str, check: &Check) -> Judgement {
-        let Rule { level, .. } = Rule::from(id);
-        let verdict = match (check.verdict, level) {
-            (Verdict::Fail, Some(level)) if !self.terms.strict => Verdict::missed(level),
-            (verdict, _) => verdict,
+        let verdict = match check.verdict {
+            Verdict::Fail | Verdict::Vacuous if check.level != Level::Must => {
+                Verdict::missed(check.level)
+            }
+            verdict => verdict,
         };
-        let level = if verdict == Verdict::Differs { Some(Level::Info) } else { level };
+        // What is compared may be told apart by less than the level of the case.
+        let level = if verdict == Verdict::Differs { Level::Info } else { check.level };
         Judgement {
             requirement: id,
-            level,
+            level: Some(level),
             verdict,
             expected: check.expected.clone(),
             found: check.found.clone(),
@@ -90,15 +93,7 @@ impl View<'_> {
 
     fn check(&self, case: &Case, question: &Question, reaction: &Reaction) -> Check {
         let (verdict, expected, found) = match &case.body {
-            Body::Vector(vector) => {
-                let (verdict, expected, found) = self.vector(vector, question, reaction);
-                // Only an answer can differ: a crash is one whatever was asked.
-                let answered =
-                    matches!(reaction, Reaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
-                let lenient = !self.terms.strict && answered && rests_on_assumption(vector);
-                let missed = matches!(verdict, Verdict::Fail | Verdict::Vacuous);
-                (if lenient && missed { Verdict::Differs } else { verdict }, expected, found)
-            }
+            Body::Vector(vector) => self.vector(vector, question, reaction),
             Body::Sequence(sequence) => self.sequence(sequence, reaction),
             _ => (Verdict::HarnessError, String::new(), "a case without a question".to_owned()),
         };
@@ -108,7 +103,11 @@ impl View<'_> {
         };
         let evidence = evidence(question, reaction, &case.id, canonical);
         let (expected, found) = (front(&expected, TEXT_MAX), front(&found, TEXT_MAX));
-        Check { verdict, evidence, expected, found }
+        // Only an answer can differ: a crash is one whatever was asked.
+        let answered = matches!(reaction, Reaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
+        let lenient = answered && !self.terms.strict;
+        let level = if lenient { level(&case.body, verdict, &question.op) } else { Level::Must };
+        Check { verdict, level, evidence, expected, found }
     }
 
     fn vector(
@@ -221,6 +220,24 @@ impl View<'_> {
                 }
             }
         }
+    }
+}
+
+/// The level of what a case expects. What its sibling expects is needed too where that was missed.
+fn level(body: &Body, verdict: Verdict, op: &str) -> Level {
+    let (own, sibling) = match body {
+        Body::Vector(one) if op == "encode" => (one.encoding_level(), None),
+        Body::Vector(one) => {
+            (one.level(), one.sibling.as_deref().and_then(vector).map(Vector::level))
+        }
+        Body::Sequence(one) => {
+            (one.level(), one.sibling.as_deref().and_then(sequence).map(Sequence::level))
+        }
+        _ => (Level::Must, None),
+    };
+    match sibling {
+        Some(sibling) if verdict == Verdict::Vacuous => own.max(sibling),
+        _ => own,
     }
 }
 

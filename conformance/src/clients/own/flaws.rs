@@ -136,7 +136,7 @@ flaws! {
     ServiceText "client.service-text" "SVC-1" "fills its response up to 200 bytes";
     ServiceAny "client.service-any" "SVC-2" "answers requests to other services";
     ServiceIdle "client.service-idle" "SVC-2" "answers what is no request";
-    ServiceClears "client.service-clears" "SVC-3" "takes the request back behind its answer";
+    ServiceClears "client.service-clears" "SVC-3.1" "takes the request back behind its answer";
     ServiceOrder "client.service-order" "SVC-5" "writes RESPONSE_STATE before RESPONSE";
     ServiceZero "client.service-zero" "SVC-5" "answers with a response state of 0";
     CallerWaits "client.caller-waits" "SVC-6" "reads RESPONSE at once";

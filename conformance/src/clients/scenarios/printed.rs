@@ -1,7 +1,7 @@
 //! Printed examples in both directions, from the vectors' raw bytes: no codec has a hand in what is
 //! compared with what a client sends, nor in what is sent back.
 
-use ads_cnc_vectors::{Direction, Service, Vector, requirement, vector};
+use ads_cnc_vectors::{Direction, Service, Vector, vector};
 use serde_json::{Value, json};
 
 use crate::clients::Scenario;
@@ -75,11 +75,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
 fn one(action: &str, result: Value, id: &str) -> Option<Scenario> {
     let example = vector(id)?;
     let literal = literal(example)?;
-    let known = |one: &Vector| {
-        let ids = one.requirements.iter().filter_map(|id| requirement(id));
-        ids.map(|requirement| requirement.id.as_str()).collect::<Vec<_>>()
-    };
-    let rule = known(example).into_iter().next()?;
+    let rule = example.cited().first()?.id.as_str();
     let ask = Ask {
         command: literal.command.into(),
         ..crate::clients::scenario::write(

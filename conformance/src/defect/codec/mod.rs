@@ -16,7 +16,7 @@ use serde_json::Value as Json;
 
 use super::{How, Kind, Seed};
 use crate::codec;
-use crate::testee::{Answer, Output, Question, Rejection, rests_on_assumption};
+use crate::testee::{Answer, Output, Question, Rejection};
 
 /// The right answers.
 pub(super) type Right<'a> = &'a dyn Fn(&Question) -> Answer;
@@ -206,9 +206,9 @@ pub(super) fn seeds() -> Vec<Seed> {
     seeds
 }
 
-/// Requirements of these vectors, each once.
+/// What these vectors cite, each once.
 fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
-    let known = |id: &String| ads_cnc_vectors::requirement(id).map(|one| one.id.as_str());
+    let known = |id: &String| ads_cnc_vectors::clause(id).map(|clause| clause.id());
     let mut all: Vec<&'static str> =
         of.flat_map(|vector| &vector.requirements).filter_map(known).collect();
     all.sort_unstable();
@@ -216,16 +216,23 @@ fn broken<'v>(of: impl Iterator<Item = &'v Vector>) -> Vec<&'static str> {
     all
 }
 
+/// Those of the strongest level among them.
+fn strongest(mut vectors: Vec<&'static Vector>) -> Vec<&'static Vector> {
+    let level = vectors.iter().map(|vector| vector.level()).min();
+    vectors.retain(|vector| Some(vector.level()) == level);
+    vectors
+}
+
 /// A check of each class and stream that there is a vector for.
 fn forgotten_checks() -> Vec<Seed> {
     let mut pairs: BTreeMap<(&'static str, &'static str), Vec<&'static Vector>> = BTreeMap::new();
-    let judged = |vector: &&'static Vector| !rests_on_assumption(vector);
-    for vector in vectors().iter().filter(judged) {
+    for vector in vectors() {
         if let Expect::Reject(reject) = &vector.expect {
             pairs.entry((&vector.stream, &reject.class)).or_default().push(vector);
         }
     }
     let each = |((stream, class), those): ((&'static str, &'static str), Vec<&'static Vector>)| {
+        let those = strongest(those);
         // The classes of vectors are advisory: what the codec calls it is what is forgotten.
         let refusal = |vector: &&'static Vector| match codec::decode_stream(
             stream,
@@ -248,9 +255,11 @@ fn too_strict() -> Vec<Seed> {
     let longest = |stream: &Stream| -> Vec<&'static Vector> {
         let layout = stream.layout();
         let all = vectors().iter().filter(|vector| vector.is_accepted());
-        all.filter(|vector| vector.stream == layout.name && !rests_on_assumption(vector))
+        let all = all
+            .filter(|vector| vector.stream == layout.name)
             .filter(|vector| u32::try_from(vector.bytes().len()) == Ok(layout.max))
-            .collect()
+            .collect();
+        strongest(all)
     };
     let each = |stream: Stream| {
         let those = longest(&stream);

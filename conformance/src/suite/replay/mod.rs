@@ -4,26 +4,25 @@
 mod service;
 mod streaming;
 
-use ads_cnc_vectors::{Given, Sequence, SequenceExpect, requirement, sequences};
+use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 
 use crate::suite::case::{Body, Case, Needs, Step, Stop, Subject};
 use crate::suite::probe::{Probe, harness};
 
 /// What a client or a service does, which the suite itself is here.
-const NOT_THE_TARGETS: [&str; 4] = ["STM-17", "SVC-2", "SVC-5", "SVC-7"];
+const NOT_THE_TARGETS: [&str; 5] = ["STM-17", "SVC-2", "SVC-5", "SVC-7", "SVC-13"];
 
 /// One case for each sequence that says something of the CNC.
 pub(super) fn cases() -> Vec<Case> {
     let all = sequences().iter();
     let steps = all.filter(|one| matches!(one.given, Given::Streaming(_) | Given::Service(_)));
     let cases = steps.map(|sequence| {
-        let ids = sequence.requirements.iter().map(String::as_str);
-        let of_target = ids.filter(|id| !NOT_THE_TARGETS.contains(id));
+        let ids = sequence.cited().into_iter().map(|one| one.id.as_str());
         Case {
             id: format!("seq-{}", sequence.id),
             title: sequence.title.clone(),
             subject: Subject::Target,
-            requirements: of_target.filter_map(requirement).map(|one| one.id.as_str()).collect(),
+            requirements: ids.filter(|id| !NOT_THE_TARGETS.contains(id)).collect(),
             needs: Needs::Embedded,
             body: Body::Sequence(sequence),
         }
@@ -61,7 +60,7 @@ fn lacks(what: &str) -> Otherwise {
 /// Goes through a sequence.
 pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
     let done = match &sequence.given {
-        Given::Streaming(given) => streaming::run(probe, given, &sequence.requirements),
+        Given::Streaming(given) => streaming::run(probe, given, &sequence.cited()),
         Given::Service(given) => service::run(probe, given),
         _ => return Err(Stop::Harness("a text has no steps".to_owned())),
     };
@@ -76,8 +75,8 @@ pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
         Err(Otherwise::Differs(expected, found)) => (false, expected, found),
         Err(Otherwise::Stop(stop)) => return Err(stop),
     };
-    let ids = sequence.requirements.iter().filter_map(|id| requirement(id));
-    for id in ids.map(|one| one.id.as_str()).filter(|id| !NOT_THE_TARGETS.contains(id)) {
+    let cited = sequence.cited().into_iter();
+    for id in cited.map(|one| one.id.as_str()).filter(|id| !NOT_THE_TARGETS.contains(id)) {
         // The embedded CNC does what is assumed too.
         probe.check(id, kept, &expected, &found);
     }

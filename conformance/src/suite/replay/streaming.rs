@@ -5,7 +5,9 @@ use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::streaming::{Ack, Checker, FindingKind, Found, NcText, Sender};
-use ads_cnc_vectors::{Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
+use ads_cnc_vectors::{
+    Pieces, Requirement, StreamAck, StreamAction, StreamError, StreamStep, Streaming,
+};
 
 use super::{Done, Fault, differs, lacks, within};
 use crate::cnc::Cnc;
@@ -20,7 +22,7 @@ struct Scene<'s, 'p> {
     cnc: Arc<Cnc>,
     channel: Channel,
     /// What the sequence is about.
-    rules: &'s [String],
+    rules: &'s [&'static Requirement],
 }
 
 impl Scene<'_, '_> {
@@ -34,7 +36,7 @@ impl Scene<'_, '_> {
 
     /// Judges what the error number of a refusal says.
     fn number(&mut self, rule: &'static str, ack: Ack, sent: &Sent) {
-        if self.rules.iter().any(|one| one == rule) {
+        if self.rules.iter().any(|one| one.id == rule) {
             let expected = format!("{ack:?} by its number");
             self.probe.check(assumed(rule), sent.assumed() == ack, expected, sent);
         }
@@ -45,7 +47,7 @@ impl Scene<'_, '_> {
 pub(super) fn run<'c>(
     probe: &mut Probe<'_>,
     given: &'c Streaming,
-    rules: &[String],
+    rules: &[&'static Requirement],
 ) -> Done<Fault<'c>> {
     let (cnc, channel) = (probe.cnc()?, probe.channel()?);
     let mut scene = Scene { probe, cnc, channel, rules };
@@ -79,7 +81,7 @@ fn steps<'c>(scene: &mut Scene<'_, '_>, given: &'c Streaming) -> Done<Fault<'c>>
             StreamAction::Write => write(scene, &mut sender, step)?,
             StreamAction::Take => take(scene, step)?,
         };
-        if !matches!(fault, Some("outcome" | "overfull")) {
+        if !matches!(fault, Some("outcome" | "overfull" | "not-started")) {
             let held = scene.with(|program| program.held())?;
             if held != step.held {
                 return differs(format!("{} bytes held after {}", step.held, step.id), held);
