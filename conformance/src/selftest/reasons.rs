@@ -3,19 +3,11 @@
 use super::{Group, Outcomes, Tried};
 
 /// Group, beginning of the ID, and why nothing can tell.
-const REASONS: &[(Group, &str, &str)] = &[
-    (
-        Group::Codec,
-        "object-descriptor.not_assigned.",
-        "Nothing is assigned to these two bytes: whoever keeps, orders or drops them as they like \
-         breaks nothing, so no vector has anything else there than 0.",
-    ),
-    (
-        Group::Cnc,
-        "object-descriptor.write_access.swap",
-        "Whatever is not 0 is TRUE: 0x0100 says no other thing than 0x0001.",
-    ),
-];
+const REASONS: &[(Group, &str, &str)] = &[(
+    Group::Cnc,
+    "object-descriptor.write_access.swap",
+    "Whatever is not 0 is TRUE: 0x0100 says no other thing than 0x0001.",
+)];
 
 /// The reason for a survivor, if there is one.
 pub(super) fn of(group: Group, id: &str) -> Option<&'static str> {
