@@ -412,6 +412,32 @@ fn captured(count: u32, answer: impl Fn(u32, &AmsHeader) -> Option<AmsHeader>) -
     file
 }
 
+/// Requests of 60 kB that nobody answers, on one connection or on many.
+#[test]
+fn requests_without_answers_are_forgotten() {
+    for connections in [1, 200_u16] {
+        let file = TestFile::new(".pcapng", b"");
+        let mut capture = Capture::create(&file.0).unwrap();
+        let end = |port| SocketAddr::from(([127, 0, 0, 1], port));
+        let ams =
+            |port| ads_cnc::ads::AmsAddr { net_id: NET_ID, port: ads_cnc::ads::AmsPort(port) };
+        let mut payload = vec![0; 60_012];
+        payload[8..12].copy_from_slice(&60_000_u32.to_le_bytes());
+        for number in 0..1800_u16 {
+            if number % (1800 / connections) == 0 {
+                capture.opened(end(50_000 + number), end(48898));
+            }
+            let header =
+                AmsHeader::request(ams(552), ams(0x8000), AdsCommand::WRITE, number.into());
+            capture.sent(&FrameRef::new(header, &payload).unwrap().to_vec().unwrap());
+        }
+        capture.finish().unwrap();
+        let ended = run(&["check", file.path()]);
+        let told = "of them forgotten: more than 4096 on a connection, or 16 MiB, waited";
+        assert!(ended.stdout.contains(told), "{connections}: {}", ended.stdout);
+    }
+}
+
 /// Twice as many requests take no more than about twice the time, however they are answered.
 #[test]
 fn captures_are_checked_in_linear_time() {

@@ -255,6 +255,24 @@ fn the_opposite_of_what_is_assumed_fails_nobody() {
     assert_eq!(exit, Exit::Failure);
 }
 
+/// A name that one edition alone prints binds nobody of the other edition.
+#[test]
+fn what_another_edition_prints_fails_nobody() {
+    let judged = |edition| {
+        let mut codec = Otherwise(|own: &Own, question: &Question| match &question.hex {
+            Some(bytes) if bytes == b"V.E.trajectory.vector.x" => rejected(),
+            _ => own.answer(question),
+        });
+        let (seed, subject) = (3, Subject::Testee);
+        let terms = Terms { seed, subject, edition: Some(edition), strict: false };
+        let outcomes = judge(&mut codec, cases(), terms).outcomes;
+        let one = outcomes.iter().find(|one| one.case.id == "vec-path-trajectory-x").unwrap();
+        one.verdict()
+    };
+    assert_eq!(judged("en-1.05"), Verdict::Fail);
+    assert_eq!(judged("de-1.051"), Verdict::Differs);
+}
+
 /// The levels of what the manuals say, and of what they do not.
 #[test]
 fn levels_are_in_the_data() {

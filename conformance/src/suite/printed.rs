@@ -73,7 +73,7 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     let found = received.map_or_else(|| exchange.result(), |bytes| Hex(bytes.to_vec()).to_string());
     let wrong = wrong_requirements(reply, stream, &expected, received);
     for id in reply.cited().into_iter().map(|one| one.id.as_str()) {
-        // The target claims to answer as printed: what it claims must be so, as far as it is printed.
+        // A target that claims the printed examples is judged by them, at the level of what is printed.
         let rule = Rule { id, level: Some(reply.level()) };
         let kept = match received {
             Some(bytes) if bytes != expected => !wrong.contains(&id),

@@ -107,12 +107,15 @@ impl Judge {
         numbers.insert(seen.number, id);
         self.waiting_bytes = self.waiting_bytes.saturating_add(seen.frame.len());
         while let Some(oldest) = self.oldest_beyond(connection) {
-            if self.forget((connection, oldest), 0).is_none() {
-                break;
-            }
             count(&mut self.tally.unanswered);
             count(&mut self.tally.forgotten);
             self.lost.entry(connection).or_default().joined = true;
+            if self.forget((connection, oldest), 0).is_none() {
+                // It is this one: requests of other connections leave no room for it.
+                self.waiting_bytes = self.waiting_bytes.saturating_sub(seen.frame.len());
+                self.waiting_of.entry(connection).or_default().remove(&seen.number);
+                return;
+            }
         }
         self.waiting_ids.insert((id, connection));
         self.waiting.entry((connection, id)).or_default().push_back(seen);
