@@ -48,9 +48,10 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    /// Bytes held.
+    /// Memory of what is held: many small segments take more than their bytes.
     pub(super) fn held(&self) -> usize {
-        self.bytes.len()
+        let marks = self.marks.capacity().saturating_mul(size_of::<(usize, Mark)>());
+        self.bytes.capacity().saturating_add(marks)
     }
 
     /// The beginning was not captured.
@@ -173,8 +174,10 @@ impl Frames {
         while matches!(self.marks.get(1), Some((0, _))) {
             self.marks.pop_front();
         }
+        // A connection that waits for its next frame keeps no memory.
         if self.bytes.is_empty() {
-            self.marks.clear();
+            self.bytes = Vec::new();
+            self.marks = VecDeque::new();
         }
     }
 

@@ -12,8 +12,8 @@ use super::tcp::{Half, Mark, Part, Piece};
 /// Connections that are followed at the same time; of more, those that were silent longest end.
 pub(super) const CONNECTIONS_MAX: usize = 1024;
 
-/// Bytes that all connections hold together until a frame is whole.
-pub(super) const HELD_MAX: usize = 0x400_0000;
+/// Bytes of memory that all connections hold together until a frame is whole.
+pub(super) const HELD_MAX: usize = 0x200_0000;
 
 /// Which TCP ports are looked at.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -131,9 +131,10 @@ impl Half {
         self.end.is_some_and(|end| self.place >= end)
     }
 
-    /// Bytes held back.
-    pub(super) const fn held(&self) -> usize {
-        self.held
+    /// Memory of what is held back: many small segments take more than their bytes.
+    pub(super) fn held(&self) -> usize {
+        let each = size_of::<(u64, Held)>();
+        self.held.saturating_add(self.ahead.len().saturating_mul(each))
     }
 
     /// Takes a segment and hands over what is in order.
