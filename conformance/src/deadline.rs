@@ -16,6 +16,13 @@ impl Deadline {
         Self { at: Instant::now().checked_add(time), after: time }
     }
 
+    /// What is left of this time before it.
+    #[must_use]
+    pub fn limit(&self, time: Duration) -> Duration {
+        let left = self.at.map(|at| at.saturating_duration_since(Instant::now()));
+        left.map_or(time, |left| left.min(time))
+    }
+
     /// Whether it has passed.
     pub fn is_over(&self) -> bool {
         self.at.is_some_and(|at| Instant::now() >= at)

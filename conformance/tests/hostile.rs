@@ -293,21 +293,81 @@ fn a_deadline_ends_a_run() {
     assert!(report.matches("the deadline of 2 s has passed").count() > 50);
 }
 
+/// What has been begun to be changed is restored after the deadline, and no other value is changed.
+#[test]
+fn a_deadline_ends_what_writes() {
+    let cnc = Cnc::with_default_model().unwrap();
+    let addr = serving(move |frame, out| {
+        thread::sleep(Duration::from_millis(100));
+        out.write_all(&right(&cnc, frame))
+    });
+    let (addr, json) = (addr.to_string(), TestFile::new(".json", b""));
+    let table = |name| format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n");
+    let names = ["V.E.test", "V.E.vartest", "V.E.Testvar", "V.E.Variable_1"];
+    let allow = TestFile::allowing(&names.map(table).concat());
+    let rest = ["--allow-write", allow.path(), "--json", json.path(), "--deadline", "2"];
+    let run_it = ["run", "--seed", "1", "--only", "write-by-name", "--only", "write-by-handle"];
+    let ended = run(&against(&addr, &[&run_it[..], &rest].concat()));
+    assert_eq!(ended.code, Some(3), "{}{}", ended.stdout, ended.stderr);
+    assert!(ended.time < Duration::from_secs(20), "{:?}", ended.time);
+    assert!(ended.stdout.contains("the deadline of 2 s has passed"), "{}", ended.stdout);
+    for name in ["V.E.test", "V.E.vartest"] {
+        let value = |addr: Option<&str>| match addr {
+            Some(addr) => run(&against(addr, &["get", name, "--format", "csv"])).stdout,
+            None => run(&["get", name, "--format", "csv"]).stdout,
+        };
+        assert_eq!(value(Some(&addr)), value(None));
+    }
+
+    // An object is looked for by name in lists that have no end.
+    let allow = TestFile::allowing("[[object]]\nchannel = 1\nname = \"no_such_object\"\n");
+    let addr = everything().to_string();
+    let set = ["set", "no_such_object", "1", "--allow-write", allow.path(), "--deadline", "2"];
+    let ended = run(&against(&addr, &set));
+    assert_eq!(ended.code, Some(3), "{}", ended.stderr);
+    assert!(ended.stderr.contains("the deadline of 2 s has passed"), "{}", ended.stderr);
+}
+
+/// A testee that takes half a second for each answer, and a client that never ends.
+#[cfg(unix)]
+#[test]
+fn a_deadline_ends_a_testee_and_a_client() {
+    const HELLO: &str = r#"{"protocol":1,"testee":{"name":"slow"},"capabilities":{"ops":["decode","encode"],"streams":["variable-description"],"editions":["en-1.05"]}}"#;
+    let script = format!(
+        "#!/bin/sh\nread -r hello\necho '{HELLO}'\nwhile read -r line; do\nsleep 0.5\n\
+         seq=${{line#*\\\"seq\\\":}}; seq=${{seq%%,*}}\n\
+         echo '{{\"seq\":'$seq',\"unsupported\":{{\"what\":\"op\"}}}}'\ndone\n"
+    );
+    let script = TestFile::new(".sh", script.as_bytes());
+    let testee = format!("sh {}", script.path());
+    for options in [["--testee", &testee], ["--client", "cat; sleep 1000"]] {
+        let json = TestFile::new(".json", b"");
+        let args = ["run", "--seed", "1", "--deadline", "2", "--json", json.path()];
+        let ended = run(&[&args[..], &options].concat());
+        assert!(matches!(ended.code, Some(1 | 3)), "{options:?}: {}", ended.stderr);
+        assert!(ended.time < Duration::from_secs(15), "{options:?}: {:?}", ended.time);
+        let report = fs::read_to_string(&json.0).unwrap();
+        assert!(report.contains("the deadline of 2 s has passed"), "{options:?}: {report}");
+    }
+}
+
 /// A testee with long words, and one with longer ones still.
 #[cfg(unix)]
 #[test]
 fn a_testee_that_says_much() {
     const HELLO: &str = r#"{"protocol":1,"testee":{"name":"much"},"capabilities":{"ops":["decode","encode"],"streams":["variable-description","variable-value","variable-name-write"],"editions":["en-1.05"]}}"#;
-    for (bytes, answer) in [
-        (300_000, r#"{"seq":%s,"error":{"message":"%s"}}"#),
-        (300_000, r#"{"seq":%s,"reject":{"class":"%s","message":"%s"}}"#),
-        (300_000, r#"{"seq":%s,"ok":{"value":"%s"}}"#),
-        (4_000_000, r#"{"seq":%s,"error":{"message":"%s"}}"#),
+    for (bytes, of, answer) in [
+        (250_000, "a", r#"{"seq":%s,"error":{"message":"%s"}}"#),
+        (120_000, "a", r#"{"seq":%s,"reject":{"class":"%s","message":"%s"}}"#),
+        (250_000, "a", r#"{"seq":%s,"ok":{"value":"%s"}}"#),
+        (300_000, "a", r#"{"seq":%s,"error":{"message":"%s"}}"#),
+        // The most memory for a byte of JSON: 250 kB of small objects.
+        (31_000, r#"{"a":1},"#, r#"{"seq":%s,"ok":{"value":[%s0]}}"#),
     ] {
         let script = format!(
-            "#!/bin/sh\nlong=$(head -c {bytes} /dev/zero | tr '\\0' a)\nread -r hello\n\
+            "#!/bin/sh\nlong=$(head -c {bytes} /dev/zero | sed 's/\\x00/{of}/g')\nread -r hello\n\
              echo '{HELLO}'\nwhile read -r line; do\n\
-             seq=${{line#*\\\"seq\\\":}}; seq=${{seq%%[,}}]*}}\n\
+             seq=${{line#*\\\"seq\\\":}}; seq=${{seq%%,*}}\n\
              case $line in *bye*) exit 0;; esac\n\
              printf '{answer}\\n' \"$seq\" \"$long\" \"$long\"\ndone\n"
         );
@@ -412,10 +472,10 @@ fn captured(count: u32, answer: impl Fn(u32, &AmsHeader) -> Option<AmsHeader>) -
     file
 }
 
-/// Requests of 60 kB that nobody answers, on one connection or on many.
+/// Requests of 60 kB that nobody answers, on one connection or on many that stay open.
 #[test]
 fn requests_without_answers_are_forgotten() {
-    for connections in [1, 200_u16] {
+    for connections in [1, 200, 1800_u16] {
         let file = TestFile::new(".pcapng", b"");
         let mut capture = Capture::create(&file.0).unwrap();
         let end = |port| SocketAddr::from(([127, 0, 0, 1], port));

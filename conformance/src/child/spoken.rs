@@ -12,8 +12,12 @@ use super::Running;
 use crate::interrupt;
 use crate::report::tame_lines;
 
-/// The longest line that is taken: what the suite asks for has some thousand bytes.
-pub const LINE_MAX: usize = 1 << 20;
+/// The longest line that is taken. The longest right answer has some thousand bytes.
+pub const LINE_MAX: usize = 1 << 18;
+
+/// The most commas and opening brackets in a line. Each may begin a value, and a value may take 7 kB
+/// when it is parsed.
+const VALUES_MAX: usize = 1 << 13;
 
 /// The last of what a command wrote to stderr that is kept.
 const STDERR_KEPT: usize = 64 << 10;
@@ -51,7 +55,7 @@ pub enum Unheard {
     Closed,
     /// What came is no line, and nothing behind it is read.
     Garbled(String),
-    /// A line that is no text.
+    /// A line that is no text, or has too many values.
     NoText(String),
 }
 
@@ -219,11 +223,14 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
     Some(Ok(line))
 }
 
-/// A line as text.
+/// A line of JSON as text.
 ///
 /// # Errors
-/// What is said of one that is not UTF-8.
+/// What is said of one that has too many values, or is not UTF-8.
 pub fn text(line: Vec<u8>) -> Result<String, Unheard> {
+    if line.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count() > VALUES_MAX {
+        return Err(Unheard::NoText(format!("a line with more than {VALUES_MAX} values")));
+    }
     String::from_utf8(line).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let shown = cut(&String::from_utf8_lossy(error.as_bytes()));

@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::complain;
 use super::serve::check_address;
+use crate::child::front;
 use crate::clients::{self, Judged, Process, Scenario, Stage};
 use crate::deadline::Deadline;
 use crate::interrupt::Interrupt;
@@ -18,6 +19,9 @@ const CLIENT: &str = "Client under test";
 
 /// The last of stderr that a report keeps.
 const STDERR_SHOWN: usize = 4000;
+
+/// The most characters of a name that are shown.
+const SAID_MAX: usize = 200;
 
 /// A client instead of a target.
 #[derive(Args, Clone, Debug, Default)]
@@ -100,14 +104,14 @@ impl ClientArgs {
         let stderr = clients::Actor::stderr(&process);
         let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
         let stderr: String = stderr.chars().skip(skipped).collect();
-        let said = |text: &str| (!text.is_empty()).then(|| text.to_owned());
+        let said = |text: &str| Some(front(text, SAID_MAX)).filter(|text| !text.is_empty());
         let identity = hello.map(|hello| hello.client).unwrap_or_default();
         let target = TargetReport {
             name: said(&identity.name).unwrap_or_else(|| "client".to_owned()),
             version: said(&identity.version),
             language: said(&identity.language),
             command: Some(command.to_owned()),
-            stderr: said(&stderr),
+            stderr: Some(stderr).filter(|stderr| !stderr.is_empty()),
             ..TargetReport::default()
         };
         OfClient { target, outcomes, frames: requests }

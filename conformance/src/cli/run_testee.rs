@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::time::Duration;
 
+use crate::child::front;
 use crate::deadline::Deadline;
 use crate::interrupt;
 use crate::report::TargetReport;
@@ -12,6 +13,9 @@ use crate::verdict::Exit;
 
 /// The last of stderr that a report keeps.
 const STDERR_SHOWN: usize = 4000;
+
+/// The most characters of a name that are shown.
+const SAID_MAX: usize = 200;
 
 /// What came of a testee.
 pub(super) struct OfTestee {
@@ -35,16 +39,16 @@ pub(super) fn run(
 }
 
 fn target(command: &str, hello: Option<Hello>, stderr: &str) -> TargetReport {
-    let said = |text: String| Some(text).filter(|text| !text.is_empty());
+    let said = |text: &str| Some(front(text, SAID_MAX)).filter(|text| !text.is_empty());
     let identity = hello.map(|hello| hello.testee);
     let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
     let last: String = stderr.chars().skip(skipped).collect();
     TargetReport {
-        name: identity.as_ref().map_or_else(|| "testee".to_owned(), |one| one.name.clone()),
-        version: identity.as_ref().and_then(|one| said(one.version.clone())),
-        language: identity.and_then(|one| said(one.language)),
+        name: identity.as_ref().and_then(|one| said(&one.name)).unwrap_or("testee".to_owned()),
+        version: identity.as_ref().and_then(|one| said(&one.version)),
+        language: identity.as_ref().and_then(|one| said(&one.language)),
         command: Some(command.to_owned()),
-        stderr: said(last),
+        stderr: Some(last).filter(|last| !last.is_empty()),
         ..TargetReport::default()
     }
 }

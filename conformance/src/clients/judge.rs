@@ -47,12 +47,18 @@ pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Ju
             return Judged { hello: None, outcomes, requests };
         }
         Err(reaction) => {
-            manners.check(CLIENT, false, None, "an answer to hello", reaction);
-            let why = "there was no answer to hello";
-            let untried =
-                |one: &Scenario| Outcome::untried(one.case(), Verdict::NotRun, why.to_owned());
+            // After the deadline it is not known whether it would have answered.
+            let over = actor.over();
+            let (verdict, why) = match &over {
+                Some(why) => (Verdict::Inconclusive, why.as_str()),
+                None => (Verdict::NotRun, "there was no answer to hello"),
+            };
+            let untried = |one: &Scenario| Outcome::untried(one.case(), verdict, why.to_owned());
             let mut outcomes: Vec<Outcome> = scenarios.iter().map(untried).collect();
-            outcomes.push(of_manners(manners));
+            if over.is_none() {
+                manners.check(CLIENT, false, None, "an answer to hello", reaction);
+                outcomes.push(of_manners(manners));
+            }
             return Judged { hello: None, outcomes, requests };
         }
     };
@@ -99,6 +105,10 @@ pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Ju
                 continue;
             }
         };
+        if let (true, Some(why)) = (is_lost, actor.over()) {
+            outcomes.push(Outcome::untried(outcome.case, Verdict::Inconclusive, why));
+            continue;
+        }
         lost = if is_lost { lost.saturating_add(1) } else { 0 };
         requests = requests.saturating_add(count);
         outcomes.push(outcome);
@@ -108,7 +118,7 @@ pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Ju
         outcomes.push(Outcome::interrupted(of_manners(manners).case));
         return Judged { hello: Some(hello), outcomes, requests };
     }
-    if lost < LOST_MAX {
+    if lost < LOST_MAX && actor.over().is_none() {
         let bye = actor.bye();
         let found = bye.clone().err().unwrap_or_default();
         manners.check(CLIENT, bye.is_ok(), None, "its end with exit code 0 after bye", found);

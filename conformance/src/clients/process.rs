@@ -41,6 +41,10 @@ impl Process {
         Self { deadline: Some(deadline), ..self }
     }
 
+    fn limit(&self, time: Duration) -> Duration {
+        self.deadline.map_or(time, |deadline| deadline.limit(time))
+    }
+
     fn start(&self, place: &Place, scenario: &str, action: &str) -> Result<Spoken, Reaction> {
         let mut command = child::shell(&self.line);
         command.envs(environment(place, scenario, action));
@@ -49,8 +53,8 @@ impl Process {
     }
 
     /// The line it answers with; ended if there is none.
-    fn hear(running: Spoken, timeout: Duration) -> Result<(String, Spoken), Reaction> {
-        match running.hear(timeout) {
+    fn hear(&self, running: Spoken, timeout: Duration) -> Result<(String, Spoken), Reaction> {
+        match running.hear(self.limit(timeout)) {
             Ok(line) => Ok((line, running)),
             Err(Unheard::Garbled(why) | Unheard::NoText(why)) => Err(Reaction::Garbled(why)),
             Err(Unheard::Silence) => Err(Reaction::Hung(timeout)),
@@ -70,7 +74,7 @@ impl Actor for Process {
 
     fn hello(&mut self, place: &Place) -> Result<Hello, Reaction> {
         let running = self.start(place, HELLO, HELLO)?;
-        let (line, running) = Self::hear(running, START.max(self.timeout))?;
+        let (line, running) = self.hear(running, START.max(self.timeout))?;
         let hello: Hello = serde_json::from_str(&line)
             .map_err(|error| Reaction::Garbled(format!("{error} in the hello {}", cut(&line))))?;
         if hello.protocol != PROTOCOL {
@@ -108,7 +112,7 @@ impl Actor for Process {
             if self.stays {
                 running.say(told(place, scenario, action).to_string().into_bytes());
             }
-            Self::hear(running, self.timeout)
+            self.hear(running, self.timeout)
         });
         let (line, running) = match heard {
             Ok(heard) => heard,
@@ -132,7 +136,7 @@ impl Actor for Process {
     fn bye(&mut self) -> Result<(), String> {
         let Some(running) = self.running.take() else { return Ok(()) };
         running.say(b"{\"cmd\":\"bye\"}".to_vec());
-        let (status, unasked) = running.finish(GRACE.max(self.timeout));
+        let (status, unasked) = running.finish(self.limit(GRACE.max(self.timeout)));
         self.unasked.extend(unasked);
         match status {
             Some(status) if status.success() => Ok(()),

@@ -50,8 +50,16 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     cases.iter_mut().for_each(|case| case.subject = terms.subject);
     let hello = match testee.hello() {
         Ok(hello) => hello,
-        Err(_) if interrupt::came() => return interrupted(cases),
-        Err(reaction) => return without_hello(cases, &reaction, terms.subject),
+        Err(_) if interrupt::came() => return untried(cases, Outcome::interrupted),
+        // Whether it would have answered is not known.
+        Err(reaction) => {
+            return match testee.over() {
+                Some(why) => untried(cases, |case| {
+                    Outcome::untried(case, Verdict::Inconclusive, why.clone())
+                }),
+                None => without_hello(cases, &reaction, terms.subject),
+            };
+        }
     };
     let capabilities = &hello.capabilities;
     let claimed = capabilities.editions.first().map(String::as_str);
@@ -86,6 +94,10 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             gone = Some(Stop::Interrupted);
             break;
         }
+        if let (Reaction::Silent(_), Some(why)) = (&reaction, testee.over()) {
+            gone = Some(Stop::Inconclusive(format!("not answered: {why}")));
+            break;
+        }
         asked = asked.saturating_add(1);
         if matches!(reaction, Reaction::Crashed(_) | Reaction::Silent(_) | Reaction::Broken(_)) {
             (lost, restarts) = (lost.saturating_add(1), restarts.saturating_add(1));
@@ -114,6 +126,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         }
     }
     if gone.is_none()
+        && testee.over().is_none()
         && let Err(why) = testee.bye()
     {
         manners.fault("it ends with exit code 0 after bye", why, None);
@@ -131,8 +144,8 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     Judged { hello: Some(hello), outcomes, asked, restarts }
 }
 
-fn interrupted(cases: Vec<Case>) -> Judged {
-    let outcomes = cases.into_iter().map(Outcome::interrupted).collect();
+fn untried(cases: Vec<Case>, outcome: impl Fn(Case) -> Outcome) -> Judged {
+    let outcomes = cases.into_iter().map(outcome).collect();
     Judged { hello: None, outcomes, asked: 0, restarts: 0 }
 }
 

@@ -61,6 +61,10 @@ impl Process {
         (self.sent.clone(), self.received.clone())
     }
 
+    fn limit(&self, time: Duration) -> Duration {
+        self.deadline.map_or(time, |deadline| deadline.limit(time))
+    }
+
     fn start(&mut self) -> Result<(), Reaction> {
         if interrupt::came() {
             return Err(Reaction::Broken("interrupted".to_owned()));
@@ -81,7 +85,7 @@ impl Process {
             return Err(Reaction::Broken("it is not running".to_owned()));
         };
         running.say(line);
-        match running.hear(timeout) {
+        match running.hear(self.limit(timeout)) {
             Ok(line) => {
                 self.received = Some(front(&line, SHOWN));
                 Ok(line)
@@ -146,7 +150,7 @@ impl Testee for Process {
     fn bye(&mut self) -> Result<(), String> {
         let Some(running) = self.running.take() else { return Ok(()) };
         running.say(serde_json::to_vec(&Command::Bye).unwrap_or_default());
-        match running.finish(GRACE.max(self.timeout)) {
+        match running.finish(self.limit(GRACE.max(self.timeout))) {
             (_, Some(unasked)) => Err(format!("it said {unasked}, which nobody asked for")),
             (Some(status), _) if status.success() => Ok(()),
             (Some(status), _) => Err(format!("it ended with {status} after bye")),
