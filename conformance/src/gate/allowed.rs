@@ -190,6 +190,12 @@ impl Entry {
             (_, Request::AxisWriteByName(op)) => {
                 Ok(self.allows_variable(op.channel, Some(op.axis), op.name))
             }
+            (Self::Content { group, offset }, Request::WriteObject(op)) => {
+                match (op.index_group(), op.index_offset()) == (*group, *offset) {
+                    true => learnt.has_one_name((*group, *offset)).map(|()| true),
+                    false => Ok(false),
+                }
+            }
             (Self::Content { .. } | Self::Stream(_), _) => {
                 Ok(Self::needed(request).as_ref() == Some(self))
             }

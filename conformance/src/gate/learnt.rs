@@ -137,6 +137,17 @@ impl Learnt {
         }
     }
 
+    /// Checks that the lists give no two names to an address that the file has.
+    ///
+    /// # Errors
+    /// The second name.
+    pub(super) fn has_one_name(&self, address: (IndexGroup, IndexOffset)) -> Result<(), Doubt> {
+        match self.contents.get(&address) {
+            Some((_, Some(other))) => Err(Doubt::Shared(other.clone())),
+            _ => Ok(()),
+        }
+    }
+
     pub(super) fn learn(&mut self, allowed: &Allowed, call: &Call<'_>, reply: &[u8]) {
         let Ok(request) = call.dispatch() else { return };
         let Ok(reply) = request.decode_reply(reply) else { return };
