@@ -243,7 +243,13 @@ fn what_cannot_be_restored_is_said_everywhere() {
         assert!(plain(&of(1)).starts_with(&format!("**{line}**\n")), "{}", of(1));
         let first = of(2).split_once("<testsuite ").unwrap().1.to_owned();
         assert!(first.starts_with("name=\"left-changed\"") && first.contains(line), "{first}");
-        assert!(of(3).contains("left changed"), "{}", of(3));
+        let badge: Value = serde_json::from_str(&of(3)).unwrap();
+        let badge = badge["message"].as_str().unwrap();
+        // 40 characters of each value.
+        let front =
+            |text: &str| text.get(..40).map_or(text.to_owned(), |front| format!("{front}…"));
+        let named = format!("left changed: {what}");
+        assert!(badge.starts_with(&named) && badge.contains(&front(was)), "{badge}");
         // The forms that are made later are the same.
         let again = Command::new(env!("CARGO_BIN_EXE_ads-cnc")).args(["report", &json]).output();
         assert_eq!(text(&again.unwrap().stdout).lines().next(), Some(line));

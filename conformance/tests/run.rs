@@ -293,10 +293,7 @@ fn a_file_that_lets_nothing_be_written_is_said() {
     };
     let (own, later) = (serve.net_id.as_str(), "9999-12-31T23:59:59Z");
     let found = said(own, "2020-01-01T00:00:00Z", "V.E.Testvar");
-    assert!(
-        found.contains("nothing is written: the file of --allow-write was good until"),
-        "{found}"
-    );
+    assert!(found.contains("nothing is written: the file of --allow-write expires at"), "{found}");
     let found = said("192.0.2.77.1.1", later, "V.E.Testvar");
     assert!(found.contains("is for 192.0.2.77.1.1, not for 127.0.0.1.1.1"), "{found}");
     let found = said(own, later, "V.E.nothere");

@@ -287,7 +287,7 @@ fn an_object_is_allowed_by_its_name() {
     assert_eq!(device.call(&other).status.code(), Some(4));
 }
 
-/// A file that is for another device, or was good until yesterday, allows nothing.
+/// A file that is for another device, or that expired yesterday, allows nothing.
 #[test]
 fn a_file_is_for_one_device_and_some_time() {
     let device = Device::start(&[]);

@@ -1,7 +1,7 @@
 //! A point in time, from outside: nothing here looks at a clock but [`Moment::now`].
 
 use std::fmt;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use toml::value::{Date, Datetime, Offset, Time};
 
@@ -29,6 +29,13 @@ impl Moment {
         // Before 1970 everything is yet to expire, and so nothing may be: as late as can be.
         let since = SystemTime::now().duration_since(UNIX_EPOCH);
         Self(since.map_or(i64::MAX, |time| i64::try_from(time.as_secs()).unwrap_or(i64::MAX)))
+    }
+
+    /// The moment this much later; parts of a second count as a whole one.
+    #[must_use]
+    pub fn after(self, time: Duration) -> Self {
+        let seconds = time.as_secs().saturating_add(u64::from(time.subsec_nanos() > 0));
+        Self(self.0.saturating_add(i64::try_from(seconds).unwrap_or(i64::MAX)))
     }
 
     /// A date and a time with an offset from UTC, as in RFC 3339.

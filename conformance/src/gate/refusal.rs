@@ -64,7 +64,7 @@ pub enum Reason {
     },
     /// The file is for 127.0.0.1.1.1, which is the local machine, and the address is another's.
     LocalNetId(Option<IpAddr>),
-    /// The file was good until then.
+    /// The file expires at this time.
     Expired(Moment),
     /// The file names what is to be written, but what the device says of it leaves open whether the
     /// handle or the address is that of something else.
@@ -145,8 +145,8 @@ impl Refusal {
                  malformed = true"
             ),
             (Reason::Doubtful(..), _) => {
-                "A variable can be written by its name; an object by its group and offset, if the \
-                 file has them."
+                "A variable can be written by its name. An object that shares its address with \
+                 another one cannot be written."
                     .to_owned()
             }
             (Reason::Expired(_), _) => {
@@ -217,7 +217,7 @@ impl fmt::Display for Refusal {
                 write!(f, "no file permits malformed requests to {target}")
             }
             Reason::Expired(moment) => {
-                write!(f, "the file of --allow-write was good until {moment}")
+                write!(f, "the file of --allow-write expires at {moment}")
             }
         }
     }

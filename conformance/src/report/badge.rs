@@ -4,7 +4,8 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::model::Report;
+use super::model::{LeftChanged, Report};
+use crate::child::front;
 use crate::verdict::{Exit, Verdict};
 
 /// As shields.io reads it from an endpoint; it takes no other keys.
@@ -19,7 +20,8 @@ struct Badge {
 }
 
 /// Writes a badge as shields.io reads it from an endpoint: the suite's version, how the run ended,
-/// the editions and, if any, the waivers. There is no room for more.
+/// the editions and, if any, the waivers. A value that was left changed is named; of several the
+/// first is, with their number.
 ///
 /// # Errors
 /// Those of `out`.
@@ -41,12 +43,24 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let numbers = numbers.into_iter().chain([(waived, "waived")]).filter(|(number, _)| *number > 0);
     let numbers = numbers.map(|(number, what)| format!(", {number} {what}"));
     let numbers: String = numbers.collect();
+    let left = match report.left_changed.as_slice() {
+        [] => String::new(),
+        [only] => format!(": {}", shown(only)),
+        [first, more @ ..] => format!(": {} and {} more", shown(first), more.len()),
+    };
     let badge = Badge {
         schema_version: 1,
         label: format!("ads-cnc {}", report.suite),
-        message: format!("{word}{numbers} ({})", report.editions.join(", ")),
+        message: format!("{word}{left}{numbers} ({})", report.editions.join(", ")),
         color,
         is_error: report.exit() == Exit::Internal,
     };
     super::json::write(&badge, out)
+}
+
+/// The name and the values, each cut to what a badge has room for.
+fn shown(left: &LeftChanged) -> String {
+    let cut = |text: &str| front(text, 40);
+    let is = left.is.as_deref().map_or_else(|| "not known".to_owned(), cut);
+    format!("{}, was {}, is {is}", cut(&left.name), cut(&left.was))
 }

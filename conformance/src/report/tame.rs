@@ -72,9 +72,9 @@ impl Report {
         {
             all([test, requirement, reason, expires]);
         }
-        for LeftChanged { name, was, is } in left_changed {
+        for LeftChanged { name, was, is, refused } in left_changed {
             all([name, was]);
-            all(is);
+            all(is.iter_mut().chain(refused));
         }
         for SubjectReport { subject: _, totals: _, waived: _, areas } in subjects {
             for AreaReport { area, totals: _, requirements } in areas {

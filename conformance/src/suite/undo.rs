@@ -13,7 +13,7 @@ use super::inventory::OBJECTS_MAX;
 use super::place::{Place, Trial, same};
 use super::probe::Probe;
 use crate::exchange::{Exchange, Fault};
-use crate::gate::Entry;
+use crate::gate::{Entry, Moment};
 use crate::report::{LeftChanged, tame};
 
 /// How often a value is written back.
@@ -21,6 +21,9 @@ const WRITES_MAX: u32 = 5;
 
 /// Before the second time; twice as long before each that follows.
 const PAUSE: Duration = Duration::from_millis(200);
+
+/// The most requests that a case sends while a value is changed, and that restoring it takes.
+const REQUESTS_MAX: u32 = 60;
 
 /// Values that were changed and not yet seen as they were; those that could not be restored stay.
 /// Clones share them: what ends the process looks at them too.
@@ -40,6 +43,8 @@ struct Change {
     was: Vec<u8>,
     /// What it was last written or read as.
     is: Option<Vec<u8>>,
+    /// Why the gate did not let the last restoring write pass.
+    refused: Option<String>,
     /// Whether it could not be restored.
     given_up: bool,
 }
@@ -52,6 +57,7 @@ impl Changes {
             name: tame(&change.what),
             was: Hex(change.was.clone()).to_string(),
             is: change.is.as_ref().map(|is| Hex(is.clone()).to_string()),
+            refused: change.refused.as_deref().map(tame),
         });
         left.collect()
     }
@@ -101,6 +107,7 @@ impl Probe<'_> {
         change: impl FnOnce(&mut Self) -> Step,
         restore: impl FnOnce(&mut Self) -> Step<bool>,
     ) -> Step {
+        self.check_time_to_restore()?;
         let by_name = match (place, trial.name) {
             (Place::Handle { channel, indices, .. }, Some(name)) => {
                 let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
@@ -117,6 +124,7 @@ impl Probe<'_> {
             is_text: trial.is_text,
             was: was.to_vec(),
             is: None,
+            refused: None,
             given_up: false,
         });
         let changed = change(self);
@@ -129,6 +137,20 @@ impl Probe<'_> {
         };
         let put_back = self.put_back();
         changed.and(restored).and(put_back)
+    }
+
+    /// Changes nothing shortly before the file expires that permits it: the value could not be
+    /// restored.
+    fn check_time_to_restore(&self) -> Step {
+        let client = &self.session.client;
+        let target = client.target();
+        // Each request may wait for a connection and for an answer.
+        let time = target.timeout.saturating_mul(2).saturating_mul(REQUESTS_MAX);
+        let end = Moment::now().after(time);
+        client.gate().check_target(target.net_id, end).map_err(|why| {
+            let time = time.as_secs();
+            Stop::Refused(format!("restoring a value may take {time} s, and {why}"))
+        })
     }
 
     /// Restores all that is changed, the last change first; also if the run is interrupted and if
@@ -173,8 +195,9 @@ impl Probe<'_> {
                 written |= self.write_back(&mut change);
             }
         }
-        let mut all = changes.all();
-        all.iter_mut().filter(|one| one.place == place).for_each(|one| one.given_up = true);
+        for one in changes.all().iter_mut().filter(|one| one.place == place) {
+            (one.given_up, one.refused) = (true, change.refused.clone());
+        }
         Err(Stop::Inconclusive(format!("{} could not be restored", change.what)))
     }
 
@@ -194,6 +217,10 @@ impl Probe<'_> {
             self.ask_again(change);
             sent = send(self, change);
         }
+        change.refused = match sent.as_ref().map(|sent| &sent.outcome) {
+            Some(Err(Fault::Refused(why))) => Some(why.to_string()),
+            _ => None,
+        };
         sent.is_some_and(|sent| sent.answer().is_some_and(|answer| answer.success().is_some()))
     }
 

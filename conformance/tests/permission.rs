@@ -1,0 +1,198 @@
+//! What a file for `--allow-write` permits, and for how long. The commands are those of a user; what
+//! is written is seen in the simulated CNC.
+
+mod common;
+
+use std::collections::BTreeSet;
+use std::process::{Command, Output, Stdio};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Duration;
+
+use ads_cnc::ads::{AdsError, Command as AdsCommand};
+use ads_cnc_conformance::gate::Moment;
+use common::Serve;
+use common::fake::{Answer, fake};
+use common::file::TestFile;
+use common::proxy::{Deed, is_write, proxy};
+
+fn tool(args: &[&str]) -> Output {
+    let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
+    tool.args(args).stdin(Stdio::null()).output().unwrap()
+}
+
+fn against(addr: &str, args: &[&str]) -> Output {
+    tool(&[args, &["--target", addr, "--net-id", "127.0.0.1.1.1"]].concat())
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// A file that expires after so many seconds.
+fn expiring(table: &str, seconds: u64) -> TestFile {
+    let at = Moment::now().after(Duration::from_secs(seconds));
+    let head = format!("target = \"127.0.0.1.1.1\"\nexpires = {at}\n");
+    TestFile::new(".toml", format!("{head}{table}").as_bytes())
+}
+
+const VARIABLE: &str = "[[variable]]\nchannel = 1\nname = \"V.E.vartest\"\n";
+
+/// Names, channels, ranks and axes that are not those of the variable.
+#[test]
+fn another_name_permits_nothing() {
+    let cnc = Serve::start(&[]);
+    let names = [
+        "v.e.vartest",
+        "V.E.VARTEST",
+        "V.E.vartes",
+        "V.E.vartest2",
+        "V.E.vartest ",
+        " V.E.vartest",
+        "V.E.vartest.",
+        "V.E.vartest.x",
+        "V.E.vartest[0]",
+        "V.E.vartest[",
+        "V.E.vartest\\u0000",
+        "V.E.vartest\\u0000x",
+        "\\uFEFFV.E.vartest",
+        "V.E.var?est",
+        "V.E.*",
+        "V.E.",
+        "V.E",
+        "V.",
+        "*",
+        "",
+        ".*",
+        "V.G.vartest",
+        "vartest",
+    ];
+    let of = |name: &str| format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n");
+    let mut tables: Vec<String> = names.iter().map(|name| of(name)).collect();
+    for at in ["channel = 2", "rank = 1", "channel = 1\naxis = 1"] {
+        tables.push(format!("[[variable]]\n{at}\nname = \"V.E.vartest\"\n"));
+    }
+    for kind in ["object", "stream", "service"] {
+        let name = if kind == "object" { "name = \"V.E.vartest\"\n" } else { "" };
+        tables.push(format!("[[{kind}]]\nchannel = 1\n{name}"));
+    }
+    for table in &tables {
+        let file = TestFile::allowing(table);
+        let set = ["set", "V.E.vartest", "1", "--allow-write", file.path()];
+        let refused = against(&cnc.addr, &set);
+        // Some of them are no names, so that the file is rejected as a whole.
+        assert!(matches!(refused.status.code(), Some(2 | 4)), "{table}: {refused:?}");
+        assert!(!refused.stderr.is_empty(), "{table}");
+        let value = against(&cnc.addr, &["get", "V.E.vartest"]);
+        assert!(text(&value.stdout).contains("4711"), "{table}: {}", text(&value.stdout));
+    }
+    let file = TestFile::allowing(VARIABLE);
+    let set = against(&cnc.addr, &["set", "V.E.vartest", "1", "--allow-write", file.path()]);
+    assert_eq!(set.status.code(), Some(0), "{}", text(&set.stderr));
+}
+
+/// A file that is not there is wrong usage, also of a command that asks the simulated CNC.
+#[test]
+fn a_file_that_is_not_there_is_said() {
+    let program = TestFile::new(".nc", b"N10 G01 X1\r\n");
+    let commands: [&[&str]; 4] = [
+        &["run", "--list"],
+        &["set", "V.E.vartest", "1"],
+        &["stream", program.path()],
+        &["service", "--uuid", "8d7bb24e-4ca5-4d36-8a60-6b9b4d39fb0e", "--", "true"],
+    ];
+    for command in commands {
+        let (name, rest) = command.split_first().unwrap();
+        let ended = tool(&[&[*name, "--allow-write", "/no/such/file.toml"], rest].concat());
+        assert_eq!(ended.status.code(), Some(2), "{command:?}: {}", text(&ended.stderr));
+        assert!(text(&ended.stderr).contains("/no/such/file.toml"), "{}", text(&ended.stderr));
+    }
+}
+
+/// A stream ends in the second in which its file expires, and says which lines were taken.
+#[test]
+fn a_stream_ends_when_its_file_expires() {
+    let packets = Arc::new(Mutex::new(0));
+    let count = Arc::clone(&packets);
+    let addr = fake(move |_, _| {
+        *count.lock().unwrap() += 1;
+        thread::sleep(Duration::from_millis(400));
+        Answer::Result(AdsError::NONE)
+    });
+    // 17 packets.
+    let program: String = (0..1000).map(|line| format!("N{line}0 G01 X{line}\n")).collect();
+    let (program, file) = (TestFile::new(".nc", program.as_bytes()), expiring(STREAM, 3));
+    let args = ["stream", program.path(), "--allow-write", file.path()];
+    let ended = against(&addr.to_string(), &args);
+    let said = text(&ended.stderr);
+    assert_eq!(ended.status.code(), Some(4), "{said}");
+    assert!(said.contains("the file of --allow-write expires at "), "{said}");
+    let packets = *packets.lock().unwrap();
+    assert!((2..10).contains(&packets), "{packets}");
+    let shown = text(&ended.stdout);
+    assert!(shown.contains("has taken lines 1 to "), "{shown}");
+    assert!(shown.ends_with(" to 1000\n") && shown.contains("not sent or not taken"), "{shown}");
+}
+
+const STREAM: &str = "[[stream]]\nchannel = 1\n";
+
+/// No value is changed that may not be restored in the time that the file has left.
+#[test]
+fn nothing_is_changed_shortly_before_the_file_expires() {
+    let (cnc, json) = (Serve::start(&[]), TestFile::new(".json", b""));
+    let file = expiring(VARIABLE, 60);
+    let addr = proxy(cnc.addr.parse().unwrap(), |frame| {
+        // 4711 may be written: it is there already.
+        let changes = is_write(frame) && !frame.data().ends_with(&4711_u16.to_le_bytes());
+        if changes { Deed::Reject } else { Deed::Pass }
+    });
+    let run = ["run", "--seed", "1", "--only", "write-by-name", "--timeout", "1000"];
+    let rest = ["--allow-write", file.path(), "--json", json.path()];
+    let ended = against(&addr.to_string(), &[&run[..], &rest].concat());
+    assert_eq!(ended.status.code(), Some(4), "{}", text(&ended.stdout));
+    let report = std::fs::read_to_string(&json.0).unwrap();
+    assert!(report.contains("restoring a value may take 120 s, and the file"), "{report}");
+    assert!(!report.contains("\"fail\""), "{report}");
+}
+
+const PROFILE: &str = r#"
+name = "<script>\u001b[2J"
+edition = "de-1.051"
+ports = [551, 552, 553]
+channels = [1, 255, 254, 2, 3]
+absent-channel = 7
+platform-axes = 255
+spindles = 255
+empty-places = [[1, 255], [255, 1]]
+kinds = ["V.G", "V.E", "V.A"]
+by-name-only = ["V.E.vartest", "V.E.test", "V.E.no_such"]
+printed-examples = true
+unwritten = []
+"#;
+
+/// A profile is a claim about a device. Whatever it claims, queries are all that is sent, to the
+/// tasks of a CNC.
+#[test]
+fn a_hostile_profile_provokes_no_write() {
+    let cnc = Serve::start(&[]);
+    let seen = Arc::new(Mutex::new(BTreeSet::new()));
+    let keep = Arc::clone(&seen);
+    let addr = proxy(cnc.addr.parse().unwrap(), move |frame| {
+        let header = frame.header();
+        keep.lock().unwrap().insert((header.command.0, header.target.port.0));
+        Deed::Pass
+    });
+    let profile = TestFile::new(".toml", PROFILE.as_bytes());
+    let run = ["run", "--seed", "1", "--profile", profile.path(), "--deadline", "60"];
+    let ended = against(&addr.to_string(), &run);
+    assert!(matches!(ended.status.code(), Some(1 | 3)), "{}", text(&ended.stderr));
+    let seen = seen.lock().unwrap();
+    assert!(seen.len() > 5, "{seen:?}");
+    for (command, port) in seen.iter() {
+        // ReadWrite asks by name; the gate's own test tells the functions apart.
+        let reads = [AdsCommand::READ_DEVICE_INFO, AdsCommand::READ, AdsCommand::READ_STATE];
+        let asks = reads.iter().any(|read| read.0 == *command);
+        assert!(asks || *command == AdsCommand::READ_WRITE.0, "{seen:?}");
+        assert!((551..=553).contains(port), "{seen:?}");
+    }
+}
