@@ -23,17 +23,39 @@ pub(crate) fn came() -> bool {
     CAME.load(Ordering::SeqCst)
 }
 
+/// SIGSTKFLT, SIGPWR and the real-time signals end a process too. Their numbers are Linux's.
+#[cfg(unix)]
+fn numbered() -> impl Iterator<Item = i32> {
+    let is_linux = cfg!(all(
+        target_os = "linux",
+        any(
+            target_arch = "x86_64",
+            target_arch = "x86",
+            target_arch = "aarch64",
+            target_arch = "arm"
+        )
+    ));
+    [16, 30].into_iter().chain(34..=64).filter(move |_| is_linux)
+}
+
 /// Those that a terminal, a service manager, a timer or a limit sends; whichever ends the process
 /// and can be caught.
 #[cfg(unix)]
 fn on_signals(handler: impl Fn() + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::signal::{
-        SIGALRM, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ,
+        SIGABRT, SIGALRM, SIGHUP, SIGINT, SIGIO, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP,
+        SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ,
     };
 
-    let all =
-        [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGALRM, SIGVTALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ];
+    let all = [
+        SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2,
+        SIGXCPU, SIGXFSZ, SIGIO, SIGSYS, SIGTRAP,
+    ];
     let mut signals = signal_hook::iterator::Signals::new(all)?;
+    for signal in numbered() {
+        // A C library may keep one for itself.
+        let _kept = signals.add_signal(signal);
+    }
     std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
         signals.forever().for_each(|_| handler());
     })?;

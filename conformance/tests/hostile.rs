@@ -361,8 +361,9 @@ fn a_testee_that_says_much() {
         (120_000, "a", r#"{"seq":%s,"reject":{"class":"%s","message":"%s"}}"#),
         (250_000, "a", r#"{"seq":%s,"ok":{"value":"%s"}}"#),
         (300_000, "a", r#"{"seq":%s,"error":{"message":"%s"}}"#),
-        // The most memory for a byte of JSON: 250 kB of small objects.
-        (31_000, r#"{"a":1},"#, r#"{"seq":%s,"ok":{"value":[%s0]}}"#),
+        // The most memory for a byte of JSON.
+        (4000, r#"{"a":1},"#, r#"{"seq":%s,"ok":{"value":[%s0]}}"#),
+        (500, r#"{"a":1},"#, r#"{"seq":%s,"ok":{"value":[%s0]}}"#),
     ] {
         let script = format!(
             "#!/bin/sh\nlong=$(head -c {bytes} /dev/zero | sed 's/\\x00/{of}/g')\nread -r hello\n\
@@ -472,23 +473,25 @@ fn captured(count: u32, answer: impl Fn(u32, &AmsHeader) -> Option<AmsHeader>) -
     file
 }
 
-/// Requests of 60 kB that nobody answers, on one connection or on many that stay open.
+/// Long and short requests that nobody answers, on one connection or on many that stay open.
 #[test]
 fn requests_without_answers_are_forgotten() {
-    for connections in [1, 200, 1800_u16] {
+    for (connections, requests, bytes) in
+        [(1, 1800_u32, 60_000_u32), (200, 1800, 60_000), (1800, 1800, 60_000), (80, 320_000, 4)]
+    {
         let file = TestFile::new(".pcapng", b"");
         let mut capture = Capture::create(&file.0).unwrap();
         let end = |port| SocketAddr::from(([127, 0, 0, 1], port));
         let ams =
             |port| ads_cnc::ads::AmsAddr { net_id: NET_ID, port: ads_cnc::ads::AmsPort(port) };
-        let mut payload = vec![0; 60_012];
-        payload[8..12].copy_from_slice(&60_000_u32.to_le_bytes());
-        for number in 0..1800_u16 {
-            if number % (1800 / connections) == 0 {
-                capture.opened(end(50_000 + number), end(48898));
+        let mut payload = vec![0; 12 + bytes as usize];
+        payload[8..12].copy_from_slice(&bytes.to_le_bytes());
+        for number in 0..requests {
+            if number % (requests / connections) == 0 {
+                let opened = u16::try_from(number / (requests / connections)).unwrap();
+                capture.opened(end(50_000 + opened), end(48898));
             }
-            let header =
-                AmsHeader::request(ams(552), ams(0x8000), AdsCommand::WRITE, number.into());
+            let header = AmsHeader::request(ams(552), ams(0x8000), AdsCommand::WRITE, number);
             capture.sent(&FrameRef::new(header, &payload).unwrap().to_vec().unwrap());
         }
         capture.finish().unwrap();

@@ -145,7 +145,7 @@ fn a_signal_at_any_write_leaves_nothing_changed() {
         scope.spawn(|| each("TERM", &mut (1..=25)));
         scope.spawn(|| each("HUP", &mut [2, 5, 8].into_iter()));
         scope.spawn(|| each("QUIT", &mut [2, 6].into_iter()));
-        scope.spawn(|| each("ALRM", &mut [2].into_iter()));
+        scope.spawn(|| each("PROF", &mut [2].into_iter()));
     });
 }
 
@@ -204,6 +204,38 @@ fn a_lost_or_rejected_restore_is_repeated() {
             assert_eq!(writes.len(), expected, "{what} {case} {deed:?}");
         }
     }
+}
+
+/// A device that says it restores a value, does not, and loses the answer to one of the reads that
+/// follow: that read shows nothing.
+#[test]
+fn a_lost_read_does_not_pass_for_a_value_that_moves() {
+    thread::scope(|scope| {
+        for (what, table, case) in ways() {
+            for lost in 0..3 {
+                let bench = Bench { timeout: 200, ..Bench::start(&table) };
+                scope.spawn(move || lost_read(&bench, lost, (what, case)));
+            }
+        }
+    });
+}
+
+fn lost_read(bench: &Bench, lost: usize, (what, case): (&str, &str)) {
+    let (mut writes, mut reads) = (0, 0);
+    let addr = proxy(bench.server.addr(), move |frame| {
+        writes += usize::from(is_write(frame));
+        reads += usize::from(!is_write(frame) && writes > 2);
+        match (is_write(frame), writes) {
+            (true, 3..) => Deed::Pretend,
+            (false, 3..) if reads == lost + 1 => Deed::Lose,
+            _ => Deed::Pass,
+        }
+    });
+    let output = bench.tool(addr, &[case]).output().unwrap();
+    let (shown, said) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(6), "{what} {case} {lost}: {shown}{said}");
+    let last = said.lines().last().unwrap();
+    assert!(last.starts_with(&format!("LEFT CHANGED: {what}")), "{case} {lost}: {said}");
 }
 
 /// One that is never done is given up after a bounded number of tries, and said at every place.

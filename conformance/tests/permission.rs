@@ -151,7 +151,7 @@ fn nothing_is_changed_shortly_before_the_file_expires() {
     let ended = against(&addr.to_string(), &[&run[..], &rest].concat());
     assert_eq!(ended.status.code(), Some(4), "{}", text(&ended.stdout));
     let report = std::fs::read_to_string(&json.0).unwrap();
-    assert!(report.contains("restoring a value may take 120 s, and the file"), "{report}");
+    assert!(report.contains("restoring a value may take 128 s, and the file"), "{report}");
     assert!(!report.contains("\"fail\""), "{report}");
 }
 

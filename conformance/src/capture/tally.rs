@@ -56,6 +56,8 @@ pub struct Tally {
     pub unanswered: u64,
     /// Those among them that were forgotten, because too many or too long ones waited.
     pub forgotten: u64,
+    /// Names, objects and elements that were not kept, because 24 MiB were.
+    pub unkept: u64,
     /// Answers of which no request was seen.
     pub unasked: u64,
     /// Frames whose rest never came.
@@ -96,6 +98,7 @@ impl Tally {
                 self.forgotten,
                 "of them forgotten: more than 4096 on a connection, or 16 MiB, waited",
             ),
+            (self.unkept, "names, objects and elements not compared: 24 MiB of them are kept"),
             (self.unasked, "answers to no request that was captured"),
             (self.unfinished, "frames unfinished when the connection or the capture ended"),
             (self.router, "messages to a local router, not judged"),

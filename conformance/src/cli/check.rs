@@ -78,8 +78,8 @@ What is read:
 Limits:
   A record of 8 MiB; 1024 connections at the same time; 1 MiB of one direction that waits for what is
   missing before it; 32 MiB of all connections that wait; frames of 4 MiB; 4096 requests of a
-  connection without an answer, and 512 with one invoke ID that are looked at for an answer; 65536
-  names, objects or elements of each sort; 10000 vectors.
+  connection without an answer, and 512 with one invoke ID that are looked at for an answer; 24 MiB of
+  names, objects and elements; 10000 vectors.
 
 What is taken out of vectors:
   AMS NetIds, TCP and IP addresses, the client's AMS port, invoke IDs. Unless --keep-texts is given,

@@ -60,6 +60,15 @@ struct Objects {
 }
 
 impl Learnt {
+    /// Forgets what lets writes pass; names that the file does not have are kept.
+    pub(super) fn forget(&mut self) {
+        self.variables.clear();
+        self.lists.clear();
+        self.handles.values_mut().for_each(|named| named.allowed.clear());
+        self.handles.retain(|_, named| named.foreign.is_some() || named.of_axis.is_some());
+        self.kept = self.handles.len().saturating_add(self.contents.len());
+    }
+
     /// Whether a reply gave this handle to any name, as far as all of them are kept.
     pub(super) fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
         self.full || self.handles.contains_key(&(channel, handle.0))

@@ -217,9 +217,10 @@ impl Gate {
         self.learnt.knows_handle(channel, handle)
     }
 
-    /// Forgets what answers said: whoever answers next may be another.
+    /// Forgets what would let writes pass, as the next answers may come from another device. What
+    /// keeps writes from passing stays.
     pub fn forget(&mut self) {
-        self.learnt = Learnt::default();
+        self.learnt.forget();
     }
 
     /// Whether it can be repeated.

@@ -144,11 +144,13 @@ impl Refusal {
                  expires = …  # a date and time such as 2026-05-04T17:30:00+02:00\n\
                  malformed = true"
             ),
-            (Reason::Doubtful(..), _) => {
-                "A variable can be written by its name. An object that shares its address with \
-                 another one cannot be written."
-                    .to_owned()
+            (Reason::Doubtful(Function::WriteObject, Doubt::Shared(_)), _) => {
+                "An object that shares its address with another one cannot be written.".to_owned()
             }
+            (Reason::Doubtful(Function::WriteObject, _), _) => {
+                "An object can be written by its group and offset, if the file has them.".to_owned()
+            }
+            (Reason::Doubtful(..), _) => "A variable can be written by its name.".to_owned(),
             (Reason::Expired(_), _) => {
                 "See whether nothing can come to harm, and set another time.".to_owned()
             }

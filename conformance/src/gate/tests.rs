@@ -382,10 +382,31 @@ fn what_is_learnt_is_bounded() {
     }
     assert!(gate.check(&by_name("V.E.a"), now()).is_ok());
     assert!(gate.knows_handle(channel(1), Handle(2)));
+    // It stays closed on another connection too: what was not kept is not known there.
     gate.forget();
     describe(&mut gate, "V.E.a", 7);
     give_handle(&mut gate, "V.E.a", 7);
+    assert!(gate.check(&by_handle(7), now()).is_err());
+}
+
+/// Another connection confirms a handle anew. A foreign name of a handle is not forgotten.
+#[test]
+fn another_connection_forgets_what_lets_writes_pass() {
+    let confirm = |gate: &mut Gate, handle| {
+        give_handle(gate, "V.E.a", handle);
+        describe(gate, "V.E.a", handle);
+    };
+    let mut gate = gate("[[variable]]\nchannel = 1\nname = \"V.E.a\"");
+    give_handle(&mut gate, "V.E.other", 8);
+    confirm(&mut gate, 7);
     assert!(gate.check(&by_handle(7), now()).is_ok());
+    gate.forget();
+    assert!(gate.check(&by_handle(7), now()).is_err());
+    confirm(&mut gate, 7);
+    assert!(gate.check(&by_handle(7), now()).is_ok());
+    gate.forget();
+    confirm(&mut gate, 8);
+    assert_eq!(doubt(&gate, &by_handle(8)), Some(Doubt::Shared("V.E.other".parse().unwrap())));
 }
 
 #[test]

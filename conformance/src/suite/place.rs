@@ -108,10 +108,11 @@ impl Probe<'_> {
         }
     }
 
-    /// Whether what is there is another from one look to the next, whoever writes.
+    /// Whether a value changes by itself between two reads. A read without an answer does not show
+    /// that.
     pub(super) fn moves(&mut self, place: &Place) -> Step<bool> {
-        let first = self.value_at(place)?;
-        Ok(self.value_at(place)? != first)
+        let (first, second) = (self.value_at(place)?, self.value_at(place)?);
+        Ok(first.is_some() && second.is_some() && first != second)
     }
 
     /// Whether this place may be written, and is not to be left alone.

@@ -208,6 +208,9 @@ impl<'s> Probe<'s> {
             self.interrupted = true;
             return Err(Stop::Interrupted);
         }
+        if self.session.changes.any_pending() {
+            self.check_time_to_restore()?;
+        }
         if let Some(deadline) = self.deadline.filter(Deadline::is_over) {
             return Err(Stop::Inconclusive(deadline.to_string()));
         }

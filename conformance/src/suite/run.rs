@@ -2,7 +2,7 @@
 
 use std::panic::{self, AssertUnwindSafe};
 
-use super::case::{Body, Case, Needs, Stop, Subject};
+use super::case::{Body, Case, Needs, Step, Stop, Subject};
 use super::outcome::Outcome;
 use super::probe::Probe;
 use super::session::Session;
@@ -38,7 +38,8 @@ pub fn run(
     };
     outcomes.extend(target.into_iter().map(|case| one(case, session.as_deref_mut())));
     if let Some(session) = session {
-        Probe::new(session).put_back_rest();
+        // What a panic here leaves changed is reported as such.
+        let _panic = caught(|| Probe::new(session).put_back_rest());
     }
     outcomes
 }
@@ -69,24 +70,28 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
     }
     // What a case has changed is restored after the deadline too.
     let mut probe = Probe::new(session).with_deadline(late);
-    let begun = panic::catch_unwind(AssertUnwindSafe(|| match case.body {
+    let begun = caught(|| match case.body {
         Body::Probe(body) => body(&mut probe),
         Body::Printed(vector) => printed::ask(&mut probe, vector),
         Body::Sequence(sequence) => replay::run(&mut probe, sequence),
         Body::Vector(_) | Body::Manners | Body::Client | Body::Traffic => {
             Err(Stop::Harness("this case needs no target".to_owned()))
         }
-    }));
+    });
     let step = match begun {
         Ok(Ok(())) if probe.interrupted => Err(Stop::Interrupted),
-        Ok(step) => step,
-        // Its message is on stderr.
-        Err(_) => Err(Stop::Harness("the case panicked".to_owned())),
+        Ok(step) | Err(step) => step,
     };
-    let step = step.and(probe.put_back());
+    let step = step.and(caught(|| probe.put_back()).unwrap_or_else(|panicked| panicked));
     let step = probe.end(step);
     let (judgements, checks) = probe.into_findings();
     Outcome::tried(case, judgements, checks, step.err())
+}
+
+/// What a panic is to a case; its message is on stderr.
+fn caught<T>(run: impl FnOnce() -> T) -> Result<T, Step> {
+    panic::catch_unwind(AssertUnwindSafe(run))
+        .map_err(|_| Err(Stop::Harness("the case panicked".to_owned())))
 }
 
 #[cfg(test)]

@@ -22,8 +22,12 @@ const WRITES_MAX: u32 = 5;
 /// Before the second time; twice as long before each that follows.
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// The most requests that a case sends while a value is changed, and that restoring it takes.
+/// The most requests that restoring a value takes, but for the lists of objects that are read again on
+/// another connection.
 const REQUESTS_MAX: u32 = 60;
+
+/// The pauses between restoring writes together, which are made twice.
+const PAUSES: Duration = Duration::from_secs(8);
 
 /// Values that were changed and not yet seen as they were; those that could not be restored stay.
 /// Clones share them: what ends the process looks at them too.
@@ -60,6 +64,11 @@ impl Changes {
             refused: change.refused.as_deref().map(tame),
         });
         left.collect()
+    }
+
+    /// Whether a value is changed that is still to be restored.
+    pub(super) fn any_pending(&self) -> bool {
+        self.last().is_some()
     }
 
     /// Whether something could not be restored.
@@ -139,13 +148,14 @@ impl Probe<'_> {
         changed.and(restored).and(put_back)
     }
 
-    /// Changes nothing shortly before the file expires that permits it: the value could not be
-    /// restored.
-    fn check_time_to_restore(&self) -> Step {
+    /// Rejects a change, and any further request of a case that has changed a value, when the file that
+    /// permits it expires before the value could be restored.
+    pub(super) fn check_time_to_restore(&self) -> Step {
         let client = &self.session.client;
         let target = client.target();
         // Each request may wait for a connection and for an answer.
-        let time = target.timeout.saturating_mul(2).saturating_mul(REQUESTS_MAX);
+        let request = target.timeout.saturating_mul(2).saturating_add(target.pace);
+        let time = request.saturating_mul(REQUESTS_MAX).saturating_add(PAUSES);
         let end = Moment::now().after(time);
         client.gate().check_target(target.net_id, end).map_err(|why| {
             let time = time.as_secs();
@@ -186,8 +196,12 @@ impl Probe<'_> {
             let now = self.look(&change);
             changes.is_now(&place, now.as_deref());
             let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
-            // What moves by itself will not be as it was.
-            if is_same || written && now.is_some() && self.look(&change) != now {
+            // A value that changes by itself will not be as it was. Two reads show that.
+            let moves = !is_same && written && now.is_some() && {
+                let next = self.look(&change);
+                next.is_some() && next != now
+            };
+            if is_same || moves {
                 changes.end(&place);
                 return Ok(());
             }

@@ -252,13 +252,16 @@ impl Output {
 /// About what a value of JSON takes beside its text.
 const NODE: usize = 64;
 
+/// About what the map of an object takes, with room for several keys.
+const MAP: usize = 1024;
+
 fn weight(value: &Value) -> usize {
     match value {
         Value::String(text) => text.len(),
         Value::Array(all) => all.iter().map(weight).fold(0, usize::saturating_add),
         Value::Object(all) => {
             let each = all.iter().map(|(key, value)| key.len().saturating_add(weight(value)));
-            each.fold(0, usize::saturating_add)
+            each.fold(if all.is_empty() { 0 } else { MAP }, usize::saturating_add)
         }
         _ => 0,
     }

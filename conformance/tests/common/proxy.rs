@@ -21,6 +21,8 @@ pub(crate) enum Deed {
     LoseAnswer,
     /// The connection ends before the CNC has it.
     Close,
+    /// It is answered as if it was done, and the CNC does not have it.
+    Pretend,
     /// It is answered by an error, and the CNC does not have it.
     Reject,
 }
@@ -49,8 +51,9 @@ fn pass(
     let mut received = Vec::new();
     while let Some(bytes) = frame(&mut client, &mut received)? {
         let (frame, _) = FrameRef::split(&bytes, u32::MAX).unwrap().unwrap();
-        match deed(&frame) {
-            deed @ (Deed::Pass | Deed::LoseAnswer) => {
+        let deed = deed(&frame);
+        match deed {
+            Deed::Pass | Deed::LoseAnswer => {
                 cnc.write_all(&bytes)?;
                 let answer = self::frame(&mut cnc, &mut Vec::new())?;
                 if deed == Deed::Pass {
@@ -59,8 +62,12 @@ fn pass(
             }
             Deed::Lose => {}
             Deed::Close => return Ok(()),
-            Deed::Reject => {
-                let data = WriteReply { result: AdsError::INVALID_ACCESS }.to_vec().unwrap();
+            Deed::Reject | Deed::Pretend => {
+                let result = match deed == Deed::Reject {
+                    true => AdsError::INVALID_ACCESS,
+                    false => AdsError::NONE,
+                };
+                let data = WriteReply { result }.to_vec().unwrap();
                 let reply = FrameRef::new(frame.header().response(), &data).unwrap();
                 client.write_all(&reply.to_vec().unwrap())?;
             }

@@ -12,9 +12,6 @@ use super::super::book::{Scene, Topic};
 use super::Bench;
 use crate::suite::{Checks as _, Rule, assumed, online};
 
-/// Elements that are kept.
-const ELEMENTS_MAX: usize = 0x1_0000;
-
 /// What is known of the elements of a CNC.
 #[derive(Debug, Default)]
 pub(super) struct Elements {
@@ -55,7 +52,7 @@ impl Bench<'_> {
         }
         let Some(key) = key(call) else { return };
         let all = &mut self.cnc.elements.known;
-        if !all.contains_key(&key) && all.len() >= ELEMENTS_MAX {
+        if !all.contains_key(&key) && !self.room.take(0) {
             return;
         }
         let element = all.entry(key).or_default();

@@ -108,12 +108,36 @@ pub(super) struct Judge {
     now: Option<Time>,
     /// The last packet of which a frame came.
     newest: u64,
+    room: Room,
+}
+
+/// Memory for the names, objects and elements of all CNCs.
+#[derive(Debug)]
+struct Room {
+    left: usize,
+    /// How many were not kept.
+    missed: u64,
+}
+
+impl Room {
+    const ALL: usize = 0x180_0000;
+
+    /// Whether there is room for one more, of so many bytes beside what each takes.
+    fn take(&mut self, bytes: usize) -> bool {
+        let left = self.left.checked_sub(bytes.saturating_add(512));
+        match left {
+            Some(left) => self.left = left,
+            None => count(&mut self.missed),
+        }
+        left.is_some()
+    }
 }
 
 /// What a judgement of one exchange needs.
 struct Bench<'j> {
     book: &'j mut Book,
     cnc: &'j mut Cnc,
+    room: &'j mut Room,
 }
 
 /// Whether a frame is for a task of a CNC.
@@ -159,11 +183,13 @@ impl Judge {
             vectors,
             now: None,
             newest: 0,
+            room: Room { left: Room::ALL, missed: 0 },
         }
     }
 
     /// What came of everything.
     pub(super) fn finish(mut self) -> (Vec<Outcome>, Tally, Option<Collector>) {
+        self.tally.unkept = self.room.missed;
         for line in self.tally.lines().into_iter().skip(1) {
             self.book.note(Topic::CncFrames, line);
         }
@@ -281,7 +307,7 @@ impl Judge {
             return;
         }
         let cnc = self.cncs.entry(net_id).or_insert_with(|| Cnc::new(self.is_lost));
-        let mut bench = Bench { book: &mut self.book, cnc };
+        let mut bench = Bench { book: &mut self.book, cnc, room: &mut self.room };
         replies::judge(&mut bench, &scene, &call, answer);
         if let (Some(vectors), Ok(request)) = (&mut self.vectors, call.dispatch()) {
             let known = bench.cnc.variables.described(&request);

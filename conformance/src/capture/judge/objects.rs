@@ -10,9 +10,6 @@ use super::super::book::{Scene, Topic};
 use super::Bench;
 use crate::suite::{Checks as _, Rule, assumed, descriptor_holds_together};
 
-/// Objects of a list that are kept.
-const OBJECTS_MAX: usize = 0x1_0000;
-
 /// What is known of the objects of a CNC.
 #[derive(Debug, Default)]
 pub(super) struct Objects {
@@ -151,7 +148,7 @@ impl Bench<'_> {
             let found =
                 format!("ID {} of object {index}, and of {}", object.id(), other.unwrap_or(0));
             let known = list.known.get(&index).copied();
-            if list.known.len() < OBJECTS_MAX {
+            if known.is_some() || self.room.take(0) {
                 list.ids.insert(object.id(), index);
                 list.known.insert(index, (owned, alone));
             }
@@ -164,8 +161,9 @@ impl Bench<'_> {
                 page.check(rule, known == owned, "the same descriptor", found);
             }
             let place = (object.index_group().get(), object.index_offset().get());
-            if self.cnc.objects.contents.len() < OBJECTS_MAX {
-                self.cnc.objects.contents.insert(
+            let contents = &mut self.cnc.objects.contents;
+            if contents.contains_key(&place) || self.room.take(0) {
+                contents.insert(
                     place,
                     Content {
                         name: object.name().to_string(),

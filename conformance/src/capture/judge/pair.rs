@@ -72,7 +72,15 @@ impl Early {
     }
 }
 
+/// What a request takes beside its bytes while it waits.
+const WAITING_OVERHEAD: usize = 1280;
+
 impl Seen {
+    /// The memory it takes while it waits.
+    fn memory(&self) -> usize {
+        self.frame.len().saturating_add(WAITING_OVERHEAD)
+    }
+
     /// Whether this goes from where a reply goes to, and back.
     fn mirrors(&self, reply: &Self) -> bool {
         self.header.source == reply.header.target && self.header.target == reply.header.source
@@ -105,14 +113,14 @@ impl Judge {
         let connection = seen.way.connection;
         let numbers = self.waiting_of.entry(connection).or_default();
         numbers.insert(seen.number, id);
-        self.waiting_bytes = self.waiting_bytes.saturating_add(seen.frame.len());
+        self.waiting_bytes = self.waiting_bytes.saturating_add(seen.memory());
         while let Some(oldest) = self.oldest_beyond(connection) {
             count(&mut self.tally.unanswered);
             count(&mut self.tally.forgotten);
             self.lost.entry(connection).or_default().joined = true;
             if self.forget((connection, oldest), 0).is_none() {
                 // It is this one: requests of other connections leave no room for it.
-                self.waiting_bytes = self.waiting_bytes.saturating_sub(seen.frame.len());
+                self.waiting_bytes = self.waiting_bytes.saturating_sub(seen.memory());
                 self.waiting_of.entry(connection).or_default().remove(&seen.number);
                 return;
             }
@@ -132,7 +140,7 @@ impl Judge {
     pub(super) fn forget(&mut self, key: (u64, u32), place: usize) -> Option<Seen> {
         let all = self.waiting.get_mut(&key)?;
         let one = all.remove(place)?;
-        self.waiting_bytes = self.waiting_bytes.saturating_sub(one.frame.len());
+        self.waiting_bytes = self.waiting_bytes.saturating_sub(one.memory());
         if all.is_empty() {
             self.waiting.remove(&key);
             self.waiting_ids.remove(&(key.1, key.0));

@@ -5,11 +5,8 @@ use std::collections::BTreeMap;
 use ads_cnc::operation::{Call, Reply, Request};
 
 use super::super::book::{Scene, Topic};
-use super::Bench;
+use super::{Bench, Room};
 use crate::suite::Checks as _;
-
-/// Names that are kept.
-const NAMES_MAX: usize = 0x1_0000;
 
 /// What is known of the dynamic parameters of a CNC.
 #[derive(Debug, Default)]
@@ -20,9 +17,11 @@ pub(super) struct Parameters {
 
 impl Parameters {
     /// Forgets nothing but what changes: indices move (DYN-4), so names are not kept.
-    fn learn(&mut self, group: u32, kind: String, count: u32) {
-        if self.counts.len() < NAMES_MAX {
-            self.counts.insert((group, kind), count);
+    fn learn(&mut self, room: &mut Room, (group, kind): (u32, String), count: u32) {
+        let length = kind.len();
+        let key = (group, kind);
+        if self.counts.contains_key(&key) || room.take(length) {
+            self.counts.insert(key, count);
         }
     }
 }
@@ -39,7 +38,7 @@ impl Bench<'_> {
         let (kind, index) = match request {
             Request::CountDynamic(count) => {
                 if let Some(Reply::DynamicCount(number)) = reply {
-                    self.cnc.parameters.learn(group, count.kind.to_string(), number.0);
+                    self.cnc.parameters.learn(self.room, (group, count.kind.to_string()), number.0);
                 }
                 return;
             }

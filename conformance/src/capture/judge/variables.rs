@@ -9,9 +9,6 @@ use super::super::book::{Scene, Topic};
 use super::Bench;
 use crate::suite::{Checks as _, assumed, holds_together};
 
-/// Variables of a channel that are kept.
-const VARIABLES_MAX: usize = 0x1_0000;
-
 /// Channels that are told apart.
 const CHANNELS_MAX: usize = 512;
 
@@ -30,6 +27,15 @@ struct Channel {
     described: BTreeMap<String, (Description, String, u32)>,
     /// The name of each handle.
     handles: BTreeMap<u32, String>,
+    /// The first handle of each name.
+    names: BTreeMap<String, u32>,
+}
+
+impl Channel {
+    fn handle(&mut self, handle: u32, name: &str) {
+        self.handles.insert(handle, name.to_owned());
+        self.names.entry(name.to_owned()).or_insert(handle);
+    }
 }
 
 /// A variable that a request is about.
@@ -197,8 +203,9 @@ impl Bench<'_> {
         let other = channel.handles.get(&handle).filter(|other| **other != name);
         let found = format!("the handle {handle:#x} of {}", other.map_or("", String::as_str));
         page.check(assumed("VAR-10"), other.is_none(), "a handle of its own", found);
-        if channel.described.len() < VARIABLES_MAX {
-            channel.handles.insert(handle, name.clone());
+        let length = name.len().saturating_add(variable.dimensions.len()).saturating_mul(4);
+        if channel.described.contains_key(&name) || self.room.take(length) {
+            channel.handle(handle, &name);
             channel.described.insert(name, (variable, kind, index));
         }
     }
@@ -215,7 +222,7 @@ impl Bench<'_> {
             format!("{handle:#x}"),
         );
         let Some(channel) = self.cnc.variables.channel(call) else { return };
-        let before = channel.handles.iter().find(|(_, known)| **known == text).map(|(key, _)| *key);
+        let before = channel.names.get(&text).copied();
         let rule = assumed("VAR-10");
         if let Some(before) = before {
             let expected = format!("{before:#x}, as before for {text}");
@@ -224,8 +231,8 @@ impl Bench<'_> {
         let other = channel.handles.get(&handle).filter(|other| **other != text).cloned();
         let found = format!("the handle of {}", other.as_deref().unwrap_or_default());
         page.check(rule, other.is_none(), format!("a handle of {text} alone"), found);
-        if channel.handles.len() < VARIABLES_MAX {
-            channel.handles.insert(handle, text);
+        if before == Some(handle) || self.room.take(text.len().saturating_mul(2)) {
+            channel.handle(handle, &text);
         }
     }
 

@@ -1,6 +1,7 @@
 //! What the gate has to know of a handle before something is written by it.
 
-use ads_cnc::operation::{Function, HandleByName, Request};
+use ads_cnc::CncString;
+use ads_cnc::operation::{DescribeByName, Function, HandleByName, Request};
 
 use super::super::case::Step;
 use super::{Probe, harness};
@@ -25,13 +26,28 @@ impl Probe<'_> {
             self.session.variables.retain(|(channel, _), _| *channel != number);
             self.variables(op.channel)?;
         }
-        if let Err(Some(Refusal { reason: Reason::Doubtful(_, Doubt::Unconfirmed(name)), .. })) =
-            self.check_gate(request)?
+        if let Some(name) = self.unconfirmed(request)?
             && self.claims(Function::HandleByName) != Claim::No
         {
             self.try_ask(HandleByName { channel: op.channel, name: name.as_cnc_str().into() })?;
         }
+        // The descriptions were read on another connection, and the handle was asked for on this one.
+        if let Some(name) = self.unconfirmed(request)?
+            && self.claims(Function::DescribeByName) != Claim::No
+        {
+            self.try_ask(DescribeByName { channel: op.channel, name: name.as_cnc_str().into() })?;
+        }
         Ok(())
+    }
+
+    /// The name of a handle that is not yet confirmed.
+    fn unconfirmed(&self, request: &Request<'_>) -> Step<Option<CncString>> {
+        Ok(match self.check_gate(request)? {
+            Err(Some(Refusal {
+                reason: Reason::Doubtful(_, Doubt::Unconfirmed(name)), ..
+            })) => Some(name),
+            _ => None,
+        })
     }
 
     /// Whether a request could be sent, and why the gate rejects it if that is why not. Nothing is
