@@ -1,17 +1,15 @@
-//! Content of objects and elements (COM-5, SDA-4).
+//! Content of objects and elements.
 
-use crate::bytes_stream::bytes_stream;
-use crate::layout::field::content::CONTENT;
-use crate::limits::ADS_DATA_MAX;
+use crate::declare::stream;
 
-bytes_stream! {
-    #[doc = include_str!("../doc/content.md")]
+stream! {
+    /// The content of an object or of an element.
     ///
     /// What the bytes mean, the object's descriptor or the element's attributes say.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.2 and 2.2.2.
     ///
-    /// `decode` refuses with [`TooLong`](crate::ErrorKind::TooLong).
+    /// `decode` rejects bytes with [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
     /// use ads_cnc::{ContentRef, Decode};
@@ -20,8 +18,8 @@ bytes_stream! {
     /// assert_eq!(ContentRef::decode(&[1])?.bytes, [1]);
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    ContentRef, Content, Content {
-        /// The bytes.
-        bytes: CONTENT, 0 to ADS_DATA_MAX
+    Content "content", "Content of an object or element", "COM-5", max 0x40_0000;
+    struct ContentRef<'a> / Content {
+        @0 bytes "content": BYTES(0, 0x40_0000), "COM-5", "as descriptor or attributes say";
     }
 }

@@ -82,6 +82,12 @@ impl Error {
         Self { kind, field, offset, expected, found }
     }
 
+    /// The same error in a stream that begins at this offset.
+    #[cfg(feature = "binrw")]
+    pub(crate) const fn moved(self, by: u32) -> Self {
+        Self { offset: self.offset.saturating_add(by), ..self }
+    }
+
     /// The class of the error.
     pub const fn kind(&self) -> ErrorKind {
         self.kind

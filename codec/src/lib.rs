@@ -56,6 +56,9 @@
 //!
 //! # Features
 //! - `alloc` (default): the owned readings, and the checks of an NC program.
+//! - `binrw` (default): [`binrw`](https://docs.rs/binrw/0.15)'s `BinRead` and `BinWrite` for the owned
+//!   readings, so that structs of your own can contain them. What `decode` rejects, `read` rejects; a
+//!   stream that ends with its bytes is read to the end of the reader (see `take_seek`).
 //! - `std`: `std` in the dependencies. The crate itself never needs it.
 //! - `arbitrary`: `Arbitrary` for the owned readings.
 
@@ -102,13 +105,17 @@ pub mod text;
 pub mod value;
 mod variable;
 
+#[cfg(feature = "binrw")]
+pub use binrw;
+
 #[cfg(feature = "arbitrary")]
 mod any;
-#[cfg(feature = "alloc")]
-mod bridge;
 mod bytes;
-mod bytes_stream;
+mod declare;
+#[cfg(feature = "binrw")]
+mod io;
 mod number;
+mod rows;
 
 #[cfg(feature = "alloc")]
 pub use com::Descriptors;

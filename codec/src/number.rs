@@ -1,35 +1,34 @@
-//! Streams that are one number.
+//! Codes: numbers on the wire that have names.
 
-/// Declares a stream of one UNS32; the same type reads and owns it.
-macro_rules! number_stream {
-    (
-        $(#[$doc:meta])*
-        $name:ident, $stream:ident, $field:path
-    ) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
-        pub struct $name(pub u32);
-
-        impl<'a> $crate::stream::Decode<'a> for $name {
-            const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
-
-            fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
-                $crate::bytes::Reader::number($field, bytes).map(Self)
+/// Conversions of a code from its number and back.
+macro_rules! from_number {
+    ($( $code:ident ),+) => { $crate::number::from_number!(u32: $($code),+); };
+    ($number:ident: $( $code:ident ),+) => { $(
+        impl From<$number> for $code {
+            #[inline]
+            fn from(number: $number) -> Self {
+                Self(number)
             }
         }
 
-        impl $crate::stream::Encode for $name {
-            fn encoded_len(&self) -> usize {
-                4
+        impl From<$code> for $number {
+            #[inline]
+            fn from(code: $code) -> Self {
+                code.0
             }
+        }
+    )+ };
+}
 
-            fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
-                use $crate::stream::Decode;
-                $crate::bytes::Writer::copy(Self::STREAM, &self.0.to_le_bytes(), buf)
+/// `Debug` as it is derived.
+macro_rules! debug {
+    ($name:ident) => {
+        impl core::fmt::Debug for $name {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                f.debug_tuple(stringify!($name)).field(&self.0).finish()
             }
         }
     };
 }
 
-pub(crate) use number_stream;
+pub(crate) use {debug, from_number};

@@ -10,15 +10,16 @@ use ads_cnc::layout::{FieldSpec, Layout, Size, Stream};
 use ads_cnc::limits::*;
 use common::each_sample;
 
-/// `codec/doc` shows the tables as they are.
+/// `codec/doc` shows the tables that no declaration shows.
 #[test]
 fn documentation_shows_the_tables() {
     let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("doc");
     let write = std::env::var_os("ADS_CNC_WRITE_TABLES").is_some();
     let mut stale = Vec::new();
-    for stream in Stream::all() {
-        let path = dir.join(format!("{stream}.md"));
-        let table = render(stream);
+    for file in std::fs::read_dir(dir).unwrap() {
+        let path = file.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let table = render(Stream::by_name(name).expect("a table of no stream"));
         if write {
             std::fs::write(&path, &table).unwrap();
         } else if std::fs::read_to_string(&path).ok().as_deref() != Some(&table) {
@@ -26,9 +27,6 @@ fn documentation_shows_the_tables() {
         }
     }
     assert!(stale.is_empty(), "run with ADS_CNC_WRITE_TABLES=1 to rewrite {stale:#?}");
-
-    let files = std::fs::read_dir(dir).unwrap().count();
-    assert_eq!(files, Stream::all().count(), "a table of no stream");
 }
 
 fn render(stream: Stream) -> String {

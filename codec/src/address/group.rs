@@ -272,3 +272,5 @@ mod tests {
         assert_eq!(IndexGroup(0x0112_0301).parts(), None);
     }
 }
+
+crate::number::from_number!(IndexGroup);

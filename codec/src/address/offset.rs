@@ -117,3 +117,5 @@ impl fmt::Display for IndexOffset {
         write!(f, "{:#x}", self.0)
     }
 }
+
+crate::number::from_number!(IndexOffset);

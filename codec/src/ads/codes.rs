@@ -117,3 +117,5 @@ impl core::fmt::Debug for AdsError {
         write!(f, "{:#x}", self.0)
     }
 }
+
+crate::number::from_number!(AdsError);

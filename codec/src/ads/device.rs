@@ -1,10 +1,10 @@
 //! What a device says of itself: ReadDeviceInfo and ReadState.
 
-use zerocopy::little_endian::{U16, U32};
-use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
+use zerocopy::IntoBytes as _;
 
 use super::AdsError;
 use crate::bytes::{Reader, Writer};
+use crate::declare::stream;
 use crate::error::Error;
 use crate::layout::Stream;
 use crate::stream::{Decode, Encode};
@@ -53,17 +53,17 @@ impl DeviceInfoReply {
     }
 }
 
-#[derive(FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
-#[repr(C)]
-struct InfoLayout {
-    result: U32,
-    major: u8,
-    minor: u8,
-    build: U16,
-    name: [u8; NAME_LEN],
+stream! {
+    /// The bytes of [`DeviceInfoReply`].
+    DeviceInfoReply "device-info-reply", "ADS ReadDeviceInfo, reply", "ADS-8", max 24;
+    packed InfoLayout {
+        @0 result: UNS32,    "ADS-4", "ADS error number, 0 for success";
+        @4 major: UNS08,     "ADS-8", "first number of the version";
+        @5 minor: UNS08,     "ADS-8", "second number of the version";
+        @6 build: UNS16,     "ADS-8", "third number of the version";
+        @8 name: PADDED(16), "ADS-8", "name of the device";
+    }
 }
-
-const _: () = assert!(size_of::<InfoLayout>() == 24);
 
 impl<'a> Decode<'a> for DeviceInfoReply {
     const STREAM: Stream = Stream::DeviceInfoReply;
@@ -111,66 +111,30 @@ impl AdsState {
     pub const CONFIG: Self = Self(15);
 }
 
-#[doc = include_str!("../../doc/device-state-reply.md")]
-///
-/// The request has no data. A reply whose result is not 0 may stop behind it (ADS-6): then it is a
-/// [`WriteReply`](super::WriteReply).
-///
-/// Source: the vendors' public help pages; the manuals do not describe it.
-///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
-/// [`Trailing`](crate::ErrorKind::Trailing).
-///
-/// ```
-/// use ads_cnc::{Decode, ads::{AdsState, DeviceStateReply}};
-///
-/// let state = DeviceStateReply::decode(&[0, 0, 0, 0, 5, 0, 1, 0])?;
-/// assert_eq!((state.ads_state, state.device_state), (AdsState::RUN, 1));
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
-pub struct DeviceStateReply {
-    /// ADS error number.
-    pub result: AdsError,
-    /// State as ADS knows it.
-    pub ads_state: AdsState,
-    /// State as the device knows it.
-    pub device_state: u16,
-}
-
-#[derive(FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
-#[repr(C)]
-struct StateLayout {
-    result: U32,
-    ads_state: U16,
-    device_state: U16,
-}
-
-const _: () = assert!(size_of::<StateLayout>() == 8);
-
-impl<'a> Decode<'a> for DeviceStateReply {
-    const STREAM: Stream = Stream::DeviceStateReply;
-
-    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let layout = Reader::all(Self::STREAM, bytes)?;
-        let StateLayout { result, ads_state, device_state } = layout;
-        Ok(Self {
-            result: AdsError(result.get()),
-            ads_state: AdsState(ads_state.get()),
-            device_state: device_state.get(),
-        })
+stream! {
+    /// The state of an ADS device: the reply to ReadState.
+    ///
+    /// The request has no data. A reply whose result is not 0 may stop behind it (ADS-6): then it is a
+    /// [`WriteReply`](super::WriteReply).
+    ///
+    /// Source: the vendors' public help pages; the manuals do not describe it.
+    ///
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`Trailing`](crate::ErrorKind::Trailing).
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, ads::{AdsState, DeviceStateReply}};
+    ///
+    /// let state = DeviceStateReply::decode(&[0, 0, 0, 0, 5, 0, 1, 0])?;
+    /// assert_eq!((state.ads_state, state.device_state), (AdsState::RUN, 1));
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    DeviceStateReply "device-state-reply", "ADS ReadState, reply", "ADS-9", max 8;
+    struct DeviceStateReply {
+        @0 result: UNS32 as AdsError,    "ADS-4", "ADS error number, 0 for success";
+        @4 ads_state: UNS16 as AdsState, "ADS-9", "5 RUN, 6 STOP, 15 CONFIG, …";
+        @6 device_state: UNS16,          "ADS-9", "state of the device's own";
     }
 }
 
-impl Encode for DeviceStateReply {
-    fn encoded_len(&self) -> usize {
-        size_of::<StateLayout>()
-    }
-
-    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let (ads_state, device_state) = (self.ads_state.0.into(), self.device_state.into());
-        let layout = StateLayout { result: self.result.0.into(), ads_state, device_state };
-        Writer::copy(Self::STREAM, layout.as_bytes(), buf)
-    }
-}
+crate::number::from_number!(u16: AdsState);

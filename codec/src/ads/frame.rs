@@ -2,11 +2,11 @@
 
 use zerocopy::IntoBytes as _;
 
+use super::header::HeaderLayout;
 use super::{AmsHeader, AmsTcpHeader};
 use crate::bytes::{Writer, to_len, to_u32};
 use crate::error::{Error, ErrorKind};
-use crate::layout::Stream;
-use crate::layout::field::{ams_header, ams_tcp_header};
+use crate::layout::{Field, Stream};
 use crate::limits::{ADS_DATA_MAX, AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use crate::stream::{Decode, Encode};
 
@@ -76,12 +76,12 @@ impl<'a> FrameRef<'a> {
         };
         let tcp = AmsTcpHeader::decode(tcp)?;
         if tcp.reserved != 0 {
-            let field = ams_tcp_header::RESERVED;
+            let field = const { Field::of::<AmsTcpHeader>("reserved") };
             return Err(Error::new(ErrorKind::Mismatch, field, 0, 0, tcp.reserved.into()));
         }
         let Some(data_length) = tcp.length.checked_sub(to_u32(AMS_HEADER_LEN)) else {
-            let (field, least) = (ams_tcp_header::LENGTH, to_u32(AMS_HEADER_LEN));
-            return Err(Error::new(ErrorKind::OutOfRange, field, 2, least, tcp.length));
+            let least = to_u32(AMS_HEADER_LEN);
+            return Err(Error::new(ErrorKind::OutOfRange, LENGTH, 2, least, tcp.length));
         };
         check(data_length, max_data)?;
         let Some((header, rest)) = rest.split_at_checked(AMS_HEADER_LEN) else {
@@ -90,7 +90,7 @@ impl<'a> FrameRef<'a> {
         let header = AmsHeader::decode(header)?;
         if header.data_length != data_length {
             // Counted from the start of the frame, as all offsets here.
-            let (field, at) = (ams_header::DATA_LENGTH, 26);
+            let (field, at) = (const { Field::of::<HeaderLayout>("data_length") }, 26);
             let found = header.data_length;
             return Err(Error::new(ErrorKind::Mismatch, field, at, data_length, found));
         }
@@ -111,12 +111,15 @@ impl Encode for FrameRef<'_> {
         let data_length = to_u32(self.data.len().min(DATA_MAX));
         let length = data_length.saturating_add(to_u32(AMS_HEADER_LEN));
         Writer::fill(Stream::AmsTcpHeader, self.encoded_len(), buf, |out| {
-            out.put(AmsTcpHeader { reserved: 0, length }.layout().as_bytes());
+            out.stream(&AmsTcpHeader { reserved: 0, length });
             out.put(self.header.layout().as_bytes());
             out.put(self.data);
         })
     }
 }
+
+/// The length of a frame.
+const LENGTH: Field = Field::of::<AmsTcpHeader>("length");
 
 /// The most data of a frame: that of a service, and the numbers before it.
 const DATA_MAX: usize = ADS_DATA_MAX + 16;
@@ -128,5 +131,5 @@ fn check(data_length: u32, max: u32) -> Result<(), Error> {
     }
     let limit = max.saturating_add(to_u32(AMS_HEADER_LEN));
     let found = data_length.saturating_add(to_u32(AMS_HEADER_LEN));
-    Err(Error::new(ErrorKind::TooLong, ams_tcp_header::LENGTH, 2, limit, found))
+    Err(Error::new(ErrorKind::TooLong, LENGTH, 2, limit, found))
 }

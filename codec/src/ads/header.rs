@@ -1,69 +1,35 @@
 //! The AMS/TCP header and the AMS header (ADS-5).
 
-use zerocopy::little_endian::{U16, U32};
-use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
+use zerocopy::IntoBytes as _;
+use zerocopy::little_endian::U16;
 
 use super::{AdsError, AmsAddr, AmsNetId, AmsPort, Command, StateFlags};
 use crate::bytes::{Reader, Writer};
+use crate::declare::stream;
 use crate::error::Error;
 use crate::layout::Stream;
-use crate::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use crate::limits::AMS_HEADER_LEN;
 use crate::stream::{Decode, Encode};
 
-#[doc = include_str!("../../doc/ams-tcp-header.md")]
-///
-/// Source: the vendors' public help pages; the manuals do not describe it.
-///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
-/// [`Trailing`](crate::ErrorKind::Trailing).
-///
-/// ```
-/// use ads_cnc::{Decode, ads::AmsTcpHeader};
-///
-/// let header = AmsTcpHeader::decode(&[0, 0, 44, 0, 0, 0])?;
-/// assert_eq!(header, AmsTcpHeader { reserved: 0, length: 44 });
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
-pub struct AmsTcpHeader {
-    /// 0 for AMS commands; other values are messages between a client and its local router.
-    pub reserved: u16,
-    /// Bytes that follow.
-    pub length: u32,
-}
-
-#[derive(FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
-#[repr(C)]
-pub(super) struct TcpLayout {
-    reserved: U16,
-    length: U32,
-}
-
-const _: () = assert!(size_of::<TcpLayout>() == AMS_TCP_HEADER_LEN);
-
-impl<'a> Decode<'a> for AmsTcpHeader {
-    const STREAM: Stream = Stream::AmsTcpHeader;
-
-    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let fixed: &TcpLayout = Reader::all(Self::STREAM, bytes)?;
-        Ok(Self { reserved: fixed.reserved.get(), length: fixed.length.get() })
-    }
-}
-
-impl Encode for AmsTcpHeader {
-    fn encoded_len(&self) -> usize {
-        AMS_TCP_HEADER_LEN
-    }
-
-    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::copy(Self::STREAM, self.layout().as_bytes(), buf)
-    }
-}
-
-impl AmsTcpHeader {
-    pub(super) fn layout(&self) -> TcpLayout {
-        TcpLayout { reserved: self.reserved.into(), length: self.length.into() }
+stream! {
+    /// The header of AMS over TCP.
+    ///
+    /// Source: the vendors' public help pages; the manuals do not describe it.
+    ///
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`Trailing`](crate::ErrorKind::Trailing).
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, ads::AmsTcpHeader};
+    ///
+    /// let header = AmsTcpHeader::decode(&[0, 0, 44, 0, 0, 0])?;
+    /// assert_eq!(header, AmsTcpHeader { reserved: 0, length: 44 });
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    AmsTcpHeader "ams-tcp-header", "AMS/TCP header", "ADS-5", max 6;
+    struct AmsTcpHeader {
+        @0 reserved: UNS16, "ADS-5", "0 for AMS commands";
+        @2 length: UNS32,   "ADS-5", "bytes that follow: AMS header and data";
     }
 }
 
@@ -109,21 +75,21 @@ pub struct AmsHeader {
     pub invoke_id: u32,
 }
 
-#[derive(FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
-#[repr(C)]
-pub(super) struct HeaderLayout {
-    target_net_id: [u8; 6],
-    target_port: U16,
-    source_net_id: [u8; 6],
-    source_port: U16,
-    command: U16,
-    state_flags: U16,
-    data_length: U32,
-    error: U32,
-    invoke_id: U32,
+stream! {
+    /// The bytes of [`AmsHeader`].
+    AmsHeader "ams-header", "AMS header", "ADS-5", max 32;
+    packed HeaderLayout {
+        @0  target_net_id: NETID, "ADS-5", "who receives the frame";
+        @6  target_port: UNS16,   "ADS-5", "AMS port of the receiver";
+        @8  source_net_id: NETID, "ADS-5", "who sends the frame";
+        @14 source_port: UNS16,   "ADS-5", "AMS port of the sender";
+        @16 command: UNS16,       "ADS-5", "2 Read, 3 Write, 9 ReadWrite, …";
+        @18 state_flags: UNS16,   "ADS-5", "0x0004 request, 0x0005 response";
+        @20 data_length: UNS32,   "ADS-5", "bytes that follow this header";
+        @24 error: UNS32,         "ADS-5", "AMS error number, 0 for none";
+        @28 invoke_id: UNS32,     "ADS-5", "pairs a response with its request";
+    }
 }
-
-const _: () = assert!(size_of::<HeaderLayout>() == AMS_HEADER_LEN);
 
 impl<'a> Decode<'a> for AmsHeader {
     const STREAM: Stream = Stream::AmsHeader;

@@ -32,8 +32,10 @@ mod request;
 
 pub use address::{AmsAddr, AmsNetId, AmsPort};
 pub use codes::{AdsError, Command, StateFlags};
+pub(crate) use device::InfoLayout;
 pub use device::{AdsState, DeviceInfoReply, DeviceStateReply};
 pub use frame::FrameRef;
+pub(crate) use header::HeaderLayout;
 pub use header::{AmsHeader, AmsTcpHeader};
 #[cfg(feature = "alloc")]
 pub use reply::{ReadReply, ReadWriteReply};

@@ -1,57 +1,37 @@
 //! Replies of the three services.
 
 use super::AdsError;
-#[cfg(feature = "alloc")]
-use crate::bridge;
 use crate::bytes::{Reader, Writer, to_u32};
+use crate::declare::stream;
 use crate::error::Error;
 use crate::layout::Stream;
 use crate::layout::field;
 use crate::stream::{Decode, Encode};
 
-#[doc = include_str!("../../doc/write-reply.md")]
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
-///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
-/// [`Trailing`](crate::ErrorKind::Trailing).
-///
-/// ```
-/// use ads_cnc::ads::{AdsError, WriteReply};
-/// use ads_cnc::Decode;
-///
-/// assert_eq!(WriteReply::decode(&[4, 7, 0, 0])?.result, AdsError::INVALID_ACCESS);
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
-pub struct WriteReply {
-    /// ADS error number.
-    pub result: AdsError,
-}
-
-impl<'a> Decode<'a> for WriteReply {
-    const STREAM: Stream = Stream::WriteReply;
-
-    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let result = Reader::number(field::write_reply::RESULT, bytes)?;
-        Ok(Self { result: AdsError(result) })
-    }
-}
-
-impl Encode for WriteReply {
-    fn encoded_len(&self) -> usize {
-        4
-    }
-
-    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::copy(Self::STREAM, &self.result.0.to_le_bytes(), buf)
+stream! {
+    /// An ADS Write reply.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
+    ///
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`Trailing`](crate::ErrorKind::Trailing).
+    ///
+    /// ```
+    /// use ads_cnc::ads::{AdsError, WriteReply};
+    /// use ads_cnc::Decode;
+    ///
+    /// assert_eq!(WriteReply::decode(&[4, 7, 0, 0])?.result, AdsError::INVALID_ACCESS);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    WriteReply "write-reply", "ADS Write, reply", "ADS-2", max 4;
+    struct WriteReply {
+        @0 result: UNS32 as AdsError, "ADS-4", "ADS error number, 0 for success";
     }
 }
 
 /// Declares a reply with data in both readings: result, the length of the data, the data.
 macro_rules! reply_with_data {
-    ($doc:literal, $stream:ident, $fields:ident, $ref:ident, $owned:ident, $wire:ident) => {
+    ($doc:literal, $stream:ident, $fields:ident, $ref:ident, $owned:ident) => {
         #[doc = include_str!($doc)]
         ///
         /// A reply whose result is not 0 may stop behind it (ADS-6): it has no data then.
@@ -136,12 +116,18 @@ macro_rules! reply_with_data {
         }
 
         #[cfg(feature = "alloc")]
-        #[binrw::binread]
-        #[br(little)]
-        struct $wire {
-            result: u32,
-            #[br(parse_with = bridge::counted_unless_end)]
-            data: Option<alloc::vec::Vec<u8>>,
+        impl From<$ref<'_>> for $owned {
+            fn from(reply: $ref<'_>) -> Self {
+                Self { result: reply.result, data: reply.data.map(<[u8]>::to_vec) }
+            }
+        }
+
+        #[cfg(feature = "alloc")]
+        impl $ref<'_> {
+            /// Copies the fields.
+            pub fn to_owned(self) -> $owned {
+                self.into()
+            }
         }
 
         #[cfg(feature = "alloc")]
@@ -149,9 +135,7 @@ macro_rules! reply_with_data {
             const STREAM: Stream = Stream::$stream;
 
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-                $ref::decode(bytes)?;
-                let $wire { result, data } = bridge::read(Self::STREAM, bytes)?;
-                Ok(Self { result: AdsError(result), data })
+                $ref::decode(bytes).map(Self::from)
             }
         }
 
@@ -169,20 +153,12 @@ macro_rules! reply_with_data {
     };
 }
 
-reply_with_data!(
-    "../../doc/read-reply.md",
-    ReadReply,
-    read_reply,
-    ReadReplyRef,
-    ReadReply,
-    ReadReplyWire
-);
+reply_with_data!("../../doc/read-reply.md", ReadReply, read_reply, ReadReplyRef, ReadReply);
 
 reply_with_data!(
     "../../doc/read-write-reply.md",
     ReadWriteReply,
     read_write_reply,
     ReadWriteReplyRef,
-    ReadWriteReply,
-    ReadWriteReplyWire
+    ReadWriteReply
 );

@@ -42,16 +42,6 @@ pub(super) fn not_all(stream: Stream, given: usize) -> Error {
     }
 }
 
-/// Why so many bytes are too few or too many.
-#[cold]
-pub(super) fn not_between(field: Field, min: u32, max: u32, given: usize) -> Error {
-    let given = to_u32(given);
-    if given < min {
-        return Error::new(ErrorKind::Truncated, field, 0, min, given);
-    }
-    too_long(Field::whole(field.stream()), max, given)
-}
-
 #[cold]
 pub(super) fn too_long(field: Field, max: u32, given: u32) -> Error {
     Error::new(ErrorKind::TooLong, field, max, max, given)

@@ -3,7 +3,7 @@
 use zerocopy::little_endian::U32;
 use zerocopy::{FromBytes, Immutable, KnownLayout, Unaligned};
 
-use super::faults::{cut, not_all, not_between, too_long};
+use super::faults::{cut, not_all, too_long};
 use super::{to_len, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
@@ -40,20 +40,6 @@ impl<'a> Reader<'a> {
         T: FromBytes + KnownLayout + Immutable + Unaligned,
     {
         T::ref_from_bytes(bytes).map_err(|_| not_all(stream, bytes.len()))
-    }
-
-    /// The bytes that are all of the stream of `field`, between `min` and `max` of them.
-    #[inline]
-    pub(crate) fn only(
-        field: Field,
-        min: u32,
-        max: u32,
-        bytes: &'a [u8],
-    ) -> Result<&'a [u8], Error> {
-        if bytes.len() < to_len(min) || bytes.len() > to_len(max) {
-            return Err(not_between(field, min, max, bytes.len()));
-        }
-        Ok(bytes)
     }
 
     /// The number that is all of the stream of `field`.
@@ -124,6 +110,17 @@ impl<'a> Reader<'a> {
         self.bytes = rest;
         self.at = self.at.saturating_add(4);
         Ok(u32::from_le_bytes(*le))
+    }
+
+    /// The fixed rows that the stream begins with.
+    #[inline]
+    pub(crate) fn head<const N: usize>(&mut self) -> Result<&'a [u8; N], Error> {
+        let Some((head, rest)) = self.bytes.split_first_chunk() else {
+            return Err(cut(self.stream, 0, self.bytes.len()));
+        };
+        self.bytes = rest;
+        self.at = to_u32(N);
+        Ok(head)
     }
 
     /// `count` items of `each` bytes; the count stands in the field `counter`, right before.

@@ -4,6 +4,7 @@ use super::faults::too_long;
 use super::{to_len, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
+use crate::stream::Encode;
 
 /// Writes into a buffer that was found large enough before the first byte.
 pub(crate) struct Writer<'b> {
@@ -45,7 +46,7 @@ impl<'b> Writer<'b> {
 
     /// Writes into this.
     #[inline]
-    fn new(rest: &'b mut [u8]) -> Self {
+    pub(crate) fn new(rest: &'b mut [u8]) -> Self {
         Self { rest }
     }
 
@@ -120,9 +121,24 @@ impl<'b> Writer<'b> {
         }
     }
 
+    /// Writes a stream that is a part of this one.
+    #[inline]
+    pub(crate) fn stream(&mut self, part: &impl Encode) {
+        // The room is as long as the part says.
+        let _written = part.encode(self.next(part.encoded_len()));
+    }
+
+    #[inline]
+    pub(crate) fn array<const N: usize>(&mut self, bytes: [u8; N]) {
+        if let Some((head, tail)) = core::mem::take(&mut self.rest).split_first_chunk_mut() {
+            *head = bytes;
+            self.rest = tail;
+        }
+    }
+
     #[inline]
     pub(crate) fn u32(&mut self, number: u32) {
-        self.put(&number.to_le_bytes());
+        self.array(number.to_le_bytes());
     }
 
     /// A NUL and what follows it, which mostly is nothing.

@@ -1,16 +1,16 @@
 //! Offset 0: the number of objects.
 
-use crate::layout::field::object_count::COUNT;
+use crate::declare::stream;
 
-crate::number::number_stream! {
-    #[doc = include_str!("../../doc/object-count.md")]
+stream! {
+    /// The number of objects in a list.
     ///
     /// Read at offset 0 of a group with object access. Its width is not documented: assumed.
     /// It counts the list that is addressed (E-36).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
     ///
-    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -19,6 +19,10 @@ crate::number::number_stream! {
     /// assert_eq!(ObjectCount::decode(&[16, 0, 0, 0])?, ObjectCount(16));
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    #[derive(Debug)]
-    ObjectCount, ObjectCount, COUNT
+    ObjectCount "object-count", "Number of objects, reply", "COM-1", max 4;
+    tuple ObjectCount {
+        @0 count: UNS32, "COM-1", "objects in the addressed list";
+    }
 }
+
+crate::number::debug!(ObjectCount);

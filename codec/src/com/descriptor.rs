@@ -2,37 +2,39 @@
 
 use core::fmt;
 
+use zerocopy::IntoBytes as _;
 use zerocopy::little_endian::{U16, U32};
-use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use crate::address::{IndexGroup, IndexOffset};
 use crate::bytes::{Reader, Writer, to_u32};
+use crate::declare::stream;
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::object_descriptor::{NAME, TYPE};
 use crate::layout::{Field, Stream};
 use crate::limits::{DESCRIPTOR_LEN, DESCRIPTOR_TEXT_LEN};
 use crate::stream::{Decode, Encode};
 use crate::text::CncStr;
 use crate::value::DataType;
 
-/// The 84 bytes, once for both readings.
-#[derive(
-    Clone, Copy, PartialEq, Eq, Hash, FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned,
-)]
-#[repr(C)]
-pub(super) struct DescriptorLayout {
-    id: U32,
-    size: U32,
-    write_access: U16,
-    not_assigned: U16,
-    index_group: U32,
-    index_offset: U32,
-    name: [u8; DESCRIPTOR_TEXT_LEN],
-    type_name: [u8; DESCRIPTOR_TEXT_LEN],
-}
+/// The name of an object.
+const NAME: Field = Field::of::<DescriptorLayout>("name");
 
-const _: () = assert!(size_of::<DescriptorLayout>() == DESCRIPTOR_LEN);
-const _: () = assert!(core::mem::offset_of!(DescriptorLayout, type_name) == 52);
+/// The name of its type.
+const TYPE: Field = Field::of::<DescriptorLayout>("type");
+
+stream! {
+    /// The 84 bytes of a descriptor.
+    ObjectDescriptor "object-descriptor", "Object descriptor, reply", "COM-2", max 84;
+    packed DescriptorLayout {
+        @0  id: UNS32,                  "COM-2", "unique internal number of the object";
+        @4  size: UNS32,                "COM-2", "bytes of the object's content";
+        @8  write_access: UNS16,        "COM-2", "not 0: writable";
+        @10 not_assigned: UNS16,        "COM-2", "kept as it is, written as 0";
+        @12 index_group: UNS32,         "COM-5", "index group of the content";
+        @16 index_offset: UNS32,        "COM-5", "index offset of the content";
+        @20 name: PADDED(32),           "COM-2", "name of the object";
+        @52 type_name "type": PADDED(32), "COM-2", "BOOL, BYTE, SINT, WORD, …";
+    }
+}
 
 /// Whether an object may be written; any value but 0 is TRUE, and is kept (E-08).
 ///

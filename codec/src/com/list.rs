@@ -115,7 +115,6 @@ mod owned {
     use alloc::vec::Vec;
 
     use super::*;
-    use crate::bridge;
     use crate::com::Descriptor;
 
     /// [`DescriptorsRef`], owned.
@@ -132,20 +131,24 @@ mod owned {
     #[derive(Clone, Default, PartialEq, Eq, Hash)]
     pub struct Descriptors(Vec<DescriptorLayout>);
 
-    #[binrw::binread]
-    #[br(little)]
-    struct Wire {
-        #[br(parse_with = bridge::records)]
-        records: Vec<DescriptorLayout>,
+    impl From<DescriptorsRef<'_>> for Descriptors {
+        fn from(list: DescriptorsRef<'_>) -> Self {
+            Self(list.0.to_vec())
+        }
+    }
+
+    impl DescriptorsRef<'_> {
+        /// Copies the descriptors.
+        pub fn to_owned(self) -> Descriptors {
+            self.into()
+        }
     }
 
     impl<'a> Decode<'a> for Descriptors {
         const STREAM: Stream = Stream::ObjectDescriptors;
 
         fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-            DescriptorsRef::decode(bytes)?;
-            let Wire { records } = bridge::read(Self::STREAM, bytes)?;
-            Ok(Self(records))
+            DescriptorsRef::decode(bytes).map(Self::from)
         }
     }
 

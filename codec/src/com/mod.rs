@@ -5,6 +5,7 @@ mod descriptor;
 mod list;
 
 pub use count::ObjectCount;
+pub(crate) use descriptor::DescriptorLayout;
 pub use descriptor::{Descriptor, DescriptorRef, WriteAccess};
 #[cfg(feature = "alloc")]
 pub use list::Descriptors;

@@ -1,18 +1,16 @@
-//! Names of dynamic parameters (DYN-2, DYN-3, DYN-6).
+//! Names of dynamic parameters.
 
-use crate::bytes::to_u32;
-use crate::layout::field::{dynamic_name, dynamic_name_request};
-use crate::limits::DYNAMIC_NAME_MAX;
+use crate::declare::stream;
 
-crate::text::text_stream! {
-    #[doc = include_str!("../../doc/dynamic-name.md")]
+stream! {
+    /// The name of a dynamic parameter.
     ///
-    /// The name ends at its first NUL or with the reply (assumed); what follows the NUL is kept,
-    /// and there is one byte at least.
+    /// The name ends at its first NUL or with the reply (assumed). Bytes after the NUL are kept, and
+    /// there is at least one byte.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
     ///
-    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
@@ -22,32 +20,21 @@ crate::text::text_stream! {
     /// assert_eq!(DynamicNameRef::decode(b"P1\0")?.name.text(), "P1");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    DynamicNameRef,
-    ///
-    /// ```
-    /// use ads_cnc::Encode;
-    /// use ads_cnc::dynamic::DynamicName;
-    ///
-    /// let reply = DynamicName { name: "P1".parse()? };
-    /// assert_eq!(reply.to_vec()?, b"P1\0");
-    /// # Ok::<(), ads_cnc::Error>(())
-    /// ```
-    DynamicName, DynamicName {
-        /// Name of the parameter.
-        name: dynamic_name::NAME
+    DynamicName "dynamic-name", "Name of a dynamic parameter, reply", "DYN-2", max 96;
+    struct DynamicNameRef<'a> / DynamicName {
+        @0 name: TEXT(1, 96), "DYN-2", "name of the parameter";
     }
-    read open(1, to_u32(DYNAMIC_NAME_MAX)),
-    check check_open(1, to_u32(DYNAMIC_NAME_MAX))
 }
 
-crate::text::text_stream! {
-    #[doc = include_str!("../../doc/dynamic-name-request.md")]
+stream! {
+    /// Asks for a dynamic parameter by its name.
     ///
-    /// A NUL is sent; that it may be missing, and that more may pad the name, is assumed.
+    /// A new request ends in a NUL; that the NUL may be missing, and that more NULs may pad the name,
+    /// is assumed.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
     ///
-    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
     /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
@@ -59,20 +46,8 @@ crate::text::text_stream! {
     /// assert_eq!(DynamicNameRequestRef::decode(b"P1")?.name.text(), "P1");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    DynamicNameRequestRef,
-    ///
-    /// ```
-    /// use ads_cnc::Encode;
-    /// use ads_cnc::dynamic::DynamicNameRequest;
-    ///
-    /// let request = DynamicNameRequest { name: "P1".parse()? };
-    /// assert_eq!(request.to_vec()?, b"P1\0");
-    /// # Ok::<(), ads_cnc::Error>(())
-    /// ```
-    DynamicNameRequest, DynamicNameRequest {
-        /// Name of the parameter.
-        name: dynamic_name_request::NAME
+    DynamicNameRequest "dynamic-name-request", "Dynamic parameter by name, request", "DYN-3", max 96;
+    struct DynamicNameRequestRef<'a> / DynamicNameRequest {
+        @0 name: TEXT_MAYBE_NUL(96), "DYN-3", "name of the parameter";
     }
-    read may_terminate(),
-    check check_may_terminate(to_u32(DYNAMIC_NAME_MAX))
 }

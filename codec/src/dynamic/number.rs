@@ -5,19 +5,20 @@ use core::fmt;
 use zerocopy::little_endian::U64;
 
 use crate::bytes::{Reader, Writer};
-use crate::error::{Error, ErrorKind};
-use crate::layout::Stream;
-use crate::layout::field::{dynamic_count, dynamic_index};
+use crate::declare::stream;
+use crate::error::Error;
+use crate::layout::{Field, Stream};
+use crate::rows::{NonZero, Row as _};
 use crate::stream::{Decode, Encode};
 
-crate::number::number_stream! {
-    #[doc = include_str!("../../doc/dynamic-count.md")]
+stream! {
+    /// The number of dynamic parameters.
     ///
     /// Indices run from 1 to this number.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
     ///
-    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -27,60 +28,46 @@ crate::number::number_stream! {
     /// assert_eq!(DynamicCount::decode(&[1, 0, 0, 0])?, DynamicCount(1));
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    #[derive(Debug)]
-    DynamicCount, DynamicCount, dynamic_count::COUNT
+    DynamicCount "dynamic-count", "Number of dynamic parameters, reply", "DYN-1", max 4;
+    tuple DynamicCount {
+        @0 count: UNS32, "DYN-1", "parameters of the kind; also the largest index";
+    }
 }
 
-#[doc = include_str!("../../doc/dynamic-index.md")]
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
-///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
-/// [`OutOfRange`](crate::ErrorKind::OutOfRange) or [`Trailing`](crate::ErrorKind::Trailing).
-///
-/// ```
-/// use ads_cnc::dynamic::DynamicIndex;
-/// use ads_cnc::{Decode, Encode};
-///
-/// assert_eq!(DynamicIndex(1).encode(&mut [0; 4])?, [1, 0, 0, 0]);
-/// assert_eq!(
-///     DynamicIndex::decode(&[0; 4]).unwrap_err().to_string(),
-///     "dynamic-index: index at offset 0: out of range, at least 1 expected, 0 found"
-/// );
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct DynamicIndex(pub u32);
+crate::number::debug!(DynamicCount);
+
+stream! {
+    /// Asks for a dynamic parameter by its index.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
+    ///
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// [`OutOfRange`](crate::ErrorKind::OutOfRange) or [`Trailing`](crate::ErrorKind::Trailing).
+    ///
+    /// ```
+    /// use ads_cnc::dynamic::DynamicIndex;
+    /// use ads_cnc::{Decode, Encode};
+    ///
+    /// assert_eq!(DynamicIndex(1).encode(&mut [0; 4])?, [1, 0, 0, 0]);
+    /// assert_eq!(
+    ///     DynamicIndex::decode(&[0; 4]).unwrap_err().to_string(),
+    ///     "dynamic-index: index at offset 0: out of range, at least 1 expected, 0 found"
+    /// );
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    DynamicIndex "dynamic-index", "Dynamic parameter by index, request", "DYN-5", max 4;
+    tuple DynamicIndex {
+        @0 index: UNS32_NOT_0, "DYN-5", "index of the parameter, from 1";
+    }
+}
+
+crate::number::debug!(DynamicIndex);
 
 impl DynamicIndex {
-    /// Refuses what no decoder would accept.
-    pub(crate) const fn check(self) -> Result<Self, Error> {
-        match self.0 {
-            0 => Err(Error::new(ErrorKind::OutOfRange, dynamic_index::INDEX, 0, 1, 0)),
-            _ => Ok(self),
-        }
-    }
-}
-
-impl<'a> Decode<'a> for DynamicIndex {
-    const STREAM: Stream = Stream::DynamicIndex;
-
-    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::ending(Self::STREAM, bytes);
-        let index = Self(input.u32(dynamic_index::INDEX)?).check()?;
-        input.finish()?;
-        Ok(index)
-    }
-}
-
-impl Encode for DynamicIndex {
-    fn encoded_len(&self) -> usize {
-        4
-    }
-
-    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        self.check()?;
-        Writer::copy(Self::STREAM, &self.0.to_le_bytes(), buf)
+    /// Rejects an index that no decoder would accept.
+    pub(crate) fn check(self) -> Result<Self, Error> {
+        let field = const { Field::of::<Self>("index") };
+        NonZero::check(self.0, field, 0).map(|()| self)
     }
 }
 

@@ -12,7 +12,7 @@ pub(crate) struct Cut {
 
 impl Cut {
     /// The bytes of the fixed fields that a record begins with.
-    pub(super) const fn count(fields: &[FieldSpec]) -> usize {
+    pub(crate) const fn count(fields: &[FieldSpec]) -> usize {
         let (mut count, mut left) = (0_usize, fields);
         while let [row, rest @ ..] = left {
             let mut size = row.size.fixed();
@@ -58,15 +58,14 @@ impl Cut {
 #[cfg(test)]
 mod tests {
     use super::Cut;
-    use crate::layout::{Field, Size, Stream};
+    use crate::layout::{Field, Stream};
 
     /// Every length that ends in the fixed fields in front, and no other.
     #[test]
     fn cuts_are_in_the_last_field_that_begins_in_time() {
         for stream in Stream::all() {
             let rows = stream.layout().fields;
-            let is_counted = |size| !matches!(size, Size::FromOne) && size.fixed() > 0;
-            let front = rows.iter().take_while(|row| row.per_item == 0 && is_counted(row.size));
+            let front = rows.iter().take_while(|row| row.per_item == 0 && row.size.fixed() > 0);
             let end = front.map(|row| row.offset + row.size.fixed()).last().unwrap_or(0);
             assert_eq!(stream.cuts().len(), usize::try_from(end).unwrap(), "{stream}");
             // Made anew, they are what the compiler has made.

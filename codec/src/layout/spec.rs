@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::Stream;
 use super::tables::TABLES;
+use crate::declare::Declared;
 
 /// The table of one stream.
 ///
@@ -46,10 +47,55 @@ impl Layout {
         !self.repeats && self.fields.iter().all(fixed)
     }
 
+    /// The bytes of the fixed fields that the stream begins with.
+    pub(crate) const fn head(&self) -> usize {
+        super::Cut::count(self.fields)
+    }
+
+    /// Whether the field of this name is where the rows before it end, at their fewest bytes.
+    pub(crate) const fn is_at(&self, name: &str) -> bool {
+        let (mut fields, mut end, mut per_item) = (self.fields, 0_u32, 0_u32);
+        while let [row, rest @ ..] = fields {
+            if is_same(row.name, name) {
+                return row.offset == end && row.per_item == per_item;
+            }
+            match row.size {
+                Size::Items { each, .. } => per_item = per_item.saturating_add(each),
+                Size::Leading { .. } => end = end.saturating_add(1),
+                size => end = end.saturating_add(size.fixed()),
+            }
+            fields = rest;
+        }
+        false
+    }
+
+    /// The index of the field of this name.
+    const fn index(&self, name: &str) -> u8 {
+        let (mut fields, mut index) = (self.fields, 0_u8);
+        while let [row, rest @ ..] = fields {
+            if is_same(row.name, name) {
+                return index;
+            }
+            (fields, index) = (rest, index.saturating_add(1));
+        }
+        u8::MAX
+    }
+
     /// Whether the fields tell where the stream ends: what follows is trailing, not too long.
     pub(crate) fn ends_itself(&self) -> bool {
         self.is_fixed() || self.fields.iter().any(|row| row.size == Size::OneTwoOrFour)
     }
+}
+
+const fn is_same(one: &str, other: &str) -> bool {
+    let (mut one, mut other) = (one.as_bytes(), other.as_bytes());
+    while let ([a, one_rest @ ..], [b, other_rest @ ..]) = (one, other) {
+        if *a != *b {
+            return false;
+        }
+        (one, other) = (one_rest, other_rest);
+    }
+    one.is_empty() && other.is_empty()
 }
 
 /// One row of a table.
@@ -154,6 +200,7 @@ impl Size {
             | Self::FixedUnlessError(size)
             | Self::FixedOrNothing(size)
             | Self::Padded(size) => size,
+            Self::FromOne => 4,
             _ => 0,
         }
     }
@@ -230,6 +277,16 @@ impl Field {
     #[inline]
     pub(crate) const fn new(stream: Stream, index: u8) -> Self {
         Self { stream, index }
+    }
+
+    /// The field of this name of a declared stream.
+    pub(crate) const fn of<T: Declared>(name: &str) -> Self {
+        Self { stream: T::STREAM, index: T::LAYOUT.index(name) }
+    }
+
+    /// The field before: the count of a list.
+    pub(crate) const fn before(self) -> Self {
+        Self { index: self.index.saturating_sub(1), ..self }
     }
 
     /// The stream as a whole: its length, its end.

@@ -2,6 +2,7 @@
 
 use super::cuts::Cut;
 use super::spec::{Field, FieldSpec, Layout, Size, Type};
+use crate::declare::Declared;
 
 const FIXED_4: Size = Size::Fixed(4);
 
@@ -10,7 +11,9 @@ const FIXED_4: Size = Size::Fixed(4);
 macro_rules! layouts {
     ($(
         $(#[$doc:meta])*
-        $stream:ident, $module:ident: $name:literal, $title:literal, $clause:literal, max $max:literal
+        $stream:ident, $module:ident:
+        $( => $type:ty; )?
+        $( $name:literal, $title:literal, $clause:literal, max $max:literal )?
         $( , records of $record:ident; )?
         $( {
             $( $field:ident $field_name:literal @ $offset:literal $(+ $per_item:literal m)?,
@@ -51,14 +54,17 @@ macro_rules! layouts {
             pub(crate) mod $module {
                 use super::super::*;
 
-                pub(crate) const LAYOUT: Layout = Layout {
+                const REPEATS: bool = false $( | { _ = super::$record::LAYOUT; true } )?;
+                $( pub(crate) const LAYOUT: Layout = <$type as Declared>::LAYOUT;
+                pub(crate) const FIELDS: &[FieldSpec] = LAYOUT.fields; )?
+                $( pub(crate) const LAYOUT: Layout = Layout {
                     name: $name,
                     title: $title,
                     clause: $clause,
                     max: $max,
-                    repeats: false $( | { _ = super::$record::LAYOUT; true } )?,
+                    repeats: REPEATS,
                     fields: FIELDS,
-                };
+                }; )?
                 pub(crate) static CUTS: [Cut; Cut::count(FIELDS)] = Cut::all(FIELDS);
                 $( pub(crate) const FIELDS: &[FieldSpec] = super::$record::LAYOUT.fields; )?
                 $(
@@ -86,28 +92,11 @@ macro_rules! layouts {
 
 layouts! {
     /// AMS/TCP header.
-    AmsTcpHeader, ams_tcp_header: "ams-tcp-header", "AMS/TCP header", "ADS-5", max 6 {
-        RESERVED "reserved" @ 0, Size::Fixed(2), Uns16, "ADS-5", "0 for AMS commands";
-        LENGTH "length" @ 2, FIXED_4, Uns32, "ADS-5", "bytes that follow: AMS header and data";
-    }
+    AmsTcpHeader, ams_tcp_header: => crate::ads::AmsTcpHeader;
     /// AMS header.
-    AmsHeader, ams_header: "ams-header", "AMS header", "ADS-5", max 32 {
-        TARGET_NET_ID "target_net_id" @ 0, Size::Fixed(6), NetId, "ADS-5", "who receives the frame";
-        TARGET_PORT "target_port" @ 6, Size::Fixed(2), Uns16, "ADS-5", "AMS port of the receiver";
-        SOURCE_NET_ID "source_net_id" @ 8, Size::Fixed(6), NetId, "ADS-5", "who sends the frame";
-        SOURCE_PORT "source_port" @ 14, Size::Fixed(2), Uns16, "ADS-5", "AMS port of the sender";
-        COMMAND "command" @ 16, Size::Fixed(2), Uns16, "ADS-5", "2 Read, 3 Write, 9 ReadWrite, …";
-        STATE_FLAGS "state_flags" @ 18, Size::Fixed(2), Uns16, "ADS-5", "0x0004 request, 0x0005 response";
-        DATA_LENGTH "data_length" @ 20, FIXED_4, Uns32, "ADS-5", "bytes that follow this header";
-        ERROR "error" @ 24, FIXED_4, Uns32, "ADS-5", "AMS error number, 0 for none";
-        INVOKE_ID "invoke_id" @ 28, FIXED_4, Uns32, "ADS-5", "pairs a response with its request";
-    }
+    AmsHeader, ams_header: => crate::ads::HeaderLayout;
     /// ADS Read, request.
-    ReadRequest, read_request: "read-request", "ADS Read, request", "ADS-1", max 12 {
-        INDEX_GROUP "index_group" @ 0, FIXED_4, Uns32, "ADS-1", "index group";
-        INDEX_OFFSET "index_offset" @ 4, FIXED_4, Uns32, "ADS-1", "index offset";
-        LENGTH "length" @ 8, FIXED_4, Uns32, "ADS-1", "bytes to read at most";
-    }
+    ReadRequest, read_request: => crate::ads::ReadRequest;
     /// ADS Read, reply.
     ReadReply, read_reply: "read-reply", "ADS Read, reply", "ADS-1", max 0x40_0008 {
         RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
@@ -115,24 +104,11 @@ layouts! {
         DATA "data" @ 8, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-1", "the data";
     }
     /// ADS Write, request.
-    WriteRequest, write_request: "write-request", "ADS Write, request", "ADS-2", max 0x40_000c {
-        INDEX_GROUP "index_group" @ 0, FIXED_4, Uns32, "ADS-2", "index group";
-        INDEX_OFFSET "index_offset" @ 4, FIXED_4, Uns32, "ADS-2", "index offset";
-        LENGTH "length" @ 8, FIXED_4, Uns32, "ADS-2", "bytes of data";
-        DATA "data" @ 12, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-2", "the data";
-    }
+    WriteRequest, write_request: => crate::ads::WriteRequestRef<'static>;
     /// ADS Write, reply.
-    WriteReply, write_reply: "write-reply", "ADS Write, reply", "ADS-2", max 4 {
-        RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
-    }
+    WriteReply, write_reply: => crate::ads::WriteReply;
     /// ADS ReadWrite, request.
-    ReadWriteRequest, read_write_request: "read-write-request", "ADS ReadWrite, request", "ADS-3", max 0x40_0010 {
-        INDEX_GROUP "index_group" @ 0, FIXED_4, Uns32, "ADS-3", "index group";
-        INDEX_OFFSET "index_offset" @ 4, FIXED_4, Uns32, "ADS-3", "index offset";
-        READ_LENGTH "read_length" @ 8, FIXED_4, Uns32, "ADS-3", "bytes to read at most";
-        WRITE_LENGTH "write_length" @ 12, FIXED_4, Uns32, "ADS-3", "bytes of data";
-        DATA "data" @ 16, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-3", "the data";
-    }
+    ReadWriteRequest, read_write_request: => crate::ads::ReadWriteRequestRef<'static>;
     /// ADS ReadWrite, reply.
     ReadWriteReply, read_write_reply: "read-write-reply", "ADS ReadWrite, reply", "ADS-3", max 0x40_0008 {
         RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
@@ -140,158 +116,73 @@ layouts! {
         DATA "data" @ 8, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-3", "the data";
     }
     /// ADS ReadDeviceInfo, reply.
-    DeviceInfoReply, device_info_reply: "device-info-reply", "ADS ReadDeviceInfo, reply", "ADS-8", max 24 {
-        RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
-        MAJOR "major" @ 4, Size::Fixed(1), Uns08, "ADS-8", "first number of the version";
-        MINOR "minor" @ 5, Size::Fixed(1), Uns08, "ADS-8", "second number of the version";
-        BUILD "build" @ 6, Size::Fixed(2), Uns16, "ADS-8", "third number of the version";
-        NAME "name" @ 8, Size::Padded(16), String, "ADS-8", "name of the device";
-    }
+    DeviceInfoReply, device_info_reply: => crate::ads::InfoLayout;
     /// ADS ReadState, reply.
-    DeviceStateReply, device_state_reply: "device-state-reply", "ADS ReadState, reply", "ADS-9", max 8 {
-        RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
-        ADS_STATE "ads_state" @ 4, Size::Fixed(2), Uns16, "ADS-9", "5 RUN, 6 STOP, 15 CONFIG, …";
-        DEVICE_STATE "device_state" @ 6, Size::Fixed(2), Uns16, "ADS-9", "state of the device's own";
-    }
+    DeviceStateReply, device_state_reply: => crate::ads::DeviceStateReply;
     /// Number of objects of a COM list.
-    ObjectCount, object_count: "object-count", "Number of objects, reply", "COM-1", max 4 {
-        COUNT "count" @ 0, FIXED_4, Uns32, "COM-1", "objects in the addressed list";
-    }
+    ObjectCount, object_count: => crate::ObjectCount;
     /// One object descriptor.
-    ObjectDescriptor, object_descriptor: "object-descriptor", "Object descriptor, reply", "COM-2", max 84 {
-        ID "id" @ 0, FIXED_4, Uns32, "COM-2", "unique internal number of the object";
-        SIZE "size" @ 4, FIXED_4, Uns32, "COM-2", "bytes of the object's content";
-        WRITE_ACCESS "write_access" @ 8, Size::Fixed(2), Uns16, "COM-2", "not 0: writable";
-        NOT_ASSIGNED "not_assigned" @ 10, Size::Fixed(2), Uns16, "COM-2", "kept as it is, written as 0";
-        INDEX_GROUP "index_group" @ 12, FIXED_4, Uns32, "COM-5", "index group of the content";
-        INDEX_OFFSET "index_offset" @ 16, FIXED_4, Uns32, "COM-5", "index offset of the content";
-        NAME "name" @ 20, Size::Padded(32), String, "COM-2", "name of the object";
-        TYPE "type" @ 52, Size::Padded(32), String, "COM-2", "BOOL, BYTE, SINT, WORD, …";
-    }
+    ObjectDescriptor, object_descriptor: => crate::com::DescriptorLayout;
     /// Object descriptors in sequence.
     ObjectDescriptors, object_descriptors: "object-descriptors", "Object descriptors in sequence, reply", "COM-3", max 0x40_0000,
         records of object_descriptor;
     /// Request of the number of variables.
-    VariableKind, variable_kind: "variable-kind", "Number of variable elements, request", "VAR-1", max 256 {
-        KIND "kind" @ 0, Size::Terminated { max: 256, may_be_absent: true }, String, "VAR-1", "V.G, V.E or V.A; empty for all";
-    }
+    VariableKind, variable_kind: => crate::VariableKindRef<'static>;
     /// Number of variables.
-    VariableCount, variable_count: "variable-count", "Number of variable elements, reply", "VAR-2", max 4 {
-        COUNT "count" @ 0, FIXED_4, Uns32, "VAR-2", "variables of the kind; the largest index is one less";
-    }
+    VariableCount, variable_count: => crate::VariableCount;
     /// Request of a description.
-    VariableIndexKind, variable_index_kind: "variable-index-kind", "Variable description by index, request", "VAR-3", max 260 {
-        INDEX "index" @ 0, FIXED_4, Uns32, "VAR-3", "index of the variable, from 0";
-        KIND "kind" @ 4, Size::Terminated { max: 256, may_be_absent: false }, String, "VAR-3", "V.G, V.E or V.A";
-    }
+    VariableIndexKind, variable_index_kind: => crate::VariableIndexKindRef<'static>;
     /// Description of a variable.
-    VariableDescription, variable_description: "variable-description", "Variable description by index, reply", "VAR-4", max 2048 {
-        HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-10", "handle of the variable";
-        TYPE "type" @ 4, FIXED_4, Uns32, "VAR-5", "1 BOOLEAN … 9 STRING";
-        ACCESS "access" @ 8, FIXED_4, Uns32, "VAR-6", "1 READ_ONLY, 2 READ_WRITE";
-        SIZE "size" @ 12, FIXED_4, Uns32, "VAR-8", "bytes of the whole variable";
-        DIMENSION_COUNT "dimension_count" @ 16, FIXED_4, Uns32, "VAR-7", "array dimensions m; 0 for an elementary variable";
-        DIMENSIONS "dimensions" @ 20, Size::Items { each: 4, max: 506 }, Uns32, "VAR-4", "elements in each dimension";
-        NAME "name" @ 20 + 4 m, Size::Open { min: 1, max: 256 }, String, "VAR-4", "name of the variable";
-    }
+    VariableDescription, variable_description: => crate::DescriptionRef<'static>;
     /// Request by a variable's name.
-    VariableName, variable_name: "variable-name", "Variable by name, request", "VAR-9", max 256 {
-        NAME "name" @ 0, Size::Terminated { max: 256, may_be_absent: false }, String, "VAR-9", "name of the variable";
-    }
+    VariableName, variable_name: => crate::VariableNameRef<'static>;
     /// Handle of a variable.
-    VariableHandle, variable_handle: "variable-handle", "Variable handle by name, reply", "VAR-10", max 4 {
-        HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-10", "handle of the variable";
-    }
+    VariableHandle, variable_handle: => crate::Handle;
     /// Request of a value by handle.
-    VariableHandleRead, variable_handle_read: "variable-handle-read", "Read variable value by handle, request", "VAR-11", max 2048 {
-        HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-11", "handle of the variable";
-        INDEX_COUNT "index_count" @ 4, FIXED_4, Uns32, "VAR-11", "indices n that follow; 0 for the whole variable";
-        INDICES "indices" @ 8, Size::Items { each: 4, max: 510 }, Uns32, "VAR-11", "index in each dimension, from 0";
-    }
+    VariableHandleRead, variable_handle_read: => crate::HandleReadRef<'static>;
     /// Value of a variable.
-    VariableValue, variable_value: "variable-value", "Variable value, reply", "VAR-14", max 2048 {
-        VALUE "value" @ 0, Size::Rest { min: 0, max: 2048 }, Bytes, "VAR-14", "one element, or all of the array";
-    }
+    VariableValue, variable_value: => crate::ValueRef<'static>;
     /// Request to write a value by handle.
-    VariableHandleWrite, variable_handle_write: "variable-handle-write", "Write variable value by handle, request", "VAR-12", max 2048 {
-        HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-12", "handle of the variable";
-        INDEX_COUNT "index_count" @ 4, FIXED_4, Uns32, "VAR-12", "indices n that follow; 0 for the whole variable";
-        INDICES "indices" @ 8, Size::Items { each: 4, max: 510 }, Uns32, "VAR-12", "index in each dimension, from 0";
-        VALUE "value" @ 8 + 4 m, Size::Rest { min: 0, max: 2040 }, Bytes, "VAR-12", "one element, or all of the array";
-    }
+    VariableHandleWrite, variable_handle_write: => crate::HandleWriteRef<'static>;
     /// Request to write a value by name.
-    VariableNameWrite, variable_name_write: "variable-name-write", "Write variable value by name, request", "VAR-13", max 2048 {
-        NAME "name" @ 0, Size::Leading { max: 256 }, String, "VAR-13", "name of the variable";
-        VALUE "value" @ 1, Size::Rest { min: 0, max: 2047 }, Bytes, "VAR-13", "one element, or all of the array";
-    }
+    VariableNameWrite, variable_name_write: => crate::NameWriteRef<'static>;
     /// Extended description of a variable.
     VariableExtendedDescription, variable_extended_description: "variable-extended-description", "Extended variable description by index, reply", "VAR-15", max 8 {
         SYNCHRONISATION "synchronisation" @ 0, Size::FixedOrNothing(4), Uns32, "VAR-15", "1 NO_SYNC, 2 SYNCHRONIZED";
         VALIDITY "validity" @ 4, FIXED_4, Uns32, "VAR-15", "1 CHANNEL, 2 GLOBAL";
     }
     /// Content of a COM object, or of an element of a class.
-    Content, content: "content", "Content of an object or element", "COM-5", max 0x40_0000 {
-        CONTENT "content" @ 0, Size::Rest { min: 0, max: 0x40_0000 }, Bytes, "COM-5", "as descriptor or attributes say";
-    }
+    Content, content: => crate::ContentRef<'static>;
     /// Query of the address of an instance of a class.
-    ObjectAddressQuery, object_address_query: "object-address-query", "Object address, request", "SDA-1", max 8 {
-        CHANNEL "channel" @ 0, FIXED_4, Uns32, "SDA-5", "channel, or index of a spindle; 0 for the platform";
-        AXIS "axis" @ 4, FIXED_4, Uns32, "SDA-5", "axis; 0 for the channel itself";
-    }
+    ObjectAddressQuery, object_address_query: => crate::sda::ObjectAddressQuery;
     /// Address of an instance of a class.
-    ObjectAddress, object_address: "object-address", "Object address, reply", "SDA-1", max 8 {
-        INDEX_GROUP "index_group" @ 0, FIXED_4, Uns32, "SDA-2", "index group of the content; 0 if there is none";
-        INDEX_OFFSET "index_offset" @ 4, FIXED_4, Uns32, "SDA-2", "index offset of the first element";
-    }
+    ObjectAddress, object_address: => crate::sda::ObjectAddress;
     /// Number of element types of an instance.
-    ElementCount, element_count: "element-count", "Number of element types, reply", "SDA-4", max 4 {
-        COUNT "count" @ 0, FIXED_4, Uns32, "SDA-4", "element types behind the first element";
-    }
+    ElementCount, element_count: => crate::sda::ElementCount;
     /// Name, type or unit of an element.
-    ElementText, element_text: "element-text", "Name, type or unit of an element, reply", "SDA-6", max 256 {
-        TEXT "text" @ 0, Size::Open { min: 0, max: 256 }, String, "SDA-6", "name, type or unit";
-    }
+    ElementText, element_text: => crate::sda::ElementTextRef<'static>;
     /// Length of an element's content.
     ElementLength, element_length: "element-length", "Length of an element, reply", "SDA-8", max 4 {
         LENGTH "length" @ 0, Size::OneTwoOrFour, Unsigned, "SDA-8", "bytes of the content";
     }
     /// Whether an element may be written.
-    ElementWriteFlag, element_write_flag: "element-write-flag", "Write flag of an element, reply", "SDA-9", max 1 {
-        FLAG "flag" @ 0, Size::Fixed(1), Boolean, "SDA-9", "TRUE: write access is permitted";
-    }
+    ElementWriteFlag, element_write_flag: => crate::sda::ElementWriteFlag;
     /// Number of dynamic parameters of a kind.
-    DynamicCount, dynamic_count: "dynamic-count", "Number of dynamic parameters, reply", "DYN-1", max 4 {
-        COUNT "count" @ 0, FIXED_4, Uns32, "DYN-1", "parameters of the kind; also the largest index";
-    }
+    DynamicCount, dynamic_count: => crate::dynamic::DynamicCount;
     /// Request of a dynamic parameter by its index.
-    DynamicIndex, dynamic_index: "dynamic-index", "Dynamic parameter by index, request", "DYN-5", max 4 {
-        INDEX "index" @ 0, Size::FromOne, Uns32, "DYN-5", "index of the parameter, from 1";
-    }
+    DynamicIndex, dynamic_index: => crate::dynamic::DynamicIndex;
     /// Name of a dynamic parameter.
-    DynamicName, dynamic_name: "dynamic-name", "Name of a dynamic parameter, reply", "DYN-2", max 96 {
-        NAME "name" @ 0, Size::Open { min: 1, max: 96 }, String, "DYN-2", "name of the parameter";
-    }
+    DynamicName, dynamic_name: => crate::dynamic::DynamicNameRef<'static>;
     /// Request of a dynamic parameter by its name.
-    DynamicNameRequest, dynamic_name_request: "dynamic-name-request", "Dynamic parameter by name, request", "DYN-3", max 96 {
-        NAME "name" @ 0, Size::MayTerminate { max: 96 }, String, "DYN-3", "name of the parameter";
-    }
+    DynamicNameRequest, dynamic_name_request: => crate::dynamic::DynamicNameRequestRef<'static>;
     /// Value of a dynamic parameter.
     DynamicValue, dynamic_value: "dynamic-value", "Value of a dynamic parameter, reply", "DYN-3", max 8 {
         VALUE "value" @ 0, Size::Fixed(8), Real64, "DYN-3", "value of the parameter";
     }
     /// Description of a variable that was asked for by its name.
-    VariableDescriptionByName, variable_description_by_name: "variable-description-by-name", "Variable description by name, reply", "VAR-28", max 2048 {
-        HANDLE "handle" @ 0, FIXED_4, Uns32, "VAR-10", "handle of the variable";
-        TYPE "type" @ 4, FIXED_4, Uns32, "VAR-5", "1 BOOLEAN … 9 STRING";
-        ACCESS "access" @ 8, FIXED_4, Uns32, "VAR-6", "1 READ_ONLY, 2 READ_WRITE";
-        SIZE "size" @ 12, FIXED_4, Uns32, "VAR-8", "bytes of the whole variable";
-        DIMENSION_COUNT "dimension_count" @ 16, FIXED_4, Uns32, "VAR-7", "array dimensions m; 0 for an elementary variable";
-        DIMENSIONS "dimensions" @ 20, Size::Items { each: 4, max: 507 }, Uns32, "VAR-7", "elements in each dimension";
-    }
+    VariableDescriptionByName, variable_description_by_name: => crate::DescriptionByNameRef<'static>;
     /// NC text in one write to the stream.
-    ProgramStream, program_stream: "program-stream", "Data streaming, request", "STM-2", max 992 {
-        DATA "data" @ 0, Size::Rest { min: 1, max: 992 }, Bytes, "STM-4", "whole lines of NC text";
-    }
+    ProgramStream, program_stream: => crate::streaming::ProgramStreamRef<'static>;
     /// What comes back where nothing does; no stream of its own.
     NoData, no_data: "no-data", "No data", "VAR-17", max 0 {
         NOTHING "nothing" @ 0, Size::Rest { min: 0, max: 0 }, Bytes, "VAR-17", "nothing";

@@ -4,9 +4,8 @@ use super::request::sealed::Sealed;
 use super::{Call, Function, Operation, Refusal, Request};
 use crate::address::{Access, Channel, ComGroup, IndexGroup, IndexOffset, OfCom, PlatformAxis};
 use crate::bytes::to_u32;
-use crate::com::{DescriptorsRef, ObjectCount};
+use crate::com::{DescriptorLayout, DescriptorsRef, ObjectCount};
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::object_descriptor::ID;
 use crate::layout::{Field, Stream};
 use crate::limits::DESCRIPTOR_LEN;
 
@@ -151,7 +150,8 @@ impl ReadDescriptors {
     /// over [`COUNT_MAX`](Self::COUNT_MAX).
     pub fn new(list: impl Into<ObjectList>, first: u32, count: u32) -> Result<Self, Error> {
         if first == 0 {
-            return Err(Error::new(ErrorKind::OutOfRange, ID, 0, 1, first));
+            let id = const { Field::of::<DescriptorLayout>("id") };
+            return Err(Error::new(ErrorKind::OutOfRange, id, 0, 1, first));
         }
         if count == 0 {
             return Err(Error::new(ErrorKind::OutOfRange, whole(), 0, 1, count));

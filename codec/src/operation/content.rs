@@ -8,11 +8,14 @@ use crate::address::{
 use crate::bytes::to_u32;
 use crate::content::ContentRef;
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::content::CONTENT;
+use crate::layout::Field;
 use crate::layout::field::index_group::INSTANCE;
 use crate::layout::field::index_offset::ELEMENT;
 use crate::limits::ADS_DATA_MAX;
 use crate::stream::{Decode, Encode, NoData};
+
+/// The whole of a content.
+const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
 
 /// Where a COM object's content is; a descriptor says it (COM-5).
 fn object(group: IndexGroup, offset: IndexOffset) -> Result<(OfCom, IndexOffset), Error> {

@@ -1,20 +1,20 @@
 //! The attributes of an element (SDA-4, SDA-6 … SDA-9).
 
-use crate::bytes::{Reader, Writer, to_u32};
+use crate::bytes::{Reader, Writer};
+use crate::declare::stream;
 use crate::error::Error;
 use crate::layout::Stream;
-use crate::layout::field::{element_count, element_length, element_text};
-use crate::limits::TEXT_MAX;
+use crate::layout::field::element_length;
 use crate::stream::{Decode, Encode};
 
-crate::number::number_stream! {
-    #[doc = include_str!("../../doc/element-count.md")]
+stream! {
+    /// The number of element types of an instance.
     ///
     /// Elements are counted from the first one on, which is not counted itself (assumed).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The width is assumed.
     ///
-    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -24,19 +24,23 @@ crate::number::number_stream! {
     /// assert_eq!(ElementCount::decode(&[9, 0, 0, 0])?, ElementCount(9));
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    #[derive(Debug)]
-    ElementCount, ElementCount, element_count::COUNT
+    ElementCount "element-count", "Number of element types, reply", "SDA-4", max 4;
+    tuple ElementCount {
+        @0 count: UNS32, "SDA-4", "element types behind the first element";
+    }
 }
 
-crate::text::text_stream! {
-    #[doc = include_str!("../../doc/element-text.md")]
+crate::number::debug!(ElementCount);
+
+stream! {
+    /// The name, type or unit of an element.
     ///
-    /// The text ends at its first NUL or with the reply (assumed); what follows the NUL is kept.
-    /// An empty reply is an empty text, and 256 bytes are the most that are asked for (assumed).
+    /// The text ends at its first NUL or with the reply (assumed). Bytes after the NUL are kept. An
+    /// empty reply is an empty text, and 256 bytes are the most that are asked for (assumed).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
     ///
-    /// `decode` refuses with [`TooLong`](crate::ErrorKind::TooLong).
+    /// `decode` rejects bytes with [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
     /// use ads_cnc::Decode;
@@ -45,22 +49,10 @@ crate::text::text_stream! {
     /// assert_eq!(ElementTextRef::decode(b"feedhold.enable\0")?.text.text(), "feedhold.enable");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    ElementTextRef,
-    ///
-    /// ```
-    /// use ads_cnc::Encode;
-    /// use ads_cnc::sda::ElementText;
-    ///
-    /// let reply = ElementText { text: "mm".parse()? };
-    /// assert_eq!(reply.to_vec()?, b"mm\0");
-    /// # Ok::<(), ads_cnc::Error>(())
-    /// ```
-    ElementText, ElementText {
-        /// Name, type or unit.
-        text: element_text::TEXT
+    ElementText "element-text", "Name, type or unit of an element, reply", "SDA-6", max 256;
+    struct ElementTextRef<'a> / ElementText {
+        @0 text: TEXT(0, 256), "SDA-6", "name, type or unit";
     }
-    read open(0, to_u32(TEXT_MAX)),
-    check check_open(0, to_u32(TEXT_MAX))
 }
 
 #[doc = include_str!("../../doc/element-length.md")]
@@ -149,27 +141,32 @@ impl<'a> arbitrary::Arbitrary<'a> for ElementLength {
     }
 }
 
-#[doc = include_str!("../../doc/element-write-flag.md")]
-///
-/// TRUE permits writing (section 2.2.1), though the heading in section 2.2.2 speaks of protection
-/// (E-11).
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
-///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
-/// [`Trailing`](crate::ErrorKind::Trailing).
-///
-/// ```
-/// use ads_cnc::Decode;
-/// use ads_cnc::sda::ElementWriteFlag;
-///
-/// assert!(!ElementWriteFlag::decode(&[0])?.is_writable());
-/// assert_eq!(ElementWriteFlag::decode(&[1])?, ElementWriteFlag::WRITABLE);
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
-pub struct ElementWriteFlag(pub u8);
+stream! {
+    /// Whether an element may be written.
+    ///
+    /// TRUE permits writing (section 2.2.1), though the heading in section 2.2.2 speaks of protection
+    /// (E-11).
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
+    ///
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`Trailing`](crate::ErrorKind::Trailing).
+    ///
+    /// ```
+    /// use ads_cnc::Decode;
+    /// use ads_cnc::sda::ElementWriteFlag;
+    ///
+    /// assert!(!ElementWriteFlag::decode(&[0])?.is_writable());
+    /// assert_eq!(ElementWriteFlag::decode(&[1])?, ElementWriteFlag::WRITABLE);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ElementWriteFlag "element-write-flag", "Write flag of an element, reply", "SDA-9", max 1;
+    tuple ElementWriteFlag {
+        @0 flag: BOOLEAN, "SDA-9", "TRUE: write access is permitted";
+    }
+}
+
+crate::number::debug!(ElementWriteFlag);
 
 impl ElementWriteFlag {
     /// FALSE, as written.
@@ -180,23 +177,5 @@ impl ElementWriteFlag {
     /// Whether this is TRUE: anything but 0, and kept.
     pub const fn is_writable(self) -> bool {
         self.0 != 0
-    }
-}
-
-impl<'a> Decode<'a> for ElementWriteFlag {
-    const STREAM: Stream = Stream::ElementWriteFlag;
-
-    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::all(Self::STREAM, bytes).map(|&flag| Self(flag))
-    }
-}
-
-impl Encode for ElementWriteFlag {
-    fn encoded_len(&self) -> usize {
-        1
-    }
-
-    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::copy(Self::STREAM, &[self.0], buf)
     }
 }

@@ -1,18 +1,16 @@
-//! The data of one write to the stream (STM-2).
+//! The data of one write to the stream.
 
-use crate::bytes_stream::bytes_stream;
-use crate::layout::field::program_stream::DATA;
-use crate::limits::STREAM_PACKET_MAX;
+use crate::declare::stream;
 
-bytes_stream! {
-    #[doc = include_str!("../../doc/program-stream.md")]
+stream! {
+    /// The data of one write to the program stream.
     ///
-    /// Whether its lines are whole, the CNC says when it reads them (STM-5); what
-    /// [`Sender`](super::Sender) hands out is.
+    /// Whether its lines are whole, the CNC finds out when it reads them (STM-5);
+    /// [`Sender`](super::Sender) hands out whole lines.
     ///
     /// Manual: `stream-en`, sections 3.1, 3.2 and 4.1.
     ///
-    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
@@ -26,8 +24,8 @@ bytes_stream! {
     /// );
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    ProgramStreamRef, ProgramStream, ProgramStream {
-        /// The text; one line at least (STM-4).
-        bytes: DATA, 1 to STREAM_PACKET_MAX
+    ProgramStream "program-stream", "Data streaming, request", "STM-2", max 992;
+    struct ProgramStreamRef<'a> / ProgramStream {
+        @0 bytes "data": BYTES(1, 992), "STM-4", "whole lines of NC text";
     }
 }

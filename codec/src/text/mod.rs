@@ -22,11 +22,9 @@ pub(crate) mod end;
 mod field;
 #[cfg(feature = "alloc")]
 mod owned;
-mod stream;
 
 pub use cncstr::{Chars, CncStr};
 pub use cp1252::{char_to_cp1252, cp1252_to_char};
 pub use field::TextRef;
 #[cfg(feature = "alloc")]
 pub use owned::{CncString, Text};
-pub(crate) use stream::text_stream;

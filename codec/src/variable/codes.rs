@@ -168,3 +168,5 @@ debug_code!(VariableType);
 debug_code!(VariableAccess);
 debug_code!(Synchronisation);
 debug_code!(Validity);
+
+crate::number::from_number!(VariableType, VariableAccess, Synchronisation, Validity);

@@ -1,189 +1,85 @@
-//! The description of a variable (VAR-4 … VAR-8).
+//! The description of a variable, by its index and by its name.
 
-use zerocopy::little_endian::U32;
-use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
+use super::{Handle, VariableAccess, VariableType};
+use crate::declare::stream;
 
-use super::{Handle, Numbers, VariableAccess, VariableType};
-use crate::bytes::{Reader, Writer, to_u32};
-use crate::error::Error;
-use crate::layout::Stream;
-use crate::layout::field::variable_description::{DIMENSION_COUNT, NAME};
-use crate::limits::{DIMENSIONS_MAX, TEXT_MAX};
-use crate::stream::{Decode, Encode};
-use crate::text::TextRef;
-
-/// The five numbers at the front, once for all readings.
-#[derive(Clone, Copy, FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
-#[repr(C)]
-pub(super) struct Head {
-    pub(super) handle: U32,
-    pub(super) var_type: U32,
-    pub(super) access: U32,
-    pub(super) size: U32,
-    pub(super) dimension_count: U32,
-}
-
-impl Head {
-    pub(super) const LEN: usize = 20;
-}
-
-const _: () = assert!(size_of::<Head>() == Head::LEN);
-
-#[doc = include_str!("../../doc/variable-description.md")]
-///
-/// The end of the name is not documented (E-17): a NUL, NULs up to 256 bytes, or the end of the
-/// stream; one NUL is written. What follows the NUL is kept, and a name field has at least one
-/// byte.
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
-///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
-/// [`TooMany`](crate::ErrorKind::TooMany) or [`TooLong`](crate::ErrorKind::TooLong).
-///
-/// ```
-/// use ads_cnc::{Decode, DescriptionRef, VariableType};
-///
-/// let bytes = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
-/// let variable = DescriptionRef::decode(bytes)?;
-/// assert_eq!(variable.handle.0, 0x2000002);
-/// assert_eq!(variable.var_type, VariableType::BOOLEAN);
-/// assert_eq!(variable.dimensions.get(0), Some(2));
-/// assert_eq!(variable.name.text(), "V.E.Variable_3");
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DescriptionRef<'a> {
-    /// Handle of the variable.
-    pub handle: Handle,
-    /// Type of the variable or of its elements.
-    pub var_type: VariableType,
-    /// Whether the variable may be written.
-    pub access: VariableAccess,
-    /// Bytes of the whole variable.
-    pub size: u32,
-    /// Elements in each dimension; none for an elementary variable.
-    pub dimensions: Numbers<'a>,
-    /// Name of the variable.
-    pub name: TextRef<'a>,
-}
-
-impl<'a> Decode<'a> for DescriptionRef<'a> {
-    const STREAM: Stream = Stream::VariableDescription;
-
-    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let head: &Head = input.fixed()?;
-        let (count, max) = (head.dimension_count.get(), to_u32(DIMENSIONS_MAX));
-        let dimensions = input.numbers(DIMENSION_COUNT, count, max)?;
-        let name = input.open(NAME, 1, to_u32(TEXT_MAX))?;
-        Ok(Self {
-            handle: Handle(head.handle.get()),
-            var_type: VariableType(head.var_type.get()),
-            access: VariableAccess(head.access.get()),
-            size: head.size.get(),
-            dimensions: Numbers::from_wire(dimensions),
-            name,
-        })
-    }
-}
-
-impl Encode for DescriptionRef<'_> {
-    fn encoded_len(&self) -> usize {
-        let numbers = self.dimensions.encoded_len().saturating_add(Head::LEN);
-        numbers.saturating_add(self.name.field_len())
-    }
-
-    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let count = self.dimensions.check(DIMENSION_COUNT, 16, DIMENSIONS_MAX)?;
-        let name_at = Head::LEN.saturating_add(count.saturating_mul(4));
-        let name_len = self.name.check_open(NAME, to_u32(name_at), 1, to_u32(TEXT_MAX))?;
-        Writer::run(Self::STREAM, name_at.saturating_add(name_len), buf, |out| {
-            self.without_name().write(count, out);
-            self.name.write(out);
-        })
-    }
-}
-
-#[cfg(feature = "alloc")]
-pub use owned::Description;
-
-#[cfg(feature = "alloc")]
-mod owned {
-    use alloc::vec::Vec;
-
-    use super::*;
-    use crate::bridge::{self, Fixed, TextLen};
-    use crate::text::Text;
-
-    /// [`DescriptionRef`], owned.
+stream! {
+    /// What a CNC says of a variable: the reply to a description by index.
+    ///
+    /// How the name ends is not documented (E-17): a NUL, NULs up to 256 bytes, and the end of the
+    /// stream are accepted. Bytes after the NUL are kept, and a name has at least one byte. A new
+    /// description ends in one NUL.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2.
+    ///
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// [`TooMany`](crate::ErrorKind::TooMany) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
-    /// use ads_cnc::{Decode, Description, VariableAccess};
+    /// use ads_cnc::{Decode, DescriptionRef, VariableType};
     ///
     /// let bytes = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
-    /// let variable = Description::decode(bytes)?;
-    /// assert_eq!((variable.access, variable.size), (VariableAccess::READ_ONLY, 2));
-    /// assert_eq!(variable.dimensions, [2]);
+    /// let variable = DescriptionRef::decode(bytes)?;
+    /// assert_eq!(variable.handle.0, 0x2000002);
+    /// assert_eq!(variable.var_type, VariableType::BOOLEAN);
+    /// assert_eq!(variable.dimensions.get(0), Some(2));
+    /// assert_eq!(variable.name.text(), "V.E.Variable_3");
+    /// // It can be kept when the bytes are gone.
+    /// # #[cfg(feature = "alloc")]
+    /// assert_eq!(variable.to_owned().dimensions, [2]);
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-    pub struct Description {
-        /// Handle of the variable.
-        pub handle: Handle,
-        /// Type of the variable or of its elements.
-        pub var_type: VariableType,
-        /// Whether the variable may be written.
-        pub access: VariableAccess,
-        /// Bytes of the whole variable.
-        pub size: u32,
-        /// Elements in each dimension; none for an elementary variable.
-        pub dimensions: Vec<u32>,
-        /// Name of the variable.
-        pub name: Text,
+    VariableDescription "variable-description", "Variable description by index, reply", "VAR-4", max 2048;
+    struct DescriptionRef<'a> / Description {
+              @0       handle: UNS32 as Handle,                "VAR-10", "handle of the variable";
+              @4       var_type "type": UNS32 as VariableType, "VAR-5",  "1 BOOLEAN … 9 STRING";
+              @8       access: UNS32 as VariableAccess,        "VAR-6",  "1 READ_ONLY, 2 READ_WRITE";
+              @12      size: UNS32,                            "VAR-8",  "bytes of the whole variable";
+        count @16      dimension_count,                        "VAR-7",  "array dimensions m; 0 for an elementary variable";
+              @20      dimensions: LIST(506),                  "VAR-4",  "elements in each dimension";
+              @20 + 4m name: TEXT(1, 256),                     "VAR-4",  "name of the variable";
     }
+}
 
-    #[binrw::binread]
-    #[br(little, import(name_len: TextLen))]
-    struct Wire {
-        head: Fixed<Head>,
-        #[br(parse_with = bridge::numbers, args(head.0.dimension_count.get()))]
-        dimensions: Vec<u32>,
-        #[br(parse_with = bridge::text, args(name_len))]
-        name: Text,
+stream! {
+    /// What a CNC says of a variable by its name: [`DescriptionRef`] without the name.
+    ///
+    /// Documented online only, for CNC versions from V3.1.3132.0 and V4.29.0 on; `ads-en` 1.05 and
+    /// `ads-de` 1.051 reserve the offset in section 4.2.1.
+    ///
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// [`TooMany`](crate::ErrorKind::TooMany), [`Trailing`](crate::ErrorKind::Trailing) or
+    /// [`TooLong`](crate::ErrorKind::TooLong).
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, DescriptionByNameRef, VariableType};
+    ///
+    /// let bytes = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0";
+    /// let variable = DescriptionByNameRef::decode(bytes)?;
+    /// assert_eq!(variable.var_type, VariableType::BOOLEAN);
+    /// assert_eq!(variable.dimensions.get(0), Some(2));
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    VariableDescriptionByName "variable-description-by-name", "Variable description by name, reply", "VAR-28", max 2048;
+    struct DescriptionByNameRef<'a> / DescriptionByName {
+              @0  handle: UNS32 as Handle,                "VAR-10", "handle of the variable";
+              @4  var_type "type": UNS32 as VariableType, "VAR-5",  "1 BOOLEAN … 9 STRING";
+              @8  access: UNS32 as VariableAccess,        "VAR-6",  "1 READ_ONLY, 2 READ_WRITE";
+              @12 size: UNS32,                            "VAR-8",  "bytes of the whole variable";
+        count @16 dimension_count,                        "VAR-7",  "array dimensions m; 0 for an elementary variable";
+              @20 dimensions: LIST(507),                  "VAR-7",  "elements in each dimension";
     }
+}
 
-    impl<'a> Decode<'a> for Description {
-        const STREAM: Stream = Stream::VariableDescription;
-
-        fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-            let name_len: TextLen = DescriptionRef::decode(bytes)?.name.into();
-            let Wire { head: Fixed(head), dimensions, name } =
-                bridge::read_with(Self::STREAM, bytes, (name_len,))?;
-            Ok(Self {
-                handle: Handle(head.handle.get()),
-                var_type: VariableType(head.var_type.get()),
-                access: VariableAccess(head.access.get()),
-                size: head.size.get(),
-                dimensions,
-                name,
-            })
+impl<'a> DescriptionRef<'a> {
+    /// The same without the name, as a description by name has it.
+    pub const fn without_name(&self) -> DescriptionByNameRef<'a> {
+        DescriptionByNameRef {
+            handle: self.handle,
+            var_type: self.var_type,
+            access: self.access,
+            size: self.size,
+            dimensions: self.dimensions,
         }
     }
-
-    impl Description {
-        /// The description, borrowed.
-        #[inline]
-        pub fn as_ref(&self) -> DescriptionRef<'_> {
-            DescriptionRef {
-                handle: self.handle,
-                var_type: self.var_type,
-                access: self.access,
-                size: self.size,
-                dimensions: self.dimensions.as_slice().into(),
-                name: self.name.as_ref(),
-            }
-        }
-    }
-
-    crate::stream::encode_as_ref!(Description);
 }

@@ -1,24 +1,17 @@
-//! Handles, and reading by handle (VAR-10, VAR-11).
+//! Handles, and reading and writing by handle.
 
 use core::fmt;
 
-use super::Numbers;
-use crate::bytes::{Reader, Writer, to_u32};
-use crate::error::Error;
-use crate::layout::Stream;
-use crate::layout::field::variable_handle::HANDLE as REPLY_HANDLE;
-use crate::layout::field::variable_handle_read::{HANDLE, INDEX_COUNT};
-use crate::limits::INDICES_MAX;
-use crate::stream::{Decode, Encode};
+use crate::declare::stream;
 
-crate::number::number_stream! {
-    #[doc = include_str!("../../doc/variable-handle.md")]
+stream! {
+    /// The handle of a variable.
     ///
     /// Valid until the controller restarts; that of an axis variable belongs to the axis's place.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.3.
     ///
-    /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
     /// [`Trailing`](crate::ErrorKind::Trailing).
     ///
     /// ```
@@ -27,7 +20,10 @@ crate::number::number_stream! {
     /// assert_eq!(Handle::decode(&[4, 0, 0, 2])?, Handle(0x2000004));
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    Handle, VariableHandle, REPLY_HANDLE
+    VariableHandle "variable-handle", "Variable handle by name, reply", "VAR-10", max 4;
+    tuple Handle {
+        @0 handle: UNS32, "VAR-10", "handle of the variable";
+    }
 }
 
 impl fmt::Debug for Handle {
@@ -36,114 +32,62 @@ impl fmt::Debug for Handle {
     }
 }
 
-#[doc = include_str!("../../doc/variable-handle-read.md")]
-///
-/// No index reads the whole variable; otherwise there is one for each dimension.
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.4.
-///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
-/// [`TooMany`](crate::ErrorKind::TooMany), [`Trailing`](crate::ErrorKind::Trailing) or
-/// [`TooLong`](crate::ErrorKind::TooLong).
-///
-/// ```
-/// use ads_cnc::{Encode, Handle, HandleReadRef, Numbers};
-///
-/// let element = HandleReadRef { handle: Handle(0x20012341), indices: Numbers::from(&[4]) };
-/// let mut buf = [0; 12];
-/// assert_eq!(element.encode(&mut buf)?, [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0]);
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct HandleReadRef<'a> {
-    /// Handle of the variable.
-    pub handle: Handle,
-    /// Index in each dimension, from 0; none for the whole variable.
-    pub indices: Numbers<'a>,
-}
-
-impl<'a> Decode<'a> for HandleReadRef<'a> {
-    const STREAM: Stream = Stream::VariableHandleRead;
-
-    fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        let handle = Handle(input.u32(HANDLE)?);
-        let count = input.u32(INDEX_COUNT)?;
-        let indices = input.numbers(INDEX_COUNT, count, to_u32(INDICES_MAX))?;
-        input.finish()?;
-        Ok(Self { handle, indices: Numbers::from_wire(indices) })
-    }
-}
-
-impl Encode for HandleReadRef<'_> {
-    fn encoded_len(&self) -> usize {
-        self.indices.encoded_len().saturating_add(8)
-    }
-
-    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        let count = self.indices.check(INDEX_COUNT, 4, INDICES_MAX)?;
-        Writer::run(Self::STREAM, count.saturating_mul(4).saturating_add(8), buf, |out| {
-            out.u32(self.handle.0);
-            out.u32(to_u32(count));
-            self.indices.write(out);
-        })
-    }
-}
-
-#[cfg(feature = "alloc")]
-pub use owned::HandleRead;
-
-#[cfg(feature = "alloc")]
-mod owned {
-    use alloc::vec::Vec;
-
-    use super::*;
-    use crate::bridge;
-
-    /// [`HandleReadRef`], owned.
+stream! {
+    /// Asks for the value of a variable by its handle.
+    ///
+    /// Without an index it asks for the whole variable; otherwise there is one index for each dimension.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.4.
+    ///
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// [`TooMany`](crate::ErrorKind::TooMany), [`Trailing`](crate::ErrorKind::Trailing) or
+    /// [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
-    /// use ads_cnc::{Decode, Handle, HandleRead};
+    /// use ads_cnc::{Encode, Handle, HandleReadRef, Numbers};
     ///
-    /// let read = HandleRead::decode(&[0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0])?;
-    /// assert_eq!(read, HandleRead { handle: Handle(0x20012341), indices: vec![4] });
+    /// let element = HandleReadRef { handle: Handle(0x20012341), indices: Numbers::from(&[4]) };
+    /// let mut buf = [0; 12];
+    /// assert_eq!(element.encode(&mut buf)?, [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0]);
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-    pub struct HandleRead {
-        /// Handle of the variable.
-        pub handle: Handle,
-        /// Index in each dimension, from 0; none for the whole variable.
-        pub indices: Vec<u32>,
+    VariableHandleRead "variable-handle-read", "Read variable value by handle, request", "VAR-11", max 2048;
+    struct HandleReadRef<'a> / HandleRead {
+              @0 handle: UNS32 as Handle, "VAR-11", "handle of the variable";
+        count @4 index_count,             "VAR-11", "indices n that follow; 0 for the whole variable";
+              @8 indices: LIST(510),      "VAR-11", "index in each dimension, from 0";
     }
-
-    #[binrw::binread]
-    #[br(little)]
-    struct Wire {
-        handle: u32,
-        #[br(temp)]
-        index_count: u32,
-        #[br(parse_with = bridge::numbers, args(index_count))]
-        indices: Vec<u32>,
-    }
-
-    impl<'a> Decode<'a> for HandleRead {
-        const STREAM: Stream = Stream::VariableHandleRead;
-
-        fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-            HandleReadRef::decode(bytes)?;
-            let Wire { handle, indices } = bridge::read(Self::STREAM, bytes)?;
-            Ok(Self { handle: Handle(handle), indices })
-        }
-    }
-
-    impl HandleRead {
-        /// The request, borrowed.
-        #[inline]
-        pub fn as_ref(&self) -> HandleReadRef<'_> {
-            HandleReadRef { handle: self.handle, indices: self.indices.as_slice().into() }
-        }
-    }
-
-    crate::stream::encode_as_ref!(HandleRead);
 }
+
+stream! {
+    /// Writes the value of a variable by its handle.
+    ///
+    /// Without an index it writes the whole variable; otherwise there is one index for each dimension.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.6.
+    ///
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
+    /// [`TooMany`](crate::ErrorKind::TooMany) or [`TooLong`](crate::ErrorKind::TooLong).
+    ///
+    /// ```
+    /// use ads_cnc::{Encode, Handle, HandleWriteRef, Numbers};
+    ///
+    /// let write = HandleWriteRef {
+    ///     handle: Handle(0x2001234),
+    ///     indices: Numbers::from(&[4]),
+    ///     value: &123_i32.to_le_bytes(),
+    /// };
+    /// let mut buf = [0; 16];
+    /// assert_eq!(write.encode(&mut buf)?, b"\x34\x12\0\x02\x01\0\0\0\x04\0\0\0\x7b\0\0\0");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    VariableHandleWrite "variable-handle-write", "Write variable value by handle, request", "VAR-12", max 2048;
+    struct HandleWriteRef<'a> / HandleWrite {
+              @0      handle: UNS32 as Handle, "VAR-12", "handle of the variable";
+        count @4      index_count,             "VAR-12", "indices n that follow; 0 for the whole variable";
+              @8      indices: LIST(510),      "VAR-12", "index in each dimension, from 0";
+              @8 + 4m value: BYTES(0, 2040),   "VAR-12", "one element, or all of the array";
+    }
+}
+
+crate::number::from_number!(Handle);

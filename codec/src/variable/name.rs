@@ -1,16 +1,15 @@
-//! Asking for a variable by name (VAR-9).
+//! Reading and writing by name.
 
-use crate::layout::field::variable_name::NAME;
-use crate::limits::TEXT_MAX;
+use crate::declare::stream;
 
-crate::text::text_stream! {
-    #[doc = include_str!("../../doc/variable-name.md")]
+stream! {
+    /// Asks for a handle, a value or a description by a variable's name.
     ///
     /// NULs may pad the name up to 256 bytes (E-34).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.3 and 4.3.5.
     ///
-    /// `decode` refuses with [`MissingNul`](crate::ErrorKind::MissingNul),
+    /// `decode` rejects bytes with [`MissingNul`](crate::ErrorKind::MissingNul),
     /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
@@ -23,19 +22,34 @@ crate::text::text_stream! {
     /// );
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    VariableNameRef,
+    VariableName "variable-name", "Variable by name, request", "VAR-9", max 256;
+    struct VariableNameRef<'a> / VariableName {
+        @0 name: TEXT_NUL(256), "VAR-9", "name of the variable";
+    }
+}
+
+stream! {
+    /// Writes the value of a variable by its name.
+    ///
+    /// The value begins after the name's NUL, so that nothing can pad the name.
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.7 and 4.3.11.
+    ///
+    /// `decode` rejects bytes with [`MissingNul`](crate::ErrorKind::MissingNul) or
+    /// [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
-    /// use ads_cnc::{Encode, VariableName};
+    /// use ads_cnc::{CncStr, Encode, NameWriteRef};
     ///
-    /// let request = VariableName { name: "V.E.vartest".parse()? };
-    /// assert_eq!(request.to_vec()?, b"V.E.vartest\0");
+    /// let name = CncStr::new("V.E.test[4]")?;
+    /// let mut buf = [0; 16];
+    /// let bytes = NameWriteRef { name, value: &123_i32.to_le_bytes() }.encode(&mut buf)?;
+    /// assert_eq!(bytes, b"V.E.test[4]\0\x7b\0\0\0");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    VariableName, VariableName {
-        /// Name of the variable.
-        name: NAME
+    VariableNameWrite "variable-name-write", "Write variable value by name, request", "VAR-13", max 2048;
+    struct NameWriteRef<'a> / NameWrite {
+        @0 name: TEXT_FIRST(256), "VAR-13", "name of the variable";
+        @1 value: BYTES(0, 2047), "VAR-13", "one element, or all of the array";
     }
-    read terminated(crate::bytes::to_u32(TEXT_MAX)),
-    check check_terminated(crate::bytes::to_u32(TEXT_MAX))
 }

@@ -5,9 +5,7 @@ use core::fmt;
 use zerocopy::IntoBytes as _;
 use zerocopy::little_endian::U32;
 
-use crate::bytes::{Writer, to_u32};
-use crate::error::{Error, ErrorKind};
-use crate::layout::Field;
+use crate::bytes::Writer;
 
 /// Dimensions or indices: borrowed from a stream's bytes, from a slice of numbers or from the
 /// brackets of a name.
@@ -78,17 +76,6 @@ impl<'a> Numbers<'a> {
     #[inline]
     pub fn iter(&self) -> impl ExactSizeIterator<Item = u32> + Clone + use<'a> {
         Rest(self.0)
-    }
-
-    /// How many there are, if there are no more than `max`.
-    #[inline]
-    pub(super) fn check(&self, counter: Field, at: u32, max: usize) -> Result<usize, Error> {
-        let count = self.len();
-        if count > max {
-            let (max, count) = (to_u32(max), to_u32(count));
-            return Err(Error::new(ErrorKind::TooMany, counter, at, max, count));
-        }
-        Ok(count)
     }
 
     pub(crate) fn encoded_len(&self) -> usize {
@@ -186,6 +173,13 @@ impl PartialEq for Numbers<'_> {
 }
 
 impl Eq for Numbers<'_> {}
+
+impl core::hash::Hash for Numbers<'_> {
+    fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
+        state.write_usize(self.len());
+        self.iter().for_each(|number| state.write_u32(number));
+    }
+}
 
 impl fmt::Debug for Numbers<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -81,11 +81,28 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
         vec.iter_mut().for_each(bend.vec);
         assert_eq!(vec, verdict.map(|()| bytes.to_vec()), "{stream}: to_vec of {bytes:x?}");
     }
+    #[cfg(feature = "binrw")]
+    check_binrw(stream, bytes, (subject.binrw)(bytes), verdict.is_ok());
     // More bytes are more of the same, and take their time.
     if stream == Stream::VariableValue && verdict.is_ok() && bytes.len() <= 128 {
         super::check_typed(bytes, bend.typed);
     }
     verdict
+}
+
+/// `BinRead` reads what is decoded and `BinWrite` writes what is encoded. What is rejected, it rejects,
+/// or it reads a part from the front that is a stream by itself and leaves the rest in the reader.
+#[cfg(feature = "binrw")]
+fn check_binrw(stream: Stream, bytes: &[u8], read: Option<(Vec<u8>, usize)>, is_accepted: bool) {
+    match read {
+        Some((written, read)) => {
+            assert_eq!(written, bytes[..read], "{stream}: BinWrite of {bytes:x?}");
+            let is_whole = read == bytes.len();
+            assert_eq!(is_whole, is_accepted, "{stream}: BinRead of {bytes:x?}");
+            assert_eq!(stream.walk(&bytes[..read], |_| ()), Ok(()), "{stream}: {bytes:x?}");
+        }
+        None => assert!(!is_accepted, "{stream}: BinRead of {bytes:x?}"),
+    }
 }
 
 /// A value encodes to bytes that are read as that value, and that every reading accepts.

@@ -20,6 +20,10 @@ pub(crate) struct Reading {
     pub(crate) encode: fn(&[u8], &mut [u8]) -> Result<usize, Error>,
 }
 
+/// Bytes through `BinRead` and `BinWrite`: what was written, and how many were read.
+#[cfg(feature = "binrw")]
+pub(crate) type ReadAndWritten = fn(&[u8]) -> Option<(Vec<u8>, usize)>;
+
 /// A stream with its readings.
 pub(crate) struct Subject {
     pub(crate) stream: Stream,
@@ -29,6 +33,10 @@ pub(crate) struct Subject {
     /// Decodes both and compares them.
     #[cfg(feature = "alloc")]
     pub(crate) same: fn(&[u8]) -> Result<bool, Error>,
+    /// Reads the bytes by `BinRead`: the bytes that `BinWrite` writes of what was read, and how many
+    /// were read.
+    #[cfg(feature = "binrw")]
+    pub(crate) binrw: ReadAndWritten,
     /// Decodes the bytes, owned, and encodes them into a vector.
     #[cfg(feature = "alloc")]
     pub(crate) to_vec: fn(&[u8]) -> Result<Vec<u8>, Error>,
@@ -72,6 +80,19 @@ fn decoded_and_copied<T: Clone>(decoded: Result<T, Error>, call: &mut dyn FnMut(
     drop(std::hint::black_box((decoded, copy)));
 }
 
+#[cfg(feature = "binrw")]
+fn read_and_written<T>(bytes: &[u8]) -> Option<(Vec<u8>, usize)>
+where
+    T: for<'a> binrw::BinRead<Args<'a> = ()> + binrw::meta::ReadEndian,
+    T: for<'a> binrw::BinWrite<Args<'a> = ()> + binrw::meta::WriteEndian,
+{
+    let mut reader = std::io::Cursor::new(bytes);
+    let value = T::read(&mut reader).ok()?;
+    let mut writer = std::io::Cursor::new(Vec::new());
+    value.write(&mut writer).unwrap();
+    Some((writer.into_inner(), usize::try_from(reader.position()).unwrap()))
+}
+
 macro_rules! reading {
     ($name:literal, $reading:ty) => {
         Reading {
@@ -90,6 +111,8 @@ macro_rules! subjects {
         owned: subjects!(@owned $view $( , $owned )?),
         #[cfg(feature = "alloc")]
         same: subjects!(@same $view $( , $owned )?),
+        #[cfg(feature = "binrw")]
+        binrw: subjects!(@binrw $view $( , $owned )?),
         #[cfg(feature = "alloc")]
         to_vec: subjects!(@to_vec $view $( , $owned )?),
         #[cfg(feature = "alloc")]
@@ -104,6 +127,8 @@ macro_rules! subjects {
     (@same $view:ty, $owned:ty) => {
         |bytes| Ok(<$owned>::decode(bytes)?.as_ref() == <$view>::decode(bytes)?)
     };
+    (@binrw $both:ty) => { read_and_written::<$both> };
+    (@binrw $view:ty, $owned:ty) => { read_and_written::<$owned> };
     (@to_vec $both:ty) => { |bytes| <$both>::decode(bytes)?.to_vec() };
     (@to_vec $view:ty, $owned:ty) => { |bytes| <$owned>::decode(bytes)?.to_vec() };
     (@twice $both:ty) => { |bytes, call| decoded_and_copied(<$both>::decode(bytes), call) };

@@ -1,0 +1,430 @@
+//! The declaration of a stream: its table, as the manual prints it. Everything else that is known of
+//! the stream follows from the declaration.
+
+use crate::layout::{Layout, Stream};
+#[cfg(feature = "arbitrary")]
+use crate::rows::Owned;
+
+/// A type that is declared as a stream.
+pub(crate) trait Declared {
+    const STREAM: Stream;
+    const LAYOUT: Layout;
+}
+
+/// The kinds of rows, one line each: the type in a view, the type in what owns its data, the row, and
+/// its size and type in the documentation. A number may be followed by `as` and its own type.
+macro_rules! row {
+    (packed (UNS08) $a:lifetime) => { u8 };
+    (packed (UNS16) $a:lifetime) => { zerocopy::little_endian::U16 };
+    (packed (UNS32) $a:lifetime) => { zerocopy::little_endian::U32 };
+    (packed (NETID) $a:lifetime) => { [u8; 6] };
+    (packed (PADDED $n:literal) $a:lifetime) => { [u8; $n] };
+    ($q:ident (UNS08) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Number<u8, u8>] "1 | `UNS08`") };
+    ($q:ident (NETID) $a:lifetime) => { $crate::declare::row!(@$q [[u8; 6]] [[u8; 6]] [NetId] "6 | `BYTE[6]`") };
+    ($q:ident (PADDED $n:literal) $a:lifetime) => { $crate::declare::row!(@$q [[u8; $n]] [[u8; $n]] [Padded<$n>] $n, " | `STRING`") };
+    ($q:ident (UNS16) $a:lifetime) => { $crate::declare::row!(@$q [u16] [u16] [Number<u16, u16>] "2 | `UNS16`") };
+    ($q:ident (UNS16 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u16, $t>] "2 | `UNS16`") };
+    ($q:ident (UNS32) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [Number<u32, u32>] "4 | `UNS32`") };
+    ($q:ident (UNS32 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u32, $t>] "4 | `UNS32`") };
+    ($q:ident (UNS32_NOT_0) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [NonZero] "4 | `UNS32`, not 0") };
+    ($q:ident (BOOLEAN) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Flag<u8>] "1 | `BOOLEAN`") };
+    ($q:ident (LIST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Numbers<$a>] [alloc::vec::Vec<u32>] [List<$max>] "4 each, at most ", $max, " | `UNS32`") };
+    ($q:ident (DATA $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Data<$max>] "at most ", $max, " | `BYTE[]`") };
+    ($q:ident (BYTES $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Bytes<$min, $max>] $min, " … ", $max, " | `BYTE[]`") };
+    ($q:ident (TEXT $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [Open<$min, $max>] $min, " … ", $max, " | `STRING`") };
+    ($q:ident (TEXT_NUL $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [Terminated<$max, false>] "1 … ", $max, " with NUL | `STRING`") };
+    ($q:ident (TEXT_NUL $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindOf<$crate::rows::Terminated<$max, false>>] "1 … ", $max, " with NUL | `STRING`") };
+    ($q:ident (TEXT_NUL_OR_NOTHING $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindOf<$crate::rows::Terminated<$max, true>>] "1 … ", $max, " with NUL, or 0 | `STRING`") };
+    ($q:ident (TEXT_MAYBE_NUL $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [MayTerminate<$max>] "1 … ", $max, " | `STRING`") };
+    ($q:ident (TEXT_FIRST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::CncStr<$a>] [$crate::text::CncString] [Leading<$max>] "1 … ", $max, " with NUL | `STRING`") };
+    (@view [$($view:tt)*] $o:tt $r:tt $($doc:tt)*) => { $($view)* };
+    (@owned $v:tt [$($owned:tt)*] $r:tt $($doc:tt)*) => { $($owned)* };
+    (@row $v:tt $o:tt [$($row:tt)*] $($doc:tt)*) => { $crate::rows::$($row)* };
+    (@doc $v:tt $o:tt $r:tt $($doc:tt)*) => { concat!($($doc)*) };
+    ($q:ident ($($row:tt)+) $a:lifetime) => {
+        compile_error!(concat!("`", stringify!($($row)+), "` is no kind of row: `row!` in src/declare.rs has them"))
+    };
+}
+
+/// Declares a stream by its table.
+///
+/// | | declares |
+/// |---|---|
+/// | `struct XRef<'a> / X` | a type that borrows, and one that owns its data |
+/// | `struct X` | one type, of numbers with names |
+/// | `tuple X` | one type, of a single number |
+/// | `packed XLayout` | the bytes of a fixed stream whose type is written by hand |
+///
+/// A row: the offset that the manual prints (`@20 + 4m` after `m` counted items of 4 bytes), the
+/// field (and its name in errors and vectors if that is another), the kind of row, the requirement,
+/// the meaning. The count of a list has a row of its own before it: `count`.
+macro_rules! stream {
+    (
+        $(#[$doc:meta])*
+        $stream:ident $name:literal, $title:literal, $clause:literal, max $max:literal;
+        $what:ident $view:ident $(<$a:lifetime> / $owned:ident)? { $(
+            $( count @$count_at:literal $(+ $count_per:tt)? $count:ident, $count_clause:literal, $count_meaning:literal; )?
+            @$at:literal $(+ $per:tt)? $field:ident $($label:literal)?: $kind:ident $(( $($arg:literal),+ ))? $(as $new:ident)?,
+                $field_clause:literal, $meaning:literal;
+        )+ }
+    ) => {
+        $crate::declare::stream! { @types $what $view $(/ $owned)?
+            [$(#[$doc])*]
+            [$(
+                $( [$count_at, stringify!($(+ $count_per)?), [$count], "4 | `UNS32`", $count_clause, $count_meaning] )?
+                [$at, stringify!($(+ $per)?), [$field $($label)?],
+                    $crate::declare::row!(doc ($kind $($($arg)+)? $(as $new)?) 'static), $field_clause, $meaning]
+            )+]
+            [$title, $max]
+            [$( [$field [$field $($label)?] $at ($kind $($($arg)+)? $(as $new)?)
+                [$crate::declare::row!(row ($kind $($($arg)+)? $(as $new)?) 'static)] $meaning] )+]
+        }
+
+        impl $crate::declare::Declared for $crate::declare::stream!(@type $view $(/ $owned)?) {
+            const STREAM: $crate::layout::Stream = $crate::layout::Stream::$stream;
+            const LAYOUT: $crate::layout::Layout = $crate::layout::Layout {
+                name: $name,
+                title: $title,
+                clause: $clause,
+                max: $max,
+                repeats: false,
+                fields: &[$(
+                    $( $crate::layout::FieldSpec {
+                        name: stringify!($count),
+                        offset: $count_at,
+                        per_item: 0 $(+ $crate::declare::stream!(@per $count_per))?,
+                        size: $crate::layout::Size::Fixed(4),
+                        ty: $crate::layout::Type::Uns32,
+                        clause: $count_clause,
+                        meaning: $count_meaning,
+                    }, )?
+                    $crate::layout::FieldSpec {
+                        name: $crate::declare::stream!(@name [$field $($label)?]),
+                        offset: $at,
+                        per_item: 0 $(+ $crate::declare::stream!(@per $per))?,
+                        size: <$crate::declare::row!(row ($kind $($($arg)+)? $(as $new)?) 'static)
+                            as $crate::rows::Row>::SIZE,
+                        ty: <$crate::declare::row!(row ($kind $($($arg)+)? $(as $new)?) 'static)
+                            as $crate::rows::Row>::TYPE,
+                        clause: $field_clause,
+                        meaning: $meaning,
+                    },
+                )+],
+            };
+        }
+
+        const _: () = {
+            type Type = $crate::declare::stream!(@static $view $(/ $owned)?);
+            $(
+                $( assert!(
+                    <Type as $crate::declare::Declared>::LAYOUT.is_at(stringify!($count)),
+                    concat!("`", stringify!($count), "` is not where the rows before it end"),
+                ); )?
+                assert!(
+                    <Type as $crate::declare::Declared>::LAYOUT
+                        .is_at($crate::declare::stream!(@name [$field $($label)?])),
+                    concat!("`", stringify!($field), "` is not where the rows before it end"),
+                );
+            )+
+        };
+    };
+
+    (@type $view:ident / $owned:ident) => { $view<'_> };
+    (@type $view:ident) => { $view };
+    (@static $view:ident / $owned:ident) => { $view<'static> };
+    (@static $view:ident) => { $view };
+
+    // Numbers with names.
+    (@types struct $view:ident
+        [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
+        [$( [$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
+    ) => {
+        $crate::declare::stream! { @documented [$(#[$doc])*] $table [$title, $max]
+            #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+            #[cfg_attr(feature = "binrw", derive(binrw::BinRead, binrw::BinWrite), brw(little),
+                bw(assert(
+                    $crate::io::check(&$view { $( $field: *$field ),+ }).is_ok(),
+                    $crate::io::error(&$view { $( $field: *$field ),+ }))))]
+            pub struct $view { $(
+                #[doc = $meaning]
+                #[cfg_attr(feature = "binrw",
+                    br(parse_with = $crate::io::parse::<$row, _>,
+                        args(const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
+                    bw(write_with = $crate::io::emit::<$row, _>))]
+                pub $field: $crate::declare::row!(view $kind 'static),
+            )+ }
+        }
+        $crate::declare::stream! { @numbers $view $max { $( $field ),+ } [$( [$field $label $at [$row] $field] )+] }
+    };
+
+    // One number.
+    (@types tuple $view:ident
+        [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
+        [[$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal]]
+    ) => {
+        $crate::declare::stream! { @documented [$(#[$doc])*] $table [$title, $max]
+            #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+            #[cfg_attr(feature = "binrw", derive(binrw::BinRead, binrw::BinWrite), brw(little),
+                bw(assert(
+                    $crate::io::check(&$view(*self_0)).is_ok(),
+                    $crate::io::error(&$view(*self_0)))))]
+            pub struct $view(
+                #[cfg_attr(feature = "binrw",
+                    br(parse_with = $crate::io::parse::<$row, _>,
+                        args(const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
+                    bw(write_with = $crate::io::emit::<$row, _>))]
+                pub $crate::declare::row!(view $kind 'static),
+            );
+        }
+        $crate::declare::stream! { @numbers $view $max ( $field ) [[$field $label $at [$row] 0]] }
+    };
+
+    // Numbers and texts of fixed length, as they are on the wire.
+    (@types packed $view:ident
+        [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
+        [$( [$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, PartialEq, Eq, Hash)]
+        #[derive(zerocopy::FromBytes, zerocopy::IntoBytes, zerocopy::KnownLayout)]
+        #[derive(zerocopy::Immutable, zerocopy::Unaligned)]
+        #[repr(C)]
+        pub(crate) struct $view { $( pub(crate) $field: $crate::declare::row!(packed $kind 'static), )+ }
+
+        const _: () = assert!(size_of::<$view>() == $max, "the rows are not all of the stream");
+    };
+
+    (@numbers $view:ident $max:literal $built:tt [$( [$field:ident $label:tt $at:literal [$row:ty] $member:tt] )+]) => {
+        impl<'a> $crate::stream::Decode<'a> for $view {
+            const STREAM: $crate::layout::Stream = <Self as $crate::declare::Declared>::STREAM;
+
+            fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
+                let stream = <Self as $crate::declare::Declared>::STREAM;
+                let mut input = $crate::bytes::Reader::ending(stream, &[]);
+                let head: &[u8; $max] = match $crate::bytes::Reader::all(stream, bytes) {
+                    Ok(head) => head,
+                    Err(error) => {
+                        // What is wrong with a row comes before what follows the last one.
+                        if let Some(head) = bytes.first_chunk::<$max>() { $(
+                            if <$row as $crate::rows::Row>::REJECTS {
+                                let field = const { $crate::layout::Field::of::<Self>($crate::declare::stream!(@name $label)) };
+                                <$row as $crate::rows::Row>::read(&mut input, head, field, $at)?;
+                            }
+                        )+ }
+                        return Err(error);
+                    }
+                };
+                $( let $field = <$row as $crate::rows::Row>::read(
+                    &mut input,
+                    head,
+                    const { $crate::layout::Field::of::<Self>($crate::declare::stream!(@name $label)) },
+                    $at,
+                )?; )+
+                Ok($view $built)
+            }
+        }
+
+        impl $crate::stream::Encode for $view {
+            fn encoded_len(&self) -> usize {
+                $max
+            }
+
+            fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
+                $( <$row as $crate::rows::Row>::check(
+                    self.$member,
+                    const { $crate::layout::Field::of::<Self>($crate::declare::stream!(@name $label)) },
+                    0,
+                )?; )+
+                let mut head = [0; $max];
+                $( <$row as $crate::rows::Row>::write_head(self.$member, &mut head, $at); )+
+                $crate::bytes::Writer::copy(<Self as $crate::declare::Declared>::STREAM, &head, buf)
+            }
+        }
+
+        #[cfg(feature = "arbitrary")]
+        impl<'u> arbitrary::Arbitrary<'u> for $view {
+            fn arbitrary(u: &mut arbitrary::Unstructured<'u>) -> arbitrary::Result<Self> {
+                $( let $field = $crate::declare::any::<$row>(u, 0)?; )+
+                Ok($view $built)
+            }
+        }
+    };
+
+    (@documented
+        [$(#[$doc:meta])*]
+        [$( [$at:literal, $per:expr, $row_label:tt, $kind_doc:expr, $clause:literal, $row_meaning:literal] )+]
+        [$title:literal, $max:literal] $item:item
+    ) => {
+        $(#[$doc])*
+        ///
+        #[doc = concat!("At most ", $max, " bytes:\n")]
+        /// | offset | size | type | field | meaning | requirement |
+        /// |---|---|---|---|---|---|
+        $( #[doc = concat!(
+            "| ", $at, $per, " | ", $kind_doc, " | `", $crate::declare::stream!(@name $row_label), "` | ",
+            $row_meaning, " | ", $clause, " |",
+        )] )+
+        $item
+    };
+
+    (@encoded $view:ident [$( [$label:tt $at:literal [$row:ty] $member:tt] )+]) => {
+        impl $crate::stream::Encode for $view<'_> {
+            fn encoded_len(&self) -> usize {
+                let len = 0_usize;
+                $( let len = len.saturating_add(
+                    <$row as $crate::rows::Row>::len(self.$member),
+                ); )+
+                len
+            }
+
+            fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], $crate::error::Error> {
+                let len = 0_usize;
+                $(
+                    <$row as $crate::rows::Row>::check(
+                        self.$member,
+                        const { $crate::layout::Field::of::<Self>($crate::declare::stream!(@name $label)) },
+                        len,
+                    )?;
+                    let len = len.saturating_add(
+                        <$row as $crate::rows::Row>::len(self.$member),
+                    );
+                )+
+                let stream = <Self as $crate::declare::Declared>::STREAM;
+                $crate::bytes::Writer::run(stream, len, buf, |out| {
+                    let mut head = [0; <$view<'static> as $crate::declare::Declared>::LAYOUT.head()];
+                    $( <$row as $crate::rows::Row>::write_head(self.$member, &mut head, $at); )+
+                    out.array(head);
+                    $( <$row as $crate::rows::Row>::write(self.$member, out); )+
+                })
+            }
+        }
+    };
+
+    // A type that borrows, and one that owns its data.
+    (@types struct $view:ident / $owned:ident
+        [$(#[$doc:meta])*] $table:tt $length:tt
+        [$( [$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
+    ) => {
+        $crate::declare::stream! { @documented [$(#[$doc])*] $table $length
+            #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+            pub struct $view<'a> { $(
+                #[doc = $meaning]
+                pub $field: $crate::declare::row!(view $kind 'a),
+            )+ }
+        }
+
+        impl<'a> $crate::stream::Decode<'a> for $view<'a> {
+            const STREAM: $crate::layout::Stream = <Self as $crate::declare::Declared>::STREAM;
+
+            fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
+                let mut input = $crate::bytes::Reader::new(<Self as $crate::declare::Declared>::STREAM, bytes)?;
+                let head = input.head::<{ <$view<'static> as $crate::declare::Declared>::LAYOUT.head() }>()?;
+                $( let $field = <$row as $crate::rows::Row>::read(
+                    &mut input,
+                    head,
+                    const { $crate::layout::Field::of::<Self>($crate::declare::stream!(@name $label)) },
+                    $at,
+                )?; )+
+                input.finish()?;
+                Ok(Self { $( $field ),+ })
+            }
+        }
+
+        $crate::declare::stream! { @encoded $view [$( [$label $at [$row] $field] )+] }
+
+        #[cfg(feature = "alloc")]
+        #[doc = concat!("[`", stringify!($view), "`] with data of its own.")]
+        #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+        #[cfg_attr(feature = "binrw", derive(binrw::BinRead, binrw::BinWrite), brw(little),
+            br(assert(
+                $crate::io::check(&$view { $( $field: <$row as $crate::rows::Owned>::lend(&$field) ),+ }).is_ok(),
+                $crate::io::error(&$view { $( $field: <$row as $crate::rows::Owned>::lend(&$field) ),+ }))),
+            bw(assert(
+                $crate::io::check(&$view { $( $field: <$row as $crate::rows::Owned>::lend($field) ),+ }).is_ok(),
+                $crate::io::error(&$view { $( $field: <$row as $crate::rows::Owned>::lend($field) ),+ }))))]
+        pub struct $owned { $(
+            #[doc = $meaning]
+            #[cfg_attr(feature = "binrw",
+                br(parse_with = $crate::io::parse::<$row, _>,
+                    args(const { $crate::layout::Field::of::<$view<'static>>($crate::declare::stream!(@name $label)) })),
+                bw(write_with = $crate::io::emit::<$row, _>))]
+            pub $field: $crate::declare::row!(owned $kind 'static),
+        )+ }
+
+        #[cfg(feature = "alloc")]
+        const _: () = {
+            impl $owned {
+                /// Borrows the fields.
+                #[inline]
+                pub fn as_ref(&self) -> $view<'_> {
+                    $view { $( $field: <$row as $crate::rows::Owned>::lend(&self.$field), )+ }
+                }
+            }
+
+            impl $view<'_> {
+                /// Copies the fields.
+                pub fn to_owned(self) -> $owned {
+                    $owned { $( $field: <$row as $crate::rows::Owned>::own(self.$field), )+ }
+                }
+            }
+
+            impl From<$view<'_>> for $owned {
+                fn from(view: $view<'_>) -> Self {
+                    view.to_owned()
+                }
+            }
+
+            impl $crate::stream::Decode<'_> for $owned {
+                const STREAM: $crate::layout::Stream = <$view<'static> as $crate::declare::Declared>::STREAM;
+
+                fn decode(bytes: &[u8]) -> Result<Self, $crate::error::Error> {
+                    <$view<'_> as $crate::stream::Decode<'_>>::decode(bytes).map(Self::from)
+                }
+            }
+
+            $crate::stream::encode_as_ref!($owned);
+
+            #[cfg(feature = "arbitrary")]
+            impl<'u> arbitrary::Arbitrary<'u> for $owned {
+                fn arbitrary(u: &mut arbitrary::Unstructured<'u>) -> arbitrary::Result<Self> {
+                    let room = $crate::declare::room::<$view<'_>>(
+                        &[$( <$row as $crate::rows::Owned>::LEAST ),+],
+                    );
+                    $(
+                        let $field = $crate::declare::any::<$row>(u, room)?;
+                        let room = room.saturating_sub($crate::declare::used::<$row>(&$field));
+                    )+
+                    let _left = room;
+                    Ok(Self { $( $field ),+ })
+                }
+            }
+        };
+    };
+
+    (@name [$field:ident]) => { stringify!($field) };
+    (@name [$field:ident $label:literal]) => { $label };
+    (@per 4m) => { 4 };
+}
+
+pub(crate) use {row, stream};
+
+/// Bytes that a stream may have beyond the fewest of its rows.
+#[cfg(feature = "arbitrary")]
+pub(crate) fn room<T: Declared>(fewest: &[usize]) -> usize {
+    let fewest = fewest.iter().fold(0_usize, |sum, least| sum.saturating_add(*least));
+    crate::bytes::to_len(T::LAYOUT.max).saturating_sub(fewest)
+}
+
+#[cfg(feature = "arbitrary")]
+pub(crate) fn any<R: Owned>(
+    u: &mut arbitrary::Unstructured<'_>,
+    room: usize,
+) -> arbitrary::Result<R::Type> {
+    R::any(u, room)
+}
+
+/// Bytes of a value beyond the fewest of its row.
+#[cfg(feature = "arbitrary")]
+pub(crate) fn used<R: Owned>(value: &R::Type) -> usize {
+    R::len(R::lend(value)).saturating_sub(R::LEAST)
+}

@@ -1,0 +1,216 @@
+//! binrw over the same rows: counts are checked before memory is taken, and errors give positions.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+use binrw::io::{self, Read, Seek, Write};
+use binrw::{BinResult, Endian};
+
+use crate::ads::{AmsHeader, DeviceInfoReply, ReadReply, ReadWriteReply};
+use crate::bytes::{Reader, Writer, to_len, to_u32};
+use crate::dynamic::DynamicValue;
+use crate::error::{Error, ErrorKind};
+use crate::layout::{Field, Size};
+use crate::limits::{ADS_DATA_MAX, AMS_HEADER_LEN, DESCRIPTOR_LEN};
+use crate::rows::Owned;
+use crate::sda::ElementLength;
+use crate::stream::{Decode, Encode};
+use crate::{Descriptor, Descriptors, ExtendedReply};
+
+/// Takes the bytes of one row from a reader: at most one more than the row may have.
+pub(crate) trait Pull {
+    /// Takes so many bytes, or fewer at the end of the reader.
+    fn exact(&mut self, len: usize) -> io::Result<()>;
+    /// Takes all bytes to the end of the reader, but at most one more than `max`.
+    fn rest(&mut self, max: u32) -> io::Result<()>;
+    /// Takes the bytes up to the first NUL, but at most `max`.
+    fn until_nul(&mut self, max: u32) -> io::Result<()>;
+    /// Takes a count and as many items, unless there are more than `max`.
+    fn counted(&mut self, each: usize, max: u32) -> io::Result<()>;
+}
+
+struct Source<'r, R> {
+    reader: &'r mut R,
+    bytes: Vec<u8>,
+}
+
+/// The bytes that are asked for at once: a wrong length takes no more memory.
+const CHUNK: usize = 1024;
+
+impl<R: Read> Pull for Source<'_, R> {
+    fn exact(&mut self, len: usize) -> io::Result<()> {
+        let mut left = len;
+        while left > 0 {
+            let before = self.bytes.len();
+            self.bytes.resize(before.saturating_add(left.min(CHUNK)), 0);
+            let count = self.reader.read(self.bytes.get_mut(before..).unwrap_or_default());
+            let taken = count.as_ref().map_or(0, |count| *count);
+            self.bytes.truncate(before.saturating_add(taken));
+            left = left.saturating_sub(taken);
+            match count {
+                Ok(0) => break,
+                Err(error) if error.kind() != io::ErrorKind::Interrupted => return Err(error),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn rest(&mut self, max: u32) -> io::Result<()> {
+        self.exact(to_len(max).saturating_add(1))
+    }
+
+    fn until_nul(&mut self, max: u32) -> io::Result<()> {
+        for _ in 0..max {
+            let before = self.bytes.len();
+            self.exact(1)?;
+            if self.bytes.len() == before || self.bytes.last() == Some(&0) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn counted(&mut self, each: usize, max: u32) -> io::Result<()> {
+        self.exact(4)?;
+        match self.bytes.last_chunk() {
+            Some(count) if u32::from_le_bytes(*count) <= max => {
+                self.exact(to_len(u32::from_le_bytes(*count)).saturating_mul(each))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Reads one row.
+pub(crate) fn parse<T: Owned, R: Read + Seek>(
+    reader: &mut R,
+    _: Endian,
+    (field,): (Field,),
+) -> BinResult<T::Type> {
+    let pos = reader.stream_position()?;
+    let mut source = Source { reader, bytes: Vec::new() };
+    T::pull(&mut source)?;
+    let mut input = Reader::ending(field.stream(), &source.bytes);
+    let read = read_row::<T>(&mut input, field).map(T::own);
+    // A byte that was taken and not read would be lost.
+    let whole = read.and_then(|owned| input.finish().map(|()| owned));
+    whole.map_err(|error| custom(error, pos))
+}
+
+fn read_row<'a, T: Owned>(input: &mut Reader<'a>, field: Field) -> Result<T::View<'a>, Error> {
+    let (head, at) = head::<T>();
+    let head = input.take(if at > 0 { field.before() } else { field }, head)?;
+    T::read(input, head, field, to_len(at))
+}
+
+/// The fixed bytes of a row by itself, and the offset of what is not its count.
+const fn head<T: Owned>() -> (u32, u32) {
+    match T::SIZE {
+        Size::Items { .. } => (4, 4),
+        size => (size.fixed(), 0),
+    }
+}
+
+fn custom(error: Error, pos: u64) -> binrw::Error {
+    let error = error.moved(u32::try_from(pos).unwrap_or(u32::MAX));
+    binrw::Error::Custom { pos: error.offset().into(), err: Box::new(error) }
+}
+
+/// Writes one row.
+pub(crate) fn emit<T: Owned, W: Write + Seek>(
+    owned: &T::Type,
+    writer: &mut W,
+    _: Endian,
+    (): (),
+) -> BinResult<()> {
+    let view = T::lend(owned);
+    let mut bytes = alloc::vec![0; T::len(view)];
+    let (head, at) = head::<T>();
+    if let Some((head, rest)) = bytes.split_at_mut_checked(to_len(head)) {
+        T::write_head(view, head, to_len(at));
+        T::write(view, &mut Writer::new(rest));
+    }
+    writer.write_all(&bytes).map_err(Into::into)
+}
+
+/// Rejects what a decoder would reject.
+///
+/// # Errors
+/// Those of `encode`, but for the buffer's.
+pub(crate) fn check(stream: &impl Encode) -> Result<(), Error> {
+    // Faults of the value are found before those of the buffer.
+    match stream.encode(&mut []) {
+        Err(error) if error.kind() != ErrorKind::BufferTooSmall => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// Why a decoder would reject it.
+pub(crate) fn error<'a, T: Encode + Decode<'a>>(stream: &T) -> Error {
+    let len = to_u32(stream.encoded_len());
+    let whole = Error::new(ErrorKind::Mismatch, Field::whole(T::STREAM), 0, len, len);
+    check(stream).err().unwrap_or(whole)
+}
+
+/// `BinRead` and `BinWrite` of streams whose types are written by hand: the bytes are taken from the
+/// reader as far as they can be of the stream, and decoded.
+///
+/// | stream | why its type is written by hand |
+/// |---|---|
+/// | `AmsHeader` | an address is two rows |
+/// | `DeviceInfoReply`, `Descriptor` | text of fixed length, with setters that check it |
+/// | `Descriptors` | as many records as there are |
+/// | `ReadReply`, `ReadWriteReply` | rows after an error may be absent (ADS-6) |
+/// | `ExtendedReply` | a reply may have no bytes |
+/// | `ElementLength` | the width of the number is not documented, and kept |
+/// | `DynamicValue` | compared by its bits |
+macro_rules! by_hand {
+    ($( $type:ty: $from:ident => $pull:expr; )+) => { $(
+        impl binrw::meta::ReadEndian for $type {
+            const ENDIAN: binrw::meta::EndianKind = binrw::meta::EndianKind::Endian(Endian::Little);
+        }
+
+        impl binrw::BinRead for $type {
+            type Args<'a> = ();
+
+            fn read_options<R: Read + Seek>(reader: &mut R, _: Endian, (): ()) -> BinResult<Self> {
+                let pos = reader.stream_position()?;
+                let mut $from = Source { reader, bytes: Vec::new() };
+                $pull?;
+                Self::decode(&$from.bytes).map_err(|error| custom(error, pos))
+            }
+        }
+
+        impl binrw::meta::WriteEndian for $type {
+            const ENDIAN: binrw::meta::EndianKind = binrw::meta::EndianKind::Endian(Endian::Little);
+        }
+
+        impl binrw::BinWrite for $type {
+            type Args<'a> = ();
+
+            fn write_options<W: Write + Seek>(
+                &self,
+                writer: &mut W,
+                _: Endian,
+                (): (),
+            ) -> BinResult<()> {
+                let bytes = self.to_vec();
+                let bytes = bytes.map_err(|error| custom(error, 0))?;
+                writer.write_all(&bytes).map_err(Into::into)
+            }
+        }
+    )+ };
+}
+
+by_hand! {
+    AmsHeader: from => from.exact(AMS_HEADER_LEN);
+    DeviceInfoReply: from => from.exact(24);
+    Descriptor: from => from.exact(DESCRIPTOR_LEN);
+    Descriptors: from => from.rest(to_u32(ADS_DATA_MAX));
+    ReadReply: from => from.exact(4).and_then(|()| from.counted(1, to_u32(ADS_DATA_MAX)));
+    ReadWriteReply: from => from.exact(4).and_then(|()| from.counted(1, to_u32(ADS_DATA_MAX)));
+    ExtendedReply: from => from.exact(8);
+    ElementLength: from => from.exact(4);
+    DynamicValue: from => from.exact(8);
+}
