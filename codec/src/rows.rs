@@ -602,10 +602,7 @@ mod owned {
 
         #[inline]
         fn own(view: Numbers<'_>) -> Vec<u32> {
-            // Exactly as many: a list that is collected starts with room for four.
-            let mut numbers = Vec::with_capacity(view.len());
-            numbers.extend(view.iter());
-            numbers
+            view.to_vec()
         }
 
         #[inline]

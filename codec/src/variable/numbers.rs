@@ -78,6 +78,20 @@ impl<'a> Numbers<'a> {
         Rest(self.0)
     }
 
+    /// Copies the numbers, with no room to spare.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn to_vec(self) -> alloc::vec::Vec<u32> {
+        match self.0 {
+            Source::Wire(numbers) => numbers.iter().map(|number| number.get()).collect(),
+            Source::Memory(numbers) => numbers.to_vec(),
+            Source::Name(_) => {
+                let mut numbers = alloc::vec::Vec::with_capacity(self.len());
+                numbers.extend(self.iter());
+                numbers
+            }
+        }
+    }
+
     pub(crate) fn encoded_len(&self) -> usize {
         self.len().saturating_mul(4)
     }
