@@ -14,14 +14,20 @@ pub(crate) trait Declared {
 /// The kinds of rows, one line each: the type in a view, the type in what owns its data, the row, and
 /// its size and type in the documentation. A number may be followed by `as` and its own type.
 macro_rules! row {
+    (size (NETID)) => { $crate::layout::Size::Fixed(6) };
+    (size (PADDED $n:literal)) => { $crate::layout::Size::Padded($n) };
+    (size $kind:tt) => { <$crate::declare::row!(row $kind 'static) as $crate::rows::Row>::SIZE };
+    (type (NETID)) => { $crate::layout::Type::NetId };
+    (type (PADDED $n:literal)) => { $crate::layout::Type::String };
+    (type $kind:tt) => { <$crate::declare::row!(row $kind 'static) as $crate::rows::Row>::TYPE };
+    (doc (NETID) $a:lifetime) => { "6 | `BYTE[6]`" };
+    (doc (PADDED $n:literal) $a:lifetime) => { concat!($n, " | `STRING`") };
     (packed (UNS08) $a:lifetime) => { u8 };
     (packed (UNS16) $a:lifetime) => { zerocopy::little_endian::U16 };
     (packed (UNS32) $a:lifetime) => { zerocopy::little_endian::U32 };
     (packed (NETID) $a:lifetime) => { [u8; 6] };
     (packed (PADDED $n:literal) $a:lifetime) => { [u8; $n] };
     ($q:ident (UNS08) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Number<u8, u8>] "1 | `UNS08`") };
-    ($q:ident (NETID) $a:lifetime) => { $crate::declare::row!(@$q [[u8; 6]] [[u8; 6]] [NetId] "6 | `BYTE[6]`") };
-    ($q:ident (PADDED $n:literal) $a:lifetime) => { $crate::declare::row!(@$q [[u8; $n]] [[u8; $n]] [Padded<$n>] $n, " | `STRING`") };
     ($q:ident (UNS16) $a:lifetime) => { $crate::declare::row!(@$q [u16] [u16] [Number<u16, u16>] "2 | `UNS16`") };
     ($q:ident (UNS16 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u16, $t>] "2 | `UNS16`") };
     ($q:ident (UNS32) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [Number<u32, u32>] "4 | `UNS32`") };
@@ -71,8 +77,8 @@ macro_rules! stream {
         $crate::declare::stream! { @types $what $view $(/ $owned)?
             [$(#[$doc])*]
             [$(
-                $( [$count_at, stringify!($(+ $count_per)?), [$count], "4 | `UNS32`", $count_clause, $count_meaning] )?
-                [$at, stringify!($(+ $per)?), [$field $($label)?],
+                $( [$count_at, [$($count_per)?], [$count], "4 | `UNS32`", $count_clause, $count_meaning] )?
+                [$at, [$($per)?], [$field $($label)?],
                     $crate::declare::row!(doc ($kind $($($arg)+)? $(as $new)?) 'static), $field_clause, $meaning]
             )+]
             [$title, $max]
@@ -102,10 +108,8 @@ macro_rules! stream {
                         name: $crate::declare::stream!(@name [$field $($label)?]),
                         offset: $at,
                         per_item: 0 $(+ $crate::declare::stream!(@per $per))?,
-                        size: <$crate::declare::row!(row ($kind $($($arg)+)? $(as $new)?) 'static)
-                            as $crate::rows::Row>::SIZE,
-                        ty: <$crate::declare::row!(row ($kind $($($arg)+)? $(as $new)?) 'static)
-                            as $crate::rows::Row>::TYPE,
+                        size: $crate::declare::row!(size ($kind $($($arg)+)? $(as $new)?)),
+                        ty: $crate::declare::row!(type ($kind $($($arg)+)? $(as $new)?)),
                         clause: $field_clause,
                         meaning: $meaning,
                     },
@@ -115,6 +119,10 @@ macro_rules! stream {
 
         const _: () = {
             type Type = $crate::declare::stream!(@static $view $(/ $owned)?);
+            assert!(
+                <Type as $crate::declare::Declared>::LAYOUT.is_headed(),
+                "a fixed row is not among the first",
+            );
             $(
                 $( assert!(
                     <Type as $crate::declare::Declared>::LAYOUT.is_at(stringify!($count)),
@@ -139,7 +147,7 @@ macro_rules! stream {
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
         [$( [$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
     ) => {
-        $crate::declare::stream! { @documented [$(#[$doc])*] $table [$title, $max]
+        $crate::declare::stream! { @documented [$(#[$doc])*] $table ["", $max]
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
             #[cfg_attr(feature = "binrw", derive(binrw::BinRead, binrw::BinWrite), brw(little),
                 bw(assert(
@@ -162,7 +170,7 @@ macro_rules! stream {
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
         [[$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal]]
     ) => {
-        $crate::declare::stream! { @documented [$(#[$doc])*] $table [$title, $max]
+        $crate::declare::stream! { @documented [$(#[$doc])*] $table ["", $max]
             #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
             #[cfg_attr(feature = "binrw", derive(binrw::BinRead, binrw::BinWrite), brw(little),
                 bw(assert(
@@ -195,6 +203,11 @@ macro_rules! stream {
     };
 
     (@numbers $view:ident $max:literal $built:tt [$( [$field:ident $label:tt $at:literal [$row:ty] $member:tt] )+]) => {
+        const _: () = assert!(
+            <$view as $crate::declare::Declared>::LAYOUT.head() == $max,
+            "the rows are not all of the stream",
+        );
+
         impl<'a> $crate::stream::Decode<'a> for $view {
             const STREAM: $crate::layout::Stream = <Self as $crate::declare::Declared>::STREAM;
 
@@ -252,16 +265,16 @@ macro_rules! stream {
 
     (@documented
         [$(#[$doc:meta])*]
-        [$( [$at:literal, $per:expr, $row_label:tt, $kind_doc:expr, $clause:literal, $row_meaning:literal] )+]
-        [$title:literal, $max:literal] $item:item
+        [$( [$at:literal, $per:tt, $row_label:tt, $kind_doc:expr, $clause:literal, $row_meaning:literal] )+]
+        [$length:literal, $max:literal] $item:item
     ) => {
         $(#[$doc])*
         ///
-        #[doc = concat!("At most ", $max, " bytes:\n")]
+        #[doc = concat!($length, $max, " bytes:\n")]
         /// | offset | size | type | field | meaning | requirement |
         /// |---|---|---|---|---|---|
         $( #[doc = concat!(
-            "| ", $at, $per, " | ", $kind_doc, " | `", $crate::declare::stream!(@name $row_label), "` | ",
+            "| ", $at, $crate::declare::stream!(@after $per), " | ", $kind_doc, " | `", $crate::declare::stream!(@name $row_label), "` | ",
             $row_meaning, " | ", $clause, " |",
         )] )+
         $item
@@ -302,10 +315,10 @@ macro_rules! stream {
 
     // A type that borrows, and one that owns its data.
     (@types struct $view:ident / $owned:ident
-        [$(#[$doc:meta])*] $table:tt $length:tt
+        [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
         [$( [$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
     ) => {
-        $crate::declare::stream! { @documented [$(#[$doc])*] $table $length
+        $crate::declare::stream! { @documented [$(#[$doc])*] $table ["At most ", $max]
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
             pub struct $view<'a> { $(
                 #[doc = $meaning]
@@ -363,7 +376,7 @@ macro_rules! stream {
 
             impl $view<'_> {
                 /// Copies the fields.
-                pub fn to_owned(self) -> $owned {
+                pub fn to_owned(&self) -> $owned {
                     $owned { $( $field: <$row as $crate::rows::Owned>::own(self.$field), )+ }
                 }
             }
@@ -404,6 +417,12 @@ macro_rules! stream {
     (@name [$field:ident]) => { stringify!($field) };
     (@name [$field:ident $label:literal]) => { $label };
     (@per 4m) => { 4 };
+    (@per 4n) => { 4 };
+    // What follows a text that a NUL ends, whose table has but the NUL.
+    (@per text) => { 0 };
+    (@after []) => { "" };
+    (@after [text]) => { " and the text" };
+    (@after [$per:tt]) => { concat!(" + ", stringify!($per)) };
 }
 
 pub(crate) use {row, stream};

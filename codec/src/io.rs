@@ -3,7 +3,7 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use binrw::io::{self, Read, Seek, Write};
+use binrw::io::{self, Read, Seek, SeekFrom, Write};
 use binrw::{BinResult, Endian};
 
 use crate::ads::{AmsHeader, DeviceInfoReply, ReadReply, ReadWriteReply};
@@ -72,8 +72,9 @@ impl<R: Read> Pull for Source<'_, R> {
     }
 
     fn counted(&mut self, each: usize, max: u32) -> io::Result<()> {
+        let before = self.bytes.len();
         self.exact(4)?;
-        match self.bytes.last_chunk() {
+        match self.bytes.get(before..).and_then(<[u8]>::first_chunk) {
             Some(count) if u32::from_le_bytes(*count) <= max => {
                 self.exact(to_len(u32::from_le_bytes(*count)).saturating_mul(each))
             }
@@ -177,8 +178,15 @@ macro_rules! by_hand {
             fn read_options<R: Read + Seek>(reader: &mut R, _: Endian, (): ()) -> BinResult<Self> {
                 let pos = reader.stream_position()?;
                 let mut $from = Source { reader, bytes: Vec::new() };
-                $pull?;
-                Self::decode(&$from.bytes).map_err(|error| custom(error, pos))
+                let pulled = $pull;
+                let decoded = pulled.map_err(binrw::Error::from).and_then(|()| {
+                    Self::decode(&$from.bytes).map_err(|error| custom(error, pos))
+                });
+                // As derived ones do.
+                if decoded.is_err() {
+                    reader.seek(SeekFrom::Start(pos))?;
+                }
+                decoded
             }
         }
 
@@ -195,8 +203,8 @@ macro_rules! by_hand {
                 _: Endian,
                 (): (),
             ) -> BinResult<()> {
-                let bytes = self.to_vec();
-                let bytes = bytes.map_err(|error| custom(error, 0))?;
+                let pos = writer.stream_position()?;
+                let bytes = self.to_vec().map_err(|error| custom(error, pos))?;
                 writer.write_all(&bytes).map_err(Into::into)
             }
         }

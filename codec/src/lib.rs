@@ -58,9 +58,33 @@
 //! - `alloc` (default): the owned readings, and the checks of an NC program.
 //! - `binrw` (default): [`binrw`](https://docs.rs/binrw/0.15)'s `BinRead` and `BinWrite` for the owned
 //!   readings, so that structs of your own can contain them. What `decode` rejects, `read` rejects; a
-//!   stream that ends with its bytes is read to the end of the reader (see `take_seek`).
+//!   stream that ends with its bytes is read to the end of the reader.
 //! - `std`: `std` in the dependencies. The crate itself never needs it.
 //! - `arbitrary`: `Arbitrary` for the owned readings.
+
+//!
+//! ```
+//! # #[cfg(feature = "binrw")] {
+//! use ads_cnc::binrw::{self, BinRead, BinWrite, io::Cursor};
+//! use ads_cnc::{Handle, HandleRead};
+//!
+//! /// A record of a log.
+//! #[derive(BinRead, BinWrite)]
+//! #[brw(little)]
+//! struct Record {
+//!     time: u64,
+//!     read: HandleRead,
+//!     result: u32,
+//! }
+//!
+//! let read = HandleRead { handle: Handle(0x20012341), indices: vec![4] };
+//! let mut log = Cursor::new(Vec::new());
+//! Record { time: 7, read: read.clone(), result: 0 }.write(&mut log)?;
+//! let record = Record::read(&mut Cursor::new(log.into_inner()))?;
+//! assert_eq!(record.read, read);
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]

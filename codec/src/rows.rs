@@ -40,7 +40,7 @@ pub(crate) trait Row {
     fn write(_: Self::View<'_>, _: &mut Writer<'_>) {}
 }
 
-/// The bytes of a head at an offset. They are there: the compiler knows both.
+/// The bytes of a head at an offset. They are there: `stream!` checks where its rows are.
 #[inline(always)]
 fn part<const N: usize>(head: &[u8], at: usize) -> [u8; N] {
     head.get(at..).and_then(<[u8]>::first_chunk).copied().unwrap_or([0; N])
@@ -177,49 +177,6 @@ impl Row for NonZero {
     fn write_head(view: u32, head: &mut [u8], at: usize) {
         view.write(head, at);
     }
-}
-
-/// Rows of fixed length that are kept as they are.
-macro_rules! arrays {
-    ($( $(#[$doc:meta])* [$($generics:tt)*] $row:ty, $n:tt, $size:expr, $ty:ident; )+) => { $(
-        impl<$($generics)*> Row for $row {
-            type View<'a> = [u8; $n];
-            const SIZE: Size = $size;
-            const TYPE: Type = Type::$ty;
-
-            #[inline(always)]
-            fn read<'a>(_: &mut Reader<'a>, head: &'a [u8], _: Field, at: usize) -> Result<[u8; $n], Error> {
-                Ok(part(head, at))
-            }
-
-            #[inline]
-            fn len(_: [u8; $n]) -> usize {
-                $n
-            }
-
-            #[inline(always)]
-            fn write_head(view: [u8; $n], head: &mut [u8], at: usize) {
-                put(head, at, view);
-            }
-        }
-    )+ };
-}
-
-/// An AMS NetId.
-pub(crate) struct NetId;
-
-/// Text in so many bytes, padded with NULs if shorter.
-pub(crate) struct Padded<const N: usize>;
-
-arrays! {
-    [] NetId, 6, Size::Fixed(6), NetId;
-    [const N: usize] Padded<N>, N, Size::Padded(length(N)), String;
-}
-
-const fn length(size: usize) -> u32 {
-    assert!(size <= 255);
-    let [size, ..] = size.to_le_bytes();
-    u32::from_le_bytes([size, 0, 0, 0])
 }
 
 /// A count, which has a row of its own, and as many UNS32.
@@ -817,5 +774,10 @@ pub(crate) mod any {
 
     pub(crate) fn nothing() -> arbitrary::Result<Text> {
         Ok(Text { text: CncString::default(), tail: None })
+    }
+
+    #[test]
+    fn the_fewest_bytes_are_none_or_one() {
+        assert_eq!([min(0), min(1)], [0, 1]);
     }
 }

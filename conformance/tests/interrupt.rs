@@ -212,7 +212,7 @@ fn a_lost_or_rejected_restore_is_repeated() {
 fn a_lost_read_does_not_pass_for_a_value_that_moves() {
     thread::scope(|scope| {
         for (what, table, case) in ways() {
-            for lost in 0..3 {
+            for lost in 0..8 {
                 let bench = Bench { timeout: 200, ..Bench::start(&table) };
                 scope.spawn(move || lost_read(&bench, lost, (what, case)));
             }

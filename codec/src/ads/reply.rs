@@ -88,7 +88,7 @@ macro_rules! reply_with_data {
                     }
                     return Writer::run(Self::STREAM, 4, buf, |out| out.u32(self.result.0));
                 };
-                Writer::run_behind(Self::STREAM, 8, data.len(), buf, |out| {
+                Writer::run(Self::STREAM, data.len().saturating_add(8), buf, |out| {
                     out.u32(self.result.0);
                     out.u32(to_u32(data.len()));
                     out.put(data);
@@ -125,8 +125,8 @@ macro_rules! reply_with_data {
         #[cfg(feature = "alloc")]
         impl $ref<'_> {
             /// Copies the fields.
-            pub fn to_owned(self) -> $owned {
-                self.into()
+            pub fn to_owned(&self) -> $owned {
+                (*self).into()
             }
         }
 

@@ -50,38 +50,6 @@ impl<'b> Writer<'b> {
         Self { rest }
     }
 
-    /// As [`run`](Self::run), for `behind` bytes behind a front.
-    #[inline]
-    pub(crate) fn run_behind(
-        stream: Stream,
-        front: usize,
-        behind: usize,
-        buf: &'b mut [u8],
-        write: impl FnOnce(&mut Writer<'_>),
-    ) -> Result<&'b [u8], Error> {
-        let room = Self::room_behind(stream, front, behind, buf)?;
-        write(&mut Writer::new(room));
-        Ok(room)
-    }
-
-    /// As [`room`](Self::room), for `behind` bytes behind a front. No sum can overflow then, which
-    /// the compiler sees, so that writing needs no further checks.
-    #[inline]
-    fn room_behind(
-        stream: Stream,
-        front: usize,
-        behind: usize,
-        buf: &'b mut [u8],
-    ) -> Result<&'b mut [u8], Error> {
-        let max = stream.layout().max;
-        if to_len(max).checked_sub(front).is_none_or(|most| behind > most) {
-            let len = to_u32(front.saturating_add(behind));
-            return Err(too_long(Field::whole(stream), max, len));
-        }
-        // Never wraps: the sum is at most `max`.
-        Self::part(stream, front.wrapping_add(behind), buf)
-    }
-
     /// Writes these bytes, which are all of the stream.
     #[inline]
     pub(crate) fn copy(stream: Stream, bytes: &[u8], buf: &'b mut [u8]) -> Result<&'b [u8], Error> {

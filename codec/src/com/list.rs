@@ -139,8 +139,8 @@ mod owned {
 
     impl DescriptorsRef<'_> {
         /// Copies the descriptors.
-        pub fn to_owned(self) -> Descriptors {
-            self.into()
+        pub fn to_owned(&self) -> Descriptors {
+            (*self).into()
         }
     }
 

@@ -52,6 +52,19 @@ impl Layout {
         super::Cut::count(self.fields)
     }
 
+    /// Whether all fixed fields are in front, where they are read.
+    pub(crate) const fn is_headed(&self) -> bool {
+        let (mut fields, mut is_head) = (self.fields, true);
+        while let [row, rest @ ..] = fields {
+            is_head = is_head && row.size.fixed() > 0 && row.per_item == 0;
+            if !is_head && row.size.fixed() > 0 {
+                return false;
+            }
+            fields = rest;
+        }
+        true
+    }
+
     /// Whether the field of this name is where the rows before it end, at their fewest bytes.
     pub(crate) const fn is_at(&self, name: &str) -> bool {
         let (mut fields, mut end, mut per_item) = (self.fields, 0_u32, 0_u32);
@@ -281,7 +294,9 @@ impl Field {
 
     /// The field of this name of a declared stream.
     pub(crate) const fn of<T: Declared>(name: &str) -> Self {
-        Self { stream: T::STREAM, index: T::LAYOUT.index(name) }
+        let index = T::LAYOUT.index(name);
+        assert!(index != u8::MAX, "the stream has no field of this name");
+        Self { stream: T::STREAM, index }
     }
 
     /// The field before: the count of a list.
@@ -347,5 +362,54 @@ impl Stream {
 impl fmt::Display for Stream {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.layout().name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{DescriptionRef, HandleWriteRef, NameWriteRef};
+
+    fn layout(rows: &[(&'static str, u32, u32, Size)]) -> Layout {
+        let row = |&(name, offset, per_item, size)| {
+            let (ty, meaning, clause) = (Type::Uns32, "", "");
+            FieldSpec { name, offset, per_item, size, ty, meaning, clause }
+        };
+        let fields: std::vec::Vec<FieldSpec> = rows.iter().map(row).collect();
+        Layout { fields: fields.leak(), ..DescriptionRef::LAYOUT }
+    }
+
+    /// What the compiler checks of each declaration is found where it is wrong.
+    #[test]
+    fn wrong_tables_are_found() {
+        const LIST: Size = Size::Items { each: 4, max: 5 };
+        const FOUR: Size = Size::Fixed(4);
+        const REST: Size = Size::Rest { min: 0, max: 9 };
+        let rows =
+            [("a", 0, 0, FOUR), ("n", 4, 0, FOUR), ("list", 8, 0, LIST), ("rest", 8, 4, REST)];
+        let right = layout(&rows);
+        assert!(["a", "n", "list", "rest"].iter().all(|name| right.is_at(name)));
+        assert!(right.is_headed() && right.head() == 8);
+        assert!(!right.is_at("b"));
+        assert_eq!([right.index("list"), right.index("lost")], [2, u8::MAX]);
+        let shifted = layout(&[("a", 0, 0, FOUR), ("b", 5, 0, FOUR)]);
+        assert!(shifted.is_at("a") && !shifted.is_at("b"));
+        let counted = layout(&[("list", 0, 0, LIST), ("rest", 0, 0, REST)]);
+        assert!(!counted.is_at("rest"));
+        let after = layout(&[("list", 0, 0, LIST), ("a", 0, 4, FOUR)]);
+        assert!(!after.is_headed());
+        assert!(NameWriteRef::LAYOUT.is_at("value") && HandleWriteRef::LAYOUT.is_at("value"));
+    }
+
+    #[test]
+    fn fields_are_found_by_name() {
+        let field = Field::of::<DescriptionRef<'_>>("dimensions");
+        assert_eq!((field.name(), field.before().name()), ("dimensions", "dimension_count"));
+    }
+
+    #[test]
+    #[should_panic = "no field of this name"]
+    fn a_name_of_no_field_is_no_field() {
+        Field::of::<DescriptionRef<'_>>("dimension");
     }
 }

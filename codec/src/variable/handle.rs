@@ -86,7 +86,7 @@ stream! {
               @0      handle: UNS32 as Handle, "VAR-12", "handle of the variable";
         count @4      index_count,             "VAR-12", "indices n that follow; 0 for the whole variable";
               @8      indices: LIST(510),      "VAR-12", "index in each dimension, from 0";
-              @8 + 4m value: BYTES(0, 2040),   "VAR-12", "one element, or all of the array";
+              @8 + 4n value: BYTES(0, 2040),   "VAR-12", "one element, or all of the array";
     }
 }
 

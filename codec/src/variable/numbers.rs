@@ -205,6 +205,30 @@ impl fmt::Debug for Numbers<'_> {
 mod tests {
     use super::*;
 
+    /// What is equal has one hash, whatever it is held in.
+    #[test]
+    fn equal_numbers_have_one_hash() {
+        use std::hash::BuildHasher as _;
+
+        let state = std::collections::hash_map::RandomState::new();
+        let wire = [U32::new(3), U32::new(9)];
+        let hash = state.hash_one(Numbers::from(&[3, 9]));
+        assert_eq!(state.hash_one(Numbers::from_wire(&wire)), hash);
+        assert_eq!(state.hash_one(Numbers::from_name(b"[3][9]")), hash);
+        assert_ne!(state.hash_one(Numbers::from(&[3])), hash);
+    }
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn copies_are_the_same_from_every_source() {
+        let wire = [U32::new(3), U32::new(9)];
+        for numbers in
+            [Numbers::from_wire(&wire), Numbers::from(&[3, 9]), Numbers::from_name(b"[3][9]")]
+        {
+            assert_eq!(numbers.to_vec(), [3, 9]);
+        }
+    }
+
     /// Every source says at each step how many are left.
     #[test]
     fn iterators_know_their_length() {

@@ -87,7 +87,11 @@ where
     T: for<'a> binrw::BinWrite<Args<'a> = ()> + binrw::meta::WriteEndian,
 {
     let mut reader = std::io::Cursor::new(bytes);
-    let value = T::read(&mut reader).ok()?;
+    let value = T::read(&mut reader);
+    if value.is_err() {
+        assert_eq!(reader.position(), 0, "the reader is where it was");
+    }
+    let value = value.ok()?;
     let mut writer = std::io::Cursor::new(Vec::new());
     value.write(&mut writer).unwrap();
     Some((writer.into_inner(), usize::try_from(reader.position()).unwrap()))
@@ -125,7 +129,10 @@ macro_rules! subjects {
     (@owned $view:ty, $owned:ty) => { reading!("owned", $owned) };
     (@same $both:ty) => { |bytes| <$both>::decode(bytes).map(|_| true) };
     (@same $view:ty, $owned:ty) => {
-        |bytes| Ok(<$owned>::decode(bytes)?.as_ref() == <$view>::decode(bytes)?)
+        |bytes| {
+            let (owned, view) = (<$owned>::decode(bytes)?, <$view>::decode(bytes)?);
+            Ok(owned.as_ref() == view && view.to_owned() == owned)
+        }
     };
     (@binrw $both:ty) => { read_and_written::<$both> };
     (@binrw $view:ty, $owned:ty) => { read_and_written::<$owned> };

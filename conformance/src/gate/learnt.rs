@@ -62,16 +62,19 @@ struct Objects {
 impl Learnt {
     /// Forgets what lets writes pass; names that the file does not have are kept.
     pub(super) fn forget(&mut self) {
-        self.variables.clear();
+        // A name with several handles keeps its variable from being written by any.
+        self.variables.retain(|_, handle| handle.is_none());
         self.lists.clear();
         self.handles.values_mut().for_each(|named| named.allowed.clear());
         self.handles.retain(|_, named| named.foreign.is_some() || named.of_axis.is_some());
-        self.kept = self.handles.len().saturating_add(self.contents.len());
+        let kept = [self.handles.len(), self.contents.len(), self.variables.len()];
+        self.kept = kept.into_iter().fold(0, usize::saturating_add);
     }
 
     /// Whether a reply gave this handle to any name, as far as all of them are kept.
     pub(super) fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
-        self.full || self.handles.contains_key(&(channel, handle.0))
+        let has_names = |named: &Named| !named.allowed.is_empty() || named.foreign.is_some();
+        self.full || self.handles.get(&(channel, handle.0)).is_some_and(has_names)
     }
 
     /// Whether the file names the variable of a handle.

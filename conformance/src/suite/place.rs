@@ -110,9 +110,14 @@ impl Probe<'_> {
 
     /// Whether a value changes by itself between two reads. A read without an answer does not show
     /// that.
-    pub(super) fn moves(&mut self, place: &Place) -> Step<bool> {
-        let (first, second) = (self.value_at(place)?, self.value_at(place)?);
-        Ok(first.is_some() && second.is_some() && first != second)
+    pub(super) fn moves(&mut self, place: &Place, is_text: bool) -> Step<bool> {
+        let values = self.value_at(place)?.zip(self.value_at(place)?);
+        Ok(values.is_some_and(|(first, second)| !same(&first, &second, is_text)))
+    }
+
+    /// Whether a value is as it was. A read without an answer does not show that.
+    pub(super) fn is_as_before(&mut self, place: &Place, was: &[u8], is_text: bool) -> Step<bool> {
+        Ok(self.value_at(place)?.is_some_and(|now| same(&now, was, is_text)))
     }
 
     /// Whether this place may be written, and is not to be left alone.
@@ -182,7 +187,7 @@ impl Probe<'_> {
         let after = self.value_at(place)?.unwrap_or_default();
         let kept = same(&after, other, trial.is_text);
         // What moves by itself tells nothing of a write.
-        if !kept && self.moves(place)? {
+        if !kept && self.moves(place, trial.is_text)? {
             return Ok(());
         }
         for &rule in trial.rules {
@@ -195,9 +200,10 @@ impl Probe<'_> {
     /// Whether the old value is there again, or one that moves by itself.
     fn restore(&mut self, trial: &Trial<'_>, place: &Place, before: &[u8]) -> Step<bool> {
         let taken = self.put(trial, place, before)?;
-        let after = self.value_at(place)?.unwrap_or_default();
+        // A read without an answer shows nothing.
+        let Some(after) = self.value_at(place)? else { return Ok(false) };
         let kept = same(&after, before, trial.is_text);
-        if !kept && self.moves(place)? {
+        if !kept && self.moves(place, trial.is_text)? {
             return Ok(taken);
         }
         for &rule in trial.rules {

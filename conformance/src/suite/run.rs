@@ -82,7 +82,11 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
         Ok(Ok(())) if probe.interrupted => Err(Stop::Interrupted),
         Ok(step) | Err(step) => step,
     };
-    let step = step.and(caught(|| probe.put_back()).unwrap_or_else(|panicked| panicked));
+    let put_back = caught(|| probe.put_back()).unwrap_or_else(|panicked| {
+        probe.session.changes.give_up();
+        panicked
+    });
+    let step = step.and(put_back);
     let step = probe.end(step);
     let (judgements, checks) = probe.into_findings();
     Outcome::tried(case, judgements, checks, step.err())

@@ -71,6 +71,11 @@ impl Changes {
         self.last().is_some()
     }
 
+    /// Nothing that is changed is restored any more.
+    pub(super) fn give_up(&self) {
+        self.all().iter_mut().for_each(|change| change.given_up = true);
+    }
+
     /// Whether something could not be restored.
     pub(super) fn any_given_up(&self) -> bool {
         self.all().iter().any(|change| change.given_up)
@@ -198,8 +203,8 @@ impl Probe<'_> {
             let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
             // A value that changes by itself will not be as it was. Two reads show that.
             let moves = !is_same && written && now.is_some() && {
-                let next = self.look(&change);
-                next.is_some() && next != now
+                let values = now.as_ref().zip(self.look(&change));
+                values.is_some_and(|(now, next)| !same(now, &next, change.is_text))
             };
             if is_same || moves {
                 changes.end(&place);

@@ -156,7 +156,7 @@ fn pass(
         let read = probe.value_at(&place)?.unwrap_or_default();
         let evidence = probe.evidence().filter(|_| read != one.value);
         // It has come to move meanwhile.
-        if read != one.value && probe.moves(&place)? {
+        if read != one.value && probe.moves(&place, false)? {
             continue;
         }
         one.seen.push(Seen { expected: one.value.clone(), read, evidence });

@@ -132,7 +132,7 @@ impl Sent<'_> {
             probe.check(of_size, read.starts_with(other), expected, Hex(read));
         } else {
             // What moves by itself has not been written.
-            if after != before && probe.moves(watched)? {
+            if after != before && probe.moves(watched, false)? {
                 return probe.send(good).map(drop);
             }
             let expected = format!("the value of before {what}");

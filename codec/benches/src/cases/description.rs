@@ -19,8 +19,8 @@ macro_rules! descriptions {
                 each!(descriptions($dimensions), |bytes| DescriptionRef::decode(bytes))
             })
             .within(&[
-                Limit::Instructions("borrowed by hand", 1.0),
-                Limit::Time("borrowed by hand", 1.0),
+                Limit::Instructions("borrowed by hand", 1.3),
+                Limit::Time("borrowed by hand", 1.3),
             ]),
             Case::new($subject, "borrowed by hand", || {
                 each!(descriptions($dimensions), |bytes| ByHand::decode(bytes))
@@ -28,7 +28,7 @@ macro_rules! descriptions {
             Case::new($subject, "owned", || {
                 each!(descriptions($dimensions), |bytes| Description::decode(bytes))
             })
-            .within(&[Limit::Instructions("owned by hand", 2.0), Limit::Time("owned by hand", 1.3)]),
+            .within(&[Limit::Instructions("owned by hand", 1.3), Limit::Time("owned by hand", 1.3)]),
             Case::new($subject, "owned by hand", || {
                 each!(descriptions($dimensions), |bytes| OwnedByHand::decode(bytes))
             }),
@@ -40,8 +40,7 @@ macro_rules! descriptions {
                 each!(descriptions($dimensions), |bytes| plain::deku::description(bytes))
             }),
             Case::new($subject, "encode", || encode($dimensions)).within(&[
-                Limit::Instructions("encode by hand", 1.0),
-                Limit::Time("encode by hand", 1.0),
+                Limit::Instructions("encode by hand", 2.0),
             ]),
             Case::new($subject, "encode by hand", || encode_by_hand($dimensions)),
             Case::new($subject, "encode of a view", || {
@@ -49,7 +48,7 @@ macro_rules! descriptions {
                 let mut buf = [0; 2048];
                 each!(decoded::<DescriptionRef<'_>>(bytes), |view| view.encode(&mut buf))
             })
-            .within(&[Limit::Instructions("encode by hand", 1.0)]),
+            .within(&[Limit::Instructions("encode by hand", 2.0)]),
         )+];
     };
 }

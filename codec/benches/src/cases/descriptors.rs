@@ -19,7 +19,7 @@ macro_rules! lists {
             Case::new($subject, "owned", || {
                 each!(lists($count), $count, |bytes| Descriptors::decode(bytes))
             })
-            .within(&[Limit::Instructions("by hand", 2.0), Limit::Time("by hand", 1.3)]),
+            .within(&[Limit::Instructions("by hand", 1.3), Limit::Time("by hand", 1.3)]),
             Case::new($subject, "by hand", || {
                 each!(lists($count), $count, |bytes| hand::Descriptors::decode(bytes))
             }),
@@ -31,7 +31,7 @@ macro_rules! lists {
                 each!(lists($count), $count, |bytes| plain::deku::descriptors(bytes))
             }),
             Case::new($subject, "encode", || encode($count))
-                .within(&[Limit::Instructions("encode by hand", 1.0), Limit::Time("encode by hand", 1.0)]),
+                .within(&[Limit::Instructions("encode by hand", 2.0)]),
             Case::new($subject, "encode by hand", || encode_by_hand($count)),
         )+];
     };

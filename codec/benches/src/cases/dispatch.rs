@@ -29,7 +29,7 @@ macro_rules! functions {
             Case::new(concat!("call: ", $subject), "dispatch", || {
                 each!([call(row!($port $service $group $offset $length), $data); CALLS], |call| call.dispatch())
             })
-            .within(&[Limit::Over("the data alone", 60.0)]),
+            .within(&[Limit::Over("the data alone", 100.0)]),
             Case::new(concat!("call: ", $subject), "the data alone", || {
                 each!([&$data[..]; CALLS], |bytes| <$stream>::decode(bytes))
             }),
@@ -40,7 +40,7 @@ macro_rules! functions {
             Case::new(concat!("call: ", $subject), "encode", || {
                 encode(call(row!($port $service $group $offset $length), $data))
             })
-            .within(&[Limit::Instructions("encode by hand", 1.0)]),
+            .within(&[Limit::Instructions("encode by hand", 3.0)]),
             Case::new(concat!("call: ", $subject), "encode by hand", || {
                 encode_by_hand(hand::requests::Request::$function $parameters)
             }),

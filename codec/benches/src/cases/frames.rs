@@ -6,8 +6,7 @@ use ads_cnc::{Decode, Encode, NoData};
 use crate::case::{Case, Limit, each};
 use crate::hand::{self, Hand};
 
-const ENCODE: &[Limit] =
-    &[Limit::Instructions("encode by hand", 1.0), Limit::Time("encode by hand", 1.0)];
+const ENCODE: &[Limit] = &[Limit::Instructions("encode by hand", 2.0)];
 const MAX: u32 = 1024;
 
 pub(super) const CASES: &[Case] = &[

@@ -20,7 +20,8 @@ macro_rules! stream {
         $crate::cases::stream::Entry {
             stream: Stream::$stream,
             cases: &[
-                $crate::cases::stream::stream!(@decode $subject, $stream, "decode", $both),
+                $crate::cases::stream::stream!(@decode $subject, $stream, "decode", $both)
+                    .within(&[$crate::Limit::Instructions("decode by hand", 1.3)]),
                 $crate::cases::stream::stream!(@decode $subject, $stream, "decode by hand", $hand),
                 $crate::cases::stream::stream!(@refuse $subject, $stream, "refused", $both, "decode"),
                 $crate::cases::stream::stream!(@encode $subject, $stream, "encode", $both),
@@ -37,9 +38,11 @@ macro_rules! stream {
         $crate::cases::stream::Entry {
             stream: Stream::$stream,
             cases: &[
-                $crate::cases::stream::stream!(@decode $subject, $stream, "borrowed", $view),
+                $crate::cases::stream::stream!(@decode $subject, $stream, "borrowed", $view)
+                    .within(&[$crate::Limit::Instructions("borrowed by hand", 1.3)]),
                 $crate::cases::stream::stream!(@decode $subject, $stream, "borrowed by hand", $hand),
-                $crate::cases::stream::stream!(@decode $subject, $stream, "owned", $owned),
+                $crate::cases::stream::stream!(@decode $subject, $stream, "owned", $owned)
+                    .within(&[$crate::Limit::Instructions("owned by hand", 1.3)]),
                 $crate::cases::stream::stream!(@decode $subject, $stream, "owned by hand", $hand_owned),
                 $crate::cases::stream::stream!(@refuse $subject, $stream, "refused", $view, "borrowed"),
                 $crate::cases::stream::stream!(@refuse $subject, $stream, "refused, owned", $owned, "owned"),
@@ -74,8 +77,7 @@ macro_rules! stream {
     };
     (@encode $subject:literal, $stream:ident, "encode", $reading:ty) => {
         $crate::cases::stream::stream!(@encoding $subject, $stream, "encode", $reading).within(&[
-            $crate::Limit::Instructions("encode by hand", 1.0),
-            $crate::Limit::Time("encode by hand", 1.0),
+            $crate::Limit::Instructions("encode by hand", 2.0),
         ])
     };
     (@encode $subject:literal, $stream:ident, $who:literal, $reading:ty) => {

@@ -148,8 +148,10 @@ impl Bench<'_> {
             let found =
                 format!("ID {} of object {index}, and of {}", object.id(), other.unwrap_or(0));
             let known = list.known.get(&index).copied();
-            if known.is_some() || self.room.take(0) {
+            if list.ids.contains_key(&object.id()) || self.room.take(0) {
                 list.ids.insert(object.id(), index);
+            }
+            if known.is_some() || self.room.take(0) {
                 list.known.insert(index, (owned, alone));
             }
             let mut page = self.book.on(Topic::CncCom, scene);

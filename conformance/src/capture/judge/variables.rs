@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
 
 use super::super::book::{Scene, Topic};
-use super::Bench;
+use super::{Bench, Room};
 use crate::suite::{Checks as _, assumed, holds_together};
 
 /// Channels that are told apart.
@@ -32,9 +32,14 @@ struct Channel {
 }
 
 impl Channel {
-    fn handle(&mut self, handle: u32, name: &str) {
-        self.handles.insert(handle, name.to_owned());
-        self.names.entry(name.to_owned()).or_insert(handle);
+    /// Keeps the name of a handle, if there is room for a new one.
+    fn handle(&mut self, handle: u32, name: &str, room: &mut Room) {
+        if self.handles.contains_key(&handle) || room.take(name.len()) {
+            self.handles.insert(handle, name.to_owned());
+        }
+        if !self.names.contains_key(name) && room.take(name.len()) {
+            self.names.insert(name.to_owned(), handle);
+        }
     }
 }
 
@@ -203,9 +208,9 @@ impl Bench<'_> {
         let other = channel.handles.get(&handle).filter(|other| **other != name);
         let found = format!("the handle {handle:#x} of {}", other.map_or("", String::as_str));
         page.check(assumed("VAR-10"), other.is_none(), "a handle of its own", found);
+        channel.handle(handle, &name, self.room);
         let length = name.len().saturating_add(variable.dimensions.len()).saturating_mul(4);
         if channel.described.contains_key(&name) || self.room.take(length) {
-            channel.handle(handle, &name);
             channel.described.insert(name, (variable, kind, index));
         }
     }
@@ -231,9 +236,7 @@ impl Bench<'_> {
         let other = channel.handles.get(&handle).filter(|other| **other != text).cloned();
         let found = format!("the handle of {}", other.as_deref().unwrap_or_default());
         page.check(rule, other.is_none(), format!("a handle of {text} alone"), found);
-        if before == Some(handle) || self.room.take(text.len().saturating_mul(2)) {
-            channel.handle(handle, &text);
-        }
+        channel.handle(handle, &text, self.room);
     }
 
     fn extended(&mut self, scene: &Scene<'_>, kind: &str, given: ExtendedReply) {

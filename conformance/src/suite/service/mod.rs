@@ -14,7 +14,7 @@ use ads_cnc_vectors::Hex;
 use crate::profile::{Claim, Section};
 use crate::suite::case::{Case, Rule, Step, Stop, assumed};
 use crate::suite::declare;
-use crate::suite::place::{Place, Trial, same};
+use crate::suite::place::{Place, Trial};
 use crate::suite::probe::{Probe, harness};
 use crate::suite::stream::heard;
 use crate::values::until_nul;
@@ -197,6 +197,10 @@ fn response(probe: &mut Probe<'_>) -> Step {
             return Err(Stop::Inconclusive(why));
         }
         let before = (get(probe, channel, Response)?, get(probe, channel, ResponseState)?);
+        if before.0.is_empty() || before.1.is_empty() {
+            let why = "the response could not be read, so it could not be restored".to_owned();
+            return Err(Stop::Inconclusive(why));
+        }
         // The response is restored first: the state tells a program that it is there.
         restoring(probe, (channel, ResponseState, &before.1), |probe| {
             restoring(probe, (channel, Response, &before.0), |probe| answer(probe, channel))
@@ -224,7 +228,7 @@ fn restoring(
     let trial = Trial { what: &what, rules: &[], is_text, name: None };
     probe.changing(&trial, &place, was, change, |probe| {
         put(probe, channel, variable, was)?;
-        Ok(same(&get(probe, channel, variable)?, was, is_text))
+        probe.is_as_before(&place, was, is_text)
     })
 }
 

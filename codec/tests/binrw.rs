@@ -1,0 +1,89 @@
+//! `BinRead` and `BinWrite`: what the laws over all streams do not show.
+
+#![cfg(feature = "binrw")]
+
+use std::io::{self, Cursor, Read, Seek, SeekFrom};
+
+use ads_cnc::ads::WriteRequest;
+use ads_cnc::binrw::{self, BinRead, BinWrite};
+use ads_cnc::{Description, Error, ErrorKind, ExtendedReply, Handle, HandleRead};
+
+/// Bytes one at a time, each after an interruption, and then an error.
+struct Broken<'a> {
+    bytes: Cursor<&'a [u8]>,
+    interrupted: bool,
+}
+
+impl Read for Broken<'_> {
+    fn read(&mut self, buf: &mut [u8]) -> io::Result<usize> {
+        self.interrupted = !self.interrupted;
+        if self.interrupted {
+            return Err(io::ErrorKind::Interrupted.into());
+        }
+        match self.bytes.read(&mut buf[..1])? {
+            0 => Err(io::ErrorKind::ConnectionReset.into()),
+            read => Ok(read),
+        }
+    }
+}
+
+impl Seek for Broken<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.bytes.seek(to)
+    }
+}
+
+fn own(error: &binrw::Error) -> &Error {
+    error.root_cause().custom_err().unwrap_or_else(|| panic!("{error}"))
+}
+
+const READ: [u8; 12] = [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0];
+
+/// Interrupted reads are repeated; other errors are those of the reader.
+#[test]
+fn errors_of_a_reader_are_its_own() {
+    let broken = |bytes| {
+        let bytes = Cursor::new(bytes);
+        HandleRead::read(&mut Broken { bytes, interrupted: false })
+    };
+    assert_eq!(broken(&READ).unwrap().indices, [4]);
+    let error = broken(&READ[..9]).unwrap_err();
+    let binrw::Error::Io(error) = error.root_cause() else { panic!("{error}") };
+    assert_eq!(error.kind(), io::ErrorKind::ConnectionReset);
+}
+
+/// What is wrong with a stream is the crate's error, at the reader's position.
+#[test]
+fn errors_have_positions() {
+    let mut reader = Cursor::new(&[7, 7, 0x41, 0x23, 1, 0x20, 1, 0][..]);
+    reader.set_position(2);
+    let error = HandleRead::read(&mut reader).unwrap_err();
+    let error = own(&error);
+    assert_eq!((error.kind(), error.offset(), error.found()), (ErrorKind::Truncated, 6, 2));
+    assert_eq!(reader.position(), 2);
+    let reply = ExtendedReply::read(&mut Cursor::new(&[1, 0, 0][..])).unwrap_err();
+    assert_eq!(own(&reply).kind(), ErrorKind::Truncated);
+}
+
+/// A value that no decoder would accept is not written.
+#[test]
+fn what_is_not_a_stream_is_not_written() {
+    let mut written = Cursor::new(Vec::new());
+    let read = HandleRead { handle: Handle(1), indices: vec![0; 511] };
+    let error = read.write(&mut written).unwrap_err();
+    assert_eq!(own(&error).kind(), ErrorKind::TooMany);
+    assert!(written.into_inner().is_empty());
+}
+
+/// A length of 4 MiB with three bytes after it, and counts of 4 GiB.
+#[test]
+fn a_length_is_not_believed() {
+    for length in [0x40_0000_u32, u32::MAX] {
+        let bytes = [&[0; 8], &length.to_le_bytes()[..], &[1, 2, 3]].concat();
+        let error = WriteRequest::read(&mut Cursor::new(&bytes)).unwrap_err();
+        assert_eq!((own(&error).kind(), own(&error).expected()), (ErrorKind::Truncated, length));
+    }
+    let count = [&[0; 16], &u32::MAX.to_le_bytes()[..]].concat();
+    let error = Description::read(&mut Cursor::new(&count)).unwrap_err();
+    assert_eq!(own(&error).kind(), ErrorKind::TooMany);
+}
