@@ -64,7 +64,7 @@
 
 //!
 //! ```
-//! # #[cfg(feature = "binrw")] {
+//! # #[cfg(all(feature = "binrw", feature = "std"))] {
 //! use ads_cnc::binrw::{self, BinRead, BinWrite, io::Cursor};
 //! use ads_cnc::{Handle, HandleRead};
 //!

@@ -1,6 +1,6 @@
 //! `BinRead` and `BinWrite`: what the laws over all streams do not show.
 
-#![cfg(feature = "binrw")]
+#![cfg(all(feature = "binrw", feature = "std"))]
 
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 

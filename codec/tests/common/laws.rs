@@ -81,7 +81,7 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
         vec.iter_mut().for_each(bend.vec);
         assert_eq!(vec, verdict.map(|()| bytes.to_vec()), "{stream}: to_vec of {bytes:x?}");
     }
-    #[cfg(feature = "binrw")]
+    #[cfg(all(feature = "binrw", feature = "std"))]
     check_binrw(stream, bytes, (subject.binrw)(bytes), verdict.is_ok());
     // More bytes are more of the same, and take their time.
     if stream == Stream::VariableValue && verdict.is_ok() && bytes.len() <= 128 {
@@ -92,7 +92,7 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
 
 /// `BinRead` reads what is decoded and `BinWrite` writes what is encoded. What is rejected, it rejects,
 /// or it reads a part from the front that is a stream by itself and leaves the rest in the reader.
-#[cfg(feature = "binrw")]
+#[cfg(all(feature = "binrw", feature = "std"))]
 fn check_binrw(stream: Stream, bytes: &[u8], read: Option<(Vec<u8>, usize)>, is_accepted: bool) {
     match read {
         Some((written, read)) => {

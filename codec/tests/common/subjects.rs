@@ -21,7 +21,7 @@ pub(crate) struct Reading {
 }
 
 /// Bytes through `BinRead` and `BinWrite`: what was written, and how many were read.
-#[cfg(feature = "binrw")]
+#[cfg(all(feature = "binrw", feature = "std"))]
 pub(crate) type ReadAndWritten = fn(&[u8]) -> Option<(Vec<u8>, usize)>;
 
 /// A stream with its readings.
@@ -35,7 +35,7 @@ pub(crate) struct Subject {
     pub(crate) same: fn(&[u8]) -> Result<bool, Error>,
     /// Reads the bytes by `BinRead`: the bytes that `BinWrite` writes of what was read, and how many
     /// were read.
-    #[cfg(feature = "binrw")]
+    #[cfg(all(feature = "binrw", feature = "std"))]
     pub(crate) binrw: ReadAndWritten,
     /// Decodes the bytes, owned, and encodes them into a vector.
     #[cfg(feature = "alloc")]
@@ -80,7 +80,7 @@ fn decoded_and_copied<T: Clone>(decoded: Result<T, Error>, call: &mut dyn FnMut(
     drop(std::hint::black_box((decoded, copy)));
 }
 
-#[cfg(feature = "binrw")]
+#[cfg(all(feature = "binrw", feature = "std"))]
 fn read_and_written<T>(bytes: &[u8]) -> Option<(Vec<u8>, usize)>
 where
     T: for<'a> binrw::BinRead<Args<'a> = ()> + binrw::meta::ReadEndian,
@@ -115,7 +115,7 @@ macro_rules! subjects {
         owned: subjects!(@owned $view $( , $owned )?),
         #[cfg(feature = "alloc")]
         same: subjects!(@same $view $( , $owned )?),
-        #[cfg(feature = "binrw")]
+        #[cfg(all(feature = "binrw", feature = "std"))]
         binrw: subjects!(@binrw $view $( , $owned )?),
         #[cfg(feature = "alloc")]
         to_vec: subjects!(@to_vec $view $( , $owned )?),
