@@ -45,7 +45,7 @@ pub(crate) const VARIABLE_DEFECTS: &[&str] = &[
     "an error is one byte off if it is behind the first eight bytes",
     "the length of what has eight bytes or more is announced one too long",
     "the readings differ if the last byte is odd",
-    "of more than 32 bytes one of 0xB5 becomes 0xB4 when it is encoded",
+    "of more than 16 bytes one of 0xB5 becomes 0xB4 when it is encoded",
     "a buffer that is too small is written into",
     "an error is of another kind",
     "an error names no field",
@@ -84,7 +84,7 @@ fn bend(defect: Defect) -> Bend {
     }
     if defect.is(5) {
         bend.written = |bytes| {
-            let long = bytes.len() > 32;
+            let long = bytes.len() > 16;
             if let Some(byte) = bytes.iter_mut().find(|byte| long && **byte == 0xB5) {
                 *byte = 0xB4;
             }
