@@ -123,6 +123,10 @@ macro_rules! stream {
                 <Type as $crate::declare::Declared>::LAYOUT.is_headed(),
                 "a fixed row is not among the first",
             );
+            assert!(
+                <Type as $crate::declare::Declared>::LAYOUT.is_filled(),
+                "the maximum of a row is not what the length of the stream leaves it",
+            );
             $(
                 $( assert!(
                     <Type as $crate::declare::Declared>::LAYOUT.is_at(stringify!($count)),

@@ -82,6 +82,41 @@ impl Layout {
         false
     }
 
+    /// Whether the length of the stream leaves each row as much as the row may have at most, where
+    /// nothing but that length limits the row.
+    pub(crate) const fn is_filled(&self) -> bool {
+        let (mut fields, mut before) = (self.fields, 0_u32);
+        while let [row, rest @ ..] = fields {
+            let left = self.max.saturating_sub(before).saturating_sub(least(rest));
+            let is_filled = match row.size {
+                Size::Items { each, max } => matches!(left.checked_div(each), Some(n) if n == max),
+                Size::Terminated { max, .. }
+                | Size::MayTerminate { max }
+                | Size::Rest { max, .. } => left == max,
+                _ => true,
+            };
+            if !is_filled {
+                return false;
+            }
+            before = before.saturating_add(row.size.least());
+            fields = rest;
+        }
+        true
+    }
+
+    /// The most that the field of this name may have: items of a list, bytes of any other.
+    pub(crate) const fn most(&self, name: &str) -> u32 {
+        assert!(self.index(name) != u8::MAX, "the stream has no field of this name");
+        let mut fields = self.fields;
+        while let [row, rest @ ..] = fields {
+            if is_same(row.name, name) {
+                return row.size.most();
+            }
+            fields = rest;
+        }
+        0
+    }
+
     /// The index of the field of this name.
     const fn index(&self, name: &str) -> u8 {
         let (mut fields, mut index) = (self.fields, 0_u8);
@@ -98,6 +133,15 @@ impl Layout {
     pub(crate) fn ends_itself(&self) -> bool {
         self.is_fixed() || self.fields.iter().any(|row| row.size == Size::OneTwoOrFour)
     }
+}
+
+/// The fewest bytes of these rows.
+const fn least(mut fields: &[FieldSpec]) -> u32 {
+    let mut least = 0_u32;
+    while let [row, rest @ ..] = fields {
+        (least, fields) = (least.saturating_add(row.size.least()), rest);
+    }
+    least
 }
 
 const fn is_same(one: &str, other: &str) -> bool {
@@ -215,6 +259,30 @@ impl Size {
             | Self::Padded(size) => size,
             Self::FromOne => 4,
             _ => 0,
+        }
+    }
+
+    /// The fewest bytes of a field. An absent text counts as its NUL: it is absent only where
+    /// nothing follows.
+    const fn least(self) -> u32 {
+        match self {
+            Self::Open { min, .. } | Self::Rest { min, .. } => min,
+            Self::Terminated { .. } | Self::Leading { .. } | Self::MayTerminate { .. } => 1,
+            size => size.fixed(),
+        }
+    }
+
+    /// The most bytes of a field, or items of a list.
+    const fn most(self) -> u32 {
+        match self {
+            Self::Items { max, .. }
+            | Self::Terminated { max, .. }
+            | Self::Leading { max }
+            | Self::Open { max, .. }
+            | Self::MayTerminate { max }
+            | Self::Rest { max, .. } => max,
+            Self::OneTwoOrFour => 4,
+            size => size.fixed(),
         }
     }
 }
@@ -399,6 +467,34 @@ mod tests {
         let after = layout(&[("list", 0, 0, LIST), ("a", 0, 4, FOUR)]);
         assert!(!after.is_headed());
         assert!(NameWriteRef::LAYOUT.is_at("value") && HandleWriteRef::LAYOUT.is_at("value"));
+    }
+
+    /// A row may have at most what the stream's length leaves it, no more and no less.
+    #[test]
+    fn maxima_that_no_row_enforces_are_found() {
+        let filled = |max, rows: &[_]| Layout { max, ..layout(rows) }.is_filled();
+        let list = [("n", 0, 0, Size::Fixed(4)), ("list", 4, 0, Size::Items { each: 4, max: 5 })];
+        assert_eq!([23, 24, 27, 28].map(|max| filled(max, &list)), [false, true, true, false]);
+        let open = ("name", 4, 4, Size::Open { min: 1, max: 9 });
+        let named = [list[0], list[1], open];
+        assert_eq!([24, 25, 28, 29].map(|max| filled(max, &named)), [false, true, true, false]);
+        for size in [
+            Size::Rest { min: 0, max: 9 },
+            Size::MayTerminate { max: 9 },
+            Size::Terminated { max: 9, may_be_absent: false },
+        ] {
+            let rows = [("first", 0, 0, Size::Leading { max: 4 }), ("last", 1, 0, size)];
+            assert_eq!([9, 10, 11].map(|max| filled(max, &rows)), [false, true, false]);
+        }
+        let [count, list] = list;
+        let most = layout(&[count, list, open]);
+        assert_eq!(["n", "list", "name"].map(|name| most.most(name)), [4, 5, 9]);
+    }
+
+    #[test]
+    #[should_panic = "no field of this name"]
+    fn a_name_of_no_field_has_no_maximum() {
+        layout(&[]).most("value");
     }
 
     #[test]
