@@ -15,6 +15,7 @@ pub(crate) trait Declared {
 /// its size and type in the documentation. A number may be followed by `as` and its own type.
 macro_rules! row {
     (size (NETID)) => { $crate::layout::Size::Fixed(6) };
+    (size (UNS32_OR_NOTHING as $t:ident)) => { $crate::layout::Size::FixedOrNothing(4) };
     (size (PADDED $n:literal)) => { $crate::layout::Size::Padded($n) };
     (size $kind:tt) => { <$crate::declare::row!(row $kind 'static) as $crate::rows::Row>::SIZE };
     (type (NETID)) => { $crate::layout::Type::NetId };
@@ -32,6 +33,7 @@ macro_rules! row {
     ($q:ident (UNS16 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u16, $t>] "2 | `UNS16`") };
     ($q:ident (UNS32) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [Number<u32, u32>] "4 | `UNS32`") };
     ($q:ident (UNS32 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u32, $t>] "4 | `UNS32`") };
+    ($q:ident (UNS32_OR_NOTHING as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u32, $t>] "4, or no byte in the stream | `UNS32`") };
     ($q:ident (UNS32_NOT_0) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [NonZero] "4 | `UNS32`, not 0") };
     ($q:ident (BOOLEAN) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Flag<u8>] "1 | `BOOLEAN`") };
     ($q:ident (LIST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Numbers<$a>] [alloc::vec::Vec<u32>] [List<$max>] "4 each, at most ", $max, " | `UNS32`") };

@@ -87,21 +87,6 @@ impl<'a> Reader<'a> {
         Ok(head)
     }
 
-    /// The fixed fields `T` at the start of a record.
-    pub(crate) fn fixed<T>(&mut self) -> Result<&'a T, Error>
-    where
-        T: FromBytes + KnownLayout + Immutable + Unaligned,
-    {
-        match T::ref_from_prefix(self.bytes) {
-            Ok((fixed, rest)) => {
-                self.bytes = rest;
-                self.at = self.at.saturating_add(to_u32(size_of::<T>()));
-                Ok(fixed)
-            }
-            Err(_) => Err(cut(self.stream, self.at, self.bytes.len())),
-        }
-    }
-
     #[inline]
     pub(crate) fn u32(&mut self, field: Field) -> Result<u32, Error> {
         let Some((le, rest)) = self.bytes.split_first_chunk() else {

@@ -147,10 +147,7 @@ layouts! {
     /// Request to write a value by name.
     VariableNameWrite, variable_name_write: => crate::NameWriteRef<'static>;
     /// Extended description of a variable.
-    VariableExtendedDescription, variable_extended_description: "variable-extended-description", "Extended variable description by index, reply", "VAR-15", max 8 {
-        SYNCHRONISATION "synchronisation" @ 0, Size::FixedOrNothing(4), Uns32, "VAR-15", "1 NO_SYNC, 2 SYNCHRONIZED";
-        VALIDITY "validity" @ 4, FIXED_4, Uns32, "VAR-15", "1 CHANNEL, 2 GLOBAL";
-    }
+    VariableExtendedDescription, variable_extended_description: => crate::ExtendedDescription;
     /// Content of a COM object, or of an element of a class.
     Content, content: => crate::ContentRef<'static>;
     /// Query of the address of an instance of a class.

@@ -1,21 +1,46 @@
-//! The extended description of a variable (VAR-15, VAR-16).
-
-use zerocopy::IntoBytes as _;
-use zerocopy::little_endian::U32;
+//! The extended description of a variable.
 
 use super::{Synchronisation, Validity};
 use crate::bytes::{Reader, Writer};
+use crate::declare::stream;
 use crate::error::Error;
 use crate::layout::Stream;
 use crate::stream::{Decode, Encode};
 
-#[doc = include_str!("../../doc/variable-extended-description.md")]
-///
-/// V.G and V.A have none: their reply is empty.
+stream! {
+    /// What a V.E variable has beyond its description.
+    ///
+    /// V.G and V.A variables have no extended description: their reply has no bytes. Decode a reply as
+    /// [`ExtendedReply`].
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
+    ///
+    /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
+    /// [`Trailing`](crate::ErrorKind::Trailing).
+    ///
+    /// ```
+    /// use ads_cnc::{Encode, ExtendedDescription, Synchronisation, Validity};
+    ///
+    /// let extended = ExtendedDescription {
+    ///     synchronisation: Synchronisation::NO_SYNC,
+    ///     validity: Validity::CHANNEL,
+    /// };
+    /// assert_eq!(extended.encode(&mut [0; 8])?, [1, 0, 0, 0, 1, 0, 0, 0]);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    VariableExtendedDescription "variable-extended-description", "Extended variable description by index, reply", "VAR-15", max 8;
+    struct ExtendedDescription {
+        @0 synchronisation: UNS32_OR_NOTHING as Synchronisation, "VAR-15", "1 NO_SYNC, 2 SYNCHRONIZED";
+        @4 validity: UNS32 as Validity,                          "VAR-15", "1 CHANNEL, 2 GLOBAL";
+    }
+}
+
+/// The reply to a query of an extended description: [`ExtendedDescription`], or no bytes for a V.G or
+/// V.A variable.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
 ///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`TooLong`](crate::ErrorKind::TooLong).
 ///
 /// ```
@@ -34,57 +59,26 @@ use crate::stream::{Decode, Encode};
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 pub struct ExtendedReply(pub Option<ExtendedDescription>);
 
-/// What a V.E variable has beyond its description.
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.8.
-///
-/// ```
-/// use ads_cnc::{Encode, ExtendedDescription, ExtendedReply, Synchronisation, Validity};
-///
-/// let extended = ExtendedDescription {
-///     synchronisation: Synchronisation::NO_SYNC,
-///     validity: Validity::CHANNEL,
-/// };
-/// assert_eq!(ExtendedReply(Some(extended)).encode(&mut [0; 8])?, [1, 0, 0, 0, 1, 0, 0, 0]);
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
-pub struct ExtendedDescription {
-    /// Whether access is synchronised.
-    pub synchronisation: Synchronisation,
-    /// Where the variable is valid.
-    pub validity: Validity,
-}
-
 impl<'a> Decode<'a> for ExtendedReply {
     const STREAM: Stream = Stream::VariableExtendedDescription;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let mut input = Reader::new(Self::STREAM, bytes)?;
-        if input.is_empty() {
-            return Ok(Self(None));
+        match Reader::new(Self::STREAM, bytes)?.is_empty() {
+            true => Ok(Self(None)),
+            false => ExtendedDescription::decode(bytes).map(|extended| Self(Some(extended))),
         }
-        let [synchronisation, validity]: &[U32; 2] = input.fixed()?;
-        input.finish()?;
-        Ok(Self(Some(ExtendedDescription {
-            synchronisation: Synchronisation(synchronisation.get()),
-            validity: Validity(validity.get()),
-        })))
     }
 }
 
 impl Encode for ExtendedReply {
     fn encoded_len(&self) -> usize {
-        self.0.map_or(0, |_| 8)
+        self.0.map_or(0, |extended| extended.encoded_len())
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::run(Self::STREAM, self.encoded_len(), buf, |out| {
-            if let Some(extended) = self.0 {
-                let numbers = [extended.synchronisation.0, extended.validity.0];
-                out.put(numbers.map(U32::new).as_bytes());
-            }
-        })
+        match self.0 {
+            Some(extended) => extended.encode(buf),
+            None => Writer::copy(Self::STREAM, &[], buf),
+        }
     }
 }
