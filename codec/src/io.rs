@@ -11,7 +11,7 @@ use crate::bytes::{Reader, Writer, to_len, to_u32};
 use crate::dynamic::DynamicValue;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Size};
-use crate::limits::{ADS_DATA_MAX, AMS_HEADER_LEN, DESCRIPTOR_LEN};
+use crate::limits::ADS_DATA_MAX;
 use crate::rows::Owned;
 use crate::sda::ElementLength;
 use crate::stream::{Decode, Encode};
@@ -211,14 +211,19 @@ macro_rules! by_hand {
     )+ };
 }
 
+/// The most bytes of a stream.
+fn longest<'a, T: Decode<'a>>() -> usize {
+    to_len(T::STREAM.layout().max)
+}
+
 by_hand! {
-    AmsHeader: from => from.exact(AMS_HEADER_LEN);
-    DeviceInfoReply: from => from.exact(24);
-    Descriptor: from => from.exact(DESCRIPTOR_LEN);
+    AmsHeader: from => from.exact(longest::<Self>());
+    DeviceInfoReply: from => from.exact(longest::<Self>());
+    Descriptor: from => from.exact(longest::<Self>());
     Descriptors: from => from.rest(to_u32(ADS_DATA_MAX));
     ReadReply: from => from.exact(4).and_then(|()| from.counted(1, to_u32(ADS_DATA_MAX)));
     ReadWriteReply: from => from.exact(4).and_then(|()| from.counted(1, to_u32(ADS_DATA_MAX)));
-    ExtendedReply: from => from.exact(8);
-    ElementLength: from => from.exact(4);
-    DynamicValue: from => from.exact(8);
+    ExtendedReply: from => from.exact(longest::<Self>());
+    ElementLength: from => from.exact(longest::<Self>());
+    DynamicValue: from => from.exact(longest::<Self>());
 }

@@ -17,7 +17,7 @@ const fn to_len(size: u32) -> usize {
 }
 
 /// The most bytes of a stream.
-const fn length<T: Declared>() -> usize {
+pub(crate) const fn length<T: Declared>() -> usize {
     to_len(T::LAYOUT.max)
 }
 

@@ -3,11 +3,12 @@
 use zerocopy::IntoBytes as _;
 
 use super::header::HeaderLayout;
-use super::{AmsHeader, AmsTcpHeader};
+use super::{AmsHeader, AmsTcpHeader, ReadWriteRequestRef};
 use crate::bytes::{Writer, to_len, to_u32};
+use crate::declare::Declared as _;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
-use crate::limits::{ADS_DATA_MAX, AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use crate::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN, length};
 use crate::stream::{Decode, Encode};
 
 /// One frame: an AMS header and the data behind it.
@@ -81,7 +82,7 @@ impl<'a> FrameRef<'a> {
         }
         let Some(data_length) = tcp.length.checked_sub(to_u32(AMS_HEADER_LEN)) else {
             let least = to_u32(AMS_HEADER_LEN);
-            return Err(Error::new(ErrorKind::OutOfRange, LENGTH, 2, least, tcp.length));
+            return Err(Error::new(ErrorKind::OutOfRange, LENGTH, LENGTH_AT, least, tcp.length));
         };
         check(data_length, max_data)?;
         let Some((header, rest)) = rest.split_at_checked(AMS_HEADER_LEN) else {
@@ -89,9 +90,10 @@ impl<'a> FrameRef<'a> {
         };
         let header = AmsHeader::decode(header)?;
         if header.data_length != data_length {
+            let field = const { Field::of::<HeaderLayout>("data_length") };
             // Counted from the start of the frame, as all offsets here.
-            let (field, at) = (const { Field::of::<HeaderLayout>("data_length") }, 26);
-            let found = header.data_length;
+            let at = HeaderLayout::LAYOUT.offset("data_length");
+            let (at, found) = (at.saturating_add(to_u32(AMS_TCP_HEADER_LEN)), header.data_length);
             return Err(Error::new(ErrorKind::Mismatch, field, at, data_length, found));
         }
         Ok(rest.get(..to_len(data_length)).map(|data| {
@@ -120,9 +122,10 @@ impl Encode for FrameRef<'_> {
 
 /// The length of a frame.
 const LENGTH: Field = Field::of::<AmsTcpHeader>("length");
+const LENGTH_AT: u32 = AmsTcpHeader::LAYOUT.offset("length");
 
-/// The most data of a frame: that of a service, and the numbers before it.
-const DATA_MAX: usize = ADS_DATA_MAX + 16;
+/// The most data of a frame: the longest stream of a service.
+const DATA_MAX: usize = length::<ReadWriteRequestRef<'_>>();
 
 fn check(data_length: u32, max: u32) -> Result<(), Error> {
     let max = max.min(to_u32(DATA_MAX));
@@ -131,5 +134,5 @@ fn check(data_length: u32, max: u32) -> Result<(), Error> {
     }
     let limit = max.saturating_add(to_u32(AMS_HEADER_LEN));
     let found = data_length.saturating_add(to_u32(AMS_HEADER_LEN));
-    Err(Error::new(ErrorKind::TooLong, LENGTH, 2, limit, found))
+    Err(Error::new(ErrorKind::TooLong, LENGTH, LENGTH_AT, limit, found))
 }

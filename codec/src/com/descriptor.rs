@@ -7,7 +7,7 @@ use zerocopy::little_endian::{U16, U32};
 
 use crate::address::{IndexGroup, IndexOffset};
 use crate::bytes::{Reader, Writer, to_u32};
-use crate::declare::stream;
+use crate::declare::{Declared as _, stream};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
 use crate::limits::{DESCRIPTOR_LEN, DESCRIPTOR_TEXT_LEN};
@@ -191,8 +191,13 @@ impl Descriptor {
             name: [0; DESCRIPTOR_TEXT_LEN],
             type_name: [0; DESCRIPTOR_TEXT_LEN],
         };
-        pad(name, NAME, 20, &mut layout.name)?;
-        pad(type_name, TYPE, 52, &mut layout.type_name)?;
+        pad(name, NAME, const { DescriptorLayout::LAYOUT.offset("name") }, &mut layout.name)?;
+        pad(
+            type_name,
+            TYPE,
+            const { DescriptorLayout::LAYOUT.offset("type") },
+            &mut layout.type_name,
+        )?;
         Ok(Self(layout))
     }
 

@@ -106,15 +106,26 @@ impl Layout {
 
     /// The most that the field of this name may have: items of a list, bytes of any other.
     pub(crate) const fn most(&self, name: &str) -> u32 {
-        assert!(self.index(name) != u8::MAX, "the stream has no field of this name");
+        self.row(name).size.most()
+    }
+
+    /// The row of the field of this name.
+    const fn row(&self, name: &str) -> FieldSpec {
         let mut fields = self.fields;
-        while let [row, rest @ ..] = fields {
-            if is_same(row.name, name) {
-                return row.size.most();
+        loop {
+            assert!(!fields.is_empty(), "the stream has no field of this name");
+            if let [row, rest @ ..] = fields {
+                if is_same(row.name, name) {
+                    return *row;
+                }
+                fields = rest;
             }
-            fields = rest;
         }
-        0
+    }
+
+    /// The offset of the field of this name, as the manual prints it.
+    pub(crate) const fn offset(&self, name: &str) -> u32 {
+        self.row(name).offset
     }
 
     /// The index of the field of this name.
