@@ -82,8 +82,8 @@ impl Layout {
         false
     }
 
-    /// Whether the length of the stream leaves each row as much as the row may have at most, where
-    /// nothing but that length limits the row.
+    /// Whether the length of the stream leaves each row as much as the row may have at most, and no
+    /// more where nothing but that length limits the row.
     pub(crate) const fn is_filled(&self) -> bool {
         let (mut fields, mut before) = (self.fields, 0_u32);
         while let [row, rest @ ..] = fields {
@@ -93,6 +93,7 @@ impl Layout {
                 Size::Terminated { max, .. }
                 | Size::MayTerminate { max }
                 | Size::Rest { max, .. } => left == max,
+                Size::Open { max, .. } | Size::Leading { max } => max <= left,
                 _ => true,
             };
             if !is_filled {
@@ -486,9 +487,13 @@ mod tests {
         let filled = |max, rows: &[_]| Layout { max, ..layout(rows) }.is_filled();
         let list = [("n", 0, 0, Size::Fixed(4)), ("list", 4, 0, Size::Items { each: 4, max: 5 })];
         assert_eq!([23, 24, 27, 28].map(|max| filled(max, &list)), [false, true, true, false]);
-        let open = ("name", 4, 4, Size::Open { min: 1, max: 9 });
+        let open = ("name", 4, 4, Size::Open { min: 1, max: 4 });
         let named = [list[0], list[1], open];
         assert_eq!([24, 25, 28, 29].map(|max| filled(max, &named)), [false, true, true, false]);
+        for size in [Size::Open { min: 1, max: 9 }, Size::Leading { max: 9 }] {
+            let rows = [("first", 0, 0, Size::Fixed(4)), ("last", 4, 0, size)];
+            assert_eq!([12, 13, 99].map(|max| filled(max, &rows)), [false, true, true]);
+        }
         for size in [
             Size::Rest { min: 0, max: 9 },
             Size::MayTerminate { max: 9 },
@@ -499,7 +504,7 @@ mod tests {
         }
         let [count, list] = list;
         let most = layout(&[count, list, open]);
-        assert_eq!(["n", "list", "name"].map(|name| most.most(name)), [4, 5, 9]);
+        assert_eq!(["n", "list", "name"].map(|name| most.most(name)), [4, 5, 4]);
     }
 
     #[test]
