@@ -21,8 +21,6 @@ mod cp1252;
 mod cuts;
 #[path = "../tests/dispatch.rs"]
 mod dispatch;
-#[path = "../tests/editions.rs"]
-mod editions;
 #[path = "../tests/equality.rs"]
 mod equality;
 #[path = "../tests/frames.rs"]

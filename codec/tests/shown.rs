@@ -6,7 +6,6 @@ use std::fmt::{Debug, Display};
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsAddr, AmsNetId, AmsPort};
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
-use ads_cnc::edition::{Answer, CncVersion, Edition};
 use ads_cnc::layout::{Field, Stream, Type};
 use ads_cnc::service::{ServiceCall, ServiceId, ServiceVariable, SysServiceWait};
 use ads_cnc::streaming::*;
@@ -40,18 +39,6 @@ fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(AmsAddr { net_id, port: AmsPort::COM }, "192.0.2.7.1.1:553");
     debugs(AmsAddr { net_id, port: AmsPort::COM }, "192.0.2.7.1.1:553");
     debugs(Handle(0x2001_2341), "Handle(0x20012341)");
-}
-
-#[test]
-fn editions_versions_and_answers_are_as_printed() {
-    shows(Edition::English, "ads-en 1.05");
-    shows(Edition::German, "ads-de 1.051");
-    let version = CncVersion::new("V3.1.3081.07").unwrap();
-    shows(version, "V3.1.3081.07");
-    debugs(version, "CncVersion(V3.1.3081.07)");
-    shows(CncVersion::new("V4.18.0").unwrap(), "V4.18.0");
-    shows(Answer { yes: true, clause: "VAR-1", assumed: false }, "yes (VAR-1)");
-    shows(Answer { yes: false, clause: "VAR-1", assumed: true }, "no (VAR-1, assumed)");
 }
 
 #[test]

@@ -22,8 +22,9 @@
 //! ADS by [`ReadByName`](crate::operation::ReadByName) for one, and says how it went.
 //!
 //! Manual: `service-en` and `service-de` 1.03, sections 1 and 2; the cycle is in `service-en`,
-//! section 3, only. From which versions of the CNC on it is there:
-//! [`Feature::ServiceInterface`](crate::edition::Feature::ServiceInterface).
+//! section 3, only. A CNC has it from V2.11.2030.01 and V3.1.3057.03 on.
+//!
+//! SVC-11
 //!
 //! ```
 //! use core::time::Duration;

@@ -9,10 +9,7 @@ mod named;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::*;
 use ads_cnc::dynamic::*;
-use ads_cnc::edition::{CncVersion, Edition};
-use ads_cnc::operation::{
-    Call, Function, Operation, ReadElement, ReadObject, Service, WriteElement,
-};
+use ads_cnc::operation::{Call, Operation, ReadElement, ReadObject, Service, WriteElement};
 use ads_cnc::sda::*;
 use ads_cnc::service::{CallStep, Host, HostStep, ServiceId, ServiceInterface, SysServiceWait};
 use ads_cnc::streaming::{Ack, NcText, ProgramStreamRef, Sender, StreamingInterface};
@@ -218,18 +215,6 @@ fn services(bytes: &[u8]) -> Result<usize, Error> {
     Ok(0)
 }
 
-/// A version, and what it and the editions say of a kind.
-fn editions(bytes: &[u8]) -> Result<usize, Error> {
-    let text = core::str::from_utf8(bytes).unwrap_or("");
-    let version = CncVersion::new(text).ok();
-    let kind = Kind::new(text)?;
-    let count = |edition: Edition| {
-        let permits = |&&function: &&Function| edition.permits(function, kind, version).yes;
-        Function::ALL.iter().filter(permits).count()
-    };
-    Ok(Edition::ALL.into_iter().map(count).sum())
-}
-
 /// Runs all of it; what comes of it does not matter.
 pub(crate) fn runs(bytes: &[u8]) -> bool {
     let numbers = [
@@ -239,7 +224,6 @@ pub(crate) fn runs(bytes: &[u8]) -> bool {
         texts(bytes).unwrap_or(3),
         values(bytes).unwrap_or(7),
         services(bytes).unwrap_or(4),
-        editions(bytes).unwrap_or(6),
         streams(bytes),
         walks(bytes),
     ];
