@@ -37,9 +37,9 @@ mod parts;
 mod paths;
 #[path = "../tests/samples.rs"]
 mod samples;
-#[path = "../tests/sequences/main.rs"]
+#[path = "../tests/sequences.rs"]
 mod sequences;
-#[path = "../tests/service/main.rs"]
+#[path = "../tests/service.rs"]
 mod service;
 #[path = "../tests/shown.rs"]
 mod shown;

@@ -7,7 +7,7 @@ use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsAddr, AmsNetId, AmsPort};
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 use ads_cnc::layout::{Field, Stream, Type};
-use ads_cnc::service::{ServiceCall, ServiceId, ServiceVariable, SysServiceWait};
+use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::streaming::*;
 use ads_cnc::value::{Boolean, DataType, Items, StringsRef};
 use ads_cnc::*;
@@ -109,10 +109,18 @@ fn services_have_their_names() {
     }
     shows(ServiceVariable::Request, "V.G.SERVICE.REQUEST");
     // The text that a machine holds in CP1252 is shown in characters.
-    let call =
-        ServiceCall::new(shown, CncStr::new("2 for 1 €").unwrap(), SysServiceWait::default());
-    let call = format!("{:?}", call.unwrap());
-    assert!(call.contains("\"2 for 1 €\""), "{call}");
+    let ids = [shown];
+    let mut host = Host::new(&ids);
+    while let HostStep::Read(variable) = host.step() {
+        let value: &[u8] = match variable {
+            ServiceVariable::Uuid => id.as_bytes(),
+            ServiceVariable::Request => b"2 for 1 \x80\0",
+            _ => &[1, 0, 0, 0],
+        };
+        host.read(value).unwrap();
+    }
+    let host = format!("{host:?}");
+    assert!(host.contains("\"2 for 1 €\""), "{host}");
 }
 
 #[test]
@@ -130,10 +138,6 @@ fn streaming_says_where_it_stands_and_not_the_text() {
         shows(ProgramEnd::M30, "M30");
         shows(FindingKind::BackwardJump { to: 5 }, "$GOTO back to line 5");
     }
-    let mut interface = StreamingInterface::default();
-    debugs(&interface, "StreamingInterface(0 of 4094 bytes)");
-    assert_eq!(interface.write(b"N10\r\n"), Ack::Accepted);
-    debugs(interface, "StreamingInterface(5 of 4094 bytes)");
     let mut sender = Sender::new(text);
     let shown = |state, refusals| {
         let sent = "Progress { packets: 0, lines: 0, bytes: 0 }";
