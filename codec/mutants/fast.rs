@@ -21,8 +21,6 @@ mod cp1252;
 mod cuts;
 #[path = "../tests/dispatch.rs"]
 mod dispatch;
-#[path = "../tests/editions.rs"]
-mod editions;
 #[path = "../tests/equality.rs"]
 mod equality;
 #[path = "../tests/frames.rs"]
@@ -39,9 +37,9 @@ mod parts;
 mod paths;
 #[path = "../tests/samples.rs"]
 mod samples;
-#[path = "../tests/sequences/main.rs"]
+#[path = "../tests/sequences.rs"]
 mod sequences;
-#[path = "../tests/service/main.rs"]
+#[path = "../tests/service.rs"]
 mod service;
 #[path = "../tests/shown.rs"]
 mod shown;

@@ -71,35 +71,15 @@
 //! E-15, E-39. By name only is V.CYC in `ads-en`, and V.CYC, V.P, V.L and V.S in `ads-de`; both then
 //! bar three functions, 0x46, 0x47 and 0x49. `ads-en` does not have the last three kinds on this
 //! interface at all, `ads-de` has them from some version of the CNC on. Requests are built and read
-//! for any kind; [`Edition`](crate::edition::Edition) and
-//! [`CncVersion`](crate::edition::CncVersion) say what to expect of it:
+//! for any kind:
 //!
 //! ```
 //! use ads_cnc::address::Channel;
-//! use ads_cnc::edition::{CncVersion, Edition};
-//! use ads_cnc::operation::{Function, HandleByName, Operation, ReadByName};
-//! use ads_cnc::{Error, VariablePath};
+//! use ads_cnc::operation::{HandleByName, Operation};
 //!
-//! /// Reads by name if that is all there is.
-//! fn function(edition: Edition, cnc: CncVersion, name: &str) -> Result<Option<Function>, Error> {
-//!     let kind = VariablePath::new(name)?.kind();
-//!     let may = |function: &Function| edition.permits(*function, kind, Some(cnc)).yes;
-//!     Ok([Function::HandleByName, Function::ReadByName].into_iter().find(may))
-//! }
-//!
-//! let (old, new) = (CncVersion::new("V3.1.3081.06")?, CncVersion::new("V3.1.3081.07")?);
-//! let handle = Some(Function::HandleByName);
-//! let name = Some(Function::ReadByName);
-//! assert_eq!(function(Edition::German, old, "V.E.a")?, handle);
-//! assert_eq!(function(Edition::English, old, "V.CYC.a")?, name);
-//! assert_eq!(function(Edition::German, old, "V.P.a")?, None);
-//! assert_eq!(function(Edition::German, new, "V.P.a")?, name);
-//! assert_eq!(function(Edition::English, new, "V.P.a")?, None);
-//!
-//! // To try all the same is up to the caller.
 //! let op = HandleByName::new(Channel::new(1)?, "V.P.a")?;
 //! assert_eq!(op.encode(&mut [0; 16])?, b"V.P.a\0");
-//! # Ok::<(), Error>(())
+//! # Ok::<(), ads_cnc::Error>(())
 //! ```
 //!
 //! # Addresses

@@ -17,7 +17,7 @@
 //! | 2.2.1, classes and attributes | [`address`], [`sda`] |
 //! | 2.2.2, instances and elements | [`sda`] |
 //! | 3, 3.1 … 3.4, dynamic parameters | [`dynamic`] |
-//! | 4, 4.1, kinds of variables, by edition and version | [`Kind`], [`edition`] |
+//! | 4, 4.1, kinds of variables, by edition and version | [`Kind`] |
 //! | 4.1, names of variables | [`VariablePath`] |
 //! | 4.2.1, 4.2.2, the interfaces of channel and axis | [`operation::Function`], [`address::ChannelAxis`] |
 //! | 4.2.1, 0x4C, reserved and documented online | [`VariableNameRef`], [`DescriptionByNameRef`] |
@@ -44,12 +44,11 @@
 //! | 2.3.3, 2.3.4, 2.3.6, loops, comments, jumps | `streaming::Findings`, with `alloc` |
 //! | 2.3.1, 2.3.2, 2.3.5, 2.3.7, flushing, subroutines, block search, contours | NC text like any other |
 //! | 3, parameters and object | [`limits`], [`streaming::OBJECT_NAME`], [`streaming::ProgramStreamRef`] |
-//! | 4.1, line ends | [`streaming::LineError`] |
+//! | 4.1, line ends | [`streaming::check_line_ends`] |
 //! | 4.2, 5, transfer and example | [`streaming::Sender`], [`operation::WriteProgramStream`] |
-//! | `service-en`, `service-de` 1.03: 1, required versions | [`edition::Feature::ServiceInterface`] |
+//! | `service-en`, `service-de` 1.03: 1, required versions | [`service`] |
 //! | 2, variables and process | [`service`] |
-//! | `service-en` 3, cycle SysServiceWait | [`service::SysServiceWait`] |
-//!
+//! //!
 //! [`operation`] puts them together: where a function is, what goes in, what comes out, for
 //! clients and for servers. [`layout`] has the field table of every stream. Where the manuals are
 //! at odds, [`contradictions`] says what is done here and how to do otherwise.
@@ -116,7 +115,6 @@ mod com;
 mod content;
 pub mod contradictions;
 pub mod dynamic;
-pub mod edition;
 mod error;
 pub mod layout;
 pub mod limits;

@@ -6,9 +6,8 @@ use std::fmt::{Debug, Display};
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsAddr, AmsNetId, AmsPort};
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
-use ads_cnc::edition::{Answer, CncVersion, Edition};
 use ads_cnc::layout::{Field, Stream, Type};
-use ads_cnc::service::{ServiceCall, ServiceId, ServiceVariable, SysServiceWait};
+use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::streaming::*;
 use ads_cnc::value::{Boolean, DataType, Items, StringsRef};
 use ads_cnc::*;
@@ -40,18 +39,6 @@ fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(AmsAddr { net_id, port: AmsPort::COM }, "192.0.2.7.1.1:553");
     debugs(AmsAddr { net_id, port: AmsPort::COM }, "192.0.2.7.1.1:553");
     debugs(Handle(0x2001_2341), "Handle(0x20012341)");
-}
-
-#[test]
-fn editions_versions_and_answers_are_as_printed() {
-    shows(Edition::English, "ads-en 1.05");
-    shows(Edition::German, "ads-de 1.051");
-    let version = CncVersion::new("V3.1.3081.07").unwrap();
-    shows(version, "V3.1.3081.07");
-    debugs(version, "CncVersion(V3.1.3081.07)");
-    shows(CncVersion::new("V4.18.0").unwrap(), "V4.18.0");
-    shows(Answer { yes: true, clause: "VAR-1", assumed: false }, "yes (VAR-1)");
-    shows(Answer { yes: false, clause: "VAR-1", assumed: true }, "no (VAR-1, assumed)");
 }
 
 #[test]
@@ -122,10 +109,18 @@ fn services_have_their_names() {
     }
     shows(ServiceVariable::Request, "V.G.SERVICE.REQUEST");
     // The text that a machine holds in CP1252 is shown in characters.
-    let call =
-        ServiceCall::new(shown, CncStr::new("2 for 1 €").unwrap(), SysServiceWait::default());
-    let call = format!("{:?}", call.unwrap());
-    assert!(call.contains("\"2 for 1 €\""), "{call}");
+    let ids = [shown];
+    let mut host = Host::new(&ids);
+    while let HostStep::Read(variable) = host.step() {
+        let value: &[u8] = match variable {
+            ServiceVariable::Uuid => id.as_bytes(),
+            ServiceVariable::Request => b"2 for 1 \x80\0",
+            _ => &[1, 0, 0, 0],
+        };
+        host.read(value).unwrap();
+    }
+    let host = format!("{host:?}");
+    assert!(host.contains("\"2 for 1 €\""), "{host}");
 }
 
 #[test]
@@ -143,10 +138,6 @@ fn streaming_says_where_it_stands_and_not_the_text() {
         shows(ProgramEnd::M30, "M30");
         shows(FindingKind::BackwardJump { to: 5 }, "$GOTO back to line 5");
     }
-    let mut interface = StreamingInterface::default();
-    debugs(&interface, "StreamingInterface(0 of 4094 bytes)");
-    assert_eq!(interface.write(b"N10\r\n"), Ack::Accepted);
-    debugs(interface, "StreamingInterface(5 of 4094 bytes)");
     let mut sender = Sender::new(text);
     let shown = |state, refusals| {
         let sent = "Progress { packets: 0, lines: 0, bytes: 0 }";

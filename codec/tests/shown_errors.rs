@@ -4,9 +4,7 @@ use std::error::Error as _;
 
 use ads_cnc::address::{Channel, Class, ElementAddress, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsNetId, AmsPort};
-use ads_cnc::edition::CncVersion;
 use ads_cnc::operation::*;
-use ads_cnc::service::SysServiceWait;
 use ads_cnc::*;
 
 fn error<T: std::fmt::Debug>(result: Result<T, Error>) -> (ErrorKind, String) {
@@ -76,18 +74,6 @@ fn errors_say_what_is_wrong() {
         (
             error("1.2.3.4.5.0006".parse::<AmsNetId>()),
             (ErrorKind::Digits, "ams-net-id: number at offset 5: 1 to 3 digits expected, 4 found"),
-        ),
-        (
-            error(CncVersion::new("V3-1.3115")),
-            (ErrorKind::Unexpected, "cnc-version: minor at offset 2: '-' may not stand here"),
-        ),
-        (
-            error(CncVersion::new("V3\u{a0}1.3115")),
-            (ErrorKind::Unexpected, "cnc-version: minor at offset 2: U+00A0 may not stand here"),
-        ),
-        (
-            error(SysServiceWait::from_parameters(Some(0), Some(5000), None)),
-            (ErrorKind::Missing, "sys-service-wait: @P3 at offset 8: missing"),
         ),
         (
             error(Channel::new(0)),

@@ -1,4 +1,4 @@
-//! Data streaming: text to packets, and both ends.
+//! Data streaming: text to packets, and the sender.
 
 mod common;
 mod kept;
@@ -111,48 +111,6 @@ fn errors_name_the_first_fault() {
         show(&early),
         "line 1, column 901: ASCII character expected, byte 0xFF found (STM-7)"
     );
-}
-
-/// The manual's driver (`stream-en` 5) sends what does not fit its buffer without a line end,
-/// and a last line that is open.
-#[test]
-fn what_the_printed_driver_sends_wrongly_shows_on_read() {
-    let mut interface = StreamingInterface::new();
-    assert_eq!(interface.write(b"N10 G0 X0\r\n"), Ack::Accepted);
-    assert_eq!(interface.write(b"N20 M30"), Ack::Accepted);
-    let error = interface.read().unwrap_err();
-    assert_eq!(error.kind(), LineErrorKind::NoLineEnd);
-    assert_eq!(error.to_string(), "line 2, column 8: CR LF expected, end of data found (STM-5)");
-    assert_eq!((interface.len(), interface.read()), (0, Ok(&b""[..])));
-    // Borders of writes vanish: a line may come in two if both are there when it is read.
-    interface.write(b"N10 \r");
-    interface.write(b"\nN20");
-    interface.write(b" M30\r\n");
-    assert_eq!(interface.read(), Ok(&b"N10 \r\nN20 M30\r\n"[..]));
-    interface.write(b"N10\r\nN20\rN30\r\n");
-    assert_eq!(
-        interface.read().unwrap_err().to_string(),
-        "line 2, column 4: CR LF expected, CR alone found (STM-5)"
-    );
-}
-
-#[test]
-fn the_interface_holds_4094_bytes() {
-    let line = [b' '; STREAM_PACKET_MAX];
-    let mut interface = StreamingInterface::new();
-    for _ in 0..4 {
-        assert_eq!(interface.write(&line), Ack::Accepted);
-    }
-    let room = STREAM_MAX - 4 * STREAM_PACKET_MAX;
-    assert_eq!(interface.write(&line), Ack::Later);
-    assert_eq!(interface.write(&line[..room + 1]), Ack::Later);
-    assert_eq!(interface.write(&[b' '; STREAM_PACKET_MAX + 1]), Ack::Refused);
-    assert_eq!(interface.len(), STREAM_MAX - room, "a refused write leaves nothing");
-    assert_eq!(interface.write(&line[..room]), Ack::Accepted);
-    assert_eq!((interface.write(b"X"), interface.write(b"")), (Ack::Later, Ack::Refused));
-    interface.reset();
-    assert!(interface.is_empty());
-    assert_eq!((interface.write(&line), interface.len()), (Ack::Accepted, STREAM_PACKET_MAX));
 }
 
 #[test]
@@ -273,7 +231,7 @@ proptest! {
     /// and without repetition, and the counts agree.
     #[test]
     fn a_sender_loses_and_repeats_nothing(text in text(), acks in vec(0..20_u8, 0..200), twice in any::<bool>()) {
-        let mut sender = CheckedSender::new(&text, EndsBend::NONE);
+        let mut sender = CheckedSender::new(&text, SenderBend::NONE);
         for ack in acks {
             sender.acknowledge(Ack::Accepted);
             for _ in 0..=u8::from(twice) {
@@ -288,35 +246,12 @@ proptest! {
         sender.check_left();
     }
 
-    /// The two ends together: a CNC that reads now and then gets the text.
+    /// The first line end that is not CR LF is found, and no other.
     #[test]
-    fn a_cnc_gets_the_text(text in text(), reads in vec(any::<bool>(), 1..20)) {
-        let mut sender = CheckedSender::new(&text, EndsBend::NONE);
-        let mut interface = CheckedInterface::new(EndsBend::NONE);
-        let (mut got, mut reads) = (Vec::<u8>::new(), reads.into_iter().chain([true]).cycle());
-        while let Some(packet) = sender.packet() {
-            sender.acknowledge(interface.write(&packet));
-            if reads.next() == Some(true) {
-                got.extend(interface.read().unwrap());
-            }
-        }
-        got.extend(interface.read().unwrap());
-        prop_assert_eq!(got, reference_wire(&text));
-    }
-
-    /// The interface against a vector of bytes.
-    #[test]
-    fn an_interface_is_a_bounded_queue(steps in vec((0..12_u8, 0..1100_usize, any::<u8>()), 0..60)) {
-        let mut interface = CheckedInterface::new(EndsBend::NONE);
-        for (step, len, byte) in steps {
-            match step {
-                0 => interface.reset(),
-                1 => drop(interface.read()),
-                _ if step % 2 == 0 => {
-                    interface.write(&[vec![byte; len], b"\r\n".to_vec()].concat());
-                }
-                _ => drop(interface.write(&vec![byte; len])),
-            }
-        }
+    fn line_ends_are_checked(text in text(), wire in any::<bool>()) {
+        let text = if wire { reference_wire(&text) } else { text };
+        let found = check_line_ends(&text).err().map(fault_of);
+        prop_assert_eq!(found, missing_end(&text));
+        prop_assert!(!wire || found.is_none());
     }
 }

@@ -60,6 +60,7 @@ pub mod codec;
 pub mod deadline;
 pub mod defect;
 mod duration;
+pub mod edition;
 pub mod exchange;
 pub mod explain;
 pub mod gate;

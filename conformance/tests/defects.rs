@@ -3,11 +3,11 @@
 use std::net::SocketAddr;
 use std::sync::Arc;
 
-use ads_cnc::edition::Edition;
 use ads_cnc::layout::{Field, Stream};
 use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::cnc::{Cnc, DEFAULT_MODEL, Model, Server, Settings};
 use ads_cnc_conformance::defect::{Change, Defect, Seed};
+use ads_cnc_conformance::edition::Edition;
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;

@@ -9,9 +9,12 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ads_cnc::CncStr;
+use ads_cnc::service::ServiceId;
 use ads_cnc::service::ServiceVariable::{RequestState, Uuid};
-use ads_cnc::service::{CallStep, ServiceCall, ServiceId, ServiceInterface, SysServiceWait};
 #[cfg(unix)]
+use ads_cnc_conformance::cnc::program::service::{
+    CallStep, ServiceCall, ServiceInterface, SysServiceWait,
+};
 use ads_cnc_conformance::cnc::program::{Script, ScriptConfig};
 use ads_cnc_conformance::cnc::{Cnc, Server};
 use ads_cnc_conformance::net;

@@ -10,8 +10,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::streaming::{Ack, StreamingInterface};
-use ads_cnc_conformance::cnc::program::{Pace, ProgramConfig};
+use ads_cnc::streaming::Ack;
+use ads_cnc_conformance::cnc::program::{Pace, ProgramConfig, StreamingInterface};
 use ads_cnc_conformance::cnc::{Cnc, Server};
 use ads_cnc_conformance::net;
 use common::fake::{Answer, fake};

@@ -18,6 +18,14 @@
 #[path = "../../codec/tests/common/mod.rs"]
 mod common;
 
+// The simulated CNC's side of streaming and services, as its own tests check it.
+#[cfg(feature = "tools")]
+#[path = "../../conformance/tests/program/machines.rs"]
+mod machines;
+#[cfg(feature = "tools")]
+#[path = "../../conformance/tests/program/world.rs"]
+mod world;
+
 mod bodies;
 mod defect;
 pub mod dictionary;

@@ -2,11 +2,11 @@
 
 #[cfg(feature = "alloc")]
 use crate::bodies::checker;
-#[cfg(feature = "tools")]
-use crate::bodies::tools;
 #[cfg(feature = "arbitrary")]
 use crate::bodies::values;
-use crate::bodies::{bytes, frames, names, operation, service, shapes, streaming, text};
+use crate::bodies::{bytes, frames, names, operation, shapes, streaming, text};
+#[cfg(feature = "tools")]
+use crate::bodies::{ends, service, tools};
 use crate::{Defect, Outcome};
 
 /// A target: named `<family>_<law>`, as its binary and its corpus are.
@@ -114,17 +114,20 @@ targets! {
     STREAMING_PACKETS: "streaming_packets", streaming::packets, streaming::PACKETS_DEFECTS,
         "of any bytes the first fault is found, or the packets together are the text with CR LF \
          behind each line, each legal and as full as can be";
-    STREAMING_SENDER: "streaming_sender", streaming::ends, streaming::ENDS_DEFECTS,
+    #[cfg(feature = "tools")]
+    STREAMING_SENDER: "streaming_sender", ends::check, ends::DEFECTS,
         "whatever is acknowledged, repeated, read and reset: a sender loses and repeats nothing \
          and counts right, the interface is a bounded queue, and what comes out is the text";
     #[cfg(feature = "alloc")]
     STREAMING_CHECKER: "streaming_checker", checker::lots, checker::DEFECTS,
         "a program that comes in any lots of lines: in each is found what is found there in the \
          whole, in the text's order, however lines end; any bytes can be checked";
+    #[cfg(feature = "tools")]
     SERVICE_HOST: "service_host", service::world, service::WORLD_DEFECTS,
         "a program, one host or two, and the Service Interface in any order of steps, whatever \
          fails: each request is served once and gets the answer to itself, after chaos too; but with \
          two hosts, a write of RESPONSE_STATE that fails has not arrived";
+    #[cfg(feature = "tools")]
     SERVICE_MACHINES: "service_machines", service::machines, service::MACHINES_DEFECTS,
         "a host, a program's request and the five variables, told anything: no request is served \
          that was not found twice, writes keep their order, errors change nothing but that a host \

@@ -16,7 +16,6 @@ PARTS = {
     "values": r"value::|Elements?\b|\w+::(?:elements?|shape|\w+_type|\w+_size)$",
     "streaming": r"streaming::(?!ProgramStream)",
     "service": r"service::",
-    "editions": r"edition::",
     "views": r"",
 }
 # Traits, the part that an implementation is in if not that of its type, and the methods.

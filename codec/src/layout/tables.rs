@@ -212,19 +212,6 @@ layouts! {
         RESPONSE_STATE "response_state" @ 0, FIXED_4, Uns32, "SVC-5", "not 0: there is a response";
         RESPONSE "response" @ 0, Size::Rest { min: 0, max: 128 }, String, "SVC-1", "what it answered";
     }
-    /// The parameters of the cycle SysServiceWait; no stream of its own.
-    SysServiceWait, sys_service_wait: "sys-service-wait", "Cycle SysServiceWait", "SVC-8", max 0 {
-        KEEP_WAITING "@P1" @ 0, FIXED_4, Uns32, "SVC-8", "response state that means: keep waiting";
-        LONGEST "@P2" @ 4, FIXED_4, Uns32, "SVC-8", "longest wait in milliseconds";
-        TIMER "@P3" @ 8, FIXED_4, Uns32, "SVC-8", "ID of the timer";
-    }
-    /// The version of a CNC, as it is printed; no stream of its own.
-    CncVersion, cnc_version: "cnc-version", "Version of a CNC", "VAR-19", max 0 {
-        MAJOR "major" @ 0, Size::Fixed(2), Uns16, "VAR-19", "first number, behind the V";
-        MINOR "minor" @ 2, Size::Fixed(2), Uns16, "VAR-19", "second number";
-        BUILD "build" @ 4, Size::Fixed(2), Uns16, "VAR-19", "third number";
-        PATCH "patch" @ 6, Size::Fixed(2), Uns16, "VAR-19", "fourth number; 0 if there is none";
-    }
     /// A value by its type, which another stream says; no stream of its own.
     TypedValue, typed_value: "typed-value", "Value by its type", "VAR-14", max 0 {
         TYPE "type" @ 0, FIXED_4, Uns32, "VAR-5", "1 BOOLEAN … 9 STRING";

@@ -1,6 +1,6 @@
 //! The side of the external services.
 
-use super::value::{self, ServiceText};
+use super::value::{ServiceText, not_zero};
 use super::{ServiceId, ServiceVariable};
 use crate::error::Error;
 use crate::text::CncStr;
@@ -151,18 +151,19 @@ pub enum HostStep<'a> {
 ///
 /// ```
 /// use ads_cnc::CncStr;
-/// use ads_cnc::service::{Host, ServiceInterface, HostStep, Outcome, ServiceId, ServiceVariable::*};
+/// use ads_cnc::service::{Host, HostStep, Outcome, ServiceId, ServiceVariable::*};
 ///
 /// let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
-/// let (mut host, mut interface) = (Host::new(&ids), ServiceInterface::new());
-/// interface.write(Uuid, b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0")?;
-/// interface.write(RequestState, &[1, 0, 0, 0])?;
+/// let mut host = Host::new(&ids);
 /// while let HostStep::Read(variable) = host.step() {
-///     host.read(interface.read(variable))?;
+///     host.read(match variable {
+///         Uuid => b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0",
+///         RequestState => &[1, 0, 0, 0],
+///         _ => b"\0",
+///     })?;
 /// }
-/// interface.reset(); // while the service is at work
 /// host.answer(CncStr::new("too late")?, 1)?;
-/// host.read(interface.read(RequestState))?;
+/// host.read(&[0; 4])?; // REQUEST_STATE: the CNC was reset while the service was at work
 /// assert_eq!(host.outcome(), Some(Outcome::Dropped));
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -226,7 +227,7 @@ impl<'s> Host<'s> {
     /// [`poll`](Self::poll). Later it reads again.
     pub fn read(&mut self, value: &[u8]) -> Result<(), Error> {
         let Some(variable) = self.phase.asks() else { return Ok(()) };
-        let state = || value::state(value, variable);
+        let state = || variable.state(value);
         let request = || ServiceText::decode(value, variable);
         let phase = self.phase;
         if matches!(phase, Phase::PollState | Phase::PollRequest) {
@@ -308,7 +309,7 @@ impl<'s> Host<'s> {
     /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): a response state of 0 (SVC-5, E-35).
     pub fn answer(&mut self, response: CncStr<'_>, response_state: u32) -> Result<(), Error> {
         let response = ServiceText::new(response, ServiceVariable::Response)?;
-        let response_state = value::not_zero(response_state, ServiceVariable::ResponseState)?;
+        let response_state = not_zero(response_state, ServiceVariable::ResponseState)?;
         if self.phase == Phase::Serving {
             (self.response, self.response_state) = (response, response_state);
             self.outcome = None;

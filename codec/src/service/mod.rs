@@ -10,50 +10,35 @@
 //! | [`V.G.SERVICE.RESPONSE_STATE`](ServiceVariable::ResponseState) | UNS32 | not 0: there is a response |
 //! | [`V.G.SERVICE.RESPONSE`](ServiceVariable::Response) | STRING, 128 bytes | what it answered |
 //!
-//! Each of the three that take part is a state machine here, without I/O, clock or allocation:
-//!
-//! | who | here |
-//! |---|---|
-//! | the external service, or several of them on one channel | [`Host`] |
-//! | the CNC program that asks | [`ServiceCall`]; only its wait, as the cycle has it: [`SysServiceWait`] |
-//! | the interface between them, in the CNC | [`ServiceInterface`] |
-//!
-//! `Host` and `ServiceCall` say which variable is to be read or written next; the caller does it, over
+//! [`Host`] is the external service, or several of them on one channel: a state machine without I/O,
+//! clock or allocation. It says which variable is to be read or written next; the caller does it, over
 //! ADS by [`ReadByName`](crate::operation::ReadByName) for one, and says how it went.
 //!
-//! Manual: `service-en` and `service-de` 1.03, sections 1 and 2; the cycle is in `service-en`,
-//! section 3, only. From which versions of the CNC on it is there:
-//! [`Feature::ServiceInterface`](crate::edition::Feature::ServiceInterface).
+//! Manual: `service-en` and `service-de` 1.03, sections 1 and 2. A CNC has it from V2.11.2030.01 and
+//! V3.1.3057.03 on.
+//!
+//! SVC-11
 //!
 //! ```
-//! use core::time::Duration;
-//!
 //! use ads_cnc::CncStr;
-//! use ads_cnc::service::{ServiceCall, CallStep, Host, HostStep, ServiceInterface, ServiceId, SysServiceWait};
+//! use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 //!
 //! let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
 //! let mut host = Host::new(&ids);
-//! let mut interface = ServiceInterface::new();
-//! let now = Duration::ZERO;
-//! let mut program = ServiceCall::new(ids[0], CncStr::new("ping")?, SysServiceWait::default())?;
 //!
-//! let answer = loop {
-//!     // The CNC's side …
-//!     match program.step() {
-//!         CallStep::Read(variable) => program.read(interface.read(variable), now)?,
-//!         CallStep::Write(variable, bytes) => {
-//!             interface.write(variable, bytes)?;
-//!             program.written(now);
-//!         }
-//!         CallStep::Wait { .. } => program.poll(),
-//!         CallStep::Done { response, .. } => break response.to_string(),
-//!         CallStep::TimedOut => unreachable!("it has no longest wait"),
-//!     }
-//!     // … and the service's.
+//! // What the CNC program has written.
+//! let value = |variable| match variable {
+//!     ServiceVariable::Uuid => &b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0"[..],
+//!     ServiceVariable::Request => b"ping\0",
+//!     ServiceVariable::RequestState => &[1, 0, 0, 0],
+//!     _ => &[0, 0, 0, 0],
+//! };
+//! let mut written = Vec::new();
+//! while written.len() < 3 {
 //!     match host.step() {
-//!         HostStep::Read(variable) => host.read(interface.read(variable))?,
+//!         HostStep::Read(variable) => host.read(value(variable))?,
 //!         HostStep::Write(variable, bytes) => {
-//!             interface.write(variable, bytes)?;
+//!             written.push((variable, bytes.to_vec()));
 //!             host.written();
 //!         }
 //!         HostStep::Serve { request, .. } => {
@@ -62,22 +47,17 @@
 //!         }
 //!         HostStep::Wait => host.poll(),
 //!     }
-//! };
-//! assert_eq!(answer, "pong");
+//! }
+//! assert_eq!(written[0], (ServiceVariable::Response, b"pong\0".to_vec()));
+//! assert_eq!(written[2], (ServiceVariable::ResponseState, vec![1, 0, 0, 0]));
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 
-mod call;
 mod host;
 mod id;
-mod interface;
 mod value;
 mod variable;
-mod wait;
 
-pub use call::{CallStep, ServiceCall};
 pub use host::{Host, HostStep, Outcome};
 pub use id::ServiceId;
-pub use interface::{Clears, ServiceInterface};
 pub use variable::ServiceVariable;
-pub use wait::{LongestWait, SysServiceWait, WaitStep, Waiting};

@@ -25,8 +25,7 @@ impl ServiceText {
         let Some(len) =
             u8::try_from(len).ok().filter(|&len| to_len(len.into()) <= SERVICE_TEXT_MAX)
         else {
-            let (max, field) = (to_u32(SERVICE_TEXT_MAX), variable.field());
-            return Err(Error::new(ErrorKind::TooLong, field, 0, max, to_u32(len)));
+            return Err(too_long(len, variable));
         };
         let mut bytes = [0; SERVICE_TEXT_MAX];
         bytes.iter_mut().zip(text.bytes()).for_each(|(byte, new)| *byte = new);
@@ -62,13 +61,45 @@ impl fmt::Debug for ServiceText {
     }
 }
 
-/// Reads the value of a state.
-pub(super) fn state(value: &[u8], variable: ServiceVariable) -> Result<u32, Error> {
-    let given = to_u32(value.len());
-    match value.split_first_chunk() {
-        None => Err(Error::new(ErrorKind::Truncated, variable.field(), 0, 4, given)),
-        Some((le, [])) => Ok(u32::from_le_bytes(*le)),
-        Some(_) => Err(Error::new(ErrorKind::Trailing, variable.field(), 4, 4, given)),
+impl ServiceVariable {
+    /// The text in a value of this variable: the bytes before the first NUL, or all (VAR-22).
+    ///
+    /// ```
+    /// use ads_cnc::service::ServiceVariable;
+    ///
+    /// assert_eq!(ServiceVariable::Request.text(b"ping\0\0")?, "ping");
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`TooLong`](ErrorKind::TooLong) for a text of more than 128 bytes with its NUL.
+    pub fn text(self, value: &[u8]) -> Result<CncStr<'_>, Error> {
+        let text = CncStr::until_nul(value);
+        match text.len().saturating_add(1) {
+            len if len > SERVICE_TEXT_MAX => Err(too_long(len, self)),
+            _ => Ok(text),
+        }
+    }
+
+    /// The number in a value of a state: UNS32.
+    ///
+    /// ```
+    /// use ads_cnc::service::ServiceVariable;
+    ///
+    /// assert_eq!(ServiceVariable::ResponseState.state(&[99, 0, 0, 0])?, 99);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Truncated`](ErrorKind::Truncated) and [`Trailing`](ErrorKind::Trailing) for a value that
+    /// does not have exactly four bytes.
+    pub fn state(self, value: &[u8]) -> Result<u32, Error> {
+        let given = to_u32(value.len());
+        match value.split_first_chunk() {
+            None => Err(Error::new(ErrorKind::Truncated, self.field(), 0, 4, given)),
+            Some((le, [])) => Ok(u32::from_le_bytes(*le)),
+            Some(_) => Err(Error::new(ErrorKind::Trailing, self.field(), 4, 4, given)),
+        }
     }
 }
 
@@ -78,4 +109,10 @@ pub(super) fn not_zero(state: u32, variable: ServiceVariable) -> Result<[u8; 4],
         0 => Err(Error::new(ErrorKind::OutOfRange, variable.field(), 0, 1, 0)),
         _ => Ok(state.to_le_bytes()),
     }
+}
+
+#[cold]
+fn too_long(len: usize, variable: ServiceVariable) -> Error {
+    let max = to_u32(SERVICE_TEXT_MAX);
+    Error::new(ErrorKind::TooLong, variable.field(), 0, max, to_u32(len))
 }

@@ -20,7 +20,7 @@ use super::{Finding, FindingKind, NcText, ProgramEnd};
 ///   one that is forgotten is not found.
 ///
 /// It does not mind line ends, the length of a line or characters that are not ASCII:
-/// [`StreamingInterface::read`](super::StreamingInterface::read) checks the first, [`NcText`](super::NcText) all.
+/// [`check_line_ends`](super::check_line_ends) checks the first, [`NcText`](super::NcText) all.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6 (STM-8, STM-9, STM-10).
 ///

@@ -1,6 +1,7 @@
 //! Where lines end.
 
-use crate::bytes::to_len;
+use super::{LineError, LineErrorKind};
+use crate::bytes::{to_len, to_u32};
 
 pub(super) const CR: u8 = b'\r';
 pub(super) const LF: u8 = b'\n';
@@ -55,6 +56,45 @@ pub(super) const fn behind_end(bytes: &[u8]) -> &[u8] {
         [LF, rest @ ..] | [CR, LF, rest @ ..] | [CR, rest @ ..] => rest,
         _ => bytes,
     }
+}
+
+/// Checks that each line of received data ends in CR LF, as a CNC does when it reads its stream.
+///
+/// Use it on the CNC's side: a client's text may have other line ends, which
+/// [`NcText::packets`](super::NcText::packets) replaces.
+///
+/// Manual: `stream-en`, section 4.1 (STM-5).
+///
+/// ```
+/// use ads_cnc::streaming::check_line_ends;
+///
+/// assert_eq!(check_line_ends(b"N10 G0 X0\r\nN20 M30\r\n"), Ok(()));
+/// assert_eq!(
+///     check_line_ends(b"N30 G0 X0\n").unwrap_err().to_string(),
+///     "line 1, column 10: CR LF expected, LF alone found (STM-5)"
+/// );
+/// ```
+///
+/// # Errors
+/// The first line that does not end in CR LF, for which a CNC reports
+/// [`LINE_END_ERROR`](super::LINE_END_ERROR).
+pub fn check_line_ends(data: &[u8]) -> Result<(), LineError> {
+    let (mut rest, mut number) = (data, 0_u32);
+    while !rest.is_empty() {
+        number = number.saturating_add(1);
+        let (line, end) = split_at_end(rest);
+        let kind = match end {
+            [CR, LF, ..] => {
+                rest = behind_end(end);
+                continue;
+            }
+            [LF, ..] => LineErrorKind::LfAlone,
+            [CR, ..] => LineErrorKind::CrAlone,
+            _ => LineErrorKind::NoLineEnd,
+        };
+        return Err(LineError::new(number, to_u32(line.len()).saturating_add(1), kind));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

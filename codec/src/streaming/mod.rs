@@ -3,11 +3,10 @@
 //! | manual (`stream-en`) | here |
 //! |---|---|
 //! | 2.2, lines and packets | [`NcText`], [`Packets`] |
-//! | 2.2, start, order, reset, the interface's end | [`StreamingInterface`] |
 //! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain, with `alloc` | `Findings`; packet by packet, `Checker` |
 //! | 3.1, sizes | [`limits`](crate::limits) |
 //! | 3.2, the object | [`WriteProgramStream`](crate::operation::WriteProgramStream), [`ProgramStreamRef`], [`OBJECT_NAME`] |
-//! | 4.1, line ends | [`LineError`], [`LINE_END_ERROR`] |
+//! | 4.1, line ends | [`check_line_ends`], [`LINE_END_ERROR`] |
 //! | 4.2 and 5, acknowledgement and repetition | [`Sender`], [`Ack`], [`RETRY_AFTER`] |
 //!
 //! A packet is whole lines of ASCII, each ended by CR LF, without a NUL or a length before it
@@ -15,23 +14,21 @@
 //! allocates.
 //!
 //! ```
-//! use ads_cnc::streaming::{Ack, StreamingInterface, NcText, Sender};
+//! use ads_cnc::streaming::{Ack, NcText, Sender};
 //!
 //! // Everything that can be wrong with the text is found before the first packet is out.
 //! let text = NcText::new(b"N10 G01 X200 F1000\nN20 X240 Y100\nN30 M30")?;
 //! # #[cfg(feature = "alloc")]
 //! assert_eq!(text.findings().next(), None);
 //!
-//! let mut cnc = StreamingInterface::new();
 //! let mut sender = Sender::new(text);
+//! let mut written = Vec::new();
 //! while let Some(packet) = sender.packet() {
-//!     let ack = cnc.write(packet);
-//!     sender.acknowledge(ack)?;
-//!     if ack == Ack::Later {
-//!         // wait `RETRY_AFTER`; the same packet comes again
-//!     }
+//!     // Write it to the CNC. On `Ack::Later` wait `RETRY_AFTER`; the same packet comes again.
+//!     written.extend_from_slice(packet);
+//!     sender.acknowledge(Ack::Accepted)?;
 //! }
-//! assert_eq!(cnc.read()?, b"N10 G01 X200 F1000\r\nN20 X240 Y100\r\nN30 M30\r\n");
+//! assert_eq!(written, b"N10 G01 X200 F1000\r\nN20 X240 Y100\r\nN30 M30\r\n");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -45,7 +42,6 @@ mod check;
 mod checker;
 mod ends;
 mod error;
-mod interface;
 #[cfg(feature = "alloc")]
 mod labels;
 #[cfg(feature = "alloc")]
@@ -63,8 +59,8 @@ mod words;
 pub use check::{Finding, FindingKind};
 #[cfg(feature = "alloc")]
 pub use checker::{CheckedLines, Checker, Findings, Found};
+pub use ends::check_line_ends;
 pub use error::{LineError, LineErrorKind};
-pub use interface::StreamingInterface;
 pub use packets::Packets;
 #[cfg(feature = "alloc")]
 pub use program_stream::ProgramStream;

@@ -18,10 +18,11 @@ use crate::limits::STREAM_PACKET_MAX;
 /// Manual: `stream-en`, sections 4.2 and 5 (STM-6).
 ///
 /// ```
-/// use ads_cnc::streaming::{Ack, StreamingInterface};
+/// use ads_cnc::ads::AdsError;
+/// use ads_cnc::streaming::Ack;
 ///
-/// assert_eq!(StreamingInterface::new().write(b"M30\r\n"), Ack::Accepted);
-/// assert_eq!(StreamingInterface::new().write(&[b' '; 993]), Ack::Refused);
+/// assert_eq!(Ack::of(AdsError(0)), Ack::Accepted);
+/// assert_eq!(Ack::of(AdsError::INVALID_SIZE), Ack::Refused);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ack {

@@ -8,8 +8,14 @@ use crate::text::{CncStr, TextRef};
 
 /// A kind of variables, `V.E` for one: the text without a final dot.
 ///
-/// Any text is one: which kinds a function takes is the CNC's to say. What the editions say of it is
-/// in [`edition`](crate::edition).
+/// Any text is a kind: which kinds a function takes depends on the CNC. The editions differ:
+///
+/// | | `ads-en` 1.05 | `ads-de` 1.051 |
+/// |---|---|---|
+/// | on the channel interface | V.E, V.G, V.A, V.CYC | those, and V.P, V.L, V.S from V2.11.2077, V2.11.2847, V3.1.3081.07, V3.1.3115 and V4.18.0 on |
+/// | by name only, without a handle (0x46, 0x47, 0x49) | V.CYC | V.CYC, V.P, V.L, V.S |
+///
+/// VAR-18, VAR-19
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.1 and 4.3.1.
 ///

@@ -3,6 +3,13 @@
 use ads_cnc::CncStr;
 use ads_cnc::service::*;
 
+pub(crate) fn service_ids() -> [ServiceId; 2] {
+    [
+        ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47").unwrap(),
+        ServiceId::new("19719079-ba06-4740-bc02-de5215211751").unwrap(),
+    ]
+}
+
 /// Of a value the text, up to its NUL.
 pub(super) fn text(value: &[u8]) -> &[u8] {
     value.split(|&byte| byte == 0).next().unwrap_or(value)

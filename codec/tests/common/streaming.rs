@@ -1,6 +1,6 @@
-//! What holds for NC text and its packets, and for both ends of the stream.
+//! What holds for NC text, its packets and their sender.
 
-use ads_cnc::limits::{NC_LINE_MAX, STREAM_MAX, STREAM_PACKET_MAX};
+use ads_cnc::limits::{NC_LINE_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::*;
 
 /// Another way to the lines: by replacing, on a copy.
@@ -25,7 +25,7 @@ pub(crate) fn reference_wire(bytes: &[u8]) -> Vec<u8> {
 /// Line, column and kind of what is wrong.
 pub(crate) type TextFault = (usize, usize, LineErrorKind);
 
-fn fault_of(error: LineError) -> TextFault {
+pub(crate) fn fault_of(error: LineError) -> TextFault {
     (error.line() as usize, error.column() as usize, error.kind())
 }
 
@@ -107,25 +107,17 @@ fn check_packets_bent(bytes: &[u8], bend: TextBend) -> Vec<Vec<u8>> {
     packets
 }
 
-/// What is wrong in one thing around a sender or an interface.
+/// What is wrong in one thing around a sender.
 #[derive(Clone, Copy)]
-pub(crate) struct EndsBend {
+pub(crate) struct SenderBend {
     /// What the sender is told.
     pub(crate) ack: fn(Ack) -> Ack,
     /// What it says to have sent.
     pub(crate) sent: fn(Progress) -> Progress,
-    /// What the interface is given.
-    pub(crate) write: fn(&mut StreamingInterface, &[u8]) -> Ack,
-    pub(crate) reset: fn(&mut StreamingInterface),
 }
 
-impl EndsBend {
-    pub(crate) const NONE: Self = Self {
-        ack: |ack| ack,
-        sent: |sent| sent,
-        write: StreamingInterface::write,
-        reset: StreamingInterface::reset,
-    };
+impl SenderBend {
+    pub(crate) const NONE: Self = Self { ack: |ack| ack, sent: |sent| sent };
 }
 
 /// A sender beside what it should be.
@@ -136,11 +128,11 @@ pub(crate) struct CheckedSender<'t> {
     sent: Progress,
     state: SenderState,
     refusals: u32,
-    bend: EndsBend,
+    bend: SenderBend,
 }
 
 impl<'t> CheckedSender<'t> {
-    pub(crate) fn new(text: &'t [u8], bend: EndsBend) -> Self {
+    pub(crate) fn new(text: &'t [u8], bend: SenderBend) -> Self {
         let packets = packets(text);
         let state = if packets.is_empty() { SenderState::Done } else { SenderState::Ready };
         let sender = Sender::new(NcText::new(text).unwrap());
@@ -210,60 +202,8 @@ impl<'t> CheckedSender<'t> {
     }
 }
 
-/// An interface beside a vector of bytes.
-pub(crate) struct CheckedInterface {
-    interface: StreamingInterface,
-    held: Vec<u8>,
-    bend: EndsBend,
-}
-
-impl CheckedInterface {
-    pub(crate) fn new(bend: EndsBend) -> Self {
-        Self { interface: StreamingInterface::new(), held: Vec::new(), bend }
-    }
-
-    /// All or nothing is taken.
-    pub(crate) fn write(&mut self, data: &[u8]) -> Ack {
-        let wanted = match data.len() {
-            0 | 993.. => Ack::Refused,
-            len if self.held.len() + len > STREAM_MAX => Ack::Later,
-            _ => Ack::Accepted,
-        };
-        assert_eq!((self.bend.write)(&mut self.interface, data), wanted);
-        if wanted == Ack::Accepted {
-            self.held.extend_from_slice(data);
-        }
-        self.check();
-        wanted
-    }
-
-    /// All that was written comes out, or the first line that is not ended as it has to be.
-    pub(crate) fn read(&mut self) -> Result<Vec<u8>, TextFault> {
-        let held = std::mem::take(&mut self.held);
-        let wanted = match missing_end(&held) {
-            None => Ok(held),
-            Some(fault) => Err(fault),
-        };
-        let found = self.interface.read().map_err(fault_of);
-        assert_eq!(found, wanted.as_deref().map_err(|fault| *fault));
-        self.check();
-        wanted
-    }
-
-    pub(crate) fn reset(&mut self) {
-        (self.bend.reset)(&mut self.interface);
-        self.held.clear();
-        self.check();
-    }
-
-    fn check(&self) {
-        let (len, is_empty) = (self.interface.len(), self.interface.is_empty());
-        assert_eq!((len, is_empty), (self.held.len(), self.held.is_empty()));
-    }
-}
-
 /// The first line that does not end in CR LF, looked for byte by byte.
-fn missing_end(bytes: &[u8]) -> Option<TextFault> {
+pub(crate) fn missing_end(bytes: &[u8]) -> Option<TextFault> {
     let (mut line, mut column) = (1, 1);
     for (at, &byte) in bytes.iter().enumerate() {
         match byte {

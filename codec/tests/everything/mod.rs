@@ -9,17 +9,13 @@ mod named;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::*;
 use ads_cnc::dynamic::*;
-use ads_cnc::edition::{CncVersion, Edition};
-use ads_cnc::operation::{
-    Call, Function, Operation, ReadElement, ReadObject, Service, WriteElement,
-};
+use ads_cnc::operation::{Call, Operation, ReadElement, ReadObject, Service, WriteElement};
 use ads_cnc::sda::*;
-use ads_cnc::service::{CallStep, Host, HostStep, ServiceId, ServiceInterface, SysServiceWait};
-use ads_cnc::streaming::{Ack, NcText, ProgramStreamRef, Sender, StreamingInterface};
+use ads_cnc::service::{Host, HostStep, ServiceId};
+use ads_cnc::streaming::{Ack, NcText, ProgramStreamRef, Sender, check_line_ends};
 use ads_cnc::value::{Boolean, EncodeValue as _, Item, Items, StringsRef};
 use ads_cnc::*;
 use core::hint::black_box;
-use core::time::Duration;
 
 /// Reads, and writes what was read.
 fn both<'a, T: Decode<'a> + Encode>(bytes: &'a [u8]) -> bool {
@@ -175,14 +171,10 @@ fn items<T: Item>(elements: Elements<'_>) -> Result<usize, Error> {
 fn streams(bytes: &[u8]) -> usize {
     let Ok(text) = NcText::new(bytes) else { return 0 };
     let mut sender = Sender::new(text);
-    let mut interface = StreamingInterface::new();
     for _ in 0..black_box(3) {
         let Some(packet) = sender.packet() else { break };
-        let ack = interface.write(packet);
+        let ack = if check_line_ends(packet).is_ok() { Ack::Accepted } else { Ack::Later };
         let _none_out = sender.acknowledge(ack);
-        if ack == Ack::Later {
-            let _read = interface.read();
-        }
     }
     #[cfg(feature = "alloc")]
     black_box(text.findings().count());
@@ -192,42 +184,16 @@ fn streams(bytes: &[u8]) -> usize {
 fn services(bytes: &[u8]) -> Result<usize, Error> {
     let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
     let mut host = Host::new(&ids);
-    let mut interface = ServiceInterface::new();
-    let wait = SysServiceWait::from_parameters(Some(0), Some(5000), Some(1))?;
-    let mut call = service::ServiceCall::new(ids[0], CncStr::from_bytes(bytes)?, wait)?;
-    for now in 0..black_box(20) {
-        let now = Duration::from_millis(now);
-        match call.step() {
-            CallStep::Read(variable) => call.read(interface.read(variable), now)?,
-            CallStep::Write(variable, value) => {
-                interface.write(variable, value)?;
-                call.written(now);
-            }
-            _ => call.poll(),
-        }
+    for _ in 0..black_box(20) {
         match host.step() {
-            HostStep::Read(variable) => host.read(interface.read(variable))?,
-            HostStep::Write(variable, value) => {
-                interface.write(variable, value)?;
-                host.written();
-            }
+            HostStep::Read(_) => host.read(bytes)?,
+            HostStep::Write(_, value) if value.is_empty() => host.failed(),
+            HostStep::Write(..) => host.written(),
             HostStep::Serve { .. } => host.answer(CncStr::EMPTY, 1)?,
             HostStep::Wait => host.poll(),
         }
     }
     Ok(0)
-}
-
-/// A version, and what it and the editions say of a kind.
-fn editions(bytes: &[u8]) -> Result<usize, Error> {
-    let text = core::str::from_utf8(bytes).unwrap_or("");
-    let version = CncVersion::new(text).ok();
-    let kind = Kind::new(text)?;
-    let count = |edition: Edition| {
-        let permits = |&&function: &&Function| edition.permits(function, kind, version).yes;
-        Function::ALL.iter().filter(permits).count()
-    };
-    Ok(Edition::ALL.into_iter().map(count).sum())
 }
 
 /// Runs all of it; what comes of it does not matter.
@@ -239,7 +205,6 @@ pub(crate) fn runs(bytes: &[u8]) -> bool {
         texts(bytes).unwrap_or(3),
         values(bytes).unwrap_or(7),
         services(bytes).unwrap_or(4),
-        editions(bytes).unwrap_or(6),
         streams(bytes),
         walks(bytes),
     ];

@@ -3,13 +3,13 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use ads_cnc::edition::Edition;
 use clap::Args;
 
 use super::complain;
 use super::forms::Reports;
 use crate::capture::{self, AMS_TCP_PORT, Checked, Collector, Options, Ports};
 use crate::cnc;
+use crate::edition::Edition;
 use crate::gate::Moment;
 use crate::report::{self, About, Report, TargetReport};
 use crate::suite::{Case, Selection};

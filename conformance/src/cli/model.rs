@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use ads_cnc::edition::{CncVersion, Edition};
-
 use super::target::TargetArgs;
 use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, ModelError, Settings};
+use crate::edition::{CncVersion, Edition};
 use crate::session::{Session, Trouble};
 
 /// Under which these options stand in the help.

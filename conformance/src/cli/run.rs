@@ -3,7 +3,6 @@
 use std::io::{self, Write as _};
 use std::path::PathBuf;
 
-use ads_cnc::edition::Edition;
 use clap::Args;
 
 use super::forms::{Reports, show, write};
@@ -13,6 +12,7 @@ use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect, run_testee};
 use crate::cnc::{self, Model};
 use crate::defect::Seed;
+use crate::edition::Edition;
 use crate::gate::Moment;
 use crate::interrupt::Interrupt;
 use crate::profile::{self, Profile};

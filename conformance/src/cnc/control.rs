@@ -1,10 +1,11 @@
 //! What happens to a CNC from within: nobody asks for it over ADS.
 
+use ads_cnc::CncString;
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
-use ads_cnc::{CncString, service};
 
 use super::Cnc;
 use super::model::{Parameter, Times, parameter_kind};
+use super::program::service::ServiceInterface;
 use super::program::{Program, ProgramConfig, Script};
 use super::state::ChannelState;
 
@@ -113,7 +114,7 @@ impl Cnc {
     pub fn with_service<T>(
         &self,
         channel: u8,
-        then: impl FnOnce(&mut service::ServiceInterface) -> T,
+        then: impl FnOnce(&mut ServiceInterface) -> T,
     ) -> Result<T, ControlError> {
         self.of_channel(channel, |channel| then(&mut channel.service))
     }

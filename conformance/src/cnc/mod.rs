@@ -47,7 +47,7 @@ pub use respond::{DATA_MAX, NET_ID};
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
 pub(crate) use within::{Held, Holder};
 
-use ads_cnc::edition::Edition;
+use crate::edition::Edition;
 
 /// The edition of the manual with this name: `en-1.05` or `de-1.051`.
 ///

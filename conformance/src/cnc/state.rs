@@ -5,11 +5,11 @@ use std::time::Duration;
 use ads_cnc::address::{Addressing, Class};
 use ads_cnc::ads::AdsError;
 use ads_cnc::dynamic::DynamicKind;
-use ads_cnc::service;
 
 use super::content::Owner;
 use super::model::{AxisModel, ChannelModel, Item, Model, Variables, class_place};
 use super::parameters::{ParameterState, Parameters};
+use super::program::service::ServiceInterface;
 use super::program::{Habit, Program, Script};
 
 /// Contents, in the order of what they belong to.
@@ -35,7 +35,7 @@ pub(super) struct ChannelState {
     variables: Values,
     elements: [Values; 6],
     pub(super) parameters: Parameters,
-    pub(super) service: service::ServiceInterface,
+    pub(super) service: ServiceInterface,
     /// Its streaming program, with what is in the interface.
     pub(super) program: Program,
     /// Its NC program that asks services, if it has one.
@@ -75,7 +75,7 @@ impl State {
                     .unwrap_or_default()
             }),
             parameters: Parameters::new(&channel.parameters),
-            service: service::ServiceInterface::new(),
+            service: ServiceInterface::new(),
             program: Program::new(channel.program.clone()),
             // The model was checked: it is one.
             script: channel.script.clone().and_then(|script| Script::new(script).ok()),

@@ -22,7 +22,7 @@ mod tests;
 use std::fmt;
 use std::sync::OnceLock;
 
-use ads_cnc::edition::Edition;
+use crate::edition::Edition;
 
 pub(crate) use cnc::{Memory, Right, Twist};
 pub use field::{Change, Defect};

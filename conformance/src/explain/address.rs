@@ -5,7 +5,6 @@ use ads_cnc::address::{
     IndexGroup, IndexOffset,
 };
 use ads_cnc::dynamic::DynamicKind;
-use ads_cnc::edition::Feature;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{
     Effect, Function, FunctionSpec, GroupRule, OffsetRule, Refusal, Service, Task,
@@ -15,6 +14,7 @@ use super::codes;
 use super::model::{Address, FunctionReport, Part, Place};
 use super::part;
 use super::typed::Values;
+use crate::edition::Feature;
 
 /// Data of a service at a place.
 pub(super) fn of_place(place: &Place, bytes: &[u8], values: &Values) -> Part {

@@ -1,7 +1,7 @@
 //! NC text in a stream, line by line, with what streaming does not permit.
 
 use ads_cnc::layout::Segment;
-use ads_cnc::streaming::{self, LineError, NcText, StreamingInterface};
+use ads_cnc::streaming::{self, LineError, NcText, check_line_ends};
 
 use super::codes::quoted;
 use super::model::{Fault, Part, Row};
@@ -28,9 +28,7 @@ pub(super) fn add(part: &mut Part, segment: &Segment<'_>) {
         part.rows.push(row);
     }
     // A CNC takes the bytes in any case; that a line has no end it finds when it reads.
-    let mut cnc = StreamingInterface::new();
-    cnc.write(data);
-    if let Err(error) = cnc.read() {
+    if let Err(error) = check_line_ends(data) {
         let number = streaming::LINE_END_ERROR;
         fault(part, &lines, &error, &format!(": the CNC aborts with error {number}"));
     }

@@ -9,7 +9,6 @@ use std::time::Duration;
 
 use ads_cnc::address::{Channel, ChannelAxis, PlatformAxis, Spindle};
 use ads_cnc::ads::AmsPort;
-use ads_cnc::edition::{CncVersion, Edition};
 use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::operation::{Function, Task};
 use ads_cnc::{CncString, VariablePath};
@@ -17,6 +16,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error as _};
 
 use super::{LISTED, Profile, Section};
+use crate::edition::{CncVersion, Edition};
 
 /// A profile with a comment on everything in it: what is taken of a device without one.
 pub const EXAMPLE: &str = include_str!("device.toml");

@@ -7,9 +7,10 @@ use std::time::Duration;
 
 use ads_cnc::Kind;
 use ads_cnc::ads::AmsPort;
-use ads_cnc::edition::{CncVersion, Edition, Feature};
 use ads_cnc::operation::{Function, Task};
 use serde::{Deserialize, Serialize, Serializer};
+
+use crate::edition::{CncVersion, Edition, Feature};
 
 pub use file::{EXAMPLE, ProfileFileError};
 
@@ -168,8 +169,8 @@ impl Profile {
     /// Whether it claims what comes with a version.
     pub fn has(&self, feature: Feature) -> Claim {
         match self.cnc_version.map(|version| version.has(feature)) {
-            Some(answer) if answer.yes && !answer.assumed => Claim::Yes,
-            Some(answer) if !answer.yes && !answer.assumed => Claim::No,
+            Some(answer) if answer.available && !answer.assumed => Claim::Yes,
+            Some(answer) if !answer.available && !answer.assumed => Claim::No,
             _ => Claim::Open,
         }
     }

@@ -1,6 +1,5 @@
 //! From the outcomes of a run to its report.
 
-use ads_cnc::edition::Edition;
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
 use super::model::{
@@ -10,6 +9,7 @@ use super::model::{
 use super::{BytesReport, hex};
 use crate::clients::CLIENT;
 use crate::cnc;
+use crate::edition::Edition;
 use crate::explain;
 use crate::gate::Moment;
 use crate::profile::Profile;

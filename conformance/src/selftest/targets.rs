@@ -2,11 +2,10 @@
 
 use std::time::Duration;
 
-use ads_cnc::edition::Edition;
-
 use super::{Candidate, Group, Outcomes};
 use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::{self, Kind, Seed};
+use crate::edition::Edition;
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
 use crate::suite::{self, Case, Needs, Outcome, Session};

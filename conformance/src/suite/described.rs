@@ -1,7 +1,6 @@
 //! Cases of what else describes a variable: the extended description, and that by its name.
 
 use ads_cnc::address::Channel;
-use ads_cnc::edition::Feature;
 use ads_cnc::operation::{CountVariables, DescribeByName, DescribeExtended};
 use ads_cnc::{
     Decode as _, Description, DescriptionByName, ExtendedReply, Kind, Synchronisation, TextRef,
@@ -13,6 +12,7 @@ use super::declare;
 use super::probe::{Probe, harness};
 use super::survey::{KINDS, VARIABLES_MAX};
 use super::variable::name_of;
+use crate::edition::Feature;
 use crate::profile::Claim;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -135,7 +135,7 @@ fn is_there(probe: &mut Probe<'_>, channel: Channel, known: &Description) -> Ste
     if probe.try_ask(request)?.is_some() {
         return Ok(());
     }
-    let clause = Feature::DescriptionByName.clause();
+    let clause = Feature::DescriptionByName.requirement();
     let why =
         format!("the target has no description by name, which comes with a version ({clause})");
     Err(Stop::NotApplicable(why))

@@ -1,7 +1,6 @@
 //! Cases of names: what they are made of, and what is reached by name only.
 
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
-use ads_cnc::edition::{Edition, Feature};
 use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByName, HandleByName, ReadByName,
@@ -13,6 +12,7 @@ use super::declare;
 use super::probe::{Probe, harness};
 use super::still::Still;
 use super::variable::name_of;
+use crate::edition::{Edition, Feature};
 use crate::profile::Claim;
 use crate::values::until_nul;
 

@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 use std::hash::{BuildHasher as _, RandomState};
 
-use ads_cnc::edition::Edition;
 use ads_cnc_vectors::{Source, requirement};
 
 use super::case::{Body, Case, Needs, Subject};
 use super::outcome::Outcome;
+use crate::edition::Edition;
 use crate::report::LeftOut;
 use crate::verdict::Verdict;
 

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use ads_cnc::service::{CallStep, Host, HostStep, ServiceId, ServiceInterface, ServiceVariable};
-use ads_cnc::{CncStr, CncString, Error, ErrorKind};
+use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
+use ads_cnc::{CncStr, CncString, ErrorKind};
+use ads_cnc_conformance::cnc::program::service::{CallError, CallStep, ServiceInterface};
 use ads_cnc_conformance::cnc::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
 };
@@ -72,7 +73,7 @@ impl Scene<'_> {
                     self.script = Some(script);
                     None
                 }
-                Err(error) => Some(class(&error)),
+                Err(error) => Some(class(error.kind())),
             },
             ServiceAction::Wait => {
                 let script = self.script_step(step);
@@ -148,7 +149,9 @@ impl Scene<'_> {
     fn write(&mut self, step: &ServiceStep, at: &str) -> Fault {
         let (variable, value) = (variable(step), step.bytes.as_ref().expect(at).bytes());
         match step.actor.as_str() {
-            "other" => self.channel(step).write(variable, &value).err().map(|error| class(&error)),
+            "other" => {
+                self.channel(step).write(variable, &value).err().map(|error| class(error.kind()))
+            }
             "program" => {
                 let script = self.script.as_ref().expect("a program that asks");
                 if script.next_step() != Some(CallStep::Write(variable, &value)) {
@@ -175,7 +178,7 @@ impl Scene<'_> {
         let request = request.to_string();
         let host = self.hosts.get_mut(step.actor.as_str()).expect("a service");
         if let Err(error) = host.answer(CncStr::from_bytes(&response).expect(at), state) {
-            return Some(class(&error));
+            return Some(class(error.kind()));
         }
         let does = self.given.services[&step.actor].does.as_deref();
         let stated = (String::from_utf8_lossy(&response).into_owned(), state);
@@ -183,7 +186,7 @@ impl Scene<'_> {
     }
 }
 
-fn ask(step: &ServiceStep) -> Result<Script, Error> {
+fn ask(step: &ServiceStep) -> Result<Script, CallError> {
     let parameter = |value: &Option<String>| value.as_ref().map(|_| number(value));
     let wait = step.wait.as_ref().map_or(Wait::Loop, |wait| Wait::Cycle {
         p1: parameter(&wait.p1),
@@ -229,8 +232,8 @@ fn number(value: &Option<String>) -> u32 {
     value.as_deref().expect("a number").parse().expect("a number")
 }
 
-fn class(error: &Error) -> &'static str {
-    match error.kind() {
+fn class(kind: ErrorKind) -> &'static str {
+    match kind {
         ErrorKind::Truncated => "truncated",
         ErrorKind::Trailing => "trailing",
         ErrorKind::TooLong => "too-long",

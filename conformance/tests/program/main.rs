@@ -1,12 +1,19 @@
 //! The programs of the simulated CNC: streamed ones and those that ask services.
 
 mod decoder;
+mod golden_interface;
+mod golden_machines;
 mod golden_service;
 mod golden_streaming;
+mod interfaces;
+mod interleavings;
 #[path = "../kept/mod.rs"]
 mod kept;
+mod machines;
 mod script;
 mod sender;
+mod service;
+mod world;
 
 use ads_cnc_vectors::{Sequence, SequenceExpect, sequences};
 

@@ -2,8 +2,9 @@
 
 use std::time::Duration;
 
-use ads_cnc::service::{CallStep, Host, HostStep, ServiceId, ServiceInterface, ServiceVariable};
+use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::{CncStr, CncString, ErrorKind};
+use ads_cnc_conformance::cnc::program::service::{CallStep, ServiceInterface};
 use ads_cnc_conformance::cnc::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
 };

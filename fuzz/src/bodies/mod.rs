@@ -3,10 +3,13 @@
 pub(crate) mod bytes;
 #[cfg(feature = "alloc")]
 pub(crate) mod checker;
+#[cfg(feature = "tools")]
+pub(crate) mod ends;
 pub(crate) mod frames;
 pub(crate) mod input;
 pub(crate) mod names;
 pub(crate) mod operation;
+#[cfg(feature = "tools")]
 pub(crate) mod service;
 pub(crate) mod shapes;
 pub(crate) mod streaming;

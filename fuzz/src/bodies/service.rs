@@ -2,12 +2,13 @@
 
 use std::time::Duration;
 
-use ads_cnc::service::{Clears, HostStep, ServiceId, ServiceVariable};
+use ads_cnc::service::{HostStep, ServiceId, ServiceVariable};
+use ads_cnc_conformance::cnc::program::service::{Clears, ServiceInterface};
 
 use super::input::Input;
-use crate::common::machines::{CheckedHost, HostBend};
-use crate::common::machines_cnc::{CheckedCall, CheckedVariables};
-use crate::common::service::{Action, Asked, Luck, ServiceBend, World, service_ids};
+use crate::common::machines::{CheckedHost, HostBend, service_ids};
+use crate::machines::{CheckedCall, CheckedVariables};
+use crate::world::{Action, Asked, Luck, ServiceBend, World};
 use crate::{Defect, Outcome};
 
 /// A byte for what there is: one host for both services (bit 0), whether the interface clears
@@ -87,7 +88,7 @@ fn world_bend(defect: Defect) -> ServiceBend {
             interface.write(variable, value).unwrap();
             if variable == ServiceVariable::RequestState && value != [0; 4] && before != [0; 4] {
                 let asked = Clears::Never;
-                let mut other = ads_cnc::service::ServiceInterface::with(asked);
+                let mut other = ServiceInterface::with(asked);
                 for variable in ServiceVariable::ALL {
                     other.write(variable, interface.read(variable)).unwrap();
                 }
@@ -157,7 +158,7 @@ fn call(mut input: Input<'_>, defect: Defect) -> Outcome {
     let request = value(&mut input, &mut last).to_vec();
     let mut call = match CheckedCall::new(id, &request, asked, parameters) {
         Ok(call) => call,
-        Err(error) => return Outcome::refused(super::bytes::shown(error)),
+        Err(error) => return Outcome::refused(error.to_string()),
     };
     let (mut now, mut events) = (Duration::ZERO, 0);
     while !input.is_empty() && events < EVENTS {

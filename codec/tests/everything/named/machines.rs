@@ -1,14 +1,10 @@
 //! The Service Interface and data streaming, step by step.
 
-use core::time::Duration;
-
-use ads_cnc::service::{CallStep, Clears, HostStep, ServiceVariable};
+use ads_cnc::service::{HostStep, ServiceVariable};
 use ads_cnc::streaming::{Ack, LineError};
 use ads_cnc::*;
 
 use super::{any, cnc, seen, text};
-
-const NOW: Duration = Duration::from_millis(7);
 
 pub(super) fn service(bytes: &[u8]) -> Result<(), Error> {
     seen(service::ServiceId::from_text(cnc(bytes)));
@@ -18,38 +14,13 @@ pub(super) fn service(bytes: &[u8]) -> Result<(), Error> {
     seen((service::ServiceVariable::name(variable), service::ServiceVariable::var_type(variable)));
     seen(service::ServiceVariable::by_name(text(bytes, "V.E.a")));
 
-    let wait = service::SysServiceWait::from_parameters(any(Some(1)), any(Some(9)), any(Some(1)))?;
-    let mut waiting = service::SysServiceWait::start(wait, any(NOW));
-    seen(service::Waiting::read(&mut waiting, bytes, any(NOW)));
-    service::Waiting::poll(&mut waiting);
-    seen(service::Waiting::step(&waiting));
+    seen(service::ServiceVariable::text(variable, bytes));
+    seen(service::ServiceVariable::state(variable, bytes));
 
-    let mut interface = service::ServiceInterface::with(any(Clears::Never));
-    if any(true) {
-        interface = service::ServiceInterface::new();
-    }
-    seen(service::ServiceInterface::write(&mut interface, variable, bytes));
-    seen(service::ServiceCall::new(ids[0], cnc(bytes), wait));
-    let mut call = service::ServiceCall::with_state(ids[0], cnc(bytes), any(1), wait)?;
     let mut host = service::Host::new(&ids);
     for _ in 0..any(9) {
-        match service::ServiceCall::step(&call) {
-            CallStep::Read(variable) => {
-                let value = service::ServiceInterface::read(&interface, variable);
-                seen(service::ServiceCall::read(
-                    &mut call,
-                    if any(true) { value } else { bytes },
-                    any(NOW),
-                ));
-            }
-            CallStep::Write(..) => service::ServiceCall::written(&mut call, any(NOW)),
-            _ => service::ServiceCall::poll(&mut call),
-        }
         match service::Host::step(&host) {
-            HostStep::Read(variable) => {
-                let value = service::ServiceInterface::read(&interface, variable);
-                seen(service::Host::read(&mut host, if any(true) { value } else { bytes }));
-            }
+            HostStep::Read(_) => seen(service::Host::read(&mut host, bytes)),
             HostStep::Write(..) if any(true) => service::Host::written(&mut host),
             HostStep::Write(..) => service::Host::failed(&mut host),
             HostStep::Serve { .. } => seen(service::Host::answer(&mut host, cnc(bytes), any(1))),
@@ -58,22 +29,14 @@ pub(super) fn service(bytes: &[u8]) -> Result<(), Error> {
         seen(service::Host::outcome(&host));
     }
     service::Host::restart(&mut host);
-    service::ServiceInterface::reset(&mut interface);
     Ok(())
 }
 
 pub(super) fn streaming(bytes: &[u8]) -> Result<(), LineError> {
-    let mut interface = streaming::StreamingInterface::new();
-    seen(streaming::StreamingInterface::write(&mut interface, bytes));
-    seen((
-        streaming::StreamingInterface::len(&interface),
-        streaming::StreamingInterface::is_empty(&interface),
-    ));
-    if let Err(error) = streaming::StreamingInterface::read(&mut interface) {
+    if let Err(error) = streaming::check_line_ends(bytes) {
         seen((streaming::LineError::line(&error), streaming::LineError::column(&error)));
         seen(streaming::LineErrorKind::clause(streaming::LineError::kind(&error)));
     }
-    streaming::StreamingInterface::reset(&mut interface);
     seen(streaming::Ack::of(ads::AdsError(any(0))));
 
     let text = streaming::NcText::new(bytes)?;

@@ -88,13 +88,6 @@ fn programs(bytes: &[u8]) {
 
 fn names(bytes: &[u8]) -> Result<(), Error> {
     let name = text(bytes, "V.A.AX[1].a");
-    let version: edition::CncVersion = name.parse()?;
-    show::<edition::CncVersion>(version);
-    for edition in edition::Edition::ALL {
-        let function = any(operation::Function::ReadByName);
-        show::<edition::Edition>(edition);
-        show::<edition::Answer>(edition.permits(function, Kind::V_E, Some(version)));
-    }
     let id: service::ServiceId = name.parse()?;
     show::<service::ServiceId>(id);
     let path = VariablePath::new(name)?;

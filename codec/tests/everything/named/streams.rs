@@ -129,21 +129,5 @@ pub(super) fn tables(bytes: &[u8]) -> Result<(), Error> {
         seen(layout::Stream::walk(stream, bytes, |segment| seen(segment.bytes)));
     }
     seen(layout::Stream::by_name(name));
-    let version = edition::CncVersion::from_parts(any(4), any(18), any(0), any(1));
-    seen((edition::CncVersion::major(version), edition::CncVersion::minor(version)));
-    seen((edition::CncVersion::build(version), edition::CncVersion::patch(version)));
-    for feature in edition::Feature::ALL.iter().copied() {
-        seen((edition::Feature::clause(feature), edition::Feature::since(feature)));
-        seen(edition::CncVersion::has(version, feature));
-    }
-    let version = edition::CncVersion::new(name)?;
-    let kind = Kind::new(any("V.CYC"))?;
-    for edition in edition::Edition::ALL {
-        seen((edition::Edition::document(edition), edition::Edition::number(edition)));
-        edition::Edition::by_name_only(edition).iter().for_each(seen);
-        for function in operation::Function::ALL.iter().copied() {
-            seen(edition::Edition::permits(edition, function, kind, any(Some(version))));
-        }
-    }
     Ok(())
 }

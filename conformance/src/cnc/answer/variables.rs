@@ -6,7 +6,6 @@ use std::borrow::Cow;
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::dynamic::DynamicValue;
-use ads_cnc::edition::Feature;
 use ads_cnc::operation::{
     AxisHandleByName, AxisReadByName, AxisWriteByName, CountVariables, DescribeByIndex,
     DescribeByName, DescribeExtended, Function, HandleByName, ReadByHandle, ReadByName,
@@ -22,6 +21,7 @@ use super::{Answer, Running, encode};
 use crate::cnc::content::{check_size, put};
 use crate::cnc::model::At;
 use crate::cnc::to_u32;
+use crate::edition::Feature;
 
 impl Running<'_> {
     pub(super) fn count_variables(&self, op: &CountVariables<'_>) -> Answer {
@@ -63,7 +63,7 @@ impl Running<'_> {
     pub(super) fn describe_by_name(&self, op: &DescribeByName<'_>) -> Answer {
         let channel = self.channel(op.channel)?;
         let version = self.model.version;
-        if !version.is_none_or(|version| version.has(Feature::DescriptionByName).yes) {
+        if !version.is_none_or(|version| version.has(Feature::DescriptionByName).available) {
             return Err(AdsError::INVALID_OFFSET);
         }
         let (named, indices) = self.named(Function::DescribeByName, channel, op.name.text())?;

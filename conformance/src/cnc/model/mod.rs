@@ -17,7 +17,6 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use ads_cnc::address::Class;
-use ads_cnc::edition::{CncVersion, Edition};
 use ads_cnc::{CncString, Descriptors};
 
 pub(crate) use configured::Configured;
@@ -27,6 +26,7 @@ pub(super) use parameter::{Parameter, Times};
 pub(super) use variable::{At, Variable, Variables, handle_at};
 
 use super::program::{ProgramConfig, ScriptConfig};
+use crate::edition::{CncVersion, Edition};
 pub(super) use build::parameter_kind;
 use error::Source;
 

@@ -3,6 +3,7 @@
 //! - [`Program`]: the streaming program. It gets its lines through the streaming interface and
 //!   runs them at a settable pace.
 //! - [`Script`]: a program that asks services through the Service Interface, over and over.
+//! - [`StreamingInterface`], [`service`]: the interfaces themselves, and one request of a program.
 //!
 //! Both are without thread, clock and socket. Whoever has one tells it the time, which is since
 //! any start and never goes back, before each access; it makes up for what has passed. How often
@@ -31,15 +32,18 @@
 mod answer;
 mod executed;
 mod habit;
+mod interface;
 mod pace;
 mod script;
 mod segment;
+pub mod service;
 mod state;
 mod stream;
 
 pub use answer::{Answer, Outcome};
 pub use executed::{Executed, digest};
 pub(crate) use habit::Habit;
+pub use interface::StreamingInterface;
 pub use pace::{Pace, ParsePaceError};
 pub use script::{Repeat, Request, Script, ScriptConfig, ScriptError, ScriptState, Wait};
 pub use state::{Message, StartError, State};

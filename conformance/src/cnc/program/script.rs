@@ -2,12 +2,13 @@
 
 use std::time::Duration;
 
+use ads_cnc::service::ServiceId;
 use ads_cnc::service::ServiceVariable::{RequestState, ResponseState, Uuid};
-use ads_cnc::service::{CallStep, ServiceCall, ServiceId, ServiceInterface, SysServiceWait};
 use ads_cnc::{CncStr, CncString, Error};
 
 use super::answer::{Answer, Answers, Outcome};
 use super::habit::Habit;
+use super::service::{CallError, CallStep, ServiceCall, ServiceInterface, SysServiceWait};
 
 /// What an NC program asks services, and how often.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -92,7 +93,7 @@ pub struct ScriptError {
     /// The place of the request, from 0.
     pub request: usize,
     /// What is wrong with it.
-    pub error: Error,
+    pub error: CallError,
 }
 
 /// Where a script stands.
@@ -122,7 +123,8 @@ pub enum ScriptState {
 /// use std::time::Duration;
 ///
 /// use ads_cnc::CncStr;
-/// use ads_cnc::service::{Host, HostStep, ServiceInterface};
+/// use ads_cnc::service::{Host, HostStep};
+/// use ads_cnc_conformance::cnc::program::service::ServiceInterface;
 /// use ads_cnc_conformance::cnc::program::{Outcome, Script, ScriptConfig};
 ///
 /// let config = ScriptConfig::square_root()?;
@@ -327,7 +329,7 @@ impl Script {
 const NANOSECOND: Duration = Duration::from_nanos(1);
 
 impl Request {
-    fn call(&self) -> Result<ServiceCall, Error> {
+    fn call(&self) -> Result<ServiceCall, CallError> {
         let wait = match self.wait {
             Wait::Loop => SysServiceWait::default(),
             Wait::Cycle { p1, p2, p3 } => SysServiceWait::from_parameters(p1, p2, p3)?,

@@ -3,10 +3,11 @@
 use std::time::Duration;
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::streaming::{Ack, Checker, StreamingInterface};
+use ads_cnc::streaming::{Ack, Checker};
 
 use super::executed::{Executed, lines};
 use super::habit::Habit;
+use super::interface::StreamingInterface;
 use super::pace::{Clock, Pace};
 use super::segment::{Next, Segment};
 use super::state::{Message, StartError, State};

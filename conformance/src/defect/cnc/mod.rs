@@ -47,10 +47,10 @@ pub(in crate::defect) use crate::values::until_nul as text;
 pub(in crate::defect) use frame::measured;
 
 use ads_cnc::ads::{AdsError, FrameRef};
-use ads_cnc::edition::Edition;
 use ads_cnc::operation::Call;
 
 use crate::cnc::program::Habit;
+use crate::edition::Edition;
 
 /// Data, or the error number.
 pub(super) type Answer = Result<Vec<u8>, AdsError>;

@@ -1,11 +1,11 @@
 //! Names of variables (VAR).
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::edition::Edition;
 use ads_cnc::operation::{Function, Service};
 
 use super::variable::without_indices;
 use super::{Row, at, behind, function, group, is, named, of_decoder, row, text, u32_at};
+use crate::edition::Edition;
 
 const NAMED: &[Function] = &[
     Function::HandleByName,

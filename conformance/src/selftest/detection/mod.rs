@@ -16,10 +16,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, OnceLock};
 
 use ads_cnc::address::{Channel, ChannelAxis};
-use ads_cnc::edition::Edition;
 
 use crate::cnc::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
 use crate::defect::Seed;
+use crate::edition::Edition;
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::objects::{self, Access, Options};
 use crate::profile::Profile;

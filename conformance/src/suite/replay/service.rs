@@ -6,12 +6,13 @@ use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{ReadByName, WriteByName};
-use ads_cnc::service::{CallStep, Host, HostStep, ServiceId, ServiceInterface, ServiceVariable};
-use ads_cnc::{CncStr, CncString, Error, ErrorKind, VariableType};
+use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
+use ads_cnc::{CncStr, CncString, ErrorKind, VariableType};
 use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
 use super::{Done, Fault, differs, lacks, within};
 use crate::cnc::Cnc;
+use crate::cnc::program::service::{CallError, CallStep, ServiceInterface};
 use crate::cnc::program::{Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait};
 use crate::suite::case::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
@@ -94,7 +95,7 @@ impl Scene<'_, '_, '_> {
                     self.script = Some(self.cnc.as_run(script));
                     Ok(None)
                 }
-                Err(error) => Ok(Some(class(&error))),
+                Err(error) => Ok(Some(class(error.kind()))),
             },
             ServiceAction::Wait => {
                 let state = self.script_step(step)?;
@@ -217,7 +218,7 @@ impl Scene<'_, '_, '_> {
                 let taken = self.put(step, variable, &value)?;
                 // Which of the faults it is, an error number does not tell: the bytes do.
                 let error = || ServiceInterface::new().write(variable, &value).err();
-                let odd = || error().map_or("outcome", |error| class(&error));
+                let odd = || error().map_or("outcome", |error| class(error.kind()));
                 Ok((!taken).then(odd))
             }
             "program" => {
@@ -256,7 +257,7 @@ impl Scene<'_, '_, '_> {
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
         let answer = CncStr::from_bytes(&response).map_err(harness)?;
         if let Err(error) = host.answer(answer, state) {
-            return Ok(Some(class(&error)));
+            return Ok(Some(class(error.kind())));
         }
         let service = self.given.services.get(&step.actor);
         let does = service.and_then(|service| service.does.as_deref());
@@ -279,7 +280,7 @@ enum Wants {
     Serve(CncString, u32),
 }
 
-fn ask(step: &ServiceStep) -> Done<Result<Script, Error>> {
+fn ask(step: &ServiceStep) -> Done<Result<Script, CallError>> {
     let parameter = |value: &Option<String>| value.as_ref().map(|_| number(value)).transpose();
     let wait = match &step.wait {
         None => Wait::Loop,
@@ -295,7 +296,7 @@ fn ask(step: &ServiceStep) -> Done<Result<Script, Error>> {
     let uuid = ServiceId::new(step.uuid.as_deref().ok_or_else(|| lacks("UUID"))?);
     let request = match (uuid, asked) {
         (Ok(uuid), Ok(text)) => Request { uuid, text, state, wait },
-        (Err(error), _) | (_, Err(error)) => return Ok(Err(error)),
+        (Err(error), _) | (_, Err(error)) => return Ok(Err(error.into())),
     };
     let config = ScriptConfig {
         requests: vec![request],
@@ -335,8 +336,8 @@ fn number(value: &Option<String>) -> Done<u32> {
     number.ok_or_else(|| lacks("number"))
 }
 
-fn class(error: &Error) -> &'static str {
-    match error.kind() {
+fn class(kind: ErrorKind) -> &'static str {
+    match kind {
         ErrorKind::Truncated => "truncated",
         ErrorKind::Trailing => "trailing",
         ErrorKind::TooLong => "too-long",

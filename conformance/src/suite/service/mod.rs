@@ -6,11 +6,11 @@ mod ways;
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
-use ads_cnc::edition::Feature;
 use ads_cnc::operation::{HandleByName, ReadByName, WriteByName};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::Hex;
 
+use crate::edition::Feature;
 use crate::profile::{Claim, Section};
 use crate::suite::case::{Case, Rule, Step, Stop, assumed};
 use crate::suite::declare;
@@ -128,7 +128,7 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
 fn variables(probe: &mut Probe<'_>) -> Step {
     let version = probe.session.profile.cnc_version;
     let since = version.map(|version| version.has(Feature::ServiceInterface));
-    let of_version = since.filter(|answer| answer.yes).map(|answer| match answer.assumed {
+    let of_version = since.filter(|answer| answer.available).map(|answer| match answer.assumed {
         true => assumed("SVC-11"),
         false => "SVC-11".into(),
     });

@@ -4,7 +4,7 @@ use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, FrameRef};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Service};
-use ads_cnc::streaming::{NcText, StreamingInterface};
+use ads_cnc::streaming::{NcText, check_line_ends};
 use ads_cnc::value::DataType;
 use ads_cnc_conformance::explain::{
     Explanation, Outcome as Found, Place, Question, Subject, Values, explain, parse_hex,
@@ -112,11 +112,9 @@ fn accepts(stream: Stream, bytes: &[u8], typed: bool, faulty: bool) {
 
 /// Whether a CNC reads these bytes to their end.
 fn is_nc(bytes: &[u8]) -> bool {
-    let mut cnc = StreamingInterface::new();
-    cnc.write(bytes);
-    let read = cnc.read().is_ok();
-    read && NcText::new(bytes)
-        .is_ok_and(|text| !text.findings().any(|finding| finding.kind.ends_streaming()))
+    check_line_ends(bytes).is_ok()
+        && NcText::new(bytes)
+            .is_ok_and(|text| !text.findings().any(|finding| finding.kind.ends_streaming()))
 }
 
 /// What the codec finds at a place is what is said to be there.

@@ -24,10 +24,10 @@ impl Running<'_> {
     /// Whether edition and version have a function for a kind.
     pub(super) fn permit(&self, function: Function, kind: Kind<'_>) -> Result<(), AdsError> {
         let answer = self.model.edition.permits(function, kind, self.model.version);
-        match (answer.yes, function) {
+        match (answer.available, function) {
             (true, _) => Ok(()),
             // It is there, but has no handle.
-            (false, Function::HandleByName) if answer.clause == "VAR-18" => {
+            (false, Function::HandleByName) if answer.requirement == "VAR-18" => {
                 Err(AdsError::INVALID_DATA)
             }
             (false, _) => Err(UNKNOWN),

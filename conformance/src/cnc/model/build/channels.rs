@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use ads_cnc::edition::{CncVersion, Feature};
 use ads_cnc::{Descriptors, Handle};
 
 use super::super::document::ChannelTable;
@@ -12,6 +11,7 @@ use super::super::variable::{At, Variables, handle_at};
 use super::super::{AxisModel, ChannelModel, ModelError};
 use super::variables::{self, handle_span};
 use super::{INSTANCES_MAX, items, parameters, programs};
+use crate::edition::{CncVersion, Feature};
 
 /// What channels are built with.
 pub(super) struct Channels<'a> {
@@ -70,7 +70,8 @@ impl Channels<'_> {
                 return Err(source.error(&values.span(), why));
             }
         }
-        let service = self.version.is_none_or(|version| version.has(Feature::ServiceInterface).yes);
+        let service =
+            self.version.is_none_or(|version| version.has(Feature::ServiceInterface).available);
         let variables = variables::of_channel(source, number, &table.variables, service)?;
         let mut by_handle = HashMap::new();
         let mut take = |handle: Handle, at: At| {

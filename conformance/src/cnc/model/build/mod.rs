@@ -11,7 +11,6 @@ use std::collections::BTreeSet;
 use std::time::Duration;
 
 use ads_cnc::CncString;
-use ads_cnc::edition::{CncVersion, Edition};
 use toml::Spanned;
 
 use self::channels::Channels;
@@ -21,6 +20,7 @@ use super::error::Source;
 use super::{AxisModel, Model, ModelError, Settings};
 use crate::cnc::{edition, to_len};
 use crate::duration::duration;
+use crate::edition::{CncVersion, Edition};
 
 /// Platform axes, spindles and places of a channel: what index groups and handles have room for.
 const INSTANCES_MAX: usize = 255;

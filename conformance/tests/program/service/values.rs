@@ -3,9 +3,10 @@
 use ads_cnc::ErrorKind::*;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;
+use ads_cnc_conformance::cnc::program::service::*;
 
 use super::channel::*;
-use super::common::{Fault, fault};
+use super::{Fault, fault};
 
 /// SVC-1: 128 bytes with the NUL, of each text and on each side; what is longer is refused before
 /// anything is written.
@@ -21,6 +22,7 @@ fn texts_have_128_bytes() {
         assert!(ServiceCall::new(id(ROOT), text(shorter), wait).is_ok());
         let mut program = ServiceCall::new(id(ROOT), text(&fits), wait).unwrap();
         let error = ServiceCall::new(id(ROOT), text(&over), wait).unwrap_err();
+        let CallError::Text(error) = error else { panic!("{error}") };
         assert_eq!(Fault::of(error), too_long("request"));
 
         // It reaches the service, and the longest response the program.
@@ -139,52 +141,4 @@ fn states_have_four_bytes() {
         assert_eq!(Fault::of(refused), long(field));
     }
     assert_eq!(interface, before);
-}
-
-/// SVC-3: any write of REQUEST_STATE resets RESPONSE_STATE, and nothing else does.
-#[test]
-fn a_request_state_resets_the_response_state() {
-    for clears in [Clears::OnResponseState, Clears::Never] {
-        for state in [0, 1, 7_u32] {
-            let mut interface = ServiceInterface::with(clears);
-            interface.write(Response, b"r\0").unwrap();
-            interface.write(ResponseState, &[9, 0, 0, 0]).unwrap();
-            interface.write(Uuid, b"u\0").unwrap();
-            interface.write(Request, b"q\0").unwrap();
-            assert_eq!(interface.read(ResponseState), [9, 0, 0, 0]);
-            interface.write(RequestState, &state.to_le_bytes()).unwrap();
-            assert_eq!(interface.read(ResponseState), [0; 4]);
-            assert_eq!(interface.read(RequestState), state.to_le_bytes());
-            assert_eq!(interface.read(Response), b"r\0");
-            interface.reset();
-            assert_eq!(interface, ServiceInterface::with(clears));
-        }
-    }
-}
-
-/// SVC-4: whether writing RESPONSE_STATE sets REQUEST_STATE to 0 is the interface's choice.
-#[test]
-fn a_response_state_clears_the_request_state_or_does_not() {
-    for (clears, left) in [(Clears::OnResponseState, 0), (Clears::Never, 3)] {
-        let mut interface = ServiceInterface::with(clears);
-        interface.write(RequestState, &[3, 0, 0, 0]).unwrap();
-        interface.write(Response, b"r\0").unwrap();
-        assert_eq!(interface.read(RequestState), [3, 0, 0, 0]);
-        interface.write(ResponseState, &[1, 0, 0, 0]).unwrap();
-        assert_eq!(interface.read(RequestState), [left, 0, 0, 0]);
-        assert_eq!(interface.read(ResponseState), [1, 0, 0, 0]);
-    }
-}
-
-/// A response that is longer than its field is an error, and read again.
-#[test]
-fn a_response_longer_than_its_field_is_refused() {
-    let mut program = call(ROOT, "3", [None; 3]);
-    (0..3).for_each(|_| program.written(millis(0)));
-    program.read(&[1, 0, 0, 0], millis(0)).unwrap();
-    let error = program.read(&[b'x'; 128], millis(0)).unwrap_err();
-    assert_eq!(Fault::of(error), fault(TooLong, "response", 0, (128, 129)));
-    assert_eq!(program.step(), CallStep::Read(Response));
-    program.read(b"x", millis(0)).unwrap();
-    assert_eq!(program.step(), CallStep::Done { state: 1, response: text("x") });
 }

@@ -1,11 +1,10 @@
-//! The streaming interface and a client, step by step.
+//! The golden sequences of streaming with the interface alone and a sender.
 
-use ads_cnc::streaming::{
-    Ack, FindingKind, LINE_END_ERROR, NcText, ProgramEnd, Sender, StreamingInterface,
-};
+use ads_cnc::streaming::{Ack, FindingKind, LINE_END_ERROR, NcText, ProgramEnd, Sender};
+use ads_cnc_conformance::cnc::program::StreamingInterface;
 use ads_cnc_vectors::{Given, Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
-use super::{cases, stated_fault};
+use crate::{cases, stated_fault};
 
 #[test]
 fn streams_go_as_stated() {

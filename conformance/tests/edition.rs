@@ -1,13 +1,10 @@
 //! Editions and versions: what each has, and how versions are printed.
 
-mod common;
 mod kept;
 
-use ads_cnc::ErrorKind::*;
-use ads_cnc::edition::{Answer, CncVersion, Edition, Feature};
 use ads_cnc::operation::Function;
-use ads_cnc::*;
-use common::Fault;
+use ads_cnc::{Decode, Kind, VariableKindRef, VariablePath};
+use ads_cnc_conformance::edition::{CncVersion, Edition, Feature, Support};
 use proptest::prelude::*;
 
 const BY_HANDLE: [Function; 3] =
@@ -28,8 +25,9 @@ fn version(text: &str) -> CncVersion {
 }
 
 #[track_caller]
-fn assert_answer(answer: Answer, (yes, assumed): (bool, bool), clause: &str) {
-    assert_eq!((answer.yes, answer.assumed, answer.clause), (yes, assumed, clause));
+fn assert_answer(support: Support, (available, assumed): (bool, bool), requirement: &str) {
+    assert_eq!(support, Support { available, requirement: support.requirement, assumed });
+    assert_eq!(support.requirement, requirement);
 }
 
 /// Each as it is printed: `ads-de` 1.051, section 4.1; `service-en` and `service-de` 1.03,
@@ -65,16 +63,20 @@ fn printed_versions_are_read_and_written() {
 
 #[test]
 fn malformed_versions_are_refused_where_they_are_wrong() {
-    let unexpected = |field, offset, found: char| Fault {
-        kind: Unexpected,
-        field,
-        offset,
-        expected: 0,
-        found: u32::from(found) as usize,
+    let unexpected = |part: &str, offset: usize, found: char| {
+        let found = match found {
+            '!'..='~' => format!("'{found}'"),
+            _ => format!("U+{:04X}", u32::from(found)),
+        };
+        format!("cnc-version: {part} at offset {offset}: {found} may not stand here")
     };
-    let cut = |field, offset| Fault { kind: Truncated, field, offset, expected: 1, found: 0 };
-    let over =
-        |field, offset, found| Fault { kind: OutOfRange, field, offset, expected: 0xFFFF, found };
+    let cut = |part: &str, offset: usize| {
+        format!("cnc-version: {part} at offset {offset}: truncated, 1 bytes expected, 0 there")
+    };
+    let over = |part: &str, offset: usize, found: u32| {
+        let range = format!("out of range, at most 65535 expected, {found} found");
+        format!("cnc-version: {part} at offset {offset}: {range}")
+    };
     for (text, wanted) in [
         ("", cut("major", 0)),
         ("V", cut("major", 1)),
@@ -94,16 +96,18 @@ fn malformed_versions_are_refused_where_they_are_wrong() {
         ("V4,18.0", unexpected("minor", 2, ',')),
         ("V4.1\u{e4}.0", unexpected("build", 4, '\u{e4}')),
         ("V4.18.x", unexpected("build", 6, 'x')),
+        ("V3-1.3115", unexpected("minor", 2, '-')),
+        ("V3\u{a0}1.3115", unexpected("minor", 2, '\u{a0}')),
         ("V4.18.0 ", unexpected("patch", 7, ' ')),
         ("V4.18.0\0", unexpected("patch", 7, '\0')),
         ("V3.1.3081.07.1", unexpected("patch", 12, '.')),
         ("V3.1.3081.07\u{20ac}", unexpected("patch", 12, '\u{20ac}')),
         ("V65536.1.3081", over("major", 1, 65536)),
         ("V3.70000.3081", over("minor", 3, 70000)),
-        ("V3.1.99999999999", over("build", 5, u32::MAX as usize)),
+        ("V3.1.99999999999", over("build", 5, u32::MAX)),
         ("3.1.3081.65536", over("patch", 9, 65536)),
     ] {
-        assert_eq!(Fault::of(CncVersion::new(text).unwrap_err()), wanted, "{text:?}");
+        assert_eq!(CncVersion::new(text).unwrap_err().to_string(), wanted, "{text:?}");
     }
     assert_eq!(version("65535.65535.65535.65535"), CncVersion::from_parts(!0, !0, !0, !0));
     assert_eq!(version("V003.01.3081.7"), version("V3.1.3081.07"));
@@ -200,10 +204,14 @@ fn versions_have_what_is_printed_for_them() {
         ),
     ];
     for (feature, clause, cases) in cases {
-        assert_eq!(feature.clause(), clause);
+        assert_eq!(feature.requirement(), clause);
         for &(text, wanted) in cases {
-            let Answer { yes, assumed, clause: by } = version(text).has(feature);
-            assert_eq!(((yes, assumed), by), (wanted, clause), "{feature:?} of {text}");
+            let Support { available, assumed, requirement } = version(text).has(feature);
+            assert_eq!(
+                ((available, assumed), requirement),
+                (wanted, clause),
+                "{feature:?} of {text}"
+            );
         }
     }
 }
@@ -306,6 +314,17 @@ fn how_a_kind_ends_does_not_matter() {
     assert_answer(answer, NO, "VAR-18");
 }
 
+#[test]
+fn editions_versions_and_support_are_as_printed() {
+    assert_eq!(Edition::English.to_string(), "ads-en 1.05");
+    assert_eq!(Edition::German.to_string(), "ads-de 1.051");
+    assert_eq!(format!("{:?}", version("V3.1.3081.07")), "CncVersion(V3.1.3081.07)");
+    let available = Support { available: true, requirement: "VAR-1", assumed: false };
+    assert_eq!(available.to_string(), "yes (VAR-1)");
+    let not = Support { available: false, requirement: "VAR-1", assumed: true };
+    assert_eq!(not.to_string(), "no (VAR-1, assumed)");
+}
+
 /// The documents are called as the vectors call them.
 #[test]
 fn editions_are_documents_of_the_vectors() {
@@ -361,7 +380,7 @@ proptest! {
         let [patch, later] = [patches[0].min(patches[1]), patches[0].max(patches[1])];
         let major = major % 7;
         let build = 2000 + build % 1200;
-        let has = |patch| CncVersion::from_parts(major, minor, build, patch).has(feature).yes;
+        let has = |patch| CncVersion::from_parts(major, minor, build, patch).has(feature).available;
         prop_assert!(!has(patch) || has(later));
     }
 }

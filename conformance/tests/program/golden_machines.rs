@@ -1,13 +1,14 @@
-//! The Service Interface with a program and services, step by step.
+//! The golden sequences of the Service Interface with single requests instead of a script.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
 
 use ads_cnc::service::*;
-use ads_cnc::{CncStr, Error, ErrorKind};
+use ads_cnc::{CncStr, ErrorKind};
+use ads_cnc_conformance::cnc::program::service::*;
 use ads_cnc_vectors::{Given, Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
-use super::{cases, stated_fault};
+use crate::{cases, stated_fault};
 
 /// The cases that say when the interface sets REQUEST_STATE to 0 of itself.
 const ABOUT_CLEARING: [&str; 2] = ["interface-clears", "interface-clears-not"];
@@ -81,7 +82,7 @@ impl Scene<'_> {
                     self.call = Some(call);
                     None
                 }
-                Err(error) => Some(class(&error)),
+                Err(error) => Some(class(error.kind())),
             },
             ServiceAction::Wait => {
                 let step = self.call_step(step);
@@ -162,7 +163,7 @@ impl Scene<'_> {
             return Some("order");
         }
         if let Err(error) = self.channel(step).write(variable, &value) {
-            return Some(class(&error));
+            return Some(class(error.kind()));
         }
         match step.actor.as_str() {
             "other" => {}
@@ -178,7 +179,7 @@ impl Scene<'_> {
         let request = request.to_string();
         let host = self.hosts.get_mut(step.actor.as_str()).expect("a service");
         if let Err(error) = host.answer(CncStr::from_bytes(&response).expect(at), state) {
-            return Some(class(&error));
+            return Some(class(error.kind()));
         }
         let does = self.given.services[&step.actor].does.as_deref();
         let stated = (String::from_utf8_lossy(&response).into_owned(), state);
@@ -186,7 +187,7 @@ impl Scene<'_> {
     }
 }
 
-fn ask(step: &ServiceStep) -> Result<ServiceCall, Error> {
+fn ask(step: &ServiceStep) -> Result<ServiceCall, CallError> {
     let id = ServiceId::new(step.uuid.as_deref().expect("a UUID"))?;
     let wait = step.wait.clone().unwrap_or_default();
     let parameter = |value: &Option<String>| value.as_ref().map(|_| number(value));
@@ -224,8 +225,8 @@ fn number(value: &Option<String>) -> u32 {
     value.as_deref().expect("a number").parse().expect("a number")
 }
 
-fn class(error: &Error) -> &'static str {
-    match error.kind() {
+fn class(kind: ErrorKind) -> &'static str {
+    match kind {
         ErrorKind::Truncated => "truncated",
         ErrorKind::Trailing => "trailing",
         ErrorKind::TooLong => "too-long",

@@ -1,8 +1,9 @@
 //! The interface itself, as a CNC has it.
 
-use super::ServiceVariable;
-use super::value::{self, ServiceText};
-use crate::error::Error;
+use ads_cnc::Error;
+use ads_cnc::service::ServiceVariable;
+
+use super::text_value;
 
 /// The Service Interface of one channel: what a CNC does with its five variables.
 ///
@@ -16,7 +17,8 @@ use crate::error::Error;
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
 /// ```
-/// use ads_cnc::service::{ServiceInterface, ServiceVariable::*};
+/// use ads_cnc::service::ServiceVariable::*;
+/// use ads_cnc_conformance::cnc::program::service::ServiceInterface;
 ///
 /// let mut interface = ServiceInterface::new();
 /// interface.write(Request, b"3\0")?;
@@ -31,21 +33,22 @@ use crate::error::Error;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ServiceInterface {
-    uuid: ServiceText,
-    request: ServiceText,
+    uuid: Vec<u8>,
+    request: Vec<u8>,
     request_state: [u8; 4],
     response_state: [u8; 4],
-    response: ServiceText,
+    response: Vec<u8>,
     clears: Clears,
 }
 
 /// When an interface sets REQUEST_STATE to 0 of itself (SVC-4). Nobody documents it; a [`Host`]
 /// works with either.
 ///
-/// [`Host`]: super::Host
+/// [`Host`]: ads_cnc::service::Host
 ///
 /// ```
-/// use ads_cnc::service::{Clears, ServiceInterface, ServiceVariable::*};
+/// use ads_cnc::service::ServiceVariable::*;
+/// use ads_cnc_conformance::cnc::program::service::{Clears, ServiceInterface};
 ///
 /// let mut interface = ServiceInterface::with(Clears::Never);
 /// interface.write(RequestState, &[1, 0, 0, 0])?;
@@ -64,18 +67,18 @@ pub enum Clears {
 
 impl ServiceInterface {
     /// An interface that nobody has used yet.
-    pub const fn new() -> Self {
+    pub fn new() -> Self {
         Self::with(Clears::OnResponseState)
     }
 
     /// An interface that sets REQUEST_STATE to 0 when `clears` says.
-    pub const fn with(clears: Clears) -> Self {
+    pub fn with(clears: Clears) -> Self {
         Self {
-            uuid: ServiceText::EMPTY,
-            request: ServiceText::EMPTY,
+            uuid: vec![0],
+            request: vec![0],
             request_state: [0; 4],
             response_state: [0; 4],
-            response: ServiceText::EMPTY,
+            response: vec![0],
             clears,
         }
     }
@@ -83,31 +86,31 @@ impl ServiceInterface {
     /// The value of a variable: a text with its NUL, or the four bytes of a state.
     pub fn read(&self, variable: ServiceVariable) -> &[u8] {
         match variable {
-            ServiceVariable::Uuid => self.uuid.value(),
-            ServiceVariable::Request => self.request.value(),
+            ServiceVariable::Uuid => &self.uuid,
+            ServiceVariable::Request => &self.request,
             ServiceVariable::RequestState => &self.request_state,
             ServiceVariable::ResponseState => &self.response_state,
-            ServiceVariable::Response => self.response.value(),
+            ServiceVariable::Response => &self.response,
         }
     }
 
     /// Writes a variable, with what that does to the others.
     ///
     /// # Errors
-    /// [`TooLong`](crate::ErrorKind::TooLong) for a text of more than 128 bytes with its NUL,
-    /// [`Truncated`](crate::ErrorKind::Truncated) and [`Trailing`](crate::ErrorKind::Trailing)
-    /// for a state of not just four bytes; nothing is written.
+    /// [`TooLong`](ads_cnc::ErrorKind::TooLong) for a text of more than 128 bytes with its NUL,
+    /// [`Truncated`](ads_cnc::ErrorKind::Truncated) and [`Trailing`](ads_cnc::ErrorKind::Trailing)
+    /// for a state that does not have exactly four bytes; nothing is written.
     pub fn write(&mut self, variable: ServiceVariable, value: &[u8]) -> Result<(), Error> {
         match variable {
-            ServiceVariable::Uuid => self.uuid = ServiceText::decode(value, variable)?,
-            ServiceVariable::Request => self.request = ServiceText::decode(value, variable)?,
-            ServiceVariable::Response => self.response = ServiceText::decode(value, variable)?,
+            ServiceVariable::Uuid => self.uuid = text_value(value, variable)?,
+            ServiceVariable::Request => self.request = text_value(value, variable)?,
+            ServiceVariable::Response => self.response = text_value(value, variable)?,
             ServiceVariable::RequestState => {
-                self.request_state = value::state(value, variable)?.to_le_bytes();
+                self.request_state = variable.state(value)?.to_le_bytes();
                 self.response_state = [0; 4];
             }
             ServiceVariable::ResponseState => {
-                self.response_state = value::state(value, variable)?.to_le_bytes();
+                self.response_state = variable.state(value)?.to_le_bytes();
                 if self.clears == Clears::OnResponseState {
                     self.request_state = [0; 4];
                 }

@@ -1,14 +1,14 @@
 //! The Service Interface in any order of steps: a program that asks, one host or two, writes and
 //! reads that fail, against a model that counts.
 
-mod common;
-mod kept;
-
-use ads_cnc::service::*;
-use common::service::*;
+use ads_cnc::service::ServiceId;
+use ads_cnc_conformance::cnc::program::service::Clears;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
+
+use crate::kept;
+use crate::world::*;
 
 fn clears() -> impl Strategy<Value = Clears> {
     select(vec![Clears::OnResponseState, Clears::Never])
@@ -43,6 +43,13 @@ fn chaos() -> impl Strategy<Value = Vec<Action>> {
         1 => (0..2_usize).prop_map(Action::Restart),
     ];
     vec(one, 0..400)
+}
+
+fn service_ids() -> [ServiceId; 2] {
+    [
+        ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47").unwrap(),
+        ServiceId::new("19719079-ba06-4740-bc02-de5215211751").unwrap(),
+    ]
 }
 
 proptest! {

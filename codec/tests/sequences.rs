@@ -1,4 +1,4 @@
-//! NC text: packets, refusals and findings.
+//! The golden sequences of NC text: packets, errors and findings.
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
 #[cfg(feature = "alloc")]
@@ -6,9 +6,14 @@ use ads_cnc::streaming::FindingKind;
 use ads_cnc::streaming::{Ack, LineErrorKind, NcText, Sender};
 #[cfg(feature = "alloc")]
 use ads_cnc_vectors::SequenceReject;
-use ads_cnc_vectors::{Given, Pieces, SequenceExpect};
+use ads_cnc_vectors::{Given, Pieces, Sequence, SequenceExpect, sequences};
 
-use super::cases;
+/// The cases of a kind; there have to be so many at least.
+fn cases(kind: &str, least: usize) -> Vec<&'static Sequence> {
+    let found: Vec<_> = sequences().iter().filter(|case| case.kind() == kind).collect();
+    assert!(found.len() >= least, "{} of {kind}", found.len());
+    found
+}
 
 #[test]
 fn texts_become_packets() {

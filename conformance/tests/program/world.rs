@@ -1,19 +1,15 @@
 //! The Service Interface in any order of steps: a program that asks, one host or two, writes and
-//! reads that fail, against a model that counts.
+//! reads that fail, against a model that counts. The fuzz targets include this file.
+
+#![allow(dead_code, reason = "the fuzz targets use more than the tests")]
 
 use std::time::Duration;
 
 use ads_cnc::CncStr;
 use ads_cnc::service::*;
+use ads_cnc_conformance::cnc::program::service::*;
 
 const NOW: Duration = Duration::ZERO;
-
-pub(crate) fn service_ids() -> [ServiceId; 2] {
-    [
-        ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47").unwrap(),
-        ServiceId::new("19719079-ba06-4740-bc02-de5215211751").unwrap(),
-    ]
-}
 
 /// How a step goes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,12 +1,29 @@
-//! The CNC's side of the Service Interface, whatever it is told: a program's request and the five
-//! variables.
+//! The CNC's side of data streaming and of the Service Interface, whatever it is told: the queue of
+//! a stream, a program's request and the five variables. The fuzz targets include this file.
+
+#![allow(dead_code, reason = "the fuzz targets use more than the tests")]
 
 use std::time::Duration;
 
+use ads_cnc::CncStr;
+use ads_cnc::limits::STREAM_MAX;
 use ads_cnc::service::*;
-use ads_cnc::{CncStr, Error};
+use ads_cnc::streaming::{Ack, LineError, LineErrorKind};
+use ads_cnc_conformance::cnc::program::StreamingInterface;
+use ads_cnc_conformance::cnc::program::service::*;
 
-use super::machines::{is_text, state, text};
+/// The text of a value, up to its NUL.
+fn text(value: &[u8]) -> &[u8] {
+    value.split(|&byte| byte == 0).next().unwrap_or(value)
+}
+
+fn state(value: &[u8]) -> Option<u32> {
+    value.try_into().ok().map(u32::from_le_bytes)
+}
+
+fn is_text(variable: ServiceVariable) -> bool {
+    !matches!(variable, ServiceVariable::RequestState | ServiceVariable::ResponseState)
+}
 
 #[derive(Clone, Debug, PartialEq)]
 enum Phase {
@@ -36,7 +53,7 @@ impl CheckedCall {
         request: &[u8],
         asked: u32,
         [p1, p2, p3]: [Option<u32>; 3],
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, CallError> {
         let wait = SysServiceWait::from_parameters(p1, p2, p3);
         assert_eq!(wait.is_err(), p2.is_some() && p3.is_none());
         let request = text(request);
@@ -169,4 +186,95 @@ impl CheckedVariables {
         let found = ServiceVariable::ALL.map(|variable| self.interface.read(variable).to_vec());
         assert_eq!(found, self.values);
     }
+}
+
+/// What is wrong in one thing around a streaming interface.
+#[derive(Clone, Copy)]
+pub(crate) struct InterfaceBend {
+    /// What the interface is given.
+    pub(crate) write: fn(&mut StreamingInterface, &[u8]) -> Ack,
+    pub(crate) reset: fn(&mut StreamingInterface),
+}
+
+impl InterfaceBend {
+    pub(crate) const NONE: Self =
+        Self { write: StreamingInterface::write, reset: StreamingInterface::reset };
+}
+
+/// Line, column and kind of what is wrong.
+pub(crate) type TextFault = (usize, usize, LineErrorKind);
+
+fn fault_of(error: LineError) -> TextFault {
+    (error.line() as usize, error.column() as usize, error.kind())
+}
+
+/// An interface beside a vector of bytes.
+pub(crate) struct CheckedInterface {
+    interface: StreamingInterface,
+    held: Vec<u8>,
+    bend: InterfaceBend,
+}
+
+impl CheckedInterface {
+    pub(crate) fn new(bend: InterfaceBend) -> Self {
+        Self { interface: StreamingInterface::new(), held: Vec::new(), bend }
+    }
+
+    /// All or nothing is taken.
+    pub(crate) fn write(&mut self, data: &[u8]) -> Ack {
+        let wanted = match data.len() {
+            0 | 993.. => Ack::Refused,
+            len if self.held.len() + len > STREAM_MAX => Ack::Later,
+            _ => Ack::Accepted,
+        };
+        assert_eq!((self.bend.write)(&mut self.interface, data), wanted);
+        if wanted == Ack::Accepted {
+            self.held.extend_from_slice(data);
+        }
+        self.check();
+        wanted
+    }
+
+    /// All that was written comes out, or the first line that is not ended as it has to be.
+    pub(crate) fn read(&mut self) -> Result<Vec<u8>, TextFault> {
+        let held = std::mem::take(&mut self.held);
+        let wanted = match missing_end(&held) {
+            None => Ok(held),
+            Some(fault) => Err(fault),
+        };
+        let found = self.interface.read().map_err(fault_of);
+        assert_eq!(found, wanted.as_deref().map_err(|fault| *fault));
+        self.check();
+        wanted
+    }
+
+    pub(crate) fn reset(&mut self) {
+        (self.bend.reset)(&mut self.interface);
+        self.held.clear();
+        self.check();
+    }
+
+    fn check(&self) {
+        let (len, is_empty) = (self.interface.len(), self.interface.is_empty());
+        assert_eq!((len, is_empty), (self.held.len(), self.held.is_empty()));
+    }
+}
+
+/// The first line that does not end in CR LF, looked for byte by byte.
+fn missing_end(bytes: &[u8]) -> Option<TextFault> {
+    let (mut line, mut column) = (1, 1);
+    for (at, &byte) in bytes.iter().enumerate() {
+        match byte {
+            b'\r' if bytes.get(at + 1) != Some(&b'\n') => {
+                return Some((line, column, LineErrorKind::CrAlone));
+            }
+            b'\n' if at == 0 || bytes[at - 1] != b'\r' => {
+                return Some((line, column, LineErrorKind::LfAlone));
+            }
+            b'\n' => (line, column) = (line + 1, 1),
+            b'\r' => {}
+            _ => column += 1,
+        }
+    }
+    (column > 1).then_some((line, column, LineErrorKind::NoLineEnd))
 }

@@ -1,11 +1,10 @@
 //! The cycle SysServiceWait.
 
-use core::time::Duration;
+use std::fmt;
+use std::time::Duration;
 
-use super::ServiceVariable;
-use super::value;
-use crate::error::{Error, ErrorKind};
-use crate::layout::field::sys_service_wait::TIMER;
+use ads_cnc::Error;
+use ads_cnc::service::ServiceVariable;
 
 /// The parameters of the cycle SysServiceWait: how a CNC program waits for a response (SVC-8).
 ///
@@ -23,7 +22,7 @@ use crate::layout::field::sys_service_wait::TIMER;
 /// Manual: `service-en`, section 3; `service-de` 1.03 does not have the cycle.
 ///
 /// ```
-/// use ads_cnc::service::SysServiceWait;
+/// use ads_cnc_conformance::cnc::program::service::SysServiceWait;
 ///
 /// // L CYCLE [NAME = "SysServiceWait.cyc", @P2 = 5000, @P3 = 1]
 /// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
@@ -33,7 +32,7 @@ use crate::layout::field::sys_service_wait::TIMER;
 ///     SysServiceWait::from_parameters(None, Some(5000), None).unwrap_err().to_string(),
 ///     "sys-service-wait: @P3 at offset 8: missing"
 /// );
-/// # Ok::<(), ads_cnc::Error>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SysServiceWait {
@@ -46,12 +45,12 @@ pub struct SysServiceWait {
 /// The longest wait of the cycle SysServiceWait: its @P2 and @P3; shown at [`SysServiceWait`].
 ///
 /// ```
-/// use ads_cnc::service::SysServiceWait;
+/// use ads_cnc_conformance::cnc::program::service::SysServiceWait;
 ///
 /// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
 /// let longest = wait.longest.unwrap();
 /// assert_eq!((longest.time.as_millis(), longest.timer), (5000, 1));
-/// # Ok::<(), ads_cnc::Error>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LongestWait {
@@ -61,22 +60,34 @@ pub struct LongestWait {
     pub timer: u32,
 }
 
+/// The cycle SysServiceWait has @P2 without @P3.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoTimer;
+
+impl fmt::Display for NoTimer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("sys-service-wait: @P3 at offset 8: missing")
+    }
+}
+
+impl std::error::Error for NoTimer {}
+
 impl SysServiceWait {
     /// The cycle with these values of @P1, @P2 and @P3.
     ///
     /// # Errors
-    /// [`ErrorKind::Missing`] for @P2 without @P3.
+    /// [`NoTimer`] for @P2 without @P3.
     pub fn from_parameters(
         p1: Option<u32>,
         p2: Option<u32>,
         p3: Option<u32>,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, NoTimer> {
         let longest = match (p2, p3) {
             (None, _) => None,
             (Some(millis), Some(timer)) => {
                 Some(LongestWait { time: Duration::from_millis(millis.into()), timer })
             }
-            (Some(_), None) => return Err(Error::new(ErrorKind::Missing, TIMER, 8, 0, 0)),
+            (Some(_), None) => return Err(NoTimer),
         };
         Ok(Self { keep_waiting: p1.unwrap_or(0), longest })
     }
@@ -93,9 +104,10 @@ impl SysServiceWait {
 /// Manual: `service-en`, section 3 (SVC-6, SVC-8).
 ///
 /// ```
-/// use core::time::Duration;
+/// use std::time::Duration;
 ///
-/// use ads_cnc::service::{ServiceVariable, SysServiceWait, WaitStep};
+/// use ads_cnc::service::ServiceVariable;
+/// use ads_cnc_conformance::cnc::program::service::{SysServiceWait, WaitStep};
 ///
 /// let at = Duration::from_millis;
 /// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
@@ -107,7 +119,7 @@ impl SysServiceWait {
 /// waiting.poll();
 /// waiting.read(&[99, 0, 0, 0], at(5200))?;
 /// assert_eq!(waiting.step(), WaitStep::Done { state: 99 });
-/// # Ok::<(), ads_cnc::Error>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Waiting {
@@ -129,15 +141,15 @@ enum Phase {
 /// Manual: `service-en`, section 3.
 ///
 /// ```
-/// use core::time::Duration;
+/// use std::time::Duration;
 ///
-/// use ads_cnc::service::{SysServiceWait, WaitStep};
+/// use ads_cnc_conformance::cnc::program::service::{SysServiceWait, WaitStep};
 ///
 /// // For ever, if there is no @P2.
 /// let mut waiting = SysServiceWait::default().start(Duration::ZERO);
 /// waiting.read(&[0, 0, 0, 0], Duration::ZERO)?;
 /// assert_eq!(waiting.step(), WaitStep::Wait { until: None });
-/// # Ok::<(), ads_cnc::Error>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WaitStep {
@@ -174,11 +186,11 @@ impl Waiting {
     /// there counts.
     ///
     /// # Errors
-    /// [`Truncated`](ErrorKind::Truncated) and [`Trailing`](ErrorKind::Trailing) for a state of
-    /// not just four bytes; it is to be read again.
+    /// [`Truncated`](ads_cnc::ErrorKind::Truncated) and [`Trailing`](ads_cnc::ErrorKind::Trailing)
+    /// for a state that does not have exactly four bytes; read it again.
     pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
         if let Phase::Read = self.phase {
-            let state = value::state(value, ServiceVariable::ResponseState)?;
+            let state = ServiceVariable::ResponseState.state(value)?;
             self.phase = if state != self.keep_waiting {
                 Phase::Done(state)
             } else if self.deadline.is_some_and(|deadline| now >= deadline) {

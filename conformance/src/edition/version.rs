@@ -1,24 +1,20 @@
 //! Versions of a CNC, and what comes with them.
 
-use core::fmt;
-use core::str::FromStr;
+use std::fmt;
+use std::str::FromStr;
 
-use super::Answer;
-use crate::bytes::to_u32;
-use crate::error::{Error, ErrorKind};
-use crate::layout::Field;
-use crate::layout::field::cnc_version::{BUILD, MAJOR, MINOR, PATCH};
+use super::Support;
 
 /// The version of a CNC: `V2.11.2077`, `V3.1.3081.07`, `V4.18.0`.
 ///
-/// Read with or without the V and, as `ads-de` and `service-*` print it, with a dot behind the V.
-/// A fourth number that is not there counts as 0, and one that is 0 is not written; others have two
+/// Read with or without the V and, as `ads-de` and `service-*` print it, with a dot after the V.
+/// A missing fourth number counts as 0. `Display` omits a fourth number of 0 and writes others with two
 /// digits.
 ///
 /// Manual: `ads-de` 1.051, section 4.1; `service-en` and `service-de` 1.03, section 1.
 ///
 /// ```
-/// use ads_cnc::edition::CncVersion;
+/// use ads_cnc_conformance::edition::CncVersion;
 ///
 /// let version = CncVersion::new("V.3.1.3057.03")?;
 /// assert_eq!(version, CncVersion::from_parts(3, 1, 3057, 3));
@@ -28,7 +24,7 @@ use crate::layout::field::cnc_version::{BUILD, MAJOR, MINOR, PATCH};
 ///     CncVersion::new("V4.18").unwrap_err().to_string(),
 ///     "cnc-version: build at offset 5: truncated, 1 bytes expected, 0 there"
 /// );
-/// # Ok::<(), ads_cnc::Error>(())
+/// # Ok::<(), ads_cnc_conformance::edition::VersionError>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CncVersion {
@@ -42,28 +38,26 @@ impl CncVersion {
     /// The version of this text.
     ///
     /// # Errors
-    /// Offsets count characters.
-    /// - [`Unexpected`](ErrorKind::Unexpected): a character that is no digit, or one behind the
-    ///   fourth number.
-    /// - [`Truncated`](ErrorKind::Truncated): there are not three numbers.
-    /// - [`OutOfRange`](ErrorKind::OutOfRange): a number over 65 535.
-    pub fn new(text: &str) -> Result<Self, Error> {
+    /// - A character that is not a digit, or one after the fourth number.
+    /// - Fewer than three numbers.
+    /// - A number over 65 535.
+    pub fn new(text: &str) -> Result<Self, VersionError> {
         let mut scan = Scan { text, at: 0 };
         if scan.skip(b'V') {
             scan.skip(b'.');
         }
-        let major = scan.number(MAJOR)?;
-        scan.dot(MINOR)?;
-        let minor = scan.number(MINOR)?;
-        scan.dot(BUILD)?;
-        let build = scan.number(BUILD)?;
+        let major = scan.number("major")?;
+        scan.dot("minor")?;
+        let minor = scan.number("minor")?;
+        scan.dot("build")?;
+        let build = scan.number("build")?;
         let mut patch = 0;
         if scan.next().is_some() {
-            scan.dot(PATCH)?;
-            patch = scan.number(PATCH)?;
+            scan.dot("patch")?;
+            patch = scan.number("patch")?;
         }
         if scan.next().is_some() {
-            return Err(scan.fault(PATCH));
+            return Err(scan.error("patch"));
         }
         Ok(Self { major, minor, build, patch })
     }
@@ -107,14 +101,14 @@ impl CncVersion {
     /// | of the versions in [`Feature::since`] this one is | | |
     /// |---|---|---|
     /// | before the first of its branch | no | |
-    /// | the last of its branch, or behind it | yes | |
+    /// | the last of its branch, or after it | yes | |
     /// | one between, or a later patch of it | yes | |
-    /// | behind one between, in a later build | no | assumed: why else is a later one printed? |
-    /// | of a branch behind all that are printed | yes | assumed |
+    /// | after one between, in a later build | no | assumed: why else is a later one printed? |
+    /// | of a branch after all that are printed | yes | assumed |
     /// | of another branch that is not printed | no | assumed |
     ///
     /// ```
-    /// use ads_cnc::edition::{CncVersion, Feature};
+    /// use ads_cnc_conformance::edition::{CncVersion, Feature};
     ///
     /// let has = |version| CncVersion::new(version).unwrap().has(Feature::DynamicVariables);
     /// assert_eq!(has("V3.1.3081.06").to_string(), "no (VAR-19)");
@@ -123,28 +117,28 @@ impl CncVersion {
     /// assert_eq!(has("V3.1.3115").to_string(), "yes (VAR-19)");
     /// assert_eq!(has("V5.0.0").to_string(), "yes (VAR-19, assumed)");
     /// ```
-    pub fn has(self, feature: Feature) -> Answer {
-        let (since, clause) = (feature.since(), feature.clause());
+    pub fn has(self, feature: Feature) -> Support {
+        let (since, requirement) = (feature.since(), feature.requirement());
         let of_branch = || since.iter().filter(|first| first.branch() == self.branch());
         let (Some(first), Some(last)) = (of_branch().min(), of_branch().max()) else {
             let newest = since.iter().max().map(|newest| newest.branch());
-            return Answer::assumed(newest < Some(self.branch()), clause);
+            return Support::assumed(newest < Some(self.branch()), requirement);
         };
         let patched = |first: &CncVersion| first.build == self.build && *first <= self;
         if self < *first {
-            Answer::documented(false, clause)
+            Support::documented(false, requirement)
         } else if *last <= self || of_branch().any(patched) {
-            Answer::documented(true, clause)
+            Support::documented(true, requirement)
         } else {
-            Answer::assumed(false, clause)
+            Support::assumed(false, requirement)
         }
     }
 }
 
 impl FromStr for CncVersion {
-    type Err = Error;
+    type Err = VersionError;
 
-    fn from_str(text: &str) -> Result<Self, Error> {
+    fn from_str(text: &str) -> Result<Self, VersionError> {
         Self::new(text)
     }
 }
@@ -166,11 +160,11 @@ impl fmt::Debug for CncVersion {
 /// What a CNC has from some version on, by [`CncVersion::has`].
 ///
 /// ```
-/// use ads_cnc::edition::{CncVersion, Feature};
+/// use ads_cnc_conformance::edition::{CncVersion, Feature};
 ///
 /// let since = [CncVersion::new("V2.11.2030.01")?, CncVersion::new("V3.1.3057.03")?];
 /// assert_eq!(Feature::ServiceInterface.since(), since);
-/// # Ok::<(), ads_cnc::Error>(())
+/// # Ok::<(), ads_cnc_conformance::edition::VersionError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
@@ -212,8 +206,8 @@ impl Feature {
         }
     }
 
-    /// The requirement that has them.
-    pub const fn clause(self) -> &'static str {
+    /// The requirement that lists the versions.
+    pub const fn requirement(self) -> &'static str {
         match self {
             Self::DynamicVariables => "VAR-19",
             Self::DescriptionByName => "VAR-28",
@@ -222,9 +216,38 @@ impl Feature {
     }
 }
 
+/// Why a text is not a version.
+///
+/// ```
+/// use ads_cnc_conformance::edition::CncVersion;
+///
+/// let error = CncVersion::new("V4,18.0").unwrap_err();
+/// assert_eq!(error.to_string(), "cnc-version: minor at offset 2: ',' may not stand here");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("cnc-version: {part} at offset {offset}: {fault}")]
+pub struct VersionError {
+    part: &'static str,
+    /// In bytes; all characters before it are ASCII.
+    offset: usize,
+    fault: Fault,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+enum Fault {
+    #[error("truncated, 1 bytes expected, 0 there")]
+    Truncated,
+    #[error("'{0}' may not stand here")]
+    Unexpected(char),
+    #[error("U+{0:04X} may not stand here")]
+    NotPrintable(u32),
+    #[error("out of range, at most 65535 expected, {0} found")]
+    OutOfRange(u32),
+}
+
 struct Scan<'a> {
     text: &'a str,
-    /// All before is ASCII.
+    /// All characters before it are ASCII.
     at: usize,
 }
 
@@ -234,38 +257,36 @@ impl Scan<'_> {
     }
 
     fn skip(&mut self, byte: u8) -> bool {
-        let there = self.next() == Some(byte);
-        self.at = self.at.saturating_add(there.into());
-        there
+        let skips = self.next() == Some(byte);
+        self.at = self.at.saturating_add(skips.into());
+        skips
     }
 
-    /// The dot in front of `field`.
-    fn dot(&mut self, field: Field) -> Result<(), Error> {
-        if self.skip(b'.') { Ok(()) } else { Err(self.fault(field)) }
+    /// The dot before a part.
+    fn dot(&mut self, part: &'static str) -> Result<(), VersionError> {
+        if self.skip(b'.') { Ok(()) } else { Err(self.error(part)) }
     }
 
-    fn number(&mut self, field: Field) -> Result<u16, Error> {
+    fn number(&mut self, part: &'static str) -> Result<u16, VersionError> {
         let (start, mut number) = (self.at, 0_u32);
         while let Some(digit) = self.next().filter(u8::is_ascii_digit) {
             number = number.saturating_mul(10).saturating_add(u32::from(digit & 0x0F));
             self.at = self.at.saturating_add(1);
         }
         if self.at == start {
-            return Err(self.fault(field));
+            return Err(self.error(part));
         }
-        let (at, max) = (to_u32(start), u16::MAX.into());
-        u16::try_from(number).map_err(|_| Error::new(ErrorKind::OutOfRange, field, at, max, number))
+        let fault = Fault::OutOfRange(number);
+        u16::try_from(number).map_err(|_| VersionError { part, offset: start, fault })
     }
 
-    /// The character that comes next is wrong, or there is none.
-    #[cold]
-    fn fault(&self, field: Field) -> Error {
-        let at = to_u32(self.at);
-        match self.text.get(self.at..).and_then(|rest| rest.chars().next()) {
-            Some(character) => {
-                Error::new(ErrorKind::Unexpected, field, at, 0, u32::from(character))
-            }
-            None => Error::new(ErrorKind::Truncated, field, at, 1, 0),
-        }
+    /// The next character is wrong or missing.
+    fn error(&self, part: &'static str) -> VersionError {
+        let fault = match self.text.get(self.at..).and_then(|rest| rest.chars().next()) {
+            Some(character) if character.is_ascii_graphic() => Fault::Unexpected(character),
+            Some(character) => Fault::NotPrintable(character.into()),
+            None => Fault::Truncated,
+        };
+        VersionError { part, offset: self.at, fault }
     }
 }

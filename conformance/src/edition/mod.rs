@@ -5,13 +5,12 @@
 //! - From which version on a CNC has V.P, V.L and V.S there (VAR-19), the description by name, and
 //!   the Service Interface (SVC-11): [`CncVersion::has`].
 //!
-//! A client asks before it sends, a server before it answers; nothing else in this crate refuses
-//! a kind for itself.
+//! A client asks before it sends, a server before it answers. The codec itself rejects no kind.
 //!
 //! ```
 //! use ads_cnc::VariablePath;
-//! use ads_cnc::edition::{CncVersion, Edition};
 //! use ads_cnc::operation::Function;
+//! use ads_cnc_conformance::edition::{CncVersion, Edition};
 //!
 //! let name = VariablePath::new("V.P.count")?;
 //! let version = Some(CncVersion::new("V3.1.3115")?);
@@ -21,19 +20,18 @@
 //! assert_eq!(may(Edition::German, Function::HandleByName).to_string(), "no (VAR-18)");
 //! assert_eq!(may(Edition::German, Function::ReadByName).to_string(), "yes (VAR-19)");
 //! // The English edition does not have the kind on this interface.
-//! assert!(!may(Edition::English, Function::ReadByName).yes);
-//! # Ok::<(), ads_cnc::Error>(())
+//! assert!(!may(Edition::English, Function::ReadByName).available);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod version;
 
-use core::fmt;
+use std::fmt;
 
-pub use version::{CncVersion, Feature};
+use ads_cnc::Kind;
+use ads_cnc::operation::Function;
 
-use crate::address::Class;
-use crate::operation::{Function, GroupRule, OffsetRule};
-use crate::variable::Kind;
+pub use version::{CncVersion, Feature, VersionError};
 
 /// An edition of the manual on ADS access.
 ///
@@ -46,7 +44,7 @@ use crate::variable::Kind;
 ///
 /// ```
 /// use ads_cnc::Kind;
-/// use ads_cnc::edition::Edition;
+/// use ads_cnc_conformance::edition::Edition;
 ///
 /// assert_eq!(Edition::English.by_name_only(), [Kind::V_CYC]);
 /// assert_eq!(Edition::German.to_string(), "ads-de 1.051");
@@ -62,11 +60,11 @@ pub enum Edition {
 
 /// The kinds that a request by index can carry.
 const INDEXED: &[Kind<'static>] = &[Kind::V_E, Kind::V_G, Kind::V_A];
-const KIND_CLAUSE: &str = "VAR-1";
+const KIND_REQUIREMENT: &str = "VAR-1";
 
 /// Those by name only of any edition.
 const BY_NAME_ONLY: &[Kind<'static>] = &[Kind::V_CYC, Kind::V_P, Kind::V_L, Kind::V_S];
-const BY_NAME_ONLY_CLAUSE: &str = "VAR-18";
+const BY_NAME_ONLY_REQUIREMENT: &str = "VAR-18";
 
 impl Edition {
     /// Both.
@@ -97,12 +95,12 @@ impl Edition {
     }
 
     /// Whether a function of the variables' interfaces may be asked for variables of a kind: that
-    /// in the request, in the name, or of the variable behind the handle.
+    /// in the request, in the name, or of the variable of the handle.
     ///
-    /// A version that is not known is taken for one that has everything, which is assumed. Of a
-    /// function without kinds the answer is yes. The clause is that of the function, but for
+    /// Without a version, the newest CNC is assumed. A function without kinds is available. The
+    /// requirement is that of the function, except for
     ///
-    /// | | | clause |
+    /// | | | requirement |
     /// |---|---|---|
     /// | a handle of a kind that is by name only | no | VAR-18 |
     /// | V.P, V.L, V.S in `ads-de`, by name | by [version](CncVersion::has) | VAR-19 |
@@ -115,8 +113,8 @@ impl Edition {
     ///
     /// ```
     /// use ads_cnc::Kind;
-    /// use ads_cnc::edition::Edition;
     /// use ads_cnc::operation::Function;
+    /// use ads_cnc_conformance::edition::Edition;
     ///
     /// let may = |function, kind| Edition::English.permits(function, kind, None);
     /// assert_eq!(may(Function::HandleByName, Kind::V_CYC).to_string(), "no (VAR-18)");
@@ -128,45 +126,45 @@ impl Edition {
         function: Function,
         kind: Kind<'_>,
         version: Option<CncVersion>,
-    ) -> Answer {
-        let clause = function.spec().clause;
+    ) -> Support {
+        let requirement = function.spec().clause;
         let has = |feature: Feature| match version {
             Some(version) => version.has(feature),
-            None => Answer::assumed(true, feature.clause()),
+            None => Support::assumed(true, feature.requirement()),
         };
         let (kind, all) = (kind.text(), kind.text().is_empty());
         let is_in = |kinds: &[Kind<'_>]| kinds.iter().any(|known| known.text() == kind);
         let by_name = || {
             if is_in(INDEXED) || is_in(&[Kind::V_CYC]) {
-                Answer::documented(true, clause)
+                Support::documented(true, requirement)
             } else if is_in(self.by_name_only()) {
                 has(Feature::DynamicVariables)
             } else if is_in(BY_NAME_ONLY) {
-                Answer::assumed(false, Feature::DynamicVariables.clause())
+                Support::assumed(false, Feature::DynamicVariables.requirement())
             } else {
-                Answer::assumed(true, clause)
+                Support::assumed(true, requirement)
             }
         };
         match Way::of(function) {
-            Way::Other => Answer::documented(true, clause),
-            Way::Index if is_in(INDEXED) => Answer::documented(true, KIND_CLAUSE),
+            Way::Other => Support::documented(true, requirement),
+            Way::Index if is_in(INDEXED) => Support::documented(true, KIND_REQUIREMENT),
             Way::Index if all && function == Function::CountVariables => {
-                Answer::documented(true, KIND_CLAUSE)
+                Support::documented(true, KIND_REQUIREMENT)
             }
-            Way::Index => Answer::assumed(false, KIND_CLAUSE),
+            Way::Index => Support::assumed(false, KIND_REQUIREMENT),
             Way::Handle if is_in(self.by_name_only()) => {
-                Answer::documented(false, BY_NAME_ONLY_CLAUSE)
+                Support::documented(false, BY_NAME_ONLY_REQUIREMENT)
             }
             Way::Handle | Way::Name => by_name(),
             Way::Description => match (by_name(), has(Feature::DescriptionByName)) {
-                (kind, version) if kind.yes => {
-                    let assumed = version.assumed || (version.yes && !is_in(INDEXED));
-                    Answer { assumed, ..version }
+                (kind, version) if kind.available => {
+                    let assumed = version.assumed || (version.available && !is_in(INDEXED));
+                    Support { assumed, ..version }
                 }
                 (kind, _) => kind,
             },
-            Way::Axis if is_in(&[Kind::V_A]) => Answer::documented(true, clause),
-            Way::Axis => Answer::assumed(false, clause),
+            Way::Axis if is_in(&[Kind::V_A]) => Support::documented(true, requirement),
+            Way::Axis => Support::assumed(false, requirement),
         }
     }
 }
@@ -177,7 +175,7 @@ impl fmt::Display for Edition {
     }
 }
 
-/// How a function gets at a variable.
+/// How a function addresses a variable.
 enum Way {
     /// By index and kind, or the number of a kind.
     Index,
@@ -187,63 +185,64 @@ enum Way {
     Description,
     /// By name, on the axis interface.
     Axis,
-    /// Kinds have no part in it.
+    /// A function without kinds.
     Other,
 }
 
 impl Way {
-    /// The editions tell functions apart by where they are.
     fn of(function: Function) -> Self {
-        let spec = function.spec();
-        if spec.group != GroupRule::ChannelOf(Class::Decoder) {
-            return Self::Other;
-        }
-        match spec.offset {
-            OffsetRule::At(0x44 | 0x45 | 0x4B) => Self::Index,
-            OffsetRule::At(0x46 | 0x47 | 0x49) => Self::Handle,
-            OffsetRule::At(0x48 | 0x4A) => Self::Name,
-            OffsetRule::At(0x4C) => Self::Description,
-            OffsetRule::OfAxis(4..=6) => Self::Axis,
+        match function {
+            Function::CountVariables | Function::DescribeByIndex | Function::DescribeExtended => {
+                Self::Index
+            }
+            Function::HandleByName | Function::ReadByHandle | Function::WriteByHandle => {
+                Self::Handle
+            }
+            Function::ReadByName | Function::WriteByName => Self::Name,
+            Function::DescribeByName => Self::Description,
+            Function::AxisHandleByName | Function::AxisReadByName | Function::AxisWriteByName => {
+                Self::Axis
+            }
             _ => Self::Other,
         }
     }
 }
 
-/// Yes or no, and by which requirement.
+/// Whether an edition or a version has something, and by which requirement.
 ///
 /// ```
 /// use ads_cnc::Kind;
-/// use ads_cnc::edition::Edition;
 /// use ads_cnc::operation::Function;
+/// use ads_cnc_conformance::edition::Edition;
 ///
-/// let answer = Edition::German.permits(Function::WriteByHandle, Kind::V_S, None);
-/// assert_eq!((answer.yes, answer.clause, answer.assumed), (false, "VAR-18", false));
-/// assert_eq!(answer.to_string(), "no (VAR-18)");
+/// let support = Edition::German.permits(Function::WriteByHandle, Kind::V_S, None);
+/// assert_eq!((support.available, support.assumed), (false, false));
+/// assert_eq!(support.to_string(), "no (VAR-18)");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Answer {
-    /// Whether it may be done, or is there.
-    pub yes: bool,
+pub struct Support {
+    /// Whether it is available.
+    pub available: bool,
     /// The requirement.
-    pub clause: &'static str,
-    /// Nobody documents it: a CNC may do otherwise.
+    pub requirement: &'static str,
+    /// The requirement does not document it: a CNC may do otherwise.
     pub assumed: bool,
 }
 
-impl Answer {
-    const fn documented(yes: bool, clause: &'static str) -> Self {
-        Self { yes, clause, assumed: false }
+impl Support {
+    const fn documented(available: bool, requirement: &'static str) -> Self {
+        Self { available, requirement, assumed: false }
     }
 
-    const fn assumed(yes: bool, clause: &'static str) -> Self {
-        Self { yes, clause, assumed: true }
+    const fn assumed(available: bool, requirement: &'static str) -> Self {
+        Self { available, requirement, assumed: true }
     }
 }
 
-impl fmt::Display for Answer {
+impl fmt::Display for Support {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { yes, clause, assumed } = *self;
-        let yes = if yes { "yes" } else { "no" };
-        write!(f, "{yes} ({clause}{})", if assumed { ", assumed" } else { "" })
+        let Self { available, requirement, assumed } = *self;
+        let available = if available { "yes" } else { "no" };
+        write!(f, "{available} ({requirement}{})", if assumed { ", assumed" } else { "" })
     }
 }

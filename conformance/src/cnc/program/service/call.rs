@@ -1,11 +1,12 @@
 //! The side of the CNC program.
 
-use core::time::Duration;
+use std::fmt;
+use std::time::Duration;
 
-use super::value::{ServiceText, not_zero};
-use super::{ServiceId, ServiceVariable, SysServiceWait, WaitStep, Waiting};
-use crate::error::Error;
-use crate::text::CncStr;
+use ads_cnc::service::{ServiceId, ServiceVariable};
+use ads_cnc::{CncStr, Error, ErrorKind};
+
+use super::{NoTimer, SysServiceWait, WaitStep, Waiting, text_value, value_of};
 
 /// A CNC program's request to a service: it writes UUID, REQUEST and, last, REQUEST_STATE, waits
 /// for RESPONSE_STATE (SVC-6, E-20), and reads RESPONSE.
@@ -16,10 +17,11 @@ use crate::text::CncStr;
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
 /// ```
-/// use core::time::Duration;
+/// use std::time::Duration;
 ///
 /// use ads_cnc::CncStr;
-/// use ads_cnc::service::{ServiceCall, CallStep, ServiceId, ServiceVariable, SysServiceWait};
+/// use ads_cnc::service::{ServiceId, ServiceVariable};
+/// use ads_cnc_conformance::cnc::program::service::{CallStep, ServiceCall, SysServiceWait};
 ///
 /// let id = ServiceId::new("19719079-BA06-4740-BC02-DE5215211751")?;
 /// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
@@ -29,15 +31,15 @@ use crate::text::CncStr;
 /// assert_eq!(call.step(), CallStep::Write(ServiceVariable::Uuid, uuid));
 /// call.written(Duration::ZERO);
 /// assert_eq!(call.step(), CallStep::Write(ServiceVariable::Request, b"some-command\0"));
-/// # Ok::<(), ads_cnc::Error>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct ServiceCall {
-    uuid: ServiceText,
-    request: ServiceText,
+    uuid: Vec<u8>,
+    request: Vec<u8>,
     state: [u8; 4],
     wait: SysServiceWait,
-    response: ServiceText,
+    response: Vec<u8>,
     phase: Phase,
 }
 
@@ -57,12 +59,13 @@ enum Phase {
 ///
 /// ```
 /// use ads_cnc::CncStr;
-/// use ads_cnc::service::{ServiceCall, CallStep, ServiceId, ServiceVariable, SysServiceWait};
+/// use ads_cnc::service::{ServiceId, ServiceVariable};
+/// use ads_cnc_conformance::cnc::program::service::{CallStep, ServiceCall, SysServiceWait};
 ///
 /// let id = ServiceId::new("19719079-BA06-4740-BC02-DE5215211751")?;
 /// let call = ServiceCall::new(id, CncStr::new("some-command")?, SysServiceWait::default())?;
 /// assert!(matches!(call.step(), CallStep::Write(ServiceVariable::Uuid, _)));
-/// # Ok::<(), ads_cnc::Error>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CallStep<'a> {
@@ -86,31 +89,86 @@ pub enum CallStep<'a> {
     TimedOut,
 }
 
+/// Why a program cannot ask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CallError {
+    /// The request is too long.
+    Text(Error),
+    /// The request state is 0.
+    State,
+    /// The cycle SysServiceWait has @P2 without @P3.
+    Timer(NoTimer),
+}
+
+impl CallError {
+    /// The class of the error.
+    pub const fn kind(&self) -> ErrorKind {
+        match self {
+            Self::Text(error) => error.kind(),
+            Self::State => ErrorKind::OutOfRange,
+            Self::Timer(_) => ErrorKind::Missing,
+        }
+    }
+}
+
+impl From<Error> for CallError {
+    fn from(error: Error) -> Self {
+        Self::Text(error)
+    }
+}
+
+impl From<NoTimer> for CallError {
+    fn from(error: NoTimer) -> Self {
+        Self::Timer(error)
+    }
+}
+
+impl fmt::Display for CallError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(error) => error.fmt(f),
+            Self::State => f.write_str(
+                "service: request_state at offset 0: out of range, at least 1 expected, 0 found",
+            ),
+            Self::Timer(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for CallError {}
+
 impl ServiceCall {
     /// A request to a service, with the request state 1 of the examples.
     ///
     /// # Errors
-    /// [`TooLong`](crate::ErrorKind::TooLong) for a request of more than 128 bytes with its NUL.
-    pub fn new(id: ServiceId, request: CncStr<'_>, wait: SysServiceWait) -> Result<Self, Error> {
+    /// [`CallError::Text`] for a request of more than 128 bytes with its NUL.
+    pub fn new(
+        id: ServiceId,
+        request: CncStr<'_>,
+        wait: SysServiceWait,
+    ) -> Result<Self, CallError> {
         Self::with_state(id, request, 1, wait)
     }
 
     /// A request with a state of its own, which the service is told.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), [`OutOfRange`](crate::ErrorKind::OutOfRange) for a state of 0.
+    /// Those of [`new`](Self::new), [`CallError::State`] for a state of 0.
     pub fn with_state(
         id: ServiceId,
         request: CncStr<'_>,
         state: u32,
         wait: SysServiceWait,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, CallError> {
+        if state == 0 {
+            return Err(CallError::State);
+        }
         Ok(Self {
-            uuid: ServiceText::new(id.text(), ServiceVariable::Uuid)?,
-            request: ServiceText::new(request, ServiceVariable::Request)?,
-            state: not_zero(state, ServiceVariable::RequestState)?,
+            uuid: value_of(id.text()),
+            request: text_value(&value_of(request), ServiceVariable::Request)?,
+            state: state.to_le_bytes(),
             wait,
-            response: ServiceText::EMPTY,
+            response: Vec::new(),
             phase: Phase::Uuid,
         })
     }
@@ -118,8 +176,8 @@ impl ServiceCall {
     /// What to do next; the same until it is done.
     pub fn step(&self) -> CallStep<'_> {
         match &self.phase {
-            Phase::Uuid => CallStep::Write(ServiceVariable::Uuid, self.uuid.value()),
-            Phase::Request => CallStep::Write(ServiceVariable::Request, self.request.value()),
+            Phase::Uuid => CallStep::Write(ServiceVariable::Uuid, &self.uuid),
+            Phase::Request => CallStep::Write(ServiceVariable::Request, &self.request),
             Phase::State => CallStep::Write(ServiceVariable::RequestState, &self.state),
             Phase::Waiting(waiting) => match waiting.step() {
                 WaitStep::Read(variable) => CallStep::Read(variable),
@@ -128,8 +186,13 @@ impl ServiceCall {
                 WaitStep::TimedOut | WaitStep::Done { .. } => CallStep::TimedOut,
             },
             Phase::Response(_) => CallStep::Read(ServiceVariable::Response),
-            Phase::Done(state) => CallStep::Done { state: *state, response: self.response.text() },
+            Phase::Done(state) => CallStep::Done { state: *state, response: self.response() },
         }
+    }
+
+    fn response(&self) -> CncStr<'_> {
+        // Checked when it was read.
+        ServiceVariable::Response.text(&self.response).unwrap_or(CncStr::EMPTY)
     }
 
     /// The variable was written, and when: the wait begins when the last was. Does nothing if none
@@ -146,7 +209,7 @@ impl ServiceCall {
     /// The value that was read, and when; does nothing if none was to be.
     ///
     /// # Errors
-    /// A state of not just four bytes, a response of more than 128 bytes with its NUL; it is to be
+    /// A state that does not have exactly four bytes, a response of more than 128 bytes with its NUL; it is to be
     /// read again.
     pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
         match &mut self.phase {
@@ -157,7 +220,7 @@ impl ServiceCall {
                 }
             }
             Phase::Response(state) => {
-                self.response = ServiceText::decode(value, ServiceVariable::Response)?;
+                self.response = text_value(value, ServiceVariable::Response)?;
                 self.phase = Phase::Done(*state);
             }
             Phase::Uuid | Phase::Request | Phase::State | Phase::Done(_) => {}

@@ -1,0 +1,178 @@
+//! The CNC's side of data streaming and of the Service Interface, each on its own.
+
+use std::time::Duration;
+
+use ads_cnc::CncStr;
+use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
+use ads_cnc::service::ServiceId;
+use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
+use ads_cnc::streaming::{Ack, LineErrorKind, NcText, Sender};
+use ads_cnc_conformance::cnc::program::StreamingInterface;
+use ads_cnc_conformance::cnc::program::service::{
+    CallError, CallStep, Clears, ServiceCall, ServiceInterface, SysServiceWait,
+};
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+use crate::kept;
+use crate::machines::{CheckedInterface, InterfaceBend};
+
+const TOO_LONG: &str =
+    "service: response at offset 0: too long, at most 128 bytes expected, 129 there";
+
+fn id() -> ServiceId {
+    ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47").unwrap()
+}
+
+fn program() -> ServiceCall {
+    ServiceCall::new(id(), CncStr::new("3").unwrap(), SysServiceWait::default()).unwrap()
+}
+
+/// SVC-3: any write of REQUEST_STATE resets RESPONSE_STATE, and nothing else does.
+#[test]
+fn a_request_state_resets_the_response_state() {
+    for clears in [Clears::OnResponseState, Clears::Never] {
+        for state in [0, 1, 7_u32] {
+            let mut interface = ServiceInterface::with(clears);
+            interface.write(Response, b"r\0").unwrap();
+            interface.write(ResponseState, &[9, 0, 0, 0]).unwrap();
+            interface.write(Uuid, b"u\0").unwrap();
+            interface.write(Request, b"q\0").unwrap();
+            assert_eq!(interface.read(ResponseState), [9, 0, 0, 0]);
+            interface.write(RequestState, &state.to_le_bytes()).unwrap();
+            assert_eq!(interface.read(ResponseState), [0; 4]);
+            assert_eq!(interface.read(RequestState), state.to_le_bytes());
+            assert_eq!(interface.read(Response), b"r\0");
+            interface.reset();
+            assert_eq!(interface, ServiceInterface::with(clears));
+        }
+    }
+}
+
+/// SVC-4: whether writing RESPONSE_STATE sets REQUEST_STATE to 0 is the interface's choice.
+#[test]
+fn a_response_state_clears_the_request_state_or_does_not() {
+    for (clears, left) in [(Clears::OnResponseState, 0), (Clears::Never, 3)] {
+        let mut interface = ServiceInterface::with(clears);
+        interface.write(RequestState, &[3, 0, 0, 0]).unwrap();
+        interface.write(Response, b"r\0").unwrap();
+        assert_eq!(interface.read(RequestState), [3, 0, 0, 0]);
+        interface.write(ResponseState, &[1, 0, 0, 0]).unwrap();
+        assert_eq!(interface.read(RequestState), [left, 0, 0, 0]);
+        assert_eq!(interface.read(ResponseState), [1, 0, 0, 0]);
+    }
+}
+
+/// A response that is longer than its field is an error, and read again.
+#[test]
+fn a_response_longer_than_its_field_is_refused() {
+    let mut program = program();
+    (0..3).for_each(|_| program.written(Duration::ZERO));
+    program.read(&[1, 0, 0, 0], Duration::ZERO).unwrap();
+    let error = program.read(&[b'x'; 128], Duration::ZERO).unwrap_err();
+    assert_eq!(error.to_string(), TOO_LONG);
+    assert_eq!(program.step(), CallStep::Read(Response));
+    program.read(b"x", Duration::ZERO).unwrap();
+    assert_eq!(program.step(), CallStep::Done { state: 1, response: CncStr::new("x").unwrap() });
+}
+
+/// The manual's driver (`stream-en` 5) sends what does not fit its buffer without a line end,
+/// and a last line that is open.
+#[test]
+fn what_the_printed_driver_sends_wrongly_shows_on_read() {
+    let mut interface = StreamingInterface::new();
+    assert_eq!(interface.write(b"N10 G0 X0\r\n"), Ack::Accepted);
+    assert_eq!(interface.write(b"N20 M30"), Ack::Accepted);
+    let error = interface.read().unwrap_err();
+    assert_eq!(error.kind(), LineErrorKind::NoLineEnd);
+    assert_eq!(error.to_string(), "line 2, column 8: CR LF expected, end of data found (STM-5)");
+    assert_eq!((interface.len(), interface.read()), (0, Ok(&b""[..])));
+    // Borders of writes vanish: a line may come in two if both are there when it is read.
+    interface.write(b"N10 \r");
+    interface.write(b"\nN20");
+    interface.write(b" M30\r\n");
+    assert_eq!(interface.read(), Ok(&b"N10 \r\nN20 M30\r\n"[..]));
+    interface.write(b"N10\r\nN20\rN30\r\n");
+    assert_eq!(
+        interface.read().unwrap_err().to_string(),
+        "line 2, column 4: CR LF expected, CR alone found (STM-5)"
+    );
+}
+
+#[test]
+fn the_interface_holds_4094_bytes() {
+    let line = [b' '; STREAM_PACKET_MAX];
+    let mut interface = StreamingInterface::new();
+    for _ in 0..4 {
+        assert_eq!(interface.write(&line), Ack::Accepted);
+    }
+    let room = STREAM_MAX - 4 * STREAM_PACKET_MAX;
+    assert_eq!(interface.write(&line), Ack::Later);
+    assert_eq!(interface.write(&line[..room + 1]), Ack::Later);
+    assert_eq!(interface.write(&[b' '; STREAM_PACKET_MAX + 1]), Ack::Refused);
+    assert_eq!(interface.len(), STREAM_MAX - room, "a refused write leaves nothing");
+    assert_eq!(interface.write(&line[..room]), Ack::Accepted);
+    assert_eq!((interface.write(b"X"), interface.write(b"")), (Ack::Later, Ack::Refused));
+    interface.reset();
+    assert!(interface.is_empty());
+    assert_eq!((interface.write(&line), interface.len()), (Ack::Accepted, STREAM_PACKET_MAX));
+}
+
+/// The errors have the words of the codec's.
+#[test]
+fn calls_that_cannot_be_made() {
+    let wait = SysServiceWait::default();
+    let zero = ServiceCall::with_state(id(), CncStr::EMPTY, 0, wait).unwrap_err();
+    assert_eq!(
+        zero.to_string(),
+        "service: request_state at offset 0: out of range, at least 1 expected, 0 found"
+    );
+    let long = "x".repeat(128);
+    let long = ServiceCall::new(id(), CncStr::new(&long).unwrap(), wait).unwrap_err();
+    assert_eq!(long.to_string(), TOO_LONG.replace("response", "request"));
+    let timer = SysServiceWait::from_parameters(None, Some(1), None).unwrap_err();
+    assert_eq!(CallError::from(timer).to_string(), "sys-service-wait: @P3 at offset 8: missing");
+}
+
+proptest! {
+    #![proptest_config(kept::cases(500, file!()))]
+
+    /// The two ends together: a CNC that reads now and then gets the text.
+    #[test]
+    fn a_cnc_gets_the_text(
+        lines in vec("[ -~]{0,90}", 0..60),
+        reads in vec(any::<bool>(), 1..20),
+        end in prop::sample::select(vec!["\n", "\r\n", "\r"]),
+    ) {
+        let text = lines.iter().map(|line| format!("{line}{end}")).collect::<String>();
+        let wire = lines.iter().map(|line| format!("{line}\r\n")).collect::<String>();
+        let mut sender = Sender::new(NcText::new(text.as_bytes()).unwrap());
+        let mut interface = CheckedInterface::new(InterfaceBend::NONE);
+        let (mut got, mut reads) = (Vec::<u8>::new(), reads.into_iter().chain([true]).cycle());
+        while let Some(packet) = sender.packet() {
+            let ack = interface.write(packet);
+            sender.acknowledge(ack).unwrap();
+            if reads.next() == Some(true) {
+                got.extend(interface.read().unwrap());
+            }
+        }
+        got.extend(interface.read().unwrap());
+        prop_assert_eq!(got, wire.as_bytes());
+    }
+
+    /// The interface against a vector of bytes.
+    #[test]
+    fn an_interface_is_a_bounded_queue(steps in vec((0..12_u8, 0..1100_usize, any::<u8>()), 0..60)) {
+        let mut interface = CheckedInterface::new(InterfaceBend::NONE);
+        for (step, len, byte) in steps {
+            match step {
+                0 => interface.reset(),
+                1 => drop(interface.read()),
+                _ if step % 2 == 0 => {
+                    interface.write(&[vec![byte; len], b"\r\n".to_vec()].concat());
+                }
+                _ => drop(interface.write(&vec![byte; len])),
+            }
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Both ends of a stream: the sender and the simulated CNC's interface.
+
+use ads_cnc::limits::NC_LINE_MAX;
+use ads_cnc::streaming::{Ack, NcText};
+use ads_cnc_conformance::cnc::program::StreamingInterface;
+
+use super::input::Input;
+use crate::common::streaming::{CheckedSender, SenderBend};
+use crate::machines::{CheckedInterface, InterfaceBend};
+use crate::{Defect, Outcome};
+
+/// How many lines there are and a byte each: how long it is (the upper six bits, most of them
+/// short), how it ends (the lower two); then events, a byte each: see below. A line is of that
+/// byte, so that lines differ.
+///
+/// Whatever is acknowledged and read: a sender loses and repeats nothing and counts right, the
+/// interface is a bounded queue, and what comes out of it is the text.
+pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
+    let mut input = Input::new(data);
+    let lines = input.byte() % 8;
+    let mut text = Vec::new();
+    for byte in (0..lines).map(|_| input.byte()) {
+        let len = match usize::from(byte >> 2) {
+            len @ ..48 => len,
+            more => NC_LINE_MAX - 30 * (63 - more),
+        };
+        text.resize(text.len() + len, b' ' + byte % 0x5F);
+        text.extend_from_slice([&b"\r\n"[..], b"\n", b"\r", b"\r\n"][usize::from(byte % 4)]);
+    }
+    // The last line may be open, or end in another way.
+    if lines % 2 == 1 {
+        text.pop();
+    }
+    assert!(NcText::new(&text).is_ok(), "lines are made to be streamed");
+
+    let mut sender = CheckedSender::new(&text, sender_bend(defect));
+    let mut interface = CheckedInterface::new(interface_bend(defect));
+    let (mut got, mut verdicts) = (Vec::new(), Vec::new());
+    // As long as nothing else comes between, the interface gets what the sender sends.
+    let mut pure = true;
+    for event in input.take(200) {
+        match event % 8 {
+            0..3 => {
+                if let Some(packet) = sender.packet() {
+                    sender.acknowledge(interface.write(&packet));
+                }
+            }
+            3 => drop(sender.packet()),
+            4 => {
+                // The answer to a write that never came to the interface.
+                let ack = [Ack::Later, Ack::Accepted, Ack::Later, Ack::Refused];
+                let ack = ack[usize::from(event >> 3) % 4];
+                sender.acknowledge(ack);
+                pure &= ack != Ack::Accepted;
+            }
+            5 => match interface.read() {
+                Ok(lines) => got.extend(lines),
+                Err(fault) => verdicts.push(fault),
+            },
+            6 if event == 0xFE => {
+                interface.reset();
+                pure = false;
+            }
+            6 => {}
+            // Somebody else writes.
+            _ => {
+                let line = b"N1 \r\n\n\r".repeat(143);
+                interface.write(&line[..usize::from(event >> 3) * 32 + 1]);
+                pure = false;
+            }
+        }
+    }
+    sender.check_left();
+    match interface.read() {
+        Ok(lines) => got.extend(lines),
+        Err(fault) => verdicts.push(fault),
+    }
+    if pure {
+        assert_eq!((&got[..], &verdicts[..]), (sender.taken(), &[][..]));
+    }
+    Outcome::accepted((sender.taken(), got, verdicts))
+}
+
+pub(crate) const DEFECTS: &[&str] = &[
+    "a packet that is refused for now is not repeated",
+    "a sender hands out packets after one was refused for good",
+    "the second packet counts a line too few",
+    "the interface loses the last byte of a write of more than 500",
+    "the interface takes the first byte of a write that does not fit",
+    "a reset keeps what is there if it is more than a packet",
+];
+
+fn sender_bend(defect: Defect) -> SenderBend {
+    let mut bend = SenderBend::NONE;
+    if defect.is(1) {
+        bend.ack = |ack| if ack == Ack::Later { Ack::Accepted } else { ack };
+    }
+    if defect.is(2) {
+        bend.ack = |ack| if ack == Ack::Refused { Ack::Later } else { ack };
+    }
+    if defect.is(3) {
+        bend.sent = |mut sent| {
+            sent.lines -= usize::from(sent.packets > 1);
+            sent
+        };
+    }
+    bend
+}
+
+fn interface_bend(defect: Defect) -> InterfaceBend {
+    let mut bend = InterfaceBend::NONE;
+    if defect.is(4) {
+        bend.write = |interface, data| match data {
+            [data @ .., _] if data.len() >= 500 => interface.write(data),
+            data => interface.write(data),
+        };
+    }
+    if defect.is(5) {
+        bend.write = |interface, data| {
+            let ack = interface.write(data);
+            if ack == Ack::Later {
+                interface.write(&data[..1]);
+            }
+            ack
+        };
+    }
+    if defect.is(6) {
+        bend.reset = |interface| {
+            if interface.len() <= 992 {
+                StreamingInterface::reset(interface);
+            }
+        };
+    }
+    bend
+}
