@@ -17,12 +17,11 @@
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 
-mod cuts;
+mod head;
 mod spec;
 mod tables;
 mod walk;
 
-pub(crate) use cuts::Cut;
 pub use spec::{Field, FieldSpec, Layout, Size, Type};
 pub use tables::Stream;
 pub(crate) use tables::field;
