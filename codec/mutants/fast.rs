@@ -11,8 +11,6 @@ mod arbitrary;
 mod containers;
 #[path = "../tests/content.rs"]
 mod content;
-#[path = "../tests/contradictions.rs"]
-mod contradictions;
 #[path = "../tests/copies.rs"]
 mod copies;
 #[path = "../tests/cp1252.rs"]
@@ -23,6 +21,8 @@ mod cuts;
 mod dispatch;
 #[path = "../tests/equality.rs"]
 mod equality;
+#[path = "../tests/errata.rs"]
+mod errata;
 #[path = "../tests/frames.rs"]
 mod frames;
 #[path = "../tests/limits.rs"]

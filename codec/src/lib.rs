@@ -51,7 +51,7 @@
 //! //!
 //! [`operation`] puts them together: where a function is, what goes in, what comes out, for
 //! clients and for servers. [`layout`] has the field table of every stream. Where the manuals are
-//! at odds, [`contradictions`] says what is done here and how to do otherwise.
+//! at odds, [`errata`] says what is done here and how to do otherwise.
 //!
 //! # Features
 //! - `alloc` (default): the owned readings, and the checks of an NC program.
@@ -113,8 +113,9 @@ pub mod address;
 pub mod ads;
 mod com;
 mod content;
-pub mod contradictions;
 pub mod dynamic;
+#[doc = include_str!("errata.md")]
+pub mod errata {}
 mod error;
 pub mod layout;
 pub mod limits;

@@ -24,18 +24,13 @@ pub enum Limit {
     Time(&'static str, f64),
     /// So many instructions for each unit more than another of the same subject.
     Over(&'static str, f64),
-    /// So many instructions for each unit.
-    Each(f64),
 }
 
 impl Limit {
-    /// The other case, if there is one.
-    pub fn against(&self) -> Option<&'static str> {
+    /// The other case.
+    pub fn against(&self) -> &'static str {
         match self {
-            Self::Instructions(other, _) | Self::Time(other, _) | Self::Over(other, _) => {
-                Some(other)
-            }
-            Self::Each(_) => None,
+            Self::Instructions(other, _) | Self::Time(other, _) | Self::Over(other, _) => other,
         }
     }
 }
@@ -73,7 +68,7 @@ impl Case {
         if self.is_long {
             return false;
         }
-        let is_named = |limit: &Limit| limit.against() == Some(self.who);
+        let is_named = |limit: &Limit| limit.against() == self.who;
         !self.limits.is_empty()
             || crate::all().any(|it| it.subject == self.subject && it.limits.iter().any(is_named))
     }

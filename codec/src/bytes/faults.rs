@@ -1,45 +1,33 @@
-//! Why bytes are refused by their number.
-//!
-//! Apart from what succeeds, and no methods: a reader whose address is known to nobody stays in
-//! registers.
+//! Errors of fixed fields.
 
 use super::to_u32;
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Cut, Field, Stream};
+use crate::layout::{Field, Stream};
 
-/// The field in which the fixed part of a record at `at` is cut.
+/// The record at `at` ends after `left` bytes, within the fixed fields that it begins with.
 #[cold]
+#[inline(never)]
 pub(crate) fn cut(stream: Stream, at: u32, left: usize) -> Error {
-    match stream.cuts().get(left) {
-        Some(cut) => cut_at(stream, *cut, at, left),
-        None => Error::new(ErrorKind::Truncated, Field::whole(stream), at, 0, to_u32(left)),
-    }
-}
-
-#[inline]
-fn cut_at(stream: Stream, cut: Cut, at: u32, left: usize) -> Error {
-    let (offset, size) = (u32::from(cut.offset), u32::from(cut.size));
-    let found = to_u32(left).wrapping_sub(offset);
-    Error::new(
-        ErrorKind::Truncated,
-        Field::new(stream, cut.field),
-        at.wrapping_add(offset),
-        size,
-        found,
-    )
-}
-
-/// Why so many bytes are not the fixed ones that are all of a stream.
-#[cold]
-pub(super) fn not_all(stream: Stream, given: usize) -> Error {
-    let cuts = stream.cuts();
-    match cuts.get(given) {
-        Some(cut) => cut_at(stream, *cut, 0, given),
-        None => {
-            let size = to_u32(cuts.len());
-            Error::new(ErrorKind::Trailing, Field::whole(stream), size, size, to_u32(given))
+    let (mut offset, left) = (0_u32, to_u32(left));
+    for (field, &size) in (0_u8..).zip(stream.head_sizes()) {
+        let (size, found) = (u32::from(size), left.saturating_sub(offset));
+        if found < size {
+            let (field, at) = (Field::new(stream, field), at.saturating_add(offset));
+            return Error::new(ErrorKind::Truncated, field, at, size, found);
         }
+        offset = offset.saturating_add(size);
     }
+    Error::new(ErrorKind::Truncated, Field::whole(stream), at, 0, left)
+}
+
+/// The fixed fields are all of a stream, and more or fewer bytes are given.
+#[cold]
+pub(super) fn not_all(stream: Stream, size: usize, given: usize) -> Error {
+    if given < size {
+        return cut(stream, 0, given);
+    }
+    let size = to_u32(size);
+    Error::new(ErrorKind::Trailing, Field::whole(stream), size, size, to_u32(given))
 }
 
 #[cold]

@@ -39,7 +39,7 @@ impl<'a> Reader<'a> {
     where
         T: FromBytes + KnownLayout + Immutable + Unaligned,
     {
-        T::ref_from_bytes(bytes).map_err(|_| not_all(stream, bytes.len()))
+        T::ref_from_bytes(bytes).map_err(|_| not_all(stream, size_of::<T>(), bytes.len()))
     }
 
     /// The number that is all of the stream of `field`.

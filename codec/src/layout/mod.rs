@@ -5,7 +5,7 @@
 //!
 //! Requirements, VAR-9 for one, are told by their IDs, here and wherever else they are named: the
 //! catalogue in the crate `ads-cnc-vectors` has each in words, with its sections in both editions.
-//! E-17 and the like are errata: see [`contradictions`](crate::contradictions).
+//! E-17 and the like are errata: see [`errata`](crate::errata).
 //!
 //! ```
 //! use ads_cnc::layout::Stream;
@@ -17,12 +17,11 @@
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 
-mod cuts;
+mod head;
 mod spec;
 mod tables;
 mod walk;
 
-pub(crate) use cuts::Cut;
 pub use spec::{Field, FieldSpec, Layout, Size, Type};
 pub use tables::Stream;
 pub(crate) use tables::field;

@@ -49,7 +49,7 @@ impl Layout {
 
     /// The bytes of the fixed fields that the stream begins with.
     pub(crate) const fn head(&self) -> usize {
-        super::Cut::count(self.fields)
+        super::head::head(self.fields)
     }
 
     /// Whether all fixed fields are in front, where they are read.

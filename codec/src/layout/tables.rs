@@ -1,6 +1,6 @@
 //! The tables themselves: one per stream, in the manual's order of fields.
 
-use super::cuts::Cut;
+use super::head;
 use super::spec::{Field, FieldSpec, Layout, Size, Type};
 use crate::declare::Declared;
 
@@ -42,9 +42,9 @@ macro_rules! layouts {
                 match self { $( Self::$stream => &field::$module::LAYOUT, )+ }
             }
 
-            /// Of each length that ends in the fixed fields a record begins with, where it does.
-            pub(crate) const fn cuts(self) -> &'static [Cut] {
-                match self { $( Self::$stream => &field::$module::CUTS, )+ }
+            /// The sizes of the fixed fields that a record begins with.
+            pub(crate) const fn head_sizes(self) -> &'static [u8] {
+                match self { $( Self::$stream => &field::$module::HEAD, )+ }
             }
         }
 
@@ -65,7 +65,7 @@ macro_rules! layouts {
                     repeats: REPEATS,
                     fields: FIELDS,
                 }; )?
-                pub(crate) static CUTS: [Cut; Cut::count(FIELDS)] = Cut::all(FIELDS);
+                pub(crate) static HEAD: [u8; head::count(FIELDS)] = head::sizes(FIELDS);
                 $( pub(crate) const FIELDS: &[FieldSpec] = super::$record::LAYOUT.fields; )?
                 $(
                     pub(crate) const FIELDS: &[FieldSpec] = &[$( FieldSpec {

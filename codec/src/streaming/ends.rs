@@ -1,7 +1,7 @@
 //! Where lines end.
 
 use super::{LineError, LineErrorKind};
-use crate::bytes::{to_len, to_u32};
+use crate::bytes::to_u32;
 
 pub(super) const CR: u8 = b'\r';
 pub(super) const LF: u8 = b'\n';
@@ -10,44 +10,10 @@ pub(super) const fn is_end(byte: u8) -> bool {
     matches!(byte, CR | LF)
 }
 
-/// The first line, and what follows it from its end on.
+/// The first line, and the rest from its end on.
 pub(super) fn split_at_end(bytes: &[u8]) -> (&[u8], &[u8]) {
-    let mut rest = bytes;
-    while let Some((word, behind)) = rest.split_first_chunk() {
-        let ends = ends(word);
-        if ends != 0 {
-            rest = rest.get(to_len(ends.trailing_zeros() / 8)..).unwrap_or_default();
-            break;
-        }
-        rest = behind;
-    }
-    while let [byte, behind @ ..] = rest {
-        if is_end(*byte) {
-            break;
-        }
-        rest = behind;
-    }
-    bytes.split_at_checked(bytes.len().saturating_sub(rest.len())).unwrap_or((bytes, &[]))
-}
-
-/// Bytes looked at together.
-pub(super) const WORD: usize = 16;
-
-const fn repeat(byte: u8) -> u128 {
-    u128::from_le_bytes([byte; WORD])
-}
-
-/// The highest bit of each byte from LF to CR, VT and FF among them.
-///
-/// No byte carries into the next: without its highest bit each is below 0x80. The highest bit of a
-/// byte is set in the sum if it is LF or above, in the difference if it is CR or below.
-#[inline(always)]
-pub(super) fn ends(word: &[u8; WORD]) -> u128 {
-    let bytes = u128::from_le_bytes(*word);
-    let low = bytes & repeat(0x7F);
-    let above = low.wrapping_add(repeat(0x80 - LF));
-    let below = repeat(0x80 + CR).wrapping_sub(low);
-    above & below & !bytes & repeat(0x80)
+    let len = bytes.iter().position(|&byte| is_end(byte)).unwrap_or(bytes.len());
+    bytes.split_at_checked(len).unwrap_or((bytes, &[]))
 }
 
 /// What follows the line end that is here, if one is.
@@ -100,23 +66,6 @@ pub fn check_line_ends(data: &[u8]) -> Result<(), LineError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Whatever is around it, the first byte from LF to CR is found, and no other.
-    #[test]
-    fn ends_are_found_in_a_word() {
-        // Miri is slow, and what it looks for does not hang on which byte it is.
-        for around in (0..=u8::MAX).step_by(if cfg!(miri) { 85 } else { 1 }) {
-            for byte in (0..=u8::MAX).step_by(if cfg!(miri) { 5 } else { 1 }) {
-                for at in 0..WORD {
-                    let mut word = [around; WORD];
-                    word[at] = byte;
-                    let first = word.iter().position(|byte| (LF..=CR).contains(byte));
-                    let found = ends(&word).trailing_zeros() as usize / 8;
-                    assert_eq!(found, first.unwrap_or(WORD), "{word:?}");
-                }
-            }
-        }
-    }
 
     /// A line is split where it ends.
     #[test]

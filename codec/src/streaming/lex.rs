@@ -1,16 +1,5 @@
 //! Pieces of a line.
 
-use super::ends::{CR, LF, WORD, split_at_end};
-
-/// Not 0 for what a line has that has more in it than code: a label, a command, a jump, a loop, a
-/// program end. All comparisons are made, so that many bytes go at a time.
-#[inline(always)]
-pub(super) fn mark(byte: u8) -> u8 {
-    let is = |wanted| u8::from(byte == wanted);
-    let command = u8::from(byte.wrapping_sub(b'#') <= b'%' - b'#');
-    command | is(b':') | is(b'[') | u8::from(byte | 0x20 == b'm')
-}
-
 /// The number of a block, and what stands behind it. A `/` may stand before it, blanks anywhere.
 pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     let mut at = skip_while(line, is_blank);
@@ -91,26 +80,15 @@ enum Sort {
     Other,
 }
 
-#[inline]
-fn sort(byte: u8) -> Sort {
-    /// Of every byte.
-    static SORTS: [Sort; 256] = {
-        let mut sorts = [Sort::Sign; 256];
-        let (mut left, mut byte): (&mut [_], u8) = (&mut sorts, 0);
-        while let [sort, rest @ ..] = left {
-            *sort = match byte {
-                b'0'..=b'9' => Sort::Digit,
-                // A program end; a subroutine.
-                b'M' | b'm' | b'L' | b'l' => Sort::Other,
-                b'A'..=b'Z' | b'a'..=b'z' => Sort::Letter,
-                b'$' | b'"' | b'.' | b'_' | b';' | b'(' => Sort::Other,
-                _ => Sort::Sign,
-            };
-            (left, byte) = (rest, byte.wrapping_add(1));
-        }
-        sorts
-    };
-    SORTS.get(usize::from(byte)).copied().unwrap_or(Sort::Other)
+const fn sort(byte: u8) -> Sort {
+    match byte {
+        b'0'..=b'9' => Sort::Digit,
+        // A program end; a subroutine.
+        b'M' | b'm' | b'L' | b'l' => Sort::Other,
+        b'A'..=b'Z' | b'a'..=b'z' => Sort::Letter,
+        b'$' | b'"' | b'.' | b'_' | b';' | b'(' => Sort::Other,
+        _ => Sort::Sign,
+    }
 }
 
 /// What stands behind the parenthesis that closes; nothing if none does.
@@ -165,55 +143,4 @@ pub(super) const fn is_in_path(byte: &u8) -> bool {
 
 pub(super) const fn is_in_file_name(byte: &u8) -> bool {
     !matches!(byte, b' ' | b'\t' | b'(' | b';' | b'[' | b'"')
-}
-
-/// As [`split_at_end`], and whether something is noted in the line; it may be shortly after it.
-pub(super) fn split_noting(bytes: &[u8], note: impl Fn(u8) -> u8) -> (&[u8], &[u8], bool) {
-    if let [CR | LF, ..] = bytes {
-        return (&[], bytes, false);
-    }
-    let (mut rest, mut noted) = (bytes, 0);
-    loop {
-        let Some((word, behind)) = rest.split_first_chunk::<WORD>() else {
-            noted = rest.iter().fold(noted, |noted, &byte| noted | note(byte));
-            break;
-        };
-        let (mut notes, mut ends) = (0, 0);
-        for &byte in word {
-            notes |= note(byte);
-            ends |= u8::from(byte == CR) | u8::from(byte == LF);
-        }
-        noted |= notes;
-        if ends != 0 {
-            break;
-        }
-        rest = behind;
-    }
-    let (_, rest) = split_at_end(rest);
-    let len = bytes.len().saturating_sub(rest.len());
-    let (line, rest) = bytes.split_at_checked(len).unwrap_or((bytes, &[]));
-    (line, rest, noted != 0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A line is split where it ends, and what is noted in it is known, at every column.
-    #[test]
-    fn lines_are_split_at_every_length() {
-        for len in (0..50).step_by(if cfg!(miri) { 17 } else { 1 }) {
-            for end in ["", "\n", "\r\n", "\rX", "\nM30 and twenty bytes more"] {
-                for marked in (0..len).map(Some).chain([None]) {
-                    let mut line = b"X".repeat(len);
-                    marked.into_iter().for_each(|at| line[at] = b'M');
-                    let text = [&line[..], end.as_bytes()].concat();
-                    let (found, rest, noted) = split_noting(&text, |byte| u8::from(byte == b'M'));
-                    assert_eq!((found, rest), (&line[..], end.as_bytes()));
-                    assert!(noted || marked.is_none(), "{text:?}");
-                }
-            }
-        }
-        assert!(!split_noting(b"X1 Y2 Z3 X1 Y2 Z3 X1 Y2 Z3\r\n", mark).2);
-    }
 }

@@ -1,7 +1,6 @@
 //! From text to packets.
 
-use super::ends::{CR, LF, WORD, behind_end, ends, split_at_end};
-use crate::bytes::to_len;
+use super::ends::{CR, LF, behind_end, split_at_end};
 use crate::limits::STREAM_PACKET_MAX;
 
 /// The packets of a text: whole lines, each ended by CR LF, as many as fit 992 bytes.
@@ -103,66 +102,25 @@ impl<'a> Packets<'a> {
     }
 }
 
-/// Copies as many lines as fit; what is left of the text, and the length of the packet.
+/// Copies as many lines as fit. Returns the rest of the text and the length of the packet.
 fn copy<'a>(text: &'a [u8], packet: &mut [u8; STREAM_PACKET_MAX]) -> (&'a [u8], usize) {
-    let mut left = (text, STREAM_PACKET_MAX);
-    let (mut rest, mut room) = (text, packet.as_mut_slice());
+    let (mut rest, mut room, mut free) = (text, packet.as_mut_slice(), STREAM_PACKET_MAX);
     while !rest.is_empty() {
-        let Some((line, free)) = copy_words(rest, room, &mut left) else { break };
-        if line.is_empty() && free.len() == left.1 {
-            // The last line is whole.
-            break;
-        }
-        let Some((behind, free)) = copy_line(line, free) else { break };
-        (rest, room) = (behind, free);
-        left = (rest, room.len());
+        let Some((after, left)) = copy_line(rest, room) else { break };
+        (rest, free, room) = (after, left.len(), left);
     }
-    (left.0, STREAM_PACKET_MAX.saturating_sub(left.1))
+    (rest, STREAM_PACKET_MAX.saturating_sub(free))
 }
 
-/// Copies lines while there is a word of them and room for one: what is left of the text and of
-/// the room, and the same from behind the last whole line.
-#[inline(always)]
-fn copy_words<'a, 'b>(
-    mut rest: &'a [u8],
-    mut room: &'b mut [u8],
-    left: &mut (&'a [u8], usize),
-) -> Option<(&'a [u8], &'b mut [u8])> {
-    // What is copied from behind a line's end is written over.
-    while let (Some(word), Some(out)) = (rest.first_chunk(), room.first_chunk_mut()) {
-        *out = *word;
-        let ends = ends(word);
-        if ends == 0 {
-            (rest, room) = (rest.get(WORD..)?, room.get_mut(WORD..)?);
-            continue;
-        }
-        let len = to_len(ends.trailing_zeros() / 8);
-        (rest, room) = (rest.get(len..)?, room.get_mut(len..)?);
-        if let [0x0B | 0x0C, behind @ ..] = rest {
-            // VT or FF.
-            (rest, room) = (behind, room.get_mut(1..)?);
-            continue;
-        }
-        (rest, room) = close(rest, room)?;
-        *left = (rest, room.len());
-    }
-    Some((rest, room))
-}
-
-/// Copies a line and closes it, if it fits: the text behind the line and the room left.
+/// Copies a line and ends it with CR LF, if it fits. Returns the text after the line and the room
+/// left.
 fn copy_line<'a, 'b>(text: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'b mut [u8])> {
     let (line, _) = split_at_end(text.get(..=room.len()).unwrap_or(text));
     let (out, room) = room.split_at_mut_checked(line.len())?;
     out.copy_from_slice(line);
-    close(text.get(line.len()..)?, room)
-}
-
-/// Writes the line end in place of the one that is here, or of the text's end.
-#[inline(always)]
-fn close<'a, 'b>(end: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'b mut [u8])> {
-    let (out, room) = room.split_first_chunk_mut()?;
-    *out = [CR, LF];
-    Some((behind_end(end), room))
+    let (end, room) = room.split_first_chunk_mut()?;
+    *end = [CR, LF];
+    Some((behind_end(text.get(line.len()..)?), room))
 }
 
 #[cfg(test)]

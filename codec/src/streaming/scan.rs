@@ -1,6 +1,6 @@
 //! What of an NC text the checks need, word by word, without its comments.
 
-use super::ends::behind_end;
+use super::ends::{behind_end, split_at_end};
 use super::lex::*;
 use super::words::{LoopWord, ProgramEnd};
 use crate::bytes::to_u32;
@@ -74,7 +74,7 @@ pub(super) struct Scan<'a> {
     stage: Stage,
     /// No bracket closes in what is left of the line.
     open: bool,
-    /// Behind the block number of the line; nothing if no word that counts is there.
+    /// The line after its block number.
     body: &'a [u8],
     /// The label of the line, and what stands behind it.
     label: Option<(Label<'a>, &'a [u8])>,
@@ -145,16 +145,10 @@ impl<'a> Scan<'a> {
         if self.below.is_empty() {
             return false;
         }
-        let (line, below, marked) = split_noting(self.below, mark);
+        let (line, below) = split_at_end(self.below);
         (self.line, self.rest, self.below) = (line, line, behind_end(below));
         self.number = self.number.saturating_add(1);
-        (self.stage, self.open, self.label, self.body) = (Stage::Blank, false, None, &[]);
-        if !marked {
-            if self.block.is_some() {
-                self.rest = &[];
-            }
-            return true;
-        }
+        (self.stage, self.open, self.label) = (Stage::Blank, false, None);
         let (number, at) = block_number(line);
         self.body = at;
         if self.block.is_some() {

@@ -3,8 +3,8 @@
 use core::fmt;
 
 use super::NcText;
+use super::ends::LF;
 use super::packets::{Cut, Packets};
-use super::text::count;
 use crate::ads::AdsError;
 use crate::limits::STREAM_PACKET_MAX;
 
@@ -247,7 +247,7 @@ impl<'a> Sender<'a> {
 
     fn accept(&mut self) {
         let packet = self.held().unwrap_or_default();
-        let lines = count(packet).lf;
+        let lines = packet.iter().filter(|&&byte| byte == LF).count();
         self.sent = Progress {
             packets: self.sent.packets.saturating_add(1),
             lines: self.sent.lines.saturating_add(lines),

@@ -4,13 +4,10 @@ use core::fmt;
 
 #[cfg(feature = "alloc")]
 use super::Findings;
-use super::ends::{CR, LF, behind_end, is_end, split_at_end};
+use super::ends::{CR, LF, behind_end, split_at_end};
 use super::{LineError, LineErrorKind, Packets};
 use crate::bytes::to_u32;
 use crate::limits::NC_LINE_MAX;
-
-/// So many bytes are counted in a byte before the count is added up.
-const BLOCK: usize = 128;
 
 /// NC text in which every line can be streamed.
 ///
@@ -42,17 +39,17 @@ impl<'a> NcText<'a> {
     /// # Errors
     /// The first line over 990 characters, byte that is not ASCII, or NUL.
     pub fn new(bytes: &'a [u8]) -> Result<Self, LineError> {
-        let Counts { bits, cr, lf } = count(bytes);
-        let pairs = if cr == 0 { 0 } else { count_pairs(bytes) };
-        if !bits.is_ascii() || !lines_fit(bytes) {
-            return Err(first_error(bytes));
+        let (mut lines, mut wire_len, mut crlf) = (0_usize, 0_usize, true);
+        let mut rest = bytes;
+        while !rest.is_empty() {
+            let (line, end) = split_at_end(rest);
+            lines = lines.saturating_add(1);
+            check(line, lines)?;
+            wire_len = wire_len.saturating_add(line.len()).saturating_add(2);
+            crlf &= matches!(end, [] | [CR, LF, ..]);
+            rest = behind_end(end);
         }
-        let ends = cr.saturating_add(lf);
-        let open = usize::from(bytes.last().is_some_and(|&byte| !is_end(byte)));
-        let lines = ends.saturating_sub(pairs).saturating_add(open);
-        let characters = bytes.len().saturating_sub(ends);
-        let wire_len = characters.saturating_add(lines.saturating_mul(2));
-        Ok(Self { bytes, lines, wire_len, crlf: cr == lf && lf == pairs })
+        Ok(Self { bytes, lines, wire_len, crlf })
     }
 
     /// The bytes of the text, as given.
@@ -110,12 +107,6 @@ impl fmt::Debug for NcText<'_> {
 #[derive(Clone, Debug)]
 pub struct Lines<'a>(&'a [u8]);
 
-impl<'a> Lines<'a> {
-    pub(super) const fn of(bytes: &'a [u8]) -> Self {
-        Self(bytes)
-    }
-}
-
 impl<'a> Iterator for Lines<'a> {
     type Item = &'a [u8];
 
@@ -129,88 +120,18 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
-pub(super) struct Counts {
-    /// Of all bytes, and of all bytes less one: a NUL or a byte that is not ASCII sets the
-    /// highest bit.
-    bits: u8,
-    cr: usize,
-    pub(super) lf: usize,
-}
-
-pub(super) fn count(bytes: &[u8]) -> Counts {
-    let mut counts = Counts { bits: 0, cr: 0, lf: 0 };
-    let mut blocks = bytes.chunks_exact(BLOCK);
-    blocks.by_ref().filter_map(<[u8]>::first_chunk).for_each(|block| counts.add(block));
-    let mut last = [b' '; BLOCK];
-    last.iter_mut().zip(blocks.remainder()).for_each(|(last, &byte)| *last = byte);
-    counts.add(&last);
-    counts
-}
-
-impl Counts {
-    /// Of a block whose length the compiler knows, many bytes at a time.
-    fn add(&mut self, block: &[u8; BLOCK]) {
-        let (mut bits, mut cr, mut lf) = (0_u8, 0_u8, 0_u8);
-        for &byte in block {
-            bits |= byte | byte.wrapping_sub(1);
-            cr = cr.wrapping_add(u8::from(byte == CR));
-            lf = lf.wrapping_add(u8::from(byte == LF));
-        }
-        self.bits |= bits;
-        self.cr = self.cr.saturating_add(cr.into());
-        self.lf = self.lf.saturating_add(lf.into());
-    }
-}
-
-/// How often LF follows CR.
-fn count_pairs(bytes: &[u8]) -> usize {
-    let mut pairs = 0_usize;
-    let mut rest = bytes;
-    while let (Some(block), Some(next)) =
-        (rest.first_chunk(), rest.get(1..).and_then(<[u8]>::first_chunk))
-    {
-        pairs = pairs.saturating_add(pairs_of(block, next).into());
-        rest = rest.get(BLOCK..).unwrap_or_default();
-    }
-    let last = rest.iter().zip(rest.iter().skip(1));
-    pairs.saturating_add(last.filter(|&(&byte, &next)| byte == CR && next == LF).count())
-}
-
-fn pairs_of(block: &[u8; BLOCK], next: &[u8; BLOCK]) -> u8 {
-    let pairs = block.iter().zip(next);
-    pairs.fold(0, |pairs, (&byte, &next)| pairs.wrapping_add(u8::from(byte == CR && next == LF)))
-}
-
-/// Whether no line is too long: from the start of a line on, a line end is within reach. The
-/// last one there is looked for, so that most bytes are skipped.
-fn lines_fit(mut rest: &[u8]) -> bool {
-    while let Some(reach) = rest.get(..=NC_LINE_MAX) {
-        let Some(end) = reach.iter().rposition(|&byte| is_end(byte)) else {
-            return false;
+/// The first error of a line.
+fn check(line: &[u8], number: usize) -> Result<(), LineError> {
+    for (column, &byte) in (1_u32..).zip(line) {
+        let kind = match byte {
+            _ if column > to_u32(NC_LINE_MAX) => {
+                LineErrorKind::TooLong { length: to_u32(line.len()) }
+            }
+            0 => LineErrorKind::Nul,
+            0x80.. => LineErrorKind::NotAscii { byte },
+            _ => continue,
         };
-        rest = behind_end(rest.get(end..).unwrap_or_default());
+        return Err(LineError::new(to_u32(number), column, kind));
     }
-    true
-}
-
-/// The first error of a text that has one.
-#[cold]
-fn first_error(bytes: &[u8]) -> LineError {
-    let mut number = 0_u32;
-    for line in Lines::of(bytes) {
-        number = number.saturating_add(1);
-        for (column, &byte) in (1_u32..).zip(line) {
-            let kind = match byte {
-                _ if column > to_u32(NC_LINE_MAX) => {
-                    LineErrorKind::TooLong { length: to_u32(line.len()) }
-                }
-                0 => LineErrorKind::Nul,
-                0x80.. => LineErrorKind::NotAscii { byte },
-                _ => continue,
-            };
-            return LineError::new(number, column, kind);
-        }
-    }
-    // Not reached: the error that was seen is in one of the lines.
-    LineError::new(number, 0, LineErrorKind::Nul)
+    Ok(())
 }

@@ -1,7 +1,7 @@
 //! Where texts end.
 
 use super::{CncStr, TextRef};
-use crate::bytes::{to_len, to_u32};
+use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
 
@@ -13,26 +13,9 @@ pub(crate) fn split_nul(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 }
 
 /// Bytes before the first NUL, or all.
-// Apart: in the middle of something larger the search would lack registers.
-#[inline(never)]
 pub(crate) fn text_len(bytes: &[u8]) -> usize {
-    let mut left = bytes;
-    while let Some((word, rest)) = left.split_first_chunk() {
-        let word = usize::from_le_bytes(*word);
-        // The lowest of these bits is that of the first NUL: only what is above it may be wrong.
-        let nuls = word.wrapping_sub(LOWEST_BITS) & !word & HIGHEST_BITS;
-        if nuls != 0 {
-            let before = bytes.len().wrapping_sub(left.len());
-            return before.wrapping_add(to_len(nuls.trailing_zeros() / 8));
-        }
-        left = rest;
-    }
-    let found = left.iter().position(|&byte| byte == 0).unwrap_or(left.len());
-    bytes.len().wrapping_sub(left.len()).wrapping_add(found)
+    bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len())
 }
-
-const LOWEST_BITS: usize = usize::MAX / 0xFF;
-const HIGHEST_BITS: usize = LOWEST_BITS << 7;
 
 /// Text of `len` bytes, if a NUL follows, and only NULs follow that.
 #[inline]

@@ -187,7 +187,7 @@ fn services(bytes: &[u8]) -> Result<usize, Error> {
     for _ in 0..black_box(20) {
         match host.step() {
             HostStep::Read(_) => host.read(bytes)?,
-            HostStep::Write(_, value) if value.is_empty() => host.failed(),
+            HostStep::Write(_, []) => host.failed(),
             HostStep::Write(..) => host.written(),
             HostStep::Serve { .. } => host.answer(CncStr::EMPTY, 1)?,
             HostStep::Wait => host.poll(),

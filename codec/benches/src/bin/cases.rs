@@ -14,9 +14,8 @@ fn show(group: &str, case: &Case) {
             Limit::Instructions(_, times) => ("instructions", times),
             Limit::Time(_, times) => ("time", times),
             Limit::Over(_, most) => ("over", most),
-            Limit::Each(most) => ("each", most),
         };
-        print!("\t{kind}\t{}\t{most}", limit.against().unwrap_or_default());
+        print!("\t{kind}\t{}\t{most}", limit.against());
     }
     println!();
 }

@@ -40,7 +40,7 @@ macro_rules! descriptions {
                 each!(descriptions($dimensions), |bytes| plain::deku::description(bytes))
             }),
             Case::new($subject, "encode", || encode($dimensions)).within(&[
-                Limit::Instructions("encode by hand", 2.0),
+                Limit::Instructions("encode by hand", 3.0),
             ]),
             Case::new($subject, "encode by hand", || encode_by_hand($dimensions)),
             Case::new($subject, "encode of a view", || {
@@ -48,7 +48,7 @@ macro_rules! descriptions {
                 let mut buf = [0; 2048];
                 each!(decoded::<DescriptionRef<'_>>(bytes), |view| view.encode(&mut buf))
             })
-            .within(&[Limit::Instructions("encode by hand", 2.0)]),
+            .within(&[Limit::Instructions("encode by hand", 3.0)]),
         )+];
     };
 }

@@ -15,7 +15,7 @@ macro_rules! lists {
             Case::new($subject, "borrowed, one field read", || {
                 each!(lists($count), $count, |bytes| DescriptorsRef::decode(bytes).map(last_offset))
             })
-            .within(&[Limit::Instructions("by hand", 0.2), Limit::Time("by hand", 0.2)]),
+            .within(&[Limit::Instructions("by hand", 1.3), Limit::Time("by hand", 1.3)]),
             Case::new($subject, "owned", || {
                 each!(lists($count), $count, |bytes| Descriptors::decode(bytes))
             })
@@ -31,7 +31,7 @@ macro_rules! lists {
                 each!(lists($count), $count, |bytes| plain::deku::descriptors(bytes))
             }),
             Case::new($subject, "encode", || encode($count))
-                .within(&[Limit::Instructions("encode by hand", 2.0)]),
+                .within(&[Limit::Instructions("encode by hand", 3.0)]),
             Case::new($subject, "encode by hand", || encode_by_hand($count)),
         )+];
     };

@@ -28,15 +28,14 @@ macro_rules! functions {
         pub(super) const FUNCTIONS: &[Case] = &[$(
             Case::new(concat!("call: ", $subject), "dispatch", || {
                 each!([call(row!($port $service $group $offset $length), $data); CALLS], |call| call.dispatch())
-            })
-            .within(&[Limit::Over("the data alone", 100.0)]),
+            }),
             Case::new(concat!("call: ", $subject), "the data alone", || {
                 each!([&$data[..]; CALLS], |bytes| <$stream>::decode(bytes))
             }),
             Case::new(concat!("call: ", $subject), "refusal of data", || {
                 each!([call(row!($port $service $group $offset $length), $bad); CALLS], |call| call.dispatch())
             })
-            .within(&[Limit::Instructions("dispatch", 2.0)]),
+            .within(&[Limit::Over("dispatch", 200.0)]),
             Case::new(concat!("call: ", $subject), "encode", || {
                 encode(call(row!($port $service $group $offset $length), $data))
             })
@@ -160,7 +159,7 @@ macro_rules! refusals {
                 let data = b"V.E.vartest\0";
                 each!([call(row!($port $service $group $offset 4), data); CALLS], |call| call.dispatch())
             })
-            .within(&[Limit::Instructions("none", 2.0)]),
+            .within(&[Limit::Over("none", 200.0)]),
         )+];
     };
 }

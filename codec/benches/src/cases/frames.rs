@@ -6,14 +6,14 @@ use ads_cnc::{Decode, Encode, NoData};
 use crate::case::{Case, Limit, each};
 use crate::hand::{self, Hand};
 
-const ENCODE: &[Limit] = &[Limit::Instructions("encode by hand", 2.0)];
+const ENCODE: &[Limit] = &[Limit::Instructions("encode by hand", 3.0)];
 const MAX: u32 = 1024;
 
 pub(super) const CASES: &[Case] = &[
     Case::new("frame", "split", || each!(frames(), |bytes| FrameRef::split(bytes, MAX))),
     Case::new("frame", "split by hand", || each!(frames(), |bytes| hand::Frame::split(bytes, MAX))),
     Case::new("frame", "refused", || each!(refused(), |bytes| FrameRef::split(bytes, MAX)))
-        .within(&[Limit::Instructions("split", 2.0), Limit::Time("split", 2.0)]),
+        .within(&[Limit::Over("split", 200.0)]),
     Case::new("frame", "encode", || {
         let frames: &[Vec<u8>] = frames().leak();
         let mut buf = [0; 4096];

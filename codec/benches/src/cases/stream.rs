@@ -70,14 +70,11 @@ macro_rules! stream {
                 <$reading>::decode(bytes)
             })
         })
-        .within(&[
-            $crate::Limit::Instructions($than, 2.0),
-            $crate::Limit::Time($than, 2.0),
-        ])
+        .within(&[$crate::Limit::Over($than, 200.0)])
     };
     (@encode $subject:literal, $stream:ident, "encode", $reading:ty) => {
         $crate::cases::stream::stream!(@encoding $subject, $stream, "encode", $reading).within(&[
-            $crate::Limit::Instructions("encode by hand", 2.0),
+            $crate::Limit::Instructions("encode by hand", 3.0),
         ])
     };
     (@encode $subject:literal, $stream:ident, $who:literal, $reading:ty) => {

@@ -4,59 +4,57 @@ use ads_cnc::streaming::{Ack, Checker, NcText, Sender};
 
 use crate::case::{Case, Limit, Work};
 
+/// A hundred times the text costs as much for each byte.
 macro_rules! texts {
-    ($($subject:literal: $lines:expr, $size:expr;)+) => {
-        pub(super) const PACKETS: &[Case] = &[$(
-            Case::new(concat!("packets of ", $subject), "LF", || packets(text(&$lines, "\n", $size)))
-                .within(&[Limit::Each(2.0)]),
-            Case::new(concat!("packets of ", $subject), "CR LF", || {
-                packets(text(&$lines, "\r\n", $size))
-            })
-            .within(&[Limit::Each(2.0)]),
-            Case::new(concat!("packets of ", $subject), "sent", || {
-                sent(text(&$lines, "\n", $size))
-            })
-            .within(&[Limit::Each(2.0)]),
+    ($($subject:literal: $lines:expr;)+) => {
+        pub(super) const PACKETS: &[&[Case]] = &[$(
+            texts!(@each concat!("packets of ", $subject, ", LF"), $lines, "\n", packets),
+            texts!(@each concat!("packets of ", $subject, ", CR LF"), $lines, "\r\n", packets),
+            texts!(@each concat!("packets of ", $subject, ", sent"), $lines, "\n", sent),
         )+];
+    };
+    (@each $subject:expr, $lines:expr, $end:literal, $run:ident) => {
+        &[
+            Case::new($subject, "1 KB", || $run(text(&$lines, $end, 1_000))),
+            Case::new($subject, "100 KB", || $run(text(&$lines, $end, 100_000)))
+                .within(&[Limit::Instructions("1 KB", 1.1)]),
+            Case::new($subject, "10 MB", || $run(text(&$lines, $end, 10_000_000)))
+                .within(&[Limit::Instructions("100 KB", 1.1)])
+                .long(),
+        ]
     };
 }
 
-macro_rules! checks {
-    ($($name:ident $limits:expr; $($subject:literal: $lines:expr, $size:expr;)+)+) => { $(
-        pub(super) const $name: &[Case] = &[$(
-            Case::new(concat!("check of ", $subject), "as it comes", || {
-                checked(text(&$lines, "\r\n", $size))
-            })
-            .within($limits),
-            Case::new(concat!("check of ", $subject), "as a whole", || {
-                findings(text(&$lines, "\n", $size))
-            })
-            .within($limits),
-        )+];
-    )+ };
+texts! {
+    "a program": program;
+    "longest lines": |_| "X".repeat(990);
+    "short lines": |_| "X1".into();
+    "empty lines": |_| String::new();
 }
 
-texts! {
-    "a program, 1 KB": program, 1_000;
-    "a program, 100 KB": program, 100_000;
-    "a program, 10 MB": program, 10_000_000;
-    "longest lines, 100 KB": |_| "X".repeat(990), 100_000;
-    "short lines, 100 KB": |_| "X1".into(), 100_000;
-    "empty lines, 100 KB": |_| String::new(), 100_000;
+macro_rules! checks {
+    ($($subject:literal: $lines:expr;)+) => {
+        pub(super) const CHECKS: &[&[Case]] = &[$(
+            checks!(@each concat!("check of ", $subject, ", as it comes"), $lines, "\r\n", checked),
+            checks!(@each concat!("check of ", $subject, ", as a whole"), $lines, "\n", findings),
+        )+];
+    };
+    (@each $subject:expr, $lines:expr, $end:literal, $run:ident) => {
+        &[
+            Case::new($subject, "1 KB", || $run(text(&$lines, $end, 1_000))),
+            Case::new($subject, "100 KB", || $run(text(&$lines, $end, 100_000)))
+                .within(&[Limit::Instructions("1 KB", 1.58)]),
+        ]
+    };
 }
 
 checks! {
-    CHECKS &[Limit::Each(12.0)];
-    "a program, 1 KB": program, 1_000;
-    "a program, 100 KB": program, 100_000;
-    "a program, 1 MB": program, 1_000_000;
-    "positions, 100 KB": |at| format!("N{at}0 G01 X{at}.125 Y-{at}.5 Z0.001 F1200"), 100_000;
-    "comments, 100 KB": |at| format!("({at} is all (that (is) said) here) ; and this"), 100_000;
-    // What nobody writes: shown.
-    UNUSUAL &[];
-    "empty lines, 100 KB": |_| String::new(), 100_000;
-    "open quotes, 100 KB": |_| "\"(".repeat(400), 100_000;
-    "names, 100 KB": |at| format!("V.E.NAME_{at}.M30 = V.P.M2_{at} + _M30"), 100_000;
+    "a program": program;
+    "positions": |at| format!("N{at}0 G01 X{at}.125 Y-{at}.5 Z0.001 F1200");
+    "comments": |at| format!("({at} is all (that (is) said) here) ; and this");
+    "empty lines": |_| String::new();
+    "open quotes, by line": |_| "\"(".repeat(400);
+    "names": |at| format!("V.E.NAME_{at}.M30 = V.P.M2_{at} + _M30");
 }
 
 /// A hundred times the text may cost 10^(2 × 1.1) times the instructions, which is 1.58 for each

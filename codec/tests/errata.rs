@@ -1,9 +1,9 @@
-//! The page on the contradictions of the manuals.
+//! The page on the errata of the manuals.
 
 /// It has every erratum of the register.
 #[test]
 fn the_page_has_every_erratum() {
-    let page = include_str!("../src/contradictions.rs");
+    let page = include_str!("../src/errata.md");
     let words: Vec<&str> = page.split(|c: char| !c.is_alphanumeric() && c != '-').collect();
     let register = ads_cnc_vectors::errata();
     let missing: Vec<&str> =

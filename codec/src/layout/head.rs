@@ -1,0 +1,62 @@
+//! The fixed fields that a record begins with, as numbers: an error needs them without their texts.
+
+use super::spec::FieldSpec;
+
+/// Number of the fixed fields that a record begins with.
+pub(super) const fn count(fields: &[FieldSpec]) -> usize {
+    let (mut count, mut left) = (0_usize, fields);
+    while let [row, rest @ ..] = left {
+        if row.size.fixed() == 0 || row.per_item > 0 {
+            break;
+        }
+        (count, left) = (count.saturating_add(1), rest);
+    }
+    count
+}
+
+/// Their sizes, one after the other without a gap.
+pub(super) const fn sizes<const COUNT: usize>(fields: &[FieldSpec]) -> [u8; COUNT] {
+    let mut sizes = [0; COUNT];
+    let (mut left, mut rows): (&mut [u8], _) = (&mut sizes, fields);
+    while let ([size, others @ ..], [row, rest @ ..]) = (left, rows) {
+        [*size, ..] = row.size.fixed().to_le_bytes();
+        (left, rows) = (others, rest);
+    }
+    sizes
+}
+
+/// The bytes of the fixed fields that a record begins with.
+pub(super) const fn head(fields: &[FieldSpec]) -> usize {
+    let (mut head, mut left, mut more) = (0_usize, fields, count(fields));
+    while let ([row, rest @ ..], 1..) = (left, more) {
+        let mut size = row.size.fixed();
+        while size > 0 {
+            (head, size) = (head.saturating_add(1), size.saturating_sub(1));
+        }
+        (left, more) = (rest, more.saturating_sub(1));
+    }
+    head
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::layout::Stream;
+
+    /// The sizes are those of the rows, and the offsets of the rows are their sums.
+    #[test]
+    fn heads_are_the_fixed_fields_in_front() {
+        for stream in Stream::all() {
+            let rows = stream.layout().fields;
+            let front = rows.iter().take_while(|row| row.per_item == 0 && row.size.fixed() > 0);
+            assert_eq!(front.clone().count(), stream.head_sizes().len(), "{stream}");
+            let mut end = 0;
+            for (row, &size) in front.zip(stream.head_sizes()) {
+                // Tables that are no streams have no order.
+                let offset = if stream.layout().is_stream() { end } else { row.offset };
+                assert_eq!((row.offset, row.size.fixed()), (offset, size.into()), "{stream}");
+                end += row.size.fixed();
+            }
+            assert_eq!(stream.layout().head(), usize::try_from(end).unwrap(), "{stream}");
+        }
+    }
+}
