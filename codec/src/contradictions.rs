@@ -231,6 +231,6 @@
 //! | order of elements in more than one dimension (VAR-21) | the last index runs fastest | [`Elements::get`](crate::value::Elements::get), by places in any order |
 //! | codes without a name (VAR-23) | kept as numbers | [`VariableType`](crate::VariableType), [`VariableAccess`](crate::VariableAccess), [`Validity`](crate::Validity) |
 //! | which of SDA and GEO serves a class (ADR-10) | either | [`Call::port`](crate::operation::Call::port) |
-//! | error numbers (ADS-7) | the server's choice | [`Refusal::ads_error`](crate::operation::Refusal::ads_error), [`AdsError`](crate::ads::AdsError) |
+//! | error numbers (ADS-7) | the server's choice | [`DispatchError::ads_error`](crate::operation::DispatchError::ads_error), [`AdsError`](crate::ads::AdsError) |
 //! | how a full stream is told from one that refuses for good (STM-6) | the caller's choice | [`Ack`](crate::streaming::Ack) |
 //! | whether the interface sets REQUEST_STATE to 0 itself (SVC-4) | it does, when RESPONSE_STATE is written | [`Clears`](crate::service::Clears) |

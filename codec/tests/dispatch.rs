@@ -46,7 +46,7 @@ fn calls_ask_for_what_their_service_has() {
     }
 }
 
-fn refusal(change: impl FnOnce(&mut Call<'_>)) -> Refusal {
+fn refusal(change: impl FnOnce(&mut Call<'_>)) -> DispatchError {
     let sample = CALLS.iter().find(|sample| sample.slug == "handle-printed").unwrap();
     let mut call = sample.call;
     change(&mut call);
@@ -59,66 +59,78 @@ fn one_fault_is_refused_for_what_it_is() {
     let group = IndexGroup::new;
     let offset = IndexOffset::new;
     let cases = [
-        (refusal(|call| call.port = AmsPort(851)), Refusal::Port(AmsPort(851)), 0x6),
+        (refusal(|call| call.port = AmsPort(851)), DispatchError::Port(AmsPort(851)), 0x6),
         // COM answers for no class, SDA for no objects.
-        (refusal(|call| call.port = AmsPort::COM), Refusal::Group(group(0x12_2301)), 0x702),
+        (refusal(|call| call.port = AmsPort::COM), DispatchError::Group(group(0x12_2301)), 0x702),
         (
             refusal(|call| call.index_group = group(0x13_0101)),
-            Refusal::Group(group(0x13_0101)),
+            DispatchError::Group(group(0x13_0101)),
             0x702,
         ),
         // There is no channel 0 with variables, though elements may be there.
-        (refusal(|call| call.index_group = group(0x12_2300)), Refusal::Offset(offset(0x46)), 0x703),
+        (
+            refusal(|call| call.index_group = group(0x12_2300)),
+            DispatchError::Offset(offset(0x46)),
+            0x703,
+        ),
         (
             refusal(|call| call.index_group = group(0x12_2401)),
-            Refusal::Service { takes: Service::Read, asked: Service::ReadWrite },
+            DispatchError::Service { takes: Service::Read, asked: Service::ReadWrite },
             0x701,
         ),
         // Object addresses are asked for without a channel in the group (SDA-1).
         (
             refusal(|call| call.index_group = group(0x12_3901)),
-            Refusal::Group(group(0x12_3901)),
+            DispatchError::Group(group(0x12_3901)),
             0x702,
         ),
-        (refusal(|call| call.index_group = group(0xF005)), Refusal::Group(group(0xF005)), 0x702),
-        (refusal(|call| call.index_offset = offset(0x4D)), Refusal::Offset(offset(0x4D)), 0x703),
+        (
+            refusal(|call| call.index_group = group(0xF005)),
+            DispatchError::Group(group(0xF005)),
+            0x702,
+        ),
+        (
+            refusal(|call| call.index_offset = offset(0x4D)),
+            DispatchError::Offset(offset(0x4D)),
+            0x703,
+        ),
         (
             refusal(|call| call.index_offset = offset(0x1_0046)),
-            Refusal::Offset(offset(0x1_0046)),
+            DispatchError::Offset(offset(0x1_0046)),
             0x703,
         ),
         (
             refusal(|call| call.service = Service::Write),
-            Refusal::Service { takes: Service::ReadWrite, asked: Service::Write },
+            DispatchError::Service { takes: Service::ReadWrite, asked: Service::Write },
             0x701,
         ),
     ];
     for (refused, wanted, number) in cases {
         assert_eq!((refused, refused.ads_error()), (wanted, AdsError(number)));
     }
-    let Refusal::Stream(error) = refusal(|call| call.data = b"V.E.vartest") else { panic!() };
+    let DispatchError::Stream(error) = refusal(|call| call.data = b"V.E.vartest") else { panic!() };
     assert_eq!((error.kind(), error.field().name()), (ErrorKind::MissingNul, "name"));
-    assert_eq!(Refusal::Stream(error).ads_error(), AdsError::INVALID_SIZE);
+    assert_eq!(DispatchError::Stream(error).ads_error(), AdsError::INVALID_SIZE);
 }
 
 /// The function that is called, or the refusal, looked for in every row of the table.
-fn looked_for(call: &Call<'_>) -> Result<Function, Refusal> {
-    let task = Task::from_port(call.port).ok_or(Refusal::Port(call.port))?;
-    let group = call.index_group.parts().ok_or(Refusal::Group(call.index_group))?;
-    let mut refusal = Refusal::Group(call.index_group);
+fn looked_for(call: &Call<'_>) -> Result<Function, DispatchError> {
+    let task = Task::from_port(call.port).ok_or(DispatchError::Port(call.port))?;
+    let group = call.index_group.parts().ok_or(DispatchError::Group(call.index_group))?;
+    let mut refusal = DispatchError::Group(call.index_group);
     for function in Function::ALL.iter().copied() {
         let spec = function.spec();
         // SDA and GEO stand in for each other, COM for none.
-        if (spec.task == Task::Com) != (task == Task::Com) || !spec.group.holds(group) {
+        if (spec.task == Task::Com) != (task == Task::Com) || !spec.group.contains(group) {
             continue;
         }
-        let here = spec.offset.holds(call.index_offset);
+        let here = spec.offset.contains(call.index_offset);
         if here && spec.service == call.service {
             return Ok(function);
         } else if here && !spec.is_content() {
-            return Err(Refusal::Service { takes: spec.service, asked: call.service });
+            return Err(DispatchError::Service { takes: spec.service, asked: call.service });
         }
-        refusal = Refusal::Offset(call.index_offset);
+        refusal = DispatchError::Offset(call.index_offset);
     }
     Err(refusal)
 }
@@ -126,7 +138,7 @@ fn looked_for(call: &Call<'_>) -> Result<Function, Refusal> {
 fn check_looked_for(call: &Call<'_>) {
     match (call.dispatch(), looked_for(call)) {
         (Ok(request), found) => assert_eq!(Ok(request.function()), found, "{call:?}"),
-        (Err(Refusal::Stream(_)), found) => assert!(found.is_ok(), "{call:?}"),
+        (Err(DispatchError::Stream(_)), found) => assert!(found.is_ok(), "{call:?}"),
         (Err(refusal), found) => assert_eq!(Err(refusal), found, "{call:?}"),
     }
 }

@@ -6,7 +6,7 @@ use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Effect::{self, Motion, Query};
 use ads_cnc::operation::Service::{self, Read, ReadWrite, Write};
-use ads_cnc::operation::{Call, CountDynamic, Function, Operation, Refusal, Task};
+use ads_cnc::operation::{Call, CountDynamic, DispatchError, Function, Operation, Task};
 use ads_cnc::*;
 
 /// Name, service, port, group and offset, streams in and out, effect, requirement and section.
@@ -65,7 +65,7 @@ fn functions_are_where_the_manuals_put_them() {
         let (port, basis) = (spec.task.port().0, (spec.clause, spec.section));
         let found: Row = (spec.name, spec.service, port, address, streams, spec.effect, basis);
         assert_eq!(found, *row, "{function:?}: ROWS has the order of Function::ALL");
-        assert!(spec.offset.holds(IndexOffset::new(row.3.1)), "{}", spec.name);
+        assert!(spec.offset.contains(IndexOffset::new(row.3.1)), "{}", spec.name);
         assert_eq!(spec.effect == Query, spec.service != Write, "{}", spec.name);
     }
     let rows: Vec<&str> = ROWS.iter().map(|row| row.0).collect();
@@ -78,7 +78,7 @@ fn functions_are_where_the_manuals_put_them() {
 fn offsets_of_dynamic_parameters() {
     let offsets = |function: Function| -> Vec<u32> {
         let rule = function.spec().offset;
-        (0..0x100).filter(|&offset| rule.holds(IndexOffset::new(offset))).collect()
+        (0..0x100).filter(|&offset| rule.contains(IndexOffset::new(offset))).collect()
     };
     assert_eq!(offsets(Function::CountDynamic), [0x02, 0x03, 0x04, 0x05]);
     assert_eq!(offsets(Function::DynamicNameByIndex), [0x1B, 0x1E, 0x21, 0x24]);
@@ -115,12 +115,12 @@ fn the_axis_interface_begins_at_axis_1() {
         assert_eq!(u32::from(op.axis.place()), place);
     }
     for absent in [6, 0x1_0003, 0x1_0007, 0x1_0044] {
-        let refusal = Refusal::Offset(IndexOffset::new(absent));
+        let refusal = DispatchError::Offset(IndexOffset::new(absent));
         assert_eq!(call(absent).dispatch(), Err(refusal));
     }
     // At axis 0 they count variables.
     for count in [4, 5] {
-        let refusal = Refusal::Service { takes: Read, asked: ReadWrite };
+        let refusal = DispatchError::Service { takes: Read, asked: ReadWrite };
         assert_eq!(call(count).dispatch(), Err(refusal));
     }
 }
@@ -256,7 +256,7 @@ fn there_is_no_axis_0() {
     };
     assert!(call(0x13_0201).dispatch().is_ok());
     for absent in [0x13_0200, 0x3_0200] {
-        assert_eq!(call(absent).dispatch(), Err(Refusal::Group(IndexGroup::new(absent))));
+        assert_eq!(call(absent).dispatch(), Err(DispatchError::Group(IndexGroup::new(absent))));
     }
     // Nor is there a channel 0 with variables.
     let variables = Channel::new(1).unwrap().class(Class::Decoder, Attribute::Content);
@@ -269,7 +269,7 @@ fn there_is_no_axis_0() {
         data,
         ..call(0x12_2300)
     };
-    assert!(matches!(of_channel_0.dispatch(), Err(Refusal::Offset(_))));
+    assert!(matches!(of_channel_0.dispatch(), Err(DispatchError::Offset(_))));
 }
 
 /// A server that sizes its answer by the count asked for is not made to allocate 4 GiB.
