@@ -23,7 +23,7 @@ fn functions_are_no_content() {
     for (group, offset) in of_decoder.chain([(0x12_0101, 0x90), (0x2_0106, 0x90)]) {
         let call = content(group, offset);
         let refusal = call.dispatch().unwrap_err();
-        assert!(matches!(refusal, Refusal::Service { .. }), "{call:?}: {refusal}");
+        assert!(matches!(refusal, DispatchError::Service { .. }), "{call:?}: {refusal}");
         let (group, offset) = (call.index_group, call.index_offset);
         let error = match call.port {
             AmsPort::COM => {
@@ -84,7 +84,7 @@ fn content_of_a_platform_axis_has_two_addresses() {
     }
     let group = IndexGroup::new(0x13_0200);
     let refused = Call { index_group: group, ..call(0, 0) }.dispatch();
-    assert_eq!(refused, Err(Refusal::Group(group)));
+    assert_eq!(refused, Err(DispatchError::Group(group)));
 }
 
 /// Content is not longer than was asked for, and its addresses are those of content.

@@ -59,14 +59,14 @@ fn a_call_is_the_request_of_its_service() {
         assert_eq!((call.encode(&mut buf), call.encoded_len()), (Ok(bytes), bytes.len()));
         let frame =
             |command| FrameRef::new(AmsHeader::request(TARGET, SOURCE, command, 7), bytes).unwrap();
-        assert_eq!(Call::of_frame(&frame(command)), Ok(Some(call)));
-        assert_eq!(Call::of_frame(&frame(Command::READ_STATE)), Ok(None));
+        assert_eq!(Call::from_frame(&frame(command)), Ok(Some(call)));
+        assert_eq!(Call::from_frame(&frame(Command::READ_STATE)), Ok(None));
         let header = AmsHeader::request(TARGET, SOURCE, command, 7);
         // Whoever watches both ways looks at the flags first.
         let flagged = AmsHeader { state_flags: StateFlags::RESPONSE, ..header };
-        assert_eq!(Call::of_frame(&FrameRef::new(flagged, bytes).unwrap()), Ok(Some(call)));
+        assert_eq!(Call::from_frame(&FrameRef::new(flagged, bytes).unwrap()), Ok(Some(call)));
         let cut = FrameRef::new(header, &bytes[..bytes.len() - 1]).unwrap();
-        assert_eq!(Call::of_frame(&cut).unwrap_err().kind(), Truncated);
+        assert_eq!(Call::from_frame(&cut).unwrap_err().kind(), Truncated);
     }
     let error = call(Service::Read, b"a").encode(&mut [0; 32]).unwrap_err();
     assert_eq!((error.kind(), error.expected(), error.found()), (Trailing, 12, 13));

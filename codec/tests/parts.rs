@@ -80,7 +80,7 @@ fn lists_and_objects_keep_their_address() {
         let offset = IndexOffset::new(0x17);
         let read = ReadObject::new(group.index_group(), offset, 8).unwrap();
         let write = WriteObject::new(group.index_group(), offset, b"12345678").unwrap();
-        assert_eq!((read.place(), write.place()), ((group, offset), (group, offset)));
+        assert_eq!((read.address(), write.address()), ((group, offset), (group, offset)));
         assert_eq!(write.content().bytes, b"12345678");
     }
 }
@@ -93,7 +93,7 @@ fn descriptors_are_asked_for_from_1_and_as_many_as_fit() {
         let read = ReadDescriptors::new(ObjectList::PLATFORM, first, count);
         read.map_err(|error| (error.kind(), error.field().name(), error.expected(), error.found()))
     };
-    assert_eq!(ask(0, 1), Err((ErrorKind::OutOfRange, "id", 1, 0)));
+    assert_eq!(ask(0, 1), Err((ErrorKind::OutOfRange, "element", 1, 0)));
     assert_eq!(ask(1, 0), Err((ErrorKind::OutOfRange, "stream", 1, 0)));
     assert_eq!(ask(1, MOST + 1), Err((ErrorKind::TooMany, "stream", MOST, MOST + 1)));
     let most = ask(1, MOST).unwrap();
@@ -153,13 +153,13 @@ fn dynamic_values_keep_their_bits() {
 fn what_dispatch_refuses_is_not_written_again() {
     let (port, group, offset) = (AmsPort(1), IndexGroup::new(0), IndexOffset::new(0));
     let error = Handle::decode(&[]).unwrap_err();
-    let service = Refusal::Service { takes: Service::Write, asked: Service::Read };
+    let service = DispatchError::Service { takes: Service::Write, asked: Service::Read };
     for refusal in [
-        Refusal::Port(port),
-        Refusal::Group(group),
-        Refusal::Offset(offset),
+        DispatchError::Port(port),
+        DispatchError::Group(group),
+        DispatchError::Offset(offset),
         service,
-        Refusal::Stream(error),
+        DispatchError::Stream(error),
     ] {
         assert_eq!(Ack::of(refusal.ads_error()), Ack::Refused, "{refusal}");
     }

@@ -1,76 +1,41 @@
-//! The numbers that clients and servers share, each written down a second time.
+//! The numbers that clients and servers share, each written down a second time; of functions, as a
+//! snapshot.
 
-use ads_cnc::address::{Attribute, Channel, Class, ElementAddress, IndexGroup, IndexOffset};
+mod common;
+
+use ads_cnc::address::{Attribute, Channel, Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::{AdsError, AmsPort, Command, StateFlags};
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::Effect::{self, Motion, Query};
-use ads_cnc::operation::Service::{self, Read, ReadWrite, Write};
-use ads_cnc::operation::{Call, CountDynamic, Function, Operation, Refusal, Task};
+use ads_cnc::operation::Service::{Read, ReadWrite, Write};
+use ads_cnc::operation::{Call, CountDynamic, DispatchError, Effect, Function, Operation, Task};
 use ads_cnc::*;
+use common::CALLS;
 
-/// Name, service, port, group and offset, streams in and out, effect, requirement and section.
-type Row = (
-    &'static str,
-    Service,
-    u16,
-    (u32, u32),
-    (&'static str, &'static str),
-    Effect,
-    (&'static str, &'static str),
-);
-
-/// Every function, where the manuals put it. What a gate lets through by itself rests on its effect.
-#[rustfmt::skip]
-const ROWS: &[Row] = &[
-    ("number of objects", Read, 553, (0x13_0101, 0), ("", "object-count"), Query, ("COM-1", "2.1.1")),
-    ("object descriptors", Read, 553, (0x13_0101, 1), ("", "object-descriptors"), Query, ("COM-2", "2.1.1")),
-    ("number of variable elements", ReadWrite, 552, (0x12_2301, 0x44), ("variable-kind", "variable-count"), Query, ("VAR-2", "4.3.1")),
-    ("variable description by index", ReadWrite, 552, (0x12_2301, 0x45), ("variable-index-kind", "variable-description"), Query, ("VAR-4", "4.3.2")),
-    ("variable handle by name", ReadWrite, 552, (0x12_2301, 0x46), ("variable-name", "variable-handle"), Query, ("VAR-10", "4.3.3")),
-    ("read variable value by handle", ReadWrite, 552, (0x12_2301, 0x47), ("variable-handle-read", "variable-value"), Query, ("VAR-11", "4.3.4")),
-    ("read variable value by name", ReadWrite, 552, (0x12_2301, 0x48), ("variable-name", "variable-value"), Query, ("VAR-14", "4.3.5")),
-    ("write variable value by handle", Write, 552, (0x12_2301, 0x49), ("variable-handle-write", ""), Effect::Write, ("VAR-12", "4.3.6")),
-    ("write variable value by name", Write, 552, (0x12_2301, 0x4A), ("variable-name-write", ""), Effect::Write, ("VAR-13", "4.3.7")),
-    ("extended variable description by index", ReadWrite, 552, (0x12_2301, 0x4B), ("variable-index-kind", "variable-extended-description"), Query, ("VAR-15", "4.3.8")),
-    ("variable description by name", ReadWrite, 552, (0x12_2301, 0x4C), ("variable-name", "variable-description-by-name"), Query, ("VAR-28", "online")),
-    ("axis variable handle by name", ReadWrite, 552, (0x12_2301, 0x2_0004), ("variable-name", "variable-handle"), Query, ("VAR-26", "4.3.9")),
-    ("read axis variable value by name", ReadWrite, 552, (0x12_2301, 0x2_0005), ("variable-name", "variable-value"), Query, ("VAR-26", "4.3.10")),
-    ("write axis variable value by name", Write, 552, (0x12_2301, 0x2_0006), ("variable-name-write", ""), Effect::Write, ("VAR-26", "4.3.11")),
-    ("number of dynamic parameters", Read, 552, (0x12_2301, 0x02), ("", "dynamic-count"), Query, ("DYN-1", "3.1 … 3.4")),
-    ("dynamic parameter name by index", ReadWrite, 552, (0x12_2301, 0x1B), ("dynamic-index", "dynamic-name"), Query, ("DYN-2", "3.1 … 3.4")),
-    ("dynamic parameter value by name", ReadWrite, 552, (0x12_2301, 0x1C), ("dynamic-name-request", "dynamic-value"), Query, ("DYN-3", "3.1 … 3.4")),
-    ("dynamic parameter value by index", ReadWrite, 552, (0x12_2301, 0x1D), ("dynamic-index", "dynamic-value"), Query, ("DYN-4", "3.1 … 3.4")),
-    ("object address", ReadWrite, 552, (0x12_3900, 0), ("object-address-query", "object-address"), Query, ("SDA-1", "2.2.2")),
-    ("number of element types", Read, 552, (0x12_3301, 0), ("", "element-count"), Query, ("SDA-4", "2.2.2")),
-    ("element content", Read, 552, (0x12_3301, 1), ("", "content"), Query, ("SDA-4", "2.2.2")),
-    ("write element content", Write, 552, (0x12_3301, 1), ("content", ""), Motion, ("SDA-9", "2.2.2")),
-    ("element name", Read, 552, (0x12_3401, 1), ("", "element-text"), Query, ("SDA-6", "2.2.2")),
-    ("element type", Read, 552, (0x12_3501, 1), ("", "element-text"), Query, ("SDA-7", "2.2.2")),
-    ("element length", Read, 552, (0x12_3601, 1), ("", "element-length"), Query, ("SDA-8", "2.2.2")),
-    ("element unit", Read, 552, (0x12_3701, 1), ("", "element-text"), Query, ("SDA-6", "2.2.2")),
-    ("element write flag", Read, 552, (0x12_3801, 1), ("", "element-write-flag"), Query, ("SDA-9", "2.2.2")),
-    ("data streaming", Write, 553, (0x12_0101, 0x90), ("program-stream", ""), Motion, ("STM-1", "stream-en 3.2")),
-    ("object content", Read, 553, (0x12_0101, 1), ("", "content"), Query, ("COM-5", "2.1.2")),
-    ("write object content", Write, 553, (0x12_0101, 1), ("content", ""), Motion, ("COM-5", "2.1.2")),
-];
-
+/// Every function as its row has it, and the read length of a call. What a gate lets through by
+/// itself rests on the effect.
 #[test]
 fn functions_are_where_the_manuals_put_them() {
-    for (function, row) in Function::ALL.iter().zip(ROWS) {
+    let mut shown = String::new();
+    for function in Function::ALL.iter().copied() {
         let spec = function.spec();
-        let name = |stream: Option<Stream>| stream.map_or("", |stream| stream.layout().name);
-        let address = (spec.group.example().get(), row.3.1);
-        let streams = (name(spec.request), name(spec.reply));
-        let (port, basis) = (spec.task.port().0, (spec.clause, spec.section));
-        let found: Row = (spec.name, spec.service, port, address, streams, spec.effect, basis);
-        assert_eq!(found, *row, "{function:?}: ROWS has the order of Function::ALL");
-        assert!(spec.offset.holds(IndexOffset::new(row.3.1)), "{}", spec.name);
-        assert_eq!(spec.effect == Query, spec.service != Write, "{}", spec.name);
+        let sample = CALLS.iter().find(|sample| sample.function == function).unwrap();
+        let mut buf = [0; 256];
+        let request = sample.call.dispatch().unwrap();
+        let length = request.encode(&mut buf).unwrap().read_length;
+        let name = |stream: Option<Stream>| stream.map_or("nothing", |stream| stream.layout().name);
+        shown +=
+            &format!("{}: {} to {:?}, {:?}\n", spec.name, spec.service, spec.task, spec.effect);
+        shown +=
+            &format!("    at {} ({:?}), {:x?}\n", spec.group.example(), spec.group, spec.offset);
+        shown += &format!("    {} in, {} out, ", name(spec.request), name(spec.reply));
+        shown += &format!("at most {length} bytes; {}, {}\n", spec.clause, spec.section);
+        assert_eq!(spec.effect == Effect::Query, spec.service != Write, "{}", spec.name);
+        assert!(spec.offset.contains(sample.call.index_offset), "{}", spec.name);
     }
-    let rows: Vec<&str> = ROWS.iter().map(|row| row.0).collect();
-    let functions: Vec<&str> = Function::ALL.iter().map(|one| one.spec().name).collect();
-    assert_eq!(rows, functions, "a row is missing at the end, or one too many");
+    insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false }, {
+        insta::assert_snapshot!("functions", shown);
+    });
 }
 
 /// Each kind of dynamic parameters has its own four offsets, and no other offset is one.
@@ -78,7 +43,7 @@ fn functions_are_where_the_manuals_put_them() {
 fn offsets_of_dynamic_parameters() {
     let offsets = |function: Function| -> Vec<u32> {
         let rule = function.spec().offset;
-        (0..0x100).filter(|&offset| rule.holds(IndexOffset::new(offset))).collect()
+        (0..0x100).filter(|&offset| rule.contains(IndexOffset::new(offset))).collect()
     };
     assert_eq!(offsets(Function::CountDynamic), [0x02, 0x03, 0x04, 0x05]);
     assert_eq!(offsets(Function::DynamicNameByIndex), [0x1B, 0x1E, 0x21, 0x24]);
@@ -115,42 +80,14 @@ fn the_axis_interface_begins_at_axis_1() {
         assert_eq!(u32::from(op.axis.place()), place);
     }
     for absent in [6, 0x1_0003, 0x1_0007, 0x1_0044] {
-        let refusal = Refusal::Offset(IndexOffset::new(absent));
+        let refusal = DispatchError::Offset(IndexOffset::new(absent));
         assert_eq!(call(absent).dispatch(), Err(refusal));
     }
     // At axis 0 they count variables.
     for count in [4, 5] {
-        let refusal = Refusal::Service { takes: Read, asked: ReadWrite };
+        let refusal = DispatchError::Service { takes: Read, asked: ReadWrite };
         assert_eq!(call(count).dispatch(), Err(refusal));
     }
-}
-
-/// Read lengths hold the longest reply there is.
-#[test]
-fn read_lengths_hold_the_longest_reply() {
-    use operation::*;
-    let channel = Channel::new(1).unwrap();
-    let name = TextRef::new("V.E.a").unwrap();
-    assert_eq!(CountObjects::new(channel).read_length(), 4);
-    assert_eq!(ReadDescriptors::new(channel, 1, 3).unwrap().read_length(), 252);
-    assert_eq!(CountVariables::new(channel, Kind::V_E).read_length(), 4);
-    assert_eq!(DescribeByIndex::new(channel, 0, Kind::V_E).read_length(), 2048);
-    assert_eq!(HandleByName { channel, name }.read_length(), 4);
-    assert_eq!(ReadByHandle::new(channel, Handle(1), Numbers::EMPTY).read_length(), 2048);
-    assert_eq!(ReadByName { channel, name }.read_length(), 2048);
-    assert_eq!(DescribeExtended::new(channel, 0, Kind::V_E).read_length(), 2048);
-    assert_eq!(WriteByName::new(channel, "V.E.a", &[]).unwrap().read_length(), 0);
-    assert_eq!(DescribeByName { channel, name }.read_length(), 2048);
-    assert_eq!(CountDynamic::new(channel, DynamicKind::P).read_length(), 4);
-    assert_eq!(DynamicNameByIndex::new(channel, DynamicKind::P, 1).unwrap().read_length(), 96);
-    assert_eq!(DynamicValueByName { channel, kind: DynamicKind::P, name }.read_length(), 8);
-    assert_eq!(FindInstance::new(Class::Hld, 1, 0).read_length(), 8);
-    let element = ElementAddress::of_channel(channel, Class::Hld, 1).unwrap();
-    assert_eq!(CountElements::new(element).unwrap().read_length(), 4);
-    assert_eq!(ReadElement::new(element, 7).unwrap().read_length(), 7);
-    assert_eq!(ReadElementName::new(element).read_length(), 256);
-    assert_eq!(ReadElementLength::new(element).read_length(), 4);
-    assert_eq!(ReadElementWriteFlag::new(element).read_length(), 1);
 }
 
 /// ADS-5, ADS-7, GEN-4: numbers of AMS and ADS.
@@ -256,7 +193,7 @@ fn there_is_no_axis_0() {
     };
     assert!(call(0x13_0201).dispatch().is_ok());
     for absent in [0x13_0200, 0x3_0200] {
-        assert_eq!(call(absent).dispatch(), Err(Refusal::Group(IndexGroup::new(absent))));
+        assert_eq!(call(absent).dispatch(), Err(DispatchError::Group(IndexGroup::new(absent))));
     }
     // Nor is there a channel 0 with variables.
     let variables = Channel::new(1).unwrap().class(Class::Decoder, Attribute::Content);
@@ -269,7 +206,7 @@ fn there_is_no_axis_0() {
         data,
         ..call(0x12_2300)
     };
-    assert!(matches!(of_channel_0.dispatch(), Err(Refusal::Offset(_))));
+    assert!(matches!(of_channel_0.dispatch(), Err(DispatchError::Offset(_))));
 }
 
 /// A server that sizes its answer by the count asked for is not made to allocate 4 GiB.

@@ -62,7 +62,7 @@ fn places() -> impl Strategy<Value = Place> {
         .map(|function| {
             let spec = function.spec();
             let offset = match spec.offset {
-                OffsetRule::At(at) | OffsetRule::From(at) => at,
+                OffsetRule::At(at) | OffsetRule::AtLeast(at) => at,
                 OffsetRule::OfAxis(element) => 0x2_0000 + element,
                 OffsetRule::OfKind([first, ..]) => first,
                 _ => 0,

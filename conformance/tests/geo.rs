@@ -25,7 +25,7 @@ enum Only {
 fn cnc(only: Only) -> SocketAddr {
     let cnc = Cnc::with_default_model().unwrap();
     reacting(move |frame| {
-        let call = Call::of_frame(frame).unwrap().unwrap();
+        let call = Call::from_frame(frame).unwrap().unwrap();
         let of_class = match call.index_group.parts() {
             Some(Group::Class(group)) => group.class == Class::PositionController,
             _ => false,

@@ -223,7 +223,7 @@ fn answers_of_a_megabyte_with_wrong_flags_and_addresses() {
 fn everything() -> SocketAddr {
     const DESCRIPTION: &[u8] = b"\x02\0\0\x02\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0";
     serving(|frame, out| {
-        let Ok(Some(call)) = Call::of_frame(frame) else { return out.write_all(&refusal(frame)) };
+        let Ok(Some(call)) = Call::from_frame(frame) else { return out.write_all(&refusal(frame)) };
         let number = frame.header().invoke_id;
         let data = match call.dispatch() {
             Ok(

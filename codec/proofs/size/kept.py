@@ -23,7 +23,7 @@ TRAITS = [
     ("Decode", None, "decode"),
     ("Encode", None, "encode encoded_len"),
     ("operation::Operation", None,
-     "index_group index_offset read_length encoded_len encode decode_reply"),
+     "port service index_group index_offset read_length encoded_len encode call decode_reply"),
     ("value::EncodeValue", "values", "data_type element_count value_len encode_value"),
     ("Iterator", None, "next"),
     ("DoubleEndedIterator", None, "next_back"),

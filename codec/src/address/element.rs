@@ -2,7 +2,7 @@
 
 use super::{
     Addressing, Attribute, Channel, ChannelAxis, Class, ClassGroup, IndexGroup, IndexOffset,
-    OfClass, Spindle,
+    Spindle,
 };
 use crate::error::{Error, ErrorKind};
 use crate::layout::field::index_offset::ELEMENT;
@@ -29,7 +29,7 @@ const ELEMENT_MAX: u32 = 0xFFFF;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ElementAddress {
-    group: OfClass,
+    group: ClassGroup,
     offset: IndexOffset,
 }
 
@@ -37,12 +37,13 @@ impl ElementAddress {
     /// The element at this offset, as a query of an object address gives it. Which attribute the
     /// group has does not matter.
     pub const fn new(group: ClassGroup, offset: IndexOffset) -> Self {
-        Self::known(OfClass::new(group), offset)
-    }
-
-    #[inline]
-    pub(crate) const fn known(group: OfClass, offset: IndexOffset) -> Self {
-        Self { group: group.with(Attribute::Content), offset }
+        // A spindle has no logical form.
+        let addressing = match group.class {
+            Class::Spindle => Addressing::Index,
+            _ => group.addressing,
+        };
+        let attribute = Attribute::Content;
+        Self { group: ClassGroup { addressing, attribute, ..group }, offset }
     }
 
     /// An element of a channel itself.
@@ -98,12 +99,12 @@ impl ElementAddress {
 
     /// Class and instance; the attribute is the content.
     pub const fn class_group(self) -> ClassGroup {
-        self.group.parts()
+        self.group
     }
 
     /// The index group of an attribute.
     pub const fn group(self, attribute: Attribute) -> IndexGroup {
-        self.group.with(attribute).group()
+        ClassGroup { attribute, ..self.group }.index_group()
     }
 
     /// The index offset, of all attributes.

@@ -2,13 +2,13 @@
 
 use core::fmt;
 
-use super::{Channel, ClassGroup, OfClass, OfCom, PlatformAxis};
+use super::{Attribute, Channel, Class, ClassGroup, PlatformAxis};
 
 const LOGICAL: u32 = 0x10_0000;
 pub(super) const ELEMENT: u32 = 0x02_0000;
-pub(super) const OBJECT: u32 = 0x03_0000;
+const OBJECT: u32 = 0x03_0000;
 const COM_CHANNEL: u32 = 0x100;
-pub(super) const COM_AXIS: u32 = 0x200;
+const COM_AXIS: u32 = 0x200;
 
 /// An index group as ADS carries it: any number.
 ///
@@ -46,28 +46,31 @@ impl IndexGroup {
 
     /// What the group addresses, if it is one of the manuals'; [`Group::index_group`] undoes it.
     pub const fn parts(self) -> Option<Group> {
-        let [_, table, ..] = self.0.to_le_bytes();
-        match (self.0 & !(LOGICAL | 0xFFFF), table >> 4, table & 0x0F) {
-            (ELEMENT | OBJECT, 0, 1 | 2) => Some(Group::Com(OfCom::known(self).parts())),
-            // Spindles have no logical form.
-            (ELEMENT, 5, 3..=9) if (self.0 & LOGICAL) > 0 => None,
-            (ELEMENT, 0..=5, 3..=9) => Some(Group::Class(OfClass::known(self).parts())),
-            _ => None,
-        }
-    }
-
-    /// What the group has in its lowest byte, and how that is meant.
-    #[inline]
-    pub(crate) const fn instance(self) -> (u8, Addressing) {
-        let [instance, ..] = self.0.to_le_bytes();
-        (instance, self.addressing())
-    }
-
-    #[inline]
-    const fn addressing(self) -> Addressing {
-        match self.0 & LOGICAL {
+        let [instance, table, ..] = self.0.to_le_bytes();
+        let addressing = match self.0 & LOGICAL {
             0 => Addressing::Index,
             _ => Addressing::Logical,
+        };
+        match (self.0 & !(LOGICAL | 0xFFFF), table >> 4, table & 0x0F) {
+            (access @ (ELEMENT | OBJECT), 0, table @ (1 | 2)) => {
+                let access = match access {
+                    OBJECT => Access::Object,
+                    _ => Access::Element,
+                };
+                let table = match table {
+                    1 => ComTable::Channel,
+                    _ => ComTable::Axis,
+                };
+                Some(Group::Com(ComGroup { addressing, access, table, instance }))
+            }
+            // Spindles have no logical form.
+            (ELEMENT, 5, 3..=9) if matches!(addressing, Addressing::Logical) => None,
+            (ELEMENT, class @ 0..=5, attribute @ 3..=9) => {
+                let class = Class::from_number(class);
+                let attribute = Attribute::from_table(attribute);
+                Some(Group::Class(ClassGroup { addressing, class, attribute, instance }))
+            }
+            _ => None,
         }
     }
 }

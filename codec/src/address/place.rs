@@ -2,7 +2,7 @@
 
 use core::num::{NonZeroU8, NonZeroU16};
 
-use super::{Addressing, AxisStride, IndexOffset};
+use super::{Addressing, AxisStride, Group, IndexOffset};
 use crate::error::{Error, ErrorKind};
 use crate::layout::field::index_group::INSTANCE;
 use crate::layout::field::index_offset::AXIS;
@@ -54,10 +54,13 @@ impl Channel {
         Self::with_addressing(rank, Addressing::Index)
     }
 
-    /// That of a group that has been found to be one of a channel: none has the number 0.
-    #[inline]
-    pub(crate) fn of(instance: u8, addressing: Addressing) -> Self {
-        Self { number: NonZeroU8::new(instance).unwrap_or(NonZeroU8::MIN), addressing }
+    /// The channel in the low bits of an index group.
+    pub(crate) fn of(group: Group) -> Option<Self> {
+        let (instance, addressing) = match group {
+            Group::Com(com) => (com.instance, com.addressing),
+            Group::Class(class) => (class.instance, class.addressing),
+        };
+        NonZeroU8::new(instance).map(|number| Self { number, addressing })
     }
 
     fn with_addressing(number: u32, addressing: Addressing) -> Result<Self, Error> {
@@ -133,10 +136,10 @@ impl ChannelAxis {
         fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, AXIS, 0, bound, place))
     }
 
-    /// That of an offset that has been found to be one of an axis: none has the number 0.
-    pub(crate) fn of(offset: IndexOffset) -> Self {
+    /// The axis in the high bits of an index offset.
+    pub(crate) fn of(offset: IndexOffset) -> Option<Self> {
         let [_, _, low, high] = offset.get().to_le_bytes();
-        Self(NonZeroU16::new(u16::from_le_bytes([low, high])).unwrap_or(NonZeroU16::MIN))
+        NonZeroU16::new(u16::from_le_bytes([low, high])).map(Self)
     }
 
     /// The number, from 1.

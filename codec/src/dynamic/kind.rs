@@ -41,15 +41,6 @@ impl DynamicKind {
     /// All of them, in the manual's order.
     pub const ALL: [Self; 4] = [Self::P, Self::VL, Self::VP, Self::VS];
 
-    /// Offsets of the functions that count, kind by kind.
-    pub(crate) const COUNT: [u32; 4] = [0x02, 0x03, 0x04, 0x05];
-    /// Offsets of the functions that give a name by its index.
-    pub(crate) const NAME_BY_INDEX: [u32; 4] = [0x1B, 0x1E, 0x21, 0x24];
-    /// Offsets of the functions that give a value by its name.
-    pub(crate) const VALUE_BY_NAME: [u32; 4] = [0x1C, 0x1F, 0x22, 0x25];
-    /// Offsets of the functions that give a value by its index.
-    pub(crate) const VALUE_BY_INDEX: [u32; 4] = [0x1D, 0x20, 0x23, 0x26];
-
     /// This kind's of a function's four offsets.
     pub(crate) const fn offset(self, [p, vl, vp, vs]: [u32; 4]) -> IndexOffset {
         IndexOffset::new(match self {

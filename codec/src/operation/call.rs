@@ -2,8 +2,7 @@
 
 use core::fmt;
 
-use super::places::Place;
-use super::{Request, Service, Task};
+use super::{Function, Request, Service, Task};
 use crate::address::{IndexGroup, IndexOffset};
 use crate::ads::{AdsError, AmsPort};
 use crate::bytes::to_u32;
@@ -45,12 +44,12 @@ pub struct Call<'a> {
     pub data: &'a [u8],
 }
 
-/// Why a call is none that a CNC answers.
+/// Why a request could not be dispatched.
 ///
 /// ```
 /// use ads_cnc::address::{IndexGroup, IndexOffset};
 /// use ads_cnc::ads::{AdsError, AmsPort};
-/// use ads_cnc::operation::{Call, Refusal, Service};
+/// use ads_cnc::operation::{Call, DispatchError, Service};
 ///
 /// // 0x4E is reserved.
 /// let index_offset = IndexOffset::new(0x4E);
@@ -62,14 +61,14 @@ pub struct Call<'a> {
 ///     read_length: 4,
 ///     data: &[],
 /// };
-/// let refusal = call.dispatch().unwrap_err();
-/// assert_eq!(refusal, Refusal::Offset(index_offset));
-/// assert_eq!(refusal.ads_error(), AdsError::INVALID_OFFSET);
-/// assert_eq!(refusal.to_string(), "no function has index offset 0x4e");
+/// let error = call.dispatch().unwrap_err();
+/// assert_eq!(error, DispatchError::Offset(index_offset));
+/// assert_eq!(error.ads_error(), AdsError::INVALID_OFFSET);
+/// assert_eq!(error.to_string(), "no function has index offset 0x4e");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Refusal {
+pub enum DispatchError {
     /// No task has this port.
     Port(AmsPort),
     /// No function of the task has this index group.
@@ -88,7 +87,7 @@ pub enum Refusal {
     Stream(Error),
 }
 
-impl Refusal {
+impl DispatchError {
     /// The number to answer with. Which one a CNC gives is not documented: assumed (ADS-7).
     pub const fn ads_error(self) -> AdsError {
         match self {
@@ -101,7 +100,7 @@ impl Refusal {
     }
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for DispatchError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Port(port) => write!(f, "no task has port {port}"),
@@ -114,7 +113,7 @@ impl fmt::Display for Refusal {
 }
 
 // No source: a stream's error is shown as the refusal, and who shows a chain would show it twice.
-impl core::error::Error for Refusal {}
+impl core::error::Error for DispatchError {}
 
 impl<'a> Call<'a> {
     /// The function that is called and what it is asked.
@@ -125,7 +124,7 @@ impl<'a> Call<'a> {
     /// ```
     /// use ads_cnc::address::{IndexGroup, IndexOffset};
     /// use ads_cnc::ads::AmsPort;
-    /// use ads_cnc::operation::{Call, Refusal, Request, Service};
+    /// use ads_cnc::operation::{Call, DispatchError, Request, Service};
     ///
     /// let call = Call {
     ///     port: AmsPort::SDA,
@@ -139,35 +138,39 @@ impl<'a> Call<'a> {
     /// assert_eq!(request.name.text(), "V.E.vartest");
     ///
     /// let read = Call { service: Service::Read, ..call };
-    /// let refusal = Refusal::Service { takes: Service::ReadWrite, asked: Service::Read };
-    /// assert_eq!(read.dispatch(), Err(refusal));
+    /// let error = DispatchError::Service { takes: Service::ReadWrite, asked: Service::Read };
+    /// assert_eq!(read.dispatch(), Err(error));
     /// ```
     ///
     /// # Errors
-    /// The first [`Refusal`] of port, group, offset, service and bytes.
-    pub fn dispatch(&self) -> Result<Request<'a>, Refusal> {
-        match self.place().reached(self.service) {
-            Some(function) => Request::decode(function, self),
-            None => Err(self.refusal()),
-        }
-    }
-
-    #[inline]
-    fn place(&self) -> Place {
-        Place::of(self.port, self.index_group, self.index_offset)
-    }
-
-    /// Why no function is called.
-    pub(super) fn refusal(&self) -> Refusal {
-        let place = self.place();
-        match place.function() {
-            _ if Task::from_port(self.port).is_none() => Refusal::Port(self.port),
-            _ if !place.has_group() => Refusal::Group(self.index_group),
-            Some(function) => {
-                Refusal::Service { takes: function.spec().service, asked: self.service }
+    /// The first [`DispatchError`] of port, group, offset, service and bytes.
+    pub fn dispatch(&self) -> Result<Request<'a>, DispatchError> {
+        let task = Task::from_port(self.port).ok_or(DispatchError::Port(self.port))?;
+        let mut error = DispatchError::Group(self.index_group);
+        let group = self.index_group.parts().ok_or(error)?;
+        for function in Function::ALL.iter().copied() {
+            let spec = function.spec();
+            if !spec.is_in(task, group) {
+                continue;
             }
-            None => Refusal::Offset(self.index_offset),
+            error = DispatchError::Offset(self.index_offset);
+            if !spec.offset.contains(self.index_offset) {
+                continue;
+            }
+            if spec.service == self.service {
+                return match spec.service {
+                    Service::Read if !self.data.is_empty() => {
+                        Err(DispatchError::Stream(self.read_with_data()))
+                    }
+                    _ => Request::decode(function, group, self),
+                };
+            }
+            // Another service may still reach content here; not so where a function is (SDA-12).
+            if !spec.is_content() {
+                return Err(DispatchError::Service { takes: spec.service, asked: self.service });
+            }
         }
+        Err(error)
     }
 
     /// A Read carries no data; on the wire it has no room for any.

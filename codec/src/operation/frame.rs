@@ -27,13 +27,13 @@ impl<'a> Call<'a> {
     /// let frame = FrameRef::new(header, call.encode(&mut data)?)?;
     ///
     /// assert_eq!(frame.data()[16..], *b"V.E\0");
-    /// assert_eq!(Call::of_frame(&frame)?, Some(call));
+    /// assert_eq!(Call::from_frame(&frame)?, Some(call));
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ///
     /// # Errors
     /// Those of the service's request.
-    pub fn of_frame(frame: &FrameRef<'a>) -> Result<Option<Self>, Error> {
+    pub fn from_frame(frame: &FrameRef<'a>) -> Result<Option<Self>, Error> {
         let port = frame.header().target.port;
         let (service, index_group, index_offset, read_length, data) = match frame.header().command {
             Command::READ => {

@@ -18,41 +18,25 @@
 //! A server hands what it received to [`Call::dispatch`] and answers the [`Request`] with a
 //! [`Reply`]. What dispatch makes of an encoded operation encodes to the same bytes.
 
-mod axis;
+mod address;
+mod argument;
+mod by_hand;
 mod call;
-mod com;
-mod content;
-mod dynamic;
-mod element;
+mod docs;
 mod frame;
-mod places;
-mod program_stream;
+mod functions;
 mod reply;
-mod request;
 mod rules;
 mod service;
-mod sorts;
 mod table;
-mod variable;
-mod write;
+mod typed;
 
-pub use axis::{AxisHandleByName, AxisReadByName, AxisWriteByName};
-pub use call::{Call, Refusal};
-pub use com::{CountObjects, ObjectList, ReadDescriptors};
-pub use content::{ReadElement, ReadObject, WriteElement, WriteObject};
-pub use dynamic::{CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName};
-pub use element::{
-    CountElements, FindInstance, ReadElementLength, ReadElementName, ReadElementType,
-    ReadElementUnit, ReadElementWriteFlag,
-};
-pub use program_stream::WriteProgramStream;
+pub use address::ObjectList;
+pub use argument::{IntoName, WriteValue};
+pub use call::{Call, DispatchError};
+pub use functions::*;
 pub use reply::Reply;
-pub use request::{Operation, Request};
 pub use rules::{GroupRule, OffsetRule};
 pub use service::{Service, Task};
-pub use table::{Effect, Function, FunctionSpec};
-pub use variable::{
-    CountVariables, DescribeByIndex, DescribeByName, DescribeExtended, HandleByName, ReadByHandle,
-    ReadByName,
-};
-pub use write::{WriteByHandle, WriteByName};
+pub use table::{Effect, FunctionSpec};
+pub use typed::Operation;

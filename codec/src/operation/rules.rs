@@ -16,8 +16,8 @@ use crate::address::{
 /// let rule = Function::HandleByName.spec().group;
 /// assert_eq!(rule.example().get(), 0x12_2301);
 /// // the decoder of channel 2, but not its interpolator
-/// assert!(rule.holds(IndexGroup::new(0x12_2302).parts().unwrap()));
-/// assert!(!rule.holds(IndexGroup::new(0x12_1302).parts().unwrap()));
+/// assert!(rule.contains(IndexGroup::new(0x12_2302).parts().unwrap()));
+/// assert!(!rule.contains(IndexGroup::new(0x12_1302).parts().unwrap()));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -38,7 +38,7 @@ pub enum GroupRule {
 
 impl GroupRule {
     /// Whether the function has an instance in this group.
-    pub const fn holds(self, group: Group) -> bool {
+    pub const fn contains(self, group: Group) -> bool {
         match (self, group) {
             // Platform axes are counted from 1; channel 0 is the platform.
             (Self::ComObjects, Group::Com(com)) => {
@@ -92,8 +92,9 @@ const fn class_group(class: Class, attribute: Attribute, instance: u8) -> IndexG
 ///
 /// assert_eq!(Function::HandleByName.spec().offset, OffsetRule::At(0x46));
 /// let of_axis = Function::AxisHandleByName.spec().offset;
-/// assert!(of_axis.holds(IndexOffset::new(0x1_0004)) && of_axis.holds(IndexOffset::new(0x2_0004)));
-/// assert!(!of_axis.holds(IndexOffset::new(4)));
+/// assert!(of_axis.contains(IndexOffset::new(0x1_0004)));
+/// assert!(of_axis.contains(IndexOffset::new(0x2_0004)));
+/// assert!(!of_axis.contains(IndexOffset::new(4)));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -103,7 +104,7 @@ pub enum OffsetRule {
     /// One for each kind of dynamic parameters.
     OfKind([u32; 4]),
     /// Every one from here on.
-    From(u32),
+    AtLeast(u32),
     /// This element of every axis from 1 on, 0x10000 apart (VAR-26).
     OfAxis(u32),
     /// The first element of an instance: of the channel, and of axes 0x10000 apart.
@@ -111,15 +112,24 @@ pub enum OffsetRule {
 }
 
 impl OffsetRule {
+    /// The lowest of the offsets; of an axis's elements, the element.
+    pub(crate) const fn first(self) -> IndexOffset {
+        IndexOffset::new(match self {
+            Self::At(first) | Self::OfKind([first, ..]) | Self::AtLeast(first) => first,
+            Self::OfAxis(element) => element,
+            Self::FirstElement => 0,
+        })
+    }
+
     /// Whether the function has this offset.
-    pub const fn holds(self, offset: IndexOffset) -> bool {
+    pub const fn contains(self, offset: IndexOffset) -> bool {
         match self {
             Self::At(at) => offset.get() == at,
             Self::OfKind([one, two, three, four]) => {
                 let offset = offset.get();
                 offset == one || offset == two || offset == three || offset == four
             }
-            Self::From(first) => offset.get() >= first,
+            Self::AtLeast(first) => offset.get() >= first,
             Self::OfAxis(element) => match offset.axis_and_element(AxisStride::X10000) {
                 Ok((axis, found)) => axis > 0 && found == element,
                 Err(_) => false,

@@ -1,12 +1,10 @@
-//! The function table.
+//! A row of the function table, and the macro that makes everything of the rows.
 
-use super::places::Place;
 use super::{GroupRule, OffsetRule, Service, Task};
-use crate::address::{Attribute, Class, IndexGroup, IndexOffset};
-use crate::dynamic::DynamicKind;
+use crate::address::Group;
 use crate::layout::Stream;
 
-/// What the table says of a function.
+/// What the table has of a function.
 ///
 /// ```
 /// use ads_cnc::layout::Stream;
@@ -23,19 +21,19 @@ use crate::layout::Stream;
 pub struct FunctionSpec {
     /// The function's name in reports.
     pub name: &'static str,
-    /// Which ADS service it takes.
+    /// The ADS service it takes.
     pub service: Service,
-    /// Which task serves it.
+    /// The task that serves it.
     pub task: Task,
-    /// In which index groups.
+    /// Its index groups.
     pub group: GroupRule,
-    /// At which index offsets.
+    /// Its index offsets.
     pub offset: OffsetRule,
     /// What it does to the machine.
     pub effect: Effect,
-    /// What goes in, if anything.
+    /// The stream of the request, if any.
     pub request: Option<Stream>,
-    /// What comes out, if anything.
+    /// The stream of the reply, if any.
     pub reply: Option<Stream>,
     /// The requirement that defines it.
     pub clause: &'static str,
@@ -48,6 +46,12 @@ impl FunctionSpec {
     /// has (SDA-12).
     pub const fn is_content(&self) -> bool {
         matches!(self.request, Some(Stream::Content)) || matches!(self.reply, Some(Stream::Content))
+    }
+
+    /// Whether the function has this group on this task. SDA and GEO both answer for the classes
+    /// (ADR-10, assumed).
+    pub(super) const fn is_in(&self, task: Task, group: Group) -> bool {
+        matches!(self.task, Task::Com) == matches!(task, Task::Com) && self.group.contains(group)
     }
 }
 
@@ -72,12 +76,14 @@ pub enum Effect {
     Motion,
 }
 
-/// Declares [`Function`] and the row of each.
+/// Declares the functions by their rows: `Function` with its specs, the typed operations, `Request`
+/// and what dispatch finds.
 macro_rules! functions {
     ($(
-        $(#[$doc:meta])*
-        $function:ident $name:literal: $service:ident $task:ident, $group:expr, $offset:expr,
-            $effect:ident [$( $request:ident )?] to [$( $reply:ident )?], $clause:literal, $section:literal;
+        $function:ident $(<$a:lifetime>)? $name:literal: $service:ident $task:ident $effect:ident,
+            $group:expr, $offset:expr, $clause:literal, $section:literal,
+            $how:ident ( $( $part:ident: $part_kind:ident ),+ $(; $( $field:ident: $field_kind:ident ),+ )? )
+            $( $data:ident $body:tt )? => $reply:ty $(, asks $most:literal )? $(, sized $length:ident )?;
     )+) => {
         /// A documented function.
         ///
@@ -93,13 +99,17 @@ macro_rules! functions {
         /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[non_exhaustive]
-        pub enum Function { $( $(#[$doc])* $function, )+ }
+        pub enum Function { $(
+            #[doc = concat!("The ", $name, ": see [`", stringify!($function), "`](struct@", stringify!($function), ").")]
+            $function,
+        )+ }
 
         impl Function {
             /// All of them.
             pub const ALL: &'static [Self] = &[$( Self::$function, )+];
 
             /// The function's row.
+            #[allow(elided_lifetimes_in_paths, reason = "a row has the name of a type, not its lifetime")]
             pub const fn spec(self) -> &'static FunctionSpec {
                 match self { $(
                     Self::$function => const { &FunctionSpec {
@@ -109,129 +119,97 @@ macro_rules! functions {
                         group: $group,
                         offset: $offset,
                         effect: Effect::$effect,
-                        request: functions!(@stream $( $request )?),
-                        reply: functions!(@stream $( $reply )?),
+                        request: functions!(@request $( $data )?),
+                        reply: match <<$function as Operation>::Reply<'_> as Decode<'_>>::STREAM {
+                            Stream::NoData => None,
+                            stream => Some(stream),
+                        },
                         clause: $clause,
                         section: $section,
                     } },
                 )+ }
             }
         }
+
+        /// Any operation: what a server is asked, what a tool shows.
+        ///
+        /// ```
+        /// use ads_cnc::address::Channel;
+        /// use ads_cnc::ads::AmsPort;
+        /// use ads_cnc::operation::{HandleByName, Reply, Request};
+        /// use ads_cnc::Handle;
+        ///
+        /// let request = Request::from(HandleByName::new(Channel::new(1)?, "V.E.vartest")?);
+        /// let mut buf = [0; 256];
+        /// let call = request.encode(&mut buf)?;
+        /// assert_eq!((call.port, call.index_offset.get()), (AmsPort::SDA, 0x46));
+        /// assert_eq!(call.data, b"V.E.vartest\0");
+        /// assert_eq!(call.dispatch(), Ok(request));
+        /// assert_eq!(request.decode_reply(&[4, 0, 0, 2])?, Reply::Handle(Handle(0x2000004)));
+        /// # Ok::<(), ads_cnc::Error>(())
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum Request<'a> { $(
+            #[doc = concat!("The ", $name, ".")]
+            $function($function $(<$a>)?),
+        )+ }
+
+        impl<'a> Request<'a> {
+            /// Which function is called.
+            pub const fn function(&self) -> Function {
+                match self { $( Self::$function(_) => Function::$function, )+ }
+            }
+
+            /// The call as it goes out: to the function's port, with its service.
+            ///
+            /// # Errors
+            /// Those of [`Operation::encode`].
+            pub fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<Call<'b>, Error> {
+                match self { $( Self::$function(operation) => operation.call(buf), )+ }
+            }
+
+            /// How many bytes the data of the call has.
+            pub fn encoded_len(&self) -> usize {
+                match self { $( Self::$function(operation) => operation.encoded_len(), )+ }
+            }
+
+            /// Reads the data received.
+            ///
+            /// # Errors
+            /// Those of [`Operation::decode_reply`].
+            pub fn decode_reply<'r>(&self, data: &'r [u8]) -> Result<Reply<'r>, Error> {
+                match self { $(
+                    Self::$function(operation) => operation.decode_reply(data).map(Reply::from),
+                )+ }
+            }
+
+            /// What a function is asked that has the address and the service of a call.
+            pub(super) fn decode(
+                function: Function,
+                group: Group,
+                call: &Call<'a>,
+            ) -> Result<Self, DispatchError> {
+                match function { $( Function::$function => $function::dispatched(group, call), )+ }
+            }
+        }
+
+        $(
+            impl<'a> From<$function $(<$a>)?> for Request<'a> {
+                fn from(operation: $function $(<$a>)?) -> Self {
+                    Self::$function(operation)
+                }
+            }
+
+            operation! {
+                $how $function [$( $a )?] [$service $task $group, $offset, $clause $section]
+                [$( $part: $part_kind ),+] [$( $( $field: $field_kind ),+ )?]
+                [$( $data $body )?] [$reply] [$( $most )?] [$( $length )?]
+            }
+        )+
     };
-    (@stream $stream:ident) => { Some(Stream::$stream) };
-    (@stream) => { None };
+    (@request) => { None };
+    (@request $data:ident) => { Some(<$data as Decode<'_>>::STREAM) };
 }
 
-const DECODER: GroupRule = GroupRule::ChannelOf(Class::Decoder);
-
-const fn at(offset: u32) -> OffsetRule {
-    OffsetRule::At(offset)
-}
-
-const ANY: OffsetRule = OffsetRule::From(0);
-
-functions! {
-    /// Number of objects of a COM list.
-    CountObjects "number of objects": Read Com, GroupRule::ComObjects, at(0),
-        Query [] to [ObjectCount], "COM-1", "2.1.1";
-    /// Descriptors of objects of a COM list.
-    ReadDescriptors "object descriptors": Read Com, GroupRule::ComObjects, OffsetRule::From(1),
-        Query [] to [ObjectDescriptors], "COM-2", "2.1.1";
-    /// Number of variable elements, 0x44.
-    CountVariables "number of variable elements": ReadWrite Sda, DECODER, at(0x44),
-        Query [VariableKind] to [VariableCount], "VAR-2", "4.3.1";
-    /// Variable description by index, 0x45.
-    DescribeByIndex "variable description by index": ReadWrite Sda, DECODER, at(0x45),
-        Query [VariableIndexKind] to [VariableDescription], "VAR-4", "4.3.2";
-    /// Variable handle by name, 0x46.
-    HandleByName "variable handle by name": ReadWrite Sda, DECODER, at(0x46),
-        Query [VariableName] to [VariableHandle], "VAR-10", "4.3.3";
-    /// Read variable value by handle, 0x47.
-    ReadByHandle "read variable value by handle": ReadWrite Sda, DECODER, at(0x47),
-        Query [VariableHandleRead] to [VariableValue], "VAR-11", "4.3.4";
-    /// Read variable value by name, 0x48.
-    ReadByName "read variable value by name": ReadWrite Sda, DECODER, at(0x48),
-        Query [VariableName] to [VariableValue], "VAR-14", "4.3.5";
-    /// Write variable value by handle, 0x49.
-    WriteByHandle "write variable value by handle": Write Sda, DECODER, at(0x49),
-        Write [VariableHandleWrite] to [], "VAR-12", "4.3.6";
-    /// Write variable value by name, 0x4A.
-    WriteByName "write variable value by name": Write Sda, DECODER, at(0x4A),
-        Write [VariableNameWrite] to [], "VAR-13", "4.3.7";
-    /// Extended variable description by index, 0x4B.
-    DescribeExtended "extended variable description by index": ReadWrite Sda, DECODER, at(0x4B),
-        Query [VariableIndexKind] to [VariableExtendedDescription], "VAR-15", "4.3.8";
-    /// Variable description by name, 0x4C, documented online only.
-    DescribeByName "variable description by name": ReadWrite Sda, DECODER, at(0x4C),
-        Query [VariableName] to [VariableDescriptionByName], "VAR-28", "online";
-    /// Variable handle by name, on the axis interface, 0x4.
-    AxisHandleByName "axis variable handle by name": ReadWrite Sda, DECODER, OffsetRule::OfAxis(4),
-        Query [VariableName] to [VariableHandle], "VAR-26", "4.3.9";
-    /// Read variable value by name, on the axis interface, 0x5.
-    AxisReadByName "read axis variable value by name": ReadWrite Sda, DECODER, OffsetRule::OfAxis(5),
-        Query [VariableName] to [VariableValue], "VAR-26", "4.3.10";
-    /// Write variable value by name, on the axis interface, 0x6.
-    AxisWriteByName "write axis variable value by name": Write Sda, DECODER, OffsetRule::OfAxis(6),
-        Write [VariableNameWrite] to [], "VAR-26", "4.3.11";
-    /// Number of dynamic parameters of a kind.
-    CountDynamic "number of dynamic parameters": Read Sda, DECODER,
-        OffsetRule::OfKind(DynamicKind::COUNT),
-        Query [] to [DynamicCount], "DYN-1", "3.1 … 3.4";
-    /// Name of a dynamic parameter by its index.
-    DynamicNameByIndex "dynamic parameter name by index": ReadWrite Sda, DECODER,
-        OffsetRule::OfKind(DynamicKind::NAME_BY_INDEX),
-        Query [DynamicIndex] to [DynamicName], "DYN-2", "3.1 … 3.4";
-    /// Value of a dynamic parameter by its name.
-    DynamicValueByName "dynamic parameter value by name": ReadWrite Sda, DECODER,
-        OffsetRule::OfKind(DynamicKind::VALUE_BY_NAME),
-        Query [DynamicNameRequest] to [DynamicValue], "DYN-3", "3.1 … 3.4";
-    /// Value of a dynamic parameter by its index.
-    DynamicValueByIndex "dynamic parameter value by index": ReadWrite Sda, DECODER,
-        OffsetRule::OfKind(DynamicKind::VALUE_BY_INDEX),
-        Query [DynamicIndex] to [DynamicValue], "DYN-4", "3.1 … 3.4";
-    /// Address of an instance of a class.
-    FindInstance "object address": ReadWrite Sda, GroupRule::Instances, at(0),
-        Query [ObjectAddressQuery] to [ObjectAddress], "SDA-1", "2.2.2";
-    /// Number of element types of an instance.
-    CountElements "number of element types": Read Sda, GroupRule::Elements(Attribute::Content),
-        OffsetRule::FirstElement,
-        Query [] to [ElementCount], "SDA-4", "2.2.2";
-    /// Content of an element.
-    ReadElement "element content": Read Sda, GroupRule::Elements(Attribute::Content), ANY,
-        Query [] to [Content], "SDA-4", "2.2.2";
-    /// Writes the content of an element.
-    WriteElement "write element content": Write Sda, GroupRule::Elements(Attribute::Content), ANY,
-        Motion [Content] to [], "SDA-9", "2.2.2";
-    /// Name of an element.
-    ReadElementName "element name": Read Sda, GroupRule::Elements(Attribute::Name), ANY,
-        Query [] to [ElementText], "SDA-6", "2.2.2";
-    /// Type of an element.
-    ReadElementType "element type": Read Sda, GroupRule::Elements(Attribute::Type), ANY,
-        Query [] to [ElementText], "SDA-7", "2.2.2";
-    /// Length of an element's content.
-    ReadElementLength "element length": Read Sda, GroupRule::Elements(Attribute::Length), ANY,
-        Query [] to [ElementLength], "SDA-8", "2.2.2";
-    /// Unit of an element.
-    ReadElementUnit "element unit": Read Sda, GroupRule::Elements(Attribute::Unit), ANY,
-        Query [] to [ElementText], "SDA-6", "2.2.2";
-    /// Write flag of an element.
-    ReadElementWriteFlag "element write flag": Read Sda, GroupRule::Elements(Attribute::WriteFlag),
-        ANY,
-        Query [] to [ElementWriteFlag], "SDA-9", "2.2.2";
-    /// Writes NC text to the stream of a channel.
-    WriteProgramStream "data streaming": Write Com, GroupRule::ComChannel, at(0x90),
-        Motion [ProgramStream] to [], "STM-1", "stream-en 3.2";
-    /// Content of a COM object.
-    ReadObject "object content": Read Com, GroupRule::ComContent, ANY,
-        Query [] to [Content], "COM-5", "2.1.2";
-    /// Writes the content of a COM object.
-    WriteObject "write object content": Write Com, GroupRule::ComContent, ANY,
-        Motion [Content] to [], "COM-5", "2.1.2";
-}
-
-impl Function {
-    /// The function whose address this is; none for content (SDA-12).
-    pub(crate) fn at(task: Task, group: IndexGroup, offset: IndexOffset) -> Option<Self> {
-        Place::of(task.port(), group, offset).function()
-    }
-}
+pub(super) use functions;

@@ -35,6 +35,7 @@
 use core::time::Duration;
 
 use crate::address::IndexOffset;
+use crate::operation::Function;
 
 #[cfg(feature = "alloc")]
 mod check;
@@ -73,7 +74,7 @@ pub use words::{LoopWord, ProgramEnd};
 /// Index offset of the stream in the COM group of a channel, `0x20100` + channel (STM-1).
 ///
 /// Manual: `stream-en`, sections 3.2 and 5.
-pub const INDEX_OFFSET: IndexOffset = IndexOffset::new(0x90);
+pub const INDEX_OFFSET: IndexOffset = Function::WriteProgramStream.spec().offset.first();
 
 /// Name of the COM object that is written (STM-1).
 ///

@@ -180,6 +180,13 @@ impl<'a, const N: usize> From<&'a [u32; N]> for Numbers<'a> {
     }
 }
 
+#[cfg(feature = "alloc")]
+impl<'a> From<&'a alloc::vec::Vec<u32>> for Numbers<'a> {
+    fn from(numbers: &'a alloc::vec::Vec<u32>) -> Self {
+        Self(Source::Memory(numbers))
+    }
+}
+
 impl PartialEq for Numbers<'_> {
     fn eq(&self, other: &Numbers<'_>) -> bool {
         self.len() == other.len() && self.iter().eq(other.iter())

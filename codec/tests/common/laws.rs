@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, FrameRef};
 use ads_cnc::layout::{Field, Stream};
 use ads_cnc::limits::DESCRIPTOR_LEN;
-use ads_cnc::operation::{Call, Function, Refusal, Request, Service, Task};
+use ads_cnc::operation::{Call, DispatchError, Function, Request, Service, Task};
 use ads_cnc::{Decode, Encode, Error, ErrorKind, NoData};
 
 use super::{Fault, Reading, Subject};
@@ -179,7 +179,7 @@ fn check_too_small<T: Debug>(
 }
 
 /// What a call is dispatched to encodes to the same call, and that is dispatched to the same.
-pub(crate) fn check_call(call: &Call<'_>) -> Result<(), Refusal> {
+pub(crate) fn check_call(call: &Call<'_>) -> Result<(), DispatchError> {
     check_call_bent(call, &Bend::NONE, |_| ()).map(drop)
 }
 
@@ -189,7 +189,7 @@ pub(crate) fn check_call_bent(
     call: &Call<'_>,
     bend: &Bend,
     wrong: impl Fn(&mut Call<'_>),
-) -> Result<Function, Refusal> {
+) -> Result<Function, DispatchError> {
     check_frame(call, bend);
     let request = call.dispatch()?;
     let mut buf = vec![0; request.encoded_len()];
@@ -229,14 +229,14 @@ fn check_frame(call: &Call<'_>, bend: &Bend) {
     let header = AmsHeader::request(end, end, call.service.command(), 1);
     let frame = FrameRef::new(header, data).expect("no more data than a service has");
     let read_length = if call.service == Service::Write { 0 } else { call.read_length };
-    assert_eq!(Call::of_frame(&frame), Ok(Some(Call { read_length, ..*call })));
+    assert_eq!(Call::from_frame(&frame), Ok(Some(Call { read_length, ..*call })));
 }
 
 /// A call takes what the stream of its function's request takes, and refuses the rest as that does.
-pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), Refusal> {
+pub(crate) fn check_request(call: &Call<'_>, function: Function) -> Result<(), DispatchError> {
     let verdict = check_call(call);
     if let Some(stream) = function.spec().request {
-        let wanted = check(stream, call.data).map_err(Refusal::Stream);
+        let wanted = check(stream, call.data).map_err(DispatchError::Stream);
         assert_eq!(verdict, wanted, "{function:?}: {:x?}", call.data);
     }
     verdict

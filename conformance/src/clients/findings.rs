@@ -57,7 +57,7 @@ pub(super) fn evidence(turn: &Turn) -> Evidence {
     let header = frame.header();
     evidence.call = format!("command {} to port {}{fault}", header.command.0, header.target.port);
     evidence.sent = Evidence::start(frame.data()).to_vec();
-    if let Ok(Some(call)) = Call::of_frame(&frame) {
+    if let Ok(Some(call)) = Call::from_frame(&frame) {
         evidence.call = format!(
             "{} {}, {} at port {}",
             call.service, call.index_group, call.index_offset, call.port

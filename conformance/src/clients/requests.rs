@@ -2,7 +2,7 @@
 
 use ads_cnc::Error;
 use ads_cnc::ads::{AdsError, AmsPort, Command, FrameRef, StateFlags};
-use ads_cnc::operation::{Call, Effect, Function, Refusal, Request, Task};
+use ads_cnc::operation::{Call, DispatchError, Effect, Function, Request, Task};
 
 use super::CLIENT;
 use super::findings::Findings;
@@ -64,7 +64,7 @@ fn one(turn: &Turn, findings: &mut Findings) {
     let has_task = Task::from_port(port).is_some();
     findings.check("GEN-4", has_task, Some(turn), "port 551, 552 or 553", port);
     let service = service_of(header.command).map(services::clause);
-    match Call::of_frame(&frame) {
+    match Call::from_frame(&frame) {
         Err(error) => {
             let expected = format!("a request of {}", name(header.command));
             findings.check(service.unwrap_or(CLIENT), false, Some(turn), expected, error);
@@ -101,10 +101,10 @@ fn name(command: Command) -> String {
 }
 
 /// The requirement that a request breaks which no function takes.
-pub(super) fn clause(call: &Call<'_>, refusal: Refusal) -> &'static str {
+pub(super) fn clause(call: &Call<'_>, refusal: DispatchError) -> &'static str {
     match refusal {
-        Refusal::Port(_) => "GEN-4",
-        Refusal::Group(_) => {
+        DispatchError::Port(_) => "GEN-4",
+        DispatchError::Group(_) => {
             let other = match call.port {
                 AmsPort::COM => AmsPort::SDA,
                 _ => AmsPort::COM,
@@ -112,17 +112,19 @@ pub(super) fn clause(call: &Call<'_>, refusal: Refusal) -> &'static str {
             let elsewhere = Call { port: other, ..*call }.dispatch();
             match (elsewhere, call.port) {
                 // It would be right for another task.
-                (Ok(_) | Err(Refusal::Stream(_) | Refusal::Service { .. }), _) => "GEN-4",
+                (Ok(_) | Err(DispatchError::Stream(_) | DispatchError::Service { .. }), _) => {
+                    "GEN-4"
+                }
                 (_, AmsPort::COM) => "ADR-3",
                 _ => "ADR-5",
             }
         }
-        Refusal::Offset(_) => match call.port {
+        DispatchError::Offset(_) => match call.port {
             AmsPort::COM => "COM-5",
             _ => "SDA-4",
         },
-        Refusal::Service { .. } => at(call).unwrap_or("ADS-4"),
-        Refusal::Stream(error) => of_field(&error).or_else(|| at(call)).unwrap_or("ADS-4"),
+        DispatchError::Service { .. } => at(call).unwrap_or("ADS-4"),
+        DispatchError::Stream(error) => of_field(&error).or_else(|| at(call)).unwrap_or("ADS-4"),
         _ => CLIENT,
     }
 }
@@ -135,7 +137,7 @@ fn of_field(error: &Error) -> Option<&'static str> {
 fn at(call: &Call<'_>) -> Option<&'static str> {
     let group = call.index_group.parts()?;
     let here = Function::ALL.iter().map(|function| function.spec()).find(|spec| {
-        !spec.is_content() && spec.group.holds(group) && spec.offset.holds(call.index_offset)
+        !spec.is_content() && spec.group.contains(group) && spec.offset.contains(call.index_offset)
     });
     here.map(|spec| spec.clause)
 }
@@ -143,7 +145,7 @@ fn at(call: &Call<'_>) -> Option<&'static str> {
 /// The request of a turn, if it is one that a CNC knows.
 pub(super) fn with_request<T>(turn: &Turn, then: impl FnOnce(&Request<'_>) -> T) -> Option<T> {
     let (frame, _) = FrameRef::split(&turn.request, DATA_MAX).ok()??;
-    let request = Call::of_frame(&frame).ok()??.dispatch().ok()?;
+    let request = Call::from_frame(&frame).ok()??.dispatch().ok()?;
     Some(then(&request))
 }
 

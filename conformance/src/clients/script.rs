@@ -60,7 +60,7 @@ impl Script {
         }
         let split = FrameRef::split(frame, DATA_MAX).map_err(|error| error.to_string())?;
         let (request, _) = split.ok_or("cut")?;
-        let call = Call::of_frame(&request).ok().flatten();
+        let call = Call::from_frame(&request).ok().flatten();
         let asked = call.as_ref().and_then(|call| call.dispatch().ok());
         let mut reply = Vec::new();
         match asked.as_ref().and_then(|asked| self.refusal(asked)) {
@@ -111,7 +111,7 @@ impl Script {
     /// name or by its handle.
     pub(super) fn service_variable<'a>(
         &self,
-        asked: &Request<'a>,
+        asked: &'a Request<'_>,
     ) -> Option<(ServiceVariable, Option<&'a [u8]>)> {
         let by_name = |name: &str| ServiceVariable::by_name(name);
         let by_handle = |handle: Handle| {
@@ -121,10 +121,12 @@ impl Script {
         match asked {
             Request::ReadByName(read) => Some((by_name(&read.name.text().to_string())?, None)),
             Request::WriteByName(write) => {
-                Some((by_name(&write.name.to_string())?, Some(write.value)))
+                Some((by_name(&write.name.to_string())?, Some(write.value.as_bytes())))
             }
             Request::ReadByHandle(read) => Some((by_handle(read.handle)?, None)),
-            Request::WriteByHandle(write) => Some((by_handle(write.handle)?, Some(write.value))),
+            Request::WriteByHandle(write) => {
+                Some((by_handle(write.handle)?, Some(write.value.as_bytes())))
+            }
             _ => None,
         }
     }

@@ -166,7 +166,7 @@ impl Cnc {
 
     /// Asks the CNC; what no frame has room for is too much to ask.
     fn ask(&self, frame: Result<FrameRef<'_>, Error>) -> Result<Vec<u8>, AdsError> {
-        let call = frame.and_then(|frame| Call::of_frame(&frame)).map_err(|error| {
+        let call = frame.and_then(|frame| Call::from_frame(&frame)).map_err(|error| {
             // A service's header that does not hold together is a request of the wrong size.
             tracing::debug!("refused: {error}");
             AdsError::INVALID_SIZE

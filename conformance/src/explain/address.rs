@@ -7,7 +7,7 @@ use ads_cnc::address::{
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{
-    Effect, Function, FunctionSpec, GroupRule, OffsetRule, Refusal, Service, Task,
+    DispatchError, Effect, Function, FunctionSpec, GroupRule, OffsetRule, Service, Task,
 };
 
 use super::codes;
@@ -64,28 +64,30 @@ fn no_data(place: &Place, spec: &FunctionSpec, at: usize, bytes: &[u8], values: 
 }
 
 /// The function that is meant.
-fn find(place: &Place) -> Result<Function, Refusal> {
+fn find(place: &Place) -> Result<Function, DispatchError> {
     if let Some(port) = place.port {
-        Task::from_port(port).ok_or(Refusal::Port(port))?;
+        Task::from_port(port).ok_or(DispatchError::Port(port))?;
     }
-    let parts = place.group.parts().ok_or(Refusal::Group(place.group))?;
-    let mut refusal = Refusal::Group(place.group);
+    let parts = place.group.parts().ok_or(DispatchError::Group(place.group))?;
+    let mut refusal = DispatchError::Group(place.group);
     let mut content = None;
     for function in Function::ALL.iter().copied() {
         let spec = function.spec();
-        if !serves(place, spec) || !spec.group.holds(parts) {
+        if !serves(place, spec) || !spec.group.contains(parts) {
             continue;
         }
-        if !spec.offset.holds(place.offset) {
-            refusal = Refusal::Offset(place.offset);
+        if !spec.offset.contains(place.offset) {
+            refusal = DispatchError::Offset(place.offset);
             continue;
         }
         let takes = spec.service;
         match place.service {
             Some(asked) if asked == takes => return Ok(function),
             // No content is where a function is (SDA-12).
-            Some(asked) if !spec.is_content() => return Err(Refusal::Service { takes, asked }),
-            Some(asked) => refusal = Refusal::Service { takes, asked },
+            Some(asked) if !spec.is_content() => {
+                return Err(DispatchError::Service { takes, asked });
+            }
+            Some(asked) => refusal = DispatchError::Service { takes, asked },
             None if !spec.is_content() => return Ok(function),
             // Of a content, what is read comes back, and what is written goes in.
             None if place.reply == (takes == Service::Read) => content = content.or(Some(function)),
@@ -102,7 +104,7 @@ fn serves(place: &Place, spec: &FunctionSpec) -> bool {
     task.is_none_or(|task| (task == Task::Com) == (spec.task == Task::Com))
 }
 
-fn report(place: &Place, found: Result<Function, Refusal>) -> Address {
+fn report(place: &Place, found: Result<Function, DispatchError>) -> Address {
     let function = found.ok();
     let service = place.service.or(function.map(|function| function.spec().service));
     let mut notes = Vec::new();
@@ -179,8 +181,8 @@ fn meanings(place: &Place, function: Function, notes: &mut Vec<String>) {
         other.is_content()
             && (other.service != spec.service || !spec.is_content())
             && serves(place, other)
-            && parts.is_some_and(|parts| other.group.holds(parts))
-            && other.offset.holds(place.offset)
+            && parts.is_some_and(|parts| other.group.contains(parts))
+            && other.offset.contains(place.offset)
     };
     let mut others = Function::ALL.iter().map(|function| function.spec()).filter(here);
     if spec.is_content() {

@@ -6,7 +6,7 @@ use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::layout::Stream;
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
-use ads_cnc::operation::{Call, Refusal, Service};
+use ads_cnc::operation::{Call, DispatchError, Service};
 use ads_cnc::{Decode as _, Error};
 
 use super::address;
@@ -260,7 +260,9 @@ fn refused(
         data,
     };
     match call.dispatch() {
-        Err(Refusal::Stream(error)) => Some(format!("the codec refuses the request: {error}")),
+        Err(DispatchError::Stream(error)) => {
+            Some(format!("the codec refuses the request: {error}"))
+        }
         // That there is no function the address says itself.
         _ => None,
     }

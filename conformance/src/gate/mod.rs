@@ -192,7 +192,7 @@ impl Gate {
                 }
                 true
             }
-            command => match Call::of_frame(&whole) {
+            command => match Call::from_frame(&whole) {
                 Ok(Some(call)) => self.check_call(&call, header.target.net_id, now)?,
                 Ok(None) => return malformed(Reason::Never(command)),
                 Err(error) => return malformed(Reason::Malformed(error)),

@@ -40,7 +40,7 @@ pub enum Reason {
     /// The program stream, other than by a write to a channel's: what that does nobody documents.
     Stream,
     /// No function of the table takes this: it might be anything.
-    Unknown(operation::Refusal),
+    Unknown(operation::DispatchError),
     /// The function is documented for another port, or changes something at GEO, which no entry is
     /// about.
     Port(AmsPort, Function),

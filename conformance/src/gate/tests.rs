@@ -106,7 +106,7 @@ fn only_queries_pass_by_default() {
         let offset = match spec.offset {
             ads_cnc::operation::OffsetRule::At(at) => at,
             ads_cnc::operation::OffsetRule::OfKind([first, ..]) => first,
-            ads_cnc::operation::OffsetRule::From(first) => first.max(1),
+            ads_cnc::operation::OffsetRule::AtLeast(first) => first.max(1),
             ads_cnc::operation::OffsetRule::OfAxis(element) => 0x1_0000 | element,
             _ => 0,
         };

@@ -198,12 +198,12 @@ impl Place {
             }
             Self::Variable { channel, axis: Some(axis), name } => {
                 let (channel, axis, name) = (*channel, *axis, name.as_cnc_str());
-                session.check(&AxisWriteByName { channel, axis, name, value: &[] })
+                session.check(&AxisWriteByName { channel, axis, name, value: (&[]).into() })
             }
             Self::Variable { channel, axis: None, name }
             | Self::Parameter { channel, name, .. } => {
                 let (channel, name) = (*channel, name.as_cnc_str());
-                session.check(&WriteByName { channel, name, value: &[] })
+                session.check(&WriteByName { channel, name, value: (&[]).into() })
             }
         }
     }
@@ -224,13 +224,20 @@ impl Place {
             }
             Self::Variable { channel, axis: Some(axis), name } => {
                 let name = name.as_cnc_str();
-                session.call(&AxisWriteByName { channel: *channel, axis: *axis, name, value })
+                session.call(&AxisWriteByName {
+                    channel: *channel,
+                    axis: *axis,
+                    name,
+                    value: value.into(),
+                })
             }
             // Parameters have no function of their own to be written.
             Self::Variable { channel, axis: None, name }
-            | Self::Parameter { channel, name, .. } => {
-                session.call(&WriteByName { channel: *channel, name: name.as_cnc_str(), value })
-            }
+            | Self::Parameter { channel, name, .. } => session.call(&WriteByName {
+                channel: *channel,
+                name: name.as_cnc_str(),
+                value: value.into(),
+            }),
         };
         done.map(drop)
     }

@@ -49,7 +49,7 @@ fn array_has_elements(probe: &mut Probe<'_>) -> Step {
         let Description { handle, dimensions, name, .. } = variable;
         let first = vec![0; dimensions.len()];
         let ask = |probe: &mut Probe<'_>, place: &[u32]| {
-            probe.try_ask(ReadByHandle::new(channel, *handle, place.into()))
+            probe.try_ask(ReadByHandle::new(channel, *handle, place))
         };
         let whole_is_there = ask(probe, &[])?.is_some();
         let has_first = ask(probe, &first)?.is_some();
@@ -79,7 +79,7 @@ fn index_out_of_bounds(probe: &mut Probe<'_>) -> Step {
             for beyond in probe.beyond(dimension) {
                 let place = with(&first, axis, beyond);
                 let what = format!("{place:?} of {:?}", variable.dimensions);
-                let (bad, good) = (place.as_slice().into(), first.as_slice().into());
+                let (bad, good) = (&place, &first);
                 probe.refuses(
                     "VAR-11",
                     &what,
@@ -118,8 +118,8 @@ fn number_of_indices(probe: &mut Probe<'_>) -> Step {
             probe.refuses(
                 assumed("VAR-11"),
                 &format!("{n} indices for {m} dimensions"),
-                ReadByHandle::new(channel, variable.handle, few.into()),
-                ReadByHandle::new(channel, variable.handle, good.into()),
+                ReadByHandle::new(channel, variable.handle, few),
+                ReadByHandle::new(channel, variable.handle, good),
             )?;
         }
         Ok(())

@@ -26,7 +26,7 @@ impl Place {
     pub(super) fn read(&self) -> Result<Request<'_>, Error> {
         Ok(match self {
             Self::Handle { channel, handle, indices } => {
-                ReadByHandle::new(*channel, *handle, indices.as_slice().into()).into()
+                ReadByHandle::new(*channel, *handle, indices).into()
             }
             Self::Name { channel, name } => {
                 ReadByName { channel: *channel, name: name.as_cnc_str().into() }.into()
@@ -43,14 +43,15 @@ impl Place {
     pub(super) fn write<'v>(&'v self, value: &'v [u8]) -> Result<Request<'v>, Error> {
         Ok(match self {
             Self::Handle { channel, handle, indices } => {
-                WriteByHandle::new(*channel, *handle, indices.as_slice().into(), value).into()
+                WriteByHandle::new(*channel, *handle, indices, value).into()
             }
             Self::Name { channel, name } => {
-                WriteByName { channel: *channel, name: name.as_cnc_str(), value }.into()
+                WriteByName { channel: *channel, name: name.as_cnc_str(), value: value.into() }
+                    .into()
             }
             Self::Axis { channel, axis, name } => {
                 let name = name.as_cnc_str();
-                AxisWriteByName { channel: *channel, axis: *axis, name, value }.into()
+                AxisWriteByName { channel: *channel, axis: *axis, name, value: value.into() }.into()
             }
             Self::Object { group, offset, .. } => WriteObject::new(*group, *offset, value)?.into(),
             Self::Element { element, .. } => WriteElement::new(*element, value)?.into(),

@@ -209,7 +209,7 @@ fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::new();
     each_array(probe, |probe, channel, variable, size| {
         for (number, place) in places_tried(&variable.dimensions) {
-            let indices = place.as_slice().into();
+            let indices = place.as_slice();
             let request = ReadByHandle::new(channel, variable.handle, indices);
             if variable.var_type.element_size().is_some() {
                 let element = probe.ask("VAR-11", request)?;
@@ -237,7 +237,7 @@ fn text_by_name(
 ) -> Step {
     let Some(name) = element_name(variable, place)? else { return Ok(()) };
     let by_name = ReadByName { channel, name: name.as_cnc_str().into() };
-    let by_handle = ReadByHandle::new(channel, variable.handle, place.into());
+    let by_handle = ReadByHandle::new(channel, variable.handle, place);
     for left in (0..TRIES).rev() {
         let (before, read) = (probe.try_ask(by_name)?, probe.try_ask(by_handle)?);
         let (Some(before), Some(read)) = (before, read) else { return Ok(()) };

@@ -73,7 +73,7 @@ impl Known {
     }
 
     fn by_name<'v>(&'v self, value: &'v [u8]) -> Request<'v> {
-        WriteByName { channel: self.channel, name: self.name(), value }.into()
+        WriteByName { channel: self.channel, name: self.name(), value: value.into() }.into()
     }
 }
 
@@ -260,12 +260,12 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         let what = format!("a write to the name \"{unknown}\"");
-        let bad = WriteByName { channel, name: unknown.as_cnc_str(), value }.into();
+        let bad = WriteByName { channel, name: unknown.as_cnc_str(), value: value.into() }.into();
         let rules = ["ADS-4", "VAR-13"].map(Rule::from);
         refused(probe, &rules, &what, (bad, good), &watched)?;
     }
     let element: CncString = format!("{text}[0]").parse().map_err(harness)?;
-    let bad = WriteByName { channel, name: element.as_cnc_str(), value }.into();
+    let bad = WriteByName { channel, name: element.as_cnc_str(), value: value.into() }.into();
     refused(probe, &["VAR-13".into()], "an element of no array", (bad, good), &watched)
 }
 

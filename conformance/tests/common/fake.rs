@@ -29,9 +29,9 @@ pub(crate) enum Reaction {
 /// Serves connections, one after the other; what else is asked than writes to the stream ends them.
 pub(crate) fn fake(mut answer: impl FnMut(u8, &[u8]) -> Answer + Send + 'static) -> SocketAddr {
     reacting(move |frame| {
-        let request = Call::of_frame(frame).unwrap().unwrap();
+        let request = Call::from_frame(frame).unwrap().unwrap();
         let Ok(Request::WriteProgramStream(op)) = request.dispatch() else { panic!("{request:?}") };
-        match answer(op.channel.number(), op.packet.bytes) {
+        match answer(op.channel.number(), op.packet) {
             Answer::Silence => Reaction::Silence,
             Answer::Close => Reaction::Close,
             Answer::Result(result) => {

@@ -79,7 +79,7 @@ fn spoilt(all: &[Message], defect: &Defect) -> Vec<Message> {
             }
             () => {}
         }
-        let call = Call::of_frame(&frame).ok()??;
+        let call = Call::from_frame(&frame).ok()??;
         let stream = call.dispatch().ok()?.function().spec().request?;
         let from = bytes.len() - call.data.len();
         if defect.touches(stream) { change(from, bytes.len()) } else { None }

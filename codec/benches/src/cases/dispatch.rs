@@ -194,7 +194,7 @@ fn encode_by_hand(request: hand::requests::Request<'static>) -> Work {
 
 #[cfg(test)]
 mod tests {
-    use ads_cnc::operation::Refusal;
+    use ads_cnc::operation::DispatchError;
 
     use super::*;
 
@@ -222,7 +222,7 @@ mod tests {
     fn data_is_refused() {
         for (call, data, _) in BY_HAND {
             let refusal = Call { data, ..*call }.dispatch().unwrap_err();
-            assert!(matches!(refusal, Refusal::Stream(_)), "{call:?}: {refusal}");
+            assert!(matches!(refusal, DispatchError::Stream(_)), "{call:?}: {refusal}");
         }
     }
 }

@@ -21,24 +21,56 @@ pub(crate) mod views {
 }
 
 pub(crate) mod operations {
-    use ads_cnc::Error;
-    use ads_cnc::operation;
+    use ads_cnc::address::{Channel, ChannelAxis, ElementAddress, IndexGroup, IndexOffset};
+    use ads_cnc::dynamic::DynamicKind;
+    use ads_cnc::operation::{self, ObjectList};
+    use ads_cnc::{DescriptorRef, Error, Handle};
 
     use crate::keep;
 
-    fn count(list: operation::ObjectList) -> operation::CountObjects {
-        operation::CountObjects::new(list)
+    macro_rules! makers {
+        ($( $name:ident($( $argument:ident: $ty:ty ),+) -> $made:ty = $new:path; )+) => {
+            $( fn $name<'a>($( $argument: $ty ),+) -> $made {
+                $new($( $argument ),+)
+            } )+
+            keep!($( $name ),+);
+        };
     }
 
-    fn read(
-        list: operation::ObjectList,
-        first: u32,
-        count: u32,
-    ) -> Result<operation::ReadDescriptors, Error> {
-        operation::ReadDescriptors::new(list, first, count)
+    makers! {
+        count(list: ObjectList) -> operation::CountObjects = operation::CountObjects::new;
+        descriptors(list: ObjectList, first: u32, count: u32)
+            -> Result<operation::ReadDescriptors, Error> = operation::ReadDescriptors::new;
+        handle(channel: Channel, name: &'a str)
+            -> Result<operation::HandleByName<'a>, Error> = operation::HandleByName::new;
+        read(channel: Channel, name: &'a str)
+            -> Result<operation::ReadByName<'a>, Error> = operation::ReadByName::new;
+        write(channel: Channel, name: &'a str, value: f64)
+            -> Result<operation::WriteByName<'a>, Error> = operation::WriteByName::new;
+        describe(channel: Channel, name: &'a str)
+            -> Result<operation::DescribeByName<'a>, Error> = operation::DescribeByName::new;
+        read_by_handle(channel: Channel, handle: Handle, indices: &'a [u32])
+            -> operation::ReadByHandle<'a> = operation::ReadByHandle::new;
+        write_by_handle(channel: Channel, handle: Handle, indices: &'a [u32], value: &'a [u8])
+            -> operation::WriteByHandle<'a> = operation::WriteByHandle::new;
+        handle_of_axis(channel: Channel, axis: ChannelAxis, name: &'a str)
+            -> Result<operation::AxisHandleByName<'a>, Error> = operation::AxisHandleByName::new;
+        read_of_axis(channel: Channel, axis: ChannelAxis, name: &'a str)
+            -> Result<operation::AxisReadByName<'a>, Error> = operation::AxisReadByName::new;
+        write_of_axis(channel: Channel, axis: ChannelAxis, name: &'a str, value: &'a [u8])
+            -> Result<operation::AxisWriteByName<'a>, Error> = operation::AxisWriteByName::new;
+        parameter(channel: Channel, kind: DynamicKind, name: &'a str)
+            -> Result<operation::DynamicValueByName<'a>, Error> =
+            operation::DynamicValueByName::new;
+        write_element(element: ElementAddress, content: &'a [u8])
+            -> Result<operation::WriteElement<'a>, Error> = operation::WriteElement::new;
+        write_object(group: IndexGroup, offset: IndexOffset, content: &'a [u8])
+            -> Result<operation::WriteObject<'a>, Error> = operation::WriteObject::new;
+        read_object_of(object: DescriptorRef<'a>)
+            -> Result<operation::ReadObject, Error> = operation::ReadObject::of;
+        write_object_of(object: DescriptorRef<'a>, content: &'a [u8])
+            -> Result<operation::WriteObject<'a>, Error> = operation::WriteObject::of;
     }
-
-    keep!(count, read);
 }
 
 pub(crate) mod names {

@@ -14,7 +14,9 @@ fn ask<'a, T: operation::Operation + Into<Request<'a>>>(
     let (op, mut buf) = (op.ok()?, [0; ROOM]);
     seen((operation::Operation::index_group(&op), operation::Operation::index_offset(&op)));
     seen((operation::Operation::read_length(&op), operation::Operation::encoded_len(&op)));
+    seen((operation::Operation::port(&op), operation::Operation::service(&op)));
     seen(operation::Operation::encode(&op, &mut buf));
+    seen(operation::Operation::call(&op, &mut buf));
     seen(operation::Operation::decode_reply(&op, bytes).is_ok());
     Some(op)
 }
@@ -24,7 +26,7 @@ fn request(request: Request<'_>, bytes: &[u8]) {
     seen((operation::Request::function(&request), operation::Request::encoded_len(&request)));
     seen(operation::Request::decode_reply(&request, bytes));
     if let Ok(call) = operation::Request::encode(&request, &mut buf) {
-        seen(operation::Call::dispatch(&call).map_err(operation::Refusal::ads_error));
+        seen(operation::Call::dispatch(&call).map_err(operation::DispatchError::ads_error));
     }
 }
 
@@ -67,12 +69,43 @@ pub(super) fn makers(bytes: &[u8]) -> Result<(), Error> {
     let (group, offset) = (IndexGroup::new(any(0x12_0101)), IndexOffset::new(any(1)));
     let read = ask(operation::ReadObject::new(group, offset, any(4)), bytes);
     let write = ask(operation::WriteObject::new(group, offset, bytes), bytes);
-    seen(read.map(|op| operation::ReadObject::place(&op)));
-    seen(
-        write.map(|op| (operation::WriteObject::place(&op), operation::WriteObject::content(&op))),
-    );
+    seen(read.map(|op| operation::ReadObject::address(&op)));
+    if let Some(op) = write {
+        seen((operation::WriteObject::address(&op), operation::WriteObject::content(&op)));
+    }
+    if let Ok(object) = DescriptorRef::decode(bytes) {
+        seen((operation::ReadObject::of(object), operation::WriteObject::of(object, any(true))));
+    }
+    arguments(channel, handle, bytes)?;
     elements(ElementAddress::of_channel(channel, any(address::Class::Hld), any(1))?, bytes);
 
+    Ok(())
+}
+
+/// Names and values of every type that constructors take.
+fn arguments(channel: Channel, handle: Handle, bytes: &[u8]) -> Result<(), Error> {
+    let text = text(bytes, "V.E.a");
+    let path = VariablePath::new(text)?;
+    seen((operation::IntoName::into_name(text), operation::IntoName::into_name(path)));
+    seen(operation::IntoName::into_name(path.text()));
+    let value = |value: operation::WriteValue<'_>| {
+        seen(operation::WriteValue::as_bytes(&value).len());
+        ask(Ok(operation::WriteByHandle::new(channel, handle, &[1, 2], value)), bytes);
+    };
+    value(any(1_i8).into());
+    value(any(1_u8).into());
+    value(any(1_i16).into());
+    value(any(1_u16).into());
+    value(any(1_i32).into());
+    value(any(1_u32).into());
+    value(any(1_i64).into());
+    value(any(1_u64).into());
+    value(any(1.0_f32).into());
+    value(any(1.0_f64).into());
+    value(any(true).into());
+    value(value::Boolean(any(1)).into());
+    value(ValueRef { bytes }.into());
+    value(ContentRef { bytes }.into());
     Ok(())
 }
 
@@ -83,7 +116,9 @@ fn elements(element: ElementAddress, bytes: &[u8]) {
     seen(read.map(|op| operation::ReadElement::element(&op)));
     let write = ask(operation::WriteElement::new(element, bytes), bytes);
     seen(write.map(|op| operation::WriteElement::element(&op)));
-    seen(write.map(|op| operation::WriteElement::content(&op)));
+    if let Some(op) = write {
+        seen(operation::WriteElement::content(&op));
+    }
     ask(Ok(operation::ReadElementName::new(element)), bytes);
     ask(Ok(operation::ReadElementType::new(element)), bytes);
     ask(Ok(operation::ReadElementLength::new(element)), bytes);
@@ -99,8 +134,8 @@ pub(super) fn rules(bytes: &[u8]) -> Result<(), Error> {
         let spec = operation::Function::spec(function);
         seen(operation::FunctionSpec::is_content(spec));
         seen(operation::GroupRule::example(spec.group));
-        seen(operation::OffsetRule::holds(spec.offset, offset));
-        seen(group.parts().map(|parts| operation::GroupRule::holds(spec.group, parts)));
+        seen(operation::OffsetRule::contains(spec.offset, offset));
+        seen(group.parts().map(|parts| operation::GroupRule::contains(spec.group, parts)));
     }
     for service in [Service::Read, Service::Write, Service::ReadWrite] {
         seen(operation::Service::command(service));
@@ -113,7 +148,7 @@ pub(super) fn rules(bytes: &[u8]) -> Result<(), Error> {
             operation::Call { port, service, index_group, index_offset, read_length, data: bytes };
         match operation::Call::dispatch(&call) {
             Ok(found) => request(found, bytes),
-            Err(refusal) => seen(operation::Refusal::ads_error(refusal)),
+            Err(refusal) => seen(operation::DispatchError::ads_error(refusal)),
         }
     }
     Ok(())

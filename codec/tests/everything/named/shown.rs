@@ -64,7 +64,7 @@ fn refusals(bytes: &[u8]) {
         data: bytes,
     };
     if let Err(refusal) = call.dispatch() {
-        show::<operation::Refusal>(refusal);
+        show::<operation::DispatchError>(refusal);
     }
 }
 

@@ -39,7 +39,7 @@ fn frames(bytes: &[u8]) -> Result<(), Error> {
         seen(ads::FrameRef::new(header, any(bytes)));
         seen(ads::AmsHeader::response(header));
         seen(ads::AmsHeader::request(header.target, header.source, header.command, any(1)));
-        if let Ok(Some(call)) = operation::Call::of_frame(&frame) {
+        if let Ok(Some(call)) = operation::Call::from_frame(&frame) {
             let mut buf = [0; ROOM];
             seen((call.encoded_len(), call.encode(&mut buf)));
         }

@@ -76,7 +76,7 @@ impl Judge {
     /// What a lost answer leaves open: the requirement of the function that was asked.
     fn open_function(&mut self, asked: &Seen, scene: &Scene<'_>, found: &str) {
         let Ok(Some((frame, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
-        let Ok(Some(call)) = Call::of_frame(&frame) else { return };
+        let Ok(Some(call)) = Call::from_frame(&frame) else { return };
         let Ok(request) = call.dispatch() else { return };
         let spec = request.function().spec();
         if spec.reply.is_some() {

@@ -243,7 +243,7 @@ impl Judge {
             return;
         }
         let Ok(Some((frame, _))) = FrameRef::split(&seen.frame, u32::MAX) else { return };
-        let call = Call::of_frame(&frame);
+        let call = Call::from_frame(&frame);
         let exchange = call.as_ref().ok().copied().flatten().map(|call| Exchange {
             sent: seen.frame.clone(),
             outcome: Err(Fault::Unseen),
@@ -282,7 +282,7 @@ impl Judge {
         let Ok(Some((sent, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
         let Ok(Some((received, _))) = FrameRef::split(&reply.frame, u32::MAX) else { return };
         // What is no request of a service may be answered in any way.
-        let Ok(Some(call)) = Call::of_frame(&sent) else { return };
+        let Ok(Some(call)) = Call::from_frame(&sent) else { return };
         let exchange = Exchange {
             sent: asked.frame.clone(),
             received: reply.frame.clone(),

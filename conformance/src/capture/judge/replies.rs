@@ -2,7 +2,7 @@
 
 use ads_cnc::ErrorKind;
 use ads_cnc::ads::AmsHeader;
-use ads_cnc::operation::{Call, Refusal, Reply, Request, Service};
+use ads_cnc::operation::{Call, DispatchError, Reply, Request, Service};
 use ads_cnc_vectors::requirement;
 
 use super::super::book::{Book, Scene, Topic};
@@ -63,7 +63,7 @@ pub(super) fn judge(bench: &mut Bench<'_>, scene: &Scene<'_>, call: &Call<'_>, a
     let data = answer.success();
     let request = match call.dispatch() {
         Ok(request) => request,
-        Err(Refusal::Stream(error)) => {
+        Err(DispatchError::Stream(error)) => {
             // That it is to be refused is assumed, but where a count has no room.
             let spec = error.field().spec().map(|spec| spec.clause);
             let spec = if error.kind() == ErrorKind::TooMany { Some("VAR-24") } else { spec };

@@ -2,7 +2,7 @@
 
 use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, StateFlags};
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Function, Refusal, Request, Service};
+use ads_cnc::operation::{Call, DispatchError, Function, Request, Service};
 use ads_cnc::{CncStr, ErrorKind, VariablePath};
 use ads_cnc_vectors::requirement;
 
@@ -33,7 +33,7 @@ pub(super) fn judge(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>) -> Opti
             documented(book, scene, call, &request);
             None
         }
-        Err(Refusal::Stream(error)) => {
+        Err(DispatchError::Stream(error)) => {
             if let Some(function) = function_at(call, |_| true) {
                 let spec = function.spec();
                 let clause = error.field().spec().map(|spec| spec.clause);
@@ -62,7 +62,7 @@ pub(super) fn judge(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>) -> Opti
                 page.check(port_rule(other), false, expected, format!("port {}", call.port));
                 return None;
             }
-            if matches!(refusal, Refusal::Service { .. }) {
+            if matches!(refusal, DispatchError::Service { .. }) {
                 return wrong_service(book, scene, call, refusal);
             }
             let Call { port, service, index_group, index_offset, .. } = call;
@@ -81,7 +81,7 @@ fn function_at(call: &Call<'_>, fits: impl Fn(Service) -> bool) -> Option<Functi
     let group = call.index_group.parts()?;
     let mut all = Function::ALL.iter().copied().filter(|function| {
         let spec = function.spec();
-        let here = spec.group.holds(group) && spec.offset.holds(call.index_offset);
+        let here = spec.group.contains(group) && spec.offset.contains(call.index_offset);
         here && fits(spec.service)
     });
     // A function wins over content (SDA-12).
@@ -95,7 +95,7 @@ fn wrong_service(
     book: &mut Book,
     scene: &Scene<'_>,
     call: &Call<'_>,
-    refusal: Refusal,
+    refusal: DispatchError,
 ) -> Option<String> {
     let function = function_at(call, |service| service != call.service)?;
     let spec = function.spec();

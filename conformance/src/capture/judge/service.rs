@@ -64,8 +64,8 @@ impl Bench<'_> {
         let variable = name.as_deref().and_then(ServiceVariable::by_name);
         let (Some(variable), Some(reply)) = (variable, reply) else { return };
         let written = match request {
-            Request::WriteByHandle(write) => Some(write.value),
-            Request::WriteByName(write) => Some(write.value),
+            Request::WriteByHandle(write) => Some(write.value.as_bytes()),
+            Request::WriteByName(write) => Some(write.value.as_bytes()),
             Request::ReadByHandle(_) | Request::ReadByName(_) => None,
             _ => return,
         };

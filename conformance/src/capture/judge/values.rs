@@ -41,8 +41,8 @@ impl Bench<'_> {
         let name = &target.description.name.text;
         let by_handle = matches!(request, Request::ReadByHandle(_) | Request::WriteByHandle(_));
         let (clause, written) = match request {
-            Request::WriteByHandle(write) => ("VAR-12", Some(write.value)),
-            Request::WriteByName(write) => ("VAR-13", Some(write.value)),
+            Request::WriteByHandle(write) => ("VAR-12", Some(write.value.as_bytes())),
+            Request::WriteByName(write) => ("VAR-13", Some(write.value.as_bytes())),
             _ => (if by_handle { "VAR-11" } else { "VAR-20" }, None),
         };
         let dimensions = target.description.dimensions.len();

@@ -257,7 +257,7 @@ impl Running<'_> {
     fn write_program_stream(&mut self, op: &WriteProgramStream<'_>) -> Answer {
         let channel = self.channel(op.channel)?;
         let channel = self.state.channels.get_mut(channel).ok_or(AdsError::INVALID_GROUP)?;
-        match program::result(channel.program.write(op.packet.bytes, self.now)) {
+        match program::result(channel.program.write(op.packet, self.now)) {
             AdsError::NONE => encode(NoData),
             refused => Err(refused),
         }

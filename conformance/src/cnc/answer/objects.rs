@@ -22,13 +22,13 @@ impl Running<'_> {
     }
 
     pub(super) fn read_object(&self, op: &ReadObject) -> Answer {
-        let (owner, index) = self.object(op.place())?;
+        let (owner, index) = self.object(op.address())?;
         let bytes = content::read(self.model, &self.state, owner, index)?;
         encode(ContentRef { bytes: &bytes })
     }
 
     pub(super) fn write_object(&mut self, op: &WriteObject<'_>) -> Answer {
-        let (owner, index) = self.object(op.place())?;
+        let (owner, index) = self.object(op.address())?;
         content::write(self.model, &mut self.state, owner, index, op.content().bytes)?;
         Ok(Vec::new())
     }

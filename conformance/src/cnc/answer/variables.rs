@@ -109,7 +109,7 @@ impl Running<'_> {
     pub(super) fn write_by_handle(&mut self, op: &WriteByHandle<'_>) -> Answer {
         let channel = self.channel(op.channel)?;
         let at = self.by_handle(channel, op.handle)?;
-        self.write(channel, at, op.indices, op.value)
+        self.write(channel, at, op.indices, op.value.as_bytes())
     }
 
     pub(super) fn read_by_name(&self, op: &ReadByName<'_>) -> Answer {
@@ -127,11 +127,11 @@ impl Running<'_> {
     pub(super) fn write_by_name(&mut self, op: &WriteByName<'_>) -> Answer {
         let channel = self.channel(op.channel)?;
         match self.named(Function::WriteByName, channel, op.name)? {
-            (Named::Variable(at), indices) => self.write(channel, at, indices, op.value),
+            (Named::Variable(at), indices) => self.write(channel, at, indices, op.value.as_bytes()),
             (Named::Parameter, _) => {
                 let (_, name) = parameter(op.name)?;
                 tracing::debug!(channel, %name, "write to a parameter");
-                let value = op.value.try_into().map_err(|_| AdsError::INVALID_SIZE)?;
+                let value = op.value.as_bytes().try_into().map_err(|_| AdsError::INVALID_SIZE)?;
                 let channel = self.state.channels.get_mut(channel);
                 let found = channel.and_then(|one| one.parameters.value_mut(&name));
                 *found.ok_or(UNKNOWN)? = DynamicValue::from_bits(u64::from_le_bytes(value));
@@ -157,7 +157,7 @@ impl Running<'_> {
     pub(super) fn axis_write_by_name(&mut self, op: &AxisWriteByName<'_>) -> Answer {
         let (channel, at, indices) =
             self.of_axis(Function::AxisWriteByName, op.channel, op.axis, op.name)?;
-        self.write(channel, at, indices, op.value)
+        self.write(channel, at, indices, op.value.as_bytes())
     }
 
     /// The value of a variable or of one of its elements; blank where no axis is (SDA-11).

@@ -195,7 +195,7 @@ fn answered(request: &FrameRef<'_>, answers: &[u8]) -> usize {
         assert!(answer.data().is_empty());
         return len;
     }
-    let call = Call::of_frame(request);
+    let call = Call::from_frame(request);
     let Some(service) = service_of(header.command) else { return len };
     let (result, data) = decode_reply(service, answer.data()).expect("a reply of the service");
     if let (Ok(Some(call)), true) = (call, result.is_none()) {
@@ -246,8 +246,8 @@ fn reading<'c>(call: &Call<'c>) -> Option<Reading<'c>> {
             (Service::ReadWrite, call.index_offset.get() - 1, name, value)
         }
         Request::WriteByHandle(op) => {
-            let value = op.value;
-            let (handle, _) = call.data.split_at(call.data.len() - value.len());
+            let len = op.value.as_bytes().len();
+            let (handle, value) = call.data.split_at(call.data.len() - len);
             (Service::ReadWrite, 0x47, handle, value)
         }
         Request::WriteObject(_) | Request::WriteElement(_) => {

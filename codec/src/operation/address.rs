@@ -1,0 +1,187 @@
+//! The address of a call: from the parts of an operation by the rules of its function, and back.
+
+use super::{GroupRule, OffsetRule};
+use crate::address::{
+    Access, Attribute, Channel, ChannelAxis, ClassGroup, ComGroup, ComTable, ElementAddress, Group,
+    IndexGroup, IndexOffset, PlatformAxis,
+};
+use crate::dynamic::DynamicKind;
+
+/// The parts of an operation that address it.
+pub(super) trait Address: Copy {
+    fn group(self, rule: GroupRule) -> IndexGroup;
+
+    fn offset(self, rule: OffsetRule) -> IndexOffset {
+        rule.first()
+    }
+
+    /// The parts of an address that the rules contain.
+    fn of(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self>;
+}
+
+impl Address for (Channel,) {
+    fn group(self, rule: GroupRule) -> IndexGroup {
+        match rule {
+            GroupRule::ChannelOf(class) => self.0.class(class, Attribute::Content),
+            _ => self.0.com(Access::Element),
+        }
+    }
+
+    fn of(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
+        Channel::of(group).map(|channel| (channel,))
+    }
+}
+
+impl Address for (Channel, ChannelAxis) {
+    fn group(self, rule: GroupRule) -> IndexGroup {
+        (self.0,).group(rule)
+    }
+
+    fn offset(self, rule: OffsetRule) -> IndexOffset {
+        // Elements of axes have few bits, so that there always is one.
+        self.1.offset(rule.first().get()).unwrap_or(rule.first())
+    }
+
+    fn of(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
+        Some((Channel::of(group)?, ChannelAxis::of(offset)?))
+    }
+}
+
+impl Address for (Channel, DynamicKind) {
+    fn group(self, rule: GroupRule) -> IndexGroup {
+        (self.0,).group(rule)
+    }
+
+    fn offset(self, rule: OffsetRule) -> IndexOffset {
+        match rule {
+            OffsetRule::OfKind(offsets) => self.1.offset(offsets),
+            _ => rule.first(),
+        }
+    }
+
+    fn of(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self> {
+        let OffsetRule::OfKind(offsets) = rule else { return None };
+        Some((Channel::of(group)?, DynamicKind::of_offset(offsets, offset)?))
+    }
+}
+
+impl Address for (ObjectList,) {
+    fn group(self, _: GroupRule) -> IndexGroup {
+        self.0.index_group()
+    }
+
+    fn of(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
+        let Group::Com(group) = group else { return None };
+        Some((ObjectList(group),))
+    }
+}
+
+/// A list, and the number of an object in it.
+impl Address for (ObjectList, u32) {
+    fn group(self, _: GroupRule) -> IndexGroup {
+        self.0.index_group()
+    }
+
+    fn offset(self, _: OffsetRule) -> IndexOffset {
+        IndexOffset::new(self.1)
+    }
+
+    fn of(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self> {
+        let (list,) = Address::of(group, offset, rule)?;
+        Some((list, offset.get()))
+    }
+}
+
+/// The content of a COM object.
+impl Address for ((ComGroup, IndexOffset),) {
+    fn group(self, _: GroupRule) -> IndexGroup {
+        self.0.0.index_group()
+    }
+
+    fn offset(self, _: OffsetRule) -> IndexOffset {
+        self.0.1
+    }
+
+    fn of(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
+        let Group::Com(group) = group else { return None };
+        Some(((group, offset),))
+    }
+}
+
+/// The object addresses of a class.
+impl Address for (ClassGroup,) {
+    fn group(self, _: GroupRule) -> IndexGroup {
+        self.0.index_group()
+    }
+
+    fn of(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
+        let Group::Class(group) = group else { return None };
+        Some((group,))
+    }
+}
+
+impl Address for (ElementAddress,) {
+    fn group(self, rule: GroupRule) -> IndexGroup {
+        self.0.group(match rule {
+            GroupRule::Elements(attribute) => attribute,
+            _ => Attribute::Content,
+        })
+    }
+
+    fn offset(self, _: OffsetRule) -> IndexOffset {
+        self.0.index_offset()
+    }
+
+    fn of(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
+        let Group::Class(group) = group else { return None };
+        Some((ElementAddress::new(group, offset),))
+    }
+}
+
+/// The list of the objects of the platform, of a channel or of a platform axis.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1 and 2.1.1.
+///
+/// ```
+/// use ads_cnc::address::{Channel, PlatformAxis};
+/// use ads_cnc::operation::ObjectList;
+///
+/// assert_eq!(ObjectList::PLATFORM.index_group().get(), 0x13_0100);
+/// assert_eq!(ObjectList::from(Channel::new(1)?).index_group().get(), 0x13_0101);
+/// assert_eq!(ObjectList::from(PlatformAxis::new(2)?).index_group().get(), 0x13_0202);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ObjectList(ComGroup);
+
+impl ObjectList {
+    /// The platform's; the first channel lists them too (COM-4).
+    pub const PLATFORM: Self = Self(ComGroup::platform(Access::Object));
+
+    /// The list's index group.
+    pub const fn index_group(self) -> IndexGroup {
+        self.0.index_group()
+    }
+
+    /// The parts of the index group.
+    pub const fn parts(self) -> ComGroup {
+        self.0
+    }
+}
+
+impl From<Channel> for ObjectList {
+    fn from(channel: Channel) -> Self {
+        Self(ComGroup {
+            addressing: channel.addressing(),
+            instance: channel.number(),
+            ..Self::PLATFORM.0
+        })
+    }
+}
+
+impl From<PlatformAxis> for ObjectList {
+    /// The group of platform axes' descriptors is assumed (COM-7).
+    fn from(axis: PlatformAxis) -> Self {
+        Self(ComGroup { table: ComTable::Axis, instance: axis.place(), ..Self::PLATFORM.0 })
+    }
+}

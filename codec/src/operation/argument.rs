@@ -1,0 +1,195 @@
+//! What constructors of operations take: names and values.
+
+use core::fmt;
+use core::hash::{Hash, Hasher};
+
+#[cfg(feature = "alloc")]
+use alloc::{string::String, vec::Vec};
+
+use crate::content::ContentRef;
+use crate::error::Error;
+use crate::text::CncStr;
+#[cfg(feature = "alloc")]
+use crate::text::CncString;
+use crate::value::Boolean;
+use crate::variable::{ValueRef, VariablePath};
+
+/// The name of a variable or of a parameter: `&str`, [`CncStr`], [`VariablePath`] and, with `alloc`,
+/// `&String` and `&CncString`. Nothing is copied.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1.
+///
+/// ```
+/// use ads_cnc::address::Channel;
+/// use ads_cnc::operation::ReadByName;
+/// use ads_cnc::{CncStr, VariablePath};
+///
+/// let channel = Channel::new(1)?;
+/// let op = ReadByName::new(channel, "V.E.Testvar")?;
+/// assert_eq!(ReadByName::new(channel, CncStr::from_bytes(b"V.E.Testvar")?)?, op);
+/// assert_eq!(ReadByName::new(channel, VariablePath::new("V.E.Testvar[3]")?.variable())?, op);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+pub trait IntoName<'a> {
+    /// The name as CP1252 text.
+    ///
+    /// # Errors
+    /// Those of [`CncStr::new`] for a `&str`; none for text that is CP1252 already.
+    fn into_name(self) -> Result<CncStr<'a>, Error>;
+}
+
+macro_rules! names {
+    ($( $(#[$attribute:meta])* $type:ty, |$name:ident| $text:expr; )+) => { $(
+        $(#[$attribute])*
+        impl<'a> IntoName<'a> for $type {
+            fn into_name(self) -> Result<CncStr<'a>, Error> {
+                let $name = self;
+                $text
+            }
+        }
+    )+ };
+}
+
+names! {
+    &'a str, |name| CncStr::new(name);
+    CncStr<'a>, |name| Ok(name);
+    VariablePath<'a>, |path| Ok(path.text());
+    #[cfg(feature = "alloc")]
+    &'a String, |name| CncStr::new(name);
+    #[cfg(feature = "alloc")]
+    &'a CncString, |name| Ok(name.as_cnc_str());
+}
+
+impl<'a, N: IntoName<'a> + Copy> IntoName<'a> for &N {
+    fn into_name(self) -> Result<CncStr<'a>, Error> {
+        (*self).into_name()
+    }
+}
+
+/// A value to write: a number, a `bool`, or the bytes of a value.
+///
+/// Text, and arrays of anything but bytes, are encoded into a buffer of the caller's first, by
+/// [`EncodeValue`](crate::value::EncodeValue).
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6 and 4.3.7.
+///
+/// ```
+/// use ads_cnc::address::Channel;
+/// use ads_cnc::operation::{Operation, WriteByName};
+/// use ads_cnc::value::EncodeValue;
+///
+/// let channel = Channel::new(1)?;
+/// let on = WriteByName::new(channel, "V.E.on", true)?;
+/// assert_eq!(on.encode(&mut [0; 16])?, b"V.E.on\0\x01");
+///
+/// let x = WriteByName::new(channel, "V.E.x", 1.5_f64)?;
+/// assert_eq!(x.value.as_bytes(), 1.5_f64.to_le_bytes());
+///
+/// let mut room = [0; 20];
+/// let array = [123, 234, 345, 456, 567].encode_value(&mut room)?;
+/// assert_eq!(WriteByName::new(channel, "V.E.test", array)?.value.as_bytes().len(), 20);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy)]
+pub struct WriteValue<'a>(Source<'a>);
+
+#[derive(Clone, Copy)]
+enum Source<'a> {
+    Bytes(&'a [u8]),
+    /// The first `len` of these.
+    Number {
+        bytes: [u8; 8],
+        len: usize,
+    },
+}
+
+impl WriteValue<'_> {
+    /// The bytes to write.
+    pub fn as_bytes(&self) -> &[u8] {
+        match &self.0 {
+            Source::Bytes(bytes) => bytes,
+            Source::Number { bytes, len } => bytes.get(..*len).unwrap_or_default(),
+        }
+    }
+
+    fn number<const N: usize>(number: [u8; N]) -> Self {
+        let mut bytes = [0; 8];
+        bytes.iter_mut().zip(number).for_each(|(to, from)| *to = from);
+        Self(Source::Number { bytes, len: N })
+    }
+}
+
+macro_rules! numbers {
+    ($( $number:ty )+) => { $(
+        impl From<$number> for WriteValue<'_> {
+            fn from(number: $number) -> Self {
+                Self::number(number.to_le_bytes())
+            }
+        }
+    )+ };
+}
+
+numbers! { i8 u8 i16 u16 i32 u32 i64 u64 f32 f64 }
+
+impl From<bool> for WriteValue<'_> {
+    fn from(value: bool) -> Self {
+        u8::from(value).into()
+    }
+}
+
+impl From<Boolean> for WriteValue<'_> {
+    fn from(value: Boolean) -> Self {
+        value.0.into()
+    }
+}
+
+impl<'a> From<&'a [u8]> for WriteValue<'a> {
+    fn from(bytes: &'a [u8]) -> Self {
+        Self(Source::Bytes(bytes))
+    }
+}
+
+impl<'a, const N: usize> From<&'a [u8; N]> for WriteValue<'a> {
+    fn from(bytes: &'a [u8; N]) -> Self {
+        Self(Source::Bytes(bytes))
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<'a> From<&'a Vec<u8>> for WriteValue<'a> {
+    fn from(bytes: &'a Vec<u8>) -> Self {
+        Self(Source::Bytes(bytes))
+    }
+}
+
+impl<'a> From<ValueRef<'a>> for WriteValue<'a> {
+    fn from(value: ValueRef<'a>) -> Self {
+        Self(Source::Bytes(value.bytes))
+    }
+}
+
+impl<'a> From<ContentRef<'a>> for WriteValue<'a> {
+    fn from(content: ContentRef<'a>) -> Self {
+        Self(Source::Bytes(content.bytes))
+    }
+}
+
+impl PartialEq for WriteValue<'_> {
+    fn eq(&self, other: &WriteValue<'_>) -> bool {
+        self.as_bytes() == other.as_bytes()
+    }
+}
+
+impl Eq for WriteValue<'_> {}
+
+impl Hash for WriteValue<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.as_bytes().hash(state);
+    }
+}
+
+impl fmt::Debug for WriteValue<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(self.as_bytes(), f)
+    }
+}

@@ -1,0 +1,326 @@
+//! What the table cannot say of an operation, and why.
+//!
+//! - `ReadDescriptors`, `ReadElement`, `ReadObject`: the caller chooses the read length, and a reply
+//!   is no longer than that.
+//! - `ReadElement`, `WriteElement`, `ReadObject`, `WriteObject`, `CountElements`: no content is at
+//!   the address of another function (SDA-12), so that their constructors look into the table.
+//! - `FindInstance`: its class is addressed by number or by index.
+
+use super::{
+    CountElements, FindInstance, Function, ObjectList, ReadDescriptors, ReadElement, ReadObject,
+    Task, WriteElement, WriteObject, WriteValue,
+};
+use crate::address::{
+    Access, Addressing, Attribute, Class, ClassGroup, ComGroup, ElementAddress, Group, IndexGroup,
+    IndexOffset,
+};
+use crate::bytes::to_u32;
+use crate::com::{Descriptor, DescriptorRef, DescriptorsRef};
+use crate::content::ContentRef;
+use crate::error::{Error, ErrorKind};
+use crate::layout::field::index_group::INSTANCE;
+use crate::layout::field::index_offset::ELEMENT;
+use crate::layout::{Field, Stream};
+use crate::limits::{ADS_DATA_MAX, DESCRIPTOR_LEN};
+use crate::sda::ObjectAddressQuery;
+
+const DESCRIPTORS: Field = Field::whole(Stream::ObjectDescriptors);
+const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
+
+impl ReadDescriptors {
+    /// The most descriptors of one read.
+    pub const COUNT_MAX: u32 = 49_932;
+
+    /// `count` descriptors from object `first` on; objects are counted from 1.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for object 0, by the field `element` of the index offset, which is
+    /// the object's number, and for a count of 0; [`ErrorKind::TooMany`] for a count over
+    /// [`COUNT_MAX`](Self::COUNT_MAX).
+    pub fn new(list: impl Into<ObjectList>, first: u32, count: u32) -> Result<Self, Error> {
+        if first == 0 {
+            return Err(Error::new(ErrorKind::OutOfRange, ELEMENT, 0, 1, first));
+        }
+        if count == 0 {
+            return Err(Error::new(ErrorKind::OutOfRange, DESCRIPTORS, 0, 1, count));
+        }
+        if count > Self::COUNT_MAX {
+            return Err(Error::new(ErrorKind::TooMany, DESCRIPTORS, 0, Self::COUNT_MAX, count));
+        }
+        let length = count.saturating_mul(to_u32(DESCRIPTOR_LEN));
+        Ok(Self { list: list.into(), first, length })
+    }
+
+    /// The list.
+    pub const fn list(&self) -> ObjectList {
+        self.list
+    }
+
+    /// The first object, from 1.
+    pub const fn first(&self) -> u32 {
+        self.first
+    }
+
+    /// How many descriptors are asked for; never more than [`COUNT_MAX`](Self::COUNT_MAX).
+    pub fn count(&self) -> u32 {
+        let len = to_u32(DESCRIPTOR_LEN);
+        match self.length.checked_rem(len) {
+            Some(0) => self.length.checked_div(len).unwrap_or(1).min(Self::COUNT_MAX),
+            _ => 1,
+        }
+    }
+
+    pub(super) fn check_length(length: u32) -> Result<u32, Error> {
+        let least = to_u32(DESCRIPTOR_LEN);
+        match length < least {
+            true => Err(Error::new(ErrorKind::BufferTooSmall, DESCRIPTORS, 0, least, length)),
+            false => Ok(length),
+        }
+    }
+
+    pub(super) fn check_reply(&self, reply: &DescriptorsRef<'_>, _: u32) -> Result<(), Error> {
+        let (asked, given) = (self.count(), to_u32(reply.len()));
+        match given > asked {
+            true => Err(Error::new(ErrorKind::TooMany, DESCRIPTORS, 0, asked, given)),
+            false => Ok(()),
+        }
+    }
+}
+
+/// No content is where a function is (SDA-12).
+fn content(task: Task, group: IndexGroup, offset: IndexOffset) -> Result<(), Error> {
+    match Function::at(task, group, offset) {
+        Some(_) => Err(Error::new(ErrorKind::Function, ELEMENT, 0, 0, offset.get())),
+        None => Ok(()),
+    }
+}
+
+/// The address of a COM object's content, which its descriptor has (COM-5).
+fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffset), Error> {
+    const PLATFORM: ComGroup = ComGroup::platform(Access::Element);
+    let (wanted, com) = match group.parts() {
+        Some(Group::Com(com)) => (ComGroup { access: Access::Element, ..com }, com),
+        _ => (PLATFORM, ComGroup { access: Access::Object, ..PLATFORM }),
+    };
+    if com != wanted {
+        let wanted = wanted.index_group().get();
+        return Err(Error::new(ErrorKind::Mismatch, INSTANCE, 0, wanted, group.get()));
+    }
+    content(Task::Com, group, offset)?;
+    Ok((com, offset))
+}
+
+/// An element whose content is no function; the first element counts the others.
+fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
+    content(Task::Sda, element.group(Attribute::Content), element.index_offset())?;
+    Ok(element)
+}
+
+fn length(length: u32) -> Result<u32, Error> {
+    let max = to_u32(ADS_DATA_MAX);
+    match length > max {
+        true => Err(Error::new(ErrorKind::TooLong, CONTENT, 0, max, length)),
+        false => Ok(length),
+    }
+}
+
+/// The read length of content is any; a reply is no longer.
+macro_rules! reads_content {
+    ($( $operation:ident )+) => { $(
+        impl $operation {
+            pub(super) const fn check_length(length: u32) -> Result<u32, Error> {
+                Ok(length)
+            }
+
+            pub(super) fn check_reply(
+                &self,
+                reply: &ContentRef<'_>,
+                length: u32,
+            ) -> Result<(), Error> {
+                let given = to_u32(reply.bytes.len());
+                match given > length {
+                    true => Err(Error::new(ErrorKind::TooLong, CONTENT, length, length, given)),
+                    false => Ok(()),
+                }
+            }
+        }
+    )+ };
+}
+
+reads_content! { ReadElement ReadObject }
+
+impl ReadObject {
+    /// For an object of a list, by its [`Descriptor`] or [`DescriptorRef`].
+    ///
+    /// ```
+    /// use ads_cnc::Descriptor;
+    /// use ads_cnc::address::{Channel, IndexGroup, IndexOffset};
+    /// use ads_cnc::operation::{Operation, ReadDescriptors, ReadObject};
+    ///
+    /// # use ads_cnc::Encode;
+    /// # let object = Descriptor::new("mc_active_single_block_r", "BOOL")?
+    /// #     .with_size(1)
+    /// #     .with_content(IndexGroup::new(0x12_0101), IndexOffset::new(3));
+    /// # let (mut data, n) = ([0; 84], 1);
+    /// # let data = object.encode(&mut data)?;
+    /// let list = Channel::new(1)?;
+    /// for object in ReadDescriptors::new(list, 1, n)?.decode_reply(data)?.iter() {
+    ///     let op = ReadObject::of(&object)?;
+    ///     assert_eq!((op.index_offset().get(), op.read_length()), (3, 1));
+    /// }
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub fn of<'d>(object: impl Into<DescriptorRef<'d>>) -> Result<Self, Error> {
+        let object = object.into();
+        Self::new(object.index_group(), object.index_offset(), object.size())
+    }
+
+    /// For the group, the offset and the size in an object's descriptor.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] for a group that is none of COM's content, [`ErrorKind::Function`]
+    /// for the program stream, whose reading is not documented (STM-1), [`ErrorKind::TooLong`] for
+    /// more than ADS carries.
+    pub fn new(group: IndexGroup, offset: IndexOffset, size: u32) -> Result<Self, Error> {
+        Ok(Self { object: object(group, offset)?, length: length(size)? })
+    }
+
+    /// Index group, by its parts, and index offset of the object.
+    pub const fn address(&self) -> (ComGroup, IndexOffset) {
+        self.object
+    }
+}
+
+impl<'a> WriteObject<'a> {
+    /// For an object of a list, by its [`Descriptor`] or [`DescriptorRef`], and its new content.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new).
+    pub fn of<'d>(
+        object: impl Into<DescriptorRef<'d>>,
+        content: impl Into<WriteValue<'a>>,
+    ) -> Result<Self, Error> {
+        let object = object.into();
+        Self::new(object.index_group(), object.index_offset(), content)
+    }
+
+    /// For the group and the offset in an object's descriptor.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] for a group that is none of COM's content, [`ErrorKind::Function`]
+    /// for the program stream, which [`WriteProgramStream`](super::WriteProgramStream) writes.
+    pub fn new(
+        group: IndexGroup,
+        offset: IndexOffset,
+        content: impl Into<WriteValue<'a>>,
+    ) -> Result<Self, Error> {
+        Ok(Self { object: object(group, offset)?, content: content.into() })
+    }
+
+    /// Index group, by its parts, and index offset of the object.
+    pub const fn address(&self) -> (ComGroup, IndexOffset) {
+        self.object
+    }
+
+    /// The bytes to write.
+    pub fn content(&self) -> ContentRef<'_> {
+        ContentRef { bytes: self.content.as_bytes() }
+    }
+}
+
+impl ReadElement {
+    /// For an element and the length of its content.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Function`] for an element of the decoder that is a function, and for the first
+    /// element of an instance, which [`CountElements`] reads; [`ErrorKind::TooLong`] for more than
+    /// ADS carries.
+    pub fn new(address: ElementAddress, size: u32) -> Result<Self, Error> {
+        Ok(Self { element: element(address)?, length: length(size)? })
+    }
+
+    /// The element.
+    pub const fn element(&self) -> ElementAddress {
+        self.element
+    }
+}
+
+impl<'a> WriteElement<'a> {
+    /// For an element and its new content.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Function`] for an element of the decoder that is a function, and for the first
+    /// element of an instance.
+    pub fn new(address: ElementAddress, content: impl Into<WriteValue<'a>>) -> Result<Self, Error> {
+        Ok(Self { element: element(address)?, content: content.into() })
+    }
+
+    /// The element.
+    pub const fn element(&self) -> ElementAddress {
+        self.element
+    }
+
+    /// The bytes to write.
+    pub fn content(&self) -> ContentRef<'_> {
+        ContentRef { bytes: self.content.as_bytes() }
+    }
+}
+
+impl CountElements {
+    /// For the first element of an instance.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Function`] for an element of the decoder that is another function (SDA-12).
+    pub fn new(first: ElementAddress) -> Result<Self, Error> {
+        let (group, offset) = (first.group(Attribute::Content), first.index_offset());
+        match Function::at(Task::Sda, group, offset) {
+            None | Some(Function::CountElements) => Ok(Self { element: first }),
+            Some(_) => Err(Error::new(ErrorKind::Function, ELEMENT, 0, 0, offset.get())),
+        }
+    }
+
+    /// The first element.
+    pub const fn element(&self) -> ElementAddress {
+        self.element
+    }
+}
+
+impl FindInstance {
+    /// For a class, a channel (or the index of a spindle, or 0 for the platform) and an axis (or 0
+    /// for the channel itself). See [`ObjectAddressQuery`] for which numbers a class takes.
+    pub const fn new(class: Class, channel: u32, axis: u32) -> Self {
+        Self { class: ClassGroup::object_address(class), channel, axis }
+    }
+
+    /// The same by index: channels and spindles are counted among the active ones.
+    #[must_use]
+    pub const fn by_index(mut self) -> Self {
+        self.class.addressing = Addressing::Index;
+        self
+    }
+
+    /// The class, and whether it is addressed by number or by index.
+    pub const fn class_group(&self) -> ClassGroup {
+        self.class
+    }
+
+    /// The channel and the axis that are asked for.
+    pub const fn query(&self) -> ObjectAddressQuery {
+        ObjectAddressQuery { channel: self.channel, axis: self.axis }
+    }
+}
+
+impl<'d> From<&'d Descriptor> for DescriptorRef<'d> {
+    fn from(object: &'d Descriptor) -> Self {
+        object.as_ref()
+    }
+}
+
+impl<'d> From<&DescriptorRef<'d>> for DescriptorRef<'d> {
+    fn from(object: &DescriptorRef<'d>) -> Self {
+        *object
+    }
+}

@@ -1,0 +1,275 @@
+//! Typed operations: the trait, and the macro that declares one by its row of the table.
+
+use super::{Call, Function, Service};
+use crate::address::{IndexGroup, IndexOffset};
+use crate::ads::AmsPort;
+use crate::error::Error;
+use crate::stream::Decode;
+
+pub(super) mod sealed {
+    pub trait Sealed {}
+}
+
+/// A call of one function of the table.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.1.2, 2.2.2, 3.1 … 3.4 and
+/// 4.3.1 … 4.3.11.
+///
+/// ```
+/// use ads_cnc::address::{Channel, IndexGroup, IndexOffset};
+/// use ads_cnc::ads::AmsPort;
+/// use ads_cnc::operation::{CountVariables, Operation, Service};
+/// use ads_cnc::{Error, Kind, VariableCount};
+///
+/// /// Any transport.
+/// trait Transport {
+///     fn send(
+///         &mut self,
+///         port: AmsPort,
+///         service: Service,
+///         index_group: IndexGroup,
+///         index_offset: IndexOffset,
+///         read_length: u32,
+///         data: &[u8],
+///     ) -> &[u8];
+///
+///     fn ask<'r, O: Operation>(
+///         &'r mut self,
+///         op: &O,
+///         buf: &mut [u8],
+///     ) -> Result<O::Reply<'r>, Error> {
+///         let (group, offset) = (op.index_group(), op.index_offset());
+///         let data = op.encode(buf)?;
+///         op.decode_reply(
+///             self.send(op.port(), op.service(), group, offset, op.read_length(), data),
+///         )
+///     }
+/// }
+///
+/// // … or all of it at once:
+/// let count = CountVariables::new(Channel::new(1)?, Kind::V_E);
+/// let mut buf = [0; 256];
+/// let call = count.call(&mut buf)?;
+/// assert_eq!((call.port, call.service), (AmsPort::SDA, Service::ReadWrite));
+/// assert_eq!((call.index_offset.get(), call.data), (0x44, &b"V.E\0"[..]));
+/// assert_eq!(count.decode_reply(&[123, 0, 0, 0])?, VariableCount(123));
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+pub trait Operation: sealed::Sealed {
+    /// The function that is called.
+    const FUNCTION: Function;
+
+    /// The reply.
+    type Reply<'r>: Decode<'r>;
+
+    /// The AMS port of the task that serves the function.
+    fn port(&self) -> AmsPort {
+        const { Self::FUNCTION.spec().task.port() }
+    }
+
+    /// The ADS service of the function.
+    fn service(&self) -> Service {
+        const { Self::FUNCTION.spec().service }
+    }
+
+    /// The index group to send it to.
+    fn index_group(&self) -> IndexGroup;
+
+    /// The index offset to send it to.
+    fn index_offset(&self) -> IndexOffset;
+
+    /// The most bytes the reply has, to be sent as the read length; 0 for a Write.
+    fn read_length(&self) -> u32;
+
+    /// How many bytes [`encode`](Self::encode) writes.
+    fn encoded_len(&self) -> usize;
+
+    /// Writes the data to send, if any, to the front of `buf`.
+    ///
+    /// # Errors
+    /// A value that the function does not take, or a buffer that is too small; nothing is written.
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
+
+    /// Encodes the data into `buf` and puts the address, the service and the read length to it.
+    ///
+    /// # Errors
+    /// Those of [`encode`](Self::encode).
+    fn call<'b>(&self, buf: &'b mut [u8]) -> Result<Call<'b>, Error> {
+        Ok(Call {
+            port: self.port(),
+            service: self.service(),
+            index_group: self.index_group(),
+            index_offset: self.index_offset(),
+            read_length: self.read_length(),
+            data: self.encode(buf)?,
+        })
+    }
+
+    /// Reads the data received.
+    ///
+    /// # Errors
+    /// Those of the reply's stream, and a reply longer than was asked for.
+    fn decode_reply<'r>(&self, data: &'r [u8]) -> Result<Self::Reply<'r>, Error> {
+        Self::Reply::decode(data)
+    }
+}
+
+/// The kinds of fields of operations, one line each: the type, what a constructor takes, how it
+/// makes the field of that, how the field goes into the stream, and its documentation.
+macro_rules! field {
+    ($q:ident Channel $($i:ident)?)    => { field!(@$q [Channel] [Channel] [$($i)?] [$($i)?] "The channel.") };
+    ($q:ident Axis $($i:ident)?)       => { field!(@$q [ChannelAxis] [ChannelAxis] [$($i)?] [$($i)?] "The axis, by its index in the channel.") };
+    ($q:ident Parameters $($i:ident)?) => { field!(@$q [DynamicKind] [DynamicKind] [$($i)?] [$($i)?] "The kind of parameters.") };
+    ($q:ident List $($i:ident)?)       => { field!(@$q [ObjectList] [impl Into<ObjectList>] [$($i)?.into()] [$($i)?] "The list.") };
+    ($q:ident Element $($i:ident)?)    => { field!(@$q [ElementAddress] [ElementAddress] [$($i)?] [$($i)?] "The element.") };
+    ($q:ident Class $($i:ident)?)      => { field!(@$q [ClassGroup] [ClassGroup] [$($i)?] [$($i)?] "The class, by number or by index.") };
+    ($q:ident Object $($i:ident)?)     => { field!(@$q [(ComGroup, IndexOffset)] [(ComGroup, IndexOffset)] [$($i)?] [$($i)?] "The object.") };
+    ($q:ident Number $($i:ident)?)     => { field!(@$q [u32] [u32] [$($i)?] [$($i)?] "A number.") };
+    ($q:ident Index $($i:ident)?)      => { field!(@$q [u32] [u32] [$($i)?] [$($i)?] "Index of the variable, from 0 to one less than their number.") };
+    ($q:ident FromOne $($i:ident)?)    => { field!(@$q [u32] [u32] [DynamicIndex($($i)?).check()?.0] [$($i)?] "Index of the parameter, from 1.") };
+    ($q:ident Kind $($i:ident)?)       => { field!(@$q [Kind<'a>] [Kind<'a>] [$($i)?] [$($i)?] "The kind of variables.") };
+    ($q:ident Name $($i:ident)?)       => { field!(@$q [TextRef<'a>] [impl IntoName<'a>] [$($i)?.into_name()?.into()] [$($i)?] "The name.") };
+    ($q:ident Leading $($i:ident)?)    => { field!(@$q [CncStr<'a>] [impl IntoName<'a>] [$($i)?.into_name()?] [$($i)?] "The name.") };
+    ($q:ident Handle $($i:ident)?)     => { field!(@$q [Handle] [Handle] [$($i)?] [$($i)?] "Handle of the variable.") };
+    ($q:ident Indices $($i:ident)?)    => { field!(@$q [Numbers<'a>] [impl Into<Numbers<'a>>] [$($i)?.into()] [$($i)?] "Index in each dimension, from 0; none for the whole variable.") };
+    ($q:ident Value $($i:ident)?)      => { field!(@$q [WriteValue<'a>] [impl Into<WriteValue<'a>>] [$($i)?.into()] [$($i)?.as_bytes()] "The value.") };
+    ($q:ident Lines $($i:ident)?)      => { field!(@$q [&'a [u8]] [&'a [u8]] [$($i)?] [$($i)?] "Whole lines of NC text; [`Sender`](crate::streaming::Sender) gives them.") };
+    (@ty [$($ty:tt)*] $argument:tt $made:tt $lent:tt $doc:literal) => { $($ty)* };
+    (@argument $ty:tt [$($argument:tt)*] $made:tt $lent:tt $doc:literal) => { $($argument)* };
+    (@made $ty:tt $argument:tt [$($made:tt)*] $lent:tt $doc:literal) => { $($made)* };
+    (@lent $ty:tt $argument:tt $made:tt [$($lent:tt)*] $doc:literal) => { $($lent)* };
+    (@doc $ty:tt $argument:tt $made:tt $lent:tt $doc:literal) => { $doc };
+}
+
+/// Declares the operation of a row.
+macro_rules! operation {
+    (
+        $how:ident $function:ident [$($a:lifetime)?] $facts:tt
+        [$( $part:ident: $part_kind:ident ),+] [$( $field:ident: $field_kind:ident ),*]
+        [$( $data:ident $body:tt )?] [$reply:ty] [$( $most:literal )?] [$( $length:ident )?]
+    ) => {
+        operation! { @type $how $function [$($a)?] $facts
+            [$( $part: $part_kind, )+ $( $field: $field_kind, )*] [$( $length )?] }
+
+        impl $(<$a>)? sealed::Sealed for $function $(<$a>)? {}
+
+        impl $(<$a>)? Operation for $function $(<$a>)? {
+            const FUNCTION: Function = Function::$function;
+
+            type Reply<'r> = $reply;
+
+            fn index_group(&self) -> IndexGroup {
+                ($( self.$part, )+).group(const { Function::$function.spec().group })
+            }
+
+            fn index_offset(&self) -> IndexOffset {
+                ($( self.$part, )+).offset(const { Function::$function.spec().offset })
+            }
+
+            fn read_length(&self) -> u32 {
+                operation!(@length self [$( $most )?] [$( $length )?])
+            }
+
+            operation! { @data [$( $data $body )?] [$( $field: $field_kind ),*] }
+
+            $( fn decode_reply<'r>(&self, data: &'r [u8]) -> Result<Self::Reply<'r>, Error> {
+                let reply = Decode::decode(data)?;
+                self.check_reply(&reply, self.$length)?;
+                Ok(reply)
+            } )?
+        }
+
+        impl $(<$a>)? $function $(<$a>)? {
+            /// The operation that a server is asked for at an address that the rules contain.
+            fn dispatched<'c>(group: Group, call: &Call<'c>) -> Result<Request<'c>, DispatchError> {
+                let rule = const { Function::$function.spec().offset };
+                let ($( $part, )+) = Address::of(group, call.index_offset, rule)
+                    .ok_or(DispatchError::Offset(call.index_offset))?;
+                $( let $data $body = Decode::decode(call.data).map_err(DispatchError::Stream)?; )?
+                Ok(Request::$function($function {
+                    $( $part, )+
+                    $( $field: $field.into(), )*
+                    $( $length: Self::check_length(call.read_length).map_err(DispatchError::Stream)?, )?
+                }))
+            }
+        }
+    };
+
+    (@type by_hand $($rest:tt)*) => { operation! { @struct pub(super), $($rest)* } };
+    (@type $how:ident $function:ident [$($a:lifetime)?] $facts:tt
+        [$( $field:ident: $kind:ident, )*] []
+    ) => {
+        operation! { @struct pub, $function [$($a)?] $facts [$( $field: $kind, )*] [] }
+
+        impl $(<$a>)? $function $(<$a>)? {
+            operation! { @new $how $( $field: $kind, )* }
+        }
+    };
+    (@struct $vis:vis, $function:ident [$($a:lifetime)?]
+        [$service:ident $task:ident $group:expr, $offset:expr, $clause:literal $section:literal]
+        [$( $field:ident: $kind:ident, )*] [$( $length:ident )?]
+    ) => {
+        documented! { $function
+            ///
+            /// | ADS service | task | index groups | index offsets | section | requirement |
+            /// |---|---|---|---|---|---|
+            #[doc = concat!(
+                "| ", stringify!($service), " | ", stringify!($task), " | `", stringify!($group), "` | `",
+                stringify!($offset), "` | ", $section, " | ", $clause, " |",
+            )]
+            #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+            pub struct $function $(<$a>)? {
+                $( #[doc = field!(doc $kind)] $vis $field: field!(ty $kind), )*
+                $( /// The read length.
+                $vis $length: u32, )?
+            }
+        }
+    };
+    (@new plain $( $field:ident: $kind:ident, )*) => {
+        /// Makes the operation of its parts.
+        pub fn new($( $field: field!(argument $kind) ),*) -> Self {
+            Self { $( $field: field!(made $kind $field), )* }
+        }
+    };
+    (@new checked $( $field:ident: $kind:ident, )*) => {
+        /// Makes the operation of its parts.
+        ///
+        /// # Errors
+        /// Those of [`IntoName::into_name`] for a name;
+        /// [`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for the index 0 of a parameter.
+        pub fn new($( $field: field!(argument $kind) ),*) -> Result<Self, Error> {
+            Ok(Self { $( $field: field!(made $kind $field), )* })
+        }
+    };
+
+    (@length $self:ident [] []) => {
+        const { <Self::Reply<'static> as Decode<'static>>::STREAM.layout().max }
+    };
+    (@length $self:ident [$most:literal] []) => { $most };
+    (@length $self:ident [] [$length:ident]) => { $self.$length };
+
+    (@data [] []) => {
+        fn encoded_len(&self) -> usize {
+            0
+        }
+
+        fn encode<'b>(&self, _: &'b mut [u8]) -> Result<&'b [u8], Error> {
+            Ok(&[])
+        }
+    };
+    (@data [$data:ident $body:tt] [$( $field:ident: $kind:ident ),*]) => {
+        fn encoded_len(&self) -> usize {
+            let Self { $( $field, )* .. } = *self;
+            $( let $field = field!(lent $kind $field); )*
+            $data $body.encoded_len()
+        }
+
+        fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+            let Self { $( $field, )* .. } = *self;
+            $( let $field = field!(lent $kind $field); )*
+            $data $body.encode(buf)
+        }
+    };
+}
+
+pub(super) use {field, operation};
