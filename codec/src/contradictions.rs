@@ -226,8 +226,8 @@
 //! | | here | steered by |
 //! |---|---|---|
 //! | bytes of a STRING value in a reply (VAR-22, VAR-25) | all there are: the text to its first NUL, and what is behind it | [`Element::String`](crate::Element::String), [`ValueRef::bytes`](crate::ValueRef::bytes) |
-//! | bytes of each text in an array of STRING | the same share of all | [`StringsRef`](crate::value::StringsRef), [`ValueRef::bytes`](crate::ValueRef::bytes) |
-//! | sign of BYTE, WORD, DWORD and LWORD | unsigned | [`Items::new`](crate::value::Items::new), of either sign |
+//! | bytes of each text in an array of STRING | the same share of all | [`Elements`](crate::value::Elements), [`ValueRef::bytes`](crate::ValueRef::bytes) |
+//! | sign of BYTE, WORD, DWORD and LWORD | unsigned | [`ContentRef::get`](crate::ContentRef::get), of either sign |
 //! | order of elements in more than one dimension (VAR-21) | the last index runs fastest | [`Elements::get`](crate::value::Elements::get), by places in any order |
 //! | codes without a name (VAR-23) | kept as numbers | [`VariableType`](crate::VariableType), [`VariableAccess`](crate::VariableAccess), [`Validity`](crate::Validity) |
 //! | which of SDA and GEO serves a class (ADR-10) | either | [`Call::port`](crate::operation::Call::port) |

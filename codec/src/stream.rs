@@ -65,7 +65,7 @@ pub trait Encode {
     /// # Errors
     /// A value that no decoder would accept.
     #[cfg(feature = "alloc")]
-    fn to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
+    fn encode_to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
         // Nothing longer than a frame is accepted: a length that is refused is not allocated.
         let mut bytes = alloc::vec![0; self.encoded_len().min(FRAME_MAX)];
         self.encode(&mut bytes)?;

@@ -10,7 +10,7 @@ use ads_cnc::edition::{Answer, CncVersion, Edition};
 use ads_cnc::layout::{Field, Stream, Type};
 use ads_cnc::service::{ServiceCall, ServiceId, ServiceVariable, SysServiceWait};
 use ads_cnc::streaming::*;
-use ads_cnc::value::{Boolean, DataType, Items, StringsRef};
+use ads_cnc::value::{Boolean, DataType};
 use ads_cnc::*;
 
 #[track_caller]
@@ -100,14 +100,28 @@ fn texts_are_in_characters_with_their_end() {
 fn values_are_numbers_and_texts() {
     debugs(DynamicValue::from_bits(1.5_f64.to_bits()), "1.5 (0x3ff8000000000000)");
     debugs(Boolean(2), "2");
-    debugs(Items::<u16>::new(&[1, 0, 2, 0]).unwrap(), "[1, 2]");
-    debugs(Items::<Boolean>::new(&[0, 1, 7]).unwrap(), "[0, 1, 7]");
-    debugs(StringsRef::new(b"ab\0c\0\0", 2).unwrap(), r#"["ab", "c" and 1 NULs more]"#);
     let elements = Elements::new(DataType::Uns16, Numbers::from(&[2]), &[1, 0, 2, 0]).unwrap();
     debugs(elements, "[Uns16(1), Uns16(2)]");
     let elements = Elements::new(DataType::Sgn08, Numbers::from(&[3]), &[1, 2, 0xFF]).unwrap();
     debugs(elements, "[Sgn08(1), Sgn08(2), Sgn08(-1)]");
-    debugs(elements.items::<i8>().unwrap(), "[1, 2, -1]");
+    let bytes = |data_type, bytes| Elements::new(data_type, Numbers::EMPTY, bytes).unwrap();
+    for (elements, shown) in [
+        (bytes(DataType::Boolean, &[0]), "FALSE"),
+        (bytes(DataType::Boolean, &[7]), "TRUE"),
+        (bytes(DataType::Sgn08, &[0xFF]), "-1"),
+        (bytes(DataType::Uns08, &[0xFF]), "255"),
+        (bytes(DataType::Sgn16, &[0xFE, 0xFF]), "-2"),
+        (bytes(DataType::Uns16, &[0xFE, 0xFF]), "65534"),
+        (bytes(DataType::Sgn32, &[0, 0, 0, 0x80]), "-2147483648"),
+        (bytes(DataType::Uns32, &[0, 0, 0, 0x80]), "2147483648"),
+        (bytes(DataType::Lint, &[0xFF; 8]), "-1"),
+        (bytes(DataType::Lword, &[0xFF; 8]), "18446744073709551615"),
+        (bytes(DataType::Real32, &[0, 0, 0xC0, 0xBF]), "-1.5"),
+        (bytes(DataType::Real64, &1234.2_f64.to_le_bytes()), "1234.2"),
+        (bytes(DataType::String, b"L\xE4nge\0rest"), "Länge"),
+    ] {
+        shows(elements.get(0).unwrap(), shown);
+    }
     shows(DynamicKind::VL, "V.L");
 }
 
@@ -163,14 +177,10 @@ fn streaming_says_where_it_stands_and_not_the_text() {
 #[cfg(feature = "alloc")]
 #[test]
 fn what_owns_is_shown_as_what_it_holds() {
-    use ads_cnc::value::Strings;
-
     let text: CncString = "Größe".parse().unwrap();
     shows(&text, "Größe");
     debugs(&text, r#""Größe""#);
     debugs(Text { text, tail: None }, r#""Größe" without NUL"#);
-    let strings = Strings::from(StringsRef::new(b"ab\0c\0\0", 2).unwrap());
-    debugs(strings, r#"["ab", "c" and 1 NULs more]"#);
     let object = Descriptor::new("mc_x", "UNS32").unwrap();
     let shown = "Descriptor { id: 0, size: 0, write_access: WriteAccess(0), not_assigned: 0, \
                  index_group: 0x0, index_offset: 0x0, name: \"mc_x\", type_name: \"UNS32\" }";

@@ -226,9 +226,9 @@ proptest! {
 fn both_forms_of_no_kind_stay_apart() {
     let absent = VariableKind { kind: Text { text: CncString::default(), tail: None } };
     check_value(&absent);
-    assert_eq!(absent.to_vec(), Ok(vec![]));
-    assert_eq!(VariableKindRef { kind: Kind::ALL }.to_vec(), Ok(vec![0]));
-    assert_eq!(VariableKind::decode(&[]).map(|kind| kind.to_vec()), Ok(Ok(vec![])));
+    assert_eq!(absent.encode_to_vec(), Ok(vec![]));
+    assert_eq!(VariableKindRef { kind: Kind::ALL }.encode_to_vec(), Ok(vec![0]));
+    assert_eq!(VariableKind::decode(&[]).map(|kind| kind.encode_to_vec()), Ok(Ok(vec![])));
 }
 
 /// A list grows at its end, and is then what is read back.

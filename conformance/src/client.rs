@@ -380,11 +380,13 @@ impl Client {
 
 /// The whole frame of a call.
 pub(crate) fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, Fault> {
-    whole(header, &call.to_vec().map_err(Fault::Unsendable)?)
+    whole(header, &call.encode_to_vec().map_err(Fault::Unsendable)?)
 }
 
 fn whole(header: AmsHeader, payload: &[u8]) -> Result<Vec<u8>, Fault> {
-    FrameRef::new(header, payload).and_then(|frame| frame.to_vec()).map_err(Fault::Unsendable)
+    FrameRef::new(header, payload)
+        .and_then(|frame| frame.encode_to_vec())
+        .map_err(Fault::Unsendable)
 }
 
 /// What a frame with this header and data answers.

@@ -103,7 +103,7 @@ macro_rules! reply_with_data {
         ///
         /// let (result, data) = (AdsError::NONE, Some(vec![9]));
         #[doc = concat!("let reply = ", stringify!($owned), " { result, data };")]
-        /// assert_eq!(reply.to_vec()?, [0, 0, 0, 0, 1, 0, 0, 0, 9]);
+        /// assert_eq!(reply.encode_to_vec()?, [0, 0, 0, 0, 1, 0, 0, 0, 9]);
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
         #[cfg(feature = "alloc")]

@@ -148,11 +148,13 @@ impl DataType {
         })
     }
 
-    /// The type's number in errors.
+    /// The type's number in errors: a variable's code, or one after the last of those.
     pub(super) const fn number(self) -> u32 {
-        match self.var_type() {
-            Some(VariableType(code)) => code,
-            None => 0,
+        match (self.var_type(), self) {
+            (Some(VariableType(code)), _) => code,
+            (None, Self::Lint) => 10,
+            (None, Self::Lword) => 11,
+            (None, _) => 12,
         }
     }
 }

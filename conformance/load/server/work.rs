@@ -77,7 +77,7 @@ impl Work {
         if service == Service::Write {
             return Err(format!("{name}: nothing is to be changed").into());
         }
-        let payload = call.to_vec()?;
+        let payload = call.encode_to_vec()?;
         let target = AmsAddr { net_id: NET_ID, port };
         let header = AmsHeader::request(target, CLIENT, service.command(), 0);
         let (group, offset) = (index_group.get(), index_offset.get());

@@ -104,7 +104,8 @@ impl Collector {
         }
         let reply = services::encode_reply(call.service, AdsError::NONE, received);
         let Ok(reply) = reply else { return };
-        let frame = FrameRef::new(header.response(), &reply).and_then(|frame| frame.to_vec());
+        let frame =
+            FrameRef::new(header.response(), &reply).and_then(|frame| frame.encode_to_vec());
         if let Ok(bytes) = frame {
             self.frame(Direction::Reply, call.service, &bytes);
         }

@@ -24,7 +24,7 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
     if len != bytes.len() {
         return Err(Refused::Unfit("a frame and more".to_owned()));
     }
-    let bytes = FrameRef::new(header, frame.data())?.to_vec()?;
+    let bytes = FrameRef::new(header, frame.data())?.encode_to_vec()?;
     Ok(Decoded { fields, bytes })
 }
 

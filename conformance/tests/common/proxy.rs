@@ -67,9 +67,9 @@ fn pass(
                     true => AdsError::INVALID_ACCESS,
                     false => AdsError::NONE,
                 };
-                let data = WriteReply { result }.to_vec().unwrap();
+                let data = WriteReply { result }.encode_to_vec().unwrap();
                 let reply = FrameRef::new(frame.header().response(), &data).unwrap();
-                client.write_all(&reply.to_vec().unwrap())?;
+                client.write_all(&reply.encode_to_vec().unwrap())?;
             }
         }
     }

@@ -273,7 +273,7 @@ fn dispatch<'a>(call: &Call<'a>) -> Result<Request<'a>, AdsError> {
 
 fn encode<'a>(reply: impl Into<Reply<'a>>) -> Answer {
     // The model was checked to fit: this does not fail.
-    reply.into().to_vec().map_err(|_| AdsError::INVALID_DATA)
+    reply.into().encode_to_vec().map_err(|_| AdsError::INVALID_DATA)
 }
 
 #[cfg(test)]
