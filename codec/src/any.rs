@@ -13,7 +13,7 @@ use crate::{Descriptor, Descriptors};
 
 /// ADS data; a reply goes without only if its result is an error.
 fn reply_data(u: &mut Unstructured<'_>, result: AdsError) -> Result<Option<Vec<u8>>> {
-    if !result.is_none() && u.arbitrary()? {
+    if !result.is_ok() && u.arbitrary()? {
         return Ok(None);
     }
     up_to(u, ADS_DATA_MAX).map(Some)

@@ -46,7 +46,7 @@ fn data() -> impl Strategy<Value = Vec<u8>> {
 fn reply() -> impl Strategy<Value = (AdsError, Option<Vec<u8>>)> {
     prop_oneof![
         (any::<u32>(), data()).prop_map(|(result, data)| (AdsError(result), Some(data))),
-        data().prop_map(|data| (AdsError::NONE, Some(data))),
+        data().prop_map(|data| (AdsError::NO_ERROR, Some(data))),
         (1..=u32::MAX).prop_map(|result| (AdsError(result), None)),
     ]
 }

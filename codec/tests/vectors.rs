@@ -200,7 +200,7 @@ fn frame(bytes: &[u8]) -> Result<String, Refusal> {
 }
 
 fn service(header: &AmsHeader, data: &[u8]) -> Result<String, Error> {
-    if data.is_empty() && header.error != AdsError::NONE {
+    if data.is_empty() && header.error != AdsError::NO_ERROR {
         return Ok("no payload".to_owned());
     }
     match (header.command, header.state_flags) {

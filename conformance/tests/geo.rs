@@ -37,7 +37,7 @@ fn cnc(only: Only) -> SocketAddr {
             (_, AmsPort::SDA) if of_class => {
                 let result = AdsError::INVALID_GROUP;
                 let reply = ReadWriteReplyRef { result, data: None }.encode_to_vec().unwrap();
-                to(frame.header(), AdsError::NONE, &reply)
+                to(frame.header(), AdsError::NO_ERROR, &reply)
             }
             _ => {
                 let mut answer = Vec::new();

@@ -1,5 +1,6 @@
 //! The channel, platform axis or spindle in the low bits of an index group.
 
+use core::fmt;
 use core::num::{NonZeroU8, NonZeroU16};
 
 use super::{Addressing, AxisStride, IndexOffset};
@@ -179,5 +180,33 @@ impl Spindle {
     /// The index, from 0.
     pub const fn index(self) -> u8 {
         self.0
+    }
+}
+
+/// The number, or the rank.
+impl fmt::Display for Channel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.number().fmt(f)
+    }
+}
+
+/// The number, from 1.
+impl fmt::Display for PlatformAxis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.place().fmt(f)
+    }
+}
+
+/// The number, from 1.
+impl fmt::Display for ChannelAxis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.place().fmt(f)
+    }
+}
+
+/// The index, from 0.
+impl fmt::Display for Spindle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.index().fmt(f)
     }
 }

@@ -34,7 +34,7 @@ stream! {
     }
 }
 
-crate::number::debug!(DynamicCount);
+crate::number::shown!(DynamicCount);
 
 stream! {
     /// Asks for a dynamic parameter by its index.
@@ -61,7 +61,7 @@ stream! {
     }
 }
 
-crate::number::debug!(DynamicIndex);
+crate::number::shown!(DynamicIndex);
 
 impl DynamicIndex {
     /// Rejects an index that no decoder would accept.

@@ -1,5 +1,7 @@
 //! One list of types for variables, objects and elements.
 
+use core::fmt;
+
 use crate::text::CncStr;
 use crate::variable::VariableType;
 
@@ -156,6 +158,13 @@ impl DataType {
             (None, Self::Lword) => 11,
             (None, _) => 12,
         }
+    }
+}
+
+/// The [`name`](DataType::name).
+impl fmt::Display for DataType {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

@@ -82,7 +82,7 @@ impl Element<'_> {
 impl fmt::Display for Element<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Boolean(boolean) => f.pad(if boolean.is_true() { "TRUE" } else { "FALSE" }),
+            Self::Boolean(boolean) => f.write_str(if boolean.is_true() { "TRUE" } else { "FALSE" }),
             Self::Sgn08(number) => number.fmt(f),
             Self::Uns08(number) => number.fmt(f),
             Self::Sgn16(number) => number.fmt(f),

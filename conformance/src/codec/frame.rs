@@ -54,7 +54,7 @@ fn service(
     header: &AmsHeader,
     bytes: &[u8],
 ) -> Result<Option<(String, Value)>, Refused> {
-    if bytes.is_empty() && header.error != AdsError::NONE {
+    if bytes.is_empty() && header.error != AdsError::NO_ERROR {
         return Ok(None);
     }
     let name = match (header.command, header.state_flags) {

@@ -258,7 +258,7 @@ impl Running<'_> {
         let channel = self.channel(op.channel)?;
         let channel = self.state.channels.get_mut(channel).ok_or(AdsError::INVALID_GROUP)?;
         match program::result(channel.program.write(op.packet.bytes, self.now)) {
-            AdsError::NONE => encode(NoData),
+            AdsError::NO_ERROR => encode(NoData),
             refused => Err(refused),
         }
     }
