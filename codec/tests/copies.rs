@@ -44,6 +44,21 @@ fn lists_have_what_was_added_in_order() {
     assert_eq!(list.as_ref().get(names.len()), None);
     let bytes = list.encode_to_vec().unwrap();
     assert_eq!(Descriptors::decode(&bytes).as_ref(), Ok(&list));
+
+    let mut same = Descriptors::default();
+    same.extend(names.map(|name| Descriptor::new(name, "UDINT").unwrap()));
+    assert_eq!((&same, same.len(), same.is_empty()), (&list, 3, false));
+    let mut backwards = Vec::new();
+    for object in &list {
+        backwards.insert(0, object);
+    }
+    assert!(list.iter().rev().eq(backwards));
+    assert_eq!(list.as_ref().into_iter().nth(1).map(|object| object.to_owned()), {
+        Some(Descriptor::new(names[1], "UDINT").unwrap())
+    });
+    assert!(Numbers::from(&vec![3, 9]).into_iter().eq([3, 9]));
+    let name: CncString = names[1].parse().unwrap();
+    assert!(name == names[1] && name == *names[1] && name != names[0]);
 }
 
 /// Text from a program is CP1252 with its NUL, or refused.
