@@ -18,7 +18,7 @@ use crate::layout::Stream;
 /// assert_eq!(Handle::decode(&[4, 0, 0, 2])?, Handle(0x2000004));
 /// assert_eq!(
 ///     Handle::decode(&[4, 0, 0]).unwrap_err().to_string(),
-///     "variable-handle: handle at offset 0: truncated, 4 bytes expected, 3 there"
+///     "variable-handle: handle at offset 0: truncated, expected 4 bytes, found 3"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```

@@ -5,15 +5,16 @@ use core::num::{NonZeroU8, NonZeroU16};
 
 use super::{Addressing, AxisStride, IndexOffset};
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::index_group::INSTANCE;
-use crate::layout::field::index_offset::AXIS;
+use crate::layout::Field;
+use crate::layout::field::index_group::{CHANNEL, PLATFORM_AXIS, SPINDLE};
+use crate::layout::field::index_offset::CHANNEL_AXIS;
 
 /// Takes a number into the eight bits it has, never into the field above (ADR-9).
-fn instance(number: u32, least: u8) -> Result<u8, Error> {
+fn instance(field: Field, number: u32, least: u8) -> Result<u8, Error> {
     let bound = if number < u32::from(least) { least } else { u8::MAX };
     match u8::try_from(number) {
         Ok(fits) if fits >= least => Ok(fits),
-        _ => Err(Error::new(ErrorKind::OutOfRange, INSTANCE, 0, bound.into(), number)),
+        _ => Err(Error::new(ErrorKind::OutOfRange, field, 0, bound.into(), number)),
     }
 }
 
@@ -62,8 +63,8 @@ impl Channel {
     }
 
     fn with_addressing(number: u32, addressing: Addressing) -> Result<Self, Error> {
-        let fits = NonZeroU8::new(instance(number, 1)?);
-        let number = fits.ok_or(Error::new(ErrorKind::OutOfRange, INSTANCE, 0, 1, number))?;
+        let fits = NonZeroU8::new(instance(CHANNEL, number, 1)?);
+        let number = fits.ok_or(Error::new(ErrorKind::OutOfRange, CHANNEL, 0, 1, number))?;
         Ok(Self { number, addressing })
     }
 
@@ -97,8 +98,8 @@ impl PlatformAxis {
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for 0 and for what 8 bits do not hold.
     pub fn new(place: u32) -> Result<Self, Error> {
-        let fits = NonZeroU8::new(instance(place, 1)?);
-        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, INSTANCE, 0, 1, place))
+        let fits = NonZeroU8::new(instance(PLATFORM_AXIS, place, 1)?);
+        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, PLATFORM_AXIS, 0, 1, place))
     }
 
     /// The place, from 1.
@@ -131,7 +132,7 @@ impl ChannelAxis {
     pub fn new(place: u32) -> Result<Self, Error> {
         let bound = if place == 0 { 1 } else { u16::MAX.into() };
         let fits = u16::try_from(place).ok().and_then(NonZeroU16::new);
-        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, AXIS, 0, bound, place))
+        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, CHANNEL_AXIS, 0, bound, place))
     }
 
     /// That of an offset that has been found to be one of an axis: none has the number 0.
@@ -174,7 +175,7 @@ impl Spindle {
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for what 8 bits do not hold.
     pub fn new(index: u32) -> Result<Self, Error> {
-        instance(index, 0).map(Self)
+        instance(SPINDLE, index, 0).map(Self)
     }
 
     /// The index, from 0.

@@ -34,7 +34,7 @@ use crate::stream::{Decode, Encode};
 /// }
 /// assert_eq!(
 ///     DescriptorsRef::decode(&[0; 85]).unwrap_err().to_string(),
-///     "object-descriptors: id at offset 84: truncated, 4 bytes expected, 1 there"
+///     "object-descriptors: id at offset 84: truncated, expected 4 bytes, found 1"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```

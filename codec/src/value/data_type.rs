@@ -159,6 +159,11 @@ impl DataType {
             (None, _) => 12,
         }
     }
+
+    /// The type of this number in errors.
+    pub(crate) fn by_number(number: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|known| known.number() == number)
+    }
 }
 
 /// The [`name`](DataType::name).

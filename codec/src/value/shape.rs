@@ -24,11 +24,11 @@ use crate::variable::{Numbers, VariableType};
 /// assert_eq!(shape.index_of(Numbers::from(&[1, 2]))?, 5);
 /// assert_eq!(
 ///     shape.index_of(Numbers::from(&[2, 0])).unwrap_err().to_string(),
-///     "typed-value: index at offset 0: out of range, at most 1 expected, 2 found"
+///     "typed-value: index at offset 0: out of range, expected at most 1, found 2"
 /// );
 /// assert_eq!(
 ///     Shape::new(DataType::Sgn32, Numbers::from(&[2, 3]), 20).unwrap_err().to_string(),
-///     "typed-value: size at offset 0: mismatch, 24 expected, 20 found"
+///     "typed-value: size at offset 0: expected 24, found 20"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -165,7 +165,7 @@ impl<'a> Shape<'a> {
     /// assert_eq!(shape.encode(&CncStr::new("abc")?, &mut [0; 21])?, b"abc\0");
     /// assert_eq!(
     ///     shape.encode(&CncStr::new("a text of 21 letters.")?, &mut [0; 64]).unwrap_err().to_string(),
-    ///     "typed-value: value at offset 0: too long, at most 21 bytes expected, 22 there"
+    ///     "typed-value: value at offset 0: too long, expected at most 21 bytes, found 22"
     /// );
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
