@@ -6,16 +6,14 @@ use arbitrary::{Arbitrary, Result, Unstructured};
 
 use crate::address::{IndexGroup, IndexOffset};
 use crate::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, ReadReply, ReadWriteReply};
-use crate::bytes::{to_len, to_u32};
-use crate::limits::{ADS_DATA_MAX, DESCRIPTOR_LEN, TEXT_MAX, VARIABLE_MAX};
+use crate::limits::{ADS_DATA_MAX, DESCRIPTOR_LEN, TEXT_MAX};
 use crate::rows::any::{open, text, up_to};
 use crate::text::{CncString, Text};
-use crate::value::{DataType, Elements, Values};
-use crate::{Descriptor, Descriptors, Numbers};
+use crate::{Descriptor, Descriptors};
 
 /// ADS data; a reply goes without only if its result is an error.
 fn reply_data(u: &mut Unstructured<'_>, result: AdsError) -> Result<Option<Vec<u8>>> {
-    if !result.is_none() && u.arbitrary()? {
+    if !result.is_ok() && u.arbitrary()? {
         return Ok(None);
     }
     up_to(u, ADS_DATA_MAX).map(Some)
@@ -64,17 +62,4 @@ arbitrary! {
     };
     CncString, u => text(u, TEXT_MAX)?;
     Text, u => open(u, TEXT_MAX, false)?;
-    // One dimension of whatever divides the bytes: nothing else is left of dimensions.
-    Values, u => {
-        let (data_type, bytes): (DataType, Vec<u8>) = (u.arbitrary()?, up_to(u, VARIABLE_MAX)?);
-        let count = match data_type.size() {
-            Some(size) => bytes.len().checked_div(to_len(size)).unwrap_or(0),
-            None => u.int_in_range(0..=bytes.len())?,
-        };
-        let size = bytes.len().checked_div(count).unwrap_or(0).saturating_mul(count);
-        let dimension = [to_u32(count)];
-        let bytes = bytes.get(..size).unwrap_or_default();
-        let elements = Elements::new(data_type, Numbers::from(&dimension), bytes);
-        elements.map_or_else(|_| Self::Uns08(bytes.to_vec()), Self::from)
-    };
 }

@@ -2,20 +2,24 @@
 
 use core::fmt;
 
-use crate::layout::Field;
+use crate::layout::field::{index_group, index_offset, typed_value, variable_path};
+use crate::layout::{Field, Stream};
+use crate::value::DataType;
 
 /// What is wrong, in which field, where, what was expected and what was there.
 ///
 /// `Copy` and 16 bytes. The text is the same in every feature set:
 ///
 /// ```
+/// use ads_cnc::address::Channel;
 /// use ads_cnc::{Decode, DescriptionRef};
 ///
 /// let error = DescriptionRef::decode(&[2, 0, 0, 2, 1, 0]).unwrap_err();
 /// assert_eq!(
 ///     error.to_string(),
-///     "variable-description: type at offset 4: truncated, 4 bytes expected, 2 there"
+///     "variable-description: type at offset 4: truncated, expected 4 bytes, found 2"
 /// );
+/// assert_eq!(Channel::new(0).unwrap_err().to_string(), "channel 0 is out of range 1..=255");
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, thiserror::Error)]
 pub struct Error {
@@ -117,48 +121,96 @@ impl Error {
     }
 }
 
+/// The class in a few words.
+impl fmt::Display for ErrorKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Truncated => "truncated",
+            Self::Trailing => "trailing bytes",
+            Self::TooLong => "too long",
+            Self::TooMany => "too many",
+            Self::MissingNul => "no NUL",
+            Self::InnerNul => "NUL inside the text",
+            Self::NotCp1252 => "not in CP1252",
+            Self::NotDecimal => "not a decimal digit",
+            Self::Digits => "wrong number of digits",
+            Self::Unexpected => "unexpected character",
+            Self::Missing => "missing",
+            Self::OutOfRange => "out of range",
+            Self::Mismatch => "mismatch",
+            Self::Function => "a function, not content",
+            Self::BufferTooSmall => "buffer too small",
+        })
+    }
+}
+
+/// A number of bytes.
+struct Bytes(u32);
+
+impl fmt::Display for Bytes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} byte{}", self.0, if self.0 == 1 { "" } else { "s" })
+    }
+}
+
+/// What a number given to a constructor counts, and its range.
+fn range(field: Field) -> Option<(&'static str, u32, u32)> {
+    match field {
+        index_group::CHANNEL => Some(("channel", 1, 255)),
+        index_group::PLATFORM_AXIS => Some(("platform axis", 1, 255)),
+        index_group::SPINDLE => Some(("spindle", 0, 255)),
+        index_offset::CHANNEL_AXIS => Some(("channel axis", 1, 65535)),
+        _ => None,
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { kind, field, offset, expected, found } = *self;
-        write!(f, "{field} at offset {offset}: ")?;
+        match (kind, range(field)) {
+            (ErrorKind::OutOfRange, Some((what, least, most))) => {
+                return write!(f, "{what} {found} is out of range {least}..={most}");
+            }
+            (ErrorKind::Mismatch, _) if field.stream() == Stream::IndexGroup => {
+                return write!(f, "index group: expected {expected:#x}, found {found:#x}");
+            }
+            (ErrorKind::Truncated, _) if field == variable_path::INDEX => {
+                return write!(f, "{field} at offset {offset}: no \"]\"");
+            }
+            _ => write!(f, "{field} at offset {offset}: ")?,
+        }
+        let wanted = Bytes(expected);
         match kind {
-            ErrorKind::Truncated => {
-                write!(f, "truncated, {expected} bytes expected, {found} there")
+            ErrorKind::Truncated | ErrorKind::Trailing | ErrorKind::BufferTooSmall => {
+                write!(f, "{kind}, expected {wanted}, found {found}")
             }
-            ErrorKind::Trailing => {
-                write!(f, "trailing bytes, {expected} bytes expected, {found} there")
-            }
-            ErrorKind::TooLong => {
-                write!(f, "too long, at most {expected} bytes expected, {found} there")
-            }
-            ErrorKind::TooMany => {
-                write!(f, "too many, at most {expected} expected, {found} found")
-            }
+            ErrorKind::TooLong => write!(f, "{kind}, expected at most {wanted}, found {found}"),
+            ErrorKind::TooMany => write!(f, "{kind}, expected at most {expected}, found {found}"),
             ErrorKind::MissingNul => {
-                write!(f, "no NUL, one expected within {expected} bytes, {found} there without")
+                write!(f, "{kind}, expected one within {wanted}, found {found} without")
             }
-            ErrorKind::InnerNul => write!(f, "NUL inside the text, at its byte {found}"),
-            ErrorKind::NotCp1252 => write!(f, "U+{found:04X} is not in CP1252"),
-            ErrorKind::NotDecimal => write!(f, "U+{found:04X} is no decimal digit"),
-            ErrorKind::Digits => write!(f, "1 to {expected} digits expected, {found} found"),
+            ErrorKind::InnerNul => write!(f, "{kind}, at its byte {found}"),
+            ErrorKind::NotCp1252 | ErrorKind::NotDecimal => write!(f, "U+{found:04X} is {kind}"),
+            ErrorKind::Digits => write!(f, "expected 1 to {expected} digits, found {found}"),
             ErrorKind::Unexpected => match char::from_u32(found) {
                 Some(character) if character.is_ascii_graphic() => {
-                    write!(f, "'{character}' may not stand here")
+                    write!(f, "unexpected '{character}'")
                 }
-                _ => write!(f, "U+{found:04X} may not stand here"),
+                _ => write!(f, "unexpected U+{found:04X}"),
             },
-            ErrorKind::Missing => f.write_str("missing"),
-            ErrorKind::OutOfRange if found < expected => {
-                write!(f, "out of range, at least {expected} expected, {found} found")
-            }
+            ErrorKind::Missing => write!(f, "{kind}"),
             ErrorKind::OutOfRange => {
-                write!(f, "out of range, at most {expected} expected, {found} found")
+                let bound = if found < expected { "least" } else { "most" };
+                write!(f, "{kind}, expected at {bound} {expected}, found {found}")
             }
-            ErrorKind::Mismatch => write!(f, "mismatch, {expected} expected, {found} found"),
-            ErrorKind::Function => write!(f, "{found:#x} is a function, not content"),
-            ErrorKind::BufferTooSmall => {
-                write!(f, "buffer too small, {expected} bytes expected, {found} there")
+            ErrorKind::Mismatch => {
+                let types = [expected, found].map(DataType::by_number);
+                if let ([Some(expected), Some(found)], typed_value::TYPE) = (types, field) {
+                    return write!(f, "expected {expected}, found {found}");
+                }
+                write!(f, "expected {expected}, found {found}")
             }
+            ErrorKind::Function => write!(f, "{found:#x} is {kind}"),
         }
     }
 }

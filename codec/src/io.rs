@@ -204,7 +204,7 @@ macro_rules! by_hand {
                 (): (),
             ) -> BinResult<()> {
                 let pos = writer.stream_position()?;
-                let bytes = self.to_vec().map_err(|error| custom(error, pos))?;
+                let bytes = self.encode_to_vec().map_err(|error| custom(error, pos))?;
                 writer.write_all(&bytes).map_err(Into::into)
             }
         }

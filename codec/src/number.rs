@@ -1,5 +1,81 @@
 //! Codes: numbers on the wire that have names.
 
+/// Declares codes: the names of the numbers that are documented. Any other number is kept.
+///
+/// `in hex` is how the number is shown.
+macro_rules! code {
+    (
+        $(#[$doc:meta])*
+        $code:ident($number:ident) $(in $hex:ident)? {
+            $( $(#[$name_doc:meta])* $name:ident = $value:expr; )+
+        }
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+        pub struct $code(pub $number);
+
+        impl $code {
+            $(
+                $(#[$name_doc])*
+                pub const $name: Self = Self($value);
+            )+
+
+            /// The code's name, if the number is documented.
+            pub const fn name(self) -> Option<&'static str> {
+                match self {
+                    $( Self::$name => Some(stringify!($name)), )+
+                    _ => None,
+                }
+            }
+        }
+
+        $crate::number::code! { @shown $code $($hex)? }
+        $crate::number::from_number!($number: $code);
+    };
+    (@shown $code:ident) => {
+        /// The name, or the number if it is not documented.
+        impl core::fmt::Display for $code {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                match self.name() {
+                    Some(name) => f.write_str(name),
+                    None => core::fmt::Display::fmt(&self.0, f),
+                }
+            }
+        }
+
+        impl core::fmt::Debug for $code {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                write!(f, "{} {}", self.0, self.name().unwrap_or("(unknown)"))
+            }
+        }
+    };
+    (@shown $code:ident hex) => {
+        /// The name and the number, or the number if it is not documented.
+        impl core::fmt::Display for $code {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                match self.name() {
+                    Some(name) => write!(f, "{name} ({:#x})", self.0),
+                    None => write!(f, "{:#x}", self.0),
+                }
+            }
+        }
+
+        /// The number alone.
+        impl core::fmt::LowerHex for $code {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                core::fmt::LowerHex::fmt(&self.0, f)
+            }
+        }
+
+        impl core::fmt::Debug for $code {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                write!(f, "{:#x} {}", self.0, self.name().unwrap_or("(unknown)"))
+            }
+        }
+    };
+}
+
 /// Conversions of a code from its number and back.
 macro_rules! from_number {
     ($( $code:ident ),+) => { $crate::number::from_number!(u32: $($code),+); };
@@ -20,9 +96,15 @@ macro_rules! from_number {
     )+ };
 }
 
-/// `Debug` as it is derived.
-macro_rules! debug {
+/// How a stream that is a single number is shown.
+macro_rules! shown {
     ($name:ident) => {
+        impl core::fmt::Display for $name {
+            fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+                self.0.fmt(f)
+            }
+        }
+
         impl core::fmt::Debug for $name {
             fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
                 f.debug_tuple(stringify!($name)).field(&self.0).finish()
@@ -31,4 +113,4 @@ macro_rules! debug {
     };
 }
 
-pub(crate) use {debug, from_number};
+pub(crate) use {code, from_number, shown};

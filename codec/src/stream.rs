@@ -18,7 +18,7 @@ use crate::layout::Stream;
 /// assert_eq!(Handle::decode(&[4, 0, 0, 2])?, Handle(0x2000004));
 /// assert_eq!(
 ///     Handle::decode(&[4, 0, 0]).unwrap_err().to_string(),
-///     "variable-handle: handle at offset 0: truncated, 4 bytes expected, 3 there"
+///     "variable-handle: handle at offset 0: truncated, expected 4 bytes, found 3"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -65,7 +65,7 @@ pub trait Encode {
     /// # Errors
     /// A value that no decoder would accept.
     #[cfg(feature = "alloc")]
-    fn to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
+    fn encode_to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
         // Nothing longer than a frame is accepted: a length that is refused is not allocated.
         let mut bytes = alloc::vec![0; self.encoded_len().min(FRAME_MAX)];
         self.encode(&mut bytes)?;

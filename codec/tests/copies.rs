@@ -17,8 +17,8 @@ fn copies_of_descriptions_outlive_the_bytes() {
         assert_eq!(nameless.to_owned(), DescriptionByName::decode(&bytes[..24]).unwrap());
         (whole, nameless.to_owned())
     };
-    assert_eq!(whole.to_vec(), Ok(DESCRIPTION.to_vec()));
-    assert_eq!(nameless.to_vec(), Ok(DESCRIPTION[..24].to_vec()));
+    assert_eq!(whole.encode_to_vec(), Ok(DESCRIPTION.to_vec()));
+    assert_eq!(nameless.encode_to_vec(), Ok(DESCRIPTION[..24].to_vec()));
     assert_eq!(nameless.dimensions, whole.dimensions);
     assert_eq!((nameless.handle, nameless.size), (whole.handle, whole.size));
 }
@@ -28,12 +28,12 @@ fn copies_of_descriptions_outlive_the_bytes() {
 fn lists_have_what_was_added_in_order() {
     let names = ["first", "zweite Größe", "third"];
     let mut list = Descriptors::default();
-    assert!(list.as_ref().is_empty() && list.to_vec().is_err());
+    assert!(list.as_ref().is_empty() && list.encode_to_vec().is_err());
     for (place, name) in names.into_iter().enumerate() {
         list.push(Descriptor::new(name, "UDINT").unwrap());
         assert_eq!(list.as_ref().len(), place + 1);
         assert_eq!(
-            list.to_vec().map(|bytes| bytes.len()),
+            list.encode_to_vec().map(|bytes| bytes.len()),
             Ok((place + 1) * limits::DESCRIPTOR_LEN)
         );
     }
@@ -42,8 +42,23 @@ fn lists_have_what_was_added_in_order() {
         assert!(object.name() == name && object.type_name() == "UDINT", "{object:?}");
     }
     assert_eq!(list.as_ref().get(names.len()), None);
-    let bytes = list.to_vec().unwrap();
+    let bytes = list.encode_to_vec().unwrap();
     assert_eq!(Descriptors::decode(&bytes).as_ref(), Ok(&list));
+
+    let mut same = Descriptors::default();
+    same.extend(names.map(|name| Descriptor::new(name, "UDINT").unwrap()));
+    assert_eq!((&same, same.len(), same.is_empty()), (&list, 3, false));
+    let mut backwards = Vec::new();
+    for object in &list {
+        backwards.insert(0, object);
+    }
+    assert!(list.iter().rev().eq(backwards));
+    assert_eq!(list.as_ref().into_iter().nth(1).map(|object| object.to_owned()), {
+        Some(Descriptor::new(names[1], "UDINT").unwrap())
+    });
+    assert!(Numbers::from(&vec![3, 9]).into_iter().eq([3, 9]));
+    let name: CncString = names[1].parse().unwrap();
+    assert!(name == names[1] && name == *names[1] && name != names[0]);
 }
 
 /// Text from a program is CP1252 with its NUL, or refused.

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher, Hash};
 
 use ads_cnc::service::ServiceId;
-use ads_cnc::value::{Boolean, Items};
+use ads_cnc::value::Boolean;
 use ads_cnc::*;
 
 /// All of `same` are equal, and none equals `other`, nor has its hash.
@@ -78,25 +78,14 @@ fn numbers_are_equal_wherever_they_come_from() {
     }
 }
 
-/// Items are equal as numbers: two zeros are, a NaN is not.
-#[test]
-fn items_are_equal_as_numbers() {
-    let bytes = |numbers: [f32; 2]| numbers.map(f32::to_le_bytes).concat();
-    let (plus, minus, nan) = (bytes([0.0, 1.0]), bytes([-0.0, 1.0]), bytes([f32::NAN, 1.0]));
-    let of = |bytes| Items::<f32>::new(bytes).unwrap();
-    assert_eq!(of(&plus), of(&minus));
-    assert_ne!(of(&plus).as_bytes(), of(&minus).as_bytes());
-    assert_ne!(of(&nan), of(&nan));
-    assert_ne!(of(&plus), of(&plus[..4]));
-    assert_ne!(of(&plus[..4]), of(&plus));
-}
-
 /// Of the bytes that are TRUE, one is written.
 #[test]
 fn any_byte_but_0_is_true_and_stays_what_it_is() {
     for byte in 0..=u8::MAX {
         assert_eq!(Boolean(byte).is_true(), byte != 0);
         assert_eq!(Boolean(byte) == Boolean::TRUE, byte == 1);
+        assert_eq!(bool::from(Boolean(byte)), byte != 0);
+        assert_eq!(ValueRef { bytes: &[byte] }.get(0), Ok(byte != 0));
     }
     assert_eq!([false, true].map(Boolean::from), [Boolean::FALSE, Boolean::TRUE]);
 }

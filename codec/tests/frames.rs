@@ -172,10 +172,10 @@ fn the_longest_frame_passes_and_no_longer() {
     let most = ads_cnc::limits::ADS_DATA_MAX + 16;
     let data = vec![7; most];
     let header = FrameRef::split(&frame(&[]), u32::MAX).unwrap().unwrap().0.header();
-    let bytes = FrameRef::new(header, &data).unwrap().to_vec().unwrap();
+    let bytes = FrameRef::new(header, &data).unwrap().encode_to_vec().unwrap();
     let (frame, len) = FrameRef::split(&bytes, u32::MAX).unwrap().unwrap();
     assert_eq!((frame.data().len(), len), (most, bytes.len()));
-    let again = FrameRef::new(frame.header(), frame.data()).unwrap().to_vec();
+    let again = FrameRef::new(frame.header(), frame.data()).unwrap().encode_to_vec();
     assert_eq!(again.as_deref(), Ok(&bytes[..]));
 
     let more = vec![7; most + 1];

@@ -180,7 +180,7 @@ fn encoders_refuse_what_decoders_would() {
     assert_eq!(refusal(&ProgramStreamRef { bytes: &[] }), fault(Truncated, "data", 0, (1, 0)));
     let bytes = &[b' '; 993];
     assert_eq!(refusal(&ProgramStreamRef { bytes }), fault(TooLong, "stream", 992, (992, 993)));
-    let success_without_data = ReadReplyRef { result: AdsError::NONE, data: None };
+    let success_without_data = ReadReplyRef { result: AdsError::NO_ERROR, data: None };
     assert_eq!(refusal(&success_without_data), fault(Truncated, "length", 4, (4, 0)));
     let value = ValueRef { bytes: &[0; 2049] };
     assert_eq!(refusal(&value), fault(TooLong, "stream", 2048, (2048, 2049)));

@@ -3,13 +3,16 @@
 
 use std::fmt::{Debug, Display};
 
-use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::ads::{AdsError, AmsAddr, AmsNetId, AmsPort};
+use ads_cnc::address::{
+    Attribute, Channel, ChannelAxis, Class, IndexGroup, IndexOffset, PlatformAxis, Spindle,
+};
+use ads_cnc::ads::{AdsError, AdsState, AmsAddr, AmsNetId, AmsPort, Command, StateFlags};
 use ads_cnc::dynamic::{DynamicKind, DynamicValue};
 use ads_cnc::layout::{Field, Stream, Type};
+use ads_cnc::sda::ElementLength;
 use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::streaming::*;
-use ads_cnc::value::{Boolean, DataType, Items, StringsRef};
+use ads_cnc::value::{Boolean, DataType};
 use ads_cnc::*;
 
 #[track_caller]
@@ -29,8 +32,11 @@ fn addresses_are_in_hexadecimal_and_ports_are_not() {
     debugs(IndexGroup::new(0x12_2301), "0x122301");
     shows(IndexOffset::new(0x2_0004), "0x20004");
     debugs(IndexOffset::new(0x2_0004), "0x20004");
-    shows(AdsError::SYMBOL_NOT_FOUND, "0x710");
-    debugs(AdsError::SYMBOL_NOT_FOUND, "0x710");
+    shows(AdsError::SYMBOL_NOT_FOUND, "SYMBOL_NOT_FOUND (0x710)");
+    debugs(AdsError::SYMBOL_NOT_FOUND, "0x710 SYMBOL_NOT_FOUND");
+    shows(AdsError(0x7FF), "0x7ff");
+    debugs(AdsError(0x7FF), "0x7ff (unknown)");
+    assert_eq!(format!("{:#x}", AdsError::SYMBOL_NOT_FOUND), "0x710");
     shows(AmsPort::COM, "553");
     debugs(AmsPort::COM, "553");
     let net_id = AmsNetId([192, 0, 2, 7, 1, 1]);
@@ -39,6 +45,57 @@ fn addresses_are_in_hexadecimal_and_ports_are_not() {
     shows(AmsAddr { net_id, port: AmsPort::COM }, "192.0.2.7.1.1:553");
     debugs(AmsAddr { net_id, port: AmsPort::COM }, "192.0.2.7.1.1:553");
     debugs(Handle(0x2001_2341), "Handle(0x20012341)");
+    shows(Handle(0x2001_2341), "0x20012341");
+}
+
+/// Codes by their names; undocumented ones by their numbers.
+#[test]
+fn codes_have_their_names() {
+    shows(VariableType::REAL64, "REAL64");
+    debugs(VariableType::REAL64, "8 REAL64");
+    shows(VariableType(10), "10");
+    debugs(VariableType(10), "10 (unknown)");
+    shows(VariableAccess::READ_WRITE, "READ_WRITE");
+    shows(Synchronisation::NO_SYNC, "NO_SYNC");
+    shows(Validity::GLOBAL, "GLOBAL");
+    shows(WriteAccess::WRITABLE, "WRITABLE");
+    shows(Command::READ_WRITE, "READ_WRITE");
+    debugs(Command(77), "77 (unknown)");
+    shows(AdsState::RUN, "RUN");
+    shows(StateFlags::RESPONSE, "RESPONSE (0x5)");
+    shows(StateFlags(0x44), "0x44");
+    shows(DataType::Real32, "REAL32");
+    shows(Kind::V_E, "V.E");
+    for access in [0, 1, 3, u32::MAX].map(VariableAccess) {
+        assert!(!access.is_writable());
+    }
+    assert!(VariableAccess::READ_WRITE.is_writable());
+}
+
+/// Of what has a number, the number; of classes and attributes the words of the manual.
+#[test]
+fn parts_of_addresses_are_numbers_and_words() {
+    shows(Channel::new(3).unwrap(), "3");
+    shows(PlatformAxis::new(4).unwrap(), "4");
+    shows(ChannelAxis::new(0x1234).unwrap(), "4660");
+    shows(Spindle::new(0).unwrap(), "0");
+    let classes = Class::ALL.map(|class| class.to_string()).join(", ");
+    let words = "position controller, interpolator, decoder, HLD, path preparation, spindle";
+    assert_eq!(classes, words);
+    let attributes = Attribute::ALL.map(|attribute| attribute.to_string()).join(", ");
+    assert_eq!(attributes, "content, name, type, length, unit, write flag, object address");
+    shows(ElementLength::new(8), "8");
+    shows(ObjectCount(16), "16");
+}
+
+/// Success is no error, any other number is one.
+#[test]
+fn results_are_errors_unless_0() {
+    assert_eq!(AdsError::NO_ERROR.into_result(), Ok(()));
+    for number in [1, 0x703, u32::MAX].map(AdsError) {
+        assert!(!number.is_ok());
+        assert_eq!(number.into_result(), Err(number));
+    }
 }
 
 #[test]
@@ -87,14 +144,28 @@ fn texts_are_in_characters_with_their_end() {
 fn values_are_numbers_and_texts() {
     debugs(DynamicValue::from_bits(1.5_f64.to_bits()), "1.5 (0x3ff8000000000000)");
     debugs(Boolean(2), "2");
-    debugs(Items::<u16>::new(&[1, 0, 2, 0]).unwrap(), "[1, 2]");
-    debugs(Items::<Boolean>::new(&[0, 1, 7]).unwrap(), "[0, 1, 7]");
-    debugs(StringsRef::new(b"ab\0c\0\0", 2).unwrap(), r#"["ab", "c" and 1 NULs more]"#);
     let elements = Elements::new(DataType::Uns16, Numbers::from(&[2]), &[1, 0, 2, 0]).unwrap();
     debugs(elements, "[Uns16(1), Uns16(2)]");
     let elements = Elements::new(DataType::Sgn08, Numbers::from(&[3]), &[1, 2, 0xFF]).unwrap();
     debugs(elements, "[Sgn08(1), Sgn08(2), Sgn08(-1)]");
-    debugs(elements.items::<i8>().unwrap(), "[1, 2, -1]");
+    let bytes = |data_type, bytes| Elements::new(data_type, Numbers::EMPTY, bytes).unwrap();
+    for (elements, shown) in [
+        (bytes(DataType::Boolean, &[0]), "FALSE"),
+        (bytes(DataType::Boolean, &[7]), "TRUE"),
+        (bytes(DataType::Sgn08, &[0xFF]), "-1"),
+        (bytes(DataType::Uns08, &[0xFF]), "255"),
+        (bytes(DataType::Sgn16, &[0xFE, 0xFF]), "-2"),
+        (bytes(DataType::Uns16, &[0xFE, 0xFF]), "65534"),
+        (bytes(DataType::Sgn32, &[0, 0, 0, 0x80]), "-2147483648"),
+        (bytes(DataType::Uns32, &[0, 0, 0, 0x80]), "2147483648"),
+        (bytes(DataType::Lint, &[0xFF; 8]), "-1"),
+        (bytes(DataType::Lword, &[0xFF; 8]), "18446744073709551615"),
+        (bytes(DataType::Real32, &[0, 0, 0xC0, 0xBF]), "-1.5"),
+        (bytes(DataType::Real64, &1234.2_f64.to_le_bytes()), "1234.2"),
+        (bytes(DataType::String, b"L\xE4nge\0rest"), "Länge"),
+    ] {
+        shows(elements.get(0).unwrap(), shown);
+    }
     shows(DynamicKind::VL, "V.L");
 }
 
@@ -154,16 +225,12 @@ fn streaming_says_where_it_stands_and_not_the_text() {
 #[cfg(feature = "alloc")]
 #[test]
 fn what_owns_is_shown_as_what_it_holds() {
-    use ads_cnc::value::Strings;
-
     let text: CncString = "Größe".parse().unwrap();
     shows(&text, "Größe");
     debugs(&text, r#""Größe""#);
     debugs(Text { text, tail: None }, r#""Größe" without NUL"#);
-    let strings = Strings::from(StringsRef::new(b"ab\0c\0\0", 2).unwrap());
-    debugs(strings, r#"["ab", "c" and 1 NULs more]"#);
     let object = Descriptor::new("mc_x", "UNS32").unwrap();
-    let shown = "Descriptor { id: 0, size: 0, write_access: WriteAccess(0), not_assigned: 0, \
+    let shown = "Descriptor { id: 0, size: 0, write_access: 0 READ_ONLY, not_assigned: 0, \
                  index_group: 0x0, index_offset: 0x0, name: \"mc_x\", type_name: \"UNS32\" }";
     debugs(object, shown);
     debugs(object.as_ref(), shown);

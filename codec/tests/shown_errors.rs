@@ -2,9 +2,12 @@
 
 use std::error::Error as _;
 
-use ads_cnc::address::{Channel, Class, ElementAddress, IndexGroup, IndexOffset};
+use ads_cnc::address::{
+    Channel, ChannelAxis, Class, ElementAddress, IndexGroup, IndexOffset, PlatformAxis, Spindle,
+};
 use ads_cnc::ads::{AdsError, AmsNetId, AmsPort};
 use ads_cnc::operation::*;
+use ads_cnc::value::{DataType, Shape};
 use ads_cnc::*;
 
 fn error<T: std::fmt::Debug>(result: Result<T, Error>) -> (ErrorKind, String) {
@@ -28,35 +31,35 @@ fn errors_say_what_is_wrong() {
             error(Handle::decode(&[4, 0, 0])),
             (
                 ErrorKind::Truncated,
-                "variable-handle: handle at offset 0: truncated, 4 bytes expected, 3 there",
+                "variable-handle: handle at offset 0: truncated, expected 4 bytes, found 3",
             ),
         ),
         (
             error(Handle::decode(&[4, 0, 0, 2, 0])),
             (
                 ErrorKind::Trailing,
-                "variable-handle: stream at offset 4: trailing bytes, 4 bytes expected, 5 there",
+                "variable-handle: stream at offset 4: trailing bytes, expected 4 bytes, found 5",
             ),
         ),
         (
             error(ValueRef::decode(&[0; 2049])),
             (
                 ErrorKind::TooLong,
-                "variable-value: stream at offset 2048: too long, at most 2048 bytes expected, 2049 there",
+                "variable-value: stream at offset 2048: too long, expected at most 2048 bytes, found 2049",
             ),
         ),
         (
             error(too_many.encode(&mut [0; 4096])),
             (
                 ErrorKind::TooMany,
-                "variable-handle-read: index_count at offset 4: too many, at most 510 expected, 511 found",
+                "variable-handle-read: index_count at offset 4: too many, expected at most 510, found 511",
             ),
         ),
         (
             error(kind.encode(&mut [0; 512])),
             (
                 ErrorKind::MissingNul,
-                "variable-kind: kind at offset 0: no NUL, one expected within 256 bytes, 3 there without",
+                "variable-kind: kind at offset 0: no NUL, expected one within 256 bytes, found 3 without",
             ),
         ),
         (
@@ -69,29 +72,26 @@ fn errors_say_what_is_wrong() {
         ),
         (
             error("1.2.3.4.5.x".parse::<AmsNetId>()),
-            (ErrorKind::NotDecimal, "ams-net-id: number at offset 5: U+0078 is no decimal digit"),
+            (
+                ErrorKind::NotDecimal,
+                "ams-net-id: number at offset 5: U+0078 is not a decimal digit",
+            ),
         ),
         (
             error("1.2.3.4.5.0006".parse::<AmsNetId>()),
-            (ErrorKind::Digits, "ams-net-id: number at offset 5: 1 to 3 digits expected, 4 found"),
+            (ErrorKind::Digits, "ams-net-id: number at offset 5: expected 1 to 3 digits, found 4"),
         ),
-        (
-            error(Channel::new(0)),
-            (
-                ErrorKind::OutOfRange,
-                "index-group: instance at offset 0: out of range, at least 1 expected, 0 found",
-            ),
-        ),
+        (error(Channel::new(0)), (ErrorKind::OutOfRange, "channel 0 is out of range 1..=255")),
         (
             error("1.2.3.4.5.256".parse::<AmsNetId>()),
             (
                 ErrorKind::OutOfRange,
-                "ams-net-id: number at offset 5: out of range, at most 255 expected, 256 found",
+                "ams-net-id: number at offset 5: out of range, expected at most 255, found 256",
             ),
         ),
         (
             error("1.2.3.4.5".parse::<AmsNetId>()),
-            (ErrorKind::Mismatch, "ams-net-id: numbers at offset 0: mismatch, 6 expected, 5 found"),
+            (ErrorKind::Mismatch, "ams-net-id: numbers at offset 0: expected 6, found 5"),
         ),
         (
             error(ReadElement::new(by_name, 4)),
@@ -104,12 +104,52 @@ fn errors_say_what_is_wrong() {
             error(Handle(1).encode(&mut [0; 3])),
             (
                 ErrorKind::BufferTooSmall,
-                "variable-handle: stream at offset 0: buffer too small, 4 bytes expected, 3 there",
+                "variable-handle: stream at offset 0: buffer too small, expected 4 bytes, found 3",
             ),
         ),
     ] {
         assert_eq!((kind, text.as_str()), wanted);
     }
+}
+
+/// What a caller gave is named in the caller's words.
+#[test]
+fn errors_of_arguments_name_the_argument() {
+    let text = |error: Error| error.to_string();
+    let place = |number| PlatformAxis::new(number).map_err(text).unwrap_err();
+    assert_eq!(place(0), "platform axis 0 is out of range 1..=255");
+    assert_eq!(place(256), "platform axis 256 is out of range 1..=255");
+    let axis = ChannelAxis::new(65536).map_err(text).unwrap_err();
+    assert_eq!(axis, "channel axis 65536 is out of range 1..=65535");
+    let spindle = Spindle::new(256).map_err(text).unwrap_err();
+    assert_eq!(spindle, "spindle 256 is out of range 0..=255");
+    let channel = Channel::by_index(256).map_err(text).unwrap_err();
+    assert_eq!(channel, "channel 256 is out of range 1..=255");
+
+    let object = ReadObject::new(IndexGroup::new(0xF005), IndexOffset::new(1), 4);
+    let object = object.map_err(text).unwrap_err();
+    assert_eq!(object, "index group: expected 0x120100, found 0xf005");
+    let path = VariablePath::new("V.E.matrix[1").map_err(text).unwrap_err();
+    assert_eq!(path, "variable-path: index at offset 12: no \"]\"");
+    let empty = VariablePath::new("V.E").map_err(text).unwrap_err();
+    assert_eq!(empty, "variable-path: part at offset 3: truncated, expected 1 byte, found 0");
+
+    let shape = Shape::new(DataType::Sgn32, Numbers::EMPTY, 4).unwrap();
+    let written = shape.encode(&1.5_f64, &mut [0; 8]).map_err(text).unwrap_err();
+    assert_eq!(written, "typed-value: type at offset 0: expected SGN32, found REAL64");
+    let read = shape.elements(&[0; 4]).unwrap().copy_to(&mut [0.0_f32]);
+    let read = read.map_err(text).unwrap_err();
+    assert_eq!(read, "typed-value: type at offset 0: expected REAL32, found SGN32");
+}
+
+/// Each class of errors has words of its own.
+#[test]
+fn kinds_have_words() {
+    assert_eq!(ErrorKind::Truncated.to_string(), "truncated");
+    assert_eq!(ErrorKind::OutOfRange.to_string(), "out of range");
+    assert_eq!(ErrorKind::Mismatch.to_string(), "mismatch");
+    assert_eq!(ErrorKind::Digits.to_string(), "wrong number of digits");
+    assert_eq!(ErrorKind::Unexpected.to_string(), "unexpected character");
 }
 
 /// What a server refuses is told in words, once, and as the number that goes back.
@@ -147,6 +187,6 @@ fn refusals_say_what_is_refused() {
         plain("the function takes ReadWrite, not Write", AdsError::SERVICE_NOT_SUPPORTED)
     );
     let stream =
-        "variable-name: name at offset 0: no NUL, one expected within 256 bytes, 1 there without";
+        "variable-name: name at offset 0: no NUL, expected one within 256 bytes, found 1 without";
     assert_eq!(refused(Call { data: b"V", ..call }), plain(stream, AdsError::INVALID_SIZE));
 }

@@ -107,7 +107,7 @@ fn numbers_of_ads() {
     assert!(commands.iter().all(|&(command, number)| command.0 == number), "{commands:?}");
     assert_eq!((StateFlags::REQUEST.0, StateFlags::RESPONSE.0), (0x0004, 0x0005));
     let errors = [
-        (AdsError::NONE, 0),
+        (AdsError::NO_ERROR, 0),
         (AdsError::TARGET_PORT_NOT_FOUND, 0x6),
         (AdsError::TARGET_MACHINE_NOT_FOUND, 0x7),
         (AdsError::SERVICE_NOT_SUPPORTED, 0x701),

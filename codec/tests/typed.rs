@@ -27,12 +27,12 @@ fn printed_replies() {
     let one = by_handle.decode_reply(b"\x4d\x01\0\0").unwrap();
     let one = one.elements(VariableType::SGN32, Numbers::EMPTY).unwrap();
     assert_eq!(one.element(Numbers::EMPTY), Ok(Element::Sgn32(333)));
-    assert_eq!(one.items::<i32>().unwrap().get(0), Some(333));
+    assert!(one.items::<i32>().unwrap().eq([333]));
 
     let by_name = ReadByName::new(channel, "V.E.Testvar").unwrap();
     let all = by_name.decode_reply(ARRAY).unwrap();
     let all = all.elements(VariableType::SGN32, Numbers::from(&[5])).unwrap();
-    assert!(all.items::<i32>().unwrap().iter().eq([123, 234, 345, 456, 567]));
+    assert!(all.items::<i32>().unwrap().eq([123, 234, 345, 456, 567]));
     assert_eq!(all.element(Numbers::from(&[3])), Ok(Element::Sgn32(456)));
 
     let axis = ChannelAxis::new(2).unwrap();
@@ -73,7 +73,7 @@ fn each_type_is_read_and_written() {
         assert!(read.iter().eq([element; 2]) && read.iter().rev().eq([element; 2]));
     }
     let text = elements(DataType::String, &[], b"L\xE4nge\0rest");
-    let Some(Element::String(text)) = text.get(0) else { panic!("{text:?}") };
+    let Ok(Element::String(text)) = text.get(0) else { panic!("{text:?}") };
     assert_eq!((text.text(), text.tail()), (CncStr::new("Länge").unwrap(), Some(&b"rest"[..])));
 }
 
@@ -164,29 +164,28 @@ fn texts_of_an_array_share_its_bytes() {
     let one = shape(DataType::String, &[], 21).unwrap();
     for bytes in [&b""[..], b"\0", b"abc", b"abc\0", &[b'x'; 300]] {
         let elements = one.elements(bytes).unwrap();
-        let text = elements.strings().unwrap().get(0).unwrap();
+        let text: TextRef<'_> = elements.get(0).unwrap().try_into().unwrap();
         assert_eq!((elements.len(), text.field_len()), (1, bytes.len()));
-        assert!(elements.get(1).is_none() && elements.iter().count() == 1);
+        assert!(elements.get(1).is_err() && elements.iter().count() == 1);
     }
 
     let dimensions = [2, 2];
     let four = shape(DataType::String, &dimensions, 12).unwrap();
     assert_eq!((four.count(), four.element_size(), four.size()), (4, 3, 12));
     let elements = four.elements(b"ab\0c\0ddef\0\0\0").unwrap();
-    let texts = elements.strings().unwrap();
+    let texts: Vec<TextRef<'_>> = elements.iter().flat_map(TryFrom::try_from).collect();
     let shown: Vec<_> = texts.iter().map(|text| (text.text().to_string(), text.tail())).collect();
     let text = |text: &str, tail| (text.to_owned(), tail);
     assert_eq!(shown[..2], [text("ab", Some(&b""[..])), text("c", Some(b"d"))]);
     assert_eq!(shown[2..], [text("def", None), text("", Some(b"\0\0"))]);
     let last = elements.element(Numbers::from(&[1, 0])).unwrap();
-    assert_eq!(Some(last), texts.get(2).map(Element::String));
+    assert_eq!(last, Element::String(texts[2]));
 
     assert_eq!(fault_of(four.elements(b"ab\0c\0d")), fault(Truncated, "value", 0, (12, 6)));
     let shares = |size| fault_of(shape(DataType::String, &dimensions, size));
     assert_eq!(shares(13), fault(Mismatch, "size", 0, (12, 13)));
     assert_eq!(shares(3), fault(Mismatch, "size", 0, (4, 3)));
     assert_eq!(shares(0), fault(Mismatch, "size", 0, (4, 0)));
-    assert_eq!(fault_of(StringsRef::new(b"", u32::MAX)).kind, Mismatch);
 }
 
 /// Each wrong index is named by its place, its bound and itself.
@@ -203,15 +202,19 @@ fn wrong_indices_are_named() {
     assert_eq!(fault_of(at(&[1])), fault(Mismatch, "index_count", 0, (2, 1)));
     assert_eq!(fault_of(at(&[1, 2, 0])), fault(Mismatch, "index_count", 0, (2, 3)));
 
-    let items = elements.items::<i32>().unwrap();
-    let other = items.element(Numbers::from(&[1]), Numbers::from(&[5]));
-    assert_eq!(fault_of(other), fault(Mismatch, "count", 0, (5, 6)));
-    assert_eq!(fault_of(Items::<u16>::new(&[1, 2, 3])), fault(Truncated, "value", 2, (2, 1)));
-    assert!(elements.items::<u32>().is_none());
+    assert_eq!(fault_of(elements.get(6)), fault(OutOfRange, "index", 0, (5, 6)));
+    let value = ValueRef { bytes: &[1, 2, 3] };
+    assert_eq!(fault_of(value.get::<u16>(0)), fault(Truncated, "value", 2, (2, 1)));
+    assert_eq!(fault_of(value.get::<u8>(3)), fault(OutOfRange, "index", 0, (2, 3)));
+    assert_eq!(fault_of(value.copy_to(&mut [0_u8; 2])), fault(Mismatch, "count", 0, (3, 2)));
+    let none = ValueRef { bytes: &[] };
+    assert_eq!(fault_of(none.get::<u8>(0)), fault(Missing, "value", 0, (0, 0)));
+    let other = elements.items::<u32>().map(|_| ());
+    assert_eq!(fault_of(other), fault(Mismatch, "type", 0, (7, 6)));
 
     // As they stand in a name.
     let path = VariablePath::new("V.E.field[1][2]").unwrap();
-    assert_eq!(elements.shape().place(path.elements()), Ok(5));
+    assert_eq!(elements.shape().index_of(path.elements()), Ok(5));
 }
 
 /// However one comes by an element, it is the one of that place.
@@ -225,7 +228,7 @@ fn elements_in_their_order() {
     assert_eq!(all.len(), 12);
     for place in 0..14 {
         let wanted = all.get(place).copied();
-        assert_eq!((elements.get(place), elements.iter().nth(place)), (wanted, wanted));
+        assert_eq!((elements.get(place).ok(), elements.iter().nth(place)), (wanted, wanted));
         assert_eq!(elements.iter().rev().nth(place), all.iter().rev().nth(place).copied());
         let mut iter = elements.iter();
         iter.nth(place);
@@ -242,7 +245,8 @@ fn a_dimension_of_0_has_no_element() {
     let huge = [u32::MAX, 0, u32::MAX];
     for data_type in DataType::ALL {
         let none = elements(data_type, &huge, &[]);
-        assert_eq!((none.len(), none.iter().len(), none.get(0)), (0, 0, None));
+        assert_eq!((none.len(), none.iter().len()), (0, 0));
+        assert_eq!(fault_of(none.get(0)), fault(Missing, "value", 0, (0, 0)));
         assert!(none.is_empty() && none.shape().size() == 0);
         let indices = [u32::MAX - 1, 0, 0];
         assert_eq!(
@@ -255,9 +259,7 @@ fn a_dimension_of_0_has_no_element() {
     // The others alone are more than 32 bits hold.
     let late = [u32::MAX, u32::MAX, 0];
     assert!(elements(DataType::Uns08, &late, &[]).is_empty());
-    let texts = StringsRef::new(&[], 0).unwrap();
-    assert!(texts.is_empty() && texts.get(0).is_none());
-    assert!(Items::<f64>::new(&[]).unwrap().is_empty());
+    assert_eq!(ValueRef { bytes: &[] }.iter::<f64>().unwrap().len(), 0);
 }
 
 /// A product beyond 32 bits is not the size it wraps to, nor the largest there is.
@@ -273,7 +275,7 @@ fn sizes_do_not_wrap() {
     }
     let most = shape(DataType::Uns08, &[u32::MAX], u32::MAX).unwrap();
     assert_eq!(
-        (most.size(), most.place(Numbers::from(&[u32::MAX - 1]))),
+        (most.size(), most.index_of(Numbers::from(&[u32::MAX - 1]))),
         (u32::MAX, Ok(u32::MAX - 1))
     );
 }
@@ -288,5 +290,80 @@ fn values_of_no_size_are_refused() {
     for (code, bound) in [(0, 1), (10, 9), (u32::MAX, 9)] {
         let error = value.elements(VariableType(code), Numbers::EMPTY).unwrap_err();
         assert_eq!((error.expected(), error.found()), (bound, code));
+    }
+}
+
+/// Any element becomes a number of any type that holds it exactly, and no other.
+#[test]
+fn elements_become_numbers_that_hold_them() {
+    fn as_all(element: Element<'_>) -> ([bool; 8], [bool; 2]) {
+        let integers = [
+            i8::try_from(element).is_ok(),
+            u8::try_from(element).is_ok(),
+            i16::try_from(element).is_ok(),
+            u16::try_from(element).is_ok(),
+            i32::try_from(element).is_ok(),
+            u32::try_from(element).is_ok(),
+            i64::try_from(element).is_ok(),
+            u64::try_from(element).is_ok(),
+        ];
+        (integers, [f32::try_from(element).is_ok(), f64::try_from(element).is_ok()])
+    }
+
+    let (all, none) = ([true; 8], [false; 8]);
+    let signed = [true, false, true, false, true, false, true, false];
+    let long = [false, false, false, false, false, false, true, true];
+    for (element, integers, floats) in [
+        (Element::Sgn08(7), all, [true; 2]),
+        (Element::Uns08(7), all, [true; 2]),
+        (Element::Sgn16(0), all, [true; 2]),
+        (Element::Uns16(127), all, [true; 2]),
+        (Element::Sgn32(-128), signed, [true; 2]),
+        (Element::Lint(-1), signed, [true; 2]),
+        (Element::Uns32(200), [false, true, true, true, true, true, true, true], [true; 2]),
+        (Element::Lword(1 << 40), long, [true; 2]),
+        (Element::Lint((1 << 40) + 1), long, [false, true]),
+        (Element::Lint((1 << 53) + 1), long, [false; 2]),
+        (
+            Element::Lint(i64::MIN),
+            [false, false, false, false, false, false, true, false],
+            [true; 2],
+        ),
+        (
+            Element::Lword(u64::MAX),
+            [false, false, false, false, false, false, false, true],
+            [false; 2],
+        ),
+        (Element::Real32(1.5), none, [true; 2]),
+        (Element::Real64(2.0), none, [false, true]),
+        (Element::Boolean(Boolean::TRUE), none, [false; 2]),
+        (Element::String(TextRef::new("1").unwrap()), none, [false; 2]),
+    ] {
+        assert_eq!(as_all(element), (integers, floats), "{element:?}");
+    }
+    for number in [0, 1, -1, 255, -256, 0x00FF_FFFF, -0x0100_0000, 0x7FFF_FF80] {
+        assert_eq!(f32::try_from(Element::Sgn32(number)), Ok(number as f32));
+        assert_eq!(f64::try_from(Element::Sgn32(number)), Ok(f64::from(number)));
+        assert_eq!(i64::try_from(Element::Sgn32(number)), Ok(i64::from(number)));
+    }
+    for number in [(1 << 53) - 1, 1 - (1 << 53), i64::MIN, 0x7FFF_FFFF_FFFF_FC00] {
+        assert_eq!(f64::try_from(Element::Lint(number)), Ok(number as f64));
+    }
+    let error = fault_of(u8::try_from(Element::Sgn32(-1)));
+    assert_eq!(error, fault(Mismatch, "type", 0, (3, 6)));
+
+    assert_eq!(bool::try_from(Element::Boolean(Boolean(7))), Ok(true));
+    assert_eq!(fault_of(bool::try_from(Element::Uns08(1))), fault(Mismatch, "type", 0, (1, 3)));
+    let text = Element::String(TextRef::new("Länge").unwrap());
+    assert_eq!(CncStr::try_from(text), CncStr::new("Länge"));
+    assert_eq!(fault_of(CncStr::try_from(Element::Lint(1))), fault(Mismatch, "type", 0, (9, 10)));
+    #[cfg(feature = "alloc")]
+    {
+        assert_eq!(String::try_from(text).as_deref(), Ok("Länge"));
+        let value = Value { bytes: vec![1, 0, 2, 0] };
+        assert_eq!(value.to_vec::<u16>(), Ok(vec![1, 2]));
+        let content = Content { bytes: vec![1, 0, 2, 0] };
+        assert_eq!(content.iter::<i16>().unwrap().rev().collect::<Vec<_>>(), [2, 1]);
+        assert_eq!((content.get(1), value.get(0)), (Ok(2_u16), Ok(1_u16)));
     }
 }

@@ -46,7 +46,7 @@ fn data() -> impl Strategy<Value = Vec<u8>> {
 fn reply() -> impl Strategy<Value = (AdsError, Option<Vec<u8>>)> {
     prop_oneof![
         (any::<u32>(), data()).prop_map(|(result, data)| (AdsError(result), Some(data))),
-        data().prop_map(|data| (AdsError::NONE, Some(data))),
+        data().prop_map(|data| (AdsError::NO_ERROR, Some(data))),
         (1..=u32::MAX).prop_map(|result| (AdsError(result), None)),
     ]
 }
@@ -226,9 +226,9 @@ proptest! {
 fn both_forms_of_no_kind_stay_apart() {
     let absent = VariableKind { kind: Text { text: CncString::default(), tail: None } };
     check_value(&absent);
-    assert_eq!(absent.to_vec(), Ok(vec![]));
-    assert_eq!(VariableKindRef { kind: Kind::ALL }.to_vec(), Ok(vec![0]));
-    assert_eq!(VariableKind::decode(&[]).map(|kind| kind.to_vec()), Ok(Ok(vec![])));
+    assert_eq!(absent.encode_to_vec(), Ok(vec![]));
+    assert_eq!(VariableKindRef { kind: Kind::ALL }.encode_to_vec(), Ok(vec![0]));
+    assert_eq!(VariableKind::decode(&[]).map(|kind| kind.encode_to_vec()), Ok(Ok(vec![])));
 }
 
 /// A list grows at its end, and is then what is read back.

@@ -21,9 +21,9 @@ use ads_cnc_vectors::{Expect, Vector, vectors};
 /// Decodes both readings, encodes both again, and shows the owned one.
 macro_rules! show {
     ($bytes:expr, $view:ty, $owned:ty) => {{
-        let view = <$view>::decode($bytes).and_then(|view| view.to_vec());
+        let view = <$view>::decode($bytes).and_then(|view| view.encode_to_vec());
         let owned = <$owned>::decode($bytes);
-        let again = owned.as_ref().map_err(|error| *error).and_then(|owned| owned.to_vec());
+        let again = owned.as_ref().map_err(|error| *error).and_then(|owned| owned.encode_to_vec());
         assert_eq!(view, again, "the readings disagree");
         if let Ok(again) = again {
             assert_eq!(again, $bytes, "encoded again");
@@ -200,7 +200,7 @@ fn frame(bytes: &[u8]) -> Result<String, Refusal> {
 }
 
 fn service(header: &AmsHeader, data: &[u8]) -> Result<String, Error> {
-    if data.is_empty() && header.error != AdsError::NONE {
+    if data.is_empty() && header.error != AdsError::NO_ERROR {
         return Ok("no payload".to_owned());
     }
     match (header.command, header.state_flags) {
@@ -271,7 +271,7 @@ fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
         ($stream:ident.$text:ident) => {{
             let mut value = $stream::decode(bytes)?;
             value.$text = value.$text.text.into();
-            value.to_vec()
+            value.encode_to_vec()
         }};
     }
     match stream {
@@ -280,10 +280,10 @@ fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
         "variable-name" => plain!(VariableName.name),
         "variable-description" => plain!(Description.name),
         "element-text" => plain!(ElementText.text),
-        "element-length" => ElementLength::new(ElementLength::decode(bytes)?.get()).to_vec(),
+        "element-length" => ElementLength::new(ElementLength::decode(bytes)?.get()).encode_to_vec(),
         "element-write-flag" => match ElementWriteFlag::decode(bytes)?.is_writable() {
-            true => ElementWriteFlag::WRITABLE.to_vec(),
-            false => ElementWriteFlag::READ_ONLY.to_vec(),
+            true => ElementWriteFlag::WRITABLE.encode_to_vec(),
+            false => ElementWriteFlag::READ_ONLY.encode_to_vec(),
         },
         "dynamic-name" => plain!(DynamicName.name),
         "dynamic-name-request" => plain!(DynamicNameRequest.name),
@@ -291,7 +291,7 @@ fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
             let info = DeviceInfoReply::decode(bytes)?;
             let mut name = [0; 16];
             name.iter_mut().zip(info.name().bytes()).for_each(|(byte, of)| *byte = of);
-            DeviceInfoReply { name, ..info }.to_vec()
+            DeviceInfoReply { name, ..info }.encode_to_vec()
         }
         "variable-path" => without_zeros(bytes),
         "object-descriptor" => {
@@ -306,7 +306,7 @@ fn canonical(stream: &str, bytes: &[u8]) -> Result<Vec<u8>, Error> {
                 .with_write_access(access)
                 .with_not_assigned(object.not_assigned())
                 .with_content(object.index_group(), object.index_offset())
-                .to_vec()
+                .encode_to_vec()
         }
         other => panic!("{other} has no other form"),
     }

@@ -380,17 +380,19 @@ impl Client {
 
 /// The whole frame of a call.
 pub(crate) fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, Fault> {
-    whole(header, &call.to_vec().map_err(Fault::Unsendable)?)
+    whole(header, &call.encode_to_vec().map_err(Fault::Unsendable)?)
 }
 
 fn whole(header: AmsHeader, payload: &[u8]) -> Result<Vec<u8>, Fault> {
-    FrameRef::new(header, payload).and_then(|frame| frame.to_vec()).map_err(Fault::Unsendable)
+    FrameRef::new(header, payload)
+        .and_then(|frame| frame.encode_to_vec())
+        .map_err(Fault::Unsendable)
 }
 
 /// What a frame with this header and data answers.
 pub(crate) fn answer(sent: AmsHeader, header: AmsHeader, payload: &[u8]) -> Result<Answer, Fault> {
-    if !header.error.is_none() && payload.is_empty() {
-        return Ok(Answer { ams_error: header.error, result: AdsError::NONE, data: None });
+    if !header.error.is_ok() && payload.is_empty() {
+        return Ok(Answer { ams_error: header.error, result: AdsError::NO_ERROR, data: None });
     }
     // Whatever else is asked has a result in its reply as a Write has, and maybe more.
     let service = service_of(sent.command).unwrap_or(Service::Write);

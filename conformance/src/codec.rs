@@ -194,7 +194,7 @@ where
     T: for<'a> Decode<'a> + Encode,
 {
     let value = T::decode(bytes)?;
-    Ok((collect(fields(&value)), value.to_vec()?))
+    Ok((collect(fields(&value)), value.encode_to_vec()?))
 }
 
 /// A value or a content by its type, whose name the elements keep.

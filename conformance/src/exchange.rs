@@ -50,7 +50,7 @@ pub struct Answer {
 impl Answer {
     /// The data of a success; none if the answer is an error.
     pub fn success(&self) -> Option<&[u8]> {
-        match (self.ams_error.is_none(), self.result.is_none()) {
+        match (self.ams_error.is_ok(), self.result.is_ok()) {
             (true, true) => Some(self.data.as_deref().unwrap_or_default()),
             _ => None,
         }
@@ -60,10 +60,12 @@ impl Answer {
 impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.ams_error, self.result, &self.data) {
-            (AdsError::NONE, AdsError::NONE, Some(data)) => write!(f, "{} bytes", data.len()),
-            (AdsError::NONE, AdsError::NONE, None) => f.write_str("success without data"),
-            (AdsError::NONE, result, _) => write!(f, "ADS error {result}"),
-            (error, ..) => write!(f, "AMS error {error}"),
+            (AdsError::NO_ERROR, AdsError::NO_ERROR, Some(data)) => {
+                write!(f, "{} bytes", data.len())
+            }
+            (AdsError::NO_ERROR, AdsError::NO_ERROR, None) => f.write_str("success without data"),
+            (AdsError::NO_ERROR, result, _) => write!(f, "ADS error {result:#x}"),
+            (error, ..) => write!(f, "AMS error {error:#x}"),
         }
     }
 }

@@ -66,8 +66,8 @@ pub fn encode_reply(
     data: Option<&[u8]>,
 ) -> Result<Vec<u8>, Error> {
     match service {
-        Service::Read => ReadReplyRef { result, data }.to_vec(),
-        Service::Write => WriteReply { result }.to_vec(),
-        Service::ReadWrite => ReadWriteReplyRef { result, data }.to_vec(),
+        Service::Read => ReadReplyRef { result, data }.encode_to_vec(),
+        Service::Write => WriteReply { result }.encode_to_vec(),
+        Service::ReadWrite => ReadWriteReplyRef { result, data }.encode_to_vec(),
     }
 }

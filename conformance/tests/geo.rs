@@ -36,8 +36,8 @@ fn cnc(only: Only) -> SocketAddr {
             }
             (_, AmsPort::SDA) if of_class => {
                 let result = AdsError::INVALID_GROUP;
-                let reply = ReadWriteReplyRef { result, data: None }.to_vec().unwrap();
-                to(frame.header(), AdsError::NONE, &reply)
+                let reply = ReadWriteReplyRef { result, data: None }.encode_to_vec().unwrap();
+                to(frame.header(), AdsError::NO_ERROR, &reply)
             }
             _ => {
                 let mut answer = Vec::new();
@@ -51,7 +51,7 @@ fn cnc(only: Only) -> SocketAddr {
 /// The answer to a request.
 fn to(asked: AmsHeader, error: AdsError, data: &[u8]) -> Vec<u8> {
     let header = AmsHeader { error, ..asked.response() };
-    FrameRef::new(header, data).unwrap().to_vec().unwrap()
+    FrameRef::new(header, data).unwrap().encode_to_vec().unwrap()
 }
 
 fn ads_cnc(args: &[&str]) -> Output {

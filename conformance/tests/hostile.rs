@@ -138,7 +138,7 @@ fn right(cnc: &Cnc, frame: &FrameRef<'_>) -> Vec<u8> {
 fn stray(frame: &FrameRef<'_>) -> Vec<u8> {
     let header = frame.header();
     let header = AmsHeader { invoke_id: header.invoke_id ^ 0x8000_0000, ..header.response() };
-    FrameRef::new(header, &[0; 8]).unwrap().to_vec().unwrap()
+    FrameRef::new(header, &[0; 8]).unwrap().encode_to_vec().unwrap()
 }
 
 /// A success with data, as the service of the request has it.
@@ -148,12 +148,12 @@ fn success(frame: &FrameRef<'_>, data: &[u8]) -> Vec<u8> {
         payload.extend(u32::try_from(data.len()).unwrap().to_le_bytes());
         payload.extend(data);
     }
-    FrameRef::new(frame.header().response(), &payload).unwrap().to_vec().unwrap()
+    FrameRef::new(frame.header().response(), &payload).unwrap().encode_to_vec().unwrap()
 }
 
 fn refusal(frame: &FrameRef<'_>) -> Vec<u8> {
-    let data = ads_cnc::ads::WriteReply { result: AdsError(1793) }.to_vec().unwrap();
-    FrameRef::new(frame.header().response(), &data).unwrap().to_vec().unwrap()
+    let data = ads_cnc::ads::WriteReply { result: AdsError(1793) }.encode_to_vec().unwrap();
+    FrameRef::new(frame.header().response(), &data).unwrap().encode_to_vec().unwrap()
 }
 
 fn against<'a>(addr: &'a str, args: &[&'a str]) -> Vec<&'a str> {
@@ -207,7 +207,7 @@ fn answers_of_a_megabyte_with_wrong_flags_and_addresses() {
         };
         let answer = success(frame, &data);
         let payload = &answer[FrameRef::HEADERS_LEN..];
-        out.write_all(&FrameRef::new(header, payload).unwrap().to_vec().unwrap())
+        out.write_all(&FrameRef::new(header, payload).unwrap().encode_to_vec().unwrap())
     });
     let addr = addr.to_string();
     let (json, html) = (TestFile::new(".json", b""), TestFile::new(".html", b""));
@@ -418,7 +418,7 @@ fn a_client_without_end() {
         let mut payload = vec![0; 12];
         payload[8..].copy_from_slice(&60_000_u32.to_le_bytes());
         payload.extend(vec![7; 60_000]);
-        FrameRef::new(header, &payload).unwrap().to_vec().unwrap()
+        FrameRef::new(header, &payload).unwrap().encode_to_vec().unwrap()
     };
     let args = ["run", "--client-listen", &listen, "--seed", "1"];
     let (ended, ()) = run_beside(&args, || {
@@ -463,9 +463,9 @@ fn captured(count: u32, answer: impl Fn(u32, &AmsHeader) -> Option<AmsHeader>) -
     for number in 0..count {
         let header = AmsHeader::request(ams(552), ams(0x8000), AdsCommand::READ, number);
         let payload = [0x03_u8, 0x03, 0x12, 0, 0, 0, 0, 0, 4, 0, 0, 0];
-        capture.sent(&FrameRef::new(header, &payload).unwrap().to_vec().unwrap());
+        capture.sent(&FrameRef::new(header, &payload).unwrap().encode_to_vec().unwrap());
         if let Some(header) = answer(number, &header) {
-            capture.received(&FrameRef::new(header, &[0; 12]).unwrap().to_vec().unwrap());
+            capture.received(&FrameRef::new(header, &[0; 12]).unwrap().encode_to_vec().unwrap());
         }
     }
     capture.closed();
@@ -492,7 +492,7 @@ fn requests_without_answers_are_forgotten() {
                 capture.opened(end(50_000 + opened), end(48898));
             }
             let header = AmsHeader::request(ams(552), ams(0x8000), AdsCommand::WRITE, number);
-            capture.sent(&FrameRef::new(header, &payload).unwrap().to_vec().unwrap());
+            capture.sent(&FrameRef::new(header, &payload).unwrap().encode_to_vec().unwrap());
         }
         capture.finish().unwrap();
         let ended = run(&["check", file.path()]);

@@ -117,7 +117,7 @@ fn a_stream_ends_when_its_file_expires() {
     let addr = fake(move |_, _| {
         *count.lock().unwrap() += 1;
         thread::sleep(Duration::from_millis(400));
-        Answer::Result(AdsError::NONE)
+        Answer::Result(AdsError::NO_ERROR)
     });
     // 17 packets.
     let program: String = (0..1000).map(|line| format!("N{line}0 G01 X{line}\n")).collect();

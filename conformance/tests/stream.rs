@@ -65,7 +65,7 @@ fn kept(mut answer: impl FnMut(usize) -> Answer + Send + 'static) -> (SocketAddr
 
 type Packets = Arc<Mutex<Vec<(u8, Vec<u8>)>>>;
 
-const OK: Answer = Answer::Result(AdsError::NONE);
+const OK: Answer = Answer::Result(AdsError::NO_ERROR);
 
 /// Through an interface that is full at times, everything arrives, once and in order.
 #[test]

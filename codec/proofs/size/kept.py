@@ -60,7 +60,7 @@ def read(features):
             for trait, of, methods in TRAITS:
                 if re.search(rf"[ ,]{trait}\b", line):
                     path = PATHS.get(trait, trait.split("::")[-1])
-                    owned = " to_vec" if trait == "Encode" and features == "alloc" else ""
+                    owned = " encode_to_vec" if trait == "Encode" and features == "alloc" else ""
                     for method in (methods + owned).split():
                         kept.append((of or part(name), f"<{ty} as {path}>::{method}"))
     return kept, generic

@@ -1,5 +1,7 @@
 //! The classes of the SDA and GEO tasks, and their index groups.
 
+use core::fmt;
+
 use super::group::{ELEMENT, low};
 use super::{Addressing, Channel, IndexGroup, Spindle};
 
@@ -115,6 +117,19 @@ impl Class {
     }
 }
 
+impl fmt::Display for Class {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::PositionController => "position controller",
+            Self::Interpolator => "interpolator",
+            Self::Decoder => "decoder",
+            Self::Hld => "HLD",
+            Self::PathPreparation => "path preparation",
+            Self::Spindle => "spindle",
+        })
+    }
+}
+
 /// An attribute of an element (ADR-6).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
@@ -184,6 +199,20 @@ impl Attribute {
     /// Equality that the compiler can see to.
     pub(crate) const fn is(self, other: Self) -> bool {
         self.bits() == other.bits()
+    }
+}
+
+impl fmt::Display for Attribute {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Content => "content",
+            Self::Name => "name",
+            Self::Type => "type",
+            Self::Length => "length",
+            Self::Unit => "unit",
+            Self::WriteFlag => "write flag",
+            Self::ObjectAddress => "object address",
+        })
     }
 }
 

@@ -1,18 +1,20 @@
 //! The channel, platform axis or spindle in the low bits of an index group.
 
+use core::fmt;
 use core::num::{NonZeroU8, NonZeroU16};
 
 use super::{Addressing, AxisStride, Group, IndexOffset};
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::index_group::INSTANCE;
-use crate::layout::field::index_offset::AXIS;
+use crate::layout::Field;
+use crate::layout::field::index_group::{CHANNEL, PLATFORM_AXIS, SPINDLE};
+use crate::layout::field::index_offset::CHANNEL_AXIS;
 
 /// Takes a number into the eight bits it has, never into the field above (ADR-9).
-fn instance(number: u32, least: u8) -> Result<u8, Error> {
+fn instance(field: Field, number: u32, least: u8) -> Result<u8, Error> {
     let bound = if number < u32::from(least) { least } else { u8::MAX };
     match u8::try_from(number) {
         Ok(fits) if fits >= least => Ok(fits),
-        _ => Err(Error::new(ErrorKind::OutOfRange, INSTANCE, 0, bound.into(), number)),
+        _ => Err(Error::new(ErrorKind::OutOfRange, field, 0, bound.into(), number)),
     }
 }
 
@@ -64,8 +66,8 @@ impl Channel {
     }
 
     fn with_addressing(number: u32, addressing: Addressing) -> Result<Self, Error> {
-        let fits = NonZeroU8::new(instance(number, 1)?);
-        let number = fits.ok_or(Error::new(ErrorKind::OutOfRange, INSTANCE, 0, 1, number))?;
+        let fits = NonZeroU8::new(instance(CHANNEL, number, 1)?);
+        let number = fits.ok_or(Error::new(ErrorKind::OutOfRange, CHANNEL, 0, 1, number))?;
         Ok(Self { number, addressing })
     }
 
@@ -99,8 +101,8 @@ impl PlatformAxis {
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for 0 and for what 8 bits do not hold.
     pub fn new(place: u32) -> Result<Self, Error> {
-        let fits = NonZeroU8::new(instance(place, 1)?);
-        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, INSTANCE, 0, 1, place))
+        let fits = NonZeroU8::new(instance(PLATFORM_AXIS, place, 1)?);
+        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, PLATFORM_AXIS, 0, 1, place))
     }
 
     /// The place, from 1.
@@ -133,7 +135,7 @@ impl ChannelAxis {
     pub fn new(place: u32) -> Result<Self, Error> {
         let bound = if place == 0 { 1 } else { u16::MAX.into() };
         let fits = u16::try_from(place).ok().and_then(NonZeroU16::new);
-        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, AXIS, 0, bound, place))
+        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, CHANNEL_AXIS, 0, bound, place))
     }
 
     /// The axis in the high bits of an index offset.
@@ -176,11 +178,39 @@ impl Spindle {
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for what 8 bits do not hold.
     pub fn new(index: u32) -> Result<Self, Error> {
-        instance(index, 0).map(Self)
+        instance(SPINDLE, index, 0).map(Self)
     }
 
     /// The index, from 0.
     pub const fn index(self) -> u8 {
         self.0
+    }
+}
+
+/// The number, or the rank.
+impl fmt::Display for Channel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.number().fmt(f)
+    }
+}
+
+/// The number, from 1.
+impl fmt::Display for PlatformAxis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.place().fmt(f)
+    }
+}
+
+/// The number, from 1.
+impl fmt::Display for ChannelAxis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.place().fmt(f)
+    }
+}
+
+/// The index, from 0.
+impl fmt::Display for Spindle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.index().fmt(f)
     }
 }

@@ -21,7 +21,7 @@ use crate::layout::field::ams_net_id::{NUMBER, NUMBERS};
 /// }
 /// assert_eq!(
 ///     "192.0.2.7.1.256".parse::<AmsNetId>().unwrap_err().to_string(),
-///     "ams-net-id: number at offset 5: out of range, at most 255 expected, 256 found"
+///     "ams-net-id: number at offset 5: out of range, expected at most 255, found 256"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```

@@ -7,6 +7,7 @@ use crate::bytes::{Reader, Writer};
 use crate::declare::stream;
 use crate::error::Error;
 use crate::layout::Stream;
+use crate::number::code;
 use crate::stream::{Decode, Encode};
 use crate::text::CncStr;
 
@@ -88,27 +89,25 @@ impl Encode for DeviceInfoReply {
     }
 }
 
-/// The state of an ADS device; unknown numbers stay what they are (ADS-9).
-///
-/// Source: the vendors' public help pages; the manuals do not describe it.
-///
-/// ```
-/// use ads_cnc::ads::AdsState;
-///
-/// assert_eq!(AdsState(5), AdsState::RUN);
-/// assert_ne!(AdsState(16), AdsState::CONFIG);
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
-pub struct AdsState(pub u16);
-
-impl AdsState {
-    /// It works.
-    pub const RUN: Self = Self(5);
-    /// It has been stopped.
-    pub const STOP: Self = Self(6);
-    /// It is being configured.
-    pub const CONFIG: Self = Self(15);
+code! {
+    /// The state of an ADS device; unknown numbers stay what they are (ADS-9).
+    ///
+    /// Source: the vendors' public help pages; the manuals do not describe it.
+    ///
+    /// ```
+    /// use ads_cnc::ads::AdsState;
+    ///
+    /// assert_eq!(AdsState(5), AdsState::RUN);
+    /// assert_ne!(AdsState(16), AdsState::CONFIG);
+    /// ```
+    AdsState(u16) {
+        /// It works.
+        RUN = 5;
+        /// It has been stopped.
+        STOP = 6;
+        /// It is being configured.
+        CONFIG = 15;
+    }
 }
 
 stream! {
@@ -136,5 +135,3 @@ stream! {
         @6 device_state: UNS16,          "ADS-9", "state of the device's own";
     }
 }
-
-crate::number::from_number!(u16: AdsState);

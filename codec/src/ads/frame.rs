@@ -24,7 +24,7 @@ use crate::stream::{Decode, Encode};
 /// let end = AmsAddr { net_id: AmsNetId([127, 0, 0, 1, 1, 1]), port: AmsPort::SDA };
 /// let header = AmsHeader {
 ///     target: end, source: end, command: Command::WRITE, state_flags: StateFlags::RESPONSE,
-///     data_length: 4, error: AdsError::NONE, invoke_id: 1,
+///     data_length: 4, error: AdsError::NO_ERROR, invoke_id: 1,
 /// };
 /// let mut buf = [0; 64];
 /// let bytes = FrameRef::new(header, &[0; 4])?.encode(&mut buf)?;

@@ -50,7 +50,7 @@ stream! {
 ///     command: Command::READ,
 ///     state_flags: StateFlags::REQUEST,
 ///     data_length: 12,
-///     error: AdsError::NONE,
+///     error: AdsError::NO_ERROR,
 ///     invoke_id: 7,
 /// };
 /// let mut buf = [0; 32];
@@ -128,7 +128,7 @@ impl AmsHeader {
         command: Command,
         invoke_id: u32,
     ) -> Self {
-        let (state_flags, error) = (StateFlags::REQUEST, AdsError::NONE);
+        let (state_flags, error) = (StateFlags::REQUEST, AdsError::NO_ERROR);
         Self { target, source, command, state_flags, data_length: 0, error, invoke_id }
     }
 
@@ -150,7 +150,7 @@ impl AmsHeader {
             source: self.target,
             state_flags: StateFlags::RESPONSE,
             data_length: 0,
-            error: AdsError::NONE,
+            error: AdsError::NO_ERROR,
             ..self
         }
     }

@@ -45,7 +45,7 @@ macro_rules! reply_with_data {
         #[doc = concat!("use ads_cnc::{Decode, ads::", stringify!($ref), "};")]
         ///
         #[doc = concat!("let reply = ", stringify!($ref), "::decode(&[0, 0, 0, 0, 1, 0, 0, 0, 9])?;")]
-        /// assert!(reply.result.is_none());
+        /// assert!(reply.result.is_ok());
         /// assert_eq!(reply.data, Some(&[9][..]));
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
@@ -63,7 +63,7 @@ macro_rules! reply_with_data {
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
                 let mut input = Reader::new(Self::STREAM, bytes)?;
                 let result = AdsError(input.u32(field::$fields::RESULT)?);
-                if !result.is_none() && input.is_empty() {
+                if !result.is_ok() && input.is_empty() {
                     return Ok(Self { result, data: None });
                 }
                 let length = input.u32(field::$fields::LENGTH)?;
@@ -81,7 +81,7 @@ macro_rules! reply_with_data {
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
                 let Some(data) = self.data else {
                     // Only an error may do without; success without data has none to give.
-                    if self.result.is_none() {
+                    if self.result.is_ok() {
                         let (kind, field) =
                             (crate::error::ErrorKind::Truncated, field::$fields::LENGTH);
                         return Err(Error::new(kind, field, 4, 4, 0));
@@ -101,9 +101,9 @@ macro_rules! reply_with_data {
         /// ```
         #[doc = concat!("use ads_cnc::{Encode, ads::{AdsError, ", stringify!($owned), "}};")]
         ///
-        /// let (result, data) = (AdsError::NONE, Some(vec![9]));
+        /// let (result, data) = (AdsError::NO_ERROR, Some(vec![9]));
         #[doc = concat!("let reply = ", stringify!($owned), " { result, data };")]
-        /// assert_eq!(reply.to_vec()?, [0, 0, 0, 0, 1, 0, 0, 0, 9]);
+        /// assert_eq!(reply.encode_to_vec()?, [0, 0, 0, 0, 1, 0, 0, 0, 9]);
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
         #[cfg(feature = "alloc")]

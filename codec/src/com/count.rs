@@ -25,4 +25,4 @@ stream! {
     }
 }
 
-crate::number::debug!(ObjectCount);
+crate::number::shown!(ObjectCount);

@@ -11,6 +11,7 @@ use crate::declare::{Declared as _, stream};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
 use crate::limits::{DESCRIPTOR_LEN, DESCRIPTOR_TEXT_LEN};
+use crate::number::code;
 use crate::stream::{Decode, Encode};
 use crate::text::CncStr;
 use crate::value::DataType;
@@ -36,27 +37,28 @@ stream! {
     }
 }
 
-/// Whether an object may be written; any value but 0 is TRUE, and is kept (E-08).
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
-///
-/// ```
-/// use ads_cnc::WriteAccess;
-///
-/// assert!(!WriteAccess::READ_ONLY.is_writable());
-/// assert!(WriteAccess(0xFFFF).is_writable());
-/// assert_ne!(WriteAccess(0xFFFF), WriteAccess::WRITABLE);
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
-pub struct WriteAccess(pub u16);
+code! {
+    /// Whether an object may be written; any value but 0 is TRUE, and is kept (E-08).
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
+    ///
+    /// ```
+    /// use ads_cnc::WriteAccess;
+    ///
+    /// assert!(!WriteAccess::READ_ONLY.is_writable());
+    /// assert!(WriteAccess(0xFFFF).is_writable());
+    /// assert_ne!(WriteAccess(0xFFFF), WriteAccess::WRITABLE);
+    /// ```
+    #[derive(Default)]
+    WriteAccess(u16) {
+        /// FALSE, as written.
+        READ_ONLY = 0;
+        /// TRUE, as written.
+        WRITABLE = 1;
+    }
+}
 
 impl WriteAccess {
-    /// FALSE, as written.
-    pub const READ_ONLY: Self = Self(0);
-    /// TRUE, as written.
-    pub const WRITABLE: Self = Self(1);
-
     /// Whether this is TRUE.
     pub const fn is_writable(self) -> bool {
         self.0 != 0

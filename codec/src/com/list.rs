@@ -1,6 +1,7 @@
 //! Descriptors in sequence.
 
 use core::fmt;
+use core::slice;
 
 use zerocopy::{FromBytes as _, IntoBytes as _};
 
@@ -28,10 +29,12 @@ use crate::stream::{Decode, Encode};
 ///
 /// let descriptors = DescriptorsRef::decode(&[0; 168])?;
 /// assert_eq!(descriptors.len(), 2);
-/// assert!(descriptors.iter().all(|object| object.name().is_empty()));
+/// for object in descriptors {
+///     assert!(object.name().is_empty());
+/// }
 /// assert_eq!(
 ///     DescriptorsRef::decode(&[0; 85]).unwrap_err().to_string(),
-///     "object-descriptors: id at offset 84: truncated, 4 bytes expected, 1 there"
+///     "object-descriptors: id at offset 84: truncated, expected 4 bytes, found 1"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -65,8 +68,49 @@ impl<'a> DescriptorsRef<'a> {
 
     /// All in their order.
     #[inline]
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = DescriptorRef<'a>> + use<'a> {
-        self.0.iter().map(DescriptorRef)
+    pub fn iter(&self) -> DescriptorIter<'a> {
+        DescriptorIter(self.0.iter())
+    }
+}
+
+/// [`DescriptorsRef`] in their order.
+#[derive(Clone)]
+pub struct DescriptorIter<'a>(slice::Iter<'a, DescriptorLayout>);
+
+impl<'a> Iterator for DescriptorIter<'a> {
+    type Item = DescriptorRef<'a>;
+
+    #[inline]
+    fn next(&mut self) -> Option<DescriptorRef<'a>> {
+        self.0.next().map(DescriptorRef)
+    }
+
+    #[inline]
+    fn nth(&mut self, skipped: usize) -> Option<DescriptorRef<'a>> {
+        self.0.nth(skipped).map(DescriptorRef)
+    }
+
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.0.size_hint()
+    }
+}
+
+impl DoubleEndedIterator for DescriptorIter<'_> {
+    fn next_back(&mut self) -> Option<Self::Item> {
+        self.0.next_back().map(DescriptorRef)
+    }
+}
+
+impl ExactSizeIterator for DescriptorIter<'_> {}
+
+impl<'a> IntoIterator for DescriptorsRef<'a> {
+    type Item = DescriptorRef<'a>;
+    type IntoIter = DescriptorIter<'a>;
+
+    #[inline]
+    fn into_iter(self) -> DescriptorIter<'a> {
+        self.iter()
     }
 }
 
@@ -122,10 +166,12 @@ mod owned {
     /// ```
     /// use ads_cnc::{Descriptor, Descriptors};
     ///
-    /// let list: Descriptors = [Descriptor::new("a", "BOOL")?, Descriptor::new("b", "INT")?]
-    ///     .into_iter()
-    ///     .collect();
-    /// assert_eq!(list.as_ref().get(1).unwrap().name(), "b");
+    /// let mut list: Descriptors = [Descriptor::new("a", "BOOL")?].into_iter().collect();
+    /// list.extend([Descriptor::new("b", "INT")?]);
+    /// assert_eq!(list.len(), 2);
+    /// for (object, name) in list.iter().zip(["a", "b"]) {
+    ///     assert_eq!(object.name(), name);
+    /// }
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     #[derive(Clone, Default, PartialEq, Eq, Hash)]
@@ -159,6 +205,21 @@ mod owned {
             DescriptorsRef(&self.0)
         }
 
+        /// How many.
+        pub fn len(&self) -> usize {
+            self.0.len()
+        }
+
+        /// Whether the list has no descriptor.
+        pub fn is_empty(&self) -> bool {
+            self.0.is_empty()
+        }
+
+        /// All in their order.
+        pub fn iter(&self) -> DescriptorIter<'_> {
+            self.as_ref().iter()
+        }
+
         /// Adds one at the end.
         pub fn push(&mut self, object: Descriptor) {
             self.0.push(object.0);
@@ -168,6 +229,21 @@ mod owned {
     impl FromIterator<Descriptor> for Descriptors {
         fn from_iter<I: IntoIterator<Item = Descriptor>>(objects: I) -> Self {
             Self(objects.into_iter().map(|object| object.0).collect())
+        }
+    }
+
+    impl Extend<Descriptor> for Descriptors {
+        fn extend<I: IntoIterator<Item = Descriptor>>(&mut self, objects: I) {
+            self.0.extend(objects.into_iter().map(|object| object.0));
+        }
+    }
+
+    impl<'a> IntoIterator for &'a Descriptors {
+        type Item = DescriptorRef<'a>;
+        type IntoIter = DescriptorIter<'a>;
+
+        fn into_iter(self) -> DescriptorIter<'a> {
+            self.iter()
         }
     }
 

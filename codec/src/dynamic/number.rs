@@ -34,7 +34,7 @@ stream! {
     }
 }
 
-crate::number::debug!(DynamicCount);
+crate::number::shown!(DynamicCount);
 
 stream! {
     /// Asks for a dynamic parameter by its index.
@@ -51,7 +51,7 @@ stream! {
     /// assert_eq!(DynamicIndex(1).encode(&mut [0; 4])?, [1, 0, 0, 0]);
     /// assert_eq!(
     ///     DynamicIndex::decode(&[0; 4]).unwrap_err().to_string(),
-    ///     "dynamic-index: index at offset 0: out of range, at least 1 expected, 0 found"
+    ///     "dynamic-index: index at offset 0: out of range, expected at least 1, found 0"
     /// );
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
@@ -61,7 +61,7 @@ stream! {
     }
 }
 
-crate::number::debug!(DynamicIndex);
+crate::number::shown!(DynamicIndex);
 
 impl DynamicIndex {
     /// Rejects an index that no decoder would accept.

@@ -187,10 +187,14 @@ layouts! {
     /// An index group put together from its parts; no stream of its own.
     IndexGroup, index_group: "index-group", "Index group", "ADR-9", max 0 {
         INSTANCE "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel, platform axis or spindle, 8 bits";
+        CHANNEL "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel, 1..=255";
+        PLATFORM_AXIS "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "platform axis, 1..=255";
+        SPINDLE "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "spindle, 0..=255";
     }
     /// An index offset put together from its parts; no stream of its own.
     IndexOffset, index_offset: "index-offset", "Index offset", "ADR-9", max 0 {
         AXIS "axis" @ 0, Size::Fixed(4), Uns32, "ADR-9", "axis, 16 bits";
+        CHANNEL_AXIS "axis" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel axis, 1..=65535";
         ELEMENT "element" @ 0, Size::Fixed(4), Uns32, "ADR-9", "element, 16 or 12 bits";
     }
     /// An AMS NetId as text; no stream of its own.

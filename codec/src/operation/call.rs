@@ -204,7 +204,7 @@ mod tests {
         let error = Call { data: &[0], ..read }.dispatch().unwrap_err();
         assert_eq!(
             std::format!("{error}"),
-            "read-request: stream at offset 12: trailing bytes, 12 bytes expected, 13 there"
+            "read-request: stream at offset 12: trailing bytes, expected 12 bytes, found 13"
         );
     }
 }

@@ -1,5 +1,7 @@
 //! The attributes of an element (SDA-4, SDA-6 … SDA-9).
 
+use core::fmt;
+
 use crate::bytes::{Reader, Writer};
 use crate::declare::stream;
 use crate::error::Error;
@@ -30,7 +32,7 @@ stream! {
     }
 }
 
-crate::number::debug!(ElementCount);
+crate::number::shown!(ElementCount);
 
 stream! {
     /// The name, type or unit of an element.
@@ -100,6 +102,13 @@ impl ElementLength {
     }
 }
 
+/// The number of bytes.
+impl fmt::Display for ElementLength {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.length.fmt(f)
+    }
+}
+
 impl<'a> Decode<'a> for ElementLength {
     const STREAM: Stream = Stream::ElementLength;
 
@@ -166,7 +175,7 @@ stream! {
     }
 }
 
-crate::number::debug!(ElementWriteFlag);
+crate::number::shown!(ElementWriteFlag);
 
 impl ElementWriteFlag {
     /// FALSE, as written.

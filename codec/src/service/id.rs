@@ -28,7 +28,7 @@ const HYPHENS: [usize; 4] = [8, 13, 18, 23];
 /// assert_eq!(id.to_string(), "560AACBF-6335-44a9-895A-8B27F3ED5E47");
 /// assert_eq!(
 ///     ServiceId::new("560AACBF-6335-44a9-895A-B27F3ED5E47").unwrap_err().to_string(),
-///     "service: uuid at offset 0: truncated, 36 bytes expected, 35 there"
+///     "service: uuid at offset 0: truncated, expected 36 bytes, found 35"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```

@@ -20,7 +20,7 @@ stream! {
     /// assert_eq!(ProgramStreamRef::decode(b"N30 M30\r\n")?.bytes, b"N30 M30\r\n");
     /// assert_eq!(
     ///     ProgramStreamRef::decode(&[b' '; 993]).unwrap_err().to_string(),
-    ///     "program-stream: stream at offset 992: too long, at most 992 bytes expected, 993 there"
+    ///     "program-stream: stream at offset 992: too long, expected at most 992 bytes, found 993"
     /// );
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```

@@ -43,13 +43,13 @@ impl Ack {
     /// use ads_cnc::ads::AdsError;
     /// use ads_cnc::streaming::Ack;
     ///
-    /// assert_eq!(Ack::of(AdsError::NONE), Ack::Accepted);
+    /// assert_eq!(Ack::of(AdsError::NO_ERROR), Ack::Accepted);
     /// assert_eq!(Ack::of(AdsError::INVALID_SIZE), Ack::Refused);
     /// assert_eq!(Ack::of(AdsError::INVALID_DATA), Ack::Later);
     /// ```
     pub const fn of(result: AdsError) -> Self {
         match result {
-            AdsError::NONE => Self::Accepted,
+            AdsError::NO_ERROR => Self::Accepted,
             AdsError::TARGET_PORT_NOT_FOUND
             | AdsError::TARGET_MACHINE_NOT_FOUND
             | AdsError::SERVICE_NOT_SUPPORTED

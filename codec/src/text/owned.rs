@@ -13,6 +13,7 @@ use crate::error::Error;
 /// use ads_cnc::CncString;
 ///
 /// let name: CncString = "V.E.Länge".parse()?;
+/// assert_eq!(name, "V.E.Länge");
 /// assert_eq!(name.as_bytes(), b"V.E.L\xE4nge");
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -42,6 +43,18 @@ impl CncString {
 impl From<CncStr<'_>> for CncString {
     fn from(text: CncStr<'_>) -> Self {
         Self(text.to_bytes(0))
+    }
+}
+
+impl PartialEq<str> for CncString {
+    fn eq(&self, other: &str) -> bool {
+        self.as_cnc_str() == *other
+    }
+}
+
+impl PartialEq<&str> for CncString {
+    fn eq(&self, other: &&str) -> bool {
+        *self == **other
     }
 }
 

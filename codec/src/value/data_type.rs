@@ -1,5 +1,7 @@
 //! One list of types for variables, objects and elements.
 
+use core::fmt;
+
 use crate::text::CncStr;
 use crate::variable::VariableType;
 
@@ -148,12 +150,26 @@ impl DataType {
         })
     }
 
-    /// The type's number in errors.
+    /// The type's number in errors: a variable's code, or one after the last of those.
     pub(super) const fn number(self) -> u32 {
-        match self.var_type() {
-            Some(VariableType(code)) => code,
-            None => 0,
+        match (self.var_type(), self) {
+            (Some(VariableType(code)), _) => code,
+            (None, Self::Lint) => 10,
+            (None, Self::Lword) => 11,
+            (None, _) => 12,
         }
+    }
+
+    /// The type of this number in errors.
+    pub(crate) fn by_number(number: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|known| known.number() == number)
+    }
+}
+
+/// The [`name`](DataType::name).
+impl fmt::Display for DataType {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

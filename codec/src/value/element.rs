@@ -5,7 +5,8 @@ use core::ops::Range;
 
 use zerocopy::FromBytes as _;
 
-use super::{Boolean, DataType, Item, Items, Shape, StringsRef};
+use super::typed::beyond;
+use super::{Boolean, DataType, Item, Shape};
 use crate::bytes::{to_len, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::field::typed_value::VALUE;
@@ -24,7 +25,8 @@ use crate::variable::Numbers;
 /// let elements = Elements::new(DataType::Boolean, Numbers::from(&[2]), &[0, 1])?;
 /// let second = elements.element(Numbers::from(&[1]))?;
 /// assert_eq!(second, Element::Boolean(Boolean::TRUE));
-/// assert_eq!(second.data_type(), DataType::Boolean);
+/// assert_eq!((second.data_type(), second.to_string()), (DataType::Boolean, "TRUE".into()));
+/// assert!(bool::try_from(second)?);
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +74,26 @@ impl Element<'_> {
             Self::Real32(_) => DataType::Real32,
             Self::Real64(_) => DataType::Real64,
             Self::String(_) => DataType::String,
+        }
+    }
+}
+
+/// Numbers as numbers, BOOLEAN as TRUE or FALSE, a text without its end.
+impl fmt::Display for Element<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Boolean(boolean) => f.write_str(if boolean.is_true() { "TRUE" } else { "FALSE" }),
+            Self::Sgn08(number) => number.fmt(f),
+            Self::Uns08(number) => number.fmt(f),
+            Self::Sgn16(number) => number.fmt(f),
+            Self::Uns16(number) => number.fmt(f),
+            Self::Sgn32(number) => number.fmt(f),
+            Self::Uns32(number) => number.fmt(f),
+            Self::Lint(number) => number.fmt(f),
+            Self::Lword(number) => number.fmt(f),
+            Self::Real32(number) => number.fmt(f),
+            Self::Real64(number) => number.fmt(f),
+            Self::String(text) => text.text().fmt(f),
         }
     }
 }
@@ -139,12 +161,21 @@ impl<'a> Elements<'a> {
         self.shape.count() == 0
     }
 
-    /// The element at this place, from 0.
-    pub fn get(&self, place: usize) -> Option<Element<'a>> {
-        let bytes = part(self.bytes, to_len(self.shape.element_size()), place)?;
-        if place >= self.len() {
+    /// The element at this index, from 0, of the elements in their order.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfRange`] for an index beyond the last, and [`ErrorKind::Missing`] if there
+    /// are no elements.
+    pub fn get(&self, index: usize) -> Result<Element<'a>, Error> {
+        self.at(index).ok_or_else(|| beyond(self.len(), index))
+    }
+
+    fn at(&self, index: usize) -> Option<Element<'a>> {
+        if index >= self.len() {
             return None;
         }
+        let each = to_len(self.shape.element_size());
+        let bytes = self.bytes.get(index.checked_mul(each)?..)?.get(..each)?;
         Some(match self.data_type() {
             DataType::Boolean => Element::Boolean(read(bytes)?),
             DataType::Sgn08 => Element::Sgn08(read(bytes)?),
@@ -164,43 +195,20 @@ impl<'a> Elements<'a> {
     /// The element with these indices.
     ///
     /// # Errors
-    /// Those of [`Shape::place`].
+    /// Those of [`Shape::index_of`].
     pub fn element(&self, indices: Numbers<'_>) -> Result<Element<'a>, Error> {
-        let place = self.shape.place(indices)?;
-        // Cannot be absent: it is in the shape, and the bytes have that.
-        self.get(to_len(place)).ok_or(Error::new(ErrorKind::Missing, VALUE, place, 0, 0))
+        self.get(to_len(self.shape.index_of(indices)?))
     }
 
     /// All in their order.
     pub fn iter(&self) -> ElementIter<'a> {
-        ElementIter { elements: *self, places: 0..self.len() }
-    }
-
-    /// The elements in place, if they are of this type.
-    pub fn items<T: Item>(&self) -> Option<Items<'a, T>> {
-        match T::TYPE == self.data_type() {
-            true => Items::new(self.bytes).ok(),
-            false => None,
-        }
-    }
-
-    /// The texts in place, if they are texts.
-    pub fn strings(&self) -> Option<StringsRef<'a>> {
-        match self.data_type() {
-            DataType::String => Some(StringsRef::of(*self)),
-            _ => None,
-        }
+        ElementIter { elements: *self, indices: 0..self.len() }
     }
 
     /// The bytes.
     pub const fn as_bytes(&self) -> &'a [u8] {
         self.bytes
     }
-}
-
-/// The bytes of the element at this place.
-pub(super) fn part(bytes: &[u8], each: usize, place: usize) -> Option<&[u8]> {
-    bytes.get(place.checked_mul(each)?..)?.get(..each)
 }
 
 fn read<T: Item>(bytes: &[u8]) -> Option<T> {
@@ -227,34 +235,34 @@ impl fmt::Debug for Elements<'_> {
 #[derive(Clone, Debug)]
 pub struct ElementIter<'a> {
     elements: Elements<'a>,
-    places: Range<usize>,
+    indices: Range<usize>,
 }
 
 impl<'a> Iterator for ElementIter<'a> {
     type Item = Element<'a>;
 
     fn next(&mut self) -> Option<Element<'a>> {
-        self.elements.get(self.places.next()?)
+        self.elements.at(self.indices.next()?)
     }
 
     fn nth(&mut self, ahead: usize) -> Option<Element<'a>> {
-        self.elements.get(self.places.nth(ahead)?)
+        self.elements.at(self.indices.nth(ahead)?)
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        self.places.size_hint()
+        self.indices.size_hint()
     }
 }
 
 impl DoubleEndedIterator for ElementIter<'_> {
     fn next_back(&mut self) -> Option<Self::Item> {
-        self.elements.get(self.places.next_back()?)
+        self.elements.at(self.indices.next_back()?)
     }
 }
 
 impl ExactSizeIterator for ElementIter<'_> {
     fn len(&self) -> usize {
-        self.places.len()
+        self.indices.len()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use zerocopy::IntoBytes as _;
 
-use super::{DataType, Element, Elements, Items, StringsRef};
+use super::{DataType, Element, Elements};
 use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Stream;
@@ -10,8 +10,8 @@ use crate::layout::field::typed_value::VALUE;
 use crate::limits::ADS_DATA_MAX;
 use crate::text::{CncStr, TextRef};
 
-/// What becomes the bytes of a value: a number or [`Boolean`](super::Boolean), a slice or an array
-/// of them, a text, and each form in which values are read.
+/// What becomes the bytes of a value: a number, a `bool` or [`Boolean`](super::Boolean), a slice or
+/// an array of them, a text, and each form in which values are read.
 ///
 /// The bytes are what requests take, and what the content of an object or of an element is. A
 /// [`CncStr`] is written with one NUL, a [`TextRef`] with the end it has.
@@ -88,12 +88,12 @@ macro_rules! encode_value {
         $(@$item:ident $(; $n:ident)?)? $form:ty, |$value:ident| $data_type:expr, $count:expr, $len:expr,
         |$buf:ident| $encode:expr;
     )+) => { $(
-        impl $(<$item: $crate::value::Item $(, const $n: usize)?>)? $crate::value::encode::sealed::Sealed for $form {}
+        impl $(<$item: super::Item $(, const $n: usize)?>)? sealed::Sealed for $form {}
 
         $(#[$doc])*
         #[allow(unused_variables, reason = "the type alone may say it")]
-        impl $(<$item: $crate::value::Item $(, const $n: usize)?>)? $crate::value::EncodeValue for $form {
-            fn data_type(&self) -> $crate::value::DataType {
+        impl $(<$item: super::Item $(, const $n: usize)?>)? EncodeValue for $form {
+            fn data_type(&self) -> DataType {
                 let $value = self;
                 $data_type
             }
@@ -111,16 +111,13 @@ macro_rules! encode_value {
             fn encode_value<'b>(
                 &self,
                 $buf: &'b mut [u8],
-            ) -> Result<&'b [u8], $crate::error::Error> {
+            ) -> Result<&'b [u8], Error> {
                 let $value = self;
                 $encode
             }
         }
     )+ };
 }
-
-#[cfg(feature = "alloc")]
-pub(super) use encode_value;
 
 /// Does the same with whatever an element holds.
 macro_rules! each {
@@ -154,18 +151,12 @@ encode_value! {
     /// As the slice of its elements.
     @T; N [T; N], |items| T::TYPE, N, items.as_slice().value_len(),
     |buf| items.as_slice().encode_value(buf);
-    /// The bytes that were read.
-    @T Items<'_, T>, |items| T::TYPE, items.len(), items.as_bytes().len(),
-    |buf| fill(items.value_len(), buf, |out| out.put(items.as_bytes()));
     /// The text and one NUL.
     CncStr<'_>, |text| DataType::String, 1, text.len().saturating_add(1),
     |buf| fill(text.value_len(), buf, |out| TextRef::from(*text).write(out));
     /// The text and the end it has.
     TextRef<'_>, |text| DataType::String, 1, text.field_len(),
     |buf| fill(text.value_len(), buf, |out| text.write(out));
-    /// The bytes that were read.
-    StringsRef<'_>, |texts| DataType::String, texts.len(), texts.as_bytes().len(),
-    |buf| fill(texts.value_len(), buf, |out| out.put(texts.as_bytes()));
     /// The bytes that were read.
     Elements<'_>, |elements| Elements::data_type(elements), elements.len(),
     elements.as_bytes().len(),

@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::DataType;
 
-/// A number or BOOLEAN of fixed size: [`Boolean`], `i8`, `u8`, `i16`, `u16`, `i32`, `u32`, `i64`,
+/// A number or BOOLEAN of fixed size: `bool`, [`Boolean`], `i8`, `u8`, `i16`, `u16`, `i32`, `u32`, `i64`,
 /// `u64`, `f32` and `f64`.
 ///
 /// ```
@@ -65,6 +65,23 @@ items! {
     f64 as 8, Real64;
 }
 
+/// Any byte but 0 is TRUE, which is written as 1. [`Boolean`] keeps the byte.
+impl Item for bool {
+    const TYPE: DataType = DataType::Boolean;
+}
+
+impl sealed::Wire for bool {
+    type Wire = [u8; 1];
+
+    fn from_wire([byte]: [u8; 1]) -> Self {
+        byte != 0
+    }
+
+    fn to_wire(self) -> [u8; 1] {
+        [self.into()]
+    }
+}
+
 /// A BOOLEAN: the byte as it is, of which any but 0 is TRUE.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2, where BOOLEAN\[2\] has two bytes. That
@@ -103,6 +120,12 @@ impl Boolean {
 impl From<bool> for Boolean {
     fn from(truth: bool) -> Self {
         Self(truth.into())
+    }
+}
+
+impl From<Boolean> for bool {
+    fn from(boolean: Boolean) -> Self {
+        boolean.is_true()
     }
 }
 

@@ -6,20 +6,20 @@
 //!
 //! | to have | use |
 //! |---|---|
-//! | any element, of a type known only at run time | [`Elements`], [`Element`] |
-//! | numbers of a type known to the program, in place | [`Items`] |
-//! | texts in place | [`StringsRef`] |
-//! | all of it, owned (feature `alloc`) | `Values`, `Strings` |
+//! | numbers of a type that the program knows | [`ValueRef::get`](crate::ValueRef::get), `iter`, `copy_to`, `to_vec` |
+//! | the same, of the described type only | [`Elements::items`], `copy_to`, `to_vec` |
+//! | elements of a type known only at run time | [`Elements::get`], `iter`, [`Element`] |
+//! | a number, a `bool` or a text from any element that can be one | `TryFrom<Element>` |
 //! | bytes to write | [`EncodeValue`], [`Shape::encode`] |
 //!
-//! Nothing but the owned forms allocates. Bytes are little-endian (GEN-1, assumed) and need not be
+//! Only vectors and strings allocate. Bytes are little-endian (GEN-1, assumed) and need not be
 //! aligned. Of more than one dimension, the elements are in row-major order, the last index running
 //! fastest: no manual says so, it is **assumed** (VAR-21). So is that an array of STRING gives each
 //! text the same share of its bytes.
 //!
 //! Errors are those of the table `typed-value`. Where an index or a dimension is wrong, the offset
-//! is its place among the others, from 0; types are numbered as in section 4.3.2, with 0 for those
-//! that no variable has.
+//! is its place among the others, from 0; types are numbered as in section 4.3.2, and those that no
+//! variable has after these: LINT 10, LWORD 11, REAL32 12.
 //!
 //! ```
 //! use ads_cnc::value::{Element, EncodeValue};
@@ -36,15 +36,31 @@
 //! assert_eq!(elements.element(Numbers::from(&[1, 0]))?, Element::Sgn32(21));
 //! assert_eq!(
 //!     elements.element(Numbers::from(&[1, 3])).unwrap_err().to_string(),
-//!     "typed-value: index at offset 1: out of range, at most 2 expected, 3 found"
+//!     "typed-value: index at offset 1: out of range, expected at most 2, found 3"
 //! );
-//! let numbers = elements.items::<i32>().expect("an SGN32");
-//! assert_eq!(numbers.iter().sum::<i32>(), 102);
+//! assert_eq!(elements.items::<i32>()?.sum::<i32>(), 102);
+//! let first: f64 = elements.get(0)?.try_into()?;
+//! assert_eq!(first, 11.0);
 //!
 //! // One element goes back by its indices, in the bytes of an SGN32.
 //! let mut buf = [0; 4];
 //! assert_eq!(description.shape()?.one().encode(&123_i32, &mut buf)?, [123, 0, 0, 0]);
 //! assert_eq!([11, 12, 13].encode_value(&mut [0; 12])?, &bytes[..12]);
+//! # Ok::<(), ads_cnc::Error>(())
+//! ```
+//!
+//! A program that knows the type needs no description:
+//!
+//! ```
+//! # #[cfg(feature = "alloc")] {
+//! use ads_cnc::address::Channel;
+//! use ads_cnc::operation::{Operation, ReadByName};
+//!
+//! # let data = &[123, 0, 0, 0, 234, 0, 0, 0];
+//! let field: Vec<i32> =
+//!     ReadByName::new(Channel::new(1)?, "V.E.field")?.decode_reply(data)?.to_vec()?;
+//! assert_eq!(field, [123, 234]);
+//! # }
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 //!
@@ -55,20 +71,11 @@ mod describe;
 mod element;
 mod encode;
 mod item;
-mod items;
 mod shape;
-mod strings;
-#[cfg(feature = "alloc")]
-mod values;
+mod typed;
 
 pub use data_type::DataType;
 pub use element::{Element, ElementIter, Elements};
 pub use encode::EncodeValue;
 pub use item::{Boolean, Item};
-pub use items::Items;
 pub use shape::Shape;
-#[cfg(feature = "alloc")]
-pub use strings::Strings;
-pub use strings::StringsRef;
-#[cfg(feature = "alloc")]
-pub use values::Values;

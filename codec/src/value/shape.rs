@@ -21,14 +21,14 @@ use crate::variable::{Numbers, VariableType};
 /// use ads_cnc::value::{DataType, Shape};
 ///
 /// let shape = Shape::new(DataType::Sgn32, Numbers::from(&[2, 3]), 24)?;
-/// assert_eq!(shape.place(Numbers::from(&[1, 2]))?, 5);
+/// assert_eq!(shape.index_of(Numbers::from(&[1, 2]))?, 5);
 /// assert_eq!(
-///     shape.place(Numbers::from(&[2, 0])).unwrap_err().to_string(),
-///     "typed-value: index at offset 0: out of range, at most 1 expected, 2 found"
+///     shape.index_of(Numbers::from(&[2, 0])).unwrap_err().to_string(),
+///     "typed-value: index at offset 0: out of range, expected at most 1, found 2"
 /// );
 /// assert_eq!(
 ///     Shape::new(DataType::Sgn32, Numbers::from(&[2, 3]), 20).unwrap_err().to_string(),
-///     "typed-value: size at offset 0: mismatch, 24 expected, 20 found"
+///     "typed-value: size at offset 0: expected 24, found 20"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -127,8 +127,8 @@ impl<'a> Shape<'a> {
     /// [`ErrorKind::Mismatch`] for another number of indices than dimensions;
     /// [`ErrorKind::OutOfRange`] for an index beyond its dimension, and [`ErrorKind::Missing`] for a
     /// dimension of 0, which has no element: the offset says which, from 0.
-    pub fn place(&self, indices: Numbers<'_>) -> Result<u32, Error> {
-        place(indices, self.dimensions)
+    pub fn index_of(&self, indices: Numbers<'_>) -> Result<u32, Error> {
+        index_of(indices, self.dimensions)
     }
 
     /// The elements of a value of this shape.
@@ -165,7 +165,7 @@ impl<'a> Shape<'a> {
     /// assert_eq!(shape.encode(&CncStr::new("abc")?, &mut [0; 21])?, b"abc\0");
     /// assert_eq!(
     ///     shape.encode(&CncStr::new("a text of 21 letters.")?, &mut [0; 64]).unwrap_err().to_string(),
-    ///     "typed-value: value at offset 0: too long, at most 21 bytes expected, 22 there"
+    ///     "typed-value: value at offset 0: too long, expected at most 21 bytes, found 22"
     /// );
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
@@ -261,7 +261,7 @@ pub(super) fn known(var_type: VariableType) -> Result<DataType, Error> {
 }
 
 /// The product of the dimensions, if 32 bits hold it.
-pub(super) fn count(dimensions: Numbers<'_>) -> Option<u32> {
+fn count(dimensions: Numbers<'_>) -> Option<u32> {
     // A 0 makes it 0, however large the others are.
     if dimensions.iter().any(|dimension| dimension == 0) {
         return Some(0);
@@ -269,13 +269,13 @@ pub(super) fn count(dimensions: Numbers<'_>) -> Option<u32> {
     dimensions.iter().try_fold(1, u32::checked_mul)
 }
 
-/// See [`Shape::place`].
-pub(super) fn place(indices: Numbers<'_>, dimensions: Numbers<'_>) -> Result<u32, Error> {
+/// See [`Shape::index_of`].
+fn index_of(indices: Numbers<'_>, dimensions: Numbers<'_>) -> Result<u32, Error> {
     let (given, expected) = (to_u32(indices.len()), to_u32(dimensions.len()));
     if given != expected {
         return Err(Error::new(ErrorKind::Mismatch, INDEX_COUNT, 0, expected, given));
     }
-    let mut place = 0_u32;
+    let mut found = 0_u32;
     for (at, (index, dimension)) in (0_u32..).zip(indices.iter().zip(dimensions.iter())) {
         let Some(last) = dimension.checked_sub(1) else {
             return Err(Error::new(ErrorKind::Missing, DIMENSION, at, 0, 0));
@@ -283,7 +283,7 @@ pub(super) fn place(indices: Numbers<'_>, dimensions: Numbers<'_>) -> Result<u32
         if index > last {
             return Err(Error::new(ErrorKind::OutOfRange, INDEX, at, last, index));
         }
-        place = place.saturating_mul(dimension).saturating_add(index);
+        found = found.saturating_mul(dimension).saturating_add(index);
     }
-    Ok(place)
+    Ok(found)
 }

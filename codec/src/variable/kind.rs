@@ -76,6 +76,13 @@ impl<'a> Kind<'a> {
     }
 }
 
+/// The text.
+impl fmt::Display for Kind<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.text(), f)
+    }
+}
+
 impl fmt::Debug for Kind<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(&self.0, f)
@@ -126,7 +133,7 @@ stream! {
     }
 }
 
-crate::number::debug!(VariableCount);
+crate::number::shown!(VariableCount);
 
 stream! {
     /// Asks for the description of a variable by its index.

@@ -18,7 +18,7 @@ stream! {
     /// assert_eq!(VariableNameRef::decode(b"V.E.vartest\0")?.name.text(), "V.E.vartest");
     /// assert_eq!(
     ///     VariableNameRef::decode(b"V.E.vartest").unwrap_err().to_string(),
-    ///     "variable-name: name at offset 0: no NUL, one expected within 256 bytes, 11 there without"
+    ///     "variable-name: name at offset 0: no NUL, expected one within 256 bytes, found 11 without"
     /// );
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```

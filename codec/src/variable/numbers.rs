@@ -18,7 +18,9 @@ use crate::bytes::Writer;
 /// let wire = HandleReadRef::decode(&[1, 0, 0, 2, 1, 0, 0, 0, 4, 0, 0, 0])?;
 /// assert_eq!(wire.indices, Numbers::from(&[4]));
 /// assert_eq!(wire.indices.iter().len(), 1);
-/// assert_eq!(wire.indices.iter().sum::<u32>(), 4);
+/// for index in wire.indices {
+///     assert_eq!(index, 4);
+/// }
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy)]
@@ -74,8 +76,8 @@ impl<'a> Numbers<'a> {
 
     /// All in their order.
     #[inline]
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = u32> + Clone + use<'a> {
-        Rest(self.0)
+    pub fn iter(&self) -> NumberIter<'a> {
+        NumberIter(self.0)
     }
 
     /// Copies the numbers, with no room to spare.
@@ -125,11 +127,11 @@ const fn count_opened(mut brackets: &[u8]) -> usize {
     count
 }
 
-/// Numbers that are still to come.
+/// [`Numbers`] in their order.
 #[derive(Clone)]
-struct Rest<'a>(Source<'a>);
+pub struct NumberIter<'a>(Source<'a>);
 
-impl Iterator for Rest<'_> {
+impl Iterator for NumberIter<'_> {
     type Item = u32;
 
     fn next(&mut self) -> Option<u32> {
@@ -159,7 +161,17 @@ impl Iterator for Rest<'_> {
     }
 }
 
-impl ExactSizeIterator for Rest<'_> {}
+impl ExactSizeIterator for NumberIter<'_> {}
+
+impl<'a> IntoIterator for Numbers<'a> {
+    type Item = u32;
+    type IntoIter = NumberIter<'a>;
+
+    #[inline]
+    fn into_iter(self) -> NumberIter<'a> {
+        self.iter()
+    }
+}
 
 /// The number of these digits, or the largest there is.
 pub(super) fn decimal(digits: &[u8]) -> u32 {
@@ -183,7 +195,7 @@ impl<'a, const N: usize> From<&'a [u32; N]> for Numbers<'a> {
 #[cfg(feature = "alloc")]
 impl<'a> From<&'a alloc::vec::Vec<u32>> for Numbers<'a> {
     fn from(numbers: &'a alloc::vec::Vec<u32>) -> Self {
-        Self(Source::Memory(numbers))
+        numbers.as_slice().into()
     }
 }
 

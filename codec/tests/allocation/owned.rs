@@ -74,7 +74,6 @@ fn owned_readings_allocate_what_they_return() {
 /// Texts are allocated once, with no room to spare, also those that are made of UTF-8.
 #[test]
 fn owned_texts_are_allocated_once() {
-    use ads_cnc::value::Strings;
     use ads_cnc::{CncStr, CncString, Text, TextRef};
 
     for text in [CncStr::new("V.E.Größe_und_Länge"), CncStr::from_bytes(b"V.E.L\xE4nge")] {
@@ -87,7 +86,6 @@ fn owned_texts_are_allocated_once() {
         };
         assert_eq!(of(&|| drop(black_box(CncString::from(text)))), (1, text.len()));
         assert_eq!(of(&|| drop(black_box(Text::from(TextRef::from(text))))), (1, text.len()));
-        assert_eq!(of(&|| drop(black_box(Strings::from(text)))), (1, text.len() + 1));
     }
 }
 

@@ -120,7 +120,7 @@ pub(crate) fn check_value_bent<T>(value: &T, bend: &Bend) -> Vec<u8>
 where
     T: Encode + PartialEq + Debug + for<'a> Decode<'a>,
 {
-    let mut bytes = value.to_vec().unwrap_or_else(|error| panic!("{value:?}: {error}"));
+    let mut bytes = value.encode_to_vec().unwrap_or_else(|error| panic!("{value:?}: {error}"));
     (bend.written)(&mut bytes);
     assert_eq!(Ok(bytes.len()), (bend.len)(Ok(value.encoded_len())), "{value:?}");
     check_too_small(bytes.len(), bend, |buf| value.encode(buf).map(drop));

@@ -136,8 +136,8 @@ macro_rules! subjects {
     };
     (@binrw $both:ty) => { read_and_written::<$both> };
     (@binrw $view:ty, $owned:ty) => { read_and_written::<$owned> };
-    (@to_vec $both:ty) => { |bytes| <$both>::decode(bytes)?.to_vec() };
-    (@to_vec $view:ty, $owned:ty) => { |bytes| <$owned>::decode(bytes)?.to_vec() };
+    (@to_vec $both:ty) => { |bytes| <$both>::decode(bytes)?.encode_to_vec() };
+    (@to_vec $view:ty, $owned:ty) => { |bytes| <$owned>::decode(bytes)?.encode_to_vec() };
     (@twice $both:ty) => { |bytes, call| decoded_and_copied(<$both>::decode(bytes), call) };
     (@twice $view:ty, $owned:ty) => { |bytes, call| decoded_and_copied(<$owned>::decode(bytes), call) };
     (@made $both:ty) => { |bytes, bend| super::check_value_bent(&made::<$both>(bytes), bend) };

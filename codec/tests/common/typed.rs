@@ -1,7 +1,7 @@
 //! What holds for any bytes as a value of any type.
 
-use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Item, StringsRef};
-use ads_cnc::{ErrorKind, Numbers};
+use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Item};
+use ads_cnc::{ErrorKind, Numbers, ValueRef};
 
 /// All ways of reading the bytes by a type agree, and each writes the same bytes again; `wrong` is
 /// what a codec does to those that are written element by element, if it is wrong.
@@ -34,7 +34,7 @@ fn check_elements(elements: Elements<'_>, bytes: &[u8], wrong: fn(&mut [u8])) {
     }
     wrong(&mut again);
     assert_eq!(again, bytes);
-    assert_eq!(elements.get(elements.len()).map(|element| element.data_type()), None);
+    assert!(elements.get(elements.len()).is_err());
 
     match elements.data_type() {
         DataType::Boolean => check_items::<ads_cnc::value::Boolean>(elements),
@@ -50,33 +50,51 @@ fn check_elements(elements: Elements<'_>, bytes: &[u8], wrong: fn(&mut [u8])) {
         DataType::Real64 => check_items::<f64>(elements),
         _ => check_strings(elements),
     }
-    #[cfg(feature = "alloc")]
-    {
-        let values = ads_cnc::value::Values::from(elements);
-        assert_eq!((values.len(), values.data_type()), (elements.len(), elements.data_type()));
-        assert_eq!(values.value_to_vec().as_deref(), Ok(bytes));
+}
+
+/// The typed readings of a value and of its elements agree, and no other type is read.
+fn check_items<T: Item>(elements: Elements<'_>) {
+    let (items, bytes) = (elements.items::<T>().expect("its own type"), elements.as_bytes());
+    assert_eq!(items.len(), elements.len());
+    let mut copy = vec![T::default(); items.len()];
+    elements.copy_to(&mut copy).unwrap();
+    let mut buf = vec![0; bytes.len()];
+    assert_eq!(copy.encode_value(&mut buf), Ok(bytes));
+    let mut more = vec![T::default(); items.len() + 1];
+    assert_eq!(elements.copy_to(&mut more).unwrap_err().kind(), ErrorKind::Mismatch);
+
+    let value = ValueRef { bytes };
+    assert_eq!(value.iter::<T>().unwrap().len(), elements.len());
+    let mut again = vec![T::default(); items.len()];
+    value.copy_to(&mut again).unwrap();
+    assert_eq!(again.encode_value(&mut buf), Ok(bytes));
+    for (index, item) in value.iter::<T>().unwrap().enumerate() {
+        let (mut one, mut two) = ([0; 8], [0; 8]);
+        let read = value.get::<T>(index).unwrap();
+        assert_eq!(read.encode_value(&mut one), item.encode_value(&mut two));
+    }
+    if T::TYPE == DataType::Uns08 {
+        assert_eq!(
+            elements.items::<i8>().err().map(|error| error.kind()),
+            Some(ErrorKind::Mismatch)
+        );
+    } else {
+        assert_eq!(
+            elements.items::<u8>().err().map(|error| error.kind()),
+            Some(ErrorKind::Mismatch)
+        );
     }
 }
 
-fn check_items<T: Item>(elements: Elements<'_>) {
-    let items = elements.items::<T>().expect("its own type");
-    assert_eq!((items.len(), items.as_bytes()), (elements.len(), elements.as_bytes()));
-    let mut copy = vec![T::default(); items.len()];
-    items.copy_to(&mut copy).unwrap();
-    let mut buf = vec![0; items.as_bytes().len()];
-    assert_eq!(copy.encode_value(&mut buf), Ok(items.as_bytes()));
-    assert!(elements.strings().is_none());
-    let mut more = vec![T::default(); items.len() + 1];
-    assert_eq!(items.copy_to(&mut more).unwrap_err().kind(), ErrorKind::Mismatch);
-}
-
+/// The texts share the bytes, and are no numbers.
 fn check_strings(elements: Elements<'_>) {
-    let strings = elements.strings().expect("texts");
-    let count = elements.len() as u32;
-    assert_eq!(StringsRef::new(elements.as_bytes(), count), Ok(strings));
-    assert!(strings.iter().map(Element::String).eq(elements.iter()));
-    assert!(strings.iter().all(|text| text.field_len() == strings.element_size()));
-    assert!(elements.items::<u8>().is_none());
+    let each = elements.shape().element_size() as usize;
+    let each = if elements.len() == 1 { elements.as_bytes().len() } else { each };
+    for element in elements {
+        let Element::String(text) = element else { panic!("{element:?}") };
+        assert_eq!(text.field_len(), each);
+    }
+    assert!(elements.items::<u8>().is_err());
 }
 
 /// The same elements in a rectangle: by their indices, they are where a nested loop finds them.

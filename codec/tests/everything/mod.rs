@@ -13,7 +13,7 @@ use ads_cnc::operation::{Call, Operation, ReadElement, ReadObject, Service, Writ
 use ads_cnc::sda::*;
 use ads_cnc::service::{Host, HostStep, ServiceId};
 use ads_cnc::streaming::{Ack, NcText, ProgramStreamRef, Sender, check_line_ends};
-use ads_cnc::value::{Boolean, EncodeValue as _, Item, Items, StringsRef};
+use ads_cnc::value::{Boolean, EncodeValue as _, Item};
 use ads_cnc::*;
 use core::hint::black_box;
 
@@ -139,16 +139,14 @@ fn values(bytes: &[u8]) -> Result<usize, Error> {
     let (elements, shape) = (description.elements(&value)?, description.shape()?);
     let mut buf = [0; 2200];
     let mut seen = shape.encode(&elements, &mut buf)?.len();
-    seen = seen.wrapping_add(shape.place(description.dimensions)? as usize);
+    seen = seen.wrapping_add(shape.index_of(description.dimensions)? as usize);
     seen = seen.wrapping_add(elements.iter().rev().skip(3).count());
     seen = seen.wrapping_add(description.element(&value)?.encode_value(&mut buf)?.len());
     seen = seen.wrapping_add(elements.element(description.dimensions)?.value_len());
     let texts = [description.name.text(), description.name.text()];
     seen = seen.wrapping_add(shape.encode_texts(&texts, &mut buf)?.len());
-    if let Some(strings) = elements.strings() {
-        seen = seen.wrapping_add(strings.iter().map(|text| text.field_len()).sum());
-        seen = seen.wrapping_add(StringsRef::new(bytes, shape.count())?.len());
-    }
+    seen = seen.wrapping_add(elements.iter().map(converted).sum());
+    seen = seen.wrapping_add(items::<bool>(elements)?);
     seen = seen.wrapping_add(items::<Boolean>(elements)?).wrapping_add(items::<i8>(elements)?);
     seen = seen.wrapping_add(items::<u8>(elements)?).wrapping_add(items::<i16>(elements)?);
     seen = seen.wrapping_add(items::<u16>(elements)?).wrapping_add(items::<i32>(elements)?);
@@ -157,14 +155,37 @@ fn values(bytes: &[u8]) -> Result<usize, Error> {
     Ok(seen.wrapping_add(items::<f64>(elements)?))
 }
 
+/// How many types the element can be converted to.
+fn converted(element: Element<'_>) -> usize {
+    [
+        i8::try_from(element).is_ok(),
+        u8::try_from(element).is_ok(),
+        i16::try_from(element).is_ok(),
+        u16::try_from(element).is_ok(),
+        i32::try_from(element).is_ok(),
+        u32::try_from(element).is_ok(),
+        i64::try_from(element).is_ok(),
+        u64::try_from(element).is_ok(),
+        f32::try_from(element).is_ok(),
+        f64::try_from(element).is_ok(),
+        bool::try_from(element).is_ok(),
+        CncStr::try_from(element).is_ok(),
+        TextRef::try_from(element).is_ok(),
+    ]
+    .map(usize::from)
+    .iter()
+    .sum()
+}
+
 fn items<T: Item>(elements: Elements<'_>) -> Result<usize, Error> {
-    let Some(items) = elements.items::<T>() else { return Ok(0) };
+    let Ok(items) = elements.items::<T>() else { return Ok(0) };
     let (mut all, mut buf) = ([T::default(); 7], [0; 2200]);
-    items.copy_to(&mut all)?;
-    let dimensions = elements.shape().dimensions();
-    let one = items.element(dimensions, dimensions)?.encode_value(&mut buf)?.len();
-    let again = Items::<T>::new(elements.as_bytes())?.iter().rev().filter(|item| *item == all[0]);
-    let seen = again.count().wrapping_add(one).wrapping_add(items.get(one).is_some() as usize);
+    elements.copy_to(&mut all)?;
+    let value = ValueRef { bytes: elements.as_bytes() };
+    let one = value.get::<T>(black_box(3))?.encode_value(&mut buf)?.len();
+    value.copy_to(&mut all)?;
+    let again = value.iter::<T>()?.rev().filter(|item| *item == all[0]);
+    let seen = again.count().wrapping_add(one).wrapping_add(items.rev().count());
     Ok(all.encode_value(&mut buf)?.len().wrapping_add(seen))
 }
 

@@ -77,7 +77,7 @@ impl Work {
         if service == Service::Write {
             return Err(format!("{name}: nothing is to be changed").into());
         }
-        let payload = call.to_vec()?;
+        let payload = call.encode_to_vec()?;
         let target = AmsAddr { net_id: NET_ID, port };
         let header = AmsHeader::request(target, CLIENT, service.command(), 0);
         let (group, offset) = (index_group.get(), index_offset.get());
@@ -96,7 +96,7 @@ impl Work {
 
     /// A right reply, byte by byte.
     pub(crate) fn reply(&self, invoke_id: u32) -> Result<Vec<u8>> {
-        let (result, data) = (AdsError::NONE, Some(self.expected.as_slice()));
+        let (result, data) = (AdsError::NO_ERROR, Some(self.expected.as_slice()));
         let payload = encode_reply(self.service, result, data)?;
         let mut out = Vec::new();
         frame(self.answering(invoke_id, 0), &payload, &mut out)?;
@@ -114,7 +114,7 @@ impl Work {
             );
         }
         let (result, data) = decode_reply(self.service, payload)?;
-        if !result.is_none() || data != Some(self.expected.as_slice()) {
+        if !result.is_ok() || data != Some(self.expected.as_slice()) {
             return Err(format!("{}: a wrong reply: {result:?}, {data:?}", self.name).into());
         }
         Ok(Some(len))

@@ -102,9 +102,10 @@ impl Collector {
         if received.is_none() {
             return;
         }
-        let reply = services::encode_reply(call.service, AdsError::NONE, received);
+        let reply = services::encode_reply(call.service, AdsError::NO_ERROR, received);
         let Ok(reply) = reply else { return };
-        let frame = FrameRef::new(header.response(), &reply).and_then(|frame| frame.to_vec());
+        let frame =
+            FrameRef::new(header.response(), &reply).and_then(|frame| frame.encode_to_vec());
         if let Ok(bytes) = frame {
             self.frame(Direction::Reply, call.service, &bytes);
         }

@@ -74,8 +74,8 @@ impl<R: Inquiry> Inquired<R> {
     pub fn result(&self) -> String {
         match &self.outcome {
             Ok(Said::Reply(_)) => "success".to_owned(),
-            Ok(Said::Refused(error)) => format!("ADS error {error}"),
-            Ok(Said::Ams(error)) => format!("AMS error {error}"),
+            Ok(Said::Refused(error)) => format!("ADS error {error:#x}"),
+            Ok(Said::Ams(error)) => format!("AMS error {error:#x}"),
             Err(fault) => fault.to_string(),
         }
     }
@@ -123,15 +123,15 @@ impl Client {
 /// What the one frame that was received says.
 fn said<R: Inquiry>(header: &AmsHeader, received: &[u8]) -> Result<Said<R>, Fault> {
     let data = received.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
-    if !header.error.is_none() {
+    if !header.error.is_ok() {
         return Ok(Said::Ams(header.error));
     }
     match R::decode(data) {
-        Ok(reply) if reply.result().is_none() => Ok(Said::Reply(reply)),
+        Ok(reply) if reply.result().is_ok() => Ok(Said::Reply(reply)),
         Ok(reply) => Ok(Said::Refused(reply.result())),
         // It may end behind a result that is not 0 (ADS-6).
         Err(error) => match WriteReply::decode(data) {
-            Ok(short) if !short.result.is_none() => Ok(Said::Refused(short.result)),
+            Ok(short) if !short.result.is_ok() => Ok(Said::Refused(short.result)),
             _ => Err(Fault::Malformed(error)),
         },
     }

@@ -25,9 +25,9 @@ impl Client {
                     );
                 }
                 let payload = exchange.received.len() > FrameRef::HEADERS_LEN;
-                if payload && !answer.ams_error.is_none() && answer.result.is_none() {
+                if payload && !answer.ams_error.is_ok() && answer.result.is_ok() {
                     let error = answer.ams_error;
-                    add("ADS-5", format!("AMS error {error} before a reply of success"));
+                    add("ADS-5", format!("AMS error {error:#x} before a reply of success"));
                 }
             }
             Err(fault) => {

@@ -201,7 +201,7 @@ fn rebuilt(reply: &[u8], change: impl FnOnce(&mut Parts)) -> Vec<u8> {
             Body::None => Vec::new(),
             Body::Result(result, data) => encode_reply(service, *result, data.as_deref()).ok()?,
         };
-        FrameRef::new(parts.header, &body).ok()?.to_vec().ok()
+        FrameRef::new(parts.header, &body).ok()?.encode_to_vec().ok()
     };
     rebuilt().unwrap_or_else(|| reply.to_vec())
 }

@@ -49,7 +49,7 @@ fn one(turn: &Turn, findings: &mut Findings) {
             "state flags 0x0004",
             format!("{:#06x}", header.state_flags.0),
         ),
-        (header.error == AdsError::NONE, "error 0", header.error.to_string()),
+        (header.error == AdsError::NO_ERROR, "error 0", format!("{:#x}", header.error)),
         (header.target.net_id == NET_ID, "the NetId it was told", header.target.net_id.to_string()),
         (
             (1..=9).contains(&header.command.0),

@@ -155,6 +155,6 @@ impl Script {
 
 /// A refusal by the CNC that it would not give of itself.
 fn write_reply(asked: AmsHeader, result: AdsError) -> Option<Vec<u8>> {
-    let data = WriteReply { result }.to_vec().ok()?;
-    FrameRef::new(asked.response(), &data).ok()?.to_vec().ok()
+    let data = WriteReply { result }.encode_to_vec().ok()?;
+    FrameRef::new(asked.response(), &data).ok()?.encode_to_vec().ok()
 }

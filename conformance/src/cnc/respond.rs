@@ -72,7 +72,7 @@ impl Cnc {
             Ok(AdsError::TARGET_PORT_NOT_FOUND)
         } else {
             let served = self.serve(frame, answers);
-            served.map(|()| AdsError::NONE)
+            served.map(|()| AdsError::NO_ERROR)
         };
         let data_length = to_u32(answers.len().saturating_sub(behind));
         let done = error.and_then(|error| {
@@ -141,7 +141,7 @@ impl Cnc {
         let reply = self.ask(asked);
         // An error has its length, 0, too: not all clients take a reply that stops before it.
         let (result, data) = match &reply {
-            Ok(data) => (AdsError::NONE, Some(data.as_slice())),
+            Ok(data) => (AdsError::NO_ERROR, Some(data.as_slice())),
             Err(result) => (*result, Some(&[][..])),
         };
         let stream = reply_stream(service);
@@ -200,7 +200,7 @@ const SERVICE_LEN: usize = 8;
 
 /// What the simulated CNC says of itself: a name, and the version of this program.
 pub(crate) const INFO: DeviceInfoReply = DeviceInfoReply {
-    result: AdsError::NONE,
+    result: AdsError::NO_ERROR,
     major: number(env!("CARGO_PKG_VERSION_MAJOR")),
     minor: number(env!("CARGO_PKG_VERSION_MINOR")),
     build: match u16::from_str_radix(env!("CARGO_PKG_VERSION_PATCH"), 10) {
@@ -220,7 +220,7 @@ const fn number(text: &str) -> u8 {
 
 /// A command that takes none.
 const fn without_data(data: &[u8]) -> AdsError {
-    if data.is_empty() { AdsError::NONE } else { AdsError::INVALID_SIZE }
+    if data.is_empty() { AdsError::NO_ERROR } else { AdsError::INVALID_SIZE }
 }
 
 /// Appends a stream; where it stands.

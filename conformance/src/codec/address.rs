@@ -121,7 +121,7 @@ pub(super) fn encode_group(of: Given<'_>) -> Result<Vec<u8>, Refused> {
         true => parts(of)?.index_group(),
     };
     match group.get() == number {
-        true => Ok(ObjectCount(number).to_vec()?),
+        true => Ok(ObjectCount(number).encode_to_vec()?),
         false => Err(Refused::Unfit(format!("{number:#x}, but its parts are {group}"))),
     }
 }
@@ -162,7 +162,7 @@ fn parts(of: Given<'_>) -> Result<Group, Refused> {
 pub(super) fn encode_offset(of: Given<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
     let stride = stride(context)?;
     let offset = IndexOffset::of_axis(stride, of.number("axis")?, of.number("element")?)?;
-    Ok(ObjectCount(offset.get()).to_vec()?)
+    Ok(ObjectCount(offset.get()).encode_to_vec()?)
 }
 
 fn stride(context: &Context) -> Result<AxisStride, Refused> {

@@ -128,7 +128,7 @@ fn variable(stream: &str, of: Given<'_>, context: &Context) -> Result<Vec<u8>, R
 }
 
 fn bytes(value: impl Encode) -> Result<Vec<u8>, Refused> {
-    Ok(value.to_vec()?)
+    Ok(value.encode_to_vec()?)
 }
 
 /// A content by its type; bytes if there is none.

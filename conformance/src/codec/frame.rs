@@ -24,7 +24,7 @@ pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused
     if len != bytes.len() {
         return Err(Refused::Unfit("a frame and more".to_owned()));
     }
-    let bytes = FrameRef::new(header, frame.data())?.to_vec()?;
+    let bytes = FrameRef::new(header, frame.data())?.encode_to_vec()?;
     Ok(Decoded { fields, bytes })
 }
 
@@ -54,7 +54,7 @@ fn service(
     header: &AmsHeader,
     bytes: &[u8],
 ) -> Result<Option<(String, Value)>, Refused> {
-    if bytes.is_empty() && header.error != AdsError::NONE {
+    if bytes.is_empty() && header.error != AdsError::NO_ERROR {
         return Ok(None);
     }
     let name = match (header.command, header.state_flags) {

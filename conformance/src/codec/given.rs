@@ -3,8 +3,8 @@
 use std::fmt::Display;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
-use ads_cnc::value::{DataType, EncodeValue as _, Strings, Values};
-use ads_cnc::{CncStr, Element, Numbers, Text, TextRef};
+use ads_cnc::value::{DataType, EncodeValue as _};
+use ads_cnc::{CncStr, Elements, Numbers, Text, TextRef};
 use ads_cnc_vectors::{Context, Fields, Tagged, Type, Value};
 
 use super::Refused;
@@ -127,56 +127,38 @@ impl<'f> Given<'f> {
     }
 }
 
-/// The elements one behind the other, as the codec writes them.
+/// The elements in their order, as the codec writes them.
 fn encode(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Refused> {
-    fn all<T>(
-        items: &[&Tagged],
-        one: impl Fn(&Tagged) -> Result<T, Refused>,
-    ) -> Result<Vec<T>, Refused> {
-        items.iter().map(|tagged| one(tagged)).collect()
-    }
-    let values = match data_type {
-        DataType::Boolean => {
-            Values::Boolean(all(items, |one| integer(one).map(ads_cnc::value::Boolean))?)
-        }
-        DataType::Sgn08 => Values::Sgn08(all(items, integer)?),
-        DataType::Uns08 => Values::Uns08(all(items, integer)?),
-        DataType::Sgn16 => Values::Sgn16(all(items, integer)?),
-        DataType::Uns16 => Values::Uns16(all(items, integer)?),
-        DataType::Sgn32 => Values::Sgn32(all(items, integer)?),
-        DataType::Uns32 => Values::Uns32(all(items, integer)?),
-        DataType::Lint => Values::Lint(all(items, integer)?),
-        DataType::Lword => Values::Lword(all(items, integer)?),
-        DataType::Real64 => Values::Real64(all(items, |one| bits(one).map(f64::from_bits))?),
-        DataType::Real32 => Values::Real32(all(items, |one| {
-            let bits = u32::try_from(bits(one)?).map_err(|_| unfit("more than 32 bits"))?;
-            Ok(f32::from_bits(bits))
-        })?),
-        DataType::String => match items {
-            [single] => return Ok(Element::String(text(single)?).value_to_vec()?),
-            several => {
-                let texts: Vec<TextRef<'_>> = all_texts(several)?;
-                let same = texts.windows(2).all(|two| match two {
-                    [first, second] => first.field_len() == second.field_len(),
-                    _ => true,
-                });
-                if !same {
-                    return Err(unfit("texts of an array have the same room each"));
-                }
-                let bytes: Result<Vec<Vec<u8>>, _> =
-                    texts.iter().map(|text| Element::String(*text).value_to_vec()).collect();
-                let bytes = bytes?.concat();
-                let count = u32::try_from(several.len()).unwrap_or(u32::MAX);
-                Values::String(Strings::from(ads_cnc::value::StringsRef::new(&bytes, count)?))
+    let element = |one: &Tagged| {
+        Ok(match data_type {
+            DataType::Boolean => integer::<u8>(one)?.value_to_vec()?,
+            DataType::Sgn08 => integer::<i8>(one)?.value_to_vec()?,
+            DataType::Uns08 => integer::<u8>(one)?.value_to_vec()?,
+            DataType::Sgn16 => integer::<i16>(one)?.value_to_vec()?,
+            DataType::Uns16 => integer::<u16>(one)?.value_to_vec()?,
+            DataType::Sgn32 => integer::<i32>(one)?.value_to_vec()?,
+            DataType::Uns32 => integer::<u32>(one)?.value_to_vec()?,
+            DataType::Lint => integer::<i64>(one)?.value_to_vec()?,
+            DataType::Lword => integer::<u64>(one)?.value_to_vec()?,
+            DataType::Real64 => f64::from_bits(bits(one)?).value_to_vec()?,
+            DataType::Real32 => {
+                let bits = u32::try_from(bits(one)?).map_err(|_| unfit("more than 32 bits"))?;
+                f32::from_bits(bits).value_to_vec()?
             }
-        },
-        other => return Err(Refused::Unsupported(format!("values of type {other:?}"))),
+            DataType::String => text(one)?.value_to_vec()?,
+            other => return Err(Refused::Unsupported(format!("values of type {other:?}"))),
+        })
     };
-    Ok(values.value_to_vec()?)
-}
-
-fn all_texts<'f>(items: &[&'f Tagged]) -> Result<Vec<TextRef<'f>>, Refused> {
-    items.iter().map(|tagged| text(tagged)).collect()
+    let each = items.iter().map(|one| element(one)).collect::<Result<Vec<_>, _>>()?;
+    let bytes = each.concat();
+    if data_type == DataType::String && items.len() != 1 {
+        if each.windows(2).any(|two| two.first().map(Vec::len) != two.last().map(Vec::len)) {
+            return Err(unfit("texts of an array have the same room each"));
+        }
+        let count = [u32::try_from(items.len()).unwrap_or(u32::MAX)];
+        Elements::new(data_type, Numbers::from(&count), &bytes)?;
+    }
+    Ok(bytes)
 }
 
 fn record(value: &Value) -> Result<Given<'_>, Refused> {

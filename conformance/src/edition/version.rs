@@ -22,7 +22,7 @@ use super::Support;
 /// assert!(version < CncVersion::new("3.1.3115")?);
 /// assert_eq!(
 ///     CncVersion::new("V4.18").unwrap_err().to_string(),
-///     "cnc-version: build at offset 5: truncated, 1 bytes expected, 0 there"
+///     "cnc-version: build at offset 5: truncated, expected 1 byte, found 0"
 /// );
 /// # Ok::<(), ads_cnc_conformance::edition::VersionError>(())
 /// ```

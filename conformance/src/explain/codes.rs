@@ -60,7 +60,7 @@ pub(super) const fn state_flags(flags: StateFlags) -> Option<&'static str> {
 /// What an error number says.
 pub(super) const fn ads_error(error: AdsError) -> Option<&'static str> {
     Some(match error {
-        AdsError::NONE => "success",
+        AdsError::NO_ERROR => "success",
         AdsError::TARGET_PORT_NOT_FOUND => "no such port on the target",
         AdsError::TARGET_MACHINE_NOT_FOUND => "no such machine",
         AdsError::SERVICE_NOT_SUPPORTED => "service not supported",

@@ -126,7 +126,7 @@ impl Frames<'_> {
             let what = if reply { "response" } else { "request" };
             self.note(format!("by the lowest bit of its state flags a {what}"));
         }
-        if reply && data.is_empty() && !header.error.is_none() {
+        if reply && data.is_empty() && !header.error.is_ok() {
             return self.note("an answer with an AMS error may have no data (ADS-6)".to_owned());
         }
         let Some(service) = service_of(header.command) else {

@@ -16,7 +16,7 @@
 //!
 //! let cut = explain(&question, &[4, 0]);
 //! assert_eq!(cut.outcome, Outcome::Faulty);
-//! assert_eq!(cut.parts[0].faults[0].text, "handle at offset 0: truncated, 4 bytes expected, 2 there");
+//! assert_eq!(cut.parts[0].faults[0].text, "handle at offset 0: truncated, expected 4 bytes, found 2");
 //! ```
 
 mod address;

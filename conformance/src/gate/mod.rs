@@ -198,7 +198,7 @@ impl Gate {
                 Err(error) => return malformed(Reason::Malformed(error)),
             },
         };
-        if !header.error.is_none() || header.state_flags != StateFlags::REQUEST {
+        if !header.error.is_ok() || header.state_flags != StateFlags::REQUEST {
             return malformed(Reason::NoRequest(header.state_flags));
         }
         permit(repeatable)

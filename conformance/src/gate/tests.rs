@@ -37,11 +37,11 @@ fn malformed() -> Gate {
 
 fn frame(command: Command, port: AmsPort, data: &[u8]) -> Vec<u8> {
     let header = AmsHeader::request(AmsAddr { net_id: TARGET, port }, SOURCE, command, 1);
-    FrameRef::new(header, data).unwrap().to_vec().unwrap()
+    FrameRef::new(header, data).unwrap().encode_to_vec().unwrap()
 }
 
 fn call(call: &Call<'_>) -> Vec<u8> {
-    frame(call.service.command(), call.port, &call.to_vec().unwrap())
+    frame(call.service.command(), call.port, &call.encode_to_vec().unwrap())
 }
 
 fn request<'a>(request: impl Into<Request<'a>>) -> Vec<u8> {
@@ -264,7 +264,11 @@ fn describe(gate: &mut Gate, name: &str, handle: u32) {
         dimensions: Vec::new(),
         name: name.parse().unwrap(),
     };
-    learn(gate, DescribeByIndex::new(channel(1), 0, Kind::V_E), &description.to_vec().unwrap());
+    learn(
+        gate,
+        DescribeByIndex::new(channel(1), 0, Kind::V_E),
+        &description.encode_to_vec().unwrap(),
+    );
 }
 
 fn doubt(gate: &Gate, frame: &[u8]) -> Option<Doubt> {
@@ -329,7 +333,7 @@ fn a_handle_of_several_names_is_not_written_by() {
         size: 4,
         dimensions: Vec::new(),
     };
-    let reply = reply.to_vec().unwrap();
+    let reply = reply.encode_to_vec().unwrap();
     learn(&mut described, DescribeByName::new(channel(1), "V.E.b").unwrap(), &reply);
     assert_eq!(doubt(&described, &by_handle(7)), shared("V.E.b"));
 
@@ -413,7 +417,7 @@ fn another_connection_forgets_what_lets_writes_pass() {
 fn an_object_is_known_by_its_name_when_the_list_is() {
     let object = |name: &str, offset| {
         let at = (IndexGroup::new(0x12_0101), IndexOffset::new(offset));
-        Descriptor::new(name, "BOOL").unwrap().with_content(at.0, at.1).to_vec().unwrap()
+        Descriptor::new(name, "BOOL").unwrap().with_content(at.0, at.1).encode_to_vec().unwrap()
     };
     let list = |names: [(&str, u32); 3]| names.map(|(name, offset)| object(name, offset)).concat();
     let write = |offset| {

@@ -208,7 +208,7 @@ mod tests {
         assert_eq!(shown, [(0, "handle"), (4, "index_count"), (8, "?")]);
         assert_eq!(
             report.faults,
-            ["index_count at offset 4: too many, at most 0 expected, 9 found"]
+            ["index_count at offset 4: too many, expected at most 0, found 9"]
         );
     }
 }

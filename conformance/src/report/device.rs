@@ -53,7 +53,7 @@ mod tests {
     #[test]
     fn a_device_is_shown_with_its_state() {
         let name = *b"CNC\x1B[2J\0and more";
-        let result = AdsError::NONE;
+        let result = AdsError::NO_ERROR;
         let info = DeviceInfoReply { result, major: 3, minor: 1, build: 4024, name };
         let shown = |state| DeviceReport::new(&info, state).to_string();
         assert_eq!(shown(None), r#""CNC\u{1b}[2J" 3.1.4024"#);

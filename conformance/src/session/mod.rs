@@ -202,10 +202,10 @@ impl Session {
         match exchange.outcome {
             Ok((answer, _)) => {
                 self.answered = true;
-                if !answer.ams_error.is_none() {
+                if !answer.ams_error.is_ok() {
                     return Err(Trouble::ams(self.client.target(), call.port, answer.ams_error));
                 }
-                if !answer.result.is_none() {
+                if !answer.result.is_ok() {
                     return Err(Trouble::Ads { function: O::FUNCTION, error: answer.result });
                 }
                 self.reply = answer.data.unwrap_or_default();

@@ -181,16 +181,16 @@ impl fmt::Display for Trouble {
             }
             Self::NotSent => f.write_str("a dry run: what follows would depend on the answer"),
             Self::Unsendable(error) => write!(f, "cannot be sent: {error}"),
-            Self::Ams { error, hint } => write!(f, "AMS error {error}. {hint}"),
+            Self::Ams { error, hint } => write!(f, "AMS error {error:#x}. {hint}"),
             Self::Ads { function, error } => {
-                write!(f, "the CNC refuses \"{}\" with {error}", function.spec().name)?;
+                write!(f, "the CNC refuses \"{}\" with {error:#x}", function.spec().name)?;
                 match meaning(*error) {
                     Some(meaning) => write!(f, ": {meaning}"),
                     None => Ok(()),
                 }
             }
             Self::Device { command, error } => {
-                write!(f, "the device refuses {command} with {error}")
+                write!(f, "the device refuses {command} with {error:#x}")
             }
             Self::Reply(error) => write!(
                 f,

@@ -35,9 +35,9 @@ pub(crate) fn fake(mut answer: impl FnMut(u8, &[u8]) -> Answer + Send + 'static)
             Answer::Silence => Reaction::Silence,
             Answer::Close => Reaction::Close,
             Answer::Result(result) => {
-                let data = WriteReply { result }.to_vec().unwrap();
+                let data = WriteReply { result }.encode_to_vec().unwrap();
                 let reply = FrameRef::new(frame.header().response(), &data).unwrap();
-                Reaction::Send(reply.to_vec().unwrap())
+                Reaction::Send(reply.encode_to_vec().unwrap())
             }
         }
     })

@@ -65,11 +65,11 @@ fn pass(
             Deed::Reject | Deed::Pretend => {
                 let result = match deed == Deed::Reject {
                     true => AdsError::INVALID_ACCESS,
-                    false => AdsError::NONE,
+                    false => AdsError::NO_ERROR,
                 };
-                let data = WriteReply { result }.to_vec().unwrap();
+                let data = WriteReply { result }.encode_to_vec().unwrap();
                 let reply = FrameRef::new(frame.header().response(), &data).unwrap();
-                client.write_all(&reply.to_vec().unwrap())?;
+                client.write_all(&reply.encode_to_vec().unwrap())?;
             }
         }
     }

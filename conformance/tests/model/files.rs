@@ -164,7 +164,7 @@ const FAULTS: &[(&str, &str, &str)] = &[
     ("\"V.E.array_sgn32\"", "\"V.E.Testvar\"", "V.E.Testvar is there twice"),
     ("\"V.E.vartest\"", "\"V.X.vartest\"", "V.E, V.G and V.CYC"),
     ("\"V.E.vartest\"", "\"V.E.vartest[1]\"", "is an element's"),
-    ("\"V.E.vartest\"", "\"V.E.var..test\"", "may not stand here"),
+    ("\"V.E.vartest\"", "\"V.E.var..test\"", "unexpected '.'"),
     ("\"V.E.vartest\"", "\"V.A.vartest\"", "what each axis has"),
     (
         "\"V.E.channel\", type = \"UNS32\", value = 1",

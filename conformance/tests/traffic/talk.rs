@@ -99,7 +99,7 @@ fn variables(session: &mut Session, channel: Channel) {
         let count = session.call(&CountVariables::new(channel, kind)).map_or(0, |count| count.0);
         for index in 0..count.clamp(1, 8) {
             if let Ok(one) = session.call(&DescribeByIndex::new(channel, index, kind)) {
-                described.push(Description::decode(&one.to_vec().unwrap()).unwrap());
+                described.push(Description::decode(&one.encode_to_vec().unwrap()).unwrap());
             }
             let _ = session.call(&DescribeExtended::new(channel, index, kind)).is_ok();
         }

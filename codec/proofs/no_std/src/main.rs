@@ -58,7 +58,7 @@ fn prove() -> Result<bool, Error> {
     #[cfg(any(feature = "alloc", feature = "negative"))]
     {
         let owned = ads_cnc::Description::decode(opaque(DESCRIPTION))?;
-        good &= owned.to_vec()? == DESCRIPTION;
+        good &= owned.encode_to_vec()? == DESCRIPTION;
     }
     Ok(good)
 }

@@ -113,14 +113,10 @@ pub(crate) mod tables {
 
 pub(crate) mod values {
     use ads_cnc::value;
-    use ads_cnc::value::{Boolean, EncodeValue, Items};
-    use ads_cnc::{Elements, Error, TextRef};
+    use ads_cnc::value::{Boolean, EncodeValue};
+    use ads_cnc::{ContentRef, Elements, Error, ValueRef};
 
     use crate::keep;
-
-    fn strings(texts: &value::StringsRef<'_>, visit: fn(TextRef<'_>)) {
-        value::StringsRef::iter(texts).for_each(visit);
-    }
 
     fn encode<'b>(
         shape: &value::Shape<'_>,
@@ -130,27 +126,33 @@ pub(crate) mod values {
         value::Shape::encode(shape, elements, buf)
     }
 
-    fn items<T: value::Item>(items: &Items<'_, T>, visit: fn(T)) {
-        value::Items::iter(items).for_each(visit);
+    fn of_value<T: value::Item>(value: &ValueRef<'_>, visit: fn(T)) -> Result<(), Error> {
+        ValueRef::iter(value).map(|all| all.for_each(visit))
+    }
+
+    fn of_content<T: value::Item>(content: &ContentRef<'_>, visit: fn(T)) -> Result<(), Error> {
+        ContentRef::iter(content).map(|all| all.for_each(visit))
+    }
+
+    fn items<T: value::Item>(elements: &Elements<'_>, visit: fn(T)) -> Result<(), Error> {
+        Elements::items(elements).map(|all| all.for_each(visit))
     }
 
     macro_rules! of_each_type {
         ($( $ty:ty ),+) => {
-            keep!(strings, encode, $(
+            keep!(encode, $(
+                of_value::<$ty>,
+                of_content::<$ty>,
                 items::<$ty>,
-                Elements::items::<$ty>,
-                value::Items::<'_, $ty>::new,
-                value::Items::<'_, $ty>::is_empty,
-                value::Items::<'_, $ty>::len,
-                value::Items::<'_, $ty>::as_bytes,
-                value::Items::<'_, $ty>::copy_to,
-                value::Items::<'_, $ty>::element,
-                value::Items::<'_, $ty>::get,
-                <Items<'_, $ty> as EncodeValue>::encode_value,
+                Elements::copy_to::<$ty>,
+                ValueRef::get::<$ty>,
+                ValueRef::copy_to::<$ty>,
+                ContentRef::get::<$ty>,
+                ContentRef::copy_to::<$ty>,
                 <[$ty] as EncodeValue>::encode_value,
             )+);
         };
     }
 
-    of_each_type!(Boolean, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64);
+    of_each_type!(bool, Boolean, i8, u8, i16, u16, i32, u32, i64, u64, f32, f64);
 }

@@ -65,7 +65,7 @@ const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICE
 /// # use ads_cnc::VariablePath;
 /// assert_eq!(
 ///     VariablePath::new("V.G.array[0 .. 9]").unwrap_err().to_string(),
-///     "variable-path: index at offset 11: U+0020 may not stand here"
+///     "variable-path: index at offset 11: unexpected U+0020"
 /// );
 /// ```
 #[derive(Clone, Copy)]

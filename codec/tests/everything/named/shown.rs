@@ -37,6 +37,7 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     show::<address::IndexGroup>(IndexGroup::new(any(1)));
     show::<address::IndexOffset>(IndexOffset::new(any(1)));
     show::<ads::AdsError>(ads::AdsError(any(1)));
+    codes();
     let (net_id, port) = (AmsNetId(any([1; 6])), AmsPort(any(1)));
     show::<ads::AmsAddr>(ads::AmsAddr { net_id, port });
     show::<ads::AmsNetId>(text(bytes, "1.2.3.4.5.6").parse().unwrap_or(net_id));
@@ -52,6 +53,33 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     refusals(bytes);
     programs(bytes);
     names(bytes)
+}
+
+fn codes() {
+    show::<ads::AdsState>(ads::AdsState(any(5)));
+    show::<ads::Command>(ads::Command(any(2)));
+    show::<ads::StateFlags>(ads::StateFlags(any(4)));
+    show::<VariableAccess>(VariableAccess(any(1)));
+    show::<VariableType>(VariableType(any(1)));
+    show::<Synchronisation>(Synchronisation(any(1)));
+    show::<Validity>(Validity(any(1)));
+    show::<WriteAccess>(WriteAccess(any(1)));
+    show::<Handle>(Handle(any(1)));
+    show::<Kind<'_>>(any(Kind::V_E));
+    show::<value::DataType>(any(value::DataType::Lint));
+    show::<ObjectCount>(ObjectCount(any(1)));
+    show::<VariableCount>(VariableCount(any(1)));
+    show::<dynamic::DynamicCount>(dynamic::DynamicCount(any(1)));
+    show::<dynamic::DynamicIndex>(dynamic::DynamicIndex(any(1)));
+    show::<sda::ElementCount>(sda::ElementCount(any(1)));
+    show::<sda::ElementLength>(sda::ElementLength::new(any(1)));
+    show::<sda::ElementWriteFlag>(sda::ElementWriteFlag(any(1)));
+    address::Class::ALL.map(any).into_iter().for_each(show::<address::Class>);
+    address::Attribute::ALL.map(any).into_iter().for_each(show::<address::Attribute>);
+    let _shown = address::Channel::new(any(1)).map(show::<address::Channel>);
+    let _shown = address::ChannelAxis::new(any(1)).map(show::<address::ChannelAxis>);
+    let _shown = address::PlatformAxis::new(any(1)).map(show::<address::PlatformAxis>);
+    let _shown = address::Spindle::new(any(1)).map(show::<address::Spindle>);
 }
 
 fn refusals(bytes: &[u8]) {

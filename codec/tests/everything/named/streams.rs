@@ -18,6 +18,14 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     seen(VariableAccess::name(VariableAccess(any(1))));
     seen(Synchronisation::name(Synchronisation(any(1))));
     seen(Validity::name(Validity(any(1))));
+    seen(VariableAccess::is_writable(VariableAccess(any(1))));
+    seen(WriteAccess::name(WriteAccess(any(1))));
+    seen(ads::AdsState::name(ads::AdsState(any(1))));
+    seen(ads::Command::name(ads::Command(any(1))));
+    seen(ads::StateFlags::name(ads::StateFlags(any(1))));
+    seen(ads::AdsError::name(ads::AdsError(any(1))));
+    seen(ads::AdsError::is_ok(ads::AdsError(any(1))));
+    seen(ads::AdsError::into_result(ads::AdsError(any(1))));
     seen(VariableType::name(VariableType(any(1))));
     seen(VariableType::data_type(VariableType(any(1))));
     seen(VariableType::element_size(VariableType(any(1))));
@@ -44,7 +52,7 @@ fn frames(bytes: &[u8]) -> Result<(), Error> {
             seen((call.encoded_len(), call.encode(&mut buf)));
         }
     }
-    seen(ads::AdsError::is_none(ads::AdsError(any(7))));
+    seen(ads::AdsError::is_ok(ads::AdsError(any(7))));
     let reply = ads::DeviceInfoReply::decode(bytes)?;
     seen(ads::DeviceInfoReply::name(&reply));
     Ok(())

@@ -15,8 +15,9 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     }
     seen(value::DataType::by_name(cnc(bytes)));
     seen(value::Boolean::is_true(value::Boolean(any(1))));
-    seen(items::<f64>(bytes, dimensions));
-    seen(items::<value::Boolean>(bytes, dimensions));
+    seen(items::<f64>(bytes));
+    seen(items::<value::Boolean>(bytes));
+    seen(items::<bool>(bytes));
     let value = ValueRef { bytes };
     seen(ValueRef::elements(&value, VariableType(any(1)), dimensions));
     if let Ok(nameless) = DescriptionByNameRef::decode(bytes) {
@@ -38,7 +39,7 @@ fn shape(data_type: DataType, dimensions: Numbers<'_>, bytes: &[u8]) -> Result<(
     let shape = value::Shape::new(data_type, dimensions, any(4))?;
     seen((value::Shape::count(&shape), value::Shape::data_type(&shape)));
     seen((value::Shape::dimensions(&shape).len(), value::Shape::element_size(&shape)));
-    seen((value::Shape::size(&shape), value::Shape::place(&shape, dimensions)));
+    seen((value::Shape::size(&shape), value::Shape::index_of(&shape, dimensions)));
     seen(value::Shape::elements(&value::Shape::one(&shape), bytes));
     seen(value::Shape::encode_texts(&shape, &[cnc(bytes), cnc(bytes)], &mut buf));
     let elements = Elements::new(data_type, dimensions, bytes)?;
@@ -47,27 +48,21 @@ fn shape(data_type: DataType, dimensions: Numbers<'_>, bytes: &[u8]) -> Result<(
     seen((Elements::len(&elements), Elements::is_empty(&elements)));
     seen((Elements::shape(&elements).count(), Elements::get(&elements, any(1))));
     seen(Elements::element(&elements, dimensions).map(|element| Element::data_type(&element)));
-    seen(Elements::items::<u16>(&elements).is_some());
+    seen(Elements::items::<u16>(&elements).is_ok());
+    seen(Elements::copy_to::<u16>(&elements, &mut [0; 4]));
     Elements::iter(&elements).rev().step_by(any(2).max(1)).for_each(seen);
     seen((value::EncodeValue::data_type(&elements), value::EncodeValue::value_len(&elements)));
     seen(value::EncodeValue::element_count(&elements));
     seen(value::EncodeValue::encode_value(&elements, &mut buf));
-    if let Some(texts) = Elements::strings(&elements) {
-        seen((value::StringsRef::as_bytes(&texts), value::StringsRef::element_size(&texts)));
-        seen((value::StringsRef::len(&texts), value::StringsRef::is_empty(&texts)));
-        seen(value::StringsRef::get(&texts, any(1)));
-        value::StringsRef::iter(&texts).rev().for_each(seen);
-    }
-    seen(value::StringsRef::new(bytes, any(3)));
     Ok(())
 }
 
-fn items<T: value::Item>(bytes: &[u8], dimensions: Numbers<'_>) -> Result<(), Error> {
-    let items: value::Items<'_, T> = value::Items::new(bytes)?;
-    seen((value::Items::len(&items), value::Items::is_empty(&items)));
-    seen((value::Items::as_bytes(&items), value::Items::get(&items, any(1))));
-    seen(value::Items::copy_to(&items, &mut [T::default(); 4]));
-    seen(value::Items::element(&items, dimensions, dimensions));
-    value::Items::iter(&items).rev().for_each(seen);
+fn items<T: value::Item>(bytes: &[u8]) -> Result<(), Error> {
+    let (value, content) = (ValueRef { bytes }, ContentRef { bytes });
+    seen((ValueRef::get::<T>(&value, any(1)), ContentRef::get::<T>(&content, any(1))));
+    seen(ValueRef::copy_to(&value, &mut [T::default(); 4]));
+    seen(ContentRef::copy_to(&content, &mut [T::default(); 4]));
+    ValueRef::iter::<T>(&value)?.rev().for_each(seen);
+    ContentRef::iter::<T>(&content)?.rev().for_each(seen);
     Ok(())
 }

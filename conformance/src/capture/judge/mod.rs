@@ -298,7 +298,7 @@ impl Judge {
             count(&mut self.tally.refused);
         }
         let net_id = asked.header.target.net_id;
-        if !answer.ams_error.is_none() {
+        if !answer.ams_error.is_ok() {
             // Who is not there may come back as another.
             self.cncs.remove(&net_id);
             return;

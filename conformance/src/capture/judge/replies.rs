@@ -52,7 +52,7 @@ pub(super) fn service<'e>(
 
 /// An error may come without what would follow a success: if it does, it was seen.
 fn short_error(book: &mut Book, scene: &Scene<'_>, answer: &Answer, header: &AmsHeader) {
-    let is_error = !answer.ams_error.is_none() || !answer.result.is_none();
+    let is_error = !answer.ams_error.is_ok() || !answer.result.is_ok();
     if is_error && (answer.data.is_none() || header.data_length == 0) {
         book.on(Topic::CncFrames, scene).pass("ADS-6");
     }

@@ -17,8 +17,8 @@ pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, header: &AmsHeader, ag
     let found = format!("state flags {:#06x}", flags.0);
     page.check("ADS-5", flags == StateFlags::REQUEST, "state flags 0x0004", found);
     let rule = assumed("ADS-5");
-    let none = header.error == AdsError::NONE;
-    page.check(rule, none, "no AMS error in a request", format!("AMS error {}", header.error));
+    let none = header.error == AdsError::NO_ERROR;
+    page.check(rule, none, "no AMS error in a request", format!("AMS error {:#x}", header.error));
     if let Some(again) = again {
         let found = format!("the invoke ID {:#x} of one that still waits", header.invoke_id);
         page.check(rule, !again, "an invoke ID of its own", found);

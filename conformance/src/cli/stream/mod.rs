@@ -169,7 +169,7 @@ impl Stream {
             }
             End::GivenUp(error) => {
                 complain(format_args!(
-                    "given up: the CNC still refuses, with {error}. Is the streaming program (see \
+                    "given up: the CNC still refuses, with {error:#x}. Is the streaming program (see \
                      P-CHAN-00158) running in channel {channel}, and does nothing hold the machine? \
                      --retries waits longer"
                 ));

@@ -64,7 +64,7 @@ pub fn answer(flaw: Option<Flaw>, place: &Place, action: &Action) -> Reaction {
         Ok(value) => Reaction::Answer(Answer::Result(value)),
         Err(Fail::Said(why)) => Reaction::Answer(Answer::Error(why)),
         Err(Fail::Refused(error)) => {
-            Reaction::Answer(Answer::Error(format!("the CNC refuses it, ADS error {error}")))
+            Reaction::Answer(Answer::Error(format!("the CNC refuses it, ADS error {error:#x}")))
         }
         Err(Fail::Dies) => Reaction::Died("it would have ended here".to_owned()),
         Err(Fail::Hangs) => Reaction::Hung(Duration::MAX),

@@ -160,17 +160,17 @@ impl Wire {
             if frame.data().is_empty() && self.has(Flaw::DiesOfError) {
                 return Err(Fail::Dies);
             }
-            if !header.error.is_none() && self.has(Flaw::NoError) {
+            if !header.error.is_ok() && self.has(Flaw::NoError) {
                 return Ok(Some(Vec::new()));
             }
             let sent = AmsHeader { command: header.command, ..self.header };
             let read = answer(sent, header, frame.data());
             let answer = read?;
             self.received.drain(..len);
-            if !answer.ams_error.is_none() {
+            if !answer.ams_error.is_ok() {
                 return Err(Fail::Refused(answer.ams_error));
             }
-            if !answer.result.is_none() && !self.has(Flaw::NoResult) {
+            if !answer.result.is_ok() && !self.has(Flaw::NoResult) {
                 return Err(Fail::Refused(answer.result));
             }
             let data = answer.data.unwrap_or_default();

@@ -258,7 +258,7 @@ impl Running<'_> {
         let channel = self.channel(op.channel)?;
         let channel = self.state.channels.get_mut(channel).ok_or(AdsError::INVALID_GROUP)?;
         match program::result(channel.program.write(op.packet, self.now)) {
-            AdsError::NONE => encode(NoData),
+            AdsError::NO_ERROR => encode(NoData),
             refused => Err(refused),
         }
     }
@@ -273,7 +273,7 @@ fn dispatch<'a>(call: &Call<'a>) -> Result<Request<'a>, AdsError> {
 
 fn encode<'a>(reply: impl Into<Reply<'a>>) -> Answer {
     // The model was checked to fit: this does not fail.
-    reply.into().to_vec().map_err(|_| AdsError::INVALID_DATA)
+    reply.into().encode_to_vec().map_err(|_| AdsError::INVALID_DATA)
 }
 
 #[cfg(test)]

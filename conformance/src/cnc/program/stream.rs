@@ -344,7 +344,7 @@ impl Program {
 /// ```
 pub fn result(ack: Ack) -> AdsError {
     match ack {
-        Ack::Accepted => AdsError::NONE,
+        Ack::Accepted => AdsError::NO_ERROR,
         Ack::Later => AdsError::INVALID_DATA,
         Ack::Refused => AdsError::INVALID_SIZE,
     }

@@ -29,7 +29,7 @@ pub(super) fn of_errors(probe: &mut Probe<'_>) -> Step {
         let Err(own) = cnc.answer(&call) else { continue };
         let found = number(probe, &call)?;
         let turned = own.0.swap_bytes();
-        let expected = format!("{own}, or another");
+        let expected = format!("{own:#x}, or another");
         probe.check("ADS-4", found.is_none_or(|found| found.0 != turned), expected, shown(found));
     }
     let mut buf = [0; 256];
@@ -46,9 +46,9 @@ pub(super) fn of_errors(probe: &mut Probe<'_>) -> Step {
 fn number(probe: &mut Probe<'_>, call: &Call<'_>) -> Step<Option<AdsError>> {
     let exchange = probe.call(call)?;
     let errors = exchange.answer().map(|answer| [answer.ams_error, answer.result]);
-    Ok(errors.into_iter().flatten().find(|error| !error.is_none()))
+    Ok(errors.into_iter().flatten().find(|error| !error.is_ok()))
 }
 
 fn shown(error: Option<AdsError>) -> String {
-    error.map_or_else(|| "none".to_owned(), |error| error.to_string())
+    error.map_or_else(|| "none".to_owned(), |error| format!("{error:#x}"))
 }

@@ -87,7 +87,7 @@ pub(in crate::suite) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8
     let answer = exchange.answer();
     let errors = answer.map(|answer| [answer.ams_error, answer.result]);
     Ok(Sent {
-        error: errors.into_iter().flatten().find(|error| !error.is_none()),
+        error: errors.into_iter().flatten().find(|error| !error.is_ok()),
         answered: answer.is_some(),
         shown: exchange.result(),
     })

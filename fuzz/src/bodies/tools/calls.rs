@@ -53,9 +53,9 @@ pub(crate) fn write_call(kind: u8, call: &Call<'_>) -> Vec<u8> {
 
 /// The frame of a call to the CNC.
 pub(crate) fn frame(call: &Call<'_>, invoke_id: u32) -> Vec<u8> {
-    let payload = call.to_vec().expect("short data");
+    let payload = call.encode_to_vec().expect("short data");
     let target = AmsAddr { net_id: NET_ID, port: call.port };
     let source = AmsAddr { net_id: AmsNetId([127, 0, 0, 1, 1, 2]), port: AmsPort(0x8001) };
     let header = AmsHeader::request(target, source, call.service.command(), invoke_id);
-    FrameRef::new(header, &payload).and_then(|frame| frame.to_vec()).expect("a frame")
+    FrameRef::new(header, &payload).and_then(|frame| frame.encode_to_vec()).expect("a frame")
 }

@@ -131,12 +131,14 @@ fn reply(request: &[u8], kind: u8) -> Vec<u8> {
     let data = vec![kind; usize::from(kind)];
     let result = ads_cnc::ads::AdsError(0);
     let payload = match header.command.0 {
-        3 => WriteReply { result }.to_vec(),
+        3 => WriteReply { result }.encode_to_vec(),
         // Those of a Read and of a ReadWrite are alike.
-        _ => ReadReplyRef { result, data: Some(&data) }.to_vec(),
+        _ => ReadReplyRef { result, data: Some(&data) }.encode_to_vec(),
     };
     let payload = payload.expect("a reply");
-    FrameRef::new(header.response(), &payload).and_then(|frame| frame.to_vec()).expect("a frame")
+    FrameRef::new(header.response(), &payload)
+        .and_then(|frame| frame.encode_to_vec())
+        .expect("a frame")
 }
 
 /// Raw IP, without checksums, and TCP.

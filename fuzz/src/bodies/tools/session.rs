@@ -191,14 +191,14 @@ fn answered(request: &FrameRef<'_>, answers: &[u8]) -> usize {
     assert_eq!(header.invoke_id, asked.invoke_id);
     assert_eq!((header.command, header.target), (asked.command, asked.source));
     assert_eq!((header.source, header.state_flags), (asked.target, StateFlags::RESPONSE));
-    if !header.error.is_none() {
+    if !header.error.is_ok() {
         assert!(answer.data().is_empty());
         return len;
     }
     let call = Call::from_frame(request);
     let Some(service) = service_of(header.command) else { return len };
     let (result, data) = decode_reply(service, answer.data()).expect("a reply of the service");
-    if let (Ok(Some(call)), true) = (call, result.is_none()) {
+    if let (Ok(Some(call)), true) = (call, result.is_ok()) {
         let data = data.unwrap_or_default();
         assert!(data.len() <= call.read_length as usize);
         let request = call.dispatch().expect("what is no function is refused");

@@ -120,5 +120,5 @@ fn time(source: Source<'_>, said: &Spanned<String>) -> Result<Duration, ModelErr
 
 /// Whether it encodes, whatever it is.
 fn encodes(what: &impl ads_cnc::Encode) -> Result<(), String> {
-    what.to_vec().map(drop).map_err(|error| error.to_string())
+    what.encode_to_vec().map(drop).map_err(|error| error.to_string())
 }

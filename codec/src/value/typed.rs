@@ -1,0 +1,295 @@
+//! Numbers of a type that the program knows.
+
+use zerocopy::FromBytes as _;
+
+use super::{DataType, Element, Elements, Item};
+use crate::bytes::to_u32;
+use crate::content::ContentRef;
+use crate::error::{Error, ErrorKind};
+use crate::layout::field::typed_value::{COUNT, INDEX, TYPE, VALUE};
+use crate::text::{CncStr, TextRef};
+use crate::variable::ValueRef;
+
+/// The bytes of each number.
+fn split<T: Item>(bytes: &[u8]) -> Result<&[T::Wire], Error> {
+    <[T::Wire]>::ref_from_bytes(bytes).map_err(|_| {
+        let each = size_of::<T::Wire>();
+        let left = bytes.len().checked_rem(each).unwrap_or(0);
+        let at = to_u32(bytes.len().saturating_sub(left));
+        Error::new(ErrorKind::Truncated, VALUE, at, to_u32(each), to_u32(left))
+    })
+}
+
+fn get<T: Item>(bytes: &[u8], index: usize) -> Result<T, Error> {
+    let all = split::<T>(bytes)?;
+    all.get(index).copied().map(T::from_wire).ok_or_else(|| beyond(all.len(), index))
+}
+
+fn copy_to<T: Item>(bytes: &[u8], out: &mut [T]) -> Result<(), Error> {
+    let all = split::<T>(bytes)?;
+    if all.len() != out.len() {
+        let (count, given) = (to_u32(all.len()), to_u32(out.len()));
+        return Err(Error::new(ErrorKind::Mismatch, COUNT, 0, count, given));
+    }
+    out.iter_mut().zip(all).for_each(|(out, wire)| *out = T::from_wire(*wire));
+    Ok(())
+}
+
+/// Why there is no element of this index among `count`.
+pub(super) fn beyond(count: usize, index: usize) -> Error {
+    match to_u32(count).checked_sub(1) {
+        Some(last) => Error::new(ErrorKind::OutOfRange, INDEX, 0, last, to_u32(index)),
+        None => Error::new(ErrorKind::Missing, VALUE, 0, 0, 0),
+    }
+}
+
+macro_rules! typed_reads {
+    ($( $(#[$meta:meta])? [$($view:lifetime)?] $type:ty, [$($own:lifetime)?], |$this:ident| $bytes:expr, $example:literal; )+) => { $(
+        /// Numbers and BOOLEANs, read by the type that the program asks for. A single number has
+        /// index 0.
+        ///
+        /// Only the number of bytes is checked. With the variable's description,
+        /// [`DescriptionRef::elements`](crate::DescriptionRef::elements) checks the type too.
+        ///
+        /// ```
+        #[doc = $example]
+        /// assert_eq!(value.get::<i32>(1)?, 456);
+        /// assert_eq!(value.iter::<i32>()?.sum::<i32>(), 789);
+        /// let mut numbers = [0_i32; 2];
+        /// value.copy_to(&mut numbers)?;
+        /// assert_eq!(numbers, [333, 456]);
+        /// # Ok::<(), ads_cnc::Error>(())
+        /// ```
+        $(#[$meta])?
+        impl $(<$view>)? $type {
+            /// The number at this index, from 0.
+            ///
+            /// # Errors
+            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
+            /// of the type's size, [`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for an
+            /// index beyond the last, [`ErrorKind::Missing`](crate::ErrorKind::Missing) if there are
+            /// no bytes.
+            pub fn get<T: Item>(&self, index: usize) -> Result<T, Error> {
+                get(&self.bytes, index)
+            }
+
+            /// The numbers in their order.
+            ///
+            /// # Errors
+            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
+            /// of the type's size.
+            pub fn iter<$($own,)? T: Item>(
+                &$($own)? self,
+            ) -> Result<
+                impl ExactSizeIterator<Item = T> + DoubleEndedIterator + Clone + use<$($view,)? $($own,)? T>,
+                Error,
+            > {
+                let $this = self;
+                Ok(split::<T>($bytes)?.iter().copied().map(T::from_wire))
+            }
+
+            /// Fills `out` with exactly as many numbers.
+            ///
+            /// # Errors
+            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
+            /// of the type's size, [`ErrorKind::Mismatch`](crate::ErrorKind::Mismatch) for another
+            /// number of elements; nothing is written.
+            pub fn copy_to<T: Item>(&self, out: &mut [T]) -> Result<(), Error> {
+                copy_to(&self.bytes, out)
+            }
+
+            /// The numbers in a vector.
+            ///
+            /// # Errors
+            /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
+            /// of the type's size.
+            #[cfg(feature = "alloc")]
+            pub fn to_vec<T: Item>(&self) -> Result<alloc::vec::Vec<T>, Error> {
+                Ok(self.iter()?.collect())
+            }
+        }
+    )+ };
+}
+
+typed_reads! {
+    ['a] ValueRef<'a>, [], |value| value.bytes,
+        "let value = ads_cnc::ValueRef { bytes: &[77, 1, 0, 0, 200, 1, 0, 0] };";
+    ['a] ContentRef<'a>, [], |content| content.bytes,
+        "let value = ads_cnc::ContentRef { bytes: &[77, 1, 0, 0, 200, 1, 0, 0] };";
+    #[cfg(feature = "alloc")]
+    [] crate::Value, ['a], |value| &value.bytes,
+        "let value = ads_cnc::Value { bytes: vec![77, 1, 0, 0, 200, 1, 0, 0] };";
+    #[cfg(feature = "alloc")]
+    [] crate::Content, ['a], |content| &content.bytes,
+        "let value = ads_cnc::Content { bytes: vec![77, 1, 0, 0, 200, 1, 0, 0] };";
+}
+
+/// Numbers and BOOLEANs of the type that the program asks for, which must be that of the elements.
+///
+/// ```
+/// use ads_cnc::{Decode, DescriptionByNameRef, ValueRef};
+///
+/// // SGN32[2]
+/// let bytes = b"\x02\0\0\x02\x06\0\0\0\x01\0\0\0\x08\0\0\0\x01\0\0\0\x02\0\0\0";
+/// let description = DescriptionByNameRef::decode(bytes)?;
+/// let value = ValueRef { bytes: &[77, 1, 0, 0, 200, 1, 0, 0] };
+/// let elements = description.elements(&value)?;
+/// assert_eq!(elements.items::<i32>()?.sum::<i32>(), 789);
+/// assert!(elements.items::<f64>().is_err());
+///
+/// // A number, whatever its type.
+/// let first: f64 = elements.get(0)?.try_into()?;
+/// assert_eq!(first, 333.0);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+impl<'a> Elements<'a> {
+    /// The elements in their order.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] for elements of another type.
+    pub fn items<T: Item>(
+        &self,
+    ) -> Result<impl ExactSizeIterator<Item = T> + DoubleEndedIterator + Clone + use<'a, T>, Error>
+    {
+        self.check::<T>()?;
+        Ok(split::<T>(self.as_bytes())?.iter().copied().map(T::from_wire))
+    }
+
+    /// Fills `out` with exactly as many elements.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] for another type or number of elements; nothing is written.
+    pub fn copy_to<T: Item>(&self, out: &mut [T]) -> Result<(), Error> {
+        self.check::<T>()?;
+        copy_to(self.as_bytes(), out)
+    }
+
+    /// The elements in a vector.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Mismatch`] for elements of another type.
+    #[cfg(feature = "alloc")]
+    pub fn to_vec<T: Item>(&self) -> Result<alloc::vec::Vec<T>, Error> {
+        Ok(self.items()?.collect())
+    }
+
+    fn check<T: Item>(&self) -> Result<(), Error> {
+        match self.data_type() == T::TYPE {
+            true => Ok(()),
+            false => Err(mismatch(T::TYPE, self.data_type())),
+        }
+    }
+}
+
+pub(super) fn mismatch(expected: DataType, found: DataType) -> Error {
+    Error::new(ErrorKind::Mismatch, TYPE, 0, expected.number(), found.number())
+}
+
+/// The number of an element of any integer type.
+fn integer(element: Element<'_>) -> Option<i128> {
+    Some(match element {
+        Element::Sgn08(number) => number.into(),
+        Element::Uns08(number) => number.into(),
+        Element::Sgn16(number) => number.into(),
+        Element::Uns16(number) => number.into(),
+        Element::Sgn32(number) => number.into(),
+        Element::Uns32(number) => number.into(),
+        Element::Lint(number) => number.into(),
+        Element::Lword(number) => number.into(),
+        Element::Boolean(_) | Element::Real32(_) | Element::Real64(_) | Element::String(_) => {
+            return None;
+        }
+    })
+}
+
+/// Integers from integers of any type, if the number fits.
+macro_rules! from_integers {
+    ($( $type:ty )+) => { $(
+        /// # Errors
+        /// [`ErrorKind::Mismatch`] for another kind of element, and for a number that does not fit.
+        impl TryFrom<Element<'_>> for $type {
+            type Error = Error;
+
+            fn try_from(element: Element<'_>) -> Result<Self, Error> {
+                integer(element)
+                    .and_then(|number| number.try_into().ok())
+                    .ok_or_else(|| mismatch(<$type>::TYPE, element.data_type()))
+            }
+        }
+    )+ };
+}
+
+from_integers! { i8 u8 i16 u16 i32 u32 i64 u64 }
+
+/// Floating-point numbers from themselves, and from integers of at most so many binary digits
+/// between the first and the last that is not 0.
+macro_rules! from_numbers {
+    ($( $type:ty, $digits:literal, |$element:ident| $float:expr; )+) => { $(
+        /// # Errors
+        /// [`ErrorKind::Mismatch`] for another kind of element, and for a number that cannot be
+        /// represented exactly.
+        impl TryFrom<Element<'_>> for $type {
+            type Error = Error;
+
+            fn try_from($element: Element<'_>) -> Result<Self, Error> {
+                if let Some(float) = $float {
+                    return Ok(float);
+                }
+                let exact = integer($element).filter(|number| digits(*number) <= $digits);
+                let Some(number) = exact else {
+                    return Err(mismatch(<$type>::TYPE, $element.data_type()));
+                };
+                // No step rounds: the digits of every part are among those of the whole.
+                let size = number.unsigned_abs().to_be_bytes().into_iter().fold(0.0, |size, byte| {
+                    size * 256.0 + Self::from(byte)
+                });
+                Ok(if number < 0 { -size } else { size })
+            }
+        }
+    )+ };
+}
+
+from_numbers! {
+    f32, 24, |element| match element {
+        Element::Real32(number) => Some(number),
+        _ => None,
+    };
+    f64, 53, |element| match element {
+        Element::Real64(number) => Some(number),
+        Element::Real32(number) => Some(number.into()),
+        _ => None,
+    };
+}
+
+/// Binary digits from the first to the last that is not 0.
+fn digits(number: i128) -> u32 {
+    let size = number.unsigned_abs();
+    u128::BITS.saturating_sub(size.leading_zeros()).saturating_sub(size.trailing_zeros())
+}
+
+/// Elements of one type alone.
+macro_rules! from_one {
+    ($( $(#[$meta:meta])? $type:ty, $data_type:ident, $element:pat => $value:expr; )+) => { $(
+        /// # Errors
+        /// [`ErrorKind::Mismatch`] for another kind of element.
+        $(#[$meta])?
+        impl<'a> TryFrom<Element<'a>> for $type {
+            type Error = Error;
+
+            fn try_from(element: Element<'a>) -> Result<Self, Error> {
+                match element {
+                    $element => Ok($value),
+                    _ => Err(mismatch(DataType::$data_type, element.data_type())),
+                }
+            }
+        }
+    )+ };
+}
+
+from_one! {
+    bool, Boolean, Element::Boolean(boolean) => boolean.is_true();
+    TextRef<'a>, String, Element::String(text) => text;
+    CncStr<'a>, String, Element::String(text) => text.text();
+    #[cfg(feature = "alloc")]
+    alloc::string::String, String, Element::String(text) => text.text().chars().collect();
+}
