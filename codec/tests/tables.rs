@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use ads_cnc::layout::{FieldSpec, Layout, Size, Stream};
+use ads_cnc::layout::{FieldSpec, Layout, Size, Stream, Type};
 use ads_cnc::limits::*;
 use common::each_sample;
 
@@ -185,6 +185,12 @@ fn names_are_unique() {
         let names: HashSet<_> = rows.iter().map(|row| row.name).collect();
         assert_eq!(names.len(), rows.len(), "{stream}");
     }
+}
+
+/// A BOOLEAN is read like an UNS08, so that the type shows in the table alone.
+#[test]
+fn the_write_flag_is_a_boolean() {
+    assert_eq!(Stream::ElementWriteFlag.layout().fields[0].ty, Type::Boolean);
 }
 
 /// The named limits, which the declarations give, are the numbers of the clauses.
