@@ -117,7 +117,7 @@ fn copy<'a>(text: &'a [u8], packet: &mut [u8; STREAM_PACKET_MAX]) -> (&'a [u8], 
 fn copy_line<'a, 'b>(text: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'b mut [u8])> {
     let (line, _) = split_at_end(text.get(..=room.len()).unwrap_or(text));
     let (out, room) = room.split_at_mut_checked(line.len())?;
-    out.copy_from_slice(line);
+    out.iter_mut().zip(line).for_each(|(out, byte)| *out = *byte);
     let (end, room) = room.split_first_chunk_mut()?;
     *end = [CR, LF];
     Some((behind_end(text.get(line.len()..)?), room))
