@@ -33,7 +33,7 @@ macro_rules! documented {
         $($item)+
     };
     (CountVariables $($item:tt)+) => {
-        /// How many variables of a kind a channel has.
+        /// How many variables of a kind a channel has; [`Kind::ALL`] asks for the sum of all kinds.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
