@@ -94,8 +94,8 @@ fn descriptors_are_asked_for_from_1_and_as_many_as_fit() {
         read.map_err(|error| (error.kind(), error.field().name(), error.expected(), error.found()))
     };
     assert_eq!(ask(0, 1), Err((ErrorKind::OutOfRange, "element", 1, 0)));
-    assert_eq!(ask(1, 0), Err((ErrorKind::OutOfRange, "stream", 1, 0)));
-    assert_eq!(ask(1, MOST + 1), Err((ErrorKind::TooMany, "stream", MOST, MOST + 1)));
+    assert_eq!(ask(1, 0), Err((ErrorKind::OutOfRange, "count", 1, 0)));
+    assert_eq!(ask(1, MOST + 1), Err((ErrorKind::TooMany, "count", MOST, MOST + 1)));
     let most = ask(1, MOST).unwrap();
     assert!(most.read_length() as usize <= limits::ADS_DATA_MAX);
     assert!(most.read_length() as usize + limits::DESCRIPTOR_LEN > limits::ADS_DATA_MAX);

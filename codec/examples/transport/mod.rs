@@ -27,13 +27,12 @@ impl Cnc {
         op: &O,
         buf: &'r mut Vec<u8>,
     ) -> Result<O::Reply<'r>> {
-        let spec = O::FUNCTION.spec();
-        let device = self.client.device(AmsAddr::new(self.net_id, spec.task.port().0));
+        let device = self.client.device(AmsAddr::new(self.net_id, op.port().0));
         let (group, offset) = (op.index_group().get(), op.index_offset().get());
         let mut data = vec![0; op.encoded_len()];
         op.encode(&mut data)?;
         buf.resize(op.read_length() as usize, 0);
-        let len = match spec.service {
+        let len = match op.service() {
             Service::Read => device.read(group, offset, buf)?,
             Service::ReadWrite => device.write_read(group, offset, &data, buf)?,
             Service::Write => device.write(group, offset, &data).map(|()| 0)?,

@@ -4,14 +4,12 @@ use core::fmt;
 
 use crate::address::IndexOffset;
 
-/// A kind of dynamic parameters, with its four functions on the decoder of a channel.
-///
-/// | kind | count | name by index | value by name | value by index |
-/// |---|---|---|---|---|
-/// | P | 0x02 | 0x1B | 0x1C | 0x1D |
-/// | V.L | 0x03 | 0x1E | 0x1F | 0x20 |
-/// | V.P | 0x04 | 0x21 | 0x22 | 0x23 |
-/// | V.S | 0x05 | 0x24 | 0x25 | 0x26 |
+/// A kind of dynamic parameters. Its functions on the decoder of a channel:
+/// [`CountDynamic`](crate::operation::CountDynamic),
+/// [`DynamicNameByIndex`](crate::operation::DynamicNameByIndex),
+/// [`DynamicValueByName`](crate::operation::DynamicValueByName) and
+/// [`DynamicValueByIndex`](crate::operation::DynamicValueByIndex), each with an index offset of its
+/// own.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
 ///

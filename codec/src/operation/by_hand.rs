@@ -15,7 +15,7 @@ use crate::address::{
     IndexOffset,
 };
 use crate::bytes::to_u32;
-use crate::com::{Descriptor, DescriptorRef, DescriptorsRef};
+use crate::com::{Descriptor, DescriptorRef, DescriptorsRef, ObjectCount};
 use crate::content::ContentRef;
 use crate::error::{Error, ErrorKind};
 use crate::layout::field::index_group::INSTANCE;
@@ -24,6 +24,7 @@ use crate::layout::{Field, Stream};
 use crate::limits::{ADS_DATA_MAX, DESCRIPTOR_LEN};
 use crate::sda::ObjectAddressQuery;
 
+const COUNT: Field = Field::of::<ObjectCount>("count");
 const DESCRIPTORS: Field = Field::whole(Stream::ObjectDescriptors);
 const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
 
@@ -36,16 +37,16 @@ impl ReadDescriptors {
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for object 0, by the field `element` of the index offset, which is
     /// the object's number, and for a count of 0; [`ErrorKind::TooMany`] for a count over
-    /// [`COUNT_MAX`](Self::COUNT_MAX).
+    /// [`COUNT_MAX`](Self::COUNT_MAX), both by the field `count`.
     pub fn new(list: impl Into<ObjectList>, first: u32, count: u32) -> Result<Self, Error> {
         if first == 0 {
             return Err(Error::new(ErrorKind::OutOfRange, ELEMENT, 0, 1, first));
         }
         if count == 0 {
-            return Err(Error::new(ErrorKind::OutOfRange, DESCRIPTORS, 0, 1, count));
+            return Err(Error::new(ErrorKind::OutOfRange, COUNT, 0, 1, count));
         }
         if count > Self::COUNT_MAX {
-            return Err(Error::new(ErrorKind::TooMany, DESCRIPTORS, 0, Self::COUNT_MAX, count));
+            return Err(Error::new(ErrorKind::TooMany, COUNT, 0, Self::COUNT_MAX, count));
         }
         let length = count.saturating_mul(to_u32(DESCRIPTOR_LEN));
         Ok(Self { list: list.into(), first, length })

@@ -73,7 +73,7 @@ pub enum DispatchError {
     Port(AmsPort),
     /// No function of the task has this index group.
     Group(IndexGroup),
-    /// No function of the index group has this offset, or content alone has, which takes another
+    /// No function of the index group has this offset, or only content has it, which takes another
     /// service.
     Offset(IndexOffset),
     /// The function takes another service.
@@ -112,14 +112,14 @@ impl fmt::Display for DispatchError {
     }
 }
 
-// No source: a stream's error is shown as the refusal, and who shows a chain would show it twice.
+// The error of a stream is shown as this error: as its source, a chain would show it twice.
 impl core::error::Error for DispatchError {}
 
 impl<'a> Call<'a> {
     /// The function that is called and what it is asked.
     ///
-    /// SDA and GEO both answer for the classes of the CNC (ADR-10, assumed). That the reply fits the
-    /// read length is for the server to see to, which has the reply.
+    /// The first row of the function table that the call fits. SDA and GEO both answer for the
+    /// classes of the CNC (ADR-10, assumed). The server checks that its reply fits the read length.
     ///
     /// ```
     /// use ads_cnc::address::{IndexGroup, IndexOffset};

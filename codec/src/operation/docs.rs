@@ -33,7 +33,7 @@ macro_rules! documented {
         $($item)+
     };
     (CountVariables $($item:tt)+) => {
-        /// How many variables of a kind a channel has.
+        /// How many variables of a kind a channel has; [`Kind::ALL`] asks for the sum of all kinds.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -80,9 +80,9 @@ macro_rules! documented {
         /// ```
         /// use ads_cnc::address::Channel;
         /// use ads_cnc::operation::{Operation, ReadByHandle};
-        /// use ads_cnc::{Handle, Numbers};
+        /// use ads_cnc::Handle;
         ///
-        /// let op = ReadByHandle::new(Channel::new(1)?, Handle(0x20012341), Numbers::from(&[4]));
+        /// let op = ReadByHandle::new(Channel::new(1)?, Handle(0x20012341), &[4]);
         /// assert_eq!(op.decode_reply(&333_i32.to_le_bytes())?.bytes, 333_i32.to_le_bytes());
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
@@ -108,11 +108,9 @@ macro_rules! documented {
         /// ```
         /// use ads_cnc::address::Channel;
         /// use ads_cnc::operation::{Operation, WriteByHandle};
-        /// use ads_cnc::{Handle, Numbers};
+        /// use ads_cnc::Handle;
         ///
-        /// let value = 123_i32.to_le_bytes();
-        /// let channel = Channel::new(1)?;
-        /// let op = WriteByHandle::new(channel, Handle(0x2001234), Numbers::from(&[4]), &value);
+        /// let op = WriteByHandle::new(Channel::new(1)?, Handle(0x2001234), &[4], 123);
         /// assert_eq!(op.encode(&mut [0; 16])?, b"\x34\x12\0\x02\x01\0\0\0\x04\0\0\0\x7b\0\0\0");
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
@@ -125,8 +123,7 @@ macro_rules! documented {
         /// use ads_cnc::address::Channel;
         /// use ads_cnc::operation::{Operation, WriteByName};
         ///
-        /// let value = 123_i32.to_le_bytes();
-        /// let op = WriteByName::new(Channel::new(1)?, "V.E.test[4]", &value)?;
+        /// let op = WriteByName::new(Channel::new(1)?, "V.E.test[4]", 123)?;
         /// assert_eq!(op.encode(&mut [0; 16])?, b"V.E.test[4]\0\x7b\0\0\0");
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
@@ -203,8 +200,7 @@ macro_rules! documented {
         /// use ads_cnc::operation::{AxisWriteByName, Operation};
         ///
         /// let (channel, axis) = (Channel::new(1)?, ChannelAxis::new(2)?);
-        /// let value = 123.456_f64.to_le_bytes();
-        /// let op = AxisWriteByName::new(channel, axis, "V.A.WCS", &value)?;
+        /// let op = AxisWriteByName::new(channel, axis, "V.A.WCS", 123.456)?;
         /// assert_eq!(op.index_offset().get(), 0x2_0006);
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
@@ -345,7 +341,7 @@ macro_rules! documented {
         /// use ads_cnc::operation::{Operation, WriteElement};
         ///
         /// let feedhold = ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?;
-        /// let op = WriteElement::new(feedhold, &[1])?;
+        /// let op = WriteElement::new(feedhold, true)?;
         /// assert_eq!(op.encode(&mut [0; 1])?, [1]);
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
@@ -453,7 +449,7 @@ macro_rules! documented {
         /// let object = Descriptor::new("mc_active_single_block_r", "BOOL")?
         ///     .with_size(1)
         ///     .with_content(IndexGroup::new(0x12_0101), IndexOffset::new(3));
-        /// let op = ReadObject::new(object.index_group(), object.index_offset(), object.size())?;
+        /// let op = ReadObject::of(&object)?;
         /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_0101, 3));
         /// assert_eq!(op.decode_reply(&[1])?.bytes, [1]);
         /// # Ok::<(), ads_cnc::Error>(())
@@ -469,7 +465,7 @@ macro_rules! documented {
         /// use ads_cnc::operation::{Operation, WriteObject};
         ///
         /// // mc_command_single_block_w
-        /// let op = WriteObject::new(IndexGroup::new(0x12_0101), IndexOffset::new(1), &[1])?;
+        /// let op = WriteObject::new(IndexGroup::new(0x12_0101), IndexOffset::new(1), true)?;
         /// assert_eq!(op.encode(&mut [0; 1])?, [1]);
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```

@@ -100,7 +100,7 @@ macro_rules! functions {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[non_exhaustive]
         pub enum Function { $(
-            #[doc = concat!("The ", $name, ": see [`", stringify!($function), "`](struct@", stringify!($function), ").")]
+            #[doc = concat!("[`", stringify!($function), "`](struct@", stringify!($function), "): ", $name, ".")]
             $function,
         )+ }
 
@@ -151,7 +151,7 @@ macro_rules! functions {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[non_exhaustive]
         pub enum Request<'a> { $(
-            #[doc = concat!("The ", $name, ".")]
+            #[doc = concat!("[`Function::", stringify!($function), "`]: ", $name, ".")]
             $function($function $(<$a>)?),
         )+ }
 

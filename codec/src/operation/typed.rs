@@ -115,8 +115,13 @@ pub trait Operation: sealed::Sealed {
 }
 
 /// The kinds of fields of operations, one line each: the type, what a constructor takes, how it
-/// makes the field of that, how the field goes into the stream, and its documentation.
+/// makes the field of that, how the field goes into the stream, and its documentation. First, what a
+/// constructor rejects.
 macro_rules! field {
+    (errors Name)    => { "Those of [`IntoName::into_name`]." };
+    (errors Leading) => { "Those of [`IntoName::into_name`]." };
+    (errors FromOne) => { "[`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for the index 0." };
+    (errors $kind:ident) => { "" };
     ($q:ident Channel $($i:ident)?)    => { field!(@$q [Channel] [Channel] [$($i)?] [$($i)?] "The channel.") };
     ($q:ident Axis $($i:ident)?)       => { field!(@$q [ChannelAxis] [ChannelAxis] [$($i)?] [$($i)?] "The axis, by its index in the channel.") };
     ($q:ident Parameters $($i:ident)?) => { field!(@$q [DynamicKind] [DynamicKind] [$($i)?] [$($i)?] "The kind of parameters.") };
@@ -128,8 +133,8 @@ macro_rules! field {
     ($q:ident Index $($i:ident)?)      => { field!(@$q [u32] [u32] [$($i)?] [$($i)?] "Index of the variable, from 0 to one less than their number.") };
     ($q:ident FromOne $($i:ident)?)    => { field!(@$q [u32] [u32] [DynamicIndex($($i)?).check()?.0] [$($i)?] "Index of the parameter, from 1.") };
     ($q:ident Kind $($i:ident)?)       => { field!(@$q [Kind<'a>] [Kind<'a>] [$($i)?] [$($i)?] "The kind of variables.") };
-    ($q:ident Name $($i:ident)?)       => { field!(@$q [TextRef<'a>] [impl IntoName<'a>] [$($i)?.into_name()?.into()] [$($i)?] "The name.") };
-    ($q:ident Leading $($i:ident)?)    => { field!(@$q [CncStr<'a>] [impl IntoName<'a>] [$($i)?.into_name()?] [$($i)?] "The name.") };
+    ($q:ident Name $($i:ident)?)       => { field!(@$q [TextRef<'a>] [impl IntoName<'a>] [$($i)?.into_name()?.into()] [$($i)?] "Name of the variable or parameter.") };
+    ($q:ident Leading $($i:ident)?)    => { field!(@$q [CncStr<'a>] [impl IntoName<'a>] [$($i)?.into_name()?] [$($i)?] "Name of the variable.") };
     ($q:ident Handle $($i:ident)?)     => { field!(@$q [Handle] [Handle] [$($i)?] [$($i)?] "Handle of the variable.") };
     ($q:ident Indices $($i:ident)?)    => { field!(@$q [Numbers<'a>] [impl Into<Numbers<'a>>] [$($i)?.into()] [$($i)?] "Index in each dimension, from 0; none for the whole variable.") };
     ($q:ident Value $($i:ident)?)      => { field!(@$q [WriteValue<'a>] [impl Into<WriteValue<'a>>] [$($i)?.into()] [$($i)?.as_bytes()] "The value.") };
@@ -211,7 +216,7 @@ macro_rules! operation {
     ) => {
         documented! { $function
             ///
-            /// | ADS service | task | index groups | index offsets | section | requirement |
+            /// | ADS service | task | index groups | index offsets | section in `ads-en` 1.05 and `ads-de` 1.051 | requirement |
             /// |---|---|---|---|---|---|
             #[doc = concat!(
                 "| ", stringify!($service), " | ", stringify!($task), " | `", stringify!($group), "` | `",
@@ -226,17 +231,16 @@ macro_rules! operation {
         }
     };
     (@new plain $( $field:ident: $kind:ident, )*) => {
-        /// Makes the operation of its parts.
+        /// Creates the operation.
         pub fn new($( $field: field!(argument $kind) ),*) -> Self {
             Self { $( $field: field!(made $kind $field), )* }
         }
     };
     (@new checked $( $field:ident: $kind:ident, )*) => {
-        /// Makes the operation of its parts.
+        /// Creates the operation.
         ///
         /// # Errors
-        /// Those of [`IntoName::into_name`] for a name;
-        /// [`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for the index 0 of a parameter.
+        $( #[doc = field!(errors $kind)] )*
         pub fn new($( $field: field!(argument $kind) ),*) -> Result<Self, Error> {
             Ok(Self { $( $field: field!(made $kind $field), )* })
         }
