@@ -55,12 +55,12 @@ proptest! {
     ) {
         let axis = ChannelAxis::new(place).unwrap();
         let indices = Numbers::from(&indices[..]);
-        check_operation(WriteByHandle::new(channel, Handle(number), indices, &value));
-        check_operation(WriteByName::new(channel, &text, &value).unwrap());
+        check_operation(WriteByHandle::new(channel, Handle(number), indices, &value[..]));
+        check_operation(WriteByName::new(channel, &text, &value[..]).unwrap());
         check_operation(DescribeByName::new(channel, &text).unwrap());
         check_operation(AxisHandleByName::new(channel, axis, &text).unwrap());
         check_operation(AxisReadByName::new(channel, axis, &text).unwrap());
-        check_operation(AxisWriteByName::new(channel, axis, &text, &value).unwrap());
+        check_operation(AxisWriteByName::new(channel, axis, &text, &value[..]).unwrap());
         check_operation(DescribeExtended::new(channel, number, Kind::new(&text).unwrap()));
     }
 
@@ -124,12 +124,12 @@ proptest! {
                 match ReadElement::new(address, length) {
                     Ok(read) => {
                         check_operation(read);
-                        check_operation(WriteElement::new(address, &content).unwrap());
+                        check_operation(WriteElement::new(address, &content[..]).unwrap());
                     }
                     Err(error) => {
                         assert_eq!(error.kind(), ErrorKind::Function);
                         assert_eq!(error.found(), address.index_offset().get());
-                        assert!(WriteElement::new(address, &content).is_err());
+                        assert!(WriteElement::new(address, &content[..]).is_err());
                     }
                 }
             }
@@ -152,7 +152,7 @@ proptest! {
         for group in [platform, axis, axes, channel.com(Access::Element)] {
             if let Ok(read) = ReadObject::new(group, offset, length) {
                 check_operation(read);
-                check_operation(WriteObject::new(group, offset, &content).unwrap());
+                check_operation(WriteObject::new(group, offset, &content[..]).unwrap());
             } else {
                 assert_eq!(offset.get(), 0x90);
             }

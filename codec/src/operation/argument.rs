@@ -4,7 +4,7 @@ use core::fmt;
 use core::hash::{Hash, Hasher};
 
 #[cfg(feature = "alloc")]
-use alloc::{string::String, vec::Vec};
+use alloc::vec::Vec;
 
 use crate::content::ContentRef;
 use crate::error::Error;
@@ -14,8 +14,8 @@ use crate::text::CncString;
 use crate::value::Boolean;
 use crate::variable::{ValueRef, VariablePath};
 
-/// The name of a variable or of a parameter: `&str`, [`CncStr`], [`VariablePath`] and, with `alloc`,
-/// `&String` and `&CncString`. Nothing is copied.
+/// The name of a variable or of a parameter: `&str`, `&String` and whatever else is an `AsRef<str>`,
+/// [`CncStr`], [`VariablePath`] and, with `alloc`, `&CncString`. Nothing is copied.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1.
 ///
@@ -38,31 +38,28 @@ pub trait IntoName<'a> {
     fn into_name(self) -> Result<CncStr<'a>, Error>;
 }
 
-macro_rules! names {
-    ($( $(#[$attribute:meta])* $type:ty, |$name:ident| $text:expr; )+) => { $(
-        $(#[$attribute])*
-        impl<'a> IntoName<'a> for $type {
-            fn into_name(self) -> Result<CncStr<'a>, Error> {
-                let $name = self;
-                $text
-            }
-        }
-    )+ };
-}
-
-names! {
-    &'a str, |name| CncStr::new(name);
-    CncStr<'a>, |name| Ok(name);
-    VariablePath<'a>, |path| Ok(path.text());
-    #[cfg(feature = "alloc")]
-    &'a String, |name| CncStr::new(name);
-    #[cfg(feature = "alloc")]
-    &'a CncString, |name| Ok(name.as_cnc_str());
-}
-
-impl<'a, N: IntoName<'a> + Copy> IntoName<'a> for &N {
+impl<'a, T: AsRef<str> + ?Sized> IntoName<'a> for &'a T {
     fn into_name(self) -> Result<CncStr<'a>, Error> {
-        (*self).into_name()
+        CncStr::new(self.as_ref())
+    }
+}
+
+impl<'a> IntoName<'a> for CncStr<'a> {
+    fn into_name(self) -> Result<CncStr<'a>, Error> {
+        Ok(self)
+    }
+}
+
+impl<'a> IntoName<'a> for VariablePath<'a> {
+    fn into_name(self) -> Result<CncStr<'a>, Error> {
+        Ok(self.text())
+    }
+}
+
+#[cfg(feature = "alloc")]
+impl<'a> IntoName<'a> for &'a CncString {
+    fn into_name(self) -> Result<CncStr<'a>, Error> {
+        Ok(self.as_cnc_str())
     }
 }
 
