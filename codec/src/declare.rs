@@ -169,6 +169,7 @@ macro_rules! stream {
             )+ }
         }
         $crate::declare::stream! { @numbers $view $max { $( $field ),+ } [$( [$field $label $at [$row] $field] )+] }
+        $crate::declare::stream! { @to_bytes () $view $max [$( [$at [$row] $field] )+] }
     };
 
     // One number.
@@ -191,6 +192,7 @@ macro_rules! stream {
             );
         }
         $crate::declare::stream! { @numbers $view $max ( $field ) [[$field $label $at [$row] 0]] }
+        $crate::declare::stream! { @to_bytes $kind $view $max [[$at [$row] 0]] }
     };
 
     // Numbers and texts of fixed length, as they are on the wire.
@@ -206,6 +208,21 @@ macro_rules! stream {
         pub(crate) struct $view { $( pub(crate) $field: $crate::declare::row!(packed $kind 'static), )+ }
 
         const _: () = assert!(size_of::<$view>() == $max, "the rows are not all of the stream");
+    };
+
+    // A number that may be rejected is encoded with a result only.
+    (@to_bytes (UNS32_NOT_0) $view:ident $max:literal $rows:tt) => {};
+    (@to_bytes $kind:tt $view:ident $max:literal [$( [$at:literal [$row:ty] $member:tt] )+]) => {
+        impl $view {
+            /// The stream in an array, as [`encode`](crate::Encode::encode) writes it.
+            #[must_use]
+            pub fn to_bytes(&self) -> [u8; $max] {
+                const { assert!($( !<$row as $crate::rows::Row>::REJECTS )&&+, "a row rejects numbers") };
+                let mut bytes = [0; $max];
+                $( <$row as $crate::rows::Row>::write_head(self.$member, &mut bytes, $at); )+
+                bytes
+            }
+        }
     };
 
     (@numbers $view:ident $max:literal $built:tt [$( [$field:ident $label:tt $at:literal [$row:ty] $member:tt] )+]) => {

@@ -1,57 +1,84 @@
-//! The byte streams with which an ISG/TwinCAT CNC is read and written over ADS.
+//! The byte streams with which an ISG/TwinCAT CNC is read and written over ADS, for whatever
+//! transport carries them.
 //!
-//! A stream has two readings: `XRef` borrows from the bytes and never allocates; `X`, with the
-//! feature `alloc`, owns what it read. Both accept the same bytes, refuse the others with the same
-//! [`Error`], and encode to the bytes they were read from. Where all is numbers, one type is both.
+//! ```
+//! # #[cfg(feature = "alloc")] mod example {
+//! use ads_cnc::address::Channel;
+//! use ads_cnc::ads::AmsPort;
+//! use ads_cnc::operation::{DescribeByName, Operation, ReadByName, Service};
+//! use std::error::Error;
 //!
-//! | manual (`ads-en` 1.05, `ads-de` 1.051) | here |
-//! |---|---|
-//! | 1, code page | [`CncStr`], [`text`] |
-//! | 1, tasks and their ports | [`operation::Task`], [`ads::AmsPort`] |
-//! | 1, axes and spindles, base addresses | [`address`] |
-//! | 1, list of static objects | as 2.1.1 and 2.2.2 |
-//! | 2, index groups and offsets | [`address`] |
-//! | 2.1, instances of the COM task | [`address::ComGroup`], [`operation::ObjectList`] |
-//! | 2.1.1, object descriptors | [`ObjectCount`], [`DescriptorRef`], [`DescriptorsRef`] |
-//! | 2.1.2, content | [`ContentRef`] |
-//! | 2.2.1, classes and attributes | [`address`], [`sda`] |
-//! | 2.2.2, instances and elements | [`sda`] |
-//! | 3, 3.1 … 3.4, dynamic parameters | [`dynamic`] |
-//! | 4, 4.1, kinds of variables, by edition and version | [`Kind`] |
-//! | 4.1, names of variables | [`VariablePath`] |
-//! | 4.2.1, 4.2.2, the interfaces of channel and axis | [`operation::Function`], [`address::ChannelAxis`] |
-//! | 4.2.1, 0x4C, reserved and documented online | [`VariableNameRef`], [`DescriptionByNameRef`] |
-//! | 4.3, streams | [`layout`], [`Decode`], [`Encode`] |
-//! | 4.3.1, number of variables | [`VariableKindRef`], [`VariableCount`] |
-//! | 4.3.2, description | [`VariableIndexKindRef`], [`DescriptionRef`] |
-//! | 4.3.3, handle by name | [`VariableNameRef`], [`Handle`] |
-//! | 4.3.4, read by handle | [`HandleReadRef`], [`ValueRef`] |
-//! | 4.3.5, read by name | [`VariableNameRef`], [`ValueRef`] |
-//! | 4.3.6, write by handle | [`HandleWriteRef`] |
-//! | 4.3.7, write by name | [`NameWriteRef`] |
-//! | 4.3.4 … 4.3.7, values by their types | [`value`] |
-//! | 4.3.8, extended description | [`VariableIndexKindRef`], [`ExtendedReply`] |
-//! | 4.3.9, handle by name, of an axis | [`operation::AxisHandleByName`] |
-//! | 4.3.10, read by name, of an axis | [`operation::AxisReadByName`] |
-//! | 4.3.11, write by name, of an axis | [`operation::AxisWriteByName`] |
-//! | 5, ADS services | [`ads`] |
+//! /// Your transport: sends an ADS request to a port of the CNC, and returns the data of the reply.
+//! trait Transport {
+//!     fn send(
+//!         &mut self, port: AmsPort, service: Service, index_group: u32, index_offset: u32,
+//!         read_length: u32, data: &[u8],
+//!     ) -> Result<Vec<u8>, Box<dyn Error>>;
 //!
-//! The sections have the same numbers in both. The other manuals:
+//!     fn call<O: Operation>(&mut self, op: &O) -> Result<Vec<u8>, Box<dyn Error>> {
+//!         let mut request = vec![0; op.encoded_len()];
+//!         op.encode(&mut request)?;
+//!         let (group, offset) = (op.index_group().get(), op.index_offset().get());
+//!         self.send(op.port(), op.service(), group, offset, op.read_length(), &request)
+//!     }
+//! }
 //!
-//! | manual | here |
-//! |---|---|
-//! | `stream-en` 2.1, 2.2, data streaming | [`streaming`] |
-//! | 2.3.3, 2.3.4, 2.3.6, loops, comments, jumps | `streaming::Findings`, with `alloc` |
-//! | 2.3.1, 2.3.2, 2.3.5, 2.3.7, flushing, subroutines, block search, contours | NC text like any other |
-//! | 3, parameters and object | [`limits`], [`streaming::OBJECT_NAME`], [`streaming::ProgramStreamRef`] |
-//! | 4.1, line ends | [`streaming::check_line_ends`] |
-//! | 4.2, 5, transfer and example | [`streaming::Sender`], [`operation::WriteProgramStream`] |
-//! | `service-en`, `service-de` 1.03: 1, required versions | [`service`] |
-//! | 2, variables and process | [`service`] |
-//! //!
-//! [`operation`] puts them together: where a function is, what goes in, what comes out, for
-//! clients and for servers. [`layout`] has the field table of every stream. Where the manuals are
-//! at odds, [`errata`] says what is done here and how to do otherwise.
+//! /// Reads a number of whatever type from the first channel.
+//! fn read(cnc: &mut impl Transport, name: &str) -> Result<f64, Box<dyn Error>> {
+//!     let channel = Channel::new(1)?;
+//!     let (describe, read) = (DescribeByName::new(channel, name)?, ReadByName::new(channel, name)?);
+//!     let (description, value) = (cnc.call(&describe)?, cnc.call(&read)?);
+//!     let description = describe.decode_reply(&description)?;
+//!     let number = description.element(&read.decode_reply(&value)?)?.try_into()?;
+//!     Ok(number)
+//! }
+//! # struct Cnc;
+//! # impl Transport for Cnc {
+//! #     fn send(&mut self, port: AmsPort, _: Service, group: u32, offset: u32, _: u32, _: &[u8])
+//! #         -> Result<Vec<u8>, Box<dyn Error>> {
+//! #         assert_eq!((port, group), (AmsPort::SDA, 0x12_2301));
+//! #         Ok(match offset {
+//! #             0x48 => 1234.5_f64.to_le_bytes().to_vec(),
+//! #             _ => b"\x02\0\0\x02\x08\0\0\0\x01\0\0\0\x08\0\0\0\0\0\0\0".to_vec(),
+//! #         })
+//! #     }
+//! # }
+//! # pub fn main() { assert_eq!(read(&mut Cnc, "V.E.speed").unwrap(), 1234.5); }
+//! # }
+//! # #[cfg(feature = "alloc")]
+//! # example::main();
+//! ```
+//!
+//! # Client
+//! [`operation`] has a type for every function of the CNC, [`ReadByName`](operation::ReadByName) for
+//! one: it tells where the request goes, encodes it and decodes the reply. [`address`] has the
+//! channels, axes and spindles that it names. An ADS error number becomes a Rust error by
+//! [`AdsError::into_result`](ads::AdsError::into_result).
+//!
+//! # Server
+//! [`Call::dispatch`](operation::Call::dispatch) turns a request received into a
+//! [`Request`](operation::Request), and [`Reply`](operation::Reply) is what goes back.
+//!
+//! # Values
+//! [`value`] reads and writes the bytes of variables, objects and elements by their types:
+//! [`ValueRef::to_vec`] if the program knows the type, [`DescriptionRef::elements`] if the CNC
+//! describes it. [`VariablePath`] takes names apart, [`text`] is code page 1252.
+//!
+//! # Frames
+//! [`ads`] has the headers and services of ADS itself, for programs without an ADS library.
+//!
+//! # Streaming
+//! [`streaming`] checks an NC program, cuts it into packets and sends them.
+//!
+//! # Services
+//! [`service`] has the application's side of the Service Interface, by which an NC program calls it.
+//!
+//! # Streams
+//! A stream has two types: `XRef` borrows from the bytes and never allocates; `X`, with the feature
+//! `alloc`, owns its data. Both accept the same bytes, reject the others with the same [`Error`], and
+//! encode to the bytes they were read from. A stream of numbers has one type. [`sections`] says where
+//! each section of the manuals is, [`layout`] has the field table of every stream. Where the manuals
+//! contradict each other, [`errata`] says which reading is taken.
 //!
 //! # Features
 //! - `alloc` (default): the owned readings, and the checks of an NC program.
@@ -60,7 +87,6 @@
 //!   stream that ends with its bytes is read to the end of the reader.
 //! - `std`: `std` in the dependencies. The crate itself never needs it.
 //! - `arbitrary`: `Arbitrary` for the owned readings.
-
 //!
 //! ```
 //! # #[cfg(all(feature = "binrw", feature = "std"))] {
@@ -121,6 +147,7 @@ pub mod layout;
 pub mod limits;
 pub mod operation;
 pub mod sda;
+pub mod sections;
 pub mod service;
 mod stream;
 pub mod streaming;

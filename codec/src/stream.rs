@@ -1,8 +1,8 @@
 //! The two traits every stream has.
 
-use crate::bytes::Reader;
+use crate::bytes::{Reader, to_len};
 use crate::error::Error;
-use crate::layout::Stream;
+use crate::layout::{Size, Stream};
 
 /// Reads a stream from all of its bytes.
 ///
@@ -31,6 +31,59 @@ pub trait Decode<'a>: Sized {
     /// # Errors
     /// The first fault, by field and offset.
     fn decode(bytes: &'a [u8]) -> Result<Self, Error>;
+
+    /// Reads the stream from the front of the bytes, and returns the bytes after it.
+    ///
+    /// The stream ends where its own fields say: after the last of fixed length, after as many items
+    /// as are counted, after a NUL that must end a text. A stream that ends with its bytes takes all.
+    ///
+    /// ```
+    /// use ads_cnc::{Decode, Handle, HandleReadRef, Numbers};
+    ///
+    /// let bytes = [4, 0, 0, 2, 1, 0, 0, 0, 9, 0, 0, 0, 0xFF];
+    /// let (read, rest) = HandleReadRef::decode_prefix(&bytes)?;
+    /// assert_eq!((read.handle, read.indices), (Handle(0x2000004), Numbers::from(&[9])));
+    /// assert_eq!(rest, [0xFF]);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`decode`](Self::decode), but for [`Trailing`](crate::ErrorKind::Trailing).
+    fn decode_prefix(bytes: &'a [u8]) -> Result<(Self, &'a [u8]), Error> {
+        let (stream, rest) =
+            bytes.split_at_checked(prefix(Self::STREAM, bytes)).unwrap_or((bytes, &[]));
+        Self::decode(stream).map(|decoded| (decoded, rest))
+    }
+}
+
+/// How many of these bytes belong to the stream that begins with them.
+fn prefix(stream: Stream, bytes: &[u8]) -> usize {
+    let layout = stream.layout();
+    let (mut at, mut count) = (0_usize, 0);
+    for field in layout.fields {
+        let rest = bytes.get(at..).unwrap_or_default();
+        let len = match field.size {
+            _ if layout.repeats => rest.len(),
+            Size::FixedUnlessError(_) | Size::FixedOrNothing(_) if rest.is_empty() => break,
+            Size::Items { each, .. } => to_len(count).saturating_mul(to_len(each)),
+            Size::Leading { .. } => {
+                rest.iter().position(|&byte| byte == 0).unwrap_or(rest.len()).saturating_add(1)
+            }
+            Size::OneTwoOrFour => 4,
+            Size::Fixed(_)
+            | Size::FixedUnlessError(_)
+            | Size::FixedOrNothing(_)
+            | Size::Padded(_)
+            | Size::FromOne => to_len(field.size.fixed()),
+            Size::Terminated { .. }
+            | Size::Open { .. }
+            | Size::MayTerminate { .. }
+            | Size::Rest { .. } => rest.len(),
+        };
+        count = rest.first_chunk().map_or(0, |number| u32::from_le_bytes(*number));
+        at = at.saturating_add(len).min(bytes.len());
+    }
+    at
 }
 
 /// Bytes of the longest stream there is: a frame with the most data of a service.

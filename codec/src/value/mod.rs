@@ -10,6 +10,7 @@
 //! | the same, of the described type only | [`Elements::items`], `copy_to`, `to_vec` |
 //! | elements of a type known only at run time | [`Elements::get`], `iter`, [`Element`] |
 //! | a number, a `bool` or a text from any element that can be one | `TryFrom<Element>` |
+//! | a structure of the program's own | [`Reader`] |
 //! | bytes to write | [`EncodeValue`], [`Shape::encode`] |
 //!
 //! Only vectors and strings allocate. Bytes are little-endian (GEN-1, assumed) and need not be
@@ -71,6 +72,7 @@ mod describe;
 mod element;
 mod encode;
 mod item;
+mod reader;
 mod shape;
 mod typed;
 
@@ -78,4 +80,5 @@ pub use data_type::DataType;
 pub use element::{Element, ElementIter, Elements};
 pub use encode::EncodeValue;
 pub use item::{Boolean, Item};
+pub use reader::Reader;
 pub use shape::Shape;

@@ -81,13 +81,37 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
         vec.iter_mut().for_each(bend.vec);
         assert_eq!(vec, verdict.map(|()| bytes.to_vec()), "{stream}: to_vec of {bytes:x?}");
     }
+    let prefix = (subject.prefix)(bytes);
+    check_prefix(stream, bytes, prefix, verdict);
     #[cfg(all(feature = "binrw", feature = "std"))]
-    check_binrw(stream, bytes, (subject.binrw)(bytes), verdict.is_ok());
+    {
+        let read = (subject.binrw)(bytes);
+        let lengths = (read.as_ref().map(|(_, read)| *read), prefix.ok());
+        assert!(lengths.0 == lengths.1, "{stream}: {lengths:?} of {bytes:x?}");
+        check_binrw(stream, bytes, read, verdict.is_ok());
+    }
     // More bytes are more of the same, and take their time.
     if stream == Stream::VariableValue && verdict.is_ok() && bytes.len() <= 128 {
         super::check_typed(bytes, bend.typed);
     }
     verdict
+}
+
+/// A stream is read from the front of more bytes as it is read by itself.
+fn check_prefix(
+    stream: Stream,
+    bytes: &[u8],
+    prefix: Result<usize, Error>,
+    verdict: Result<(), Error>,
+) {
+    match (prefix, verdict) {
+        (Ok(len), Ok(())) => assert_eq!(len, bytes.len(), "{stream}: the front of {bytes:x?}"),
+        (Ok(len), Err(_)) => {
+            assert!(len < bytes.len(), "{stream}: the front of {bytes:x?}");
+            assert_eq!(stream.walk(&bytes[..len], |_| ()), Ok(()), "{stream}: {bytes:x?}");
+        }
+        (Err(_), verdict) => assert!(verdict.is_err(), "{stream}: the front of {bytes:x?}"),
+    }
 }
 
 /// `BinRead` reads what is decoded and `BinWrite` writes what is encoded. What is rejected, it rejects,

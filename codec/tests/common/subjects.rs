@@ -30,6 +30,8 @@ pub(crate) struct Subject {
     pub(crate) view: Reading,
     #[cfg(feature = "alloc")]
     pub(crate) owned: Reading,
+    /// Decodes the bytes from their front: how many belong to the stream.
+    pub(crate) prefix: fn(&[u8]) -> Result<usize, Error>,
     /// Decodes both and compares them.
     #[cfg(feature = "alloc")]
     pub(crate) same: fn(&[u8]) -> Result<bool, Error>,
@@ -111,6 +113,7 @@ macro_rules! subjects {
     ($( $stream:ident: $view:ty $( , $owned:ty )?; )+) => { &[$( Subject {
         stream: Stream::$stream,
         view: reading!("view", $view),
+        prefix: |bytes| <$view>::decode_prefix(bytes).map(|(_, rest)| bytes.len() - rest.len()),
         #[cfg(feature = "alloc")]
         owned: subjects!(@owned $view $( , $owned )?),
         #[cfg(feature = "alloc")]

@@ -21,7 +21,8 @@ use core::hint::black_box;
 fn both<'a, T: Decode<'a> + Encode>(bytes: &'a [u8]) -> bool {
     let mut buf = [0; 2200];
     let written = T::decode(bytes).and_then(|value| value.encode(&mut buf).map(<[u8]>::len));
-    black_box(written.unwrap_or_else(|error| error.offset() as usize)) < usize::MAX
+    let after = T::decode_prefix(bytes).map_or(0, |(_, rest)| rest.len());
+    black_box(written.unwrap_or_else(|error| error.offset() as usize)).max(after) < usize::MAX
 }
 
 fn readings(bytes: &[u8]) -> bool {

@@ -24,7 +24,6 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     seen(ads::Command::name(ads::Command(any(1))));
     seen(ads::StateFlags::name(ads::StateFlags(any(1))));
     seen(ads::AdsError::name(ads::AdsError(any(1))));
-    seen(ads::AdsError::is_ok(ads::AdsError(any(1))));
     seen(ads::AdsError::into_result(ads::AdsError(any(1))));
     seen(VariableType::name(VariableType(any(1))));
     seen(VariableType::data_type(VariableType(any(1))));
@@ -35,7 +34,21 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     seen(sda::ElementWriteFlag::decode(bytes).map(sda::ElementWriteFlag::is_writable));
     let value = dynamic::DynamicValue::from_bits(any(7));
     seen((dynamic::DynamicValue::get(value), dynamic::DynamicValue::to_bits(value)));
+    seen((Handle::to_bytes(&Handle(any(1))), ObjectCount::to_bytes(&ObjectCount(any(1)))));
+    seen(VariableCount::to_bytes(&VariableCount(any(1))));
+    seen(sda::ElementCount::to_bytes(&sda::ElementCount(any(1))));
+    seen(sda::ElementWriteFlag::to_bytes(&sda::ElementWriteFlag(any(1))));
+    seen(dynamic::DynamicCount::to_bytes(&dynamic::DynamicCount(any(1))));
+    seen(ads::ReadRequest::decode(bytes).map(|stream| ads::ReadRequest::to_bytes(&stream)));
+    seen(ads::WriteReply::decode(bytes).map(|stream| ads::WriteReply::to_bytes(&stream)));
+    seen(
+        ads::DeviceStateReply::decode(bytes).map(|stream| ads::DeviceStateReply::to_bytes(&stream)),
+    );
+    seen(ads::AmsTcpHeader::decode(bytes).map(|stream| ads::AmsTcpHeader::to_bytes(&stream)));
+    let query = sda::ObjectAddressQuery::decode(bytes);
+    seen(query.map(|stream| sda::ObjectAddressQuery::to_bytes(&stream)));
     let address = sda::ObjectAddress::decode(bytes)?;
+    seen(sda::ObjectAddress::to_bytes(&address));
     seen(sda::ObjectAddress::first_element(&address));
     frames(bytes)
 }

@@ -62,6 +62,9 @@ fn items<T: value::Item>(bytes: &[u8]) -> Result<(), Error> {
     seen((ValueRef::get::<T>(&value, any(1)), ContentRef::get::<T>(&content, any(1))));
     seen(ValueRef::copy_to(&value, &mut [T::default(); 4]));
     seen(ContentRef::copy_to(&content, &mut [T::default(); 4]));
+    let mut input = value::Reader::new(bytes);
+    seen((input.read::<T>(), input.bytes(any(3)), input.text(any(3)), input.rest()));
+    seen(input.finish());
     ValueRef::iter::<T>(&value)?.rev().for_each(seen);
     ContentRef::iter::<T>(&content)?.rev().for_each(seen);
     Ok(())

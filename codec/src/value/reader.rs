@@ -1,0 +1,102 @@
+//! Content of the program's own types.
+
+use zerocopy::FromBytes as _;
+
+use super::Item;
+use crate::bytes::{self, to_u32};
+use crate::content::ContentRef;
+use crate::error::{Error, ErrorKind};
+use crate::layout::{Field, Stream};
+use crate::text::TextRef;
+
+/// The whole of a content.
+const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
+
+/// Reads the members of a structure, one after the other, without a panic and without a copy.
+///
+/// For an object or an element whose type is a structure of the application: implement
+/// [`Decode`](crate::Decode) with it. Errors are those of the content, with the offset of the member.
+///
+/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.2 and 2.2.2.
+///
+/// ```
+/// use ads_cnc::layout::Stream;
+/// use ads_cnc::value::Reader;
+/// use ads_cnc::{Decode, Error};
+///
+/// #[derive(Debug, PartialEq)]
+/// struct Position {
+///     axis: u16,
+///     position: f64,
+/// }
+///
+/// impl<'a> Decode<'a> for Position {
+///     const STREAM: Stream = Stream::Content;
+///
+///     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
+///         let mut input = Reader::new(bytes);
+///         let position = Self { axis: input.read()?, position: input.read()? };
+///         input.finish()?;
+///         Ok(position)
+///     }
+/// }
+///
+/// let position = Position::decode(b"\x02\0\0\0\0\0\0\0\xf8\x3f")?;
+/// assert_eq!(position, Position { axis: 2, position: 1.5 });
+/// assert_eq!(
+///     Position::decode(&[2, 0, 0, 0]).unwrap_err().to_string(),
+///     "content: content at offset 2: truncated, expected 8 bytes, found 2"
+/// );
+/// # Ok::<(), Error>(())
+/// ```
+pub struct Reader<'a>(bytes::Reader<'a>);
+
+impl<'a> Reader<'a> {
+    /// Begins at the first byte.
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self(bytes::Reader::ending(Stream::Content, bytes))
+    }
+
+    /// The next number or BOOLEAN.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Truncated`] if fewer bytes are left.
+    pub fn read<T: Item>(&mut self) -> Result<T, Error> {
+        let size = size_of::<T::Wire>();
+        let bytes = self.bytes(size)?;
+        // Cannot fail: the bytes are as many.
+        T::Wire::read_from_bytes(bytes).map(T::from_wire).map_err(|_| {
+            let (expected, found) = (to_u32(size), to_u32(bytes.len()));
+            Error::new(ErrorKind::Truncated, CONTENT, self.0.at(), expected, found)
+        })
+    }
+
+    /// The next bytes.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Truncated`] if fewer bytes are left.
+    pub fn bytes(&mut self, count: usize) -> Result<&'a [u8], Error> {
+        self.0.take(CONTENT, to_u32(count))
+    }
+
+    /// The text in the next bytes, to its first NUL or to the last of them.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Truncated`] if fewer bytes are left.
+    pub fn text(&mut self, size: usize) -> Result<TextRef<'a>, Error> {
+        self.bytes(size).map(TextRef::split)
+    }
+
+    /// All bytes that are left.
+    pub fn rest(&mut self) -> &'a [u8] {
+        self.0.take_all()
+    }
+
+    /// Ends the content.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Trailing`] if bytes are left.
+    pub fn finish(self) -> Result<(), Error> {
+        self.0.finish()
+    }
+}
