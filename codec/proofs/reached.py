@@ -11,7 +11,7 @@ API = HERE.parent / "api" / "none.txt"
 HEAD = re.compile(r"(?:non_exhaustive )?(?:struct|enum|trait) ([\w:]*\w)")
 FUNCTION = re.compile(r"(?:const )?fn (\w+)")
 # By path, with the reason why the proof cannot have it.
-EXEMPT = {}
+EXEMPT = {"Element, shown": "core shows floating-point numbers, and keeps a panic there"}
 
 
 def public(text):
@@ -45,7 +45,8 @@ def main():
     lines = "\n".join(source.read_text(encoding="utf-8") for source in sources).splitlines()
     proof = "\n".join(line for line in lines if not line.strip().startswith("//"))
     faults = [path for path in missing(*api, proof) if path not in EXEMPT]
-    faults += [f"exempt, but not public: {path}" for path in EXEMPT if path not in functions]
+    public_paths = [*functions, *(f"{path}, shown" for path in shown)]
+    faults += [f"exempt, but not public: {path}" for path in EXEMPT if path not in public_paths]
     # Without each of these lines the proof has to be found wanting.
     for gone in ("text::cp1252_to_char", "streaming::Packets::rest", "both::<ContentRef", "show::<Error"):
         if not missing(*api, proof.replace(gone, "")):

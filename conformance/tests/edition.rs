@@ -68,13 +68,13 @@ fn malformed_versions_are_refused_where_they_are_wrong() {
             '!'..='~' => format!("'{found}'"),
             _ => format!("U+{:04X}", u32::from(found)),
         };
-        format!("cnc-version: {part} at offset {offset}: {found} may not stand here")
+        format!("cnc-version: {part} at offset {offset}: unexpected {found}")
     };
     let cut = |part: &str, offset: usize| {
-        format!("cnc-version: {part} at offset {offset}: truncated, 1 bytes expected, 0 there")
+        format!("cnc-version: {part} at offset {offset}: expected a number, found the end")
     };
     let over = |part: &str, offset: usize, found: u32| {
-        let range = format!("out of range, at most 65535 expected, {found} found");
+        let range = format!("expected at most 65535, found {found}");
         format!("cnc-version: {part} at offset {offset}: {range}")
     };
     for (text, wanted) in [

@@ -8,9 +8,10 @@ HERE = pathlib.Path(__file__).resolve().parent
 API = HERE.parent.parent / "api"
 # The part of a path is the first that it begins like; what is like none is of the views.
 PARTS = {
-    "text": r"(?:VariableAccess|VariableType|Synchronisation|Validity)::name",
+    "text": r"(?:VariableAccess|VariableType|Synchronisation|Validity|WriteAccess|ads::\w+)::name",
     "tables": r"layout::|operation::(?:Function|FunctionSpec|GroupRule|OffsetRule)::",
     "operations": r"operation::|address::",
+    "calls": r"(?!)",
     "frames": r"ads::FrameRef",
     "names": r"VariablePath|PathPart",
     "values": r"value::|Elements?\b|\w+::(?:elements?|shape|\w+_type|\w+_size)$",
@@ -23,7 +24,9 @@ TRAITS = [
     ("Decode", None, "decode"),
     ("Encode", None, "encode encoded_len"),
     ("operation::Operation", None,
-     "port service index_group index_offset read_length encoded_len encode call decode_reply"),
+     "index_group index_offset read_length encoded_len encode decode_reply"),
+    # A program has these of the few operations that it calls, or `Request::encode` for all.
+    ("operation::Operation", "calls", "port service call"),
     ("value::EncodeValue", "values", "data_type element_count value_len encode_value"),
     ("Iterator", None, "next"),
     ("DoubleEndedIterator", None, "next_back"),

@@ -92,7 +92,7 @@ impl<'a> FrameRef<'a> {
         if header.data_length != data_length {
             let field = const { Field::of::<HeaderLayout>("data_length") };
             // Counted from the start of the frame, as all offsets here.
-            let at = HeaderLayout::LAYOUT.offset("data_length");
+            let at = const { HeaderLayout::LAYOUT.offset("data_length") };
             let (at, found) = (at.saturating_add(to_u32(AMS_TCP_HEADER_LEN)), header.data_length);
             return Err(Error::new(ErrorKind::Mismatch, field, at, data_length, found));
         }

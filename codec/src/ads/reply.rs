@@ -3,9 +3,8 @@
 use super::AdsError;
 use crate::bytes::{Reader, Writer, to_u32};
 use crate::declare::stream;
-use crate::error::Error;
-use crate::layout::Stream;
-use crate::layout::field;
+use crate::error::{Error, ErrorKind};
+use crate::layout::{Field, Stream};
 use crate::stream::{Decode, Encode};
 
 stream! {
@@ -29,9 +28,49 @@ stream! {
     }
 }
 
+/// The fields of a reply with data, which has the same table for Read and for ReadWrite.
+const fn fields(stream: Stream) -> [Field; 3] {
+    use crate::layout::field::read_reply::{DATA, LENGTH, RESULT};
+    [RESULT.of_stream(stream), LENGTH.of_stream(stream), DATA.of_stream(stream)]
+}
+
+fn decode(stream: Stream, bytes: &[u8]) -> Result<(AdsError, Option<&[u8]>), Error> {
+    let [result_field, length_field, data_field] = fields(stream);
+    let mut input = Reader::new(stream, bytes)?;
+    let result = AdsError(input.u32(result_field)?);
+    if !result.is_ok() && input.is_empty() {
+        return Ok((result, None));
+    }
+    let length = input.u32(length_field)?;
+    let data = input.take(data_field, length)?;
+    input.finish()?;
+    Ok((result, Some(data)))
+}
+
+fn encode<'b>(
+    stream: Stream,
+    result: AdsError,
+    data: Option<&[u8]>,
+    buf: &'b mut [u8],
+) -> Result<&'b [u8], Error> {
+    let Some(data) = data else {
+        // Only an error may have no data.
+        if result.is_ok() {
+            let [_, length_field, _] = fields(stream);
+            return Err(Error::new(ErrorKind::Truncated, length_field, 4, 4, 0));
+        }
+        return Writer::run(stream, 4, buf, |out| out.u32(result.0));
+    };
+    Writer::run(stream, data.len().saturating_add(8), buf, |out| {
+        out.u32(result.0);
+        out.u32(to_u32(data.len()));
+        out.put(data);
+    })
+}
+
 /// Declares a reply with data in both readings: result, the length of the data, the data.
 macro_rules! reply_with_data {
-    ($doc:literal, $stream:ident, $fields:ident, $ref:ident, $owned:ident) => {
+    ($doc:literal, $stream:ident, $ref:ident, $owned:ident) => {
         #[doc = include_str!($doc)]
         ///
         /// A reply whose result is not 0 may stop behind it (ADS-6): it has no data then.
@@ -61,15 +100,8 @@ macro_rules! reply_with_data {
             const STREAM: Stream = Stream::$stream;
 
             fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-                let mut input = Reader::new(Self::STREAM, bytes)?;
-                let result = AdsError(input.u32(field::$fields::RESULT)?);
-                if !result.is_ok() && input.is_empty() {
-                    return Ok(Self { result, data: None });
-                }
-                let length = input.u32(field::$fields::LENGTH)?;
-                let data = input.take(field::$fields::DATA, length)?;
-                input.finish()?;
-                Ok(Self { result, data: Some(data) })
+                let (result, data) = decode(Self::STREAM, bytes)?;
+                Ok(Self { result, data })
             }
         }
 
@@ -79,20 +111,7 @@ macro_rules! reply_with_data {
             }
 
             fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-                let Some(data) = self.data else {
-                    // Only an error may do without; success without data has none to give.
-                    if self.result.is_ok() {
-                        let (kind, field) =
-                            (crate::error::ErrorKind::Truncated, field::$fields::LENGTH);
-                        return Err(Error::new(kind, field, 4, 4, 0));
-                    }
-                    return Writer::run(Self::STREAM, 4, buf, |out| out.u32(self.result.0));
-                };
-                Writer::run(Self::STREAM, data.len().saturating_add(8), buf, |out| {
-                    out.u32(self.result.0);
-                    out.u32(to_u32(data.len()));
-                    out.put(data);
-                })
+                encode(Self::STREAM, self.result, self.data, buf)
             }
         }
 
@@ -153,12 +172,11 @@ macro_rules! reply_with_data {
     };
 }
 
-reply_with_data!("../../doc/read-reply.md", ReadReply, read_reply, ReadReplyRef, ReadReply);
+reply_with_data!("../../doc/read-reply.md", ReadReply, ReadReplyRef, ReadReply);
 
 reply_with_data!(
     "../../doc/read-write-reply.md",
     ReadWriteReply,
-    read_write_reply,
     ReadWriteReplyRef,
     ReadWriteReply
 );

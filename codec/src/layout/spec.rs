@@ -384,6 +384,11 @@ impl Field {
         Self { index: self.index.saturating_sub(1), ..self }
     }
 
+    /// The same row of another stream, whose table is the same.
+    pub(crate) const fn of_stream(self, stream: Stream) -> Self {
+        Self { stream, ..self }
+    }
+
     /// The stream as a whole: its length, its end.
     pub const fn whole(stream: Stream) -> Self {
         Self { stream, index: u8::MAX }

@@ -16,7 +16,7 @@
 use super::address::Address;
 use super::docs::documented;
 use super::table::functions;
-use super::typed::{field, operation, sealed};
+use super::typed::{Parts, call, field, operation, sealed};
 use super::{
     Call, DispatchError, Effect, FunctionSpec, GroupRule, IntoName, ObjectList, OffsetRule,
     Operation, Reply, Service, Task, WriteValue,

@@ -166,12 +166,16 @@ macro_rules! functions {
             /// # Errors
             /// Those of [`Operation::encode`].
             pub fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<Call<'b>, Error> {
-                match self { $( Self::$function(operation) => operation.call(buf), )+ }
+                call(self.function(), self.parts(), buf)
             }
 
             /// How many bytes the data of the call has.
             pub fn encoded_len(&self) -> usize {
-                match self { $( Self::$function(operation) => operation.encoded_len(), )+ }
+                self.parts().encoded_len()
+            }
+
+            fn parts(&self) -> &dyn Parts {
+                match self { $( Self::$function(operation) => operation, )+ }
             }
 
             /// Reads the data received.

@@ -10,6 +10,54 @@ pub(super) mod sealed {
     pub trait Sealed {}
 }
 
+/// What a call is made of. The operations share the code that puts it together, which firmware would
+/// have 30 times otherwise.
+pub(super) trait Parts {
+    fn index_group(&self) -> IndexGroup;
+    fn index_offset(&self) -> IndexOffset;
+    fn read_length(&self) -> u32;
+    fn encoded_len(&self) -> usize;
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
+}
+
+impl<O: Operation> Parts for O {
+    fn index_group(&self) -> IndexGroup {
+        Operation::index_group(self)
+    }
+
+    fn index_offset(&self) -> IndexOffset {
+        Operation::index_offset(self)
+    }
+
+    fn read_length(&self) -> u32 {
+        Operation::read_length(self)
+    }
+
+    fn encoded_len(&self) -> usize {
+        Operation::encoded_len(self)
+    }
+
+    fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        Operation::encode(self, buf)
+    }
+}
+
+pub(super) fn call<'b>(
+    function: Function,
+    parts: &dyn Parts,
+    buf: &'b mut [u8],
+) -> Result<Call<'b>, Error> {
+    let spec = function.spec();
+    Ok(Call {
+        port: spec.task.port(),
+        service: spec.service,
+        index_group: parts.index_group(),
+        index_offset: parts.index_offset(),
+        read_length: parts.read_length(),
+        data: parts.encode(buf)?,
+    })
+}
+
 /// A call of one function of the table.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.1, 2.1.2, 2.2.2, 3.1 … 3.4 and
@@ -94,15 +142,11 @@ pub trait Operation: sealed::Sealed {
     ///
     /// # Errors
     /// Those of [`encode`](Self::encode).
-    fn call<'b>(&self, buf: &'b mut [u8]) -> Result<Call<'b>, Error> {
-        Ok(Call {
-            port: self.port(),
-            service: self.service(),
-            index_group: self.index_group(),
-            index_offset: self.index_offset(),
-            read_length: self.read_length(),
-            data: self.encode(buf)?,
-        })
+    fn call<'b>(&self, buf: &'b mut [u8]) -> Result<Call<'b>, Error>
+    where
+        Self: Sized,
+    {
+        call(Self::FUNCTION, self, buf)
     }
 
     /// Reads the data received.

@@ -48,6 +48,7 @@ fn readings(bytes: &[u8]) -> bool {
         & both::<HandleWriteRef<'_>>(bytes)
         & both::<NameWriteRef<'_>>(bytes)
         & both::<ExtendedReply>(bytes)
+        & both::<ExtendedDescription>(bytes)
         & both::<ValueRef<'_>>(bytes)
         & both::<DescriptionByNameRef<'_>>(bytes)
         & both::<ContentRef<'_>>(bytes)

@@ -222,7 +222,7 @@ impl Feature {
 /// use ads_cnc_conformance::edition::CncVersion;
 ///
 /// let error = CncVersion::new("V4,18.0").unwrap_err();
-/// assert_eq!(error.to_string(), "cnc-version: minor at offset 2: ',' may not stand here");
+/// assert_eq!(error.to_string(), "cnc-version: minor at offset 2: unexpected ','");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("cnc-version: {part} at offset {offset}: {fault}")]
@@ -235,13 +235,13 @@ pub struct VersionError {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 enum Fault {
-    #[error("truncated, 1 bytes expected, 0 there")]
+    #[error("expected a number, found the end")]
     Truncated,
-    #[error("'{0}' may not stand here")]
+    #[error("unexpected '{0}'")]
     Unexpected(char),
-    #[error("U+{0:04X} may not stand here")]
+    #[error("unexpected U+{0:04X}")]
     NotPrintable(u32),
-    #[error("out of range, at most 65535 expected, {0} found")]
+    #[error("expected at most 65535, found {0}")]
     OutOfRange(u32),
 }
 

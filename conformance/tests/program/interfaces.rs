@@ -18,7 +18,7 @@ use crate::kept;
 use crate::machines::{CheckedInterface, InterfaceBend};
 
 const TOO_LONG: &str =
-    "service: response at offset 0: too long, at most 128 bytes expected, 129 there";
+    "service: response at offset 0: too long, expected at most 128 bytes, found 129";
 
 fn id() -> ServiceId {
     ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47").unwrap()
@@ -125,7 +125,7 @@ fn calls_that_cannot_be_made() {
     let zero = ServiceCall::with_state(id(), CncStr::EMPTY, 0, wait).unwrap_err();
     assert_eq!(
         zero.to_string(),
-        "service: request_state at offset 0: out of range, at least 1 expected, 0 found"
+        "service: request_state at offset 0: expected at least 1, found 0"
     );
     let long = "x".repeat(128);
     let long = ServiceCall::new(id(), CncStr::new(&long).unwrap(), wait).unwrap_err();

@@ -9,7 +9,9 @@ fn links_lead_somewhere() {
     for (path, text) in &texts {
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
         for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
-            if link.contains("://") || link.contains(char::is_whitespace) {
+            // rustdoc checks the links to items.
+            let is_item = link.starts_with("crate::");
+            if is_item || link.contains("://") || link.contains(char::is_whitespace) {
                 continue;
             }
             let (file, anchor) = link.split_once('#').unwrap_or((link, ""));

@@ -138,12 +138,17 @@ pub(crate) mod values {
         Elements::items(elements).map(|all| all.for_each(visit))
     }
 
+    fn read<T: value::Item>(reader: &mut value::Reader<'_>) -> Result<T, Error> {
+        value::Reader::read(reader)
+    }
+
     macro_rules! of_each_type {
         ($( $ty:ty ),+) => {
             keep!(encode, $(
                 of_value::<$ty>,
                 of_content::<$ty>,
                 items::<$ty>,
+                read::<$ty>,
                 Elements::copy_to::<$ty>,
                 ValueRef::get::<$ty>,
                 ValueRef::copy_to::<$ty>,

@@ -25,6 +25,7 @@ fn show<T: Display>(value: T) {
 pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     if let Err(error) = Handle::decode(bytes) {
         show::<Error>(error);
+        show::<ErrorKind>(error.kind());
         show::<layout::Field>(error.field());
     }
     for stream in layout::Stream::all() {

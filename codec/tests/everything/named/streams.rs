@@ -7,6 +7,9 @@ use super::{ROOM, any, cnc, seen, text};
 pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     texts(bytes);
     let handle: Handle = Decode::decode(bytes)?;
+    let prefix: Result<(DescriptionRef<'_>, &[u8]), Error> = Decode::decode_prefix(bytes);
+    seen(prefix.is_ok());
+    seen(ExtendedDescription::decode(bytes).map(|it| ExtendedDescription::to_bytes(&it)));
     seen(Encode::encoded_len(&handle));
     seen(Encode::encode(&handle, &mut [0; 4]));
     descriptors(bytes)?;

@@ -63,8 +63,9 @@ fn items<T: value::Item>(bytes: &[u8]) -> Result<(), Error> {
     seen(ValueRef::copy_to(&value, &mut [T::default(); 4]));
     seen(ContentRef::copy_to(&content, &mut [T::default(); 4]));
     let mut input = value::Reader::new(bytes);
-    seen((input.read::<T>(), input.bytes(any(3)), input.text(any(3)), input.rest()));
-    seen(input.finish());
+    seen((value::Reader::read::<T>(&mut input), value::Reader::bytes(&mut input, any(3))));
+    seen((value::Reader::text(&mut input, any(3)), value::Reader::rest(&mut input)));
+    seen(value::Reader::finish(input));
     ValueRef::iter::<T>(&value)?.rev().for_each(seen);
     ContentRef::iter::<T>(&content)?.rev().for_each(seen);
     Ok(())

@@ -127,9 +127,9 @@ impl fmt::Display for CallError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Text(error) => error.fmt(f),
-            Self::State => f.write_str(
-                "service: request_state at offset 0: out of range, at least 1 expected, 0 found",
-            ),
+            Self::State => {
+                f.write_str("service: request_state at offset 0: expected at least 1, found 0")
+            }
             Self::Timer(error) => error.fmt(f),
         }
     }
