@@ -22,7 +22,7 @@ use super::Support;
 /// assert!(version < CncVersion::new("3.1.3115")?);
 /// assert_eq!(
 ///     CncVersion::new("V4.18").unwrap_err().to_string(),
-///     "cnc-version: build at offset 5: truncated, expected 1 byte, found 0"
+///     "cnc-version: build at offset 5: expected a number, found the end"
 /// );
 /// # Ok::<(), ads_cnc_conformance::edition::VersionError>(())
 /// ```
