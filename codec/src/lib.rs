@@ -61,7 +61,7 @@
 //!
 //! # Values
 //! [`value`] reads and writes the bytes of variables, objects and elements by their types:
-//! [`ValueRef::to_vec`] if the program knows the type, [`DescriptionRef::elements`] if the CNC
+//! [`ValueRef::iter`] if the program knows the type, [`DescriptionRef::elements`] if the CNC
 //! describes it. [`VariablePath`] takes names apart, [`text`] is code page 1252.
 //!
 //! # Frames

@@ -48,7 +48,8 @@ impl<'a> FrameRef<'a> {
     /// A frame with this data; the header's `data_length` is set to it.
     ///
     /// # Errors
-    /// [`ErrorKind::TooLong`] for data over [`ADS_DATA_MAX`] bytes and the services' headers.
+    /// [`ErrorKind::TooLong`] for data over [`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX) bytes and
+    /// the services' headers.
     pub fn new(header: AmsHeader, data: &'a [u8]) -> Result<Self, Error> {
         let data_length = to_u32(data.len());
         check(data_length, u32::MAX)?;
