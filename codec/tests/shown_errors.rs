@@ -81,6 +81,10 @@ fn errors_say_what_is_wrong() {
             error("1.2.3.4.5.0006".parse::<AmsNetId>()),
             (ErrorKind::Digits, "ams-net-id: number at offset 5: expected 1 to 3 digits, found 4"),
         ),
+        (
+            error(ValueRef { bytes: &[] }.get::<u8>(0)),
+            (ErrorKind::Missing, "typed-value: value at offset 0: missing"),
+        ),
         (error(Channel::new(0)), (ErrorKind::OutOfRange, "channel 0 is out of range 1..=255")),
         (
             error("1.2.3.4.5.256".parse::<AmsNetId>()),

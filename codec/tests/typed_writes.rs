@@ -3,9 +3,11 @@
 mod common;
 mod kept;
 
-use address::{Channel, ChannelAxis};
+use address::{Channel, ChannelAxis, IndexGroup, IndexOffset};
 use ads_cnc::ErrorKind::*;
-use ads_cnc::operation::{AxisWriteByName, Operation, WriteByHandle, WriteByName};
+use ads_cnc::operation::{
+    AxisWriteByName, Operation, ReadByName, ReadObject, WriteByHandle, WriteByName, WriteValue,
+};
 use ads_cnc::value::*;
 use ads_cnc::*;
 use common::shapes::{Described, ShapeBend, check_shape};
@@ -17,6 +19,44 @@ const ARRAY: &[u8] = b"\x7b\0\0\0\xea\0\0\0\x59\x01\0\0\xc8\x01\0\0\x37\x02\0\0"
 
 fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Shape<'_> {
     Shape::new(data_type, dimensions.into(), size).unwrap()
+}
+
+/// A value to write is its bytes, wherever they come from.
+#[test]
+fn values_to_write_are_their_bytes() {
+    let bytes = 1.5_f64.to_le_bytes().to_vec();
+    let (number, buffer) = (WriteValue::from(1.5_f64), WriteValue::from(&bytes));
+    assert_eq!((number.as_bytes(), buffer.as_bytes()), (&bytes[..], &bytes[..]));
+    assert_eq!(number, buffer);
+    assert_ne!(number, WriteValue::from(1.25_f64));
+    assert_eq!(format!("{number:?}"), format!("{bytes:?}"));
+    let all: std::collections::HashSet<_> = [number, buffer, true.into()].into();
+    assert_eq!(all.len(), 2);
+    let mut room = [7; 3];
+    assert_eq!([true, false].encode_value(&mut room).unwrap(), [1, 0]);
+}
+
+/// A name is taken from text of any kind.
+#[test]
+fn names_are_text_of_any_kind() {
+    let channel = Channel::new(1).unwrap();
+    let wanted = ReadByName::new(channel, "V.E.x").unwrap();
+    let owned = CncString::from(CncStr::new("V.E.x").unwrap());
+    assert_eq!(ReadByName::new(channel, &owned).unwrap(), wanted);
+    assert_eq!(ReadByName::new(channel, &String::from("V.E.x")).unwrap(), wanted);
+}
+
+/// An object is addressed by its descriptor, whether it is owned, borrowed or an item of a list.
+#[test]
+fn objects_are_addressed_by_their_descriptors() {
+    let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(3));
+    let object = Descriptor::new("o", "BOOL").unwrap().with_size(1).with_content(group, offset);
+    let wanted = ReadObject::new(group, offset, 1).unwrap();
+    assert_eq!(ReadObject::of(&object).unwrap(), wanted);
+    assert_eq!(ReadObject::of(object.as_ref()).unwrap(), wanted);
+    for item in &[object.as_ref()] {
+        assert_eq!(ReadObject::of(item).unwrap(), wanted);
+    }
 }
 
 /// What sections 4.3.6, 4.3.7 and 4.3.11 print; SGN32 and REAL64 are assumed.

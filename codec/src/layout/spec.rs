@@ -507,9 +507,25 @@ mod tests {
             let rows = [("first", 0, 0, Size::Leading { max: 4 }), ("last", 1, 0, size)];
             assert_eq!([9, 10, 11].map(|max| filled(max, &rows)), [false, true, false]);
         }
-        let [count, list] = list;
-        let most = layout(&[count, list, open]);
-        assert_eq!(["n", "list", "name"].map(|name| most.most(name)), [4, 5, 4]);
+    }
+
+    /// Limits and offsets are those of the rows.
+    #[test]
+    fn limits_are_those_of_the_rows() {
+        for (size, most) in [
+            (Size::Fixed(4), 4),
+            (Size::Items { each: 4, max: 5 }, 5),
+            (Size::Open { min: 1, max: 9 }, 9),
+            (Size::Rest { min: 0, max: 8 }, 8),
+            (Size::Leading { max: 7 }, 7),
+            (Size::MayTerminate { max: 6 }, 6),
+            (Size::Terminated { max: 3, may_be_absent: true }, 3),
+            (Size::OneTwoOrFour, 4),
+        ] {
+            let rows = layout(&[("first", 0, 0, Size::Fixed(2)), ("last", 2, 0, size)]);
+            assert_eq!((rows.most("last"), rows.offset("last")), (most, 2));
+            assert_eq!((rows.most("first"), rows.offset("first")), (2, 0));
+        }
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! Content of the program's own types.
 
-use zerocopy::FromBytes as _;
+use zerocopy::{FromBytes as _, FromZeros as _};
 
 use super::Item;
 use crate::bytes::{self, to_u32};
 use crate::content::ContentRef;
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::layout::{Field, Stream};
 use crate::text::TextRef;
 
@@ -60,21 +60,18 @@ impl<'a> Reader<'a> {
     /// The next number or BOOLEAN.
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`] if fewer bytes are left.
+    /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes are left.
     pub fn read<T: Item>(&mut self) -> Result<T, Error> {
-        let size = size_of::<T::Wire>();
-        let bytes = self.bytes(size)?;
-        // Cannot fail: the bytes are as many.
-        T::Wire::read_from_bytes(bytes).map(T::from_wire).map_err(|_| {
-            let (expected, found) = (to_u32(size), to_u32(bytes.len()));
-            Error::new(ErrorKind::Truncated, CONTENT, self.0.at(), expected, found)
-        })
+        let bytes = self.bytes(size_of::<T::Wire>())?;
+        // The length is right, so that reading does not fail.
+        let wire = T::Wire::read_from_bytes(bytes).unwrap_or_else(|_| T::Wire::new_zeroed());
+        Ok(T::from_wire(wire))
     }
 
     /// The next bytes.
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`] if fewer bytes are left.
+    /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes are left.
     pub fn bytes(&mut self, count: usize) -> Result<&'a [u8], Error> {
         self.0.take(CONTENT, to_u32(count))
     }
@@ -82,7 +79,7 @@ impl<'a> Reader<'a> {
     /// The text in the next bytes, to its first NUL or to the last of them.
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`] if fewer bytes are left.
+    /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes are left.
     pub fn text(&mut self, size: usize) -> Result<TextRef<'a>, Error> {
         self.bytes(size).map(TextRef::split)
     }
@@ -95,7 +92,7 @@ impl<'a> Reader<'a> {
     /// Ends the content.
     ///
     /// # Errors
-    /// [`ErrorKind::Trailing`] if bytes are left.
+    /// [`ErrorKind::Trailing`](crate::ErrorKind::Trailing) if bytes are left.
     pub fn finish(self) -> Result<(), Error> {
         self.0.finish()
     }
