@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::layout::field::{index_group, index_offset, typed_value, variable_path};
 use crate::layout::{Field, Stream};
+use crate::sda::ObjectAddress;
 use crate::value::DataType;
 
 /// What is wrong, in which field, where, what was expected and what was there.
@@ -164,6 +165,12 @@ fn range(field: Field) -> Option<(&'static str, u32, u32)> {
     }
 }
 
+/// Whether the numbers of an error are index groups.
+fn is_group(field: Field) -> bool {
+    field.stream() == Stream::IndexGroup
+        || field == const { Field::of::<ObjectAddress>("index_group") }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { kind, field, offset, expected, found } = *self;
@@ -171,7 +178,7 @@ impl fmt::Display for Error {
             (ErrorKind::OutOfRange, Some((what, least, most))) => {
                 return write!(f, "{what} {found} is out of range {least}..={most}");
             }
-            (ErrorKind::Mismatch, _) if field.stream() == Stream::IndexGroup => {
+            (ErrorKind::Mismatch, _) if is_group(field) => {
                 return write!(f, "index group: expected {expected:#x}, found {found:#x}");
             }
             (ErrorKind::Truncated, _) if field == variable_path::INDEX => {

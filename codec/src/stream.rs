@@ -34,8 +34,8 @@ pub trait Decode<'a>: Sized {
 
     /// Reads the stream from the front of the bytes, and returns the bytes after it.
     ///
-    /// The stream ends where its own fields say: after the last of fixed length, after as many items
-    /// as are counted, after a NUL that must end a text. A stream that ends with its bytes takes all.
+    /// A stream of fixed fields ends after the last of them, a list after the items that are counted.
+    /// A stream that ends in text or in data takes all bytes.
     ///
     /// ```
     /// use ads_cnc::{Decode, Handle, HandleReadRef, Numbers};
@@ -48,7 +48,8 @@ pub trait Decode<'a>: Sized {
     /// ```
     ///
     /// # Errors
-    /// Those of [`decode`](Self::decode), but for [`Trailing`](crate::ErrorKind::Trailing).
+    /// Those of [`decode`](Self::decode), without [`Trailing`](crate::ErrorKind::Trailing). A type of
+    /// your own gets all bytes; override this method if its content tells where it ends.
     fn decode_prefix(bytes: &'a [u8]) -> Result<(Self, &'a [u8]), Error> {
         let (stream, rest) =
             bytes.split_at_checked(prefix(Self::STREAM, bytes)).unwrap_or((bytes, &[]));

@@ -131,6 +131,7 @@ fn reached(port: AmsPort, service: Service, group: u32, offset: u32) -> String {
         };
         break;
     }
+    assert_ne!(reached, "", "no function takes this data: {service} {group:#x} {offset:#x}");
     reached
 }
 

@@ -38,6 +38,22 @@ fn functions_are_where_the_manuals_put_them() {
     });
 }
 
+/// The writes, and which of them may move an axis: a gate lets through what its effect permits.
+#[test]
+fn writes_have_these_effects() {
+    let writes = Function::ALL.iter().filter(|it| it.spec().effect != Effect::Query);
+    let writes: Vec<_> = writes.map(|it| (*it, it.spec().effect)).collect();
+    let wanted = [
+        (Function::WriteByHandle, Effect::Write),
+        (Function::WriteByName, Effect::Write),
+        (Function::AxisWriteByName, Effect::Write),
+        (Function::WriteElement, Effect::Motion),
+        (Function::WriteProgramStream, Effect::Motion),
+        (Function::WriteObject, Effect::Motion),
+    ];
+    assert_eq!(writes, wanted);
+}
+
 /// Each kind of dynamic parameters has its own four offsets, and no other offset is one.
 #[test]
 fn offsets_of_dynamic_parameters() {
@@ -77,7 +93,7 @@ fn the_axis_interface_begins_at_axis_1() {
     for place in [1, 2, 0xFFFF_u32] {
         let reached = call((place << 16) | 4).dispatch().unwrap();
         let operation::Request::AxisHandleByName(op) = reached else { panic!("{reached:?}") };
-        assert_eq!(u32::from(op.axis.place()), place);
+        assert_eq!(u32::from(op.axis.index()), place);
     }
     for absent in [6, 0x1_0003, 0x1_0007, 0x1_0044] {
         let refusal = DispatchError::Offset(IndexOffset::new(absent));

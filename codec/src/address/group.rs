@@ -246,7 +246,7 @@ impl PlatformAxis {
     /// The group of this axis in the COM task.
     pub const fn com(self, access: Access) -> IndexGroup {
         let addressing = Addressing::Logical;
-        ComGroup { addressing, access, table: ComTable::Axis, instance: self.place() }.index_group()
+        ComGroup { addressing, access, table: ComTable::Axis, instance: self.index() }.index_group()
     }
 }
 

@@ -246,6 +246,18 @@ impl Descriptor {
     }
 }
 
+impl<'d> From<&'d Descriptor> for DescriptorRef<'d> {
+    fn from(descriptor: &'d Descriptor) -> Self {
+        descriptor.as_ref()
+    }
+}
+
+impl<'d> From<&DescriptorRef<'d>> for DescriptorRef<'d> {
+    fn from(descriptor: &DescriptorRef<'d>) -> Self {
+        *descriptor
+    }
+}
+
 /// Puts a text into its 32 bytes.
 fn pad(text: CncStr<'_>, field: Field, at: u32, bytes: &mut [u8]) -> Result<(), Error> {
     let (len, max) = (text.len(), to_u32(bytes.len()));

@@ -182,6 +182,6 @@ impl From<Channel> for ObjectList {
 impl From<PlatformAxis> for ObjectList {
     /// The group of platform axes' descriptors is assumed (COM-7).
     fn from(axis: PlatformAxis) -> Self {
-        Self(ComGroup { table: ComTable::Axis, instance: axis.place(), ..Self::PLATFORM.0 })
+        Self(ComGroup { table: ComTable::Axis, instance: axis.index(), ..Self::PLATFORM.0 })
     }
 }

@@ -15,7 +15,7 @@ use crate::address::{
     IndexOffset,
 };
 use crate::bytes::to_u32;
-use crate::com::{Descriptor, DescriptorRef, DescriptorsRef, ObjectCount};
+use crate::com::{DescriptorRef, DescriptorsRef, ObjectCount};
 use crate::content::ContentRef;
 use crate::error::{Error, ErrorKind};
 use crate::layout::field::index_group::INSTANCE;
@@ -24,13 +24,18 @@ use crate::layout::{Field, Stream};
 use crate::limits::{ADS_DATA_MAX, DESCRIPTOR_LEN};
 use crate::sda::ObjectAddressQuery;
 
+/// Bytes of one descriptor.
+const RECORD: u32 = Stream::ObjectDescriptor.layout().max;
 const COUNT: Field = Field::of::<ObjectCount>("count");
 const DESCRIPTORS: Field = Field::whole(Stream::ObjectDescriptors);
 const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
 
 impl ReadDescriptors {
     /// The most descriptors of one read.
-    pub const COUNT_MAX: u32 = 49_932;
+    pub const COUNT_MAX: u32 = match Stream::ObjectDescriptors.layout().max.checked_div(RECORD) {
+        Some(count) => count,
+        None => 0,
+    };
 
     /// `count` descriptors from object `first` on; objects are counted from 1.
     ///
@@ -48,7 +53,7 @@ impl ReadDescriptors {
         if count > Self::COUNT_MAX {
             return Err(Error::new(ErrorKind::TooMany, COUNT, 0, Self::COUNT_MAX, count));
         }
-        let length = count.saturating_mul(to_u32(DESCRIPTOR_LEN));
+        let length = count.saturating_mul(RECORD);
         Ok(Self { list: list.into(), first, length })
     }
 
@@ -311,17 +316,5 @@ impl FindInstance {
     /// The channel and the axis that are asked for.
     pub const fn query(&self) -> ObjectAddressQuery {
         ObjectAddressQuery { channel: self.channel, axis: self.axis }
-    }
-}
-
-impl<'d> From<&'d Descriptor> for DescriptorRef<'d> {
-    fn from(object: &'d Descriptor) -> Self {
-        object.as_ref()
-    }
-}
-
-impl<'d> From<&DescriptorRef<'d>> for DescriptorRef<'d> {
-    fn from(object: &DescriptorRef<'d>) -> Self {
-        *object
     }
 }

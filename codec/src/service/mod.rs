@@ -17,7 +17,7 @@
 //! Manual: `service-en` and `service-de` 1.03, sections 1 and 2. A CNC has it from V2.11.2030.01 and
 //! V3.1.3057.03 on.
 //!
-//! SVC-11
+//! Requirement: SVC-11.
 //!
 //! ```
 //! use ads_cnc::CncStr;

@@ -18,8 +18,8 @@
 //! fastest: no manual says so, it is **assumed** (VAR-21). So is that an array of STRING gives each
 //! text the same share of its bytes.
 //!
-//! Errors are those of the table `typed-value`. Where an index or a dimension is wrong, the offset
-//! is its place among the others, from 0; types are numbered as in section 4.3.2, and those that no
+//! Errors are those of the table `typed-value`. For a wrong index or dimension, the offset is its
+//! position in the list, from 0. Types are numbered as in section 4.3.2, and those that no
 //! variable has after these: LINT 10, LWORD 11, REAL32 12.
 //!
 //! ```

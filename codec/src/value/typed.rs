@@ -221,8 +221,7 @@ macro_rules! from_integers {
 
 from_integers! { i8 u8 i16 u16 i32 u32 i64 u64 }
 
-/// Floating-point numbers from themselves, and from integers of at most so many binary digits
-/// between the first and the last that is not 0.
+/// Floating-point numbers from themselves, and from integers that their significand holds exactly.
 macro_rules! from_numbers {
     ($( $type:ty, $digits:literal, |$element:ident| $float:expr; )+) => { $(
         /// # Errors

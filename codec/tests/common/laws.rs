@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, FrameRef};
-use ads_cnc::layout::{Field, Stream};
+use ads_cnc::layout::{Field, FieldSpec, Size, Stream};
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{Call, DispatchError, Function, Request, Service, Task};
 use ads_cnc::{Decode, Encode, Error, ErrorKind, NoData};
@@ -79,10 +79,14 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
         assert_eq!(same, verdict.map(|()| true), "{stream}: view and owned of {bytes:x?}");
         let mut vec = (subject.to_vec)(bytes);
         vec.iter_mut().for_each(bend.vec);
-        assert_eq!(vec, verdict.map(|()| bytes.to_vec()), "{stream}: to_vec of {bytes:x?}");
+        assert_eq!(vec, verdict.map(|()| bytes.to_vec()), "{stream}: encode_to_vec of {bytes:x?}");
     }
     let prefix = (subject.prefix)(bytes);
     check_prefix(stream, bytes, prefix, verdict);
+    if verdict.is_ok() && ends_by_its_fields(stream) {
+        let longer = [bytes, &[0xFF]].concat();
+        assert_eq!((subject.prefix)(&longer), Ok(bytes.len()), "{stream}: front of {longer:x?}");
+    }
     #[cfg(all(feature = "binrw", feature = "std"))]
     {
         let read = (subject.binrw)(bytes);
@@ -95,6 +99,15 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
         super::check_typed(bytes, bend.typed);
     }
     verdict
+}
+
+/// Whether every stream of this table ends after the same fields, however many bytes follow.
+fn ends_by_its_fields(stream: Stream) -> bool {
+    let layout = stream.layout();
+    let ends = |row: &FieldSpec| {
+        matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::FromOne | Size::Items { .. })
+    };
+    !layout.repeats && layout.is_stream() && layout.fields.iter().all(ends)
 }
 
 /// A stream is read from the front of more bytes as it is read by itself.

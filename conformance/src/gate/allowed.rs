@@ -250,7 +250,7 @@ impl fmt::Display for Entry {
             Self::Variable { channel, axis, name } => {
                 writeln!(f, "[[variable]]\n{}", at(*channel))?;
                 if let Some(axis) = axis {
-                    writeln!(f, "axis = {}", axis.place())?;
+                    writeln!(f, "axis = {}", axis.index())?;
                 }
                 write!(f, "name = {}", quoted(name))
             }
@@ -263,7 +263,7 @@ impl fmt::Display for Entry {
                 let list = match list {
                     List::Platform => "channel = 0".to_owned(),
                     List::Channel(channel) => at(*channel),
-                    List::Axis(axis) => format!("axis = {}", axis.place()),
+                    List::Axis(axis) => format!("axis = {}", axis.index()),
                 };
                 write!(f, "[[object]]\n{list}\nname = {}", quoted(name))
             }

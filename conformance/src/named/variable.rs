@@ -49,7 +49,7 @@ pub(super) fn unasked(question: &Question) -> Result<Object, Trouble> {
             let list = List::Variables {
                 kind,
                 channel: channel.number(),
-                axis: axis.map(ChannelAxis::place),
+                axis: axis.map(ChannelAxis::index),
             };
             Ok(Object {
                 list,

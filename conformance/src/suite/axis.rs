@@ -120,7 +120,7 @@ struct At<'a> {
 
 impl std::fmt::Display for At<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} of place {}", self.name, self.axis.place())
+        write!(f, "{} of place {}", self.name, self.axis.index())
     }
 }
 

@@ -67,7 +67,7 @@ fn places(probe: &mut Probe<'_>) -> Step {
             // An axis is at one place. Where none is, handles are nobody's.
             let mut seen = HashSet::new();
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
-                let found = format!("{:?} of place {} too", at.handle, at.axis.place());
+                let found = format!("{:?} of place {} too", at.handle, at.axis.index());
                 let expected = format!("another handle at each place for {name}");
                 let own = seen.insert(at.handle.0);
                 for rule in ["VAR-10", "VAR-26"] {
@@ -136,10 +136,10 @@ fn one(probe: &mut Probe<'_>) -> Step<(Channel, At, CncString)> {
 fn too_far(probe: &mut Probe<'_>) -> Step {
     let (channel, At { axis, handle }, name) = one(probe)?;
     for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {
-        let far = ChannelAxis::new(u32::from(axis.place()) | bit).map_err(harness)?;
+        let far = ChannelAxis::new(u32::from(axis.index()) | bit).map_err(harness)?;
         let request = AxisHandleByName { channel, axis: far, name: name.as_cnc_str().into() };
         let given = probe.try_ask(request)?.and_then(|data| Handle::decode(&data).ok());
-        let expected = format!("not the handle of place {} at {}", axis.place(), far.place());
+        let expected = format!("not the handle of place {} at {}", axis.index(), far.index());
         probe.check("VAR-26", given != Some(handle), expected, format!("{handle:?}"));
     }
     Ok(())

@@ -14,9 +14,9 @@ pub(super) fn runs() -> Result<(), Error> {
     seen(address::Channel::class(channel, class, attribute));
     seen(address::Channel::com(channel, access));
     let axis = address::ChannelAxis::new(any(1))?;
-    seen((address::ChannelAxis::place(axis), address::ChannelAxis::offset(axis, any(5))));
+    seen((address::ChannelAxis::index(axis), address::ChannelAxis::offset(axis, any(5))));
     let platform = address::PlatformAxis::new(any(1))?;
-    seen((address::PlatformAxis::place(platform), address::PlatformAxis::com(platform, access)));
+    seen((address::PlatformAxis::index(platform), address::PlatformAxis::com(platform, access)));
     let spindle = address::Spindle::new(any(1))?;
     seen((address::Spindle::index(spindle), address::Spindle::class(spindle, attribute)));
 

@@ -22,7 +22,7 @@ impl Walk<'_> {
             }
         }
         for axis in (1..=NUMBER_MAX).map_while(|place| PlatformAxis::new(place).ok()) {
-            if self.list(List::Axis(axis.place()), axis.into(), &[])?.is_none() {
+            if self.list(List::Axis(axis.index()), axis.into(), &[])?.is_none() {
                 break;
             }
         }

@@ -126,7 +126,7 @@ impl Running<'_> {
         let path = VariablePath::from_text(name).map_err(|_| UNKNOWN)?;
         self.permit(function, path.kind())?;
         let places = self.model.channels.get(channel).map_or(0, |channel| channel.places.len());
-        let place = usize::from(axis.place()).checked_sub(1).filter(|&place| place < places);
+        let place = usize::from(axis.index()).checked_sub(1).filter(|&place| place < places);
         let whole = CncString::from(path.variable().text());
         let variable = self.model.axis_variables.named(whole.as_bytes()).ok_or(UNKNOWN)?;
         let at = At::Place { place: place.ok_or(UNKNOWN)?, variable };

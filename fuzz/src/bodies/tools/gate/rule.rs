@@ -83,7 +83,7 @@ impl<'e> Rule<'e> {
         self.entries.iter().any(|entry| match entry {
             Entry::Variable { channel: of, axis, name } => {
                 at(*of) == channel
-                    && axis.map_or(0, |axis| axis.place().into()) == on
+                    && axis.map_or(0, |axis| axis.index().into()) == on
                     && is_in(asked, name.as_bytes())
                     && !(whole && name.as_bytes().ends_with(b"]"))
             }
@@ -102,7 +102,7 @@ impl<'e> Rule<'e> {
                     (true, number) => 0x13_0100 | number,
                     (false, number) => 0x3_0100 | number,
                 },
-                List::Axis(axis) => 0x13_0200 | u32::from(axis.place()),
+                List::Axis(axis) => 0x13_0200 | u32::from(axis.index()),
             };
             let seen = self.objects.iter().filter(|(group, object)| {
                 let told = &object[20..52];

@@ -82,7 +82,7 @@ impl Channel {
     }
 }
 
-/// A platform axis, counted from 1 in the configured order; its place never changes (ADR-13).
+/// A platform axis, counted from 1 in the configured order; its index never changes (ADR-13).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 and 2.1.
 ///
@@ -96,22 +96,22 @@ impl Channel {
 pub struct PlatformAxis(NonZeroU8);
 
 impl PlatformAxis {
-    /// The axis at this place.
+    /// The axis with this index.
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for 0 and for what 8 bits do not hold.
-    pub fn new(place: u32) -> Result<Self, Error> {
-        let fits = NonZeroU8::new(instance(PLATFORM_AXIS, place, 1)?);
-        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, PLATFORM_AXIS, 0, 1, place))
+    pub fn new(index: u32) -> Result<Self, Error> {
+        let fits = NonZeroU8::new(instance(PLATFORM_AXIS, index, 1)?);
+        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, PLATFORM_AXIS, 0, 1, index))
     }
 
-    /// The place, from 1.
-    pub const fn place(self) -> u8 {
+    /// The index, from 1.
+    pub const fn index(self) -> u8 {
         self.0.get()
     }
 }
 
-/// A place of an axis in a channel, counted from 1; which axis is there, axis exchange changes
+/// The index of an axis in a channel, counted from 1. Axis exchange changes which axis has the index
 /// (ADR-13).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 and 4.2.2.
@@ -128,14 +128,14 @@ impl PlatformAxis {
 pub struct ChannelAxis(NonZeroU16);
 
 impl ChannelAxis {
-    /// The place with this number.
+    /// The axis with this index.
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for 0 and for what 16 bits do not hold.
-    pub fn new(place: u32) -> Result<Self, Error> {
-        let bound = if place == 0 { 1 } else { u16::MAX.into() };
-        let fits = u16::try_from(place).ok().and_then(NonZeroU16::new);
-        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, CHANNEL_AXIS, 0, bound, place))
+    pub fn new(index: u32) -> Result<Self, Error> {
+        let bound = if index == 0 { 1 } else { u16::MAX.into() };
+        let fits = u16::try_from(index).ok().and_then(NonZeroU16::new);
+        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, CHANNEL_AXIS, 0, bound, index))
     }
 
     /// The axis in the high bits of an index offset.
@@ -145,7 +145,7 @@ impl ChannelAxis {
     }
 
     /// The number, from 1.
-    pub const fn place(self) -> u16 {
+    pub const fn index(self) -> u16 {
         self.0.get()
     }
 
@@ -197,14 +197,14 @@ impl fmt::Display for Channel {
 /// The number, from 1.
 impl fmt::Display for PlatformAxis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.place().fmt(f)
+        self.index().fmt(f)
     }
 }
 
 /// The number, from 1.
 impl fmt::Display for ChannelAxis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.place().fmt(f)
+        self.index().fmt(f)
     }
 }
 
