@@ -54,9 +54,8 @@ fn objects_are_addressed_by_their_descriptors() {
     let wanted = ReadObject::new(group, offset, 1).unwrap();
     assert_eq!(ReadObject::of(&object).unwrap(), wanted);
     assert_eq!(ReadObject::of(object.as_ref()).unwrap(), wanted);
-    for item in &[object.as_ref()] {
-        assert_eq!(ReadObject::of(item).unwrap(), wanted);
-    }
+    let items = [object.as_ref(), object.as_ref()];
+    assert!(items.iter().all(|item| ReadObject::of(item).unwrap() == wanted));
 }
 
 /// What sections 4.3.6, 4.3.7 and 4.3.11 print; SGN32 and REAL64 are assumed.

@@ -156,7 +156,7 @@ macro_rules! reads_content {
 reads_content! { ReadElement ReadObject }
 
 impl ReadObject {
-    /// For an object of a list, by its [`Descriptor`] or [`DescriptorRef`].
+    /// For an object of a list, by its [`Descriptor`](crate::Descriptor) or [`DescriptorRef`].
     ///
     /// ```
     /// use ads_cnc::Descriptor;
@@ -201,7 +201,7 @@ impl ReadObject {
 }
 
 impl<'a> WriteObject<'a> {
-    /// For an object of a list, by its [`Descriptor`] or [`DescriptorRef`], and its new content.
+    /// For an object of a list, by its [`Descriptor`](crate::Descriptor) or [`DescriptorRef`], and its new content.
     ///
     /// # Errors
     /// Those of [`new`](Self::new).
