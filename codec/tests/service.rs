@@ -84,7 +84,7 @@ fn uuids_are_checked_and_keep_their_case() {
     assert_eq!(refused("560AACBF-6335-44a9-895A--B27F3ED5E47"), unexpected(24, '-'));
     assert_eq!(refused("560AACBF-6335-44ä9-895A-8B27F3ED5E47"), unexpected(16, 'ä'));
 
-    // SVC-7: no regard to case, and yet as it was written.
+    // SVC-7: comparison ignores case, and the text keeps its case.
     let (upper, lower) = (ROOT.to_uppercase(), ROOT.to_lowercase());
     assert_eq!(id(&upper), id(&lower));
     assert_eq!(std::collections::HashSet::from([id(&upper), id(&lower)]).len(), 1);

@@ -51,7 +51,7 @@ mod tests {
             assert_eq!(front.clone().count(), stream.head_sizes().len(), "{stream}");
             let mut end = 0;
             for (row, &size) in front.zip(stream.head_sizes()) {
-                // Tables that are no streams have no order.
+                // The rows of a table that only names fields have no order.
                 let offset = if stream.layout().is_stream() { end } else { row.offset };
                 assert_eq!((row.offset, row.size.fixed()), (offset, size.into()), "{stream}");
                 end += row.size.fixed();

@@ -1,10 +1,11 @@
-//! What the table cannot say of an operation, and why.
+//! The parts of operations that the table cannot express, with the reasons.
 //!
-//! - `ReadDescriptors`, `ReadElement`, `ReadObject`: the caller chooses the read length, and a reply
-//!   is no longer than that.
-//! - `ReadElement`, `WriteElement`, `ReadObject`, `WriteObject`, `CountElements`: no content is at
-//!   the address of another function (SDA-12), so that their constructors look into the table.
-//! - `FindInstance`: its class is addressed by number or by index.
+//! - `ReadDescriptors`, `ReadElement`, `ReadObject`: the caller chooses the read length, which limits
+//!   the reply.
+//! - `ReadElement`, `WriteElement`, `ReadObject`, `WriteObject`, `CountElements`: the constructors
+//!   reject the address of another function.
+//!   SDA-12
+//! - `FindInstance`: the class is addressed by number or by index.
 
 use super::{
     CountElements, FindInstance, Function, ObjectList, ReadDescriptors, ReadElement, ReadObject,
@@ -130,7 +131,7 @@ fn length(length: u32) -> Result<u32, Error> {
     }
 }
 
-/// The read length of content is any; a reply is no longer.
+/// Reads of content: any read length is valid, and it limits the reply.
 macro_rules! reads_content {
     ($( $operation:ident )+) => { $(
         impl $operation {

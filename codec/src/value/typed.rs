@@ -35,7 +35,7 @@ fn copy_to<T: Item>(bytes: &[u8], out: &mut [T]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Why there is no element of this index among `count`.
+/// The error for an index that is not below `count`.
 pub(super) fn beyond(count: usize, index: usize) -> Error {
     match to_u32(count).checked_sub(1) {
         Some(last) => Error::new(ErrorKind::OutOfRange, INDEX, 0, last, to_u32(index)),

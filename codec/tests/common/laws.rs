@@ -110,7 +110,7 @@ fn ends_by_its_fields(stream: Stream) -> bool {
     !layout.repeats && layout.is_stream() && layout.fields.iter().all(ends)
 }
 
-/// A stream is read from the front of more bytes as it is read by itself.
+/// `decode_prefix` reads the same stream whether or not bytes follow it.
 fn check_prefix(
     stream: Stream,
     bytes: &[u8],
