@@ -31,6 +31,8 @@ mod limits;
 mod net_ids;
 #[path = "../tests/operations.rs"]
 mod operations;
+#[path = "../tests/outcomes.rs"]
+mod outcomes;
 #[path = "../tests/parts.rs"]
 mod parts;
 #[path = "../tests/paths.rs"]

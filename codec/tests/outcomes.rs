@@ -1,0 +1,300 @@
+//! The codec accepts, rejects and dispatches what version 0.1.0 did, with the same bytes and errors.
+//!
+//! `outcomes.tsv` has a row for each stream, for frames, calls and replies: a digest of the inputs and one
+//! of their outcomes. Each row was computed with version 0.1.0 (commit 8993f4c, before streams and
+//! functions were declared by macros) and with the sources of version 0.2.0. All rows were equal, without
+//! exception.
+//!
+//! The inputs are made of the vectors and of the samples of calls. If those change, compare with version
+//! 0.1.0 again: check out 8993f4c, copy `spec-vectors`, this file and `common/calls.rs` into it, rename
+//! `DispatchError` to `Refusal`, run the test there and here with `ADS_CNC_WRITE_OUTCOMES=1`, and compare
+//! the two files.
+
+mod common;
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::{AmsPort, FrameRef};
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::{Call, DispatchError, Service};
+use ads_cnc::{Encode as _, Error};
+use ads_cnc_vectors::vectors;
+use common::{CALLS, Fault, Subject};
+
+/// Mutations of each vector.
+const MUTATIONS: usize = 48;
+
+/// FNV-1a, 64 bits.
+struct Digest(u64);
+
+impl Digest {
+    const EMPTY: Self = Self(0xCBF2_9CE4_8422_2325);
+    const PRIME: u64 = 0x100_0000_01B3;
+
+    fn add(&mut self, bytes: &[u8]) {
+        // The length too: otherwise a byte could move from one input to the next.
+        self.0 = (self.0 ^ bytes.len() as u64).wrapping_mul(Self::PRIME);
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(Self::PRIME);
+        }
+    }
+}
+
+/// splitmix64.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        mixed ^ (mixed >> 31)
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        (self.next() % end as u64) as usize
+    }
+
+    fn pick<T: Copy>(&mut self, all: &[T]) -> T {
+        all[self.below(all.len())]
+    }
+}
+
+/// A row of `outcomes.tsv`.
+struct Row {
+    name: &'static str,
+    inputs: u32,
+    given: Digest,
+    accepted: u32,
+    outcomes: Digest,
+}
+
+impl Row {
+    fn new(name: &'static str) -> Self {
+        let (given, outcomes) = (Digest::EMPTY, Digest::EMPTY);
+        Self { name, inputs: 0, given, accepted: 0, outcomes }
+    }
+
+    /// An input, and its outcome: the bytes encoded again, or the error.
+    fn add(&mut self, input: &[u8], outcome: Result<Vec<u8>, String>) {
+        self.inputs += 1;
+        self.given.add(input);
+        self.accepted += u32::from(outcome.is_ok());
+        match outcome {
+            Ok(bytes) => self.outcomes.add(&bytes),
+            Err(error) => self.outcomes.add(error.as_bytes()),
+        }
+    }
+
+    fn text(&self) -> String {
+        let Self { name, inputs, given, accepted, outcomes } = self;
+        format!("{name}\t{inputs}\t{:016x}\t{accepted}\t{:016x}\n", given.0, outcomes.0)
+    }
+}
+
+fn shown(error: Error) -> String {
+    let Fault { kind, field, offset, expected, found } = Fault::of(error);
+    format!("{kind:?} {} {field} {offset} {expected} {found}", error.field().stream())
+}
+
+/// Bytes as they are, cut, extended and mutated. The seed is the bytes, so that a new vector leaves the
+/// inputs made of the others as they are.
+fn inputs(bytes: &[u8]) -> Vec<Vec<u8>> {
+    let len = bytes.len();
+    // Not every length of a long stream, for time.
+    let cuts = (0..=len).filter(|cut| len <= 300 || *cut < 40 || len - cut < 8 || cut % 101 == 0);
+    let mut all: Vec<_> = cuts.map(|cut| bytes[..cut].to_vec()).collect();
+    for end in [0, 0xFF].map(|byte| [byte; 3]) {
+        all.extend((1..=3).map(|count| [bytes, &end[..count]].concat()));
+    }
+    let mut seed = Digest::EMPTY;
+    seed.add(bytes);
+    let mut random = Random(seed.0);
+    for _ in 0..MUTATIONS {
+        let mut mutated = bytes.to_vec();
+        for _ in 0..=random.below(3) {
+            mutate(&mut mutated, &mut random);
+        }
+        all.push(mutated);
+    }
+    all
+}
+
+fn mutate(bytes: &mut Vec<u8>, random: &mut Random) {
+    let (at, byte) = (random.below(bytes.len() + 1), random.next() as u8);
+    // Limits of counts and lengths, and their neighbours.
+    let number = random.pick(&[0, 1, 2, 255, 256, 257, 506, 507, 510, 511, 0x4000_0001, u32::MAX]);
+    let kind = random.below(5);
+    if kind == 0 {
+        bytes.insert(at, byte);
+    } else if let Some(tail) = bytes.get_mut(at..).filter(|tail| !tail.is_empty()) {
+        match kind {
+            1 => drop(bytes.remove(at)),
+            2 => tail[0] = byte,
+            3 => tail[0] ^= 1 << (byte % 8),
+            // At a multiple of four, where the counts and lengths are.
+            _ => {
+                let rest = bytes.iter_mut().skip(at / 4 * 4);
+                rest.zip(number.to_le_bytes()).for_each(|(byte, new)| *byte = new);
+            }
+        }
+    }
+}
+
+fn bytes_of(stream: &str) -> impl Iterator<Item = Vec<u8>> {
+    vectors().iter().filter(move |vector| vector.stream == stream).map(|vector| vector.bytes())
+}
+
+/// All inputs of a stream, by each of its types: the owned type has the outcome of the view.
+fn stream_row(stream: Stream) -> Row {
+    let mut row = Row::new(stream.layout().name);
+    for input in bytes_of(stream.layout().name).flat_map(|bytes| inputs(&bytes)) {
+        let mut outcomes = Subject::of(stream).readings().map(|reading| {
+            let mut buf = vec![0; input.len() + 8];
+            let len = (reading.encode)(&input, &mut buf).map_err(shown)?;
+            buf.truncate(len);
+            Ok(buf)
+        });
+        let outcome = outcomes.next().expect("a view");
+        assert!(outcomes.all(|other| other == outcome), "{stream}: {input:x?}");
+        row.add(&input, outcome);
+    }
+    row
+}
+
+/// Frames are split off what was received.
+fn frame_row() -> Row {
+    let mut row = Row::new("ams-frame");
+    for input in bytes_of("ams-frame").flat_map(|bytes| inputs(&bytes)) {
+        let split = FrameRef::split(&input, 0x1000).map_err(shown);
+        row.add(&input, split.map(|frame| frame.map_or(vec![], |(_, len)| input[..len].to_vec())));
+    }
+    row
+}
+
+/// All fields of a call.
+fn call_bytes(call: &Call<'_>) -> Vec<u8> {
+    let numbers = [call.index_group.get(), call.index_offset.get(), call.read_length];
+    let mut bytes = call.port.0.to_le_bytes().to_vec();
+    bytes.extend(call.service.command().0.to_le_bytes());
+    bytes.extend(numbers.into_iter().flat_map(u32::to_le_bytes));
+    bytes.extend(call.data);
+    bytes
+}
+
+/// The function, and the call that its request encodes to again; or the error.
+fn dispatched(call: &Call<'_>) -> Result<Vec<u8>, String> {
+    let request = call.dispatch().map_err(|error| match error {
+        DispatchError::Port(port) => format!("Port {}", port.0),
+        DispatchError::Group(group) => format!("Group {}", group.get()),
+        DispatchError::Offset(offset) => format!("Offset {}", offset.get()),
+        DispatchError::Service { takes, asked } => format!("Service {takes:?} {asked:?}"),
+        DispatchError::Stream(error) => format!("Stream {}", shown(error)),
+        other => panic!("{other}"),
+    })?;
+    let mut buf = vec![0; request.encoded_len()];
+    let again = call_bytes(&request.encode(&mut buf).map_err(shown)?);
+    Ok([request.function().spec().name.as_bytes(), &again].concat())
+}
+
+/// Calls by their address: near every index group that a sample has, at each offset that a function may
+/// have and others.
+fn address_row() -> Row {
+    let mut row = Row::new("calls by address");
+    let groups: BTreeSet<u32> = CALLS
+        .iter()
+        .map(|sample| sample.call.index_group.get())
+        .flat_map(|at| [at, at ^ 1, at ^ 0x100, at ^ 0x1_0000, at ^ 0x10_0000])
+        .collect();
+    let of_axes =
+        [1, 2, 0xFFFF_u32].into_iter().flat_map(|axis| (0..9).map(move |at| axis << 16 | at));
+    let offsets: Vec<u32> = (0..0x100).chain(of_axes).chain([0xFFFF, 1 << 31, u32::MAX]).collect();
+    let data = [&b""[..], b"\x01\0\0\0", b"\x01\0\0\0\0\0\0\0", b"V.E\0", b"\x01\0\0\0V.E\0"];
+    let mut random = Random(0);
+    for group in groups {
+        for &offset in &offsets {
+            for port in [AmsPort::SDA, AmsPort::COM, AmsPort(random.pick(&[550, 551, 554]))] {
+                for service in [Service::Read, Service::Write, Service::ReadWrite] {
+                    let has_data = service != Service::Read || random.below(8) == 0;
+                    let call = Call {
+                        port,
+                        service,
+                        index_group: IndexGroup::new(group),
+                        index_offset: IndexOffset::new(offset),
+                        read_length: random.pick(&[0, 4, 83, 84, 168, 2048, u32::MAX]),
+                        data: if has_data { random.pick(&data) } else { b"" },
+                    };
+                    row.add(&call_bytes(&call), dispatched(&call));
+                }
+            }
+        }
+    }
+    row
+}
+
+/// Each sample of a call with its data cut, extended and mutated.
+fn data_row() -> Row {
+    let mut row = Row::new("calls by data");
+    for sample in CALLS {
+        for data in inputs(sample.call.data) {
+            let call = Call { data: &data, ..sample.call };
+            row.add(&call_bytes(&call), dispatched(&call));
+        }
+    }
+    row
+}
+
+/// The reply to each sample of a call, made of the vectors of its stream.
+fn reply_row() -> Row {
+    let mut row = Row::new("replies");
+    for sample in CALLS {
+        // A call that is rejected differs in the rows of calls.
+        let Ok(request) = sample.call.dispatch() else { continue };
+        let stream = request.function().spec().reply;
+        let replies = stream.into_iter().flat_map(|stream| bytes_of(stream.layout().name));
+        for input in replies.chain([vec![], vec![0]]) {
+            let reply = request
+                .decode_reply(&input)
+                .and_then(|reply| Ok(reply.encode(&mut vec![0; input.len()])?.to_vec()));
+            row.add(&[sample.slug.as_bytes(), &input].concat(), reply.map_err(shown));
+        }
+    }
+    row
+}
+
+/// Says of a row that differs from the one kept whether the outcomes or already the inputs differ.
+fn difference(row: &str, kept: &str) -> Option<String> {
+    // Name, number of inputs and their digest.
+    let given = |row: &str| row.split('\t').take(3).collect::<Vec<_>>().join("\t");
+    let name = row.split('\t').next()?;
+    if kept.lines().any(|other| other == row) {
+        return None;
+    }
+    let are_the_same = kept.lines().any(|other| given(other) == given(row));
+    Some(format!("{name}: {}", if are_the_same { "outcomes of the same inputs" } else { "inputs" }))
+}
+
+#[test]
+#[cfg_attr(miri, ignore = "too many inputs for an interpreter")]
+fn outcomes_are_those_of_0_1_0() {
+    let mut table = "name\tinputs\tdigest of inputs\taccepted\tdigest of outcomes\n".to_owned();
+    let others = [frame_row(), address_row(), data_row(), reply_row()];
+    for row in Stream::all().map(stream_row).chain(others) {
+        table += &row.text();
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/outcomes.tsv");
+    if std::env::var_os("ADS_CNC_WRITE_OUTCOMES").is_some() {
+        std::fs::write(&path, &table).unwrap();
+    }
+    let kept = std::fs::read_to_string(path).unwrap();
+    let changed: Vec<_> = table.lines().filter_map(|row| difference(row, &kept)).collect();
+    assert!(
+        table.lines().eq(kept.lines()),
+        "changed: {changed:#?}\n\
+         Outcomes of the same inputs are part of the interface: a change belongs in CHANGELOG.md. Of other \
+         inputs, compare the outcomes with those of version 0.1.0, as the head of this file says. \
+         ADS_CNC_WRITE_OUTCOMES=1 rewrites codec/tests/outcomes.tsv."
+    );
+}
