@@ -156,6 +156,7 @@ pub mod value;
 mod variable;
 
 #[cfg(feature = "binrw")]
+mod streams;
 pub use binrw;
 
 #[cfg(feature = "arbitrary")]
