@@ -25,6 +25,8 @@ mod equality;
 mod errata;
 #[path = "../tests/frames.rs"]
 mod frames;
+#[path = "../tests/json.rs"]
+mod json;
 #[path = "../tests/limits.rs"]
 mod limits;
 #[path = "../tests/net_ids.rs"]

@@ -28,6 +28,8 @@ macro_rules! row {
     (packed (UNS32) $a:lifetime) => { zerocopy::little_endian::U32 };
     (packed (NETID) $a:lifetime) => { [u8; 6] };
     (packed (PADDED $n:literal) $a:lifetime) => { [u8; $n] };
+    (serde (NETID) $a:lifetime) => { $crate::serial::NetId };
+    (serde (PADDED $n:literal) $a:lifetime) => { $crate::serial::Padded<$n> };
     ($q:ident (UNS08) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Number<u8, u8>] "1 | `UNS08`") };
     ($q:ident (UNS16) $a:lifetime) => { $crate::declare::row!(@$q [u16] [u16] [Number<u16, u16>] "2 | `UNS16`") };
     ($q:ident (UNS16 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u16, $t>] "2 | `UNS16`") };
@@ -46,6 +48,7 @@ macro_rules! row {
     ($q:ident (TEXT_MAYBE_NUL $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [MayTerminate<$max>] "1 … ", $max, " | `STRING`") };
     ($q:ident (TEXT_FIRST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::CncStr<$a>] [$crate::text::CncString] [Leading<$max>] "1 … ", $max, " with NUL | `STRING`") };
     (@view [$($view:tt)*] $o:tt $r:tt $($doc:tt)*) => { $($view)* };
+    (@serde [$($view:tt)*] $o:tt $r:tt $($doc:tt)*) => { $($view)* };
     (@owned $v:tt [$($owned:tt)*] $r:tt $($doc:tt)*) => { $($owned)* };
     (@row $v:tt $o:tt [$($row:tt)*] $($doc:tt)*) => { $crate::rows::$($row)* };
     (@doc $v:tt $o:tt $r:tt $($doc:tt)*) => { concat!($($doc)*) };
@@ -84,7 +87,7 @@ macro_rules! stream {
                     $crate::declare::row!(doc ($kind $($($arg)+)? $(as $new)?) 'static), $field_clause, $meaning]
             )+]
             [$title, $max]
-            [$( [$field [$field $($label)?] $at ($kind $($($arg)+)? $(as $new)?)
+            [$( [$field [$field $($label)?] ($(rename = $label)?) $at ($kind $($($arg)+)? $(as $new)?)
                 [$crate::declare::row!(row ($kind $($($arg)+)? $(as $new)?) 'static)] $meaning] )+]
         }
 
@@ -151,16 +154,18 @@ macro_rules! stream {
     // Numbers with names.
     (@types struct $view:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
-        [$( [$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
+        [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
     ) => {
         $crate::declare::stream! { @documented [$(#[$doc])*] $table ["", $max]
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+            #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
             #[cfg_attr(feature = "binrw", derive(binrw::BinRead, binrw::BinWrite), brw(little),
                 bw(assert(
                     $crate::io::check(&$view { $( $field: *$field ),+ }).is_ok(),
                     $crate::io::error(&$view { $( $field: *$field ),+ }))))]
             pub struct $view { $(
                 #[doc = $meaning]
+                #[cfg_attr(feature = "serde", serde $renamed)]
                 #[cfg_attr(feature = "binrw",
                     br(parse_with = $crate::io::parse::<$row, _>,
                         args(const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
@@ -175,10 +180,11 @@ macro_rules! stream {
     // One number.
     (@types tuple $view:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
-        [[$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal]]
+        [[$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal]]
     ) => {
         $crate::declare::stream! { @documented [$(#[$doc])*] $table ["", $max]
             #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+            #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
             #[cfg_attr(feature = "binrw", derive(binrw::BinRead, binrw::BinWrite), brw(little),
                 bw(assert(
                     $crate::io::check(&$view(*self_0)).is_ok(),
@@ -198,7 +204,7 @@ macro_rules! stream {
     // Numbers and texts of fixed length, as they are on the wire.
     (@types packed $view:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
-        [$( [$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
+        [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -208,6 +214,28 @@ macro_rules! stream {
         pub(crate) struct $view { $( pub(crate) $field: $crate::declare::row!(packed $kind 'static), )+ }
 
         const _: () = assert!(size_of::<$view>() == $max, "the rows are not all of the stream");
+
+        #[cfg(feature = "serde")]
+        const _: () = {
+            #[derive(serde::Serialize, serde::Deserialize)]
+            struct Rows { $(
+                #[serde $renamed]
+                $field: $crate::declare::row!(serde $kind 'static),
+            )+ }
+
+            impl serde::Serialize for $view {
+                fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                    Rows { $( $field: self.$field.into() ),+ }.serialize(serializer)
+                }
+            }
+
+            impl<'de> serde::Deserialize<'de> for $view {
+                fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                    let rows = Rows::deserialize(deserializer)?;
+                    Ok(Self { $( $field: rows.$field.into() ),+ })
+                }
+            }
+        };
     };
 
     // A number that may be rejected is encoded with a result only.
@@ -339,7 +367,7 @@ macro_rules! stream {
     // A type that borrows, and one that owns its data.
     (@types struct $view:ident / $owned:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
-        [$( [$field:ident $label:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
+        [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
     ) => {
         $crate::declare::stream! { @documented [$(#[$doc])*] $table ["At most ", $max]
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -371,6 +399,7 @@ macro_rules! stream {
         #[cfg(feature = "alloc")]
         #[doc = concat!("[`", stringify!($view), "`] with data of its own.")]
         #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "binrw", derive(binrw::BinRead, binrw::BinWrite), brw(little),
             br(assert(
                 $crate::io::check(&$view { $( $field: <$row as $crate::rows::Owned>::lend(&$field) ),+ }).is_ok(),
@@ -380,6 +409,7 @@ macro_rules! stream {
                 $crate::io::error(&$view { $( $field: <$row as $crate::rows::Owned>::lend($field) ),+ }))))]
         pub struct $owned { $(
             #[doc = $meaning]
+            #[cfg_attr(feature = "serde", serde $renamed)]
             #[cfg_attr(feature = "binrw",
                 br(parse_with = $crate::io::parse::<$row, _>,
                     args(const { $crate::layout::Field::of::<$view<'static>>($crate::declare::stream!(@name $label)) })),

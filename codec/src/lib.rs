@@ -87,6 +87,11 @@
 //!   stream that ends with its bytes is read to the end of the reader.
 //! - `std`: `std` in the dependencies. The crate itself never needs it.
 //! - `arbitrary`: `Arbitrary` for the owned readings.
+//! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the owned readings. A
+//!   value is a map of the fields in [`layout`], without counts; of a single number, that number. Codes
+//!   are numbers, a NetId and a text are strings. What follows the first NUL of a text makes it a map of
+//!   `text` and `tail`, so that every value is kept; that needs a format that describes itself, such as
+//!   JSON. What is deserialized is checked against the limits of its stream only when it is encoded.
 //!
 //! ```
 //! # #[cfg(all(feature = "binrw", feature = "std"))] {
@@ -151,6 +156,7 @@ pub mod sections;
 pub mod service;
 mod stream;
 pub mod streaming;
+mod streams;
 pub mod text;
 pub mod value;
 mod variable;
@@ -166,6 +172,8 @@ mod declare;
 mod io;
 mod number;
 mod rows;
+#[cfg(feature = "serde")]
+mod serial;
 
 #[cfg(feature = "alloc")]
 pub use com::Descriptors;

@@ -13,7 +13,6 @@ use ads_cnc::ads::*;
 use ads_cnc::dynamic::*;
 use ads_cnc::layout::Stream;
 use ads_cnc::sda::*;
-use ads_cnc::streaming::{ProgramStream, ProgramStreamRef};
 use ads_cnc::value::DataType;
 use ads_cnc::*;
 use ads_cnc_vectors::{Expect, Vector, vectors};
@@ -70,67 +69,31 @@ fn decode(vector: &Vector, bytes: &[u8]) -> Result<String, Refusal> {
     }
 }
 
-fn decode_stream(stream: Stream, vector: &Vector, bytes: &[u8]) -> Result<String, Error> {
-    match stream {
-        Stream::AmsTcpHeader => show!(bytes, AmsTcpHeader, AmsTcpHeader),
-        Stream::AmsHeader => show!(bytes, AmsHeader, AmsHeader),
-        Stream::ReadRequest => show!(bytes, ReadRequest, ReadRequest),
-        Stream::ReadReply => show!(bytes, ReadReplyRef<'_>, ReadReply),
-        Stream::WriteRequest => show!(bytes, WriteRequestRef<'_>, WriteRequest),
-        Stream::WriteReply => show!(bytes, WriteReply, WriteReply),
-        Stream::ReadWriteRequest => show!(bytes, ReadWriteRequestRef<'_>, ReadWriteRequest),
-        Stream::ReadWriteReply => show!(bytes, ReadWriteReplyRef<'_>, ReadWriteReply),
-        Stream::DeviceInfoReply => show!(bytes, DeviceInfoReply, DeviceInfoReply),
-        Stream::DeviceStateReply => show!(bytes, DeviceStateReply, DeviceStateReply),
-        Stream::ObjectCount => show!(bytes, ObjectCount, ObjectCount),
-        Stream::ObjectDescriptor => show!(bytes, DescriptorRef<'_>, Descriptor),
-        Stream::ObjectDescriptors => show!(bytes, DescriptorsRef<'_>, Descriptors),
-        Stream::VariableKind => show!(bytes, VariableKindRef<'_>, VariableKind),
-        Stream::VariableCount => show!(bytes, VariableCount, VariableCount),
-        Stream::VariableIndexKind => show!(bytes, VariableIndexKindRef<'_>, VariableIndexKind),
-        Stream::VariableDescription => show!(bytes, DescriptionRef<'_>, Description),
-        Stream::VariableName => show!(bytes, VariableNameRef<'_>, VariableName),
-        Stream::VariableHandle => show!(bytes, Handle, Handle),
-        Stream::VariableHandleRead => show!(bytes, HandleReadRef<'_>, HandleRead),
-        Stream::VariableValue => {
-            show!(bytes, ValueRef<'_>, Value)?;
-            elements(vector, bytes)
-        }
-        Stream::VariableHandleWrite => {
-            let shown = show!(bytes, HandleWriteRef<'_>, HandleWrite)?;
-            let value = elements(vector, HandleWriteRef::decode(bytes)?.value)?;
-            Ok(format!("{shown}\n{value}"))
-        }
-        Stream::VariableNameWrite => {
-            let shown = show!(bytes, NameWriteRef<'_>, NameWrite)?;
-            let value = elements(vector, NameWriteRef::decode(bytes)?.value)?;
-            Ok(format!("{shown}\n{value}"))
-        }
-        Stream::VariableExtendedDescription => show!(bytes, ExtendedReply, ExtendedReply),
-        Stream::VariableDescriptionByName => {
-            show!(bytes, DescriptionByNameRef<'_>, DescriptionByName)
-        }
-        Stream::Content => {
-            let shown = show!(bytes, ContentRef<'_>, Content)?;
-            match vector.context.kind {
-                Some(_) => elements(vector, bytes),
-                None => Ok(shown),
+macro_rules! shown {
+    ($( $stream:ident: $view:ty $( , $owned:ty )?; )+) => {
+        fn shown(stream: Stream, bytes: &[u8]) -> Result<String, Error> {
+            match stream {
+                $( Stream::$stream => shown!(@ bytes, $view $( , $owned )?), )+
+                other => panic!("{other} has no decoder"),
             }
         }
-        Stream::ObjectAddressQuery => show!(bytes, ObjectAddressQuery, ObjectAddressQuery),
-        Stream::ObjectAddress => show!(bytes, ObjectAddress, ObjectAddress),
-        Stream::ElementCount => show!(bytes, ElementCount, ElementCount),
-        Stream::ElementText => show!(bytes, ElementTextRef<'_>, ElementText),
-        Stream::ElementLength => show!(bytes, ElementLength, ElementLength),
-        Stream::ElementWriteFlag => show!(bytes, ElementWriteFlag, ElementWriteFlag),
-        Stream::DynamicCount => show!(bytes, DynamicCount, DynamicCount),
-        Stream::DynamicIndex => show!(bytes, DynamicIndex, DynamicIndex),
-        Stream::DynamicName => show!(bytes, DynamicNameRef<'_>, DynamicName),
-        Stream::DynamicNameRequest => show!(bytes, DynamicNameRequestRef<'_>, DynamicNameRequest),
-        Stream::DynamicValue => show!(bytes, DynamicValue, DynamicValue),
-        Stream::ProgramStream => show!(bytes, ProgramStreamRef<'_>, ProgramStream),
-        other => panic!("{other} has no decoder"),
-    }
+    };
+    (@ $bytes:ident, $both:ty) => { show!($bytes, $both, $both) };
+    (@ $bytes:ident, $view:ty, $owned:ty) => { show!($bytes, $view, $owned) };
+}
+
+ads_cnc::streams! { shown }
+
+fn decode_stream(stream: Stream, vector: &Vector, bytes: &[u8]) -> Result<String, Error> {
+    let shown = shown(stream, bytes)?;
+    let value = match stream {
+        Stream::VariableValue => return elements(vector, bytes),
+        Stream::Content if vector.context.kind.is_some() => return elements(vector, bytes),
+        Stream::VariableHandleWrite => HandleWriteRef::decode(bytes)?.value,
+        Stream::VariableNameWrite => NameWriteRef::decode(bytes)?.value,
+        _ => return Ok(shown),
+    };
+    Ok(format!("{shown}\n{}", elements(vector, value)?))
 }
 
 /// The group of a base and the number that was added to it, put together from both.

@@ -31,6 +31,7 @@ const COM_AXIS: u32 = 0x200;
 /// assert_eq!(IndexGroup::new(0xF005).parts(), None);
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndexGroup(u32);
 
 impl IndexGroup {

@@ -24,6 +24,7 @@ use crate::layout::field::index_offset::{AXIS, ELEMENT};
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndexOffset(u32);
 
 /// The most that 16 bits hold (ADR-9).

@@ -34,6 +34,11 @@ const NAME_LEN: usize = 16;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "InfoLayout", into = "InfoLayout")
+)]
 pub struct DeviceInfoReply {
     /// ADS error number.
     pub result: AdsError,
@@ -70,9 +75,7 @@ impl<'a> Decode<'a> for DeviceInfoReply {
     const STREAM: Stream = Stream::DeviceInfoReply;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let layout = Reader::all(Self::STREAM, bytes)?;
-        let &InfoLayout { result, major, minor, build, name } = layout;
-        Ok(Self { result: AdsError(result.get()), major, minor, build: build.get(), name })
+        Reader::all(Self::STREAM, bytes).map(Self::from_layout)
     }
 }
 
@@ -82,10 +85,32 @@ impl Encode for DeviceInfoReply {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
+        Writer::copy(Self::STREAM, self.layout().as_bytes(), buf)
+    }
+}
+
+impl DeviceInfoReply {
+    fn from_layout(&InfoLayout { result, major, minor, build, name }: &InfoLayout) -> Self {
+        Self { result: AdsError(result.get()), major, minor, build: build.get(), name }
+    }
+
+    fn layout(&self) -> InfoLayout {
         let &Self { result, major, minor, build, name } = self;
-        let (result, build) = (result.0.into(), build.into());
-        let layout = InfoLayout { result, major, minor, build, name };
-        Writer::copy(Self::STREAM, layout.as_bytes(), buf)
+        InfoLayout { result: result.0.into(), major, minor, build: build.into(), name }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<InfoLayout> for DeviceInfoReply {
+    fn from(layout: InfoLayout) -> Self {
+        Self::from_layout(&layout)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<DeviceInfoReply> for InfoLayout {
+    fn from(info: DeviceInfoReply) -> Self {
+        info.layout()
     }
 }
 

@@ -58,6 +58,11 @@ stream! {
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "HeaderLayout", into = "HeaderLayout")
+)]
 pub struct AmsHeader {
     /// Who receives the frame.
     pub target: AmsAddr,
@@ -95,10 +100,15 @@ impl<'a> Decode<'a> for AmsHeader {
     const STREAM: Stream = Stream::AmsHeader;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let fixed: &HeaderLayout = Reader::all(Self::STREAM, bytes)?;
+        Reader::all(Self::STREAM, bytes).map(Self::from_layout)
+    }
+}
+
+impl AmsHeader {
+    fn from_layout(fixed: &HeaderLayout) -> Self {
         let end =
             |net_id, port: U16| AmsAddr { net_id: AmsNetId(net_id), port: AmsPort(port.get()) };
-        Ok(Self {
+        Self {
             target: end(fixed.target_net_id, fixed.target_port),
             source: end(fixed.source_net_id, fixed.source_port),
             command: Command(fixed.command.get()),
@@ -106,7 +116,7 @@ impl<'a> Decode<'a> for AmsHeader {
             data_length: fixed.data_length.get(),
             error: AdsError(fixed.error.get()),
             invoke_id: fixed.invoke_id.get(),
-        })
+        }
     }
 }
 
@@ -167,5 +177,19 @@ impl AmsHeader {
             error: self.error.0.into(),
             invoke_id: self.invoke_id.into(),
         }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<HeaderLayout> for AmsHeader {
+    fn from(layout: HeaderLayout) -> Self {
+        Self::from_layout(&layout)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<AmsHeader> for HeaderLayout {
+    fn from(header: AmsHeader) -> Self {
+        header.layout()
     }
 }

@@ -127,6 +127,7 @@ macro_rules! reply_with_data {
         /// ```
         #[cfg(feature = "alloc")]
         #[derive(Clone, Debug, PartialEq, Eq, Hash)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         pub struct $owned {
             /// ADS error number.
             pub result: AdsError,

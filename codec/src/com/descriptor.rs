@@ -105,6 +105,7 @@ pub struct DescriptorRef<'a>(pub(super) &'a DescriptorLayout);
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Descriptor(pub(super) DescriptorLayout);
 
 /// Declares the accessors of both readings.

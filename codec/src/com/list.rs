@@ -175,6 +175,7 @@ mod owned {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     #[derive(Clone, Default, PartialEq, Eq, Hash)]
+    #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
     pub struct Descriptors(Vec<DescriptorLayout>);
 
     impl From<DescriptorsRef<'_>> for Descriptors {

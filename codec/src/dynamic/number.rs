@@ -89,6 +89,11 @@ impl DynamicIndex {
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "crate::serial::Real", into = "crate::serial::Real")
+)]
 pub struct DynamicValue {
     bits: u64,
 }

@@ -76,6 +76,11 @@ stream! {
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "LengthByType", into = "LengthByType")
+)]
 pub struct ElementLength {
     length: u32,
     width: Width,
@@ -134,6 +139,39 @@ impl Encode for ElementLength {
         // A narrow number is only ever read, so that nothing is cut off.
         let all = self.length.to_le_bytes();
         Writer::copy(Self::STREAM, all.get(..self.encoded_len()).unwrap_or_default(), buf)
+    }
+}
+
+/// The length by the type of its width.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+enum LengthByType {
+    Uns08(u8),
+    Uns16(u16),
+    Uns32(u32),
+}
+
+#[cfg(feature = "serde")]
+impl From<LengthByType> for ElementLength {
+    fn from(length: LengthByType) -> Self {
+        match length {
+            LengthByType::Uns08(length) => Self { length: length.into(), width: Width::One },
+            LengthByType::Uns16(length) => Self { length: length.into(), width: Width::Two },
+            LengthByType::Uns32(length) => Self::new(length),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<ElementLength> for LengthByType {
+    fn from(ElementLength { length, width }: ElementLength) -> Self {
+        let [a, b, ..] = length.to_le_bytes();
+        match width {
+            Width::One => Self::Uns08(a),
+            Width::Two => Self::Uns16(u16::from_le_bytes([a, b])),
+            Width::Four => Self::Uns32(length),
+        }
     }
 }
 

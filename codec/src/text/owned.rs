@@ -89,6 +89,11 @@ impl fmt::Debug for CncString {
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, PartialEq, Eq, Hash)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "crate::serial::TextShape", into = "crate::serial::TextShape")
+)]
 pub struct Text {
     /// The text.
     pub text: CncString,

@@ -57,6 +57,7 @@ stream! {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ExtendedReply(pub Option<ExtendedDescription>);
 
 impl<'a> Decode<'a> for ExtendedReply {

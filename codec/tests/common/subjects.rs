@@ -1,11 +1,7 @@
 //! The readings of each stream, as functions over bytes.
 
-use ads_cnc::ads::*;
-use ads_cnc::dynamic::*;
 use ads_cnc::layout::Stream;
-use ads_cnc::sda::*;
-use ads_cnc::streaming::*;
-use ads_cnc::*;
+use ads_cnc::{Decode as _, Encode as _, Error};
 
 use super::Bend;
 
@@ -148,43 +144,4 @@ macro_rules! subjects {
 }
 
 /// All streams.
-pub(crate) static SUBJECTS: &[Subject] = subjects! {
-    AmsTcpHeader: AmsTcpHeader;
-    AmsHeader: AmsHeader;
-    ReadRequest: ReadRequest;
-    ReadReply: ReadReplyRef<'_>, ReadReply;
-    WriteRequest: WriteRequestRef<'_>, WriteRequest;
-    WriteReply: WriteReply;
-    ReadWriteRequest: ReadWriteRequestRef<'_>, ReadWriteRequest;
-    ReadWriteReply: ReadWriteReplyRef<'_>, ReadWriteReply;
-    ObjectCount: ObjectCount;
-    ObjectDescriptor: DescriptorRef<'_>, Descriptor;
-    ObjectDescriptors: DescriptorsRef<'_>, Descriptors;
-    VariableKind: VariableKindRef<'_>, VariableKind;
-    VariableCount: VariableCount;
-    VariableIndexKind: VariableIndexKindRef<'_>, VariableIndexKind;
-    VariableDescription: DescriptionRef<'_>, Description;
-    VariableName: VariableNameRef<'_>, VariableName;
-    VariableHandle: Handle;
-    VariableHandleRead: HandleReadRef<'_>, HandleRead;
-    VariableValue: ValueRef<'_>, Value;
-    VariableHandleWrite: HandleWriteRef<'_>, HandleWrite;
-    VariableNameWrite: NameWriteRef<'_>, NameWrite;
-    VariableExtendedDescription: ExtendedReply;
-    Content: ContentRef<'_>, Content;
-    ObjectAddressQuery: ObjectAddressQuery;
-    ObjectAddress: ObjectAddress;
-    ElementCount: ElementCount;
-    ElementText: ElementTextRef<'_>, ElementText;
-    ElementLength: ElementLength;
-    ElementWriteFlag: ElementWriteFlag;
-    DynamicCount: DynamicCount;
-    DynamicIndex: DynamicIndex;
-    DynamicName: DynamicNameRef<'_>, DynamicName;
-    DynamicNameRequest: DynamicNameRequestRef<'_>, DynamicNameRequest;
-    DynamicValue: DynamicValue;
-    VariableDescriptionByName: DescriptionByNameRef<'_>, DescriptionByName;
-    ProgramStream: ProgramStreamRef<'_>, ProgramStream;
-    DeviceInfoReply: DeviceInfoReply;
-    DeviceStateReply: DeviceStateReply;
-};
+pub(crate) static SUBJECTS: &[Subject] = ads_cnc::streams! { subjects };

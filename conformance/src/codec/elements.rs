@@ -1,67 +1,94 @@
-//! Elements of SDA and GEO, contents, dynamic parameters, and the description by name.
+//! Bytes whose meaning the context has: values and contents by their types.
 
-use ads_cnc::dynamic::{DynamicCount, DynamicIndex, DynamicName, DynamicNameRequest, DynamicValue};
-use ads_cnc::sda::{
-    ElementCount, ElementLength, ElementText, ElementWriteFlag, ObjectAddress, ObjectAddressQuery,
-};
-use ads_cnc::{Content, ContentRef, Decode, DescriptionByName, Element, Encode};
-use ads_cnc_vectors::{Context, Type, Value};
+use ads_cnc::value::{DataType, EncodeValue as _};
+use ads_cnc::{CncStr, Elements, Numbers};
+use ads_cnc_vectors::{Context, Tagged, Type, Value};
 
-use super::{
-    Decoded, Refused, data, description, element, elements, one, owned_text, place, stream, uns32,
-};
+use super::Refused;
+use super::fields::{data, element};
+use super::given::{bits, hex, integer, text, unfit};
 
-pub(super) fn decode(name: &str, context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
-    let (fields, bytes) = match name {
-        "object-address-query" => stream(bytes, |query: &ObjectAddressQuery| {
-            vec![("channel", uns32(query.channel)), ("axis", uns32(query.axis))]
-        }),
-        "object-address" => {
-            stream(bytes, |found: &ObjectAddress| place(found.index_group, found.index_offset))
-        }
-        "element-count" => stream(bytes, |count: &ElementCount| vec![("count", uns32(count.0))]),
-        "element-text" => {
-            stream(bytes, |reply: &ElementText| vec![("text", owned_text(&reply.text))])
-        }
-        "element-length" => stream(bytes, |length: &ElementLength| {
-            let width = match length.encoded_len() {
-                1 => Type::Uns08,
-                2 => Type::Uns16,
-                _ => Type::Uns32,
-            };
-            vec![("length", one(width, length.get()))]
-        }),
-        "element-write-flag" => {
-            stream(bytes, |flag: &ElementWriteFlag| vec![("flag", one(Type::Boolean, flag.0))])
-        }
-        "content" => {
-            let content = content(context, ContentRef::decode(bytes)?.bytes)?;
-            stream(bytes, |_: &Content| vec![("content", content)])
-        }
-        "dynamic-count" => stream(bytes, |count: &DynamicCount| vec![("count", uns32(count.0))]),
-        "dynamic-index" => stream(bytes, |index: &DynamicIndex| vec![("index", uns32(index.0))]),
-        "dynamic-name" => {
-            stream(bytes, |reply: &DynamicName| vec![("name", owned_text(&reply.name))])
-        }
-        "dynamic-name-request" => {
-            stream(bytes, |request: &DynamicNameRequest| vec![("name", owned_text(&request.name))])
-        }
-        "dynamic-value" => stream(bytes, |value: &DynamicValue| {
-            vec![("value", Value::One(element(Element::Real64(value.get()))))]
-        }),
-        "variable-description-by-name" => stream(bytes, |variable: &DescriptionByName| {
-            let DescriptionByName { handle, var_type, access, size, .. } = *variable;
-            description(handle, var_type, access, size, &variable.dimensions)
-        }),
-        other => return Err(Refused::Unsupported(format!("stream {other}"))),
-    }?;
-    Ok(Decoded { fields, bytes })
+/// Whether the bytes of a field are elements: a value always has a type, a content may have one.
+fn is_typed(field: &str, context: &Context) -> bool {
+    let has_type = context.kind.is_some() && context.dimensions.is_some();
+    field == "value" || field == "content" && has_type
 }
 
-/// A content by its type; bytes if there is none.
-fn content(context: &Context, bytes: &[u8]) -> Result<Value, Refused> {
-    match (context.kind, &context.dimensions) {
-        (Some(_), Some(_)) => elements(context, bytes),
-        _ => Ok(data(bytes)),
+/// The type of the elements, and their dimensions.
+fn type_of(context: &Context) -> Result<(Type, DataType, &[u32]), Refused> {
+    let lacks = |what: &str| Refused::Unsupported(format!("a value without {what}"));
+    let kind = context.kind.ok_or_else(|| lacks("a type"))?;
+    let dimensions = context.dimensions.as_deref().ok_or_else(|| lacks("dimensions"))?;
+    match DataType::by_name(CncStr::new(kind.name())?) {
+        Some(data_type) => Ok((kind, data_type, dimensions)),
+        None => Err(Refused::Unsupported(format!("values of type {kind:?}"))),
     }
+}
+
+/// The bytes of a field by their type, whose name the elements keep; plain bytes if they have none.
+pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Value, Refused> {
+    if !is_typed(field, context) {
+        return Ok(data(bytes));
+    }
+    let (kind, data_type, dimensions) = type_of(context)?;
+    let elements = Elements::new(data_type, Numbers::from(dimensions), bytes)?;
+    let named = |item| Value::One(Tagged { kind, ..element(item) });
+    Ok(Value::List(elements.iter().map(named).collect()))
+}
+
+/// The bytes of a field: as many elements of the context's type as its dimensions say.
+pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Vec<u8>, Refused> {
+    if !is_typed(field, context) {
+        let plain = || unfit(format_args!("{field} is no single value"));
+        return Ok(hex(value.tagged().ok_or_else(plain)?)?.to_vec());
+    }
+    let (kind, data_type, dimensions) = type_of(context)?;
+    let given = value.list().ok_or_else(|| unfit(format_args!("{field} is no list")))?;
+    let items = given.iter().map(|value| match value.tagged() {
+        Some(tagged) if tagged.kind == kind => Ok(tagged),
+        _ => Err(unfit(format_args!("{field} has an element that is no {}", kind.name()))),
+    });
+    let items: Vec<&Tagged> = items.collect::<Result<_, _>>()?;
+    let count = dimensions.iter().try_fold(1_usize, |count, &len| {
+        count.checked_mul(usize::try_from(len).unwrap_or(usize::MAX))
+    });
+    if count != Some(items.len()) {
+        let dimensions = Numbers::from(dimensions);
+        return Err(unfit(format_args!("{} elements for {dimensions:?}", items.len())));
+    }
+    encode_elements(data_type, &items)
+}
+
+/// The elements in their order, as the codec writes them.
+fn encode_elements(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Refused> {
+    let element = |one: &Tagged| {
+        Ok(match data_type {
+            DataType::Boolean => integer::<u8>(one)?.value_to_vec()?,
+            DataType::Sgn08 => integer::<i8>(one)?.value_to_vec()?,
+            DataType::Uns08 => integer::<u8>(one)?.value_to_vec()?,
+            DataType::Sgn16 => integer::<i16>(one)?.value_to_vec()?,
+            DataType::Uns16 => integer::<u16>(one)?.value_to_vec()?,
+            DataType::Sgn32 => integer::<i32>(one)?.value_to_vec()?,
+            DataType::Uns32 => integer::<u32>(one)?.value_to_vec()?,
+            DataType::Lint => integer::<i64>(one)?.value_to_vec()?,
+            DataType::Lword => integer::<u64>(one)?.value_to_vec()?,
+            DataType::Real64 => f64::from_bits(bits(one)?).value_to_vec()?,
+            DataType::Real32 => {
+                let bits = u32::try_from(bits(one)?).map_err(|_| unfit("more than 32 bits"))?;
+                f32::from_bits(bits).value_to_vec()?
+            }
+            DataType::String => text(one)?.value_to_vec()?,
+            other => return Err(Refused::Unsupported(format!("values of type {other:?}"))),
+        })
+    };
+    let each = items.iter().map(|one| element(one)).collect::<Result<Vec<_>, _>>()?;
+    let bytes = each.concat();
+    if data_type == DataType::String && items.len() != 1 {
+        if each.windows(2).any(|two| two.first().map(Vec::len) != two.last().map(Vec::len)) {
+            return Err(unfit("texts of an array have the same room each"));
+        }
+        let count = [u32::try_from(items.len()).unwrap_or(u32::MAX)];
+        Elements::new(data_type, Numbers::from(&count), &bytes)?;
+    }
+    Ok(bytes)
 }

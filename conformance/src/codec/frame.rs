@@ -3,18 +3,39 @@
 use ads_cnc::ads::{AdsError, AmsHeader, AmsTcpHeader, Command, FrameRef, StateFlags};
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::{Decode, Encode};
-use ads_cnc_vectors::{Context, Fields, Value};
+use ads_cnc_vectors::{Context, Value};
 
-use super::{Decoded, Refused, ams_header, collect, data, decode_stream, uns16};
+use super::given::Given;
+use super::stream::{from_fields, to_fields};
+use super::{Decoded, Refused, collect, data, stream, uns16, uns32};
+
+/// The length of a header only counts.
+const LENGTH: &str = "data_length";
+
+const SERVICES: [&str; 6] = [
+    "read-request",
+    "read-reply",
+    "write-request",
+    "write-reply",
+    "read-write-request",
+    "read-write-reply",
+];
+
+/// The field of a frame that its service has.
+fn field_of(stream: &str) -> String {
+    stream.replace('-', "_")
+}
 
 pub(super) fn decode(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
     let Some((frame, len)) = FrameRef::split(bytes, u32::MAX)? else {
         return Err(cut(context, bytes));
     };
     let header = frame.header();
+    let mut ams_header = to_fields(context, &header)?;
+    ams_header.remove(LENGTH);
     let mut fields = collect(vec![
         ("ams_tcp_header", Value::Record(collect(vec![("reserved", uns16(0))]))),
-        ("ams_header", Value::Record(without_length(&header))),
+        ("ams_header", Value::Record(ams_header)),
     ]);
     // What is behind the frame is too much for its service.
     let rest = bytes.get(FrameRef::HEADERS_LEN..).unwrap_or_default();
@@ -42,12 +63,6 @@ fn cut(context: &Context, bytes: &[u8]) -> Refused {
     parts().err().unwrap_or_else(rest)
 }
 
-/// The length only counts.
-fn without_length(header: &AmsHeader) -> Fields {
-    let fields = ams_header(header).into_iter().filter(|(name, _)| *name != "data_length");
-    collect(fields.collect())
-}
-
 /// The name and fields of the stream behind the header, if there has to be one.
 fn service(
     context: &Context,
@@ -66,6 +81,22 @@ fn service(
         (Command::READ_WRITE, StateFlags::RESPONSE) => "read-write-reply",
         _ => return Ok(Some(("data".to_owned(), data(bytes)))),
     };
-    let decoded = decode_stream(name, context, bytes)?;
-    Ok(Some((name.replace('-', "_"), Value::Record(decoded.fields))))
+    let decoded = stream::decode(name, context, bytes)?;
+    Ok(Some((field_of(name), Value::Record(decoded.fields))))
+}
+
+pub(super) fn encode(of: Given<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
+    let tcp = of.record("ams_tcp_header")?;
+    if tcp.number::<u16>("reserved")? != 0 {
+        return Err(Refused::Unfit("a frame with a reserved number other than 0".to_owned()));
+    }
+    let mut header = of.record("ams_header")?.0.clone();
+    header.insert(LENGTH.to_owned(), uns32(0));
+    let header: AmsHeader = from_fields(context, &header)?;
+    let data = match SERVICES.into_iter().find(|stream| of.has(&field_of(stream))) {
+        Some(service) => stream::encode(service, context, of.record(&field_of(service))?.0)?,
+        None if of.has("data") => of.bytes("data")?,
+        None => Vec::new(),
+    };
+    Ok(FrameRef::new(header, &data)?.encode_to_vec()?)
 }

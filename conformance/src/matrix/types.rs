@@ -1,70 +1,25 @@
 //! Where in the codec a requirement is at home.
 
-use ads_cnc::ads::*;
-use ads_cnc::dynamic::*;
 use ads_cnc::layout::Stream;
-use ads_cnc::sda::*;
-use ads_cnc::streaming::*;
-use ads_cnc::*;
 
-/// Names are spelled once, and each has to be a type that reads the stream.
 macro_rules! types {
-    ($( $stream:ident: $( $reading:ident $( <$life:lifetime> )? ),+; )+) => {
-        $( $( const _: () = assert!(matches!(
-            <$reading $( <$life> )? as Decode<'static>>::STREAM,
-            Stream::$stream
-        )); )+ )+
-
+    ($( $stream:ident: $view:ty $( , $owned:ty )?; )+) => {
         /// The types that read and write a stream.
-        pub(super) fn of_stream(stream: Stream) -> &'static [&'static str] {
-            match stream {
-                $( Stream::$stream => &[$( stringify!($reading), )+], )+
+        pub(super) fn of_stream(stream: Stream) -> Vec<&'static str> {
+            let paths: &[&str] = match stream {
+                $( Stream::$stream => &[stringify!($view) $( , stringify!($owned) )?], )+
                 _ => &[],
-            }
+            };
+            let name = |path: &&'static str| {
+                let name = path.rsplit("::").next()?;
+                name.split('<').next().map(str::trim)
+            };
+            paths.iter().filter_map(name).collect()
         }
     };
 }
 
-types! {
-    AmsTcpHeader: AmsTcpHeader;
-    AmsHeader: AmsHeader;
-    ReadRequest: ReadRequest;
-    ReadReply: ReadReplyRef<'static>, ReadReply;
-    WriteRequest: WriteRequestRef<'static>, WriteRequest;
-    WriteReply: WriteReply;
-    ReadWriteRequest: ReadWriteRequestRef<'static>, ReadWriteRequest;
-    ReadWriteReply: ReadWriteReplyRef<'static>, ReadWriteReply;
-    DeviceInfoReply: DeviceInfoReply;
-    DeviceStateReply: DeviceStateReply;
-    ObjectCount: ObjectCount;
-    ObjectDescriptor: DescriptorRef<'static>, Descriptor;
-    ObjectDescriptors: DescriptorsRef<'static>, Descriptors;
-    Content: ContentRef<'static>, Content;
-    ObjectAddressQuery: ObjectAddressQuery;
-    ObjectAddress: ObjectAddress;
-    ElementCount: ElementCount;
-    ElementText: ElementTextRef<'static>, ElementText;
-    ElementLength: ElementLength;
-    ElementWriteFlag: ElementWriteFlag;
-    DynamicCount: DynamicCount;
-    DynamicIndex: DynamicIndex;
-    DynamicName: DynamicNameRef<'static>, DynamicName;
-    DynamicNameRequest: DynamicNameRequestRef<'static>, DynamicNameRequest;
-    DynamicValue: DynamicValue;
-    VariableKind: VariableKindRef<'static>, VariableKind;
-    VariableCount: VariableCount;
-    VariableIndexKind: VariableIndexKindRef<'static>, VariableIndexKind;
-    VariableDescription: DescriptionRef<'static>, Description;
-    VariableDescriptionByName: DescriptionByNameRef<'static>, DescriptionByName;
-    VariableExtendedDescription: ExtendedReply;
-    VariableName: VariableNameRef<'static>, VariableName;
-    VariableHandle: Handle;
-    VariableHandleRead: HandleReadRef<'static>, HandleRead;
-    VariableHandleWrite: HandleWriteRef<'static>, HandleWrite;
-    VariableNameWrite: NameWriteRef<'static>, NameWrite;
-    VariableValue: ValueRef<'static>, Value;
-    ProgramStream: ProgramStreamRef<'static>, ProgramStream;
-}
+ads_cnc::streams! { types }
 
 /// An area of requirements.
 pub(super) struct Area {

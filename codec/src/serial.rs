@@ -1,0 +1,140 @@
+//! serde for what is neither a number nor a map of fields.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::ads::AmsNetId;
+use crate::dynamic::DynamicValue;
+use crate::text::{CncString, Text, TextRef};
+
+/// Types that are strings, as they are displayed and parsed.
+macro_rules! strings {
+    ($( $type:ty )+) => { $(
+        impl Serialize for $type {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                serializer.collect_str(self)
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $type {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
+            }
+        }
+    )+ };
+}
+
+strings! { AmsNetId CncString }
+
+/// The bytes of a NetId.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct NetId(AmsNetId);
+
+impl From<[u8; 6]> for NetId {
+    fn from(bytes: [u8; 6]) -> Self {
+        Self(AmsNetId(bytes))
+    }
+}
+
+impl From<NetId> for [u8; 6] {
+    fn from(id: NetId) -> Self {
+        id.0.0
+    }
+}
+
+/// A [`Text`]: a string if one NUL ends it, else a map with the bytes after its NUL.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum TextShape {
+    OneNul(CncString),
+    Other { text: CncString, tail: Option<Vec<u8>> },
+}
+
+impl From<TextShape> for Text {
+    fn from(text: TextShape) -> Self {
+        match text {
+            TextShape::OneNul(text) => text.into(),
+            TextShape::Other { text, tail } => Self { text, tail },
+        }
+    }
+}
+
+impl From<Text> for TextShape {
+    fn from(Text { text, tail }: Text) -> Self {
+        match tail {
+            Some(tail) if tail.is_empty() => Self::OneNul(text),
+            tail => Self::Other { text, tail },
+        }
+    }
+}
+
+/// A text in so many bytes. What only pads it is no tail.
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(try_from = "Text", into = "Text")]
+pub(crate) struct Padded<const N: usize>([u8; N]);
+
+impl<const N: usize> From<[u8; N]> for Padded<N> {
+    fn from(bytes: [u8; N]) -> Self {
+        Self(bytes)
+    }
+}
+
+impl<const N: usize> From<Padded<N>> for [u8; N] {
+    fn from(text: Padded<N>) -> Self {
+        text.0
+    }
+}
+
+impl<const N: usize> From<Padded<N>> for Text {
+    fn from(Padded(bytes): Padded<N>) -> Self {
+        let field = TextRef::split(&bytes);
+        let tail = field.tail().filter(|tail| tail.iter().any(|&byte| byte != 0));
+        TextRef::with_tail(field.text(), Some(tail.unwrap_or_default())).into()
+    }
+}
+
+impl<const N: usize> TryFrom<Text> for Padded<N> {
+    type Error = &'static str;
+
+    fn try_from(Text { text, tail }: Text) -> Result<Self, &'static str> {
+        // Padding ends the text as well as one NUL does.
+        let tail = tail.iter().filter(|tail| !tail.is_empty());
+        let nul_and_tail = tail.flat_map(|tail| [0].iter().chain(tail));
+        let mut all = text.as_bytes().iter().chain(nul_and_tail);
+        let mut bytes = [0; N];
+        bytes.iter_mut().zip(&mut all).for_each(|(slot, &byte)| *slot = byte);
+        match all.next() {
+            None => Ok(Self(bytes)),
+            Some(_) => Err("a text with more bytes than its field"),
+        }
+    }
+}
+
+/// A REAL64: a number, or its bits if it is not finite.
+#[derive(Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Real {
+    Finite(f64),
+    Other { bits: u64 },
+}
+
+impl From<Real> for DynamicValue {
+    fn from(value: Real) -> Self {
+        match value {
+            Real::Finite(value) => value.into(),
+            Real::Other { bits } => Self::from_bits(bits),
+        }
+    }
+}
+
+impl From<DynamicValue> for Real {
+    fn from(value: DynamicValue) -> Self {
+        match value.get().is_finite() {
+            true => Self::Finite(value.get()),
+            false => Self::Other { bits: value.to_bits() },
+        }
+    }
+}

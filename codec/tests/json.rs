@@ -1,0 +1,163 @@
+//! The feature `serde`: every value comes back from JSON as it was.
+
+#![cfg(feature = "serde")]
+
+use ads_cnc::ads::{AdsError, AmsHeader, DeviceInfoReply, ReadReply};
+use ads_cnc::dynamic::DynamicValue;
+use ads_cnc::layout::Stream;
+use ads_cnc::sda::ElementLength;
+use ads_cnc::{
+    Content, Decode, Description, Descriptor, Encode, ExtendedReply, Handle, NameWrite,
+    VariableName,
+};
+use ads_cnc_vectors::vectors;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, from_str, from_value, json, to_string, to_value};
+
+/// Writes the value that the bytes are, reads it, and compares.
+fn comes_back<T>(bytes: &[u8]) -> bool
+where
+    T: for<'a> Decode<'a> + Encode + Serialize + DeserializeOwned + PartialEq + std::fmt::Debug,
+{
+    let Ok(value) = T::decode(bytes) else { return false };
+    let json = to_string(&value).unwrap();
+    let again: T = from_str(&json).unwrap_or_else(|error| panic!("{error}: {json}"));
+    assert_eq!(again, value, "{json}");
+    true
+}
+
+macro_rules! each {
+    ($( $stream:ident: $view:ty $( , $owned:ty )?; )+) => {
+        pub(crate) fn stream_comes_back(stream: Stream, bytes: &[u8]) -> bool {
+            match stream {
+                $( Stream::$stream => comes_back::<each!(@ $view $( , $owned )?)>(bytes), )+
+                other => panic!("{other} has no type"),
+            }
+        }
+    };
+    (@ $both:ty) => { $both };
+    (@ $view:ty, $owned:ty) => { $owned };
+}
+
+ads_cnc::streams! { each }
+
+#[test]
+fn vectors_come_back() {
+    let streams = vectors().iter().filter(|vector| vector.is_accepted()).filter_map(|vector| {
+        // Addresses, paths and frames are no streams of the codec.
+        let stream = Stream::by_name(&vector.stream)?;
+        assert!(stream_comes_back(stream, &vector.bytes()), "{}", vector.id);
+        Some(stream)
+    });
+    let seen: std::collections::BTreeSet<Stream> = streams.collect();
+    assert_eq!(seen.len(), Stream::all().count());
+}
+
+fn shape<T: for<'a> Decode<'a> + Serialize>(bytes: &[u8]) -> Value {
+    to_value(T::decode(bytes).unwrap()).unwrap()
+}
+
+/// Fields have the names of the table, and what only counts is no field.
+#[test]
+fn streams_are_maps_of_their_fields() {
+    let description = b"\x02\0\0\x20\x09\0\0\0\x01\0\0\0\x08\0\0\0\x01\0\0\0\x04\0\0\0L\xE4nge\0";
+    assert_eq!(
+        shape::<Description>(description),
+        json!({
+            "handle": 0x2000_0002, "type": 9, "access": 1, "size": 8, "dimensions": [4], "name": "Länge",
+        }),
+    );
+    assert_eq!(shape::<Handle>(&[4, 0, 0, 2]), json!(0x200_0004));
+    assert_eq!(shape::<Content>(&[1, 2]), json!({ "content": [1, 2] }));
+    assert_eq!(shape::<NameWrite>(b"V.E.a\0\x01"), json!({ "name": "V.E.a", "value": [1] }));
+    let header = shape::<AmsHeader>(&[7; 32]);
+    assert_eq!(header["target_net_id"], "7.7.7.7.7.7");
+    assert_eq!(header.as_object().map(serde_json::Map::len), Some(9));
+}
+
+/// What a map of numbers and strings has no room for.
+#[test]
+fn ends_widths_and_absent_data_are_kept() {
+    assert_eq!(shape::<VariableName>(b"a\0\0"), json!({ "name": { "text": "a", "tail": [0] } }));
+    assert_eq!(shape::<VariableName>(b"a\0"), json!({ "name": "a" }));
+    let open =
+        Description { name: ads_cnc::Text { text: "a".parse().unwrap(), tail: None }, ..blank() };
+    assert_eq!(to_value(&open).unwrap()["name"], json!({ "text": "a", "tail": null }));
+    assert_eq!(shape::<ElementLength>(&[4]), json!({ "UNS08": 4 }));
+    assert_eq!(shape::<ElementLength>(&[4, 1]), json!({ "UNS16": 260 }));
+    assert_eq!(shape::<ElementLength>(&[4, 1, 0, 0]), json!({ "UNS32": 260 }));
+    assert_eq!(to_value(DynamicValue::from(0.5)).unwrap(), json!(0.5));
+    let odd = DynamicValue::from_bits(0x7ff8_0000_0000_0001);
+    assert_eq!(to_value(odd).unwrap(), json!({ "bits": 0x7ff8_0000_0000_0001_u64 }));
+    assert_eq!(shape::<ReadReply>(&[4, 7, 0, 0]), json!({ "result": 0x704, "data": null }));
+    assert_eq!(shape::<ExtendedReply>(&[]), json!(null));
+    let mut info = DeviceInfoReply::decode(&[b'n'; 24]).unwrap();
+    assert_eq!(to_value(info).unwrap()["name"], "n".repeat(16));
+    info.name[4..].copy_from_slice(b"\0\0old\0\0\0\0\0\0\0");
+    let tail = json!([0, b'o', b'l', b'd', 0, 0, 0, 0, 0, 0, 0]);
+    assert_eq!(to_value(info).unwrap()["name"], json!({ "text": "nnnn", "tail": tail }));
+}
+
+fn blank() -> Description {
+    Description::decode(&[&[0; 20][..], b"x"].concat()).unwrap()
+}
+
+/// What no value can hold is an error; what no stream can hold is one when it is encoded.
+#[test]
+fn values_are_checked() {
+    let error = |json: Value| from_value::<VariableName>(json).unwrap_err().to_string();
+    assert!(error(json!({ "nam": "a" })).contains("missing field `name`"));
+    for name in ["a\0b", "Ω"] {
+        assert!(from_value::<VariableName>(json!({ "name": name })).is_err());
+    }
+    assert!(from_value::<ElementLength>(json!({ "UNS08": 256 })).is_err());
+    let mut header = shape::<AmsHeader>(&[7; 32]);
+    header["source_net_id"] = "1.2.3".into();
+    assert!(from_value::<AmsHeader>(header).is_err());
+
+    let mut descriptor = to_value(Descriptor::new("n", "BOOL").unwrap()).unwrap();
+    let mut named = |name: Value| {
+        descriptor["name"] = name;
+        from_value::<Descriptor>(descriptor.clone())
+    };
+    assert_eq!(named("x".repeat(32).into()).unwrap().name().len(), 32);
+    assert!(named(json!({ "text": "x".repeat(31), "tail": [0] })).is_err());
+    let long = named("x".repeat(33).into()).unwrap_err();
+    assert_eq!(long.to_string(), "a text with more bytes than its field");
+    assert!(named(json!({ "text": "x", "tail": vec![1; 31] })).is_err());
+
+    let unsendable: ReadReply = from_value(json!({ "result": 0 })).unwrap();
+    assert_eq!(unsendable, ReadReply { result: AdsError::NO_ERROR, data: None });
+    assert!(unsendable.encode_to_vec().is_err());
+}
+
+/// Any value that a stream can have.
+#[cfg(feature = "arbitrary")]
+#[test]
+fn made_values_come_back() {
+    for seed in 1..60_u32 {
+        let bytes: Vec<u8> = (0..400_u32)
+            .map(|at| (at * seed).wrapping_mul(2_654_435_761).to_be_bytes()[0])
+            .collect();
+        for stream in Stream::all() {
+            assert!(made::stream_comes_back(stream, &bytes));
+        }
+    }
+}
+
+#[cfg(feature = "arbitrary")]
+mod made {
+    use super::*;
+
+    fn comes_back<T>(bytes: &[u8]) -> bool
+    where
+        T: for<'a> arbitrary::Arbitrary<'a> + for<'a> Decode<'a>,
+        T: Encode + Serialize + DeserializeOwned + PartialEq + std::fmt::Debug,
+    {
+        let value = T::arbitrary(&mut arbitrary::Unstructured::new(bytes)).unwrap();
+        super::comes_back::<T>(&value.encode_to_vec().unwrap())
+    }
+
+    ads_cnc::streams! { each }
+}
