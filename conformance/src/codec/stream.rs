@@ -1,5 +1,5 @@
-//! Streams, by their types and tables: a value of any of them is JSON as its type has it, and its
-//! fields are those of the table.
+//! Streams by their types and tables: serde makes JSON of a value and a value of JSON; the table of the
+//! stream has the types with which vectors tag the fields.
 
 use ads_cnc::ads::AmsNetId;
 use ads_cnc::dynamic::DynamicValue;
@@ -96,7 +96,6 @@ where
     if record.is_empty() {
         return from_value(Json::Null).map_err(unfit);
     }
-    // A type of a single field may be that field alone.
     let single = match layout.fields {
         [row] => record.get(row.name).cloned(),
         _ => None,
@@ -112,13 +111,15 @@ fn records_of(layout: &Layout) -> &'static str {
 }
 
 fn record(layout: &Layout, context: &Context, json: &Json) -> Result<Fields, Refused> {
-    let named = |row: &FieldSpec| json.get(row.name);
-    let is_single =
-        layout.fields.len() == 1 && !layout.fields.iter().any(|row| named(row).is_some());
+    // A type of a single field may be that field alone.
+    let single = match layout.fields {
+        [row] if json.get(row.name).is_none() => Some(json),
+        _ => None,
+    };
     let mut fields = Fields::new();
     for row in layout.fields {
-        // A count has no field of its own, and what the stream has not is null.
-        let given = if is_single { Some(json) } else { named(row) };
+        // The JSON has no counts; a field that the stream does not have is null.
+        let given = single.or_else(|| json.get(row.name));
         if let Some(given) = given.filter(|given| !given.is_null()) {
             fields.insert(row.name.to_owned(), field(row, context, given)?);
         }
@@ -192,7 +193,7 @@ fn json_field(row: &FieldSpec, context: &Context, value: &Value) -> Result<Json,
         FieldType::NetId => {
             to_value(tagged.value.as_deref().unwrap_or_default().parse::<AmsNetId>()?)
         }
-        // By its width, which only the reader's bytes tell.
+        // The codec keeps the width of the number with it.
         FieldType::Unsigned => match tagged.kind {
             Type::Uns08 | Type::Uns16 => Ok(json!({ (tagged.kind.name()): tagged.integer() })),
             _ => Ok(json!({ "UNS32": tagged.integer() })),
