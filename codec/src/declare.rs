@@ -15,7 +15,7 @@ pub(crate) trait Declared {
 /// its size and type in the documentation. A number may be followed by `as` and its own type.
 macro_rules! row {
     (size (NETID)) => { $crate::layout::Size::Fixed(6) };
-    (size (UNS32_OR_NOTHING as $t:ident)) => { $crate::layout::Size::FixedOrNothing(4) };
+    (size (OPTIONAL_UNS32 as $t:ident)) => { $crate::layout::Size::OptionalFixed(4) };
     (size (PADDED $n:literal)) => { $crate::layout::Size::Padded($n) };
     (size $kind:tt) => { <$crate::declare::row!(row $kind 'static) as $crate::rows::Row>::SIZE };
     (type (NETID)) => { $crate::layout::Type::NetId };
@@ -33,18 +33,18 @@ macro_rules! row {
     ($q:ident (UNS16 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u16, $t>] "2 | `UNS16`") };
     ($q:ident (UNS32) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [Number<u32, u32>] "4 | `UNS32`") };
     ($q:ident (UNS32 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u32, $t>] "4 | `UNS32`") };
-    ($q:ident (UNS32_OR_NOTHING as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u32, $t>] "4, or no byte in the stream | `UNS32`") };
-    ($q:ident (UNS32_NOT_0) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [NonZero] "4 | `UNS32`, not 0") };
-    ($q:ident (BOOLEAN) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Flag<u8>] "1 | `BOOLEAN`") };
-    ($q:ident (LIST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Numbers<$a>] [alloc::vec::Vec<u32>] [List<$max>] "4 each, at most ", $max, " | `UNS32`") };
+    ($q:ident (OPTIONAL_UNS32 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u32, $t>] "4, or no byte in the stream | `UNS32`") };
+    ($q:ident (UNS32_NON_ZERO) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [NonZero] "4 | `UNS32`, not 0") };
+    ($q:ident (BOOLEAN) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Boolean<u8>] "1 | `BOOLEAN`") };
+    ($q:ident (LIST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::U32List<$a>] [alloc::vec::Vec<u32>] [List<$max>] "4 each, at most ", $max, " | `UNS32`") };
     ($q:ident (DATA $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Data<$max>] "at most ", $max, " | `BYTE[]`") };
-    ($q:ident (BYTES $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Bytes<$min, $max>] $min, " … ", $max, " | `BYTE[]`") };
-    ($q:ident (TEXT $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [Open<$min, $max>] $min, " … ", $max, " | `STRING`") };
-    ($q:ident (TEXT_NUL $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [Terminated<$max, false>] "1 … ", $max, " with NUL | `STRING`") };
-    ($q:ident (TEXT_NUL $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindOf<$crate::rows::Terminated<$max, false>>] "1 … ", $max, " with NUL | `STRING`") };
-    ($q:ident (TEXT_NUL_OR_NOTHING $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindOf<$crate::rows::Terminated<$max, true>>] "1 … ", $max, " with NUL, or 0 | `STRING`") };
-    ($q:ident (TEXT_MAYBE_NUL $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [MayTerminate<$max>] "1 … ", $max, " | `STRING`") };
-    ($q:ident (TEXT_FIRST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::CncStr<$a>] [$crate::text::CncString] [Leading<$max>] "1 … ", $max, " with NUL | `STRING`") };
+    ($q:ident (REST $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Rest<$min, $max>] $min, " … ", $max, " | `BYTE[]`") };
+    ($q:ident (TEXT_AND_TAIL $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [TextAndTail<$min, $max>] $min, " … ", $max, " | `STRING`") };
+    ($q:ident (CSTRING $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [CString<$max, false>] "1 … ", $max, " with NUL | `STRING`") };
+    ($q:ident (CSTRING $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindText<$crate::rows::CString<$max, false>>] "1 … ", $max, " with NUL | `STRING`") };
+    ($q:ident (OPTIONAL_CSTRING $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindText<$crate::rows::CString<$max, true>>] "1 … ", $max, " with NUL, or 0 | `STRING`") };
+    ($q:ident (OPTIONAL_NUL $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [OptionalNul<$max>] "1 … ", $max, " | `STRING`") };
+    ($q:ident (CSTRING_PREFIX $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::CncStr<$a>] [$crate::text::CncString] [CStringPrefix<$max>] "1 … ", $max, " with NUL | `STRING`") };
     (@view [$($view:tt)*] $o:tt $r:tt $($doc:tt)*) => { $($view)* };
     (@owned $v:tt [$($owned:tt)*] $r:tt $($doc:tt)*) => { $($owned)* };
     (@row $v:tt $o:tt [$($row:tt)*] $($doc:tt)*) => { $crate::rows::$($row)* };
@@ -211,7 +211,7 @@ macro_rules! stream {
     };
 
     // A number that may be rejected is encoded with a result only.
-    (@to_bytes (UNS32_NOT_0) $view:ident $max:literal $rows:tt) => {};
+    (@to_bytes (UNS32_NON_ZERO) $view:ident $max:literal $rows:tt) => {};
     (@to_bytes $kind:tt $view:ident $max:literal [$( [$at:literal [$row:ty] $member:tt] )+]) => {
         impl $view {
             /// The stream in an array, as [`encode`](crate::Encode::encode) writes it.
@@ -236,8 +236,8 @@ macro_rules! stream {
 
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
                 let stream = <Self as $crate::declare::Declared>::STREAM;
-                let mut input = $crate::bytes::Reader::ending(stream, &[]);
-                let head: &[u8; $max] = match $crate::bytes::Reader::all(stream, bytes) {
+                let mut input = $crate::bytes::Reader::without_limit(stream, &[]);
+                let head: &[u8; $max] = match $crate::bytes::Reader::exact(stream, bytes) {
                     Ok(head) => head,
                     Err(error) => {
                         // What is wrong with a row comes before what follows the last one.
@@ -454,7 +454,7 @@ pub(crate) use {row, stream};
 #[cfg(feature = "arbitrary")]
 pub(crate) fn room<T: Declared>(fewest: &[usize]) -> usize {
     let fewest = fewest.iter().fold(0_usize, |sum, least| sum.saturating_add(*least));
-    crate::bytes::to_len(T::LAYOUT.max).saturating_sub(fewest)
+    crate::bytes::to_usize(T::LAYOUT.max).saturating_sub(fewest)
 }
 
 #[cfg(feature = "arbitrary")]

@@ -159,7 +159,7 @@ mod variable;
 pub use binrw;
 
 #[cfg(feature = "arbitrary")]
-mod any;
+mod arbitrary;
 mod bytes;
 mod declare;
 #[cfg(feature = "binrw")]
@@ -186,8 +186,8 @@ pub use variable::{
 };
 pub use variable::{
     DescriptionByNameRef, DescriptionRef, ExtendedDescription, ExtendedReply, Handle,
-    HandleReadRef, HandleWriteRef, Kind, NameWriteRef, Numbers, PathPart, PathParts,
-    Synchronisation, Validity, ValueRef, VariableAccess, VariableCount, VariableIndexKindRef,
+    HandleReadRef, HandleWriteRef, Kind, NameWriteRef, PathPart, PathParts, Synchronisation,
+    U32List, Validity, ValueRef, VariableAccess, VariableCount, VariableIndexKindRef,
     VariableKindRef, VariableNameRef, VariablePath, VariableType,
 };
 

@@ -2,11 +2,11 @@
 
 use core::marker::PhantomData;
 
-use crate::bytes::{Reader, Writer, to_len, to_u32};
+use crate::bytes::{Reader, Writer, to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Size, Type};
 use crate::text::{CncStr, TextRef};
-use crate::variable::{Kind, Numbers};
+use crate::variable::{Kind, U32List};
 
 /// A kind of row.
 ///
@@ -119,9 +119,9 @@ impl<N: Int + From<T>, T: Copy + From<N>> Row for Number<N, T> {
 }
 
 /// A BOOLEAN, as a `T`: any value but 0 is TRUE, and is kept.
-pub(crate) struct Flag<T>(PhantomData<T>);
+pub(crate) struct Boolean<T>(PhantomData<T>);
 
-impl<T: Copy + From<u8>> Row for Flag<T>
+impl<T: Copy + From<u8>> Row for Boolean<T>
 where
     u8: From<T>,
 {
@@ -150,7 +150,7 @@ pub(crate) struct NonZero;
 
 impl Row for NonZero {
     type View<'a> = u32;
-    const SIZE: Size = Size::FromOne;
+    const SIZE: Size = Size::NonZero;
     const TYPE: Type = Type::Uns32;
     const REJECTS: bool = true;
 
@@ -183,7 +183,7 @@ impl Row for NonZero {
 pub(crate) struct List<const MAX: u32>;
 
 impl<const MAX: u32> Row for List<MAX> {
-    type View<'a> = Numbers<'a>;
+    type View<'a> = U32List<'a>;
     const SIZE: Size = Size::Items { each: 4, max: MAX };
     const TYPE: Type = Type::Uns32;
 
@@ -193,17 +193,17 @@ impl<const MAX: u32> Row for List<MAX> {
         head: &'a [u8],
         field: Field,
         at: usize,
-    ) -> Result<Numbers<'a>, Error> {
-        input.numbers(field.before(), count(head, at), MAX).map(Numbers::from_wire)
+    ) -> Result<U32List<'a>, Error> {
+        input.numbers(field.before(), count(head, at), MAX).map(U32List::from_wire)
     }
 
     #[inline]
-    fn len(view: Numbers<'_>) -> usize {
+    fn len(view: U32List<'_>) -> usize {
         view.encoded_len().saturating_add(4)
     }
 
     #[inline]
-    fn check(view: Numbers<'_>, field: Field, at: usize) -> Result<(), Error> {
+    fn check(view: U32List<'_>, field: Field, at: usize) -> Result<(), Error> {
         let count = to_u32(view.len());
         match count > MAX {
             true => Err(Error::new(ErrorKind::TooMany, field.before(), to_u32(at), MAX, count)),
@@ -212,12 +212,12 @@ impl<const MAX: u32> Row for List<MAX> {
     }
 
     #[inline]
-    fn write_head(view: Numbers<'_>, head: &mut [u8], at: usize) {
+    fn write_head(view: U32List<'_>, head: &mut [u8], at: usize) {
         put_count(head, at, view.len());
     }
 
     #[inline]
-    fn write(view: Numbers<'_>, out: &mut Writer<'_>) {
+    fn write(view: U32List<'_>, out: &mut Writer<'_>) {
         view.write(out);
     }
 }
@@ -257,9 +257,9 @@ impl<const MAX: u32> Row for Data<MAX> {
 }
 
 /// The bytes that are left. Their maximum is that of the stream.
-pub(crate) struct Bytes<const MIN: u32, const MAX: u32>;
+pub(crate) struct Rest<const MIN: u32, const MAX: u32>;
 
-impl<const MIN: u32, const MAX: u32> Row for Bytes<MIN, MAX> {
+impl<const MIN: u32, const MAX: u32> Row for Rest<MIN, MAX> {
     type View<'a> = &'a [u8];
     const SIZE: Size = Size::Rest { min: MIN, max: MAX };
     const TYPE: Type = Type::Bytes;
@@ -272,7 +272,7 @@ impl<const MIN: u32, const MAX: u32> Row for Bytes<MIN, MAX> {
         _: usize,
     ) -> Result<&'a [u8], Error> {
         let (at, bytes) = (input.at(), input.take_all());
-        Self::check(bytes, field, to_len(at))?;
+        Self::check(bytes, field, to_usize(at))?;
         Ok(bytes)
     }
 
@@ -283,7 +283,7 @@ impl<const MIN: u32, const MAX: u32> Row for Bytes<MIN, MAX> {
 
     #[inline]
     fn check(view: &[u8], field: Field, at: usize) -> Result<(), Error> {
-        match view.len() < to_len(MIN) {
+        match view.len() < to_usize(MIN) {
             true => {
                 Err(Error::new(ErrorKind::Truncated, field, to_u32(at), MIN, to_u32(view.len())))
             }
@@ -298,11 +298,11 @@ impl<const MIN: u32, const MAX: u32> Row for Bytes<MIN, MAX> {
 }
 
 /// Text that a NUL or the end of the stream ends. Bytes after the NUL are kept.
-pub(crate) struct Open<const MIN: u32, const MAX: u32>;
+pub(crate) struct TextAndTail<const MIN: u32, const MAX: u32>;
 
-impl<const MIN: u32, const MAX: u32> Row for Open<MIN, MAX> {
+impl<const MIN: u32, const MAX: u32> Row for TextAndTail<MIN, MAX> {
     type View<'a> = TextRef<'a>;
-    const SIZE: Size = Size::Open { min: MIN, max: MAX };
+    const SIZE: Size = Size::TextAndTail { min: MIN, max: MAX };
     const TYPE: Type = Type::String;
 
     #[inline]
@@ -312,7 +312,7 @@ impl<const MIN: u32, const MAX: u32> Row for Open<MIN, MAX> {
         field: Field,
         _: usize,
     ) -> Result<TextRef<'a>, Error> {
-        input.open(field, MIN, MAX)
+        input.text_and_tail(field, MIN, MAX)
     }
 
     #[inline]
@@ -322,7 +322,7 @@ impl<const MIN: u32, const MAX: u32> Row for Open<MIN, MAX> {
 
     #[inline]
     fn check(view: TextRef<'_>, field: Field, at: usize) -> Result<(), Error> {
-        view.check_open(field, to_u32(at), MIN, MAX).map(drop)
+        view.check_text_and_tail(field, to_u32(at), MIN, MAX).map(drop)
     }
 
     #[inline]
@@ -331,12 +331,12 @@ impl<const MIN: u32, const MAX: u32> Row for Open<MIN, MAX> {
     }
 }
 
-/// Text that a NUL must end; more NULs may pad it. If it `MAY_BE_ABSENT`, no bytes are empty text.
-pub(crate) struct Terminated<const MAX: u32, const MAY_BE_ABSENT: bool>;
+/// Text that a NUL must end; more NULs may pad it. If it `IS_OPTIONAL`, no bytes are empty text.
+pub(crate) struct CString<const MAX: u32, const IS_OPTIONAL: bool>;
 
-impl<const MAX: u32, const MAY_BE_ABSENT: bool> Row for Terminated<MAX, MAY_BE_ABSENT> {
+impl<const MAX: u32, const IS_OPTIONAL: bool> Row for CString<MAX, IS_OPTIONAL> {
     type View<'a> = TextRef<'a>;
-    const SIZE: Size = Size::Terminated { max: MAX, may_be_absent: MAY_BE_ABSENT };
+    const SIZE: Size = Size::CString { max: MAX, is_optional: IS_OPTIONAL };
     const TYPE: Type = Type::String;
 
     #[inline]
@@ -346,9 +346,9 @@ impl<const MAX: u32, const MAY_BE_ABSENT: bool> Row for Terminated<MAX, MAY_BE_A
         field: Field,
         _: usize,
     ) -> Result<TextRef<'a>, Error> {
-        match MAY_BE_ABSENT && input.is_empty() {
+        match IS_OPTIONAL && input.is_empty() {
             true => Ok(TextRef::with_tail(CncStr::EMPTY, None)),
-            false => input.terminated(field, MAX),
+            false => input.cstring(field, MAX),
         }
     }
 
@@ -359,9 +359,9 @@ impl<const MAX: u32, const MAY_BE_ABSENT: bool> Row for Terminated<MAX, MAY_BE_A
 
     #[inline]
     fn check(view: TextRef<'_>, field: Field, at: usize) -> Result<(), Error> {
-        match MAY_BE_ABSENT && view.field_len() == 0 {
+        match IS_OPTIONAL && view.field_len() == 0 {
             true => Ok(()),
-            false => view.check_terminated(field, to_u32(at), MAX).map(drop),
+            false => view.check_cstring(field, to_u32(at), MAX).map(drop),
         }
     }
 
@@ -371,10 +371,10 @@ impl<const MAX: u32, const MAY_BE_ABSENT: bool> Row for Terminated<MAX, MAY_BE_A
     }
 }
 
-/// A [`Terminated`] text that names a kind of variables.
-pub(crate) struct KindOf<R>(PhantomData<R>);
+/// A [`CString`] text that names a kind of variables.
+pub(crate) struct KindText<R>(PhantomData<R>);
 
-impl<R: for<'a> Row<View<'a> = TextRef<'a>>> Row for KindOf<R> {
+impl<R: for<'a> Row<View<'a> = TextRef<'a>>> Row for KindText<R> {
     type View<'a> = Kind<'a>;
     const SIZE: Size = R::SIZE;
     const TYPE: Type = R::TYPE;
@@ -406,11 +406,11 @@ impl<R: for<'a> Row<View<'a> = TextRef<'a>>> Row for KindOf<R> {
 }
 
 /// Text that a NUL may end; more NULs may pad it.
-pub(crate) struct MayTerminate<const MAX: u32>;
+pub(crate) struct OptionalNul<const MAX: u32>;
 
-impl<const MAX: u32> Row for MayTerminate<MAX> {
+impl<const MAX: u32> Row for OptionalNul<MAX> {
     type View<'a> = TextRef<'a>;
-    const SIZE: Size = Size::MayTerminate { max: MAX };
+    const SIZE: Size = Size::OptionalNul { max: MAX };
     const TYPE: Type = Type::String;
 
     #[inline]
@@ -420,7 +420,7 @@ impl<const MAX: u32> Row for MayTerminate<MAX> {
         field: Field,
         _: usize,
     ) -> Result<TextRef<'a>, Error> {
-        input.may_terminate(field)
+        input.optional_nul(field)
     }
 
     #[inline]
@@ -430,7 +430,7 @@ impl<const MAX: u32> Row for MayTerminate<MAX> {
 
     #[inline]
     fn check(view: TextRef<'_>, field: Field, at: usize) -> Result<(), Error> {
-        view.check_may_terminate(field, to_u32(at), MAX).map(drop)
+        view.check_optional_nul(field, to_u32(at), MAX).map(drop)
     }
 
     #[inline]
@@ -440,11 +440,11 @@ impl<const MAX: u32> Row for MayTerminate<MAX> {
 }
 
 /// Text that a NUL must end, and more of the stream after it.
-pub(crate) struct Leading<const MAX: u32>;
+pub(crate) struct CStringPrefix<const MAX: u32>;
 
-impl<const MAX: u32> Row for Leading<MAX> {
+impl<const MAX: u32> Row for CStringPrefix<MAX> {
     type View<'a> = CncStr<'a>;
-    const SIZE: Size = Size::Leading { max: MAX };
+    const SIZE: Size = Size::CStringPrefix { max: MAX };
     const TYPE: Type = Type::String;
 
     #[inline]
@@ -454,7 +454,7 @@ impl<const MAX: u32> Row for Leading<MAX> {
         field: Field,
         _: usize,
     ) -> Result<CncStr<'a>, Error> {
-        input.leading(field, MAX)
+        input.cstring_prefix(field, MAX)
     }
 
     #[inline]
@@ -464,7 +464,7 @@ impl<const MAX: u32> Row for Leading<MAX> {
 
     #[inline]
     fn check(view: CncStr<'_>, field: Field, at: usize) -> Result<(), Error> {
-        TextRef::from(view).check_open(field, to_u32(at), 1, MAX).map(drop)
+        TextRef::from(view).check_text_and_tail(field, to_u32(at), 1, MAX).map(drop)
     }
 
     #[inline]
@@ -548,7 +548,7 @@ mod owned {
     numbers! {
         [N: AnyInt + From<T>, T: Copy + From<N>] Number<N, T>, T, [] size_of::<N>(),
             any u => u.arbitrary::<N>().map(T::from);
-        [T: Copy + From<u8>] Flag<T>, T, [u8: From<T>] 1, any u => u.arbitrary::<u8>().map(T::from);
+        [T: Copy + From<u8>] Boolean<T>, T, [u8: From<T>] 1, any u => u.arbitrary::<u8>().map(T::from);
         [] NonZero, u32, [] 4, any u => Ok(u.arbitrary::<u32>()?.max(1));
     }
 
@@ -558,12 +558,12 @@ mod owned {
         const LEAST: usize = 4;
 
         #[inline]
-        fn own(view: Numbers<'_>) -> Vec<u32> {
+        fn own(view: U32List<'_>) -> Vec<u32> {
             view.to_vec()
         }
 
         #[inline]
-        fn lend(owned: &Vec<u32>) -> Numbers<'_> {
+        fn lend(owned: &Vec<u32>) -> U32List<'_> {
             owned.as_slice().into()
         }
 
@@ -574,7 +574,7 @@ mod owned {
 
         #[cfg(feature = "arbitrary")]
         fn any(u: Any<'_, '_>, room: usize) -> arbitrary::Result<Vec<u32>> {
-            up_to(u, room.min(to_len(MAX).saturating_mul(4)) / 4)
+            up_to(u, room.min(to_usize(MAX).saturating_mul(4)) / 4)
         }
     }
 
@@ -614,10 +614,10 @@ mod owned {
 
     bytes! {
         [const MAX: u32] Data<MAX>, least 4, pull from => from.counted(1, MAX),
-            any u, room => up_to(u, room.min(to_len(MAX)));
-        [const MIN: u32, const MAX: u32] Bytes<MIN, MAX>, least min(MIN), pull from => from.rest(MAX),
+            any u, room => up_to(u, room.min(to_usize(MAX)));
+        [const MIN: u32, const MAX: u32] Rest<MIN, MAX>, least min(MIN), pull from => from.rest(MAX),
             any u, room => {
-                let mut bytes: Vec<u8> = up_to(u, room.saturating_add(Self::LEAST).min(to_len(MAX)))?;
+                let mut bytes: Vec<u8> = up_to(u, room.saturating_add(Self::LEAST).min(to_usize(MAX)))?;
                 bytes.resize(bytes.len().max(Self::LEAST), 0);
                 Ok(bytes)
             };
@@ -651,7 +651,7 @@ mod owned {
 
                 #[cfg(feature = "arbitrary")]
                 fn any($u: Any<'_, '_>, room: usize) -> arbitrary::Result<Text> {
-                    let $len = room.saturating_add(Self::LEAST).min(to_len($max));
+                    let $len = room.saturating_add(Self::LEAST).min(to_usize($max));
                     $any
                 }
             }
@@ -659,15 +659,15 @@ mod owned {
     }
 
     texts! {
-        [const MIN: u32, const MAX: u32] Open<MIN, MAX>, least min(MIN), at most MAX,
+        [const MIN: u32, const MAX: u32] TextAndTail<MIN, MAX>, least min(MIN), at most MAX,
             any u, len => if MIN == 0 && u.arbitrary()? { nothing() } else { open(u, len, false) };
-        [const MAX: u32, const MAY_BE_ABSENT: bool] Terminated<MAX, MAY_BE_ABSENT>, least 1, at most MAX,
-            any u, len => if MAY_BE_ABSENT && u.arbitrary()? { nothing() } else { ended(u, len, true) };
-        [const MAX: u32] MayTerminate<MAX>, least 1, at most MAX,
+        [const MAX: u32, const IS_OPTIONAL: bool] CString<MAX, IS_OPTIONAL>, least 1, at most MAX,
+            any u, len => if IS_OPTIONAL && u.arbitrary()? { nothing() } else { ended(u, len, true) };
+        [const MAX: u32] OptionalNul<MAX>, least 1, at most MAX,
             any u, len => open(u, len, true);
     }
 
-    impl<R> Owned for KindOf<R>
+    impl<R> Owned for KindText<R>
     where
         R: for<'a> Row<View<'a> = TextRef<'a>> + Owned<Type = Text>,
     {
@@ -696,7 +696,7 @@ mod owned {
         }
     }
 
-    impl<const MAX: u32> Owned for Leading<MAX> {
+    impl<const MAX: u32> Owned for CStringPrefix<MAX> {
         type Type = CncString;
         #[cfg(feature = "arbitrary")]
         const LEAST: usize = 1;
@@ -718,7 +718,7 @@ mod owned {
 
         #[cfg(feature = "arbitrary")]
         fn any(u: Any<'_, '_>, room: usize) -> arbitrary::Result<CncString> {
-            text(u, room.min(to_len(MAX).saturating_sub(1)))
+            text(u, room.min(to_usize(MAX).saturating_sub(1)))
         }
     }
 }

@@ -185,7 +185,7 @@ fn malformed_values_are_rejected() {
     host.read(asked(Uuid)).unwrap();
     // Another request than the one that was answered.
     host.read(&[b'3'; 128]).unwrap();
-    assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Dropped)));
+    assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Abandoned)));
 }
 
 /// After a write that failed, the host looks what arrived, and writes what is missing.

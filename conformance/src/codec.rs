@@ -22,7 +22,7 @@ use ads_cnc::streaming::ProgramStream;
 use ads_cnc::value::DataType;
 use ads_cnc::{
     CncStr, Decode, Description, Descriptor, Descriptors, Elements, Encode, Error, ErrorKind,
-    ExtendedReply, Handle, HandleRead, HandleWrite, NameWrite, Numbers, ObjectCount, TextRef,
+    ExtendedReply, Handle, HandleRead, HandleWrite, NameWrite, ObjectCount, TextRef, U32List,
     Value as CncValue, VariableCount, VariableIndexKind, VariableKind, VariableName,
 };
 use ads_cnc_vectors::{Context, Fields, Tagged, Value};
@@ -205,7 +205,7 @@ fn elements(context: &Context, bytes: &[u8]) -> Result<Value, Refused> {
     let Some(data_type) = DataType::by_name(CncStr::new(kind.name())?) else {
         return Err(Refused::Unsupported(format!("values of type {kind:?}")));
     };
-    let elements = Elements::new(data_type, Numbers::from(dimensions), bytes)?;
+    let elements = Elements::new(data_type, U32List::from(dimensions), bytes)?;
     let named = |item| Value::One(Tagged { kind, ..element(item) });
     Ok(Value::List(elements.iter().map(named).collect()))
 }

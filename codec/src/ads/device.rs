@@ -70,7 +70,7 @@ impl<'a> Decode<'a> for DeviceInfoReply {
     const STREAM: Stream = Stream::DeviceInfoReply;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let layout = Reader::all(Self::STREAM, bytes)?;
+        let layout = Reader::exact(Self::STREAM, bytes)?;
         let &InfoLayout { result, major, minor, build, name } = layout;
         Ok(Self { result: AdsError(result.get()), major, minor, build: build.get(), name })
     }

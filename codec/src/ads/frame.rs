@@ -4,7 +4,7 @@ use zerocopy::IntoBytes as _;
 
 use super::header::HeaderLayout;
 use super::{AmsHeader, AmsTcpHeader, ReadWriteRequestRef};
-use crate::bytes::{Writer, to_len, to_u32};
+use crate::bytes::{Writer, to_u32, to_usize};
 use crate::declare::Declared as _;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
@@ -97,7 +97,7 @@ impl<'a> FrameRef<'a> {
             let (at, found) = (at.saturating_add(to_u32(AMS_TCP_HEADER_LEN)), header.data_length);
             return Err(Error::new(ErrorKind::Mismatch, field, at, data_length, found));
         }
-        Ok(rest.get(..to_len(data_length)).map(|data| {
+        Ok(rest.get(..to_usize(data_length)).map(|data| {
             let len = Self::HEADERS_LEN.saturating_add(data.len());
             (Self { header, data }, len)
         }))

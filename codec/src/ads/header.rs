@@ -95,7 +95,7 @@ impl<'a> Decode<'a> for AmsHeader {
     const STREAM: Stream = Stream::AmsHeader;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let fixed: &HeaderLayout = Reader::all(Self::STREAM, bytes)?;
+        let fixed: &HeaderLayout = Reader::exact(Self::STREAM, bytes)?;
         let end =
             |net_id, port: U16| AmsAddr { net_id: AmsNetId(net_id), port: AmsPort(port.get()) };
         Ok(Self {

@@ -31,7 +31,7 @@ stream! {
 /// The fields of a reply with data, which has the same table for Read and for ReadWrite.
 const fn fields(stream: Stream) -> [Field; 3] {
     use crate::layout::field::read_reply::{DATA, LENGTH, RESULT};
-    [RESULT.of_stream(stream), LENGTH.of_stream(stream), DATA.of_stream(stream)]
+    [RESULT.in_stream(stream), LENGTH.in_stream(stream), DATA.in_stream(stream)]
 }
 
 fn decode(stream: Stream, bytes: &[u8]) -> Result<(AdsError, Option<&[u8]>), Error> {

@@ -1,7 +1,7 @@
 //! Writing into a slice.
 
-use super::faults::too_long;
-use super::{to_len, to_u32};
+use super::errors::too_long;
+use super::{to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
 use crate::stream::Encode;
@@ -29,7 +29,7 @@ impl<'b> Writer<'b> {
     #[inline]
     fn room(stream: Stream, len: usize, buf: &'b mut [u8]) -> Result<&'b mut [u8], Error> {
         let max = stream.layout().max;
-        if len > to_len(max) {
+        if len > to_usize(max) {
             return Err(too_long(Field::whole(stream), max, to_u32(len)));
         }
         Self::part(stream, len, buf)

@@ -272,7 +272,7 @@ impl<'a> Decode<'a> for DescriptorRef<'a> {
     const STREAM: Stream = Stream::ObjectDescriptor;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::all(Self::STREAM, bytes).map(Self)
+        Reader::exact(Self::STREAM, bytes).map(Self)
     }
 }
 

@@ -43,7 +43,7 @@ impl Layout {
     /// Whether every stream of this kind has the same length.
     pub fn is_fixed(&self) -> bool {
         let fixed =
-            |row: &FieldSpec| matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::FromOne);
+            |row: &FieldSpec| matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::NonZero);
         !self.repeats && self.fields.iter().all(fixed)
     }
 
@@ -74,7 +74,7 @@ impl Layout {
             }
             match row.size {
                 Size::Items { each, .. } => per_item = per_item.saturating_add(each),
-                Size::Leading { .. } => end = end.saturating_add(1),
+                Size::CStringPrefix { .. } => end = end.saturating_add(1),
                 size => end = end.saturating_add(size.fixed()),
             }
             fields = rest;
@@ -90,10 +90,10 @@ impl Layout {
             let left = self.max.saturating_sub(before).saturating_sub(least(rest));
             let is_filled = match row.size {
                 Size::Items { each, max } => matches!(left.checked_div(each), Some(n) if n == max),
-                Size::Terminated { max, .. }
-                | Size::MayTerminate { max }
-                | Size::Rest { max, .. } => left == max,
-                Size::Open { max, .. } | Size::Leading { max } => max <= left,
+                Size::CString { max, .. } | Size::OptionalNul { max } | Size::Rest { max, .. } => {
+                    left == max
+                }
+                Size::TextAndTail { max, .. } | Size::CStringPrefix { max } => max <= left,
                 _ => true,
             };
             if !is_filled {
@@ -143,7 +143,7 @@ impl Layout {
 
     /// Whether the fields tell where the stream ends: what follows is trailing, not too long.
     pub(crate) fn ends_itself(&self) -> bool {
-        self.is_fixed() || self.fields.iter().any(|row| row.size == Size::OneTwoOrFour)
+        self.is_fixed() || self.fields.iter().any(|row| row.size == Size::Uns8To32)
     }
 }
 
@@ -212,7 +212,7 @@ pub enum Size {
     /// So many bytes.
     Fixed(u32),
     /// So many bytes; this and what follows may be absent if the field before is not 0 (ADS-6).
-    FixedUnlessError(u32),
+    FixedOnSuccess(u32),
     /// As many items as the field before says.
     Items {
         /// Bytes of one item.
@@ -221,35 +221,35 @@ pub enum Size {
         max: u32,
     },
     /// Text that a NUL must end; more NULs may pad it.
-    Terminated {
+    CString {
         /// The most bytes, NULs included.
         max: u32,
         /// Zero bytes are accepted for the empty text.
-        may_be_absent: bool,
+        is_optional: bool,
     },
     /// Text that a NUL must end, and more of the stream behind it.
-    Leading {
+    CStringPrefix {
         /// The most bytes, the NUL included.
         max: u32,
     },
     /// So many bytes; the stream may have none at all instead.
-    FixedOrNothing(u32),
+    OptionalFixed(u32),
     /// Text that a NUL or the end of the stream ends; what follows the NUL is kept.
-    Open {
+    TextAndTail {
         /// The fewest bytes.
         min: u32,
         /// The most bytes in all.
         max: u32,
     },
     /// Text that a NUL may end; more NULs may pad it.
-    MayTerminate {
+    OptionalNul {
         /// The most bytes in all, one at least.
         max: u32,
     },
     /// Four bytes, a number that is not 0.
-    FromOne,
+    NonZero,
     /// An unsigned number of one, two or four bytes, as the stream ends.
-    OneTwoOrFour,
+    Uns8To32,
     /// Text in so many bytes, padded with NULs if shorter.
     Padded(u32),
     /// All that is left.
@@ -266,10 +266,10 @@ impl Size {
     pub(crate) const fn fixed(self) -> u32 {
         match self {
             Self::Fixed(size)
-            | Self::FixedUnlessError(size)
-            | Self::FixedOrNothing(size)
+            | Self::FixedOnSuccess(size)
+            | Self::OptionalFixed(size)
             | Self::Padded(size) => size,
-            Self::FromOne => 4,
+            Self::NonZero => 4,
             _ => 0,
         }
     }
@@ -278,8 +278,8 @@ impl Size {
     /// nothing follows.
     const fn least(self) -> u32 {
         match self {
-            Self::Open { min, .. } | Self::Rest { min, .. } => min,
-            Self::Terminated { .. } | Self::Leading { .. } | Self::MayTerminate { .. } => 1,
+            Self::TextAndTail { min, .. } | Self::Rest { min, .. } => min,
+            Self::CString { .. } | Self::CStringPrefix { .. } | Self::OptionalNul { .. } => 1,
             size => size.fixed(),
         }
     }
@@ -288,12 +288,12 @@ impl Size {
     const fn most(self) -> u32 {
         match self {
             Self::Items { max, .. }
-            | Self::Terminated { max, .. }
-            | Self::Leading { max }
-            | Self::Open { max, .. }
-            | Self::MayTerminate { max }
+            | Self::CString { max, .. }
+            | Self::CStringPrefix { max }
+            | Self::TextAndTail { max, .. }
+            | Self::OptionalNul { max }
             | Self::Rest { max, .. } => max,
-            Self::OneTwoOrFour => 4,
+            Self::Uns8To32 => 4,
             size => size.fixed(),
         }
     }
@@ -385,7 +385,7 @@ impl Field {
     }
 
     /// The same row of another stream, whose table is the same.
-    pub(crate) const fn of_stream(self, stream: Stream) -> Self {
+    pub(crate) const fn in_stream(self, stream: Stream) -> Self {
         Self { stream, ..self }
     }
 
@@ -492,19 +492,19 @@ mod tests {
         let filled = |max, rows: &[_]| Layout { max, ..layout(rows) }.is_filled();
         let list = [("n", 0, 0, Size::Fixed(4)), ("list", 4, 0, Size::Items { each: 4, max: 5 })];
         assert_eq!([23, 24, 27, 28].map(|max| filled(max, &list)), [false, true, true, false]);
-        let open = ("name", 4, 4, Size::Open { min: 1, max: 4 });
+        let open = ("name", 4, 4, Size::TextAndTail { min: 1, max: 4 });
         let named = [list[0], list[1], open];
         assert_eq!([24, 25, 28, 29].map(|max| filled(max, &named)), [false, true, true, false]);
-        for size in [Size::Open { min: 1, max: 9 }, Size::Leading { max: 9 }] {
+        for size in [Size::TextAndTail { min: 1, max: 9 }, Size::CStringPrefix { max: 9 }] {
             let rows = [("first", 0, 0, Size::Fixed(4)), ("last", 4, 0, size)];
             assert_eq!([12, 13, 99].map(|max| filled(max, &rows)), [false, true, true]);
         }
         for size in [
             Size::Rest { min: 0, max: 9 },
-            Size::MayTerminate { max: 9 },
-            Size::Terminated { max: 9, may_be_absent: false },
+            Size::OptionalNul { max: 9 },
+            Size::CString { max: 9, is_optional: false },
         ] {
-            let rows = [("first", 0, 0, Size::Leading { max: 4 }), ("last", 1, 0, size)];
+            let rows = [("first", 0, 0, Size::CStringPrefix { max: 4 }), ("last", 1, 0, size)];
             assert_eq!([9, 10, 11].map(|max| filled(max, &rows)), [false, true, false]);
         }
     }
@@ -515,12 +515,12 @@ mod tests {
         for (size, most) in [
             (Size::Fixed(4), 4),
             (Size::Items { each: 4, max: 5 }, 5),
-            (Size::Open { min: 1, max: 9 }, 9),
+            (Size::TextAndTail { min: 1, max: 9 }, 9),
             (Size::Rest { min: 0, max: 8 }, 8),
-            (Size::Leading { max: 7 }, 7),
-            (Size::MayTerminate { max: 6 }, 6),
-            (Size::Terminated { max: 3, may_be_absent: true }, 3),
-            (Size::OneTwoOrFour, 4),
+            (Size::CStringPrefix { max: 7 }, 7),
+            (Size::OptionalNul { max: 6 }, 6),
+            (Size::CString { max: 3, is_optional: true }, 3),
+            (Size::Uns8To32, 4),
         ] {
             let rows = layout(&[("first", 0, 0, Size::Fixed(2)), ("last", 2, 0, size)]);
             assert_eq!((rows.most("last"), rows.offset("last")), (most, 2));

@@ -100,7 +100,7 @@ layouts! {
     /// ADS Read, reply.
     ReadReply, read_reply: "read-reply", "ADS Read, reply", "ADS-1", max 0x40_0008 {
         RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
-        LENGTH "length" @ 4, Size::FixedUnlessError(4), Uns32, "ADS-1", "bytes of data";
+        LENGTH "length" @ 4, Size::FixedOnSuccess(4), Uns32, "ADS-1", "bytes of data";
         DATA "data" @ 8, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-1", "the data";
     }
     /// ADS Write, request.
@@ -112,7 +112,7 @@ layouts! {
     /// ADS ReadWrite, reply.
     ReadWriteReply, read_write_reply: "read-write-reply", "ADS ReadWrite, reply", "ADS-3", max 0x40_0008 {
         RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
-        LENGTH "length" @ 4, Size::FixedUnlessError(4), Uns32, "ADS-3", "bytes of data";
+        LENGTH "length" @ 4, Size::FixedOnSuccess(4), Uns32, "ADS-3", "bytes of data";
         DATA "data" @ 8, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-3", "the data";
     }
     /// ADS ReadDeviceInfo, reply.
@@ -160,7 +160,7 @@ layouts! {
     ElementText, element_text: => crate::sda::ElementTextRef<'static>;
     /// Length of an element's content.
     ElementLength, element_length: "element-length", "Length of an element, reply", "SDA-8", max 4 {
-        LENGTH "length" @ 0, Size::OneTwoOrFour, Unsigned, "SDA-8", "bytes of the content";
+        LENGTH "length" @ 0, Size::Uns8To32, Unsigned, "SDA-8", "bytes of the content";
     }
     /// Whether an element may be written.
     ElementWriteFlag, element_write_flag: => crate::sda::ElementWriteFlag;

@@ -53,7 +53,7 @@ stream! {
     /// ```
     ElementText "element-text", "Name, type or unit of an element, reply", "SDA-6", max 256;
     struct ElementTextRef<'a> / ElementText {
-        @0 text: TEXT(0, 256), "SDA-6", "name, type or unit";
+        @0 text: TEXT_AND_TAIL(0, 256), "SDA-6", "name, type or unit";
     }
 }
 

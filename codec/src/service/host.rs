@@ -164,7 +164,7 @@ pub enum HostStep<'a> {
 /// }
 /// host.answer(CncStr::new("too late")?, 1)?;
 /// host.read(&[0; 4])?; // REQUEST_STATE: the CNC was reset while the service was at work
-/// assert_eq!(host.outcome(), Some(Outcome::Dropped));
+/// assert_eq!(host.outcome(), Some(Outcome::Abandoned));
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -172,7 +172,7 @@ pub enum Outcome {
     /// It was written.
     Answered,
     /// It was dropped, or not all of it written: the request was no longer there.
-    Dropped,
+    Abandoned,
 }
 
 impl<'s> Host<'s> {
@@ -276,7 +276,7 @@ impl<'s> Host<'s> {
     fn go_on(&mut self, as_it_was: bool, next: Phase) -> Phase {
         match as_it_was {
             true => next,
-            false if self.has_answer() => self.end(Outcome::Dropped),
+            false if self.has_answer() => self.end(Outcome::Abandoned),
             false => Phase::Idle,
         }
     }

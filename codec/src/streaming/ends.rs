@@ -54,8 +54,8 @@ pub fn check_line_ends(data: &[u8]) -> Result<(), LineError> {
                 rest = behind_end(end);
                 continue;
             }
-            [LF, ..] => LineErrorKind::LfAlone,
-            [CR, ..] => LineErrorKind::CrAlone,
+            [LF, ..] => LineErrorKind::BareLf,
+            [CR, ..] => LineErrorKind::BareCr,
             _ => LineErrorKind::NoLineEnd,
         };
         return Err(LineError::new(number, to_u32(line.len()).saturating_add(1), kind));

@@ -5,16 +5,16 @@ use super::lex::*;
 use super::words::{LoopWord, ProgramEnd};
 use crate::bytes::to_u32;
 
-/// A place of a text, both from 1.
+/// A position in a text; line and column count from 1.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct Position {
     pub(super) line: u32,
     pub(super) column: u32,
 }
 
 /// A word, and where it begins.
 pub(super) struct Token<'a> {
-    pub(super) place: Place,
+    pub(super) position: Position,
     pub(super) word: Word<'a>,
 }
 
@@ -49,16 +49,16 @@ impl Label<'_> {
 
 /// What matters of lines for those that follow.
 #[derive(Clone, Copy)]
-pub(super) struct Carry {
+pub(super) struct ScanState {
     /// Lines so far.
     pub(super) lines: u32,
     /// Lines so far that begin with `%`.
     pub(super) program: u32,
     /// Where the comment block began that is open.
-    pub(super) block: Option<Place>,
+    pub(super) block: Option<Position>,
 }
 
-impl Carry {
+impl ScanState {
     pub(super) const START: Self = Self { lines: 0, program: 0, block: None };
 }
 
@@ -80,7 +80,7 @@ pub(super) struct Scan<'a> {
     label: Option<(Label<'a>, &'a [u8])>,
     program: u32,
     /// Where the comment block began that is open.
-    block: Option<Place>,
+    block: Option<Position>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -94,8 +94,8 @@ enum Stage {
 
 impl<'a> Scan<'a> {
     /// Goes on with the lines behind those of which this carries over.
-    pub(super) const fn behind(carry: Carry, text: &'a [u8]) -> Self {
-        let Carry { lines, program, block } = carry;
+    pub(super) const fn resume(state: ScanState, text: &'a [u8]) -> Self {
+        let ScanState { lines, program, block } = state;
         Self {
             below: text,
             line: &[],
@@ -111,12 +111,12 @@ impl<'a> Scan<'a> {
     }
 
     /// What carries over from the lines up to the present one.
-    pub(super) const fn carry(&self) -> Carry {
-        Carry { lines: self.number, program: self.program, block: self.block }
+    pub(super) const fn state(&self) -> ScanState {
+        ScanState { lines: self.number, program: self.program, block: self.block }
     }
 
     /// The lines behind the present one.
-    pub(super) const fn below(&self) -> &'a [u8] {
+    pub(super) const fn remaining(&self) -> &'a [u8] {
         self.below
     }
 
@@ -130,14 +130,10 @@ impl<'a> Scan<'a> {
         None
     }
 
-    fn place(&self) -> Place {
-        self.place_of(self.rest.len())
-    }
-
-    /// Where so much of the line is left.
-    fn place_of(&self, left: usize) -> Place {
+    /// The position at which this many bytes of the line are left.
+    fn position_with(&self, left: usize) -> Position {
         let before = self.line.len().saturating_sub(left);
-        Place { line: self.number, column: to_u32(before).saturating_add(1) }
+        Position { line: self.number, column: to_u32(before).saturating_add(1) }
     }
 
     /// Goes to the next line; false behind the last.
@@ -167,7 +163,7 @@ impl<'a> Scan<'a> {
                 self.stage = Stage::Title;
             }
             [b'#', ..] if comment_command(at, b"BEGIN").is_some() => {
-                self.block = Some(self.place_of(at.len()));
+                self.block = Some(self.position_with(at.len()));
                 self.rest = &[];
             }
             [b':' | b'[', ..] => self.label = self.definition(number, at),
@@ -312,7 +308,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Leading zeros do not matter.
+    /// CStringPrefix zeros do not matter.
     fn number(&self, digits: &'a [u8]) -> Label<'a> {
         self.label(false, skip_while(digits, is_zero))
     }
@@ -329,13 +325,13 @@ impl<'a> Iterator for Scan<'a> {
         loop {
             if self.stage == Stage::Body {
                 if let Some((left, word)) = self.next_word() {
-                    return Some(Token { place: self.place_of(left), word });
+                    return Some(Token { position: self.position_with(left), word });
                 }
             } else {
                 self.rest = skip_comments(self.rest);
                 if !self.rest.is_empty() {
-                    let place = self.place();
-                    return Some(Token { place, word: self.head() });
+                    let position = self.position_with(self.rest.len());
+                    return Some(Token { position, word: self.head() });
                 }
             }
             if !self.enter_line() {

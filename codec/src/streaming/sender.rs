@@ -10,10 +10,10 @@ use crate::limits::STREAM_PACKET_MAX;
 
 /// How a write to the stream was answered.
 ///
-/// Which ADS result means which refusal is not documented ([`of`](Self::of)); the manual's driver
+/// Which ADS result means which refusal is not documented ([`from_result`](Self::from_result)); the manual's driver
 /// takes each for a temporary one. A write whose answer never came may have been taken or not:
 /// nobody can tell, so to repeat it may run lines twice. Acknowledge it as
-/// [`Refused`](Self::Refused).
+/// [`Rejected`](Self::Rejected).
 ///
 /// Manual: `stream-en`, sections 4.2 and 5 (STM-6).
 ///
@@ -21,17 +21,17 @@ use crate::limits::STREAM_PACKET_MAX;
 /// use ads_cnc::ads::AdsError;
 /// use ads_cnc::streaming::Ack;
 ///
-/// assert_eq!(Ack::of(AdsError(0)), Ack::Accepted);
-/// assert_eq!(Ack::of(AdsError::INVALID_SIZE), Ack::Refused);
+/// assert_eq!(Ack::from_result(AdsError(0)), Ack::Accepted);
+/// assert_eq!(Ack::from_result(AdsError::INVALID_SIZE), Ack::Rejected);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ack {
     /// The data was taken.
     Accepted,
     /// The data cannot be taken now; it is to be written again.
-    Later,
+    Busy,
     /// The data will not be taken.
-    Refused,
+    Rejected,
 }
 
 impl Ack {
@@ -43,11 +43,11 @@ impl Ack {
     /// use ads_cnc::ads::AdsError;
     /// use ads_cnc::streaming::Ack;
     ///
-    /// assert_eq!(Ack::of(AdsError::NO_ERROR), Ack::Accepted);
-    /// assert_eq!(Ack::of(AdsError::INVALID_SIZE), Ack::Refused);
-    /// assert_eq!(Ack::of(AdsError::INVALID_DATA), Ack::Later);
+    /// assert_eq!(Ack::from_result(AdsError::NO_ERROR), Ack::Accepted);
+    /// assert_eq!(Ack::from_result(AdsError::INVALID_SIZE), Ack::Rejected);
+    /// assert_eq!(Ack::from_result(AdsError::INVALID_DATA), Ack::Busy);
     /// ```
-    pub const fn of(result: AdsError) -> Self {
+    pub const fn from_result(result: AdsError) -> Self {
         match result {
             AdsError::NO_ERROR => Self::Accepted,
             AdsError::TARGET_PORT_NOT_FOUND
@@ -56,8 +56,8 @@ impl Ack {
             | AdsError::INVALID_GROUP
             | AdsError::INVALID_OFFSET
             | AdsError::INVALID_ACCESS
-            | AdsError::INVALID_SIZE => Self::Refused,
-            _ => Self::Later,
+            | AdsError::INVALID_SIZE => Self::Rejected,
+            _ => Self::Busy,
         }
     }
 }
@@ -70,8 +70,8 @@ impl Ack {
 /// let mut sender = Sender::new(NcText::new(b"M30\n")?);
 /// assert_eq!(sender.state(), SenderState::Ready);
 /// sender.packet();
-/// assert_eq!(sender.state(), SenderState::Out);
-/// sender.acknowledge(Ack::Later)?;
+/// assert_eq!(sender.state(), SenderState::InFlight);
+/// sender.acknowledge(Ack::Busy)?;
 /// assert_eq!(sender.state(), SenderState::Waiting);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -80,7 +80,7 @@ pub enum SenderState {
     /// The next packet can be handed out.
     Ready,
     /// A packet is out; its acknowledgement has to come.
-    Out,
+    InFlight,
     /// A packet was refused for now; the same one can be handed out again.
     Waiting,
     /// A packet was refused for good; no more are handed out.
@@ -113,21 +113,21 @@ pub struct Progress {
 /// An acknowledgement came while no packet was out.
 ///
 /// ```
-/// use ads_cnc::streaming::{Ack, NcText, NoPacketOut, Sender};
+/// use ads_cnc::streaming::{Ack, NcText, UnexpectedAck, Sender};
 ///
 /// let mut sender = Sender::new(NcText::new(b"M30\n")?);
-/// assert_eq!(sender.acknowledge(Ack::Accepted), Err(NoPacketOut));
+/// assert_eq!(sender.acknowledge(Ack::Accepted), Err(UnexpectedAck));
 /// # Ok::<(), ads_cnc::streaming::LineError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 #[error("acknowledgement of no packet: one that is out expected, none found")]
-pub struct NoPacketOut;
+pub struct UnexpectedAck;
 
 /// Streams a text: hands out a packet, takes its acknowledgement, goes on.
 ///
-/// After [`Ack::Later`] the same packet comes again; the caller waits before, as long as it
+/// After [`Ack::Busy`] the same packet comes again; the caller waits before, as long as it
 /// likes ([`RETRY_AFTER`](super::RETRY_AFTER)), and may give up by dropping the sender. After
-/// [`Ack::Refused`] none comes. A packet that is out is handed out again if asked for: it counts
+/// [`Ack::Rejected`] none comes. A packet that is out is handed out again if asked for: it counts
 /// once.
 ///
 /// Holds one packet, for text that is not [as on the wire](NcText::is_wire).
@@ -139,8 +139,8 @@ pub struct NoPacketOut;
 ///
 /// let mut sender = Sender::new(NcText::new(b"N10 G0 X0\nN20 M30")?);
 /// assert_eq!(sender.packet(), Some(&b"N10 G0 X0\r\nN20 M30\r\n"[..]));
-/// sender.acknowledge(Ack::Later)?;
-/// assert_eq!((sender.refusals(), sender.left_lines()), (1, 2));
+/// sender.acknowledge(Ack::Busy)?;
+/// assert_eq!((sender.busy_count(), sender.left_lines()), (1, 2));
 /// assert_eq!(sender.packet(), Some(&b"N10 G0 X0\r\nN20 M30\r\n"[..]));
 /// sender.acknowledge(Ack::Accepted)?;
 /// assert_eq!(sender.packet(), None);
@@ -153,10 +153,10 @@ pub struct Sender<'a> {
     /// Behind what was accepted.
     packets: Packets<'a>,
     /// The packet that is out or waits, and the packets behind it.
-    held: Option<(Cut<'a>, Packets<'a>)>,
+    in_flight: Option<(Cut<'a>, Packets<'a>)>,
     state: SenderState,
     sent: Progress,
-    refusals: u32,
+    busy_count: u32,
     buffer: [u8; STREAM_PACKET_MAX],
 }
 
@@ -167,10 +167,10 @@ impl<'a> Sender<'a> {
         Self {
             text,
             packets: text.packets(),
-            held: None,
+            in_flight: None,
             state: if empty { SenderState::Done } else { SenderState::Ready },
             sent: Progress { packets: 0, lines: 0, bytes: 0 },
-            refusals: 0,
+            busy_count: 0,
             buffer: [0; STREAM_PACKET_MAX],
         }
     }
@@ -180,30 +180,30 @@ impl<'a> Sender<'a> {
         if matches!(self.state, SenderState::Stopped | SenderState::Done) {
             return None;
         }
-        if self.held.is_none() {
-            let mut behind = self.packets.clone();
-            let cut = behind.cut(&mut self.buffer)?;
-            self.held = Some((cut, behind));
+        if self.in_flight.is_none() {
+            let mut rest = self.packets.clone();
+            let cut = rest.cut(&mut self.buffer)?;
+            self.in_flight = Some((cut, rest));
         }
-        self.state = SenderState::Out;
-        self.held()
+        self.state = SenderState::InFlight;
+        self.packet_in_flight()
     }
 
     /// Takes the answer to the packet that is out.
     ///
     /// # Errors
-    /// [`NoPacketOut`] if none is; nothing changes.
-    pub fn acknowledge(&mut self, ack: Ack) -> Result<(), NoPacketOut> {
-        if self.state != SenderState::Out {
-            return Err(NoPacketOut);
+    /// [`UnexpectedAck`] if none is; nothing changes.
+    pub fn acknowledge(&mut self, ack: Ack) -> Result<(), UnexpectedAck> {
+        if self.state != SenderState::InFlight {
+            return Err(UnexpectedAck);
         }
         match ack {
             Ack::Accepted => self.accept(),
-            Ack::Later => {
+            Ack::Busy => {
                 self.state = SenderState::Waiting;
-                self.refusals = self.refusals.saturating_add(1);
+                self.busy_count = self.busy_count.saturating_add(1);
             }
-            Ack::Refused => self.state = SenderState::Stopped,
+            Ack::Rejected => self.state = SenderState::Stopped,
         }
         Ok(())
     }
@@ -234,29 +234,29 @@ impl<'a> Sender<'a> {
     }
 
     /// How often the packet that waits or is out was refused for now.
-    pub const fn refusals(&self) -> u32 {
-        self.refusals
+    pub const fn busy_count(&self) -> u32 {
+        self.busy_count
     }
 
-    fn held(&self) -> Option<&[u8]> {
-        match self.held.as_ref()?.0 {
+    fn packet_in_flight(&self) -> Option<&[u8]> {
+        match self.in_flight.as_ref()?.0 {
             Cut::Text(packet) => Some(packet),
             Cut::Buffer(len) => self.buffer.get(..len),
         }
     }
 
     fn accept(&mut self) {
-        let packet = self.held().unwrap_or_default();
+        let packet = self.packet_in_flight().unwrap_or_default();
         let lines = packet.iter().filter(|&&byte| byte == LF).count();
         self.sent = Progress {
             packets: self.sent.packets.saturating_add(1),
             lines: self.sent.lines.saturating_add(lines),
             bytes: self.sent.bytes.saturating_add(packet.len()),
         };
-        if let Some((_, behind)) = self.held.take() {
-            self.packets = behind;
+        if let Some((_, rest)) = self.in_flight.take() {
+            self.packets = rest;
         }
-        self.refusals = 0;
+        self.busy_count = 0;
         let done = self.packets.rest().is_empty();
         self.state = if done { SenderState::Done } else { SenderState::Ready };
     }
@@ -264,12 +264,12 @@ impl<'a> Sender<'a> {
 
 impl fmt::Debug for Sender<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { text, state, sent, refusals, .. } = self;
+        let Self { text, state, sent, busy_count, .. } = self;
         f.debug_struct("Sender")
             .field("text", text)
             .field("state", state)
             .field("sent", sent)
-            .field("refusals", refusals)
+            .field("busy_count", busy_count)
             .finish_non_exhaustive()
     }
 }

@@ -3,7 +3,7 @@
 use core::fmt;
 
 #[cfg(feature = "alloc")]
-use super::Findings;
+use super::Diagnostics;
 use super::ends::{CR, LF, behind_end, split_at_end};
 use super::{LineError, LineErrorKind, Packets};
 use crate::bytes::to_u32;
@@ -84,8 +84,8 @@ impl<'a> NcText<'a> {
 
     /// What streaming does not permit in the text, or what would be lost.
     #[cfg(feature = "alloc")]
-    pub fn findings(&self) -> Findings<'a> {
-        Findings::new(*self)
+    pub fn diagnostics(&self) -> Diagnostics<'a> {
+        Diagnostics::new(*self)
     }
 }
 

@@ -38,7 +38,7 @@ fn padding_len(tail: &[u8]) -> usize {
 /// Why these bytes are no text of `len` bytes with its NUL.
 #[cold]
 #[inline(never)]
-pub(crate) fn not_terminated(field: Field, at: u32, max: u32, bytes: &[u8], len: usize) -> Error {
+pub(crate) fn not_cstring(field: Field, at: u32, max: u32, bytes: &[u8], len: usize) -> Error {
     match bytes.split_at_checked(len) {
         Some((_, [_, tail @ ..])) => not_padded(field, at, len, tail),
         _ => Error::new(ErrorKind::MissingNul, field, at, max, to_u32(bytes.len())),
@@ -48,7 +48,7 @@ pub(crate) fn not_terminated(field: Field, at: u32, max: u32, bytes: &[u8], len:
 /// Why these bytes are no text of `len` bytes with its NUL, nor one without.
 #[cold]
 #[inline(never)]
-pub(crate) fn not_maybe_terminated(field: Field, at: u32, bytes: &[u8], len: usize) -> Error {
+pub(crate) fn not_optional_nul(field: Field, at: u32, bytes: &[u8], len: usize) -> Error {
     match bytes.split_at_checked(len) {
         Some((_, [_, tail @ ..])) => not_padded(field, at, len, tail),
         _ => Error::new(ErrorKind::Truncated, field, at, 1, 0),

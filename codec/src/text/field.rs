@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::CncStr;
 use super::end::{not_padded, split_nul};
-use crate::bytes::{Writer, to_len, to_u32};
+use crate::bytes::{Writer, to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
 
@@ -79,9 +79,9 @@ impl<'a> TextRef<'a> {
     }
 
     /// The bytes of a field that may stand at the end of a request: a NUL, and only NULs behind it.
-    pub(crate) fn check_terminated(&self, field: Field, at: u32, max: u32) -> Result<usize, Error> {
+    pub(crate) fn check_cstring(&self, field: Field, at: u32, max: u32) -> Result<usize, Error> {
         let len = self.field_len();
-        if len > to_len(max) {
+        if len > to_usize(max) {
             return Err(Error::new(ErrorKind::TooLong, field, at, max, to_u32(len)));
         }
         match self.tail {
@@ -91,21 +91,21 @@ impl<'a> TextRef<'a> {
         Ok(len)
     }
 
-    /// As [`check_terminated`](Self::check_terminated), but the NUL may be missing.
+    /// As [`check_cstring`](Self::check_cstring), but the NUL may be missing.
     #[inline]
-    pub(crate) fn check_may_terminate(
+    pub(crate) fn check_optional_nul(
         &self,
         field: Field,
         at: u32,
         max: u32,
     ) -> Result<usize, Error> {
-        let len = self.check_open(field, at, 1, max)?;
+        let len = self.check_text_and_tail(field, at, 1, max)?;
         self.check_padding(self.tail.unwrap_or_default(), field, at)?;
         Ok(len)
     }
 
     /// The bytes of a field that may have between `min` and `max` of them.
-    pub(crate) fn check_open(
+    pub(crate) fn check_text_and_tail(
         &self,
         field: Field,
         at: u32,
@@ -113,10 +113,10 @@ impl<'a> TextRef<'a> {
         max: u32,
     ) -> Result<usize, Error> {
         let len = self.field_len();
-        if len < to_len(min) {
+        if len < to_usize(min) {
             return Err(Error::new(ErrorKind::Truncated, field, at, min, to_u32(len)));
         }
-        if len > to_len(max) {
+        if len > to_usize(max) {
             return Err(Error::new(ErrorKind::TooLong, field, at, max, to_u32(len)));
         }
         Ok(len)

@@ -88,11 +88,11 @@ macro_rules! encode_value {
         $(@$item:ident $(; $n:ident)?)? $form:ty, |$value:ident| $data_type:expr, $count:expr, $len:expr,
         |$buf:ident| $encode:expr;
     )+) => { $(
-        impl $(<$item: super::Item $(, const $n: usize)?>)? sealed::Sealed for $form {}
+        impl $(<$item: super::Scalar $(, const $n: usize)?>)? sealed::Sealed for $form {}
 
         $(#[$doc])*
         #[allow(unused_variables, reason = "the type alone may say it")]
-        impl $(<$item: super::Item $(, const $n: usize)?>)? EncodeValue for $form {
+        impl $(<$item: super::Scalar $(, const $n: usize)?>)? EncodeValue for $form {
             fn data_type(&self) -> DataType {
                 let $value = self;
                 $data_type

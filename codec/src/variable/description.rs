@@ -37,7 +37,7 @@ stream! {
               @12      size: UNS32,                            "VAR-8",  "bytes of the whole variable";
         count @16      dimension_count,                        "VAR-7",  "array dimensions m; 0 for an elementary variable";
               @20      dimensions: LIST(506),                  "VAR-4",  "elements in each dimension";
-              @20 + 4m name: TEXT(1, 256),                     "VAR-4",  "name of the variable";
+              @20 + 4m name: TEXT_AND_TAIL(1, 256),                     "VAR-4",  "name of the variable";
     }
 }
 

@@ -30,7 +30,7 @@ stream! {
     /// ```
     VariableExtendedDescription "variable-extended-description", "Extended variable description by index, reply", "VAR-15", max 8;
     struct ExtendedDescription {
-        @0 synchronisation: UNS32_OR_NOTHING as Synchronisation, "VAR-15", "1 NO_SYNC, 2 SYNCHRONIZED";
+        @0 synchronisation: OPTIONAL_UNS32 as Synchronisation, "VAR-15", "1 NO_SYNC, 2 SYNCHRONIZED";
         @4 validity: UNS32 as Validity,                          "VAR-15", "1 CHANNEL, 2 GLOBAL";
     }
 }

@@ -17,6 +17,6 @@ stream! {
     /// ```
     VariableValue "variable-value", "Variable value, reply", "VAR-14", max 2048;
     struct ValueRef<'a> / Value {
-        @0 bytes "value": BYTES(0, 2048), "VAR-14", "one element, or all of the array";
+        @0 bytes "value": REST(0, 2048), "VAR-14", "one element, or all of the array";
     }
 }

@@ -105,7 +105,7 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
 fn ends_by_its_fields(stream: Stream) -> bool {
     let layout = stream.layout();
     let ends = |row: &FieldSpec| {
-        matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::FromOne | Size::Items { .. })
+        matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::NonZero | Size::Items { .. })
     };
     !layout.repeats && layout.is_stream() && layout.fields.iter().all(ends)
 }

@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::value::{DataType, EncodeValue as _};
-use ads_cnc::{CncStr, Elements, Numbers, Text, TextRef};
+use ads_cnc::{CncStr, Elements, Text, TextRef, U32List};
 use ads_cnc_vectors::{Context, Fields, Tagged, Type, Value};
 
 use super::Refused;
@@ -120,7 +120,7 @@ impl<'f> Given<'f> {
             count.checked_mul(usize::try_from(len).unwrap_or(usize::MAX))
         });
         if count != Some(items.len()) {
-            let dimensions = Numbers::from(dimensions);
+            let dimensions = U32List::from(dimensions);
             return Err(unfit(format_args!("{} elements for {dimensions:?}", items.len())));
         }
         encode(data_type, &items)
@@ -156,7 +156,7 @@ fn encode(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Refused> {
             return Err(unfit("texts of an array have the same room each"));
         }
         let count = [u32::try_from(items.len()).unwrap_or(u32::MAX)];
-        Elements::new(data_type, Numbers::from(&count), &bytes)?;
+        Elements::new(data_type, U32List::from(&count), &bytes)?;
     }
     Ok(bytes)
 }

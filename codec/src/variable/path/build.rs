@@ -1,6 +1,6 @@
 //! Building names.
 
-use super::super::{Kind, Numbers};
+use super::super::{Kind, U32List};
 use super::{PathPart, VariablePath, scan};
 use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
@@ -14,10 +14,10 @@ impl<'a> VariablePath<'a> {
     /// Puts a name together from its parts.
     ///
     /// ```
-    /// use ads_cnc::{CncStr, Kind, Numbers, PathPart, VariablePath};
+    /// use ads_cnc::{CncStr, Kind, U32List, PathPart, VariablePath};
     ///
-    /// let np = PathPart { name: CncStr::new("NP")?, indices: Numbers::from(&[0]) };
-    /// let v = PathPart { name: CncStr::new("V")?, indices: Numbers::EMPTY };
+    /// let np = PathPart { name: CncStr::new("NP")?, indices: U32List::from(&[0]) };
+    /// let v = PathPart { name: CncStr::new("V")?, indices: U32List::EMPTY };
     /// let mut buf = [0; 32];
     /// let path = VariablePath::write(Kind::V_G, [np, v], &mut buf)?;
     /// assert_eq!(path.text(), "V.G.NP[0].V");
@@ -52,11 +52,11 @@ impl<'a> VariablePath<'a> {
     /// The name of an element of this array: the name with indices at its end.
     ///
     /// ```
-    /// use ads_cnc::{Numbers, VariablePath};
+    /// use ads_cnc::{U32List, VariablePath};
     ///
     /// let array = VariablePath::new("V.E.test")?;
     /// let mut buf = [0; 16];
-    /// assert_eq!(array.write_element(Numbers::from(&[4]), &mut buf)?.text(), "V.E.test[4]");
+    /// assert_eq!(array.write_element(U32List::from(&[4]), &mut buf)?.text(), "V.E.test[4]");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ///
@@ -65,7 +65,7 @@ impl<'a> VariablePath<'a> {
     /// already: see [`variable`](Self::variable).
     pub fn write_element<'b>(
         &self,
-        indices: Numbers<'_>,
+        indices: U32List<'_>,
         buf: &'b mut [u8],
     ) -> Result<VariablePath<'b>, Error> {
         if !self.elements().is_empty() {
@@ -182,7 +182,7 @@ fn write_part(part: PathPart<'_>, out: &mut Writer<'_>) {
 
 fn digit_count(number: u32) -> usize {
     let more = number.checked_ilog10().unwrap_or(0);
-    crate::bytes::to_len(more.saturating_add(1))
+    crate::bytes::to_usize(more.saturating_add(1))
 }
 
 fn write_decimal(number: u32, out: &mut Writer<'_>) {
@@ -205,16 +205,16 @@ mod owned {
         /// As [`write_element`](Self::write_element).
         ///
         /// ```
-        /// use ads_cnc::{Numbers, VariablePath};
+        /// use ads_cnc::{U32List, VariablePath};
         ///
         /// let array = VariablePath::new("V.E.Testvar")?;
-        /// assert_eq!(array.element(Numbers::from(&[3]))?.to_string(), "V.E.Testvar[3]");
+        /// assert_eq!(array.element(U32List::from(&[3]))?.to_string(), "V.E.Testvar[3]");
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
         ///
         /// # Errors
         /// Those of [`write_element`](Self::write_element).
-        pub fn element(&self, indices: Numbers<'_>) -> Result<CncString, Error> {
+        pub fn element(&self, indices: U32List<'_>) -> Result<CncString, Error> {
             Ok(self.write_element(indices, &mut [0; NAME_MAX])?.text().into())
         }
 

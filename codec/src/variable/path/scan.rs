@@ -1,6 +1,6 @@
 //! The one pass over a name that finds its faults.
 
-use super::super::numbers::decimal;
+use super::super::u32_list::decimal;
 use super::INDEX_MAX;
 use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};

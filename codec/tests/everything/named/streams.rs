@@ -123,9 +123,9 @@ fn descriptors(bytes: &[u8]) -> Result<(), Error> {
 
 fn names(bytes: &[u8]) -> Result<(), Error> {
     let numbers = [any(1), any(2)];
-    let numbers = Numbers::from(&numbers);
-    seen((Numbers::len(&numbers), Numbers::is_empty(&numbers), Numbers::get(&numbers, any(1))));
-    Numbers::iter(&numbers).for_each(seen);
+    let numbers = U32List::from(&numbers);
+    seen((U32List::len(&numbers), U32List::is_empty(&numbers), U32List::get(&numbers, any(1))));
+    U32List::iter(&numbers).for_each(seen);
     let kind = Kind::new(text(bytes, "V.E"))?;
     let mut buf = [0; ROOM];
     let part = PathPart { name: cnc(bytes), indices: numbers };
