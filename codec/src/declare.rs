@@ -163,7 +163,8 @@ macro_rules! stream {
                 #[doc = $meaning]
                 #[cfg_attr(feature = "binrw",
                     br(parse_with = $crate::io::parse::<$row, _>,
-                        args(const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
+                        args(<$view as $crate::declare::Declared>::STREAM,
+                        const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
                     bw(write_with = $crate::io::emit::<$row, _>))]
                 pub $field: $crate::declare::row!(view $kind 'static),
             )+ }
@@ -186,7 +187,8 @@ macro_rules! stream {
             pub struct $view(
                 #[cfg_attr(feature = "binrw",
                     br(parse_with = $crate::io::parse::<$row, _>,
-                        args(const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
+                        args(<$view as $crate::declare::Declared>::STREAM,
+                        const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
                     bw(write_with = $crate::io::emit::<$row, _>))]
                 pub $crate::declare::row!(view $kind 'static),
             );
@@ -382,7 +384,8 @@ macro_rules! stream {
             #[doc = $meaning]
             #[cfg_attr(feature = "binrw",
                 br(parse_with = $crate::io::parse::<$row, _>,
-                    args(const { $crate::layout::Field::of::<$view<'static>>($crate::declare::stream!(@name $label)) })),
+                    args(<$view<'static> as $crate::declare::Declared>::STREAM,
+                        const { $crate::layout::Field::of::<$view<'static>>($crate::declare::stream!(@name $label)) })),
                 bw(write_with = $crate::io::emit::<$row, _>))]
             pub $field: $crate::declare::row!(owned $kind 'static),
         )+ }

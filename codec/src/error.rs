@@ -2,8 +2,7 @@
 
 use core::fmt;
 
-use crate::layout::field::{index_group, index_offset, typed_value, variable_path};
-use crate::layout::{Field, Stream};
+use crate::layout::{Field, Subject, index_group, index_offset, typed_value, variable_path};
 use crate::sda::ObjectAddress;
 use crate::value::DataType;
 
@@ -167,7 +166,7 @@ fn range(field: Field) -> Option<(&'static str, u32, u32)> {
 
 /// Whether the numbers of an error are index groups.
 fn is_group(field: Field) -> bool {
-    field.stream() == Stream::IndexGroup
+    field.subject() == Subject::IndexGroup
         || field == const { Field::of::<ObjectAddress>("index_group") }
 }
 

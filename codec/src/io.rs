@@ -10,7 +10,7 @@ use crate::ads::{AmsHeader, DeviceInfoReply, ReadReply, ReadWriteReply};
 use crate::bytes::{Reader, Writer, to_u32, to_usize};
 use crate::dynamic::DynamicValue;
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Size};
+use crate::layout::{Field, Size, Stream};
 use crate::limits::ADS_DATA_MAX;
 use crate::rows::Owned;
 use crate::sda::ElementLength;
@@ -87,12 +87,12 @@ impl<R: Read> Pull for Source<'_, R> {
 pub(crate) fn parse<T: Owned, R: Read + Seek>(
     reader: &mut R,
     _: Endian,
-    (field,): (Field,),
+    (stream, field): (Stream, Field),
 ) -> BinResult<T::Type> {
     let pos = reader.stream_position()?;
     let mut source = Source { reader, bytes: Vec::new() };
     T::pull(&mut source)?;
-    let mut input = Reader::without_limit(field.stream(), &source.bytes);
+    let mut input = Reader::without_limit(stream, &source.bytes);
     let read = read_row::<T>(&mut input, field).map(T::own);
     // A byte that was taken and not read would be lost.
     let whole = read.and_then(|owned| input.finish().map(|()| owned));

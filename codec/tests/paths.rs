@@ -4,7 +4,7 @@ mod common;
 mod kept;
 
 use ads_cnc::ErrorKind::*;
-use ads_cnc::layout::Stream;
+use ads_cnc::layout::Subject;
 use ads_cnc::limits::NAME_MAX;
 use ads_cnc::*;
 use common::names::*;
@@ -146,7 +146,7 @@ fn malformed_names_are_refused_where_they_are_wrong() {
     ] {
         let error = VariablePath::new(name).unwrap_err();
         assert_eq!(Fault::of(error), wanted, "{name}");
-        assert_eq!(error.field().stream(), Stream::VariablePath, "{name}");
+        assert_eq!(error.field().subject(), Subject::VariablePath, "{name}");
     }
     let greek = VariablePath::new("V.E.Ω").unwrap_err();
     assert_eq!(greek.kind(), NotCp1252);

@@ -5,7 +5,7 @@ use super::{
     Spindle,
 };
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::index_offset::ELEMENT;
+use crate::layout::index_offset::ELEMENT;
 
 /// The most that 16 bits hold (ADR-9).
 const ELEMENT_MAX: u32 = 0xFFFF;

@@ -6,8 +6,8 @@ use core::num::{NonZeroU8, NonZeroU16};
 use super::{Addressing, AxisStride, Group, IndexOffset};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
-use crate::layout::field::index_group::{CHANNEL, PLATFORM_AXIS, SPINDLE};
-use crate::layout::field::index_offset::CHANNEL_AXIS;
+use crate::layout::index_group::{CHANNEL, PLATFORM_AXIS, SPINDLE};
+use crate::layout::index_offset::CHANNEL_AXIS;
 
 /// Takes a number into the eight bits it has, never into the field above (ADR-9).
 fn instance(field: Field, number: u32, least: u8) -> Result<u8, Error> {

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::index_offset::{AXIS, ELEMENT};
+use crate::layout::index_offset::{AXIS, ELEMENT};
 
 /// An index offset as ADS carries it: any number.
 ///

@@ -4,7 +4,7 @@ use core::fmt;
 use core::str::FromStr;
 
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::ams_net_id::{NUMBER, NUMBERS};
+use crate::layout::ams_net_id::{NUMBER, NUMBERS};
 
 /// An AMS NetId, six bytes written with dots.
 ///

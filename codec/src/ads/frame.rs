@@ -7,7 +7,7 @@ use super::{AmsHeader, AmsTcpHeader, ReadWriteRequestRef};
 use crate::bytes::{Writer, to_u32, to_usize};
 use crate::declare::Declared as _;
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Stream};
+use crate::layout::{Field, Stream, Subject};
 use crate::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN, length};
 use crate::stream::{Decode, Encode};
 
@@ -113,7 +113,7 @@ impl Encode for FrameRef<'_> {
         // No frame has more, but the compiler sees here that no sum of lengths overflows.
         let data_length = to_u32(self.data.len().min(DATA_MAX));
         let length = data_length.saturating_add(to_u32(AMS_HEADER_LEN));
-        Writer::fill(Stream::AmsTcpHeader, self.encoded_len(), buf, |out| {
+        Writer::fill(Subject::Stream(Stream::AmsTcpHeader), self.encoded_len(), buf, |out| {
             out.stream(&AmsTcpHeader { reserved: 0, length });
             out.put(self.header.layout().as_bytes());
             out.put(self.data);

@@ -42,10 +42,10 @@ impl<'a> Reader<'a> {
         T::ref_from_bytes(bytes).map_err(|_| not_all(stream, size_of::<T>(), bytes.len()))
     }
 
-    /// The number that is all of the stream of `field`.
+    /// The number that is the only field of a stream.
     #[inline]
-    pub(crate) fn number(field: Field, bytes: &'a [u8]) -> Result<u32, Error> {
-        let mut input = Self::without_limit(field.stream(), bytes);
+    pub(crate) fn number(stream: Stream, field: Field, bytes: &'a [u8]) -> Result<u32, Error> {
+        let mut input = Self::without_limit(stream, bytes);
         let number = input.u32(field)?;
         input.finish()?;
         Ok(number)

@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::Stream;
 use super::tables::TABLES;
+use super::{Stream, Subject};
 use crate::declare::Declared;
 
 /// The table of one stream.
@@ -25,8 +25,7 @@ pub struct Layout {
     pub title: &'static str,
     /// The requirement that defines it, by its ID.
     pub clause: &'static str,
-    /// The most bytes it may have; 0 for a table that is no stream, but names what errors of
-    /// addresses and texts are about.
+    /// The maximum length in bytes.
     pub max: u32,
     /// The fields are one record; the stream is one or more of them.
     pub repeats: bool,
@@ -35,11 +34,6 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Whether this is a stream, and not a table for errors alone.
-    pub const fn is_stream(&self) -> bool {
-        self.max > 0
-    }
-
     /// Whether every stream of this kind has the same length.
     pub fn is_fixed(&self) -> bool {
         let fixed =
@@ -349,7 +343,7 @@ impl fmt::Display for Type {
     }
 }
 
-/// A field of a stream, or the stream as a whole.
+/// A field of a stream, or a part of another [`Subject`]; or the whole of it.
 ///
 /// ```
 /// use ads_cnc::layout::{Field, Stream};
@@ -362,21 +356,21 @@ impl fmt::Display for Type {
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Field {
-    stream: Stream,
+    subject: Subject,
     index: u8,
 }
 
 impl Field {
     #[inline]
-    pub(crate) const fn new(stream: Stream, index: u8) -> Self {
-        Self { stream, index }
+    pub(crate) const fn new(subject: Subject, index: u8) -> Self {
+        Self { subject, index }
     }
 
     /// The field of this name of a declared stream.
     pub(crate) const fn of<T: Declared>(name: &str) -> Self {
         let index = T::LAYOUT.index(name);
         assert!(index != u8::MAX, "the stream has no field of this name");
-        Self { stream: T::STREAM, index }
+        Self::new(Subject::Stream(T::STREAM), index)
     }
 
     /// The field before: the count of a list.
@@ -386,12 +380,22 @@ impl Field {
 
     /// The same row of another stream, whose table is the same.
     pub(crate) const fn in_stream(self, stream: Stream) -> Self {
-        Self { stream, ..self }
+        Self { subject: Subject::Stream(stream), ..self }
     }
 
     /// The stream as a whole: its length, its end.
     pub const fn whole(stream: Stream) -> Self {
-        Self { stream, index: u8::MAX }
+        Self::whole_subject(Subject::Stream(stream))
+    }
+
+    /// The subject as a whole.
+    pub(crate) const fn whole_subject(subject: Subject) -> Self {
+        Self { subject, index: u8::MAX }
+    }
+
+    /// The whole that this is a part of.
+    pub(crate) const fn to_whole(self) -> Self {
+        Self::whole_subject(self.subject)
     }
 
     /// The field of `stream` with this name.
@@ -399,43 +403,54 @@ impl Field {
         stream.fields().find(|field| field.name() == name)
     }
 
-    /// The stream the field belongs to.
-    pub const fn stream(self) -> Stream {
-        self.stream
+    /// What this is a part of.
+    pub const fn subject(self) -> Subject {
+        self.subject
     }
 
-    /// The row of the table; none for the stream as a whole.
+    /// The stream that the field belongs to; `None` for a part of another subject.
+    pub const fn stream(self) -> Option<Stream> {
+        match self.subject {
+            Subject::Stream(stream) => Some(stream),
+            _ => None,
+        }
+    }
+
+    /// The row of the stream's table; `None` for the stream as a whole and for a part of another
+    /// subject.
     pub fn spec(self) -> Option<&'static FieldSpec> {
-        self.stream.layout().fields.get(usize::from(self.index))
+        self.stream()?.layout().fields.get(usize::from(self.index))
     }
 
-    /// The field's name; `stream` for the stream as a whole.
+    /// The field's name; `stream` for the whole.
     pub fn name(self) -> &'static str {
-        self.spec().map_or("stream", |spec| spec.name)
+        self.subject.part(self.index).unwrap_or("stream")
     }
 }
 
 impl fmt::Display for Field {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.stream.layout().name, self.name())
+        write!(f, "{}: {}", self.subject.name(), self.name())
     }
 }
 
 impl fmt::Debug for Field {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}.{}", self.stream.layout().name, self.name())
+        write!(f, "{}.{}", self.subject.name(), self.name())
     }
 }
 
 impl Stream {
     /// The fields in their order on the wire.
     pub fn fields(self) -> impl Iterator<Item = Field> {
-        (0u8..).zip(self.layout().fields).map(move |(index, _)| Field::new(self, index))
+        (0u8..)
+            .zip(self.layout().fields)
+            .map(move |(index, _)| Field::new(Subject::Stream(self), index))
     }
 
-    /// Every stream; not the tables that are none.
+    /// Every stream that has bytes: all but [`NoData`](Self::NoData).
     pub fn all() -> impl Iterator<Item = Self> {
-        TABLES.iter().copied().filter(|stream| stream.layout().is_stream())
+        TABLES.iter().copied().filter(|stream| *stream != Self::NoData)
     }
 
     /// The stream with this name.

@@ -2,6 +2,7 @@
 
 use super::head;
 use super::spec::{Field, FieldSpec, Layout, Size, Type};
+use super::subject::Subject;
 use crate::declare::Declared;
 
 const FIXED_4: Size = Size::Fixed(4);
@@ -17,10 +18,10 @@ macro_rules! layouts {
         $( , records of $record:ident; )?
         $( {
             $( $field:ident $field_name:literal @ $offset:literal $(+ $per_item:literal m)?,
-               $size:expr, $ty:ident, $field_clause:literal, $meaning:literal; )+
+               $size:expr, $ty:ident, $field_clause:literal, $meaning:literal; )*
         } )?
     )+) => {
-        /// A stream, or one of the tables that only name what an error is about.
+        /// A stream: bytes that the manuals describe by a table.
         ///
         /// ```
         /// use ads_cnc::layout::Stream;
@@ -28,7 +29,6 @@ macro_rules! layouts {
         /// let stream = Stream::by_name("variable-index-kind").unwrap();
         /// assert_eq!(stream, Stream::VariableIndexKind);
         /// assert_eq!(stream.layout().max, 260);
-        /// assert!(Stream::all().all(|stream| stream.layout().is_stream()));
         /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[non_exhaustive]
@@ -76,14 +76,14 @@ macro_rules! layouts {
                         ty: Type::$ty,
                         meaning: $meaning,
                         clause: $field_clause,
-                    }, )+];
+                    }, )*];
                     #[allow(non_camel_case_types, clippy::upper_case_acronyms)]
-                    enum Place { $( $field, )+ }
+                    enum Index { $( $field, )* }
                     $(
                         #[allow(clippy::as_conversions, reason = "a discriminant, no input")]
                         pub(crate) const $field: Field =
-                            Field::new(Stream::$stream, Place::$field as u8);
-                    )+
+                            Field::new(Subject::Stream(Stream::$stream), Index::$field as u8);
+                    )*
                 )?
             }
         )+ }
@@ -180,54 +180,6 @@ layouts! {
     VariableDescriptionByName, variable_description_by_name: => crate::DescriptionByNameRef<'static>;
     /// NC text in one write to the stream.
     ProgramStream, program_stream: => crate::streaming::ProgramStreamRef<'static>;
-    /// What comes back where nothing does; no stream of its own.
-    NoData, no_data: "no-data", "No data", "VAR-17", max 0 {
-        NOTHING "nothing" @ 0, Size::Rest { min: 0, max: 0 }, Bytes, "VAR-17", "nothing";
-    }
-    /// An index group put together from its parts; no stream of its own.
-    IndexGroup, index_group: "index-group", "Index group", "ADR-9", max 0 {
-        INSTANCE "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel, platform axis or spindle, 8 bits";
-        CHANNEL "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel, 1..=255";
-        PLATFORM_AXIS "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "platform axis, 1..=255";
-        SPINDLE "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "spindle, 0..=255";
-    }
-    /// An index offset put together from its parts; no stream of its own.
-    IndexOffset, index_offset: "index-offset", "Index offset", "ADR-9", max 0 {
-        AXIS "axis" @ 0, Size::Fixed(4), Uns32, "ADR-9", "axis, 16 bits";
-        CHANNEL_AXIS "axis" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel axis, 1..=65535";
-        ELEMENT "element" @ 0, Size::Fixed(4), Uns32, "ADR-9", "element, 16 or 12 bits";
-    }
-    /// An AMS NetId as text; no stream of its own.
-    AmsNetId, ams_net_id: "ams-net-id", "AMS NetId as text", "ADS-5", max 0 {
-        NUMBERS "numbers" @ 0, Size::Rest { min: 11, max: 23 }, String, "ADS-5", "six numbers with dots between";
-        NUMBER "number" @ 0, Size::Rest { min: 1, max: 3 }, String, "ADS-5", "one of them, 0 to 255; the offset counts them";
-    }
-    /// A variable's name by its parts; no stream of its own.
-    VariablePath, variable_path: "variable-path", "Name of a variable", "VAR-20", max 0 {
-        KIND "kind" @ 0, Size::Rest { min: 0, max: 255 }, String, "VAR-20", "V.E, V.G, V.A, …";
-        PART "part" @ 0, Size::Rest { min: 0, max: 255 }, String, "VAR-20", "name of a structure or variable";
-        INDEX "index" @ 0, Size::Rest { min: 0, max: 255 }, String, "VAR-20", "number in brackets";
-    }
-    /// The variables of the Service Interface; each is the value of a variable, none a stream here.
-    Service, service: "service", "Service Interface", "SVC-1", max 0 {
-        UUID "uuid" @ 0, Size::Rest { min: 0, max: 128 }, String, "SVC-1", "which service is asked";
-        REQUEST "request" @ 0, Size::Rest { min: 0, max: 128 }, String, "SVC-1", "what it is asked";
-        REQUEST_STATE "request_state" @ 0, FIXED_4, Uns32, "SVC-2", "not 0: there is a request";
-        RESPONSE_STATE "response_state" @ 0, FIXED_4, Uns32, "SVC-5", "not 0: there is a response";
-        RESPONSE "response" @ 0, Size::Rest { min: 0, max: 128 }, String, "SVC-1", "what it answered";
-    }
-    /// A value by its type, which another stream says; no stream of its own.
-    TypedValue, typed_value: "typed-value", "Value by its type", "VAR-14", max 0 {
-        TYPE "type" @ 0, FIXED_4, Uns32, "VAR-5", "1 BOOLEAN … 9 STRING";
-        SIZE "size" @ 0, FIXED_4, Uns32, "VAR-8", "bytes of the whole";
-        DIMENSION "dimension" @ 0, FIXED_4, Uns32, "VAR-8", "elements in a dimension";
-        INDEX_COUNT "index_count" @ 0, FIXED_4, Uns32, "VAR-11", "indices, one for each dimension";
-        INDEX "index" @ 0, FIXED_4, Uns32, "VAR-11", "index in a dimension, from 0";
-        COUNT "count" @ 0, FIXED_4, Uns32, "VAR-8", "elements";
-        VALUE "value" @ 0, Size::Rest { min: 0, max: 0x40_0000 }, Bytes, "VAR-14", "one element, or all of the array";
-    }
-    /// A text before it stands in a stream.
-    Text, text: "text", "Text in CP1252", "GEN-3", max 0 {
-        TEXT "text" @ 0, Size::Rest { min: 0, max: 0xffff_ffff }, String, "GEN-3", "CP1252 without NUL";
-    }
+    /// The empty stream: what a CNC returns for a request without result data.
+    NoData, no_data: "no-data", "No data", "VAR-17", max 0 {}
 }

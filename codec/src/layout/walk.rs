@@ -3,7 +3,6 @@
 use super::{Field, Size, Stream};
 use crate::bytes::Reader;
 use crate::error::Error;
-use crate::stream::{Decode as _, NoData};
 
 /// The bytes of one field, or of one item of a field that has several.
 ///
@@ -37,11 +36,8 @@ impl Stream {
     /// Calls `visit` for each field in turn, up to the end or to the first fault.
     ///
     /// # Errors
-    /// Those of the stream's decoders. A table that is no stream has room for no byte.
+    /// Those of the stream's decoders.
     pub fn walk<'a>(self, bytes: &'a [u8], visit: impl FnMut(Segment<'a>)) -> Result<(), Error> {
-        if self == Self::NoData {
-            NoData::decode(bytes)?;
-        }
         let input = match self.layout().ends_itself() {
             true => Reader::without_limit(self, bytes),
             false => Reader::new(self, bytes)?,

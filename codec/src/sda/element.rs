@@ -116,7 +116,7 @@ impl<'a> Decode<'a> for ElementLength {
         match *bytes {
             [a] => Ok(Self { length: a.into(), width: Width::One }),
             [a, b] => Ok(Self { length: u16::from_le_bytes([a, b]).into(), width: Width::Two }),
-            _ => Reader::number(element_length::LENGTH, bytes).map(Self::new),
+            _ => Reader::number(Self::STREAM, element_length::LENGTH, bytes).map(Self::new),
         }
     }
 }

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::layout::Field;
-use crate::layout::field::service;
+use crate::layout::service;
 use crate::variable::VariableType;
 
 /// A variable of the Service Interface (SVC-1). Each channel has its own five.

@@ -62,7 +62,7 @@ pub(crate) fn not_padded(field: Field, at: u32, len: usize, tail: &[u8]) -> Erro
     let behind = at.saturating_add(to_u32(len)).saturating_add(1);
     let end = behind.saturating_add(to_u32(padding_len(tail)));
     let given = behind.saturating_add(to_u32(tail.len()));
-    Error::new(ErrorKind::Trailing, Field::whole(field.stream()), end, end, given)
+    Error::new(ErrorKind::Trailing, field.to_whole(), end, end, given)
 }
 
 #[cfg(test)]

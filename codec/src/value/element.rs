@@ -9,7 +9,7 @@ use super::typed::beyond;
 use super::{Boolean, DataType, Scalar, Shape};
 use crate::bytes::{to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::typed_value::VALUE;
+use crate::layout::typed_value::VALUE;
 use crate::text::TextRef;
 use crate::variable::U32List;
 

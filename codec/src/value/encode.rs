@@ -5,8 +5,8 @@ use zerocopy::IntoBytes as _;
 use super::{DataType, Element, Elements};
 use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
-use crate::layout::Stream;
-use crate::layout::field::typed_value::VALUE;
+use crate::layout::Subject;
+use crate::layout::typed_value::VALUE;
 use crate::limits::ADS_DATA_MAX;
 use crate::text::{CncStr, TextRef};
 
@@ -78,7 +78,7 @@ fn check(len: usize) -> Result<(), Error> {
 /// Writes so many bytes, or nothing at all.
 fn fill(len: usize, buf: &mut [u8], write: impl FnOnce(&mut Writer<'_>)) -> Result<&[u8], Error> {
     check(len)?;
-    Writer::fill(Stream::TypedValue, len, buf, write)
+    Writer::fill(Subject::TypedValue, len, buf, write)
 }
 
 /// Of each form its type, its number of elements, its bytes, and how they are written.

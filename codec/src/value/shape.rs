@@ -4,8 +4,8 @@ use super::element::Elements;
 use super::{DataType, EncodeValue};
 use crate::bytes::{Writer, to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
-use crate::layout::Stream;
-use crate::layout::field::typed_value::{COUNT, DIMENSION, INDEX, INDEX_COUNT, SIZE, TYPE, VALUE};
+use crate::layout::Subject;
+use crate::layout::typed_value::{COUNT, DIMENSION, INDEX, INDEX_COUNT, SIZE, TYPE, VALUE};
 use crate::text::{CncStr, TextRef};
 use crate::variable::{U32List, VariableType};
 
@@ -228,7 +228,7 @@ impl<'a> Shape<'a> {
             self.check_text(to_u32(text.len()).saturating_add(1), at)?;
             at = at.saturating_add(self.each);
         }
-        Writer::fill(Stream::TypedValue, to_usize(self.size()), buf, |out| {
+        Writer::fill(Subject::TypedValue, to_usize(self.size()), buf, |out| {
             for text in texts {
                 TextRef::from(*text).write(out);
                 let room = to_usize(self.each).saturating_sub(text.len()).saturating_sub(1);

@@ -6,7 +6,7 @@ use super::{DataType, Element, Elements, Scalar};
 use crate::bytes::to_u32;
 use crate::content::ContentRef;
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::typed_value::{COUNT, INDEX, TYPE, VALUE};
+use crate::layout::typed_value::{COUNT, INDEX, TYPE, VALUE};
 use crate::text::{CncStr, TextRef};
 use crate::variable::ValueRef;
 

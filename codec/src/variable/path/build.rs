@@ -4,8 +4,8 @@ use super::super::{Kind, U32List};
 use super::{PathPart, VariablePath, scan};
 use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
-use crate::layout::Stream;
-use crate::layout::field::variable_path::{INDEX, KIND, PART};
+use crate::layout::Subject;
+use crate::layout::variable_path::{INDEX, KIND, PART};
 use crate::text::CncStr;
 
 /// Each of them writes a name that [`VariablePath::from_text`] takes apart into what it was made
@@ -42,7 +42,7 @@ impl<'a> VariablePath<'a> {
         if len == kind_end {
             return Err(Error::new(ErrorKind::Truncated, PART, to_u32(len), 1, 0));
         }
-        let bytes = Writer::fill(Stream::VariablePath, len, buf, |out| {
+        let bytes = Writer::fill(Subject::VariablePath, len, buf, |out| {
             kind.text().write(out);
             parts.for_each(|part| write_part(part, out));
         })?;
@@ -134,7 +134,7 @@ impl<'a> VariablePath<'a> {
         let before = self.text.split_at(dot).0;
         let elements = self.text.split_at(self.variable_end).1;
         let len = before.len().saturating_add(elements.len());
-        let bytes = Writer::fill(Stream::VariablePath, len, buf, |out| {
+        let bytes = Writer::fill(Subject::VariablePath, len, buf, |out| {
             before.write(out);
             elements.write(out);
         })?;

@@ -4,8 +4,8 @@ use super::super::u32_list::decimal;
 use super::INDEX_MAX;
 use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::variable_path::{INDEX, KIND, PART};
-use crate::layout::{Field, Stream};
+use crate::layout::variable_path::{INDEX, KIND, PART};
+use crate::layout::{Field, Subject};
 use crate::limits::NAME_MAX;
 use crate::text::CncStr;
 
@@ -59,7 +59,7 @@ pub(super) fn check_len(len: usize) -> Result<(), Error> {
     if len <= NAME_MAX {
         return Ok(());
     }
-    let (whole, max) = (Field::whole(Stream::VariablePath), to_u32(NAME_MAX));
+    let (whole, max) = (Field::whole_subject(Subject::VariablePath), to_u32(NAME_MAX));
     Err(Error::new(ErrorKind::TooLong, whole, max, max, to_u32(len)))
 }
 

@@ -145,9 +145,10 @@ pub(super) fn tables(bytes: &[u8]) -> Result<(), Error> {
     let name = text(bytes, "name");
     for stream in layout::Stream::all() {
         let table = layout::Stream::layout(stream);
-        seen((layout::Layout::is_stream(table), layout::Layout::is_fixed(table)));
+        seen(layout::Layout::is_fixed(table));
         let field = layout::Field::whole(stream);
         seen((layout::Field::name(field), layout::Field::spec(field)));
+        seen(layout::Subject::name(layout::Field::subject(field)));
         seen((layout::Field::stream(field), layout::Field::by_name(stream, name)));
         layout::Stream::fields(stream).for_each(seen);
         seen(layout::Stream::walk(stream, bytes, |segment| seen(segment.bytes)));
