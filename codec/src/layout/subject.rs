@@ -1,7 +1,7 @@
-//! What an error is about: a stream, or a value that is not decoded from a stream.
+//! The subject of an error: a stream, or a value that is not decoded from a stream.
 
 use super::Stream;
-use super::spec::Field;
+use super::field::Field;
 
 /// Declares [`Subject`] and, per subject, a constant for each of its parts.
 macro_rules! subjects {
@@ -9,7 +9,7 @@ macro_rules! subjects {
         $(#[$doc:meta])*
         $subject:ident $name:literal, $module:ident { $( $part:ident $part_name:literal, )+ }
     )+) => {
-        /// What an [`Error`](crate::Error) is about: a stream, or a value that is not decoded from
+        /// The subject of an [`Error`](crate::Error): a stream, or a value that is not decoded from
         /// a stream.
         ///
         /// ```

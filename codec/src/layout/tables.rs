@@ -1,14 +1,15 @@
 //! The tables themselves: one per stream, in the manual's order of fields.
 
+use super::field::Field;
 use super::head;
-use super::spec::{Field, FieldSpec, Layout, Size, Type};
+use super::spec::{FieldSpec, Layout, Size, Type};
 use super::subject::Subject;
 use crate::declare::Declared;
 
 const FIXED_4: Size = Size::Fixed(4);
 
 /// Declares [`Stream`], its layouts and, per stream, its rows and a constant for each field.
-/// A stream of records names the module of the record in place of rows.
+/// A stream of records names the module of the record instead of rows.
 macro_rules! layouts {
     ($(
         $(#[$doc:meta])*
@@ -39,17 +40,17 @@ macro_rules! layouts {
         impl Stream {
             /// The stream's table.
             pub const fn layout(self) -> &'static Layout {
-                match self { $( Self::$stream => &field::$module::LAYOUT, )+ }
+                match self { $( Self::$stream => &fields::$module::LAYOUT, )+ }
             }
 
             /// The sizes of the fixed fields that a record begins with.
             pub(crate) const fn head_sizes(self) -> &'static [u8] {
-                match self { $( Self::$stream => &field::$module::HEAD, )+ }
+                match self { $( Self::$stream => &fields::$module::HEAD, )+ }
             }
         }
 
         /// A constant for each field, so that no decoder spells a name.
-        pub(crate) mod field { $(
+        pub(crate) mod fields { $(
             #[allow(dead_code, reason = "tables name every field, decoders not all of them")]
             pub(crate) mod $module {
                 use super::super::*;

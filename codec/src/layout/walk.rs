@@ -28,7 +28,7 @@ pub struct Segment<'a> {
     pub item: u32,
     /// Offset of the bytes in the stream.
     pub offset: u32,
-    /// The bytes; none for a value or text that has none.
+    /// The bytes; empty for an empty value or text.
     pub bytes: &'a [u8],
 }
 

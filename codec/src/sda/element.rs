@@ -6,7 +6,7 @@ use crate::bytes::{Reader, Writer};
 use crate::declare::stream;
 use crate::error::Error;
 use crate::layout::Stream;
-use crate::layout::field::element_length;
+use crate::layout::fields::element_length;
 use crate::stream::{Decode, Encode};
 
 stream! {
@@ -28,7 +28,7 @@ stream! {
     /// ```
     ElementCount "element-count", "Number of element types, reply", "SDA-4", max 4;
     tuple ElementCount {
-        @0 count: UNS32, "SDA-4", "element types behind the first element";
+        @0 count: UNS32, "SDA-4", "element types after the first element";
     }
 }
 
@@ -91,7 +91,7 @@ enum Width {
 }
 
 impl ElementLength {
-    /// So many bytes, in a number of four.
+    /// This many bytes, encoded in four.
     pub const fn new(length: u32) -> Self {
         Self { length, width: Width::Four }
     }
