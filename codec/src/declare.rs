@@ -242,7 +242,7 @@ macro_rules! stream {
                 let head: &[u8; $max] = match $crate::bytes::Reader::exact(stream, bytes) {
                     Ok(head) => head,
                     Err(error) => {
-                        // What is wrong with a row comes before what follows the last one.
+                        // The error of a row takes precedence over bytes after the last row.
                         if let Some(head) = bytes.first_chunk::<$max>() { $(
                             if <$row as $crate::rows::Row>::REJECTS {
                                 let field = const { $crate::layout::Field::of::<Self>($crate::declare::stream!(@name $label)) };
@@ -444,7 +444,7 @@ macro_rules! stream {
     (@name [$field:ident $label:literal]) => { $label };
     (@per 4m) => { 4 };
     (@per 4n) => { 4 };
-    // What follows a text that a NUL ends, whose table has but the NUL.
+    // The offset of a row after a NUL-terminated text counts only the NUL.
     (@per text) => { 0 };
     (@after []) => { "" };
     (@after [text]) => { " and the text" };

@@ -19,7 +19,7 @@ use crate::{Descriptor, Descriptors, ExtendedReply};
 
 /// Takes the bytes of one row from a reader: at most one more than the row may have.
 pub(crate) trait Pull {
-    /// Takes so many bytes, or fewer at the end of the reader.
+    /// Takes `len` bytes: fewer only at the end of the reader.
     fn exact(&mut self, len: usize) -> io::Result<()>;
     /// Takes all bytes to the end of the reader, but at most one more than `max`.
     fn rest(&mut self, max: u32) -> io::Result<()>;

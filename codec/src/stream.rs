@@ -127,7 +127,7 @@ pub trait Encode {
     }
 }
 
-/// What comes back from a function that returns nothing (VAR-17).
+/// The reply of a function that returns no data (VAR-17).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6, 4.3.7 and 4.3.11.
 ///

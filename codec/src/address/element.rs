@@ -89,16 +89,16 @@ impl ElementAddress {
         Self::new(ClassGroup { addressing, class, attribute, instance }, offset)
     }
 
-    /// The element so many places behind this one (SDA-4).
+    /// The element whose index is `count` greater (SDA-4).
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] if the element needs more than 16 bits and would carry into the
     /// axis (ADR-9).
-    pub fn nth(self, places: u32) -> Result<Self, Error> {
+    pub fn nth(self, count: u32) -> Result<Self, Error> {
         let left = ELEMENT_MAX.saturating_sub(self.offset.get() & ELEMENT_MAX);
-        match self.offset.get().checked_add(places) {
-            Some(offset) if places <= left => Ok(Self { offset: IndexOffset::new(offset), ..self }),
-            _ => Err(Error::new(ErrorKind::OutOfRange, ELEMENT, 0, left, places)),
+        match self.offset.get().checked_add(count) {
+            Some(offset) if count <= left => Ok(Self { offset: IndexOffset::new(offset), ..self }),
+            _ => Err(Error::new(ErrorKind::OutOfRange, ELEMENT, 0, left, count)),
         }
     }
 

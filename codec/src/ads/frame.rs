@@ -11,7 +11,7 @@ use crate::layout::{Field, Stream, Subject};
 use crate::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN, length};
 use crate::stream::{Decode, Encode};
 
-/// One frame: an AMS header and the data behind it.
+/// One frame: an AMS header and the data after it.
 ///
 /// Source: the vendors' public help pages; the manuals do not describe it.
 ///
@@ -61,12 +61,12 @@ impl<'a> FrameRef<'a> {
         self.header
     }
 
-    /// The bytes behind the header.
+    /// The bytes after the header.
     pub const fn data(&self) -> &'a [u8] {
         self.data
     }
 
-    /// The first frame of `received` and how many bytes it takes; none if more have to come.
+    /// The first frame of `received` and its length; `None` if bytes are missing.
     ///
     /// # Errors
     /// As soon as the header that says so is whole: a `reserved` that is not 0, lengths that disagree

@@ -59,11 +59,11 @@ stream! {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AmsHeader {
-    /// Who receives the frame.
+    /// The receiver of the frame.
     pub target: AmsAddr,
-    /// Who sends the frame.
+    /// The sender of the frame.
     pub source: AmsAddr,
-    /// What the frame asks or answers.
+    /// The ADS command that the frame requests or answers.
     pub command: Command,
     /// Request or response.
     pub state_flags: StateFlags,
@@ -132,7 +132,7 @@ impl AmsHeader {
         Self { target, source, command, state_flags, data_length: 0, error, invoke_id }
     }
 
-    /// What answers this request: back to where it came from, with its command and invoke ID.
+    /// The header of the response to this request: source and target swapped, same command and invoke ID.
     ///
     /// ```
     /// use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, StateFlags};

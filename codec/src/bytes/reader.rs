@@ -10,7 +10,7 @@ use crate::layout::{Field, Stream};
 use crate::text::end::{not_cstring, not_optional_nul, split_nul, split_padded, text_len};
 use crate::text::{CncStr, TextRef};
 
-/// What is left of a stream, and where that begins.
+/// The rest of a stream, and its offset.
 pub(crate) struct Reader<'a> {
     stream: Stream,
     bytes: &'a [u8],
@@ -28,12 +28,12 @@ impl<'a> Reader<'a> {
         Ok(Self::without_limit(stream, bytes))
     }
 
-    /// Begins to read a stream whose fields tell its end, which says more than a limit.
+    /// Begins to read a stream whose end is known from its fields: too many bytes are trailing.
     pub(crate) fn without_limit(stream: Stream, bytes: &'a [u8]) -> Self {
         Self { stream, bytes, at: 0 }
     }
 
-    /// The fixed fields `T` that are all of `stream`, whose end they tell.
+    /// Reads a stream that consists of the fixed fields `T`.
     #[inline]
     pub(crate) fn exact<T>(stream: Stream, bytes: &'a [u8]) -> Result<&'a T, Error>
     where
@@ -108,7 +108,7 @@ impl<'a> Reader<'a> {
         Ok(head)
     }
 
-    /// `count` items of `each` bytes; the count stands in the field `counter`, right before.
+    /// `count` items of `each` bytes; the field `counter`, right before, is the count.
     pub(crate) fn items(
         &mut self,
         counter: Field,
@@ -137,8 +137,8 @@ impl<'a> Reader<'a> {
         Ok(<[U32]>::ref_from_bytes(bytes).unwrap_or_default())
     }
 
-    /// All that is left: text, the NUL that must end it, NULs that may pad it. The stream's end is
-    /// its own, so that it is no longer than `max`.
+    /// Reads the rest of the stream as NUL-terminated text that NULs may pad. The caller has limited
+    /// the stream, so that the text is not longer than `max`.
     pub(crate) fn cstring(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
         let at = self.at;
         let bytes = self.take_all();
@@ -178,7 +178,7 @@ impl<'a> Reader<'a> {
         Ok(self.take_all())
     }
 
-    /// As [`rest`](Self::rest): text, and its NUL and what follows if there is one.
+    /// As [`rest`](Self::rest), as text and, after a NUL, its tail.
     #[inline]
     pub(crate) fn text_and_tail(
         &mut self,
@@ -189,7 +189,7 @@ impl<'a> Reader<'a> {
         self.rest(field, min, max).map(TextRef::split)
     }
 
-    /// All that is left, one byte at least: text, and NULs at its end if any.
+    /// The rest of the stream, at least one byte, as text with any number of NULs at its end.
     pub(crate) fn optional_nul(&mut self, field: Field) -> Result<TextRef<'a>, Error> {
         let at = self.at;
         let bytes = self.take_all();

@@ -69,7 +69,7 @@ impl<'b> Writer<'b> {
         Ok(room)
     }
 
-    /// The next `len` bytes to write; none if there were fewer, which cannot be.
+    /// The next `len` bytes to write; empty if fewer are left, which cannot happen.
     #[inline]
     pub(crate) fn next(&mut self, len: usize) -> &'b mut [u8] {
         match core::mem::take(&mut self.rest).split_at_mut_checked(len) {
@@ -109,7 +109,7 @@ impl<'b> Writer<'b> {
         self.array(number.to_le_bytes());
     }
 
-    /// A NUL and what follows it, which mostly is nothing.
+    /// A NUL and the bytes after it, which usually are none.
     #[inline]
     pub(crate) fn nul_and(&mut self, tail: &[u8]) {
         self.put(&[0]);

@@ -151,7 +151,7 @@ macro_rules! accessors {
             CncStr::until_nul(&self.0.type_name)
         }
 
-        /// Bytes of one item of the type (GEN-5); none for STRING and for any other name.
+        /// Bytes of one item of the type (GEN-5); `None` for STRING and for any other name.
         pub fn type_size(&self) -> Option<u32> {
             self.data_type().and_then(DataType::size)
         }

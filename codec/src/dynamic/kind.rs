@@ -1,4 +1,4 @@
-//! The four kinds and their places.
+//! The four kinds and their index offsets.
 
 use core::fmt;
 

@@ -60,7 +60,9 @@ impl Address for (Channel, DynamicKind) {
     }
 
     fn from_call(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self> {
-        let OffsetRule::OfKind(offsets) = rule else { return None };
+        let OffsetRule::OfKind(offsets) = rule else {
+            return None;
+        };
         Some((Channel::from_group(group)?, DynamicKind::from_offset(offsets, offset)?))
     }
 }
@@ -71,7 +73,9 @@ impl Address for (ObjectList,) {
     }
 
     fn from_call(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Com(group) = group else { return None };
+        let Group::Com(group) = group else {
+            return None;
+        };
         Some((ObjectList(group),))
     }
 }
@@ -103,7 +107,9 @@ impl Address for ((ComGroup, IndexOffset),) {
     }
 
     fn from_call(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Com(group) = group else { return None };
+        let Group::Com(group) = group else {
+            return None;
+        };
         Some(((group, offset),))
     }
 }
@@ -115,7 +121,9 @@ impl Address for (ClassGroup,) {
     }
 
     fn from_call(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Class(group) = group else { return None };
+        let Group::Class(group) = group else {
+            return None;
+        };
         Some((group,))
     }
 }
@@ -133,7 +141,9 @@ impl Address for (ElementAddress,) {
     }
 
     fn from_call(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Class(group) = group else { return None };
+        let Group::Class(group) = group else {
+            return None;
+        };
         Some((ElementAddress::new(group, offset),))
     }
 }

@@ -117,7 +117,7 @@ fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffs
     Ok((com, offset))
 }
 
-/// An element whose content is no function; the first element counts the others.
+/// An element whose content is not a function; the first element counts the others.
 fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
     content(Task::Sda, element.group(Attribute::Content), element.index_offset())?;
     Ok(element)
@@ -188,7 +188,7 @@ impl ReadObject {
     /// For the group, the offset and the size in an object's descriptor.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a group that is none of COM's content, [`ErrorKind::Function`]
+    /// [`ErrorKind::Mismatch`] for a group that does not address COM content, [`ErrorKind::Function`]
     /// for the program stream, whose reading is not documented (STM-1), [`ErrorKind::TooLong`] for
     /// more than ADS carries.
     pub fn new(group: IndexGroup, offset: IndexOffset, size: u32) -> Result<Self, Error> {
@@ -217,7 +217,7 @@ impl<'a> WriteObject<'a> {
     /// For the group and the offset in an object's descriptor.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a group that is none of COM's content, [`ErrorKind::Function`]
+    /// [`ErrorKind::Mismatch`] for a group that does not address COM content, [`ErrorKind::Function`]
     /// for the program stream, which [`WriteProgramStream`](super::WriteProgramStream) writes.
     pub fn new(
         group: IndexGroup,

@@ -114,7 +114,7 @@ functions! {
 }
 
 impl Function {
-    /// The function that has this address; none for content (SDA-12).
+    /// The function at this address; `None` for content (SDA-12).
     pub(super) fn at(task: Task, group: IndexGroup, offset: IndexOffset) -> Option<Self> {
         let group = group.parts()?;
         Self::ALL.iter().copied().find(|function| {

@@ -1,4 +1,4 @@
-//! What a text has that streaming does not permit, or that would be lost.
+//! Diagnostics of an NC text.
 
 use core::fmt;
 
@@ -24,7 +24,7 @@ pub struct Diagnostic {
     pub line: u32,
     /// The column, from 1.
     pub column: u32,
-    /// What is there.
+    /// The class of the diagnostic.
     pub kind: DiagnosticKind,
 }
 
@@ -50,7 +50,7 @@ pub enum DiagnosticKind {
         /// The line of the label.
         to: u32,
     },
-    /// The first line behind a program end. If the CNC has read it with the end it is lost, else
+    /// The first line after a program end. If the CNC has read it with the end it is lost, else
     /// it stays in the interface and comes before the next program (STM-10).
     AfterEnd {
         /// The end.
@@ -78,7 +78,7 @@ impl DiagnosticKind {
     }
 }
 
-/// What is there, in a few words.
+/// The class in a few words.
 impl fmt::Display for DiagnosticKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

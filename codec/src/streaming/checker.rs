@@ -46,7 +46,7 @@ pub struct Checker {
     judge: Judge,
 }
 
-/// What is known of the lines so far.
+/// The state that the checks carry from line to line.
 #[derive(Clone)]
 struct Judge {
     labels: Labels,
@@ -54,7 +54,7 @@ struct Judge {
     end: Option<(ProgramEnd, u32)>,
 }
 
-/// What a [`Checker`] finds; shown there.
+/// An event that a [`Checker`] reports; see the example there.
 ///
 /// ```
 /// use ads_cnc::streaming::{Checker, CheckEvent, ProgramEnd};
@@ -64,10 +64,10 @@ struct Judge {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CheckEvent {
-    /// What streaming does not permit, or what would be lost.
+    /// A construct that streaming does not permit, or a line that would be lost.
     Diagnostic(Diagnostic),
-    /// The program ends with this line, and streaming with it. What the CNC has read with it and
-    /// is below is discarded; what is still in the interface stays (STM-10).
+    /// The program ends with this line, and streaming with it. The CNC discards the lines below
+    /// that it has already read; those in the interface stay there (STM-10).
     ProgramEnd {
         /// The word.
         end: ProgramEnd,
@@ -89,10 +89,10 @@ impl CheckEvent {
 }
 
 impl Checker {
-    /// So many labels are known at least.
+    /// The least number of labels that are remembered.
     pub const LABELS_KNOWN: usize = labels::LABELS;
 
-    /// If they have no more characters together than this.
+    /// The most characters that these labels may have together.
     pub const CHARACTERS_KNOWN: usize = labels::CHARACTERS;
 
     /// Begins with the first line of a program.
@@ -101,10 +101,10 @@ impl Checker {
         Self { state: ScanState::START, judge: Judge { labels, end: None } }
     }
 
-    /// Goes on with these lines: what is found in them, in their order.
+    /// Checks the next lines; returns their events in the order of the text.
     ///
-    /// They are whole; an open one counts as if it were ended. They count as checked, even if not
-    /// all that is found is asked for.
+    /// The lines must be complete; a last line without its end counts as one. They count as checked
+    /// even if the iterator is dropped early.
     pub fn check<'c>(&'c mut self, lines: &'c [u8]) -> CheckEvents<'c> {
         let scan = Scan::resume(self.state, lines);
         self.state = self.judge.look_ahead(scan.clone());
@@ -116,7 +116,7 @@ impl Checker {
         self.state.lines
     }
 
-    /// The comment block that is open: a finding if no more lines come.
+    /// The comment block that is open: a diagnostic if no more lines come.
     pub fn open_comment(&self) -> Option<Diagnostic> {
         self.state.open_comment()
     }
@@ -130,7 +130,7 @@ impl ScanState {
 }
 
 impl Judge {
-    /// Learns the labels of these lines; what carries over from them.
+    /// Records the labels of these lines, and returns the state after them.
     fn look_ahead(&mut self, mut scan: Scan<'_>) -> ScanState {
         self.labels.keep(scan.state().program);
         while let Some((label, line)) = scan.next_label() {
@@ -139,7 +139,7 @@ impl Judge {
         scan.state()
     }
 
-    /// What is found next in lines that were looked at ahead.
+    /// The next event in lines whose labels are known.
     fn next(&mut self, scan: &mut Scan<'_>) -> Option<CheckEvent> {
         scan.find_map(|token| self.word(&token))
     }
@@ -179,7 +179,7 @@ impl fmt::Debug for Checker {
     }
 }
 
-/// What a [`Checker`] finds in some lines; shown there.
+/// The events of some lines; see the example at [`Checker`].
 ///
 /// ```
 /// use ads_cnc::streaming::Checker;
@@ -195,7 +195,7 @@ pub struct CheckEvents<'c> {
 }
 
 impl<'c> CheckEvents<'c> {
-    /// The lines below the one in which something was found last; all before the first.
+    /// The lines below that of the last event; all lines before the first event.
     pub const fn remaining(&self) -> &'c [u8] {
         self.scan.remaining()
     }
@@ -222,28 +222,28 @@ impl fmt::Debug for CheckEvents<'_> {
     }
 }
 
-/// The findings in a text, in its order; an open comment block comes last.
+/// The diagnostics of a text, in its order; an open comment block comes last.
 ///
-/// What this manual leaves open is decided so; *online* is what the maker's public help for the NC
-/// language says, *assumed* what nobody says:
+/// The rules where this manual is silent: *online* marks those of the maker's public help for the
+/// NC language, *assumed* those without a source:
 /// - Words and labels compare without regard to case (assumed). A `$` word ends where its letters
-///   end; nothing stands between `$` and the word (online).
+///   end; nothing may be between `$` and the word (online).
 /// - Parentheses nest (online). Text between two `"` in a line is neither code nor comment
 ///   (assumed).
-/// - `#COMMENT BEGIN` and `END` count at the start of a line, behind `/` and the block number at
-///   most; the blocks do not nest, and what else stands in them is not looked at (online: nesting
+/// - `#COMMENT BEGIN` and `END` count at the start of a line, after `/` and the block number at
+///   most; the blocks do not nest, and their other content is skipped (online: nesting
 ///   can be switched on).
-/// - A label is `N40:` or `[NAME]` at the start of a line, behind `/` and, a name, behind the
+/// - A label is `N40:` or `[NAME]` at the start of a line, after `/` and, a name, after the
 ///   block number; `N040:` is the same label (assumed), blanks before the colon are permitted
 ///   (the name and the blanks: online). Labels belong to the program they are in; one begins at
 ///   each line whose first character is `%` (online).
 /// - A jump goes forward if its label is in any line below. It goes back if the label is in its
-///   own line or above, and not below (assumed). A label that is nowhere is no finding: it may
+///   own line or above, and not below (assumed). A missing label gives no diagnostic: it may
 ///   be in a text that follows. A jump to an expression (`$GOTO NV.E.X`) is not judged.
 /// - A program end is M2, M30, M17 or M29; leading zeros do not matter (M02: online, the others
 ///   assumed), what follows the digits must not be `.` or `_`. It counts even where `$IF` or a
 ///   jump may pass it by (assumed): if it is met, what follows is lost or left over.
-/// - One finding for each line with a program end: the first line below that is neither blank
+/// - One diagnostic for each line with a program end: the first line below that is neither blank
 ///   nor comment (assumed).
 /// - A line joined to the next by `\` is checked as two (assumed).
 ///

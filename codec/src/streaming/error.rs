@@ -1,4 +1,4 @@
-//! What is wrong with a line.
+//! Errors of lines.
 
 /// A line that cannot be streamed: where, what was expected, what was there.
 ///
@@ -55,7 +55,7 @@ pub enum LineErrorKind {
     /// LF without CR before it, in data that was received (STM-5).
     #[error("CR LF expected, LF alone found")]
     BareLf,
-    /// CR without LF behind it, in data that was received (STM-5).
+    /// CR without LF after it, in data that was received (STM-5).
     #[error("CR LF expected, CR alone found")]
     BareCr,
     /// Data that was received ends within a line (STM-5).

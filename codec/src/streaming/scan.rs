@@ -1,6 +1,6 @@
-//! What of an NC text the checks need, word by word, without its comments.
+//! The words of an NC text that the checks need, without comments.
 
-use super::ends::{behind_end, split_at_end};
+use super::ends::{after_end, split_at_end};
 use super::lex::*;
 use super::words::{LoopWord, ProgramEnd};
 use crate::bytes::to_u32;
@@ -40,14 +40,14 @@ impl Label<'_> {
         self.program
     }
 
-    /// What two labels of a program have in common if they are the same.
+    /// The key by which labels of a program are compared.
     pub(super) fn key(&self) -> alloc::vec::Vec<u8> {
         let text = self.text.iter().map(u8::to_ascii_lowercase);
         core::iter::once(u8::from(self.named)).chain(text).collect()
     }
 }
 
-/// What matters of lines for those that follow.
+/// The state of a scan between two lines.
 #[derive(Clone, Copy)]
 pub(super) struct ScanState {
     /// Lines so far.
@@ -62,21 +62,21 @@ impl ScanState {
     pub(super) const START: Self = Self { lines: 0, program: 0, block: None };
 }
 
-/// Goes through a text. What is within a comment block is passed over.
+/// Scans a text for words and labels; skips comment blocks.
 #[derive(Clone)]
 pub(super) struct Scan<'a> {
-    /// Behind the present line, its end included.
+    /// The text after the present line and its end.
     below: &'a [u8],
     line: &'a [u8],
     number: u32,
-    /// What is left of the present line.
+    /// The rest of the present line.
     rest: &'a [u8],
     stage: Stage,
     /// No bracket closes in what is left of the line.
     open: bool,
     /// The line after its block number.
     body: &'a [u8],
-    /// The label of the line, and what stands behind it.
+    /// The label of the line, and the text after it.
     label: Option<(Label<'a>, &'a [u8])>,
     program: u32,
     /// Where the comment block began that is open.
@@ -93,7 +93,7 @@ enum Stage {
 }
 
 impl<'a> Scan<'a> {
-    /// Goes on with the lines behind those of which this carries over.
+    /// Resumes after the lines that led to this state.
     pub(super) const fn resume(state: ScanState, text: &'a [u8]) -> Self {
         let ScanState { lines, program, block } = state;
         Self {
@@ -110,12 +110,12 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// What carries over from the lines up to the present one.
+    /// The state after the present line.
     pub(super) const fn state(&self) -> ScanState {
         ScanState { lines: self.number, program: self.program, block: self.block }
     }
 
-    /// The lines behind the present one.
+    /// The lines after the present one.
     pub(super) const fn remaining(&self) -> &'a [u8] {
         self.below
     }
@@ -136,13 +136,13 @@ impl<'a> Scan<'a> {
         Position { line: self.number, column: to_u32(before).saturating_add(1) }
     }
 
-    /// Goes to the next line; false behind the last.
+    /// Goes to the next line; `false` after the last.
     fn enter_line(&mut self) -> bool {
         if self.below.is_empty() {
             return false;
         }
         let (line, below) = split_at_end(self.below);
-        (self.line, self.rest, self.below) = (line, line, behind_end(below));
+        (self.line, self.rest, self.below) = (line, line, after_end(below));
         self.number = self.number.saturating_add(1);
         (self.stage, self.open, self.label) = (Stage::Blank, false, None);
         let (number, at) = block_number(line);
@@ -177,14 +177,14 @@ impl<'a> Scan<'a> {
         loop {
             self.rest = skip_comments(skip_addresses(self.rest));
             let left = self.rest.len();
-            let (&first, behind) = self.rest.split_first()?;
-            if let Some(word) = self.word(first, behind) {
+            let (&first, after) = self.rest.split_first()?;
+            if let Some(word) = self.word(first, after) {
                 return Some((left, word));
             }
         }
     }
 
-    /// What the code of a line begins with.
+    /// The first word of a line with code.
     fn head(&mut self) -> Word<'a> {
         match (self.stage, self.label) {
             (Stage::Title, _) => self.rest = &[],
@@ -200,11 +200,11 @@ impl<'a> Scan<'a> {
     }
 
     /// The word that begins here, if it is one that counts.
-    fn word(&mut self, first: u8, behind: &'a [u8]) -> Option<Word<'a>> {
+    fn word(&mut self, first: u8, after: &'a [u8]) -> Option<Word<'a>> {
         match first {
             b'$' => {
-                let (name, behind) = split_while(behind, u8::is_ascii_alphabetic);
-                self.rest = behind;
+                let (name, after) = split_while(after, u8::is_ascii_alphabetic);
+                self.rest = after;
                 if name.eq_ignore_ascii_case(b"GOTO") {
                     return self.target().map(Word::Goto);
                 }
@@ -213,22 +213,22 @@ impl<'a> Scan<'a> {
             }
             b'"' => {
                 // Quoted text, if the quote is closed.
-                let close = behind.iter().position(|&byte| byte == b'"');
-                self.rest = match close.and_then(|at| behind.get(at.saturating_add(1)..)) {
+                let close = after.iter().position(|&byte| byte == b'"');
+                self.rest = match close.and_then(|at| after.get(at.saturating_add(1)..)) {
                     Some(rest) => rest,
-                    None => behind,
+                    None => after,
                 };
                 None
             }
-            b'.' if behind.first().is_some_and(u8::is_ascii_alphabetic) => self.pass_path(),
+            b'.' if after.first().is_some_and(u8::is_ascii_alphabetic) => self.pass_path(),
             b'_' => self.pass_path(),
             b'0'..=b'9' => {
-                self.rest = skip_while(behind, is_in_number);
+                self.rest = skip_while(after, is_in_number);
                 None
             }
             _ if first.is_ascii_alphabetic() => self.letters(),
             _ => {
-                self.rest = behind;
+                self.rest = after;
                 None
             }
         }
@@ -236,25 +236,25 @@ impl<'a> Scan<'a> {
 
     /// An address with its number, a variable's name, a word of letters.
     fn letters(&mut self) -> Option<Word<'a>> {
-        let (letters, behind) = split_while(self.rest, u8::is_ascii_alphabetic);
-        match behind {
+        let (letters, after) = split_while(self.rest, u8::is_ascii_alphabetic);
+        match after {
             [b'_', ..] => return self.pass_path(),
             [b'.', next, ..] if next.is_ascii_alphabetic() || *next == b'_' => {
                 return self.pass_path();
             }
             // A subroutine's name may look like anything.
             [b' ' | b'\t', ..] if matches!(letters, b"L" | b"l" | b"LL" | b"ll") => {
-                let name = skip_while(behind, is_blank);
+                let name = skip_while(after, is_blank);
                 self.rest = skip_while(name, is_in_file_name);
                 return None;
             }
-            _ => self.rest = behind,
+            _ => self.rest = after,
         }
-        let (digits, behind) = split_while(behind, u8::is_ascii_digit);
-        if !matches!(letters, b"M" | b"m") || matches!(behind, [b'.' | b'_', ..]) {
+        let (digits, after) = split_while(after, u8::is_ascii_digit);
+        if !matches!(letters, b"M" | b"m") || matches!(after, [b'.' | b'_', ..]) {
             return None;
         }
-        self.rest = behind;
+        self.rest = after;
         match skip_while(digits, is_zero) {
             b"2" => Some(Word::End(ProgramEnd::M2)),
             b"30" => Some(Word::End(ProgramEnd::M30)),
@@ -296,7 +296,7 @@ impl<'a> Scan<'a> {
         Some(label)
     }
 
-    /// The label at the start of a line, and what stands behind it.
+    /// The label at the start of a line, and the text after it.
     fn definition(&self, number: Option<&'a [u8]>, at: &'a [u8]) -> Option<(Label<'a>, &'a [u8])> {
         match (number, at) {
             (Some(digits), [b':', rest @ ..]) => Some((self.number(digits), rest)),

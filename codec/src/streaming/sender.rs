@@ -1,4 +1,4 @@
-//! The writing end.
+//! The sender of an NC program.
 
 use core::fmt;
 
@@ -8,12 +8,11 @@ use super::packets::{Cut, Packets};
 use crate::ads::AdsError;
 use crate::limits::STREAM_PACKET_MAX;
 
-/// How a write to the stream was answered.
+/// The CNC's answer to a write to the stream.
 ///
-/// Which ADS result means which refusal is not documented ([`from_result`](Self::from_result)); the manual's driver
-/// takes each for a temporary one. A write whose answer never came may have been taken or not:
-/// nobody can tell, so to repeat it may run lines twice. Acknowledge it as
-/// [`Rejected`](Self::Rejected).
+/// Which ADS results are temporary is not documented ([`from_result`](Self::from_result)); the
+/// manual's driver retries after every error. If the reply to a write is lost, the outcome is
+/// unknown, and a retry may execute lines twice: acknowledge it as [`Rejected`](Self::Rejected).
 ///
 /// Manual: `stream-en`, sections 4.2 and 5 (STM-6).
 ///
@@ -35,9 +34,9 @@ pub enum Ack {
 }
 
 impl Ack {
-    /// What the result of the write says. Which numbers a CNC gives is not documented: that a
-    /// service, address, access or size it does not take is refused for good, and everything else
-    /// for now, is assumed (STM-6, ADS-7).
+    /// The acknowledgement that the result of a write means. The results of a CNC are not
+    /// documented. Assumed: it rejects an invalid service, address, access or size, and is busy at
+    /// every other error (STM-6, ADS-7).
     ///
     /// ```
     /// use ads_cnc::ads::AdsError;
@@ -62,7 +61,7 @@ impl Ack {
     }
 }
 
-/// Where a [`Sender`] stands.
+/// The state of a [`Sender`].
 ///
 /// ```
 /// use ads_cnc::streaming::{Ack, NcText, Sender, SenderState};
@@ -79,11 +78,11 @@ impl Ack {
 pub enum SenderState {
     /// The next packet can be handed out.
     Ready,
-    /// A packet is out; its acknowledgement has to come.
+    /// A packet was handed out and is not acknowledged yet.
     InFlight,
-    /// A packet was refused for now; the same one can be handed out again.
+    /// The CNC was busy; the same packet can be handed out again.
     Waiting,
-    /// A packet was refused for good; no more are handed out.
+    /// A packet was rejected; no more are handed out.
     Stopped,
     /// All packets were accepted.
     Done,
@@ -106,11 +105,11 @@ pub struct Progress {
     pub packets: usize,
     /// Lines.
     pub lines: usize,
-    /// Bytes, with CR LF behind each line.
+    /// Bytes, with CR LF after each line.
     pub bytes: usize,
 }
 
-/// An acknowledgement came while no packet was out.
+/// An acknowledgement came while no packet was in flight.
 ///
 /// ```
 /// use ads_cnc::streaming::{Ack, NcText, UnexpectedAck, Sender};
@@ -127,7 +126,7 @@ pub struct UnexpectedAck;
 ///
 /// After [`Ack::Busy`] the same packet comes again; the caller waits before, as long as it
 /// likes ([`RETRY_AFTER`](super::RETRY_AFTER)), and may give up by dropping the sender. After
-/// [`Ack::Rejected`] none comes. A packet that is out is handed out again if asked for: it counts
+/// [`Ack::Rejected`] it hands out no more. Asking again returns the packet in flight again: it counts
 /// once.
 ///
 /// Holds one packet, for text that is not [as on the wire](NcText::is_wire).
@@ -150,9 +149,9 @@ pub struct UnexpectedAck;
 #[derive(Clone)]
 pub struct Sender<'a> {
     text: NcText<'a>,
-    /// Behind what was accepted.
+    /// The packets that were not accepted yet.
     packets: Packets<'a>,
-    /// The packet that is out or waits, and the packets behind it.
+    /// The packet in flight or waiting for a retry, and the packets after it.
     in_flight: Option<(Cut<'a>, Packets<'a>)>,
     state: SenderState,
     sent: Progress,
@@ -175,7 +174,7 @@ impl<'a> Sender<'a> {
         }
     }
 
-    /// The packet to write now; none if all were accepted or one was refused for good.
+    /// The packet to write now; `None` if all were accepted or one was rejected.
     pub fn packet(&mut self) -> Option<&[u8]> {
         if matches!(self.state, SenderState::Stopped | SenderState::Done) {
             return None;
@@ -189,10 +188,10 @@ impl<'a> Sender<'a> {
         self.packet_in_flight()
     }
 
-    /// Takes the answer to the packet that is out.
+    /// Takes the acknowledgement of the packet in flight.
     ///
     /// # Errors
-    /// [`UnexpectedAck`] if none is; nothing changes.
+    /// [`UnexpectedAck`] if no packet is in flight; nothing changes.
     pub fn acknowledge(&mut self, ack: Ack) -> Result<(), UnexpectedAck> {
         if self.state != SenderState::InFlight {
             return Err(UnexpectedAck);
@@ -208,7 +207,7 @@ impl<'a> Sender<'a> {
         Ok(())
     }
 
-    /// Where the sender stands.
+    /// The state of the sender.
     pub const fn state(&self) -> SenderState {
         self.state
     }
@@ -218,12 +217,12 @@ impl<'a> Sender<'a> {
         self.sent
     }
 
-    /// Lines that were not accepted yet, those of the packet that is out among them.
+    /// Lines that were not accepted yet, those of the packet in flight among them.
     pub const fn left_lines(&self) -> usize {
         self.text.line_count().saturating_sub(self.sent.lines)
     }
 
-    /// Bytes that were not accepted yet, with CR LF behind each line.
+    /// Bytes that were not accepted yet, with CR LF after each line.
     pub const fn left_bytes(&self) -> usize {
         self.text.wire_len().saturating_sub(self.sent.bytes)
     }
@@ -233,7 +232,7 @@ impl<'a> Sender<'a> {
         self.packets.rest()
     }
 
-    /// How often the packet that waits or is out was refused for now.
+    /// How often the present packet was answered by [`Ack::Busy`].
     pub const fn busy_count(&self) -> u32 {
         self.busy_count
     }

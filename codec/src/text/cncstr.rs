@@ -119,7 +119,7 @@ impl<'a> CncStr<'a> {
         }
     }
 
-    /// The text before and from a place in [`held`](Self::held); all and none if no character
+    /// The text before and from an offset in [`held`](Self::held); all and nothing if no character
     /// begins there.
     pub(crate) fn split_at(self, at: usize) -> (Self, Self) {
         match self.0 {
@@ -142,7 +142,7 @@ impl<'a> CncStr<'a> {
         }
     }
 
-    /// The CP1252 bytes in a vector with room for so many more.
+    /// The CP1252 bytes in a vector with room for `more` bytes.
     #[cfg(feature = "alloc")]
     pub(crate) fn to_bytes(self, more: usize) -> alloc::vec::Vec<u8> {
         let mut all = alloc::vec::Vec::with_capacity(self.len().saturating_add(more));

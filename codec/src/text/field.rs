@@ -1,4 +1,4 @@
-//! Text as it stands in a stream.
+//! Text as a field of a stream.
 
 use core::fmt;
 
@@ -36,7 +36,7 @@ impl<'a> TextRef<'a> {
         Ok(CncStr::new(text)?.into())
     }
 
-    /// Text with another end: the bytes behind the NUL, or no NUL.
+    /// Text with another end: the bytes after the NUL, or no NUL.
     #[inline]
     pub const fn with_tail(text: CncStr<'a>, tail: Option<&'a [u8]>) -> Self {
         Self { text, tail }
@@ -57,7 +57,7 @@ impl<'a> TextRef<'a> {
         self.text
     }
 
-    /// The bytes behind the first NUL; none if there is no NUL.
+    /// The bytes after the first NUL; `None` without a NUL.
     #[inline]
     pub const fn tail(&self) -> Option<&'a [u8]> {
         self.tail
@@ -78,7 +78,7 @@ impl<'a> TextRef<'a> {
         }
     }
 
-    /// The bytes of a field that may stand at the end of a request: a NUL, and only NULs behind it.
+    /// The bytes of a field at the end of a request: a NUL, and only NULs after it.
     pub(crate) fn check_cstring(&self, field: Field, at: u32, max: u32) -> Result<usize, Error> {
         let len = self.field_len();
         if len > to_usize(max) {
@@ -86,7 +86,9 @@ impl<'a> TextRef<'a> {
         }
         match self.tail {
             Some(tail) => self.check_padding(tail, field, at)?,
-            None => return Err(Error::new(ErrorKind::MissingNul, field, at, max, to_u32(len))),
+            None => {
+                return Err(Error::new(ErrorKind::MissingNul, field, at, max, to_u32(len)));
+            }
         }
         Ok(len)
     }
@@ -122,7 +124,7 @@ impl<'a> TextRef<'a> {
         Ok(len)
     }
 
-    /// Behind the NUL, if there is one, only NULs.
+    /// Only NULs may follow the NUL, if the text has one.
     #[inline]
     fn check_padding(&self, tail: &[u8], field: Field, at: u32) -> Result<(), Error> {
         match tail.iter().all(|&byte| byte == 0) {

@@ -1,4 +1,4 @@
-//! From what is said of a value to its elements.
+//! From the description of a value to its elements.
 
 use super::shape::known;
 use super::{DataType, Element, Elements, Shape};
@@ -6,7 +6,7 @@ use crate::com::{Descriptor, DescriptorRef};
 use crate::error::Error;
 use crate::variable::{DescriptionByNameRef, DescriptionRef, U32List, ValueRef, VariableType};
 
-/// What both descriptions, by index and by name, say of a value.
+/// The value's type and shape, from the descriptions by index and by name.
 macro_rules! describes {
     ($( $description:ident )+) => { $(
         impl<'a> $description<'a> {
@@ -51,7 +51,7 @@ macro_rules! describes {
 describes! { DescriptionRef DescriptionByNameRef }
 
 impl<'a> ValueRef<'a> {
-    /// The elements of a value of this type and these dimensions; none for a single element.
+    /// The elements of a value of this type and these dimensions; an empty list for a single element.
     ///
     /// With a description at hand, [`DescriptionRef::elements`] checks its size too.
     ///

@@ -119,7 +119,7 @@ pub struct Elements<'a> {
 }
 
 impl<'a> Elements<'a> {
-    /// The elements of a value of this type and these dimensions; none for a single element.
+    /// The elements of a value of this type and these dimensions; an empty list for a single element.
     ///
     /// The texts of an array have the same share of the bytes (assumed).
     ///
@@ -156,7 +156,7 @@ impl<'a> Elements<'a> {
         to_usize(self.shape.count())
     }
 
-    /// Whether there is none, as a dimension is 0.
+    /// Returns `true` if there are no elements: a dimension is 0.
     pub fn is_empty(&self) -> bool {
         self.shape.count() == 0
     }

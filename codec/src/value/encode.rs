@@ -10,7 +10,7 @@ use crate::layout::typed_value::VALUE;
 use crate::limits::ADS_DATA_MAX;
 use crate::text::{CncStr, TextRef};
 
-/// What becomes the bytes of a value: a number, a `bool` or [`Boolean`](super::Boolean), a slice or
+/// A value that is encoded to bytes: a number, a `bool` or [`Boolean`](super::Boolean), a slice or
 /// an array of them, a text, and each form in which values are read.
 ///
 /// The bytes are what requests take, and what the content of an object or of an element is. A
@@ -75,7 +75,7 @@ fn check(len: usize) -> Result<(), Error> {
     }
 }
 
-/// Writes so many bytes, or nothing at all.
+/// Writes exactly `len` bytes, or returns an error and writes nothing.
 fn fill(len: usize, buf: &mut [u8], write: impl FnOnce(&mut Writer<'_>)) -> Result<&[u8], Error> {
     check(len)?;
     Writer::fill(Subject::TypedValue, len, buf, write)
@@ -119,7 +119,7 @@ macro_rules! encode_value {
     )+ };
 }
 
-/// Does the same with whatever an element holds.
+/// Does the same with the value of any element.
 macro_rules! each {
     ($element:ident, $value:ident => $do:expr) => {
         match $element {

@@ -1,4 +1,4 @@
-//! The types of the program that stand for types of the CNC.
+//! The Rust types of the CNC's numbers and BOOLEAN.
 
 use core::fmt;
 

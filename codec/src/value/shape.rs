@@ -41,7 +41,7 @@ pub struct Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    /// A value of so many bytes; no dimension for a single element.
+    /// A value of `size` bytes; an empty list of dimensions for a single element.
     ///
     /// Each STRING of an array has the same share of the bytes, at least one (assumed).
     ///
@@ -56,12 +56,14 @@ impl<'a> Shape<'a> {
                 shape => mismatch(shape.map_or(u32::MAX, |shape| shape.size())),
             };
         }
-        let Some(count) = count(dimensions) else { return mismatch(u32::MAX) };
+        let Some(count) = count(dimensions) else {
+            return mismatch(u32::MAX);
+        };
         let each = match (count, size.checked_div(count), size.checked_rem(count)) {
             (0, ..) if size == 0 => 0,
             (1, ..) => size,
             (_, Some(each), Some(0)) if each > 0 => each,
-            // So many texts have at least a NUL each; no text has nothing.
+            // Each text has at least its NUL; no texts have no bytes.
             (.., left) => return mismatch(size.saturating_sub(left.unwrap_or(size)).max(count)),
         };
         Ok(Self { data_type, dimensions, count, each })
@@ -100,7 +102,7 @@ impl<'a> Shape<'a> {
         self.data_type
     }
 
-    /// Elements in each dimension; none for a single element.
+    /// Elements in each dimension; empty for a single element.
     pub const fn dimensions(&self) -> U32List<'a> {
         self.dimensions
     }
@@ -120,7 +122,7 @@ impl<'a> Shape<'a> {
         self.count.saturating_mul(self.each)
     }
 
-    /// Place of the element with these indices, from 0: the last index runs fastest (VAR-21,
+    /// Index of the element in the flat array, from 0: the last index runs fastest (VAR-21,
     /// assumed).
     ///
     /// # Errors

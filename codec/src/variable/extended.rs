@@ -8,7 +8,7 @@ use crate::layout::Stream;
 use crate::stream::{Decode, Encode};
 
 stream! {
-    /// What a V.E variable has beyond its description.
+    /// Further properties of a V.E variable.
     ///
     /// V.G and V.A variables have no extended description: their reply has no bytes. Decode a reply as
     /// [`ExtendedReply`].

@@ -7,7 +7,7 @@ use crate::declare::stream;
 stream! {
     /// The handle of a variable.
     ///
-    /// Valid until the controller restarts; that of an axis variable belongs to the axis's place.
+    /// Valid until the controller restarts; that of an axis variable belongs to the index of the axis.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.3.
     ///

@@ -43,7 +43,7 @@ impl<'a> U32List<'a> {
         Self(Source::Wire(numbers))
     }
 
-    /// Indices as they stand in a name that was found to be well-formed.
+    /// The indices of a name that was checked to be well-formed.
     pub(crate) const fn from_name(brackets: &'a [u8]) -> Self {
         Self(Source::Name(brackets))
     }
@@ -58,13 +58,13 @@ impl<'a> U32List<'a> {
         }
     }
 
-    /// Whether there is none.
+    /// Returns `true` if the list is empty.
     #[inline]
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The number at this place, from 0.
+    /// The number at this index, from 0.
     #[inline]
     pub fn get(&self, place: usize) -> Option<u32> {
         match self.0 {
@@ -224,7 +224,7 @@ impl fmt::Debug for U32List<'_> {
 mod tests {
     use super::*;
 
-    /// What is equal has one hash, whatever it is held in.
+    /// Equal lists have the same hash, in whichever form they are stored.
     #[test]
     fn equal_numbers_have_one_hash() {
         use std::hash::BuildHasher as _;

@@ -1,4 +1,4 @@
-//! Values. What their bytes mean is in the variable's description.
+//! Values. The variable's description tells what their bytes mean.
 
 use crate::declare::stream;
 

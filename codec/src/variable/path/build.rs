@@ -83,7 +83,7 @@ impl<'a> VariablePath<'a> {
     /// The name on the channel interface of a variable of the axis interface: the axis's instance
     /// identifier becomes the last part.
     ///
-    /// Indices at the end stay there, behind the axis: which place they have is not documented.
+    /// Indices at the end stay there, after the axis: their position is not documented.
     ///
     /// ```
     /// use ads_cnc::{CncStr, VariablePath};
@@ -155,7 +155,7 @@ impl<'a> VariablePath<'a> {
     }
 }
 
-/// Checks a part that begins behind `before` characters; says where its indices begin and end.
+/// Checks a part that begins after `before` characters; returns where its indices begin and end.
 fn check_part(part: PathPart<'_>, before: usize) -> Result<(usize, usize), Error> {
     let start = before.saturating_add(1);
     scan::part(part.name, start)?;

@@ -71,7 +71,7 @@ const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICE
 #[derive(Clone, Copy)]
 pub struct VariablePath<'a> {
     text: CncStr<'a>,
-    /// Where the dot behind the kind is, in what the text is held in.
+    /// The offset of the dot after the kind, in the bytes of the text.
     kind_end: usize,
     /// Where the indices at the end begin, likewise.
     variable_end: usize,
@@ -84,8 +84,8 @@ impl<'a> VariablePath<'a> {
     /// Offsets count characters.
     /// - Those of [`CncStr::new`].
     /// - [`Unexpected`](crate::ErrorKind::Unexpected): an empty part, a double dot, a bracket or
-    ///   a character in one where none may be, text behind a bracket, no kind.
-    /// - [`Truncated`](crate::ErrorKind::Truncated): the name ends in its kind, behind a dot or in
+    ///   a character that a part must not have, text after a bracket, no kind.
+    /// - [`Truncated`](crate::ErrorKind::Truncated): the name ends in its kind, after a dot or in
     ///   a bracket.
     /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): an index over 4 294 967 294; one over 32
     ///   bits is shown as the largest of these.
@@ -123,7 +123,7 @@ impl<'a> VariablePath<'a> {
         Kind::from_field(self.text.split_at(self.kind_end).0.into())
     }
 
-    /// What follows the kind: structures, and last the variable in them. There is one at least.
+    /// The parts after the kind: structures, and last the variable in them. At least one.
     ///
     /// ```
     /// use ads_cnc::{U32List, VariablePath};
@@ -138,7 +138,7 @@ impl<'a> VariablePath<'a> {
         PathParts::new(self.text.split_at(self.kind_end).1)
     }
 
-    /// The indices at the end, which select an element of an array; none for all of it.
+    /// The indices at the end, which select an element of an array; empty for the whole array.
     pub fn elements(&self) -> U32List<'a> {
         U32List::from_name(self.text.split_at(self.variable_end).1.held())
     }

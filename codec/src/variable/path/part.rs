@@ -31,7 +31,7 @@ impl fmt::Display for PathPart<'_> {
     }
 }
 
-/// The parts of a name behind its kind: see [`VariablePath::parts`](super::VariablePath::parts).
+/// The parts of a name after its kind: see [`VariablePath::parts`](super::VariablePath::parts).
 ///
 /// ```
 /// use ads_cnc::VariablePath;
@@ -60,7 +60,7 @@ impl<'a> Iterator for PathParts<'a> {
             let held = text.held();
             held.iter().position(|&byte| byte == wanted).unwrap_or(held.len())
         };
-        // Behind the dot, which is there unless this is the end.
+        // Skips the dot, which only the last part lacks.
         let (dot, rest) = self.0.split_at(1);
         if dot.is_empty() {
             return None;
