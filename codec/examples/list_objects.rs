@@ -58,7 +58,7 @@ fn elements(cnc: &Cnc, first: ElementAddress) -> Result<()> {
     let mut reply = Vec::new();
     let count = cnc.call(&CountElements::new(first)?, &mut reply)?.0;
     for place in 1..=count {
-        let element = first.following(place)?;
+        let element = first.nth(place)?;
         let (mut name, mut of_type, mut unit) = (Vec::new(), Vec::new(), Vec::new());
         let name = cnc.call(&ReadElementName::new(element), &mut name)?.text.text();
         let of_type = cnc.call(&ReadElementType::new(element), &mut of_type)?.text.text();

@@ -20,7 +20,7 @@ fn main() -> Result<()> {
     // `V.E.Testvar[3]` is an element of `V.E.Testvar`, which has the description.
     let description = describe(&cnc, channel, path.variable())?;
     let shape = description.shape()?;
-    let shape = if path.elements().is_empty() { shape } else { shape.one() };
+    let shape = if path.elements().is_empty() { shape } else { shape.element_shape() };
 
     let mut reply = Vec::new();
     let value = cnc.call(&ReadByName::new(channel, &name)?, &mut reply)?;

@@ -22,7 +22,7 @@ fn main() -> Result<()> {
 
     // What is wrong with the program is said before the first line is out.
     let text = NcText::new(&program)?;
-    let mut findings = text.findings().inspect(|finding| eprintln!("{finding}"));
+    let mut findings = text.diagnostics().inspect(|finding| eprintln!("{finding}"));
     if findings.any(|finding| finding.kind.ends_streaming()) {
         return Err("the CNC would end streaming there".into());
     }
@@ -33,13 +33,13 @@ fn main() -> Result<()> {
         let ack = match cnc.call(&op, &mut Vec::new()) {
             Ok(_) => Ack::Accepted,
             Err(error) => match error.downcast_ref::<ads::Error>() {
-                Some(ads::Error::Ads(_, _, number)) => Ack::of(AdsError(*number)),
+                Some(ads::Error::Ads(_, _, number)) => Ack::from_result(AdsError(*number)),
                 _ => return Err(error),
             },
         };
         sender.acknowledge(ack)?;
-        if ack == Ack::Later {
-            if sender.refusals() > REPEATS {
+        if ack == Ack::Busy {
+            if sender.busy_count() > REPEATS {
                 return Err(format!("given up, {} lines are left", sender.left_lines()).into());
             }
             thread::sleep(RETRY_AFTER);

@@ -20,6 +20,6 @@ stream! {
     /// ```
     Content "content", "Content of an object or element", "COM-5", max 0x40_0000;
     struct ContentRef<'a> / Content {
-        @0 bytes "content": BYTES(0, 0x40_0000), "COM-5", "as descriptor or attributes say";
+        @0 bytes "content": REST(0, 0x40_0000), "COM-5", "as descriptor or attributes say";
     }
 }

@@ -15,7 +15,7 @@ pub(crate) trait Declared {
 /// its size and type in the documentation. A number may be followed by `as` and its own type.
 macro_rules! row {
     (size (NETID)) => { $crate::layout::Size::Fixed(6) };
-    (size (UNS32_OR_NOTHING as $t:ident)) => { $crate::layout::Size::FixedOrNothing(4) };
+    (size (OPTIONAL_UNS32 as $t:ident)) => { $crate::layout::Size::OptionalFixed(4) };
     (size (PADDED $n:literal)) => { $crate::layout::Size::Padded($n) };
     (size $kind:tt) => { <$crate::declare::row!(row $kind 'static) as $crate::rows::Row>::SIZE };
     (type (NETID)) => { $crate::layout::Type::NetId };
@@ -35,18 +35,18 @@ macro_rules! row {
     ($q:ident (UNS16 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u16, $t>] "2 | `UNS16`") };
     ($q:ident (UNS32) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [Number<u32, u32>] "4 | `UNS32`") };
     ($q:ident (UNS32 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u32, $t>] "4 | `UNS32`") };
-    ($q:ident (UNS32_OR_NOTHING as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u32, $t>] "4, or no byte in the stream | `UNS32`") };
-    ($q:ident (UNS32_NOT_0) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [NonZero] "4 | `UNS32`, not 0") };
-    ($q:ident (BOOLEAN) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Flag<u8>] "1 | `BOOLEAN`") };
-    ($q:ident (LIST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Numbers<$a>] [alloc::vec::Vec<u32>] [List<$max>] "4 each, at most ", $max, " | `UNS32`") };
+    ($q:ident (OPTIONAL_UNS32 as $t:ident) $a:lifetime) => { $crate::declare::row!(@$q [$t] [$t] [Number<u32, $t>] "4, or no byte in the stream | `UNS32`") };
+    ($q:ident (UNS32_NON_ZERO) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [NonZero] "4 | `UNS32`, not 0") };
+    ($q:ident (BOOLEAN) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Boolean<u8>] "1 | `BOOLEAN`") };
+    ($q:ident (LIST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::U32List<$a>] [alloc::vec::Vec<u32>] [List<$max>] "4 each, at most ", $max, " | `UNS32`") };
     ($q:ident (DATA $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Data<$max>] "at most ", $max, " | `BYTE[]`") };
-    ($q:ident (BYTES $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Bytes<$min, $max>] $min, " … ", $max, " | `BYTE[]`") };
-    ($q:ident (TEXT $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [Open<$min, $max>] $min, " … ", $max, " | `STRING`") };
-    ($q:ident (TEXT_NUL $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [Terminated<$max, false>] "1 … ", $max, " with NUL | `STRING`") };
-    ($q:ident (TEXT_NUL $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindOf<$crate::rows::Terminated<$max, false>>] "1 … ", $max, " with NUL | `STRING`") };
-    ($q:ident (TEXT_NUL_OR_NOTHING $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindOf<$crate::rows::Terminated<$max, true>>] "1 … ", $max, " with NUL, or 0 | `STRING`") };
-    ($q:ident (TEXT_MAYBE_NUL $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [MayTerminate<$max>] "1 … ", $max, " | `STRING`") };
-    ($q:ident (TEXT_FIRST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::CncStr<$a>] [$crate::text::CncString] [Leading<$max>] "1 … ", $max, " with NUL | `STRING`") };
+    ($q:ident (REST $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Rest<$min, $max>] $min, " … ", $max, " | `BYTE[]`") };
+    ($q:ident (TEXT_AND_TAIL $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [TextAndTail<$min, $max>] $min, " … ", $max, " | `STRING`") };
+    ($q:ident (CSTRING $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [CString<$max, false>] "1 … ", $max, " with NUL | `STRING`") };
+    ($q:ident (CSTRING $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindText<$crate::rows::CString<$max, false>>] "1 … ", $max, " with NUL | `STRING`") };
+    ($q:ident (OPTIONAL_CSTRING $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindText<$crate::rows::CString<$max, true>>] "1 … ", $max, " with NUL, or 0 | `STRING`") };
+    ($q:ident (OPTIONAL_NUL $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [OptionalNul<$max>] "1 … ", $max, " | `STRING`") };
+    ($q:ident (CSTRING_PREFIX $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::CncStr<$a>] [$crate::text::CncString] [CStringPrefix<$max>] "1 … ", $max, " with NUL | `STRING`") };
     (@view [$($view:tt)*] $o:tt $r:tt $($doc:tt)*) => { $($view)* };
     (@serde [$($view:tt)*] $o:tt $r:tt $($doc:tt)*) => { $($view)* };
     (@owned $v:tt [$($owned:tt)*] $r:tt $($doc:tt)*) => { $($owned)* };
@@ -168,7 +168,8 @@ macro_rules! stream {
                 #[cfg_attr(feature = "serde", serde $renamed)]
                 #[cfg_attr(feature = "binrw",
                     br(parse_with = $crate::io::parse::<$row, _>,
-                        args(const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
+                        args(<$view as $crate::declare::Declared>::STREAM,
+                        const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
                     bw(write_with = $crate::io::emit::<$row, _>))]
                 pub $field: $crate::declare::row!(view $kind 'static),
             )+ }
@@ -192,7 +193,8 @@ macro_rules! stream {
             pub struct $view(
                 #[cfg_attr(feature = "binrw",
                     br(parse_with = $crate::io::parse::<$row, _>,
-                        args(const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
+                        args(<$view as $crate::declare::Declared>::STREAM,
+                        const { $crate::layout::Field::of::<$view>($crate::declare::stream!(@name $label)) })),
                     bw(write_with = $crate::io::emit::<$row, _>))]
                 pub $crate::declare::row!(view $kind 'static),
             );
@@ -239,7 +241,7 @@ macro_rules! stream {
     };
 
     // A number that may be rejected is encoded with a result only.
-    (@to_bytes (UNS32_NOT_0) $view:ident $max:literal $rows:tt) => {};
+    (@to_bytes (UNS32_NON_ZERO) $view:ident $max:literal $rows:tt) => {};
     (@to_bytes $kind:tt $view:ident $max:literal [$( [$at:literal [$row:ty] $member:tt] )+]) => {
         impl $view {
             /// The stream in an array, as [`encode`](crate::Encode::encode) writes it.
@@ -264,11 +266,11 @@ macro_rules! stream {
 
             fn decode(bytes: &'a [u8]) -> Result<Self, $crate::error::Error> {
                 let stream = <Self as $crate::declare::Declared>::STREAM;
-                let mut input = $crate::bytes::Reader::ending(stream, &[]);
-                let head: &[u8; $max] = match $crate::bytes::Reader::all(stream, bytes) {
+                let mut input = $crate::bytes::Reader::without_limit(stream, &[]);
+                let head: &[u8; $max] = match $crate::bytes::Reader::exact(stream, bytes) {
                     Ok(head) => head,
                     Err(error) => {
-                        // What is wrong with a row comes before what follows the last one.
+                        // The error of a row takes precedence over bytes after the last row.
                         if let Some(head) = bytes.first_chunk::<$max>() { $(
                             if <$row as $crate::rows::Row>::REJECTS {
                                 let field = const { $crate::layout::Field::of::<Self>($crate::declare::stream!(@name $label)) };
@@ -412,7 +414,8 @@ macro_rules! stream {
             #[cfg_attr(feature = "serde", serde $renamed)]
             #[cfg_attr(feature = "binrw",
                 br(parse_with = $crate::io::parse::<$row, _>,
-                    args(const { $crate::layout::Field::of::<$view<'static>>($crate::declare::stream!(@name $label)) })),
+                    args(<$view<'static> as $crate::declare::Declared>::STREAM,
+                        const { $crate::layout::Field::of::<$view<'static>>($crate::declare::stream!(@name $label)) })),
                 bw(write_with = $crate::io::emit::<$row, _>))]
             pub $field: $crate::declare::row!(owned $kind 'static),
         )+ }
@@ -471,7 +474,7 @@ macro_rules! stream {
     (@name [$field:ident $label:literal]) => { $label };
     (@per 4m) => { 4 };
     (@per 4n) => { 4 };
-    // What follows a text that a NUL ends, whose table has but the NUL.
+    // The offset of a row after a NUL-terminated text counts only the NUL.
     (@per text) => { 0 };
     (@after []) => { "" };
     (@after [text]) => { " and the text" };
@@ -484,7 +487,7 @@ pub(crate) use {row, stream};
 #[cfg(feature = "arbitrary")]
 pub(crate) fn room<T: Declared>(fewest: &[usize]) -> usize {
     let fewest = fewest.iter().fold(0_usize, |sum, least| sum.saturating_add(*least));
-    crate::bytes::to_len(T::LAYOUT.max).saturating_sub(fewest)
+    crate::bytes::to_usize(T::LAYOUT.max).saturating_sub(fewest)
 }
 
 #[cfg(feature = "arbitrary")]

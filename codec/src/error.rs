@@ -2,12 +2,11 @@
 
 use core::fmt;
 
-use crate::layout::field::{index_group, index_offset, typed_value, variable_path};
-use crate::layout::{Field, Stream};
+use crate::layout::{Field, Subject, index_group, index_offset, typed_value, variable_path};
 use crate::sda::ObjectAddress;
 use crate::value::DataType;
 
-/// What is wrong, in which field, where, what was expected and what was there.
+/// The error of the crate: kind, field, offset, expected and found number.
 ///
 /// `Copy` and 16 bytes. The text is the same in every feature set:
 ///
@@ -43,7 +42,7 @@ pub struct Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// The stream ends inside the field: bytes the field needs, bytes there.
+    /// The stream ends inside the field: bytes the field needs, bytes found.
     Truncated,
     /// Bytes follow where nothing may: length of the stream proper, length given.
     Trailing,
@@ -51,28 +50,28 @@ pub enum ErrorKind {
     TooLong,
     /// A count that does not fit: the most that fits, the count.
     TooMany,
-    /// No NUL ends the text: bytes the text may have with its NUL, bytes there.
+    /// No NUL ends the text: bytes the text may have with its NUL, bytes found.
     MissingNul,
-    /// A NUL inside the text: its place in the text (found); expected is 0.
+    /// A NUL inside the text: its index in the text (found); expected is 0.
     InnerNul,
     /// A character without a CP1252 byte: its code point (found); expected is 0.
     NotCp1252,
-    /// A character that is no decimal digit: its code point (found); expected is 0.
+    /// A character that is not a decimal digit: its code point (found); expected is 0.
     NotDecimal,
     /// A number without digits or with too many: the most, how many.
     Digits,
-    /// A character where another has to stand: its code point (found); expected is 0.
+    /// A character where the syntax requires another: its code point (found); expected is 0.
     Unexpected,
-    /// What has to be there is not; both numbers are 0.
+    /// A required part is missing; both numbers are 0.
     Missing,
     /// A value outside its range: the nearest value allowed, the value.
     OutOfRange,
-    /// A value that has to equal another: that one, the value.
+    /// A value that must equal another: the other value, this value.
     Mismatch,
-    /// An index offset at which there is a function, where content was meant: the offset (found);
+    /// An index offset of a function, where that of content is required: the offset (found);
     /// expected is 0.
     Function,
-    /// The buffer does not hold the encoded stream: bytes needed, bytes there.
+    /// The buffer is too small for the encoded stream: bytes needed, bytes available.
     BufferTooSmall,
 }
 
@@ -103,20 +102,20 @@ impl Error {
         self.field
     }
 
-    /// Where the fault is, in bytes from the start of the stream.
+    /// The offset of the field at fault, in bytes from the start of the stream.
     ///
-    /// What is not read from a stream counts what it is made of, and says so where it is made:
-    /// characters of a text, a name or a version, numbers of a NetId, places of indices.
+    /// For a [`Subject`] that is not a stream, the offset counts characters of a text or name, numbers
+    /// of a NetId, or indices, as the constructor documents.
     pub const fn offset(&self) -> u32 {
         self.offset
     }
 
-    /// What was expected; the unit is that of [`ErrorKind`].
+    /// The expected number; [`ErrorKind`] tells its unit.
     pub const fn expected(&self) -> u32 {
         self.expected
     }
 
-    /// What was there; the unit is that of [`ErrorKind`].
+    /// The number that was found; [`ErrorKind`] tells its unit.
     pub const fn found(&self) -> u32 {
         self.found
     }
@@ -154,7 +153,7 @@ impl fmt::Display for Bytes {
     }
 }
 
-/// What a number given to a constructor counts, and its range.
+/// The name and the range of a number that a constructor takes.
 fn range(field: Field) -> Option<(&'static str, u32, u32)> {
     match field {
         index_group::CHANNEL => Some(("channel", 1, 255)),
@@ -167,7 +166,7 @@ fn range(field: Field) -> Option<(&'static str, u32, u32)> {
 
 /// Whether the numbers of an error are index groups.
 fn is_group(field: Field) -> bool {
-    field.stream() == Stream::IndexGroup
+    field.subject() == Subject::IndexGroup
         || field == const { Field::of::<ObjectAddress>("index_group") }
 }
 

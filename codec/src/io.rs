@@ -7,10 +7,10 @@ use binrw::io::{self, Read, Seek, SeekFrom, Write};
 use binrw::{BinResult, Endian};
 
 use crate::ads::{AmsHeader, DeviceInfoReply, ReadReply, ReadWriteReply};
-use crate::bytes::{Reader, Writer, to_len, to_u32};
+use crate::bytes::{Reader, Writer, to_u32, to_usize};
 use crate::dynamic::DynamicValue;
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Size};
+use crate::layout::{Field, Size, Stream};
 use crate::limits::ADS_DATA_MAX;
 use crate::rows::Owned;
 use crate::sda::ElementLength;
@@ -19,7 +19,7 @@ use crate::{Descriptor, Descriptors, ExtendedReply};
 
 /// Takes the bytes of one row from a reader: at most one more than the row may have.
 pub(crate) trait Pull {
-    /// Takes so many bytes, or fewer at the end of the reader.
+    /// Takes `len` bytes: fewer only at the end of the reader.
     fn exact(&mut self, len: usize) -> io::Result<()>;
     /// Takes all bytes to the end of the reader, but at most one more than `max`.
     fn rest(&mut self, max: u32) -> io::Result<()>;
@@ -57,7 +57,7 @@ impl<R: Read> Pull for Source<'_, R> {
     }
 
     fn rest(&mut self, max: u32) -> io::Result<()> {
-        self.exact(to_len(max).saturating_add(1))
+        self.exact(to_usize(max).saturating_add(1))
     }
 
     fn until_nul(&mut self, max: u32) -> io::Result<()> {
@@ -76,7 +76,7 @@ impl<R: Read> Pull for Source<'_, R> {
         self.exact(4)?;
         match self.bytes.get(before..).and_then(<[u8]>::first_chunk) {
             Some(count) if u32::from_le_bytes(*count) <= max => {
-                self.exact(to_len(u32::from_le_bytes(*count)).saturating_mul(each))
+                self.exact(to_usize(u32::from_le_bytes(*count)).saturating_mul(each))
             }
             _ => Ok(()),
         }
@@ -87,12 +87,12 @@ impl<R: Read> Pull for Source<'_, R> {
 pub(crate) fn parse<T: Owned, R: Read + Seek>(
     reader: &mut R,
     _: Endian,
-    (field,): (Field,),
+    (stream, field): (Stream, Field),
 ) -> BinResult<T::Type> {
     let pos = reader.stream_position()?;
     let mut source = Source { reader, bytes: Vec::new() };
     T::pull(&mut source)?;
-    let mut input = Reader::ending(field.stream(), &source.bytes);
+    let mut input = Reader::without_limit(stream, &source.bytes);
     let read = read_row::<T>(&mut input, field).map(T::own);
     // A byte that was taken and not read would be lost.
     let whole = read.and_then(|owned| input.finish().map(|()| owned));
@@ -102,7 +102,7 @@ pub(crate) fn parse<T: Owned, R: Read + Seek>(
 fn read_row<'a, T: Owned>(input: &mut Reader<'a>, field: Field) -> Result<T::View<'a>, Error> {
     let (head, at) = head::<T>();
     let head = input.take(if at > 0 { field.before() } else { field }, head)?;
-    T::read(input, head, field, to_len(at))
+    T::read(input, head, field, to_usize(at))
 }
 
 /// The fixed bytes of a row by itself, and the offset of what is not its count.
@@ -128,8 +128,8 @@ pub(crate) fn emit<T: Owned, W: Write + Seek>(
     let view = T::lend(owned);
     let mut bytes = alloc::vec![0; T::len(view)];
     let (head, at) = head::<T>();
-    if let Some((head, rest)) = bytes.split_at_mut_checked(to_len(head)) {
-        T::write_head(view, head, to_len(at));
+    if let Some((head, rest)) = bytes.split_at_mut_checked(to_usize(head)) {
+        T::write_head(view, head, to_usize(at));
         T::write(view, &mut Writer::new(rest));
     }
     writer.write_all(&bytes).map_err(Into::into)
@@ -213,7 +213,7 @@ macro_rules! by_hand {
 
 /// The most bytes of a stream.
 fn longest<'a, T: Decode<'a>>() -> usize {
-    to_len(T::STREAM.layout().max)
+    to_usize(T::STREAM.layout().max)
 }
 
 by_hand! {

@@ -1,5 +1,5 @@
-//! The byte streams with which an ISG/TwinCAT CNC is read and written over ADS, for whatever
-//! transport carries them.
+//! The byte streams with which an ISG/TwinCAT CNC is read and written over ADS, over any
+//! transport.
 //!
 //! ```
 //! # #[cfg(feature = "alloc")] mod example {
@@ -23,7 +23,7 @@
 //!     }
 //! }
 //!
-//! /// Reads a number of whatever type from the first channel.
+//! /// Reads a number of any type from the first channel.
 //! fn read(cnc: &mut impl Transport, name: &str) -> Result<f64, Box<dyn Error>> {
 //!     let channel = Channel::new(1)?;
 //!     let (describe, read) = (DescribeByName::new(channel, name)?, ReadByName::new(channel, name)?);
@@ -50,19 +50,19 @@
 //! ```
 //!
 //! # Client
-//! [`operation`] has a type for every function of the CNC, [`ReadByName`](operation::ReadByName) for
-//! one: it tells where the request goes, encodes it and decodes the reply. [`address`] has the
-//! channels, axes and spindles that it names. An ADS error number becomes a Rust error by
+//! [`operation`] has a type for every function of the CNC, for example
+//! [`ReadByName`](operation::ReadByName): it has the address of the request, encodes it and decodes
+//! the reply. [`address`] has the channels, axes and spindles that operations name. An ADS error number becomes a Rust error by
 //! [`AdsError::into_result`](ads::AdsError::into_result).
 //!
 //! # Server
 //! [`Call::dispatch`](operation::Call::dispatch) turns a request received into a
-//! [`Request`](operation::Request), and [`Reply`](operation::Reply) is what goes back.
+//! [`Request`](operation::Request); a [`Reply`](operation::Reply) is sent back.
 //!
 //! # Values
 //! [`value`] reads and writes the bytes of variables, objects and elements by their types:
 //! [`ValueRef::iter`] if the program knows the type, [`DescriptionRef::elements`] if the CNC
-//! describes it. [`VariablePath`] takes names apart, [`text`] is code page 1252.
+//! describes it. [`VariablePath`] parses names, [`text`] converts code page 1252.
 //!
 //! # Frames
 //! [`ads`] has the headers and services of ADS itself, for programs without an ADS library.
@@ -83,8 +83,8 @@
 //! # Features
 //! - `alloc` (default): the owned readings, and the checks of an NC program.
 //! - `binrw` (default): [`binrw`](https://docs.rs/binrw/0.15)'s `BinRead` and `BinWrite` for the owned
-//!   readings, so that structs of your own can contain them. What `decode` rejects, `read` rejects; a
-//!   stream that ends with its bytes is read to the end of the reader.
+//!   readings, so that structs of your own can contain them. `read` rejects the same bytes as
+//!   `decode`; a stream without a length of its own is read to the end of the reader.
 //! - `std`: `std` in the dependencies. The crate itself never needs it.
 //! - `arbitrary`: `Arbitrary` for the owned readings.
 //! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the owned readings. A
@@ -120,7 +120,7 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
-// Bytes from outside reach every line here: nothing may panic on them.
+// Every line here processes input from outside, which must not cause a panic.
 #![cfg_attr(
     not(test),
     deny(
@@ -165,7 +165,7 @@ mod variable;
 pub use binrw;
 
 #[cfg(feature = "arbitrary")]
-mod any;
+mod arbitrary;
 mod bytes;
 mod declare;
 #[cfg(feature = "binrw")]
@@ -194,8 +194,8 @@ pub use variable::{
 };
 pub use variable::{
     DescriptionByNameRef, DescriptionRef, ExtendedDescription, ExtendedReply, Handle,
-    HandleReadRef, HandleWriteRef, Kind, NameWriteRef, Numbers, PathPart, PathParts,
-    Synchronisation, Validity, ValueRef, VariableAccess, VariableCount, VariableIndexKindRef,
+    HandleReadRef, HandleWriteRef, Kind, NameWriteRef, PathPart, PathParts, Synchronisation,
+    U32List, Validity, ValueRef, VariableAccess, VariableCount, VariableIndexKindRef,
     VariableKindRef, VariableNameRef, VariablePath, VariableType,
 };
 

@@ -12,18 +12,18 @@ use crate::{
 };
 
 #[allow(clippy::as_conversions, reason = "no other is const, and no target has 16 bits")]
-const fn to_len(size: u32) -> usize {
+const fn to_usize(size: u32) -> usize {
     size as usize
 }
 
 /// The most bytes of a stream.
 pub(crate) const fn length<T: Declared>() -> usize {
-    to_len(T::LAYOUT.max)
+    to_usize(T::LAYOUT.max)
 }
 
 /// The most bytes of a field, or items of a list.
 const fn most<T: Declared>(field: &str) -> usize {
-    to_len(T::LAYOUT.most(field))
+    to_usize(T::LAYOUT.most(field))
 }
 
 /// Bytes of a text request with its NUL: 255 characters and the NUL (VAR-1, VAR-9).

@@ -37,7 +37,7 @@
 //! | manual | here |
 //! |---|---|
 //! | `stream-en` 2.1, 2.2, data streaming | [`streaming`](crate::streaming) |
-//! | 2.3.3, 2.3.4, 2.3.6, loops, comments, jumps | `streaming::Findings`, with `alloc` |
+//! | 2.3.3, 2.3.4, 2.3.6, loops, comments, jumps | `streaming::Diagnostics`, with `alloc` |
 //! | 2.3.1, 2.3.2, 2.3.5, 2.3.7, flushing, subroutines, block search, contours | NC text like any other |
 //! | 3, parameters and object | [`limits`](crate::limits), [`streaming::OBJECT_NAME`](crate::streaming::OBJECT_NAME), [`streaming::ProgramStreamRef`](crate::streaming::ProgramStreamRef) |
 //! | 4.1, line ends | [`streaming::check_line_ends`](crate::streaming::check_line_ends) |

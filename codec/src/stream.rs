@@ -1,6 +1,6 @@
 //! The two traits every stream has.
 
-use crate::bytes::{Reader, to_len};
+use crate::bytes::{Reader, to_usize};
 use crate::error::Error;
 use crate::layout::{Size, Stream};
 
@@ -38,11 +38,11 @@ pub trait Decode<'a>: Sized {
     /// A stream that ends in text or in data takes all bytes.
     ///
     /// ```
-    /// use ads_cnc::{Decode, Handle, HandleReadRef, Numbers};
+    /// use ads_cnc::{Decode, Handle, HandleReadRef, U32List};
     ///
     /// let bytes = [4, 0, 0, 2, 1, 0, 0, 0, 9, 0, 0, 0, 0xFF];
     /// let (read, rest) = HandleReadRef::decode_prefix(&bytes)?;
-    /// assert_eq!((read.handle, read.indices), (Handle(0x2000004), Numbers::from(&[9])));
+    /// assert_eq!((read.handle, read.indices), (Handle(0x2000004), U32List::from(&[9])));
     /// assert_eq!(rest, [0xFF]);
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
@@ -65,20 +65,20 @@ fn prefix(stream: Stream, bytes: &[u8]) -> usize {
         let rest = bytes.get(at..).unwrap_or_default();
         let len = match field.size {
             _ if layout.repeats => rest.len(),
-            Size::FixedUnlessError(_) | Size::FixedOrNothing(_) if rest.is_empty() => break,
-            Size::Items { each, .. } => to_len(count).saturating_mul(to_len(each)),
-            Size::Leading { .. } => {
+            Size::FixedOnSuccess(_) | Size::OptionalFixed(_) if rest.is_empty() => break,
+            Size::Items { each, .. } => to_usize(count).saturating_mul(to_usize(each)),
+            Size::CStringPrefix { .. } => {
                 rest.iter().position(|&byte| byte == 0).unwrap_or(rest.len()).saturating_add(1)
             }
-            Size::OneTwoOrFour => 4,
+            Size::Uns8To32 => 4,
             Size::Fixed(_)
-            | Size::FixedUnlessError(_)
-            | Size::FixedOrNothing(_)
+            | Size::FixedOnSuccess(_)
+            | Size::OptionalFixed(_)
             | Size::Padded(_)
-            | Size::FromOne => to_len(field.size.fixed()),
-            Size::Terminated { .. }
-            | Size::Open { .. }
-            | Size::MayTerminate { .. }
+            | Size::NonZero => to_usize(field.size.fixed()),
+            Size::CString { .. }
+            | Size::TextAndTail { .. }
+            | Size::OptionalNul { .. }
             | Size::Rest { .. } => rest.len(),
         };
         count = rest.first_chunk().map_or(0, |number| u32::from_le_bytes(*number));
@@ -127,7 +127,7 @@ pub trait Encode {
     }
 }
 
-/// What comes back from a function that returns nothing (VAR-17).
+/// The reply of a function that returns no data (VAR-17).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6, 4.3.7 and 4.3.11.
 ///
@@ -147,7 +147,7 @@ impl<'a> Decode<'a> for NoData {
     const STREAM: Stream = Stream::NoData;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::all(Self::STREAM, bytes).map(|[]: &[u8; 0]| Self)
+        Reader::exact(Self::STREAM, bytes).map(|[]: &[u8; 0]| Self)
     }
 }
 

@@ -198,7 +198,8 @@ fn unknown_groups_stay_numbers() {
 /// ADR-7, ADR-8: both strides, as printed; the wide one unless asked otherwise.
 #[test]
 fn axes_with_both_strides() {
-    let offset = |stride, axis, element| IndexOffset::of_axis(stride, axis, element).unwrap().get();
+    let offset =
+        |stride, axis, element| IndexOffset::for_axis(stride, axis, element).unwrap().get();
     assert_eq!(AxisStride::default(), AxisStride::X10000);
     for (axis, element, printed) in [
         (1, 4, 0x1_0004),
@@ -243,7 +244,7 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(out_of_range(PlatformAxis::new(0)), ("instance", 1, 0));
     assert_eq!(out_of_range(PlatformAxis::new(256)), ("instance", 255, 256));
     assert_eq!(out_of_range(Spindle::new(256)), ("instance", 255, 256));
-    let offset = IndexOffset::of_axis;
+    let offset = IndexOffset::for_axis;
     let (wide, narrow) = (AxisStride::X10000, AxisStride::X1000);
     assert_eq!(out_of_range(offset(wide, 0x1_0000, 0)), ("axis", 0xFFFF, 0x1_0000));
     assert_eq!(out_of_range(offset(narrow, 0x1_0000, 0)), ("axis", 0xFFFF, 0x1_0000));
@@ -256,12 +257,12 @@ fn what_does_not_fit_is_refused() {
 #[test]
 fn elements_follow_up_to_the_last() {
     let axis = ChannelAxis::new(2).unwrap();
-    let near = ElementAddress::of_axis(channel(1), Class::Decoder, axis, 0xFFFD).unwrap();
-    let last = near.following(2).unwrap();
+    let near = ElementAddress::for_axis(channel(1), Class::Decoder, axis, 0xFFFD).unwrap();
+    let last = near.nth(2).unwrap();
     assert_eq!((last.class_group(), last.index_offset().get()), (near.class_group(), 0x2_FFFF));
-    assert_eq!(last.following(0), Ok(last));
+    assert_eq!(last.nth(0), Ok(last));
     for places in [3, 0x1_0000, u32::MAX] {
-        assert_eq!(out_of_range(near.following(places)), ("element", 2, places));
+        assert_eq!(out_of_range(near.nth(places)), ("element", 2, places));
     }
 }
 
@@ -301,7 +302,7 @@ proptest! {
     ) {
         for (stride, element_max) in [(AxisStride::X10000, 0xFFFF), (AxisStride::X1000, 0xFFF)] {
             let fits = axis <= 0xFFFF && element <= element_max;
-            match IndexOffset::of_axis(stride, axis, element) {
+            match IndexOffset::for_axis(stride, axis, element) {
                 Ok(offset) => {
                     prop_assert!(fits);
                     prop_assert_eq!(offset.axis_and_element(stride), Ok((axis, element)));

@@ -37,7 +37,7 @@ fn none_one_and_several_are_counted_and_handed_out() {
         assert!(value.iter::<u16>().unwrap().eq(elements.items::<u16>().unwrap()));
 
         let numbers = [7, 8, 9];
-        let numbers = Numbers::from(&numbers[..count]);
+        let numbers = U32List::from(&numbers[..count]);
         assert_eq!(
             (numbers.len(), numbers.is_empty(), numbers.get(count)),
             (count, count == 0, None)

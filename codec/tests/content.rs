@@ -96,7 +96,7 @@ fn content_is_where_and_as_long_as_was_asked_for() {
     assert_eq!(read.decode_reply(&[1]).unwrap().bytes, [1]);
     let error = read.decode_reply(&[1, 2, 3]).unwrap_err();
     assert_eq!((error.kind(), error.expected(), error.found()), (ErrorKind::TooLong, 2, 3));
-    let element = ElementAddress::of_channel(Channel::new(1).unwrap(), Class::Hld, 1).unwrap();
+    let element = ElementAddress::for_channel(Channel::new(1).unwrap(), Class::Hld, 1).unwrap();
     assert!(ReadElement::new(element, 1).unwrap().decode_reply(&[0, 0]).is_err());
 
     for (wrong, near) in [(0x13_0101, 0x12_0101), (0x12_2301, 0x12_0100), (0xF005, 0x12_0100)] {

@@ -56,7 +56,7 @@ fn lists_have_what_was_added_in_order() {
     assert_eq!(list.as_ref().into_iter().nth(1).map(|object| object.to_owned()), {
         Some(Descriptor::new(names[1], "UDINT").unwrap())
     });
-    assert!(Numbers::from(&vec![3, 9]).into_iter().eq([3, 9]));
+    assert!(U32List::from(&vec![3, 9]).into_iter().eq([3, 9]));
     let name: CncString = names[1].parse().unwrap();
     assert!(name == names[1] && name == *names[1] && name != names[0]);
 }

@@ -43,7 +43,7 @@ fn names_are_equal_by_their_text_and_its_case() {
     let path = |text| VariablePath::new(text).unwrap();
     let from_text = VariablePath::from_text(CncStr::from_bytes(b"V.E.test[4]").unwrap()).unwrap();
     let mut buf = [0; 32];
-    let element = path("V.E.test").write_element(Numbers::from(&[4]), &mut buf).unwrap();
+    let element = path("V.E.test").write_element(U32List::from(&[4]), &mut buf).unwrap();
     check(&[path("V.E.test[4]"), from_text, element], path("V.E.TEST[4]"));
     let wire = VariablePath::from_text(CncStr::from_bytes(b"V.G.Gr\xF6\xDFe").unwrap()).unwrap();
     check(&[path("V.G.Größe"), wire], path("V.G.Grösse"));
@@ -70,11 +70,11 @@ fn numbers_are_equal_wherever_they_come_from() {
     let named = name.parts().next().unwrap().indices;
     let wire = b"\x01\0\0\0\x02\0\0\0\x03\0\0\0\0\0\0\0";
     let wire = HandleReadRef::decode(wire).unwrap().indices;
-    assert_eq!((named, wire), (Numbers::from(&[3, 0]), Numbers::from(&[3, 0])));
+    assert_eq!((named, wire), (U32List::from(&[3, 0]), U32List::from(&[3, 0])));
     assert_eq!(named, wire);
     for other in [&[3, 1][..], &[2, 0], &[3], &[3, 0, 0], &[]] {
-        assert_ne!(named, Numbers::from(other));
-        assert_ne!(wire, Numbers::from(other));
+        assert_ne!(named, U32List::from(other));
+        assert_ne!(wire, U32List::from(other));
     }
 }
 

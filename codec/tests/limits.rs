@@ -105,17 +105,17 @@ fn encoders_refuse_what_decoders_would() {
     let indexed = VariableIndexKindRef { index: 0, kind };
     assert_eq!(refusal(&indexed), fault(MissingNul, "kind", 4, (256, 3)));
 
-    let indices = HandleReadRef { handle: Handle(1), indices: Numbers::from(&numbers) };
+    let indices = HandleReadRef { handle: Handle(1), indices: U32List::from(&numbers) };
     assert_eq!(refusal(&indices), fault(TooMany, "index_count", 4, (510, 511)));
     let indices =
-        HandleWriteRef { handle: Handle(1), indices: Numbers::from(&numbers), value: &[] };
+        HandleWriteRef { handle: Handle(1), indices: U32List::from(&numbers), value: &[] };
     assert_eq!(refusal(&indices), fault(TooMany, "index_count", 4, (510, 511)));
     let named = NameWriteRef { name: text(&long).unwrap(), value: b"1" };
     assert_eq!(refusal(&named), fault(TooLong, "name", 0, (256, 257)));
 
     let write = |count, value| HandleWriteRef {
         handle: Handle(1),
-        indices: Numbers::from(&numbers[..count]),
+        indices: U32List::from(&numbers[..count]),
         value,
     };
     let value = [0; 2041];
@@ -138,7 +138,7 @@ fn encoders_refuse_what_decoders_would() {
         var_type: VariableType::SGN32,
         access: VariableAccess::READ_ONLY,
         size: 4,
-        dimensions: Numbers::from(dimensions),
+        dimensions: U32List::from(dimensions),
         name,
     };
     let longest = text(&full).unwrap().into();
@@ -157,7 +157,7 @@ fn encoders_refuse_what_decoders_would() {
         var_type: VariableType::SGN32,
         access: VariableAccess::READ_ONLY,
         size: 4,
-        dimensions: Numbers::from(&numbers[..508]),
+        dimensions: U32List::from(&numbers[..508]),
     };
     assert_eq!(refusal(&nameless), fault(TooMany, "dimension_count", 16, (507, 508)));
     let long = DynamicNameRequestRef { name: text(&full[..96]).unwrap().into() };

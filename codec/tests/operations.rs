@@ -10,7 +10,7 @@ use ads_cnc::address::{
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::*;
 use ads_cnc::text::cp1252_to_char;
-use ads_cnc::{ErrorKind, Handle, Kind, Numbers};
+use ads_cnc::{ErrorKind, Handle, Kind, U32List};
 use common::{Parameters, check_made, check_operation};
 use proptest::prelude::*;
 
@@ -54,7 +54,7 @@ proptest! {
         value in prop::collection::vec(any::<u8>(), 0..=1040),
     ) {
         let axis = ChannelAxis::new(place).unwrap();
-        let indices = Numbers::from(&indices[..]);
+        let indices = U32List::from(&indices[..]);
         check_operation(WriteByHandle::new(channel, Handle(number), indices, &value[..]));
         check_operation(WriteByName::new(channel, &text, &value[..]).unwrap());
         check_operation(DescribeByName::new(channel, &text).unwrap());
@@ -76,7 +76,7 @@ proptest! {
         check_operation(CountVariables::new(channel, kind));
         check_operation(DescribeByIndex::new(channel, number, kind));
         check_operation(HandleByName::new(channel, &text).unwrap());
-        let indices = Numbers::from(&indices[..]);
+        let indices = U32List::from(&indices[..]);
         check_operation(ReadByHandle::new(channel, Handle(number), indices));
         check_operation(ReadByName::new(channel, &text).unwrap());
     }
@@ -104,15 +104,15 @@ proptest! {
         content in prop::collection::vec(any::<u8>(), 0..40),
     ) {
         let place = ChannelAxis::new(place).unwrap();
-        let spindle = ElementAddress::of_spindle(Spindle::new(spindle).unwrap(), element).unwrap();
+        let spindle = ElementAddress::for_spindle(Spindle::new(spindle).unwrap(), element).unwrap();
         for class in Class::ALL {
             check_operation(FindInstance::new(class, number, axis));
             if class != Class::Spindle {
                 check_operation(FindInstance::new(class, number, axis).by_index());
             }
             for address in [
-                ElementAddress::of_channel(channel, class, element).unwrap(),
-                ElementAddress::of_axis(channel, class, place, element).unwrap(),
+                ElementAddress::for_channel(channel, class, element).unwrap(),
+                ElementAddress::for_axis(channel, class, place, element).unwrap(),
                 spindle,
             ] {
                 check_operation(ReadElementName::new(address));
@@ -134,7 +134,7 @@ proptest! {
                 }
             }
         }
-        let first = ElementAddress::of_channel(channel, Class::Hld, 0).unwrap();
+        let first = ElementAddress::for_channel(channel, Class::Hld, 0).unwrap();
         check_operation(CountElements::new(first).unwrap());
     }
 

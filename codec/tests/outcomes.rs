@@ -7,8 +7,8 @@
 //!
 //! The inputs are made of the vectors and of the samples of calls. If those change, compare with version
 //! 0.1.0 again: check out 8993f4c, copy `spec-vectors`, this file and `common/calls.rs` into it, rename
-//! `DispatchError` to `Refusal`, run the test there and here with `ADS_CNC_WRITE_OUTCOMES=1`, and compare
-//! the two files.
+//! `DispatchError` to `Refusal` and `subject().name()` to `stream()`, run the test there and here with
+//! `ADS_CNC_WRITE_OUTCOMES=1`, and compare the two files.
 
 mod common;
 
@@ -96,7 +96,7 @@ impl Row {
 
 fn shown(error: Error) -> String {
     let Fault { kind, field, offset, expected, found } = Fault::of(error);
-    format!("{kind:?} {} {field} {offset} {expected} {found}", error.field().stream())
+    format!("{kind:?} {} {field} {offset} {expected} {found}", error.field().subject().name())
 }
 
 /// Bytes as they are, cut, extended and mutated. The seed is the bytes, so that a new vector leaves the

@@ -41,7 +41,7 @@ fn instances_are_asked_for_by_number_or_by_rank() {
 fn elements_keep_their_address() {
     let axis = ChannelAxis::new(2).unwrap();
     for class in [Class::Decoder, Class::Interpolator] {
-        let first = ElementAddress::of_axis(channel(1), class, axis, 0).unwrap();
+        let first = ElementAddress::for_axis(channel(1), class, axis, 0).unwrap();
         let found = ObjectAddress::from(first);
         assert_eq!(found.index_group, first.group(Attribute::Content));
         assert_eq!(found.index_offset, first.index_offset());
@@ -49,7 +49,7 @@ fn elements_keep_their_address() {
 
         let counted = CountElements::new(first).unwrap();
         assert_eq!(counted.element(), first);
-        let second = first.following(1).unwrap();
+        let second = first.nth(1).unwrap();
         let read = ReadElement::new(second, 4).unwrap();
         let write = WriteElement::new(second, b"1234").unwrap();
         assert_eq!((read.element(), write.element()), (second, second));
@@ -161,7 +161,7 @@ fn what_dispatch_refuses_is_not_written_again() {
         service,
         DispatchError::Stream(error),
     ] {
-        assert_eq!(Ack::of(refusal.ads_error()), Ack::Refused, "{refusal}");
+        assert_eq!(Ack::from_result(refusal.ads_error()), Ack::Rejected, "{refusal}");
     }
 }
 

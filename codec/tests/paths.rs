@@ -4,7 +4,7 @@ mod common;
 mod kept;
 
 use ads_cnc::ErrorKind::*;
-use ads_cnc::layout::Stream;
+use ads_cnc::layout::Subject;
 use ads_cnc::limits::NAME_MAX;
 use ads_cnc::*;
 use common::names::*;
@@ -62,7 +62,7 @@ fn printed_names_come_apart() {
         assert_eq!(Pieces::of(found), pieces, "{name}");
         assert_eq!(found.axis().map(|axis| axis.to_string()).as_deref(), axis, "{name}");
         let (_, indices) = *parts.last().unwrap();
-        assert_eq!(found.elements(), Numbers::from(indices), "{name}");
+        assert_eq!(found.elements(), U32List::from(indices), "{name}");
         let brackets: String = indices.iter().map(|index| format!("[{index}]")).collect();
         assert_eq!(format!("{}{brackets}", found.variable()), name);
         assert_eq!(pieces.write(&mut [0; 64]).unwrap().text(), name);
@@ -146,7 +146,7 @@ fn malformed_names_are_refused_where_they_are_wrong() {
     ] {
         let error = VariablePath::new(name).unwrap_err();
         assert_eq!(Fault::of(error), wanted, "{name}");
-        assert_eq!(error.field().stream(), Stream::VariablePath, "{name}");
+        assert_eq!(error.field().subject(), Subject::VariablePath, "{name}");
     }
     let greek = VariablePath::new("V.E.Ω").unwrap_err();
     assert_eq!(greek.kind(), NotCp1252);
@@ -172,7 +172,7 @@ fn names_have_255_characters() {
     let full = format!("V.E.ab{}", "[0]".repeat(83));
     assert_eq!((full.len(), path(&full).elements().len()), (NAME_MAX, 83));
     let endless =
-        std::iter::repeat(PathPart { name: CncStr::new("a").unwrap(), indices: Numbers::EMPTY });
+        std::iter::repeat(PathPart { name: CncStr::new("a").unwrap(), indices: U32List::EMPTY });
     assert_eq!(VariablePath::write(Kind::V_E, endless, &mut []).unwrap_err().kind(), TooLong);
 }
 
@@ -180,7 +180,7 @@ fn names_have_255_characters() {
 #[test]
 fn indices_go_to_the_largest_of_any_dimension() {
     let largest = path("V.E.a[4294967294][0][10]");
-    assert_eq!(largest.elements(), Numbers::from(&[u32::MAX - 1, 0, 10]));
+    assert_eq!(largest.elements(), U32List::from(&[u32::MAX - 1, 0, 10]));
     let elements = largest.elements();
     assert_eq!((elements.len(), elements.get(2), elements.get(3)), (3, Some(10), None));
     assert_eq!(
@@ -188,7 +188,7 @@ fn indices_go_to_the_largest_of_any_dimension() {
         "V.E.a[4294967294][0][10]"
     );
     // Leading zeros are read, and are not the same characters.
-    assert_eq!(path("V.E.a[007]").elements(), Numbers::from(&[7]));
+    assert_eq!(path("V.E.a[007]").elements(), U32List::from(&[7]));
     assert_ne!(path("V.E.a[007]"), path("V.E.a[7]"));
     // The indices of a name go by handle as they are.
     let by_handle = HandleReadRef { handle: Handle(1), indices: path("V.E.a[3][258]").elements() };
@@ -291,7 +291,7 @@ fn builders_refuse_and_write_nothing() {
         fault(OutOfRange, "index", 10, (4_294_967_294, 4_294_967_295))
     });
     let element = path("V.E.a[1]");
-    let again = refused(&|buf| element.write_element(Numbers::from(&[2]), buf).err());
+    let again = refused(&|buf| element.write_element(U32List::from(&[2]), buf).err());
     assert_eq!(again, fault(Unexpected, "index", 5, (0, 0x5B)));
 
     // One byte less than it takes.
@@ -302,7 +302,7 @@ fn builders_refuse_and_write_nothing() {
         assert_eq!(Fault::of(error), fault(BufferTooSmall, "stream", 0, (len, len - 1)));
         assert_eq!(build(&mut buf[..len]), None);
     };
-    short(&|buf| path("V.E.a").write_element(Numbers::from(&[12]), buf).err(), 9);
+    short(&|buf| path("V.E.a").write_element(U32List::from(&[12]), buf).err(), 9);
     short(&|buf| path("V.A.a").write_axis(CncStr::new("X").unwrap(), buf).err(), 7);
     short(&|buf| path("V.A.a.X").write_without_axis(buf).err(), 5);
 }
@@ -311,19 +311,19 @@ fn builders_refuse_and_write_nothing() {
 #[test]
 fn an_element_without_index_is_the_variable() {
     let array = path("V.G.NP[0].V");
-    assert_eq!(array.write_element(Numbers::EMPTY, &mut [0; 64]).unwrap(), array);
+    assert_eq!(array.write_element(U32List::EMPTY, &mut [0; 64]).unwrap(), array);
 }
 
 #[cfg(feature = "alloc")]
 #[test]
 fn owned_names_are_the_written_ones() {
     let (name, x) = (path("V.A.LIST"), CncStr::new("X").unwrap());
-    assert_eq!(name.element(Numbers::from(&[2])).unwrap().as_bytes(), b"V.A.LIST[2]");
+    assert_eq!(name.element(U32List::from(&[2])).unwrap().as_bytes(), b"V.A.LIST[2]");
     assert_eq!(name.with_axis(x).unwrap().as_bytes(), b"V.A.LIST.X");
     assert_eq!(path("V.A.LIST.X[2]").without_axis().unwrap().as_bytes(), b"V.A.LIST[2]");
     let longest = format!("V.A.{}", "a".repeat(251));
-    assert_eq!(path(&longest).element(Numbers::EMPTY).unwrap().to_string(), longest);
-    assert_eq!(path(&longest).element(Numbers::from(&[0])).unwrap_err().kind(), TooLong);
+    assert_eq!(path(&longest).element(U32List::EMPTY).unwrap().to_string(), longest);
+    assert_eq!(path(&longest).element(U32List::from(&[0])).unwrap_err().kind(), TooLong);
     assert_eq!(name.without_axis().unwrap_err().kind(), Missing);
 }
 
@@ -355,7 +355,7 @@ proptest! {
                 prop_assert_eq!(&Pieces::of(again), &pieces);
                 prop_assert_eq!(again.variable(), built.variable());
                 let (_, last) = pieces.parts.last().unwrap();
-                prop_assert_eq!(built.elements(), Numbers::from(&last[..]));
+                prop_assert_eq!(built.elements(), U32List::from(&last[..]));
                 let mut buf = [0; NAME_MAX];
                 let element = built.variable().write_element(built.elements(), &mut buf);
                 prop_assert_eq!(element.unwrap(), built);

@@ -107,5 +107,5 @@ fn damage_reaches_both_verdicts_of_every_stream() {
 }
 
 fn takes_any(size: Size) -> bool {
-    matches!(size, Size::Rest { .. } | Size::Open { .. })
+    matches!(size, Size::Rest { .. } | Size::TextAndTail { .. })
 }

@@ -2,7 +2,7 @@
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
 #[cfg(feature = "alloc")]
-use ads_cnc::streaming::FindingKind;
+use ads_cnc::streaming::DiagnosticKind;
 use ads_cnc::streaming::{Ack, LineErrorKind, NcText, Sender};
 #[cfg(feature = "alloc")]
 use ads_cnc_vectors::SequenceReject;
@@ -67,13 +67,13 @@ fn programs_are_checked() {
         let text = NcText::new(&bytes).unwrap_or_else(|error| panic!("{}: {error}", case.id));
         assert!(text.is_wire(), "{}", case.id);
         let found: Vec<SequenceReject> = text
-            .findings()
+            .diagnostics()
             .map(|finding| {
                 let (class, refers_to) = match finding.kind {
-                    FindingKind::Loop(_) => ("loop", None),
-                    FindingKind::BackwardJump { to } => ("backward-jump", Some(to)),
-                    FindingKind::BehindEnd { of, .. } => ("behind-end", Some(of)),
-                    FindingKind::OpenComment => ("open-comment", None),
+                    DiagnosticKind::Loop(_) => ("loop", None),
+                    DiagnosticKind::BackwardJump { to } => ("backward-jump", Some(to)),
+                    DiagnosticKind::AfterEnd { of, .. } => ("behind-end", Some(of)),
+                    DiagnosticKind::OpenComment => ("open-comment", None),
                     other => panic!("{}: {other:?}", case.id),
                 };
                 SequenceReject {

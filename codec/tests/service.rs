@@ -4,7 +4,7 @@ mod common;
 mod kept;
 
 use ads_cnc::ErrorKind::*;
-use ads_cnc::layout::Stream;
+use ads_cnc::layout::Subject;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;
 use ads_cnc::{CncStr, VariablePath};
@@ -69,7 +69,7 @@ fn the_five_variables_have_their_names_and_types() {
 fn uuids_are_checked_and_keep_their_case() {
     let refused = |text| {
         let error = ServiceId::new(text).unwrap_err();
-        assert_eq!(error.field().stream(), Stream::Service);
+        assert_eq!(error.field().subject(), Subject::Service);
         assert_eq!(ServiceId::from_text(CncStr::new(text).unwrap()), Err(error));
         Fault::of(error)
     };
@@ -185,7 +185,7 @@ fn malformed_values_are_rejected() {
     host.read(asked(Uuid)).unwrap();
     // Another request than the one that was answered.
     host.read(&[b'3'; 128]).unwrap();
-    assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Dropped)));
+    assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Abandoned)));
 }
 
 /// After a write that failed, the host looks what arrived, and writes what is missing.

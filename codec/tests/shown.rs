@@ -137,18 +137,18 @@ fn texts_are_in_characters_with_their_end() {
     shows(path, "V.E.test[4].Länge");
     debugs(path, r#""V.E.test[4].Länge""#);
     shows(path.parts().next().unwrap(), "test[4]");
-    debugs(Numbers::from(&[3, 0]), "[3, 0]");
+    debugs(U32List::from(&[3, 0]), "[3, 0]");
 }
 
 #[test]
 fn values_are_numbers_and_texts() {
     debugs(DynamicValue::from_bits(1.5_f64.to_bits()), "1.5 (0x3ff8000000000000)");
     debugs(Boolean(2), "2");
-    let elements = Elements::new(DataType::Uns16, Numbers::from(&[2]), &[1, 0, 2, 0]).unwrap();
+    let elements = Elements::new(DataType::Uns16, U32List::from(&[2]), &[1, 0, 2, 0]).unwrap();
     debugs(elements, "[Uns16(1), Uns16(2)]");
-    let elements = Elements::new(DataType::Sgn08, Numbers::from(&[3]), &[1, 2, 0xFF]).unwrap();
+    let elements = Elements::new(DataType::Sgn08, U32List::from(&[3]), &[1, 2, 0xFF]).unwrap();
     debugs(elements, "[Sgn08(1), Sgn08(2), Sgn08(-1)]");
-    let bytes = |data_type, bytes| Elements::new(data_type, Numbers::EMPTY, bytes).unwrap();
+    let bytes = |data_type, bytes| Elements::new(data_type, U32List::EMPTY, bytes).unwrap();
     for (elements, shown) in [
         (bytes(DataType::Boolean, &[0]), "FALSE"),
         (bytes(DataType::Boolean, &[7]), "TRUE"),
@@ -200,25 +200,25 @@ fn streaming_says_where_it_stands_and_not_the_text() {
     debugs(text, "NcText(3 lines, 24 bytes)");
     #[cfg(feature = "alloc")]
     {
-        use ads_cnc::streaming::{FindingKind, LoopWord, ProgramEnd};
-        let mut findings = text.findings();
-        debugs(&findings, "Findings { .. }");
+        use ads_cnc::streaming::{DiagnosticKind, LoopWord, ProgramEnd};
+        let mut findings = text.diagnostics();
+        debugs(&findings, "Diagnostics { .. }");
         shows(findings.next().unwrap(), "line 1, column 5: $WHILE in a stream (STM-8)");
-        shows(findings.next().unwrap(), "line 3, column 1: text behind the M30 of line 2 (STM-10)");
+        shows(findings.next().unwrap(), "line 3, column 1: text after the M30 of line 2 (STM-10)");
         shows(LoopWord::While, "$WHILE");
         shows(ProgramEnd::M30, "M30");
-        shows(FindingKind::BackwardJump { to: 5 }, "$GOTO back to line 5");
+        shows(DiagnosticKind::BackwardJump { to: 5 }, "$GOTO back to line 5");
     }
     let mut sender = Sender::new(text);
     let shown = |state, refusals| {
         let sent = "Progress { packets: 0, lines: 0, bytes: 0 }";
-        let state = format!("state: {state}, sent: {sent}, refusals: {refusals}");
+        let state = format!("state: {state}, sent: {sent}, busy_count: {refusals}");
         format!("Sender {{ text: NcText(3 lines, 24 bytes), {state}, .. }}")
     };
     debugs(&sender, &shown("Ready", 0));
     assert!(sender.packet().is_some());
-    debugs(&sender, &shown("Out", 0));
-    sender.acknowledge(Ack::Later).unwrap();
+    debugs(&sender, &shown("InFlight", 0));
+    sender.acknowledge(Ack::Busy).unwrap();
     debugs(sender, &shown("Waiting", 1));
 }
 
@@ -238,6 +238,6 @@ fn what_owns_is_shown_as_what_it_holds() {
     debugs(list.as_ref(), &format!("[{shown}]"));
     debugs(list, &format!("[{shown}]"));
     let mut checker = Checker::default();
-    debugs(checker.check(b"N10\r\n"), "CheckedLines { .. }");
+    debugs(checker.check(b"N10\r\n"), "CheckEvents { .. }");
     debugs(checker, "Checker(1 lines)");
 }

@@ -23,9 +23,9 @@ fn errors_say_what_is_wrong() {
     let kind = TextRef::with_tail(CncStr::new("V.E").unwrap(), None);
     let kind = VariableKindRef { kind: Kind::from_field(kind) };
     let channel = Channel::new(1).unwrap();
-    let by_name = ElementAddress::of_channel(channel, Class::Decoder, 0x46).unwrap();
+    let by_name = ElementAddress::for_channel(channel, Class::Decoder, 0x46).unwrap();
     let indices = [0; 511];
-    let too_many = HandleReadRef { handle: Handle(1), indices: Numbers::from(&indices) };
+    let too_many = HandleReadRef { handle: Handle(1), indices: U32List::from(&indices) };
     for ((kind, text), wanted) in [
         (
             error(Handle::decode(&[4, 0, 0])),
@@ -138,7 +138,7 @@ fn errors_of_arguments_name_the_argument() {
     let empty = VariablePath::new("V.E").map_err(text).unwrap_err();
     assert_eq!(empty, "variable-path: part at offset 3: truncated, expected 1 byte, found 0");
 
-    let shape = Shape::new(DataType::Sgn32, Numbers::EMPTY, 4).unwrap();
+    let shape = Shape::new(DataType::Sgn32, U32List::EMPTY, 4).unwrap();
     let written = shape.encode(&1.5_f64, &mut [0; 8]).map_err(text).unwrap_err();
     assert_eq!(written, "typed-value: type at offset 0: expected SGN32, found REAL64");
     let read = shape.elements(&[0; 4]).unwrap().copy_to(&mut [0.0_f32]);

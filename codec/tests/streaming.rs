@@ -31,10 +31,10 @@ fn results_say_whether_to_write_again() {
     for number in (0..0x1_0000).chain([u32::MAX]) {
         let wanted = match number {
             0 => Ack::Accepted,
-            number if refused.contains(&number) => Ack::Refused,
-            _ => Ack::Later,
+            number if refused.contains(&number) => Ack::Rejected,
+            _ => Ack::Busy,
         };
-        assert_eq!(Ack::of(AdsError(number)), wanted, "{number:#x}");
+        assert_eq!(Ack::from_result(AdsError(number)), wanted, "{number:#x}");
     }
 }
 
@@ -125,7 +125,7 @@ fn a_sender_of_nothing_is_done() {
     let mut sender = Sender::new(NcText::new(b"").unwrap());
     assert_eq!(sender.packet(), None);
     assert_eq!(sender.state(), SenderState::Done);
-    assert_eq!(sender.acknowledge(Ack::Accepted), Err(NoPacketOut));
+    assert_eq!(sender.acknowledge(Ack::Accepted), Err(UnexpectedAck));
     assert_eq!(sender.state(), SenderState::Done);
 }
 
@@ -133,14 +133,14 @@ fn a_sender_of_nothing_is_done() {
 fn a_sender_takes_one_acknowledgement_for_one_packet() {
     for (ack, state) in [
         (Ack::Accepted, SenderState::Done),
-        (Ack::Later, SenderState::Waiting),
-        (Ack::Refused, SenderState::Stopped),
+        (Ack::Busy, SenderState::Waiting),
+        (Ack::Rejected, SenderState::Stopped),
     ] {
         let mut sender = Sender::new(NcText::new(b"M30").unwrap());
-        assert_eq!(sender.acknowledge(ack), Err(NoPacketOut));
+        assert_eq!(sender.acknowledge(ack), Err(UnexpectedAck));
         assert_eq!(sender.packet(), Some(&b"M30\r\n"[..]));
         assert_eq!(sender.acknowledge(ack), Ok(()));
-        assert_eq!((sender.acknowledge(ack), sender.state()), (Err(NoPacketOut), state));
+        assert_eq!((sender.acknowledge(ack), sender.state()), (Err(UnexpectedAck), state));
     }
 }
 
@@ -153,13 +153,13 @@ fn a_sender_counts_refusals() {
     for _ in 0..2 {
         for refusals in 0..3 {
             assert_eq!(sender.packet(), Some(&line[..]));
-            assert_eq!(sender.refusals(), refusals);
-            assert_eq!(sender.acknowledge(Ack::Later), Ok(()));
+            assert_eq!(sender.busy_count(), refusals);
+            assert_eq!(sender.acknowledge(Ack::Busy), Ok(()));
         }
         assert_eq!(sender.packet(), Some(&line[..]));
-        assert_eq!((sender.refusals(), sender.acknowledge(Ack::Accepted)), (3, Ok(())));
+        assert_eq!((sender.busy_count(), sender.acknowledge(Ack::Accepted)), (3, Ok(())));
     }
-    assert_eq!((sender.refusals(), sender.packet()), (0, None));
+    assert_eq!((sender.busy_count(), sender.packet()), (0, None));
 }
 
 /// Lines of many lengths, ended in all ways, the last perhaps open.
@@ -238,8 +238,8 @@ proptest! {
                 sender.packet();
             }
             sender.acknowledge(match ack {
-                0 => Ack::Refused,
-                1..8 => Ack::Later,
+                0 => Ack::Rejected,
+                1..8 => Ack::Busy,
                 _ => Ack::Accepted,
             });
         }

@@ -4,7 +4,7 @@
 mod common;
 mod kept;
 
-use ads_cnc::streaming::{Checker, Found, ProgramEnd};
+use ads_cnc::streaming::{CheckEvent, Checker, ProgramEnd};
 use common::checker::{CheckedLots, check_any_lots, check_lines as check};
 use common::findings::findings_of as whole;
 use proptest::collection::vec;
@@ -42,7 +42,7 @@ fn blocks_ends_and_programs_go_over() {
     assert_eq!(check(&mut checker, b"#COMMENT END M17\r\n").1, [(ProgramEnd::M17, 5, 14)]);
     assert_eq!(checker.open_comment(), None);
     let (findings, _) = check(&mut checker, b"\r\n(X)\r\n%next\r\nN2:\r\n");
-    assert_eq!(findings[0].to_string(), "line 8, column 1: text behind the M17 of line 5 (STM-10)");
+    assert_eq!(findings[0].to_string(), "line 8, column 1: text after the M17 of line 5 (STM-10)");
     // The label is that of another program.
     assert_eq!(check(&mut checker, b"$GOTO N1\r\n"), (vec![], vec![]));
     assert_eq!(check(&mut checker, b"$GOTO N2\r\n").0.len(), 1);
@@ -74,11 +74,11 @@ fn what_is_below_an_end_is_at_hand() {
     let mut checker = Checker::new();
     checker.check(b"%main\r\n").for_each(drop);
     let mut checked = checker.check(lines);
-    assert_eq!(checked.below(), lines);
+    assert_eq!(checked.remaining(), lines);
     let mut seen = Vec::new();
     while let Some(found) = checked.next() {
-        let is_end = matches!(found, Found::End { end: ProgramEnd::M30, .. });
-        seen.push((found.line(), is_end, checked.below()));
+        let is_end = matches!(found, CheckEvent::ProgramEnd { end: ProgramEnd::M30, .. });
+        seen.push((found.line(), is_end, checked.remaining()));
     }
     drop(checked);
     let behind_end = &b"N40 X2\r\nN50 X3\r\n"[..];

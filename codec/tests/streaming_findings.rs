@@ -4,7 +4,7 @@
 mod common;
 mod kept;
 
-use ads_cnc::streaming::{FindingKind, LoopWord, NcText};
+use ads_cnc::streaming::{DiagnosticKind, LoopWord, NcText};
 use common::findings::check_findings;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -12,7 +12,7 @@ use proptest::sample::select;
 
 fn findings(text: &str) -> Vec<String> {
     let text = NcText::new(text.as_bytes()).expect("text that can be streamed");
-    text.findings().map(|finding| finding.to_string()).collect()
+    text.diagnostics().map(|finding| finding.to_string()).collect()
 }
 
 #[track_caller]
@@ -60,7 +60,7 @@ fn names_of_files_end() {
         let text = format!("L sub.nc{behind}\nX1\n");
         assert_eq!(
             findings(&text),
-            ["line 2, column 1: text behind the M30 of line 1 (STM-10)"],
+            ["line 2, column 1: text after the M30 of line 1 (STM-10)"],
             "{text}"
         );
     }
@@ -71,7 +71,7 @@ fn names_of_files_end() {
 #[test]
 fn numbers_behind_comments_are_passed() {
     for text in ["X(a)5 M30\nX1\n", "X(a)12.5M30\nX1\n", "X(a)5.M30\nX1\n"] {
-        let wanted = "line 2, column 1: text behind the M30 of line 1 (STM-10)";
+        let wanted = "line 2, column 1: text after the M30 of line 1 (STM-10)";
         assert_eq!(findings(text), [wanted], "{text}");
     }
 }
@@ -97,11 +97,11 @@ fn printed_examples_changed_are_not_clean() {
     );
     assert_eq!(
         with(COMMENT, "S30000 M03", "\n#COMMENT END\nM30"),
-        ["line 14, column 1: text behind the M30 of line 13 (STM-10)"]
+        ["line 14, column 1: text after the M30 of line 13 (STM-10)"]
     );
     assert_eq!(
         with(FORWARD, "M30\n", "M30\nX1"),
-        ["line 12, column 1: text behind the M30 of line 11 (STM-10)"]
+        ["line 12, column 1: text after the M30 of line 11 (STM-10)"]
     );
 }
 
@@ -110,8 +110,8 @@ fn each_loop_word_is_found() {
     for word in LoopWord::ALL {
         for text in [format!("{word}"), format!("N1 X1 {}[1]", word.to_string().to_lowercase())] {
             let text = NcText::new(text.as_bytes()).unwrap();
-            let kinds: Vec<_> = text.findings().map(|finding| finding.kind).collect();
-            assert_eq!(kinds, [FindingKind::Loop(word)]);
+            let kinds: Vec<_> = text.diagnostics().map(|finding| finding.kind).collect();
+            assert_eq!(kinds, [DiagnosticKind::Loop(word)]);
         }
         // Another word, a quoted one, and none.
         clean(&format!("{word}X 1\n#MSG [\"{word}\"]"));
@@ -245,7 +245,7 @@ fn text_behind_program_ends_is_found_and_behind_nothing_else() {
         clean(&format!("{end}\n\n  \t\n(comment)\n;comment\n#COMMENT BEGIN\nX1\n#COMMENT END\n"));
         assert_eq!(
             findings(&format!("{end}\n\n (c) X1\nX2\n")),
-            [format!("line 3, column 6: text behind the {name} of line 1 (STM-10)")],
+            [format!("line 3, column 6: text after the {name} of line 1 (STM-10)")],
             "{end}"
         );
     }
@@ -283,9 +283,9 @@ fn text_behind_program_ends_is_found_and_behind_nothing_else() {
     assert_eq!(
         findings("M30\n$DO\nX1\nM17\nX1\n%next\nM2"),
         [
-            "line 2, column 1: text behind the M30 of line 1 (STM-10)",
+            "line 2, column 1: text after the M30 of line 1 (STM-10)",
             "line 2, column 1: $DO in a stream (STM-8)",
-            "line 5, column 1: text behind the M17 of line 4 (STM-10)"
+            "line 5, column 1: text after the M17 of line 4 (STM-10)"
         ]
     );
 }
@@ -294,7 +294,7 @@ fn text_behind_program_ends_is_found_and_behind_nothing_else() {
 fn findings_say_clause_and_consequence() {
     let text = NcText::new(b"N1:\n$GOTO N1\n$DO\nM30\nX1\n#COMMENT BEGIN").unwrap();
     let found: Vec<_> =
-        text.findings().map(|at| (at.kind.clause(), at.kind.ends_streaming())).collect();
+        text.diagnostics().map(|at| (at.kind.clause(), at.kind.ends_streaming())).collect();
     assert_eq!(found, [("STM-8", true), ("STM-8", true), ("STM-10", false), ("STM-9", false)]);
 }
 
@@ -418,10 +418,10 @@ proptest! {
 #[test]
 fn jumps_back_are_found_as_defined(program in program()) {
     let text: String = program.iter().map(|line| line.text()).collect();
-    let found: Vec<_> = NcText::new(text.as_bytes()).unwrap().findings().map(|at| (at.line, at.kind)).collect();
+    let found: Vec<_> = NcText::new(text.as_bytes()).unwrap().diagnostics().map(|at| (at.line, at.kind)).collect();
     let wanted: Vec<_> = jumps_back(&program)
         .into_iter()
-        .map(|(at, to)| (at as u32 + 1, FindingKind::BackwardJump { to: to as u32 + 1 }))
+        .map(|(at, to)| (at as u32 + 1, DiagnosticKind::BackwardJump { to: to as u32 + 1 }))
         .collect();
     prop_assert_eq!(found, wanted);
 }
@@ -433,7 +433,7 @@ fn findings_of_any_text(text in pieces()) {
     check_findings(text.as_bytes(), |_, _| ());
     let comment = text.replace("#COMMENT END", "");
     let hidden = format!("#COMMENT BEGIN\n{comment}\n#COMMENT END");
-    prop_assert_eq!(NcText::new(hidden.as_bytes()).unwrap().findings().count(), 0);
+    prop_assert_eq!(NcText::new(hidden.as_bytes()).unwrap().diagnostics().count(), 0);
     let hidden = text.replace(['\r', '\n'], " ");
-    prop_assert_eq!(NcText::new(format!(";{hidden}").as_bytes()).unwrap().findings().count(), 0);
+    prop_assert_eq!(NcText::new(format!(";{hidden}").as_bytes()).unwrap().diagnostics().count(), 0);
 }}

@@ -46,7 +46,7 @@ fn render(stream: Stream) -> String {
             per_item => format!("{} + {per_item}{}", row.offset, letter(layout.fields)),
         };
         let offset = match counter.map(|before| before.size) {
-            Some(Size::Leading { max }) => format!("{offset} … {max}"),
+            Some(Size::CStringPrefix { max }) => format!("{offset} … {max}"),
             _ => offset,
         };
         writeln!(
@@ -84,7 +84,7 @@ fn record(stream: Stream) -> Option<Stream> {
 fn size(size: Size, counter: Option<&FieldSpec>) -> String {
     match (size, counter) {
         (Size::Fixed(size) | Size::Padded(size), _) => size.to_string(),
-        (Size::FixedUnlessError(size), Some(error)) => {
+        (Size::FixedOnSuccess(size), Some(error)) => {
             format!("{size}; the stream may end before it if `{}` is not 0", error.name)
         }
         (Size::Items { each: 1, max }, Some(counter)) => format!("`{}` ≤ {max}", counter.name),
@@ -92,14 +92,14 @@ fn size(size: Size, counter: Option<&FieldSpec>) -> String {
             let letter = letter(std::slice::from_ref(counter));
             format!("{each} × {letter}, {letter} ≤ {max}")
         }
-        (Size::Terminated { max, may_be_absent: true }, _) => format!("≤ {max} with NUL, or 0"),
-        (Size::Terminated { max, .. } | Size::Leading { max }, _) => format!("≤ {max} with NUL"),
-        (Size::FixedOrNothing(size), _) => format!("{size}; the stream may have no byte at all"),
-        (Size::Open { min: 0, max } | Size::Rest { min: 0, max }, _) => format!("≤ {max}"),
-        (Size::Open { min, max } | Size::Rest { min, max }, _) => format!("{min} … {max}"),
-        (Size::MayTerminate { max }, _) => format!("≤ {max}, with NUL or without"),
-        (Size::FromOne, _) => "4".to_owned(),
-        (Size::OneTwoOrFour, _) => "1, 2 or 4".to_owned(),
+        (Size::CString { max, is_optional: true }, _) => format!("≤ {max} with NUL, or 0"),
+        (Size::CString { max, .. } | Size::CStringPrefix { max }, _) => format!("≤ {max} with NUL"),
+        (Size::OptionalFixed(size), _) => format!("{size}; the stream may have no byte at all"),
+        (Size::TextAndTail { min: 0, max } | Size::Rest { min: 0, max }, _) => format!("≤ {max}"),
+        (Size::TextAndTail { min, max } | Size::Rest { min, max }, _) => format!("{min} … {max}"),
+        (Size::OptionalNul { max }, _) => format!("≤ {max}, with NUL or without"),
+        (Size::NonZero, _) => "4".to_owned(),
+        (Size::Uns8To32, _) => "1, 2 or 4".to_owned(),
         (other, _) => panic!("how is {other:?} shown?"),
     }
 }
@@ -128,7 +128,7 @@ fn offsets_are_where_walks_find_the_fields() {
                 };
                 let before = text;
                 // The table counts a text with more behind it by its NUL alone.
-                if let Size::Leading { .. } = row.size {
+                if let Size::CStringPrefix { .. } = row.size {
                     text = segment.bytes.len() as u32 - 1;
                 }
                 let record = segment.record * DESCRIPTOR_LEN as u32;
@@ -148,9 +148,9 @@ fn streams_are_packed() {
         for row in stream.layout().fields {
             assert_eq!(row.offset, end, "{stream}: {}", row.name);
             end += match row.size {
-                Size::Fixed(size) | Size::FixedUnlessError(size) | Size::Padded(size) => size,
-                Size::FixedOrNothing(size) => size,
-                Size::Leading { .. } => 1,
+                Size::Fixed(size) | Size::FixedOnSuccess(size) | Size::Padded(size) => size,
+                Size::OptionalFixed(size) => size,
+                Size::CStringPrefix { .. } => 1,
                 _ => 0,
             };
         }

@@ -23,22 +23,22 @@ fn shape(data_type: DataType, dimensions: &[u32], size: u32) -> Result<Shape<'_>
 #[test]
 fn printed_replies() {
     let channel = Channel::new(1).unwrap();
-    let by_handle = ReadByHandle::new(channel, Handle(0x20012341), Numbers::from(&[4]));
+    let by_handle = ReadByHandle::new(channel, Handle(0x20012341), U32List::from(&[4]));
     let one = by_handle.decode_reply(b"\x4d\x01\0\0").unwrap();
-    let one = one.elements(VariableType::SGN32, Numbers::EMPTY).unwrap();
-    assert_eq!(one.element(Numbers::EMPTY), Ok(Element::Sgn32(333)));
+    let one = one.elements(VariableType::SGN32, U32List::EMPTY).unwrap();
+    assert_eq!(one.element(U32List::EMPTY), Ok(Element::Sgn32(333)));
     assert!(one.items::<i32>().unwrap().eq([333]));
 
     let by_name = ReadByName::new(channel, "V.E.Testvar").unwrap();
     let all = by_name.decode_reply(ARRAY).unwrap();
-    let all = all.elements(VariableType::SGN32, Numbers::from(&[5])).unwrap();
+    let all = all.elements(VariableType::SGN32, U32List::from(&[5])).unwrap();
     assert!(all.items::<i32>().unwrap().eq([123, 234, 345, 456, 567]));
-    assert_eq!(all.element(Numbers::from(&[3])), Ok(Element::Sgn32(456)));
+    assert_eq!(all.element(U32List::from(&[3])), Ok(Element::Sgn32(456)));
 
     let axis = ChannelAxis::new(2).unwrap();
     let position = AxisReadByName::new(channel, axis, "V.A.WCS").unwrap();
     let value = position.decode_reply(b"\xcd\xcc\xcc\xcc\xcc\x48\x93\x40").unwrap();
-    let value = value.elements(VariableType::REAL64, Numbers::EMPTY).unwrap();
+    let value = value.elements(VariableType::REAL64, U32List::EMPTY).unwrap();
     assert!(value.iter().eq([Element::Real64(1234.2)]));
 }
 
@@ -148,7 +148,7 @@ fn values_by_description() {
 fn content_by_name_of_its_type() {
     let object = Descriptor::new("mc_active_single_block_r", "BOOL").unwrap().with_size(1);
     let data_type = object.data_type().unwrap();
-    let shape = Shape::new(data_type, Numbers::EMPTY, object.size()).unwrap();
+    let shape = Shape::new(data_type, U32List::EMPTY, object.size()).unwrap();
     assert!(shape.elements(&[1]).unwrap().iter().eq([Element::Boolean(Boolean::TRUE)]));
     assert_eq!(object.as_ref().data_type(), Some(DataType::Boolean));
     assert_eq!(Descriptor::new("a", "HLI_COORD").unwrap().data_type(), None);
@@ -178,7 +178,7 @@ fn texts_of_an_array_share_its_bytes() {
     let text = |text: &str, tail| (text.to_owned(), tail);
     assert_eq!(shown[..2], [text("ab", Some(&b""[..])), text("c", Some(b"d"))]);
     assert_eq!(shown[2..], [text("def", None), text("", Some(b"\0\0"))]);
-    let last = elements.element(Numbers::from(&[1, 0])).unwrap();
+    let last = elements.element(U32List::from(&[1, 0])).unwrap();
     assert_eq!(last, Element::String(texts[2]));
 
     assert_eq!(fault_of(four.elements(b"ab\0c\0d")), fault(Truncated, "value", 0, (12, 6)));
@@ -223,7 +223,7 @@ fn elements_in_their_order() {
     let bytes: Vec<u8> = (0..24).collect();
     let dimensions = [3, 4];
     let elements = elements(DataType::Uns16, &dimensions, &bytes);
-    assert_eq!(elements.shape().dimensions(), Numbers::from(&dimensions));
+    assert_eq!(elements.shape().dimensions(), U32List::from(&dimensions));
     let all: Vec<_> = elements.into_iter().collect();
     assert_eq!(all.len(), 12);
     for place in 0..14 {
@@ -250,10 +250,10 @@ fn a_dimension_of_0_has_no_element() {
         assert!(none.is_empty() && none.shape().size() == 0);
         let indices = [u32::MAX - 1, 0, 0];
         assert_eq!(
-            fault_of(none.element(Numbers::from(&indices))),
+            fault_of(none.element(U32List::from(&indices))),
             fault(Missing, "dimension", 1, (0, 0))
         );
-        assert!(Elements::new(data_type, Numbers::from(&[0]), &[1]).is_err());
+        assert!(Elements::new(data_type, U32List::from(&[0]), &[1]).is_err());
         assert_eq!(fault_of(shape(data_type, &[0, 7], 1)), fault(Mismatch, "size", 0, (0, 1)));
     }
     // The others alone are more than 32 bits hold.
@@ -271,11 +271,11 @@ fn sizes_do_not_wrap() {
             let error = fault_of(shape(data_type, &wraps, size));
             assert_eq!(error, fault(Mismatch, "size", 0, (u32::MAX as usize, size as usize)));
         }
-        assert!(Elements::new(data_type, Numbers::from(&wraps), &[]).is_err());
+        assert!(Elements::new(data_type, U32List::from(&wraps), &[]).is_err());
     }
     let most = shape(DataType::Uns08, &[u32::MAX], u32::MAX).unwrap();
     assert_eq!(
-        (most.size(), most.index_of(Numbers::from(&[u32::MAX - 1]))),
+        (most.size(), most.index_of(U32List::from(&[u32::MAX - 1]))),
         (u32::MAX, Ok(u32::MAX - 1))
     );
 }
@@ -285,10 +285,10 @@ fn sizes_do_not_wrap() {
 fn values_of_no_size_are_refused() {
     let value = ValueRef { bytes: &[] };
     let dimensions = [0x4000_0000, 4];
-    let error = value.elements(VariableType::SGN32, Numbers::from(&dimensions)).unwrap_err();
+    let error = value.elements(VariableType::SGN32, U32List::from(&dimensions)).unwrap_err();
     assert_eq!((error.kind(), error.expected()), (Truncated, u32::MAX));
     for (code, bound) in [(0, 1), (10, 9), (u32::MAX, 9)] {
-        let error = value.elements(VariableType(code), Numbers::EMPTY).unwrap_err();
+        let error = value.elements(VariableType(code), U32List::EMPTY).unwrap_err();
         assert_eq!((error.expected(), error.found()), (bound, code));
     }
 }

@@ -57,10 +57,10 @@ fn objects_are_addressed_by_their_descriptors() {
     let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(3));
     let object = Descriptor::new("o", "BOOL").unwrap().with_size(1).with_content(group, offset);
     let wanted = ReadObject::new(group, offset, 1).unwrap();
-    assert_eq!(ReadObject::of(&object).unwrap(), wanted);
-    assert_eq!(ReadObject::of(object.as_ref()).unwrap(), wanted);
+    assert_eq!(ReadObject::for_descriptor(&object).unwrap(), wanted);
+    assert_eq!(ReadObject::for_descriptor(object.as_ref()).unwrap(), wanted);
     let items = [object.as_ref(), object.as_ref()];
-    assert!(items.iter().all(|item| ReadObject::of(item).unwrap() == wanted));
+    assert!(items.iter().all(|item| ReadObject::for_descriptor(item).unwrap() == wanted));
 }
 
 /// What sections 4.3.6, 4.3.7 and 4.3.11 print; SGN32 and REAL64 are assumed.
@@ -69,14 +69,14 @@ fn printed_writes() {
     let channel = Channel::new(1).unwrap();
     let (mut value, mut buf) = ([0; 20], [0; 64]);
     let one = 123_i32.encode_value(&mut value).unwrap();
-    let op = WriteByHandle::new(channel, Handle(0x2001234), Numbers::from(&[4]), one);
+    let op = WriteByHandle::new(channel, Handle(0x2001234), U32List::from(&[4]), one);
     assert_eq!(op.encode(&mut buf).unwrap(), b"\x34\x12\0\x02\x01\0\0\0\x04\0\0\0\x7b\0\0\0");
     let op = WriteByName::new(channel, "V.E.test[4]", one).unwrap();
     assert_eq!(op.encode(&mut buf).unwrap(), b"V.E.test[4]\0\x7b\0\0\0");
 
     let all = [123, 234, 345, 456, 567].encode_value(&mut value).unwrap();
     assert_eq!(all, ARRAY);
-    let op = WriteByHandle::new(channel, Handle(0x2001234), Numbers::EMPTY, all);
+    let op = WriteByHandle::new(channel, Handle(0x2001234), U32List::EMPTY, all);
     assert_eq!(op.encode(&mut buf).unwrap(), [b"\x34\x12\0\x02\0\0\0\0", ARRAY].concat());
     let op = WriteByName::new(channel, "V.E.test", all).unwrap();
     assert_eq!(op.encode(&mut buf).unwrap(), [b"V.E.test\0", ARRAY].concat());
@@ -92,14 +92,14 @@ fn printed_writes() {
 fn requests_take_values_up_to_their_limits() {
     let channel = Channel::new(1).unwrap();
     let (mut value, mut buf) = ([0; 4000], [0; 4000]);
-    let mut by_handle = |numbers: &[u8], indices: Numbers<'_>| {
+    let mut by_handle = |numbers: &[u8], indices: U32List<'_>| {
         let value = numbers.encode_value(&mut value).unwrap();
         WriteByHandle::new(channel, Handle(1), indices, value).encode(&mut buf).map(<[u8]>::len)
     };
-    assert_eq!(by_handle(&[1; 2040], Numbers::EMPTY), Ok(2048));
-    assert_eq!(by_handle(&[1; 2041], Numbers::EMPTY).unwrap_err().kind(), TooLong);
-    assert_eq!(by_handle(&[1; 2036], Numbers::from(&[4])), Ok(2048));
-    assert_eq!(by_handle(&[1; 2037], Numbers::from(&[4])).unwrap_err().kind(), TooLong);
+    assert_eq!(by_handle(&[1; 2040], U32List::EMPTY), Ok(2048));
+    assert_eq!(by_handle(&[1; 2041], U32List::EMPTY).unwrap_err().kind(), TooLong);
+    assert_eq!(by_handle(&[1; 2036], U32List::from(&[4])), Ok(2048));
+    assert_eq!(by_handle(&[1; 2037], U32List::from(&[4])).unwrap_err().kind(), TooLong);
     let mut by_name = |numbers: &[u8], name| {
         let value = numbers.encode_value(&mut value).unwrap();
         let op = WriteByName::new(channel, name, value).unwrap();
@@ -138,11 +138,11 @@ fn writes_fit_the_description() {
     assert_eq!(buf, [0x55; 16]);
 
     assert_eq!(array.encode(&[-1_i16, 2, 3, 4], &mut buf).unwrap(), b"\xff\xff\x02\0\x03\0\x04\0");
-    assert_eq!(array.one().encode(&-2_i16, &mut buf).unwrap(), b"\xfe\xff");
+    assert_eq!(array.element_shape().encode(&-2_i16, &mut buf).unwrap(), b"\xfe\xff");
     // What was read of it goes back as it is.
     let read = array.elements(b"\x01\0\x02\0\x03\0\x04\0").unwrap();
     assert_eq!(array.encode(&read, &mut buf), Ok(read.as_bytes()));
-    assert_eq!(array.one().encode(&read.get(3).unwrap(), &mut buf).unwrap(), b"\x04\0");
+    assert_eq!(array.element_shape().encode(&read.get(3).unwrap(), &mut buf).unwrap(), b"\x04\0");
 }
 
 /// A STRING is written with its NUL, and neither text nor NUL is ever cut off.
@@ -175,7 +175,7 @@ fn texts_fit_their_size() {
     let two = three.encode_texts(&texts[..2], buf);
     assert_eq!(fault_of(two), fault(Mismatch, "count", 0, (3, 2)));
     // Three texts of another size each.
-    let strings = Elements::new(DataType::String, Numbers::from(&dimensions), b"abcabc").unwrap();
+    let strings = Elements::new(DataType::String, U32List::from(&dimensions), b"abcabc").unwrap();
     assert_eq!(fault_of(three.encode(&strings, buf)), fault(Mismatch, "size", 0, (9, 6)));
     assert_eq!(*buf, [0x55; 16]);
 }
@@ -185,14 +185,14 @@ fn texts_fit_their_size() {
 fn nans_keep_their_bits() {
     let (single, double) = (b"\x01\0\x80\xff", b"\x01\0\0\0\0\0\xf0\x7f");
     for (data_type, bytes) in [(DataType::Real32, &single[..]), (DataType::Real64, double)] {
-        let read = Elements::new(data_type, Numbers::EMPTY, bytes).unwrap();
+        let read = Elements::new(data_type, U32List::EMPTY, bytes).unwrap();
         assert_ne!(read.get(0), read.get(0));
         assert_eq!(read.get(0).unwrap().encode_value(&mut [0; 8]), Ok(bytes));
     }
 }
 
 /// Bits of every number, NaN with its payload among them.
-fn check_numbers<T: Item>(numbers: &[T], bits: &[u8]) {
+fn check_numbers<T: Scalar>(numbers: &[T], bits: &[u8]) {
     let mut buf = vec![0; bits.len()];
     assert_eq!(numbers.encode_value(&mut buf), Ok(bits));
     let value = ValueRef { bytes: bits };
@@ -261,7 +261,7 @@ proptest! {
         prop_assert_eq!(all.len(), elements.len());
         for (place, indices) in all.iter().enumerate() {
             let expected = u16::from_le_bytes([bytes[place * 2], bytes[place * 2 + 1]]);
-            let indices = Numbers::from(indices.as_slice());
+            let indices = U32List::from(indices.as_slice());
             prop_assert_eq!(elements.element(indices), Ok(Element::Uns16(expected)));
             prop_assert_eq!(items[place], expected);
             prop_assert_eq!(elements.shape().index_of(indices), Ok(place as u32));
@@ -298,7 +298,7 @@ proptest! {
         given in vec(prop_oneof![1 => Just(0), 8 => 1..5_u32, 1 => any::<u32>()], 0..5),
         picks in vec(0..5_u32, 5),
     ) {
-        let (data_type, dimensions) = (DataType::ALL[pick], Numbers::from(given.as_slice()));
+        let (data_type, dimensions) = (DataType::ALL[pick], U32List::from(given.as_slice()));
         for size in [size, bytes.len() as u32] {
             let (dimensions, indices) = (&given[..], &picks[..given.len()]);
             let of = Described { data_type, dimensions, size, indices, bytes: &bytes };

@@ -59,7 +59,7 @@ fn decode(vector: &Vector, bytes: &[u8]) -> Result<String, Refusal> {
             };
             let offset = IndexOffset::new(ObjectCount::decode(bytes)?.0);
             let (axis, element) = offset.axis_and_element(stride)?;
-            assert_eq!(IndexOffset::of_axis(stride, axis, element), Ok(offset), "{}", vector.id);
+            assert_eq!(IndexOffset::for_axis(stride, axis, element), Ok(offset), "{}", vector.id);
             Ok(format!("{offset} {stride:?}: axis {axis}, element {element:#x}"))
         }
         name => {

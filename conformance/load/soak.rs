@@ -100,7 +100,7 @@ fn client(addr: SocketAddr, name: &str, end: Instant) -> Result<u64> {
     let mut cnc = session(addr, &format!("[[variable]]\nchannel = 1\nname = \"{name}\"\n"))?;
     let failed = |trouble: Trouble| format!("{name}: {trouble}");
     let channel = Channel::new(1)?;
-    let element = ElementAddress::of_channel(channel, Class::Hld, 1)?;
+    let element = ElementAddress::for_channel(channel, Class::Hld, 1)?;
     let mut count = 0_u64;
     while Instant::now() < end {
         let value = (count as i32).to_le_bytes();
@@ -218,14 +218,14 @@ fn streamed(cnc: &Cnc, addr: SocketAddr, megabytes: usize) -> Result<()> {
     while let Some(packet) = sender.packet() {
         let ack = match session.call(&WriteProgramStream::new(Channel::new(1)?, packet)) {
             Ok(_) => Ack::Accepted,
-            Err(Trouble::Ads { error, .. }) => Ack::of(error),
+            Err(Trouble::Ads { error, .. }) => Ack::from_result(error),
             Err(trouble) => return Err(trouble.to_string().into()),
         };
         sender.acknowledge(ack)?;
         match ack {
             Ack::Accepted => {}
-            Ack::Later => thread::sleep(Duration::from_micros(500)),
-            Ack::Refused => return Err("the stream was refused".into()),
+            Ack::Busy => thread::sleep(Duration::from_micros(500)),
+            Ack::Rejected => return Err("the stream was refused".into()),
         }
     }
     let (lines, bytes, found, refusals) = loop {

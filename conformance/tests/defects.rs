@@ -49,7 +49,11 @@ fn failed(outcomes: &[Outcome]) -> Vec<&str> {
 
 /// What is tried of a field: both changes alter any bytes there can be.
 fn defects(field: Field) -> impl Iterator<Item = Defect> {
-    let all = Defect::of_stream(field.stream()).into_iter().filter(move |one| one.field == field);
+    let all = field
+        .stream()
+        .into_iter()
+        .flat_map(Defect::of_stream)
+        .filter(move |one| one.field == field);
     all.filter(|defect| matches!(defect.change, Change::FlipLow | Change::Invert))
 }
 

@@ -13,7 +13,7 @@ use ads_cnc::operation::{
     CountObjects, DescribeByName, HandleByName, ReadByName, ReadDescriptors, Task, WriteByHandle,
     WriteByName, WriteObject,
 };
-use ads_cnc::{Descriptors, Numbers};
+use ads_cnc::{Descriptors, U32List};
 use ads_cnc_conformance::client::Target;
 use ads_cnc_conformance::cnc::{Cnc, NET_ID};
 use ads_cnc_conformance::gate::{Allowed, Gate};
@@ -62,7 +62,7 @@ fn a_handle_confirmed_for_an_allowed_name_is_written() {
     let mut session = embedded(allowing(&variable(WRITABLE)));
     let handle = session.call(&HandleByName::new(channel(), WRITABLE).unwrap()).unwrap();
     let other = session.call(&HandleByName::new(channel(), "V.E.Testvar").unwrap()).unwrap();
-    let write = |handle| WriteByHandle::new(channel(), handle, Numbers::from(&[4]), &[8, 0, 0, 0]);
+    let write = |handle| WriteByHandle::new(channel(), handle, U32List::from(&[4]), &[8, 0, 0, 0]);
     // A description has to have it too.
     assert!(matches!(session.call(&write(handle)), Err(Trouble::Refused(_))));
     session.call(&DescribeByName::new(channel(), WRITABLE).unwrap()).unwrap();

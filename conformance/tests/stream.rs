@@ -84,8 +84,8 @@ fn a_program_arrives_whole() {
                 }
                 OK
             }
-            Ack::Later => BUSY,
-            Ack::Refused => Answer::Result(AdsError::INVALID_SIZE),
+            Ack::Busy => BUSY,
+            Ack::Rejected => Answer::Result(AdsError::INVALID_SIZE),
         }
     });
     let program = program();
@@ -170,7 +170,7 @@ fn a_faulty_program_is_not_begun() {
     let output = stream(b"N10 $FOR P1=0,10,1\nN20 M30\nN30 X1", addr, &allow, &["--force"]);
     let said = text(&output.stderr);
     assert_eq!(code(&output), 0, "{said}");
-    assert!(said.contains(".nc:3:1: warning: text behind the M30 of line 2 (STM-10)"), "{said}");
+    assert!(said.contains(".nc:3:1: warning: text after the M30 of line 2 (STM-10)"), "{said}");
     let packets = packets.lock().unwrap();
     assert_eq!(packets[..], [(1, b"N10 $FOR P1=0,10,1\r\nN20 M30\r\nN30 X1\r\n".to_vec())]);
 }

@@ -28,7 +28,7 @@ pub struct ClassGroup {
 }
 
 impl ClassGroup {
-    /// The group in which the address of a class's instances is asked for; it names none itself.
+    /// The group in which the address of a class's instances is asked for; it does not name an instance itself.
     pub const fn object_address(class: Class) -> Self {
         Self { addressing: class.best(), class, attribute: Attribute::ObjectAddress, instance: 0 }
     }

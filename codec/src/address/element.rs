@@ -5,7 +5,7 @@ use super::{
     Spindle,
 };
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::index_offset::ELEMENT;
+use crate::layout::index_offset::ELEMENT;
 
 /// The most that 16 bits hold (ADR-9).
 const ELEMENT_MAX: u32 = 0xFFFF;
@@ -18,13 +18,13 @@ const ELEMENT_MAX: u32 = 0xFFFF;
 /// ```
 /// use ads_cnc::address::{Attribute, Channel, ChannelAxis, Class, ElementAddress};
 ///
-/// let feedhold = ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?;
+/// let feedhold = ElementAddress::for_channel(Channel::new(1)?, Class::Hld, 1)?;
 /// assert_eq!(feedhold.group(Attribute::Content).get(), 0x12_3301);
 /// assert_eq!(feedhold.group(Attribute::WriteFlag).get(), 0x12_3801);
 /// assert_eq!(feedhold.index_offset().get(), 1);
 ///
-/// let axis = ElementAddress::of_axis(Channel::new(1)?, Class::Decoder, ChannelAxis::new(2)?, 0)?;
-/// assert_eq!(axis.following(3)?.index_offset().get(), 0x2_0003);
+/// let axis = ElementAddress::for_axis(Channel::new(1)?, Class::Decoder, ChannelAxis::new(2)?, 0)?;
+/// assert_eq!(axis.nth(3)?.index_offset().get(), 0x2_0003);
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -50,9 +50,9 @@ impl ElementAddress {
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits (ADR-9).
-    pub fn of_channel(channel: Channel, class: Class, element: u32) -> Result<Self, Error> {
-        let offset = IndexOffset::of_axis(Default::default(), 0, element)?;
-        Ok(Self::of(channel.addressing(), class, channel.number(), offset))
+    pub fn for_channel(channel: Channel, class: Class, element: u32) -> Result<Self, Error> {
+        let offset = IndexOffset::for_axis(Default::default(), 0, element)?;
+        Ok(Self::with_class(channel.addressing(), class, channel.number(), offset))
     }
 
     /// An element of an axis of a channel, 0x10000 from that of the next axis (ADR-7; assumed of
@@ -60,40 +60,45 @@ impl ElementAddress {
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits (ADR-9).
-    pub fn of_axis(
+    pub fn for_axis(
         channel: Channel,
         class: Class,
         axis: ChannelAxis,
         element: u32,
     ) -> Result<Self, Error> {
         let offset = axis.offset(element)?;
-        Ok(Self::of(channel.addressing(), class, channel.number(), offset))
+        Ok(Self::with_class(channel.addressing(), class, channel.number(), offset))
     }
 
     /// An element of a spindle.
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits (ADR-9).
-    pub fn of_spindle(spindle: Spindle, element: u32) -> Result<Self, Error> {
-        let offset = IndexOffset::of_axis(Default::default(), 0, element)?;
-        Ok(Self::of(Addressing::Index, Class::Spindle, spindle.index(), offset))
+    pub fn for_spindle(spindle: Spindle, element: u32) -> Result<Self, Error> {
+        let offset = IndexOffset::for_axis(Default::default(), 0, element)?;
+        Ok(Self::with_class(Addressing::Index, Class::Spindle, spindle.index(), offset))
     }
 
-    const fn of(addressing: Addressing, class: Class, instance: u8, offset: IndexOffset) -> Self {
+    const fn with_class(
+        addressing: Addressing,
+        class: Class,
+        instance: u8,
+        offset: IndexOffset,
+    ) -> Self {
         let attribute = Attribute::Content;
         Self::new(ClassGroup { addressing, class, attribute, instance }, offset)
     }
 
-    /// The element so many places behind this one (SDA-4).
+    /// The element whose index is `count` greater (SDA-4).
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] if the element needs more than 16 bits and would carry into the
     /// axis (ADR-9).
-    pub fn following(self, places: u32) -> Result<Self, Error> {
+    pub fn nth(self, count: u32) -> Result<Self, Error> {
         let left = ELEMENT_MAX.saturating_sub(self.offset.get() & ELEMENT_MAX);
-        match self.offset.get().checked_add(places) {
-            Some(offset) if places <= left => Ok(Self { offset: IndexOffset::new(offset), ..self }),
-            _ => Err(Error::new(ErrorKind::OutOfRange, ELEMENT, 0, left, places)),
+        match self.offset.get().checked_add(count) {
+            Some(offset) if count <= left => Ok(Self { offset: IndexOffset::new(offset), ..self }),
+            _ => Err(Error::new(ErrorKind::OutOfRange, ELEMENT, 0, left, count)),
         }
     }
 

@@ -45,7 +45,7 @@ impl IndexGroup {
         self.0
     }
 
-    /// What the group addresses, if it is one of the manuals'; [`Group::index_group`] undoes it.
+    /// The parts of the group, if the manuals describe it; [`Group::index_group`] undoes it.
     pub const fn parts(self) -> Option<Group> {
         let [instance, table, ..] = self.0.to_le_bytes();
         let addressing = match self.0 & LOGICAL {
@@ -88,7 +88,7 @@ impl fmt::Display for IndexGroup {
     }
 }
 
-/// What an index group addresses.
+/// The parts of an index group.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1 and 2.2.1.
 ///

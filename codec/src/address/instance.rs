@@ -6,8 +6,8 @@ use core::num::{NonZeroU8, NonZeroU16};
 use super::{Addressing, AxisStride, Group, IndexOffset};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
-use crate::layout::field::index_group::{CHANNEL, PLATFORM_AXIS, SPINDLE};
-use crate::layout::field::index_offset::CHANNEL_AXIS;
+use crate::layout::index_group::{CHANNEL, PLATFORM_AXIS, SPINDLE};
+use crate::layout::index_offset::CHANNEL_AXIS;
 
 /// Takes a number into the eight bits it has, never into the field above (ADR-9).
 fn instance(field: Field, number: u32, least: u8) -> Result<u8, Error> {
@@ -57,7 +57,7 @@ impl Channel {
     }
 
     /// The channel in the low bits of an index group.
-    pub(crate) fn of(group: Group) -> Option<Self> {
+    pub(crate) fn from_group(group: Group) -> Option<Self> {
         let (instance, addressing) = match group {
             Group::Com(com) => (com.instance, com.addressing),
             Group::Class(class) => (class.instance, class.addressing),
@@ -139,7 +139,7 @@ impl ChannelAxis {
     }
 
     /// The axis in the high bits of an index offset.
-    pub(crate) fn of(offset: IndexOffset) -> Option<Self> {
+    pub(crate) fn from_offset(offset: IndexOffset) -> Option<Self> {
         let [_, _, low, high] = offset.get().to_le_bytes();
         NonZeroU16::new(u16::from_le_bytes([low, high])).map(Self)
     }
@@ -154,7 +154,7 @@ impl ChannelAxis {
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits.
     pub fn offset(self, element: u32) -> Result<IndexOffset, Error> {
-        IndexOffset::of_axis(AxisStride::X10000, self.0.get().into(), element)
+        IndexOffset::for_axis(AxisStride::X10000, self.0.get().into(), element)
     }
 }
 

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::index_offset::{AXIS, ELEMENT};
+use crate::layout::index_offset::{AXIS, ELEMENT};
 
 /// An index offset as ADS carries it: any number.
 ///
@@ -17,10 +17,10 @@ use crate::layout::field::index_offset::{AXIS, ELEMENT};
 /// use ads_cnc::address::{AxisStride, IndexOffset};
 ///
 /// // "handle by name" of the second axis
-/// let offset = IndexOffset::of_axis(AxisStride::default(), 2, 4)?;
+/// let offset = IndexOffset::for_axis(AxisStride::default(), 2, 4)?;
 /// assert_eq!(offset.get(), 0x2_0004);
 /// assert_eq!(offset.axis_and_element(AxisStride::X10000)?, (2, 4));
-/// assert!(IndexOffset::of_axis(AxisStride::X1000, 1, 0x1000).is_err());
+/// assert!(IndexOffset::for_axis(AxisStride::X1000, 1, 0x1000).is_err());
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -37,8 +37,8 @@ const AXIS_MAX: u32 = 0xFFFF;
 /// ```
 /// use ads_cnc::address::{AxisStride, IndexOffset};
 ///
-/// assert_eq!(IndexOffset::of_axis(AxisStride::X10000, 1, 1)?.get(), 0x1_0001);
-/// assert_eq!(IndexOffset::of_axis(AxisStride::X1000, 1, 0)?.get(), 0x1000);
+/// assert_eq!(IndexOffset::for_axis(AxisStride::X10000, 1, 1)?.get(), 0x1_0001);
+/// assert_eq!(IndexOffset::for_axis(AxisStride::X1000, 1, 0)?.get(), 0x1000);
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -82,7 +82,7 @@ impl IndexOffset {
     /// # Errors
     /// [`ErrorKind::OutOfRange`] if the axis has more than 16 bits or the element more than the
     /// stride leaves it; neither ever carries into the other (ADR-9).
-    pub const fn of_axis(stride: AxisStride, axis: u32, element: u32) -> Result<Self, Error> {
+    pub const fn for_axis(stride: AxisStride, axis: u32, element: u32) -> Result<Self, Error> {
         if axis > AXIS_MAX {
             return Err(Error::new(ErrorKind::OutOfRange, AXIS, 0, AXIS_MAX, axis));
         }

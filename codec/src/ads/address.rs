@@ -1,10 +1,10 @@
-//! Who speaks to whom.
+//! Addresses of senders and receivers.
 
 use core::fmt;
 use core::str::FromStr;
 
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::ams_net_id::{NUMBER, NUMBERS};
+use crate::layout::ams_net_id::{NUMBER, NUMBERS};
 
 /// An AMS NetId, six bytes written with dots.
 ///
@@ -69,14 +69,14 @@ impl FromStr for AmsNetId {
     }
 }
 
-/// What stands between the dots; `str::split` would leave the compiler with a panic.
+/// The text between the dots; `str::split` would compile to code with a panic.
 fn parts(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(text);
     core::iter::from_fn(move || {
         let text = rest?;
         let dot = text.bytes().position(|byte| byte == b'.').unwrap_or(text.len());
-        let (part, behind) = text.split_at_checked(dot)?;
-        rest = behind.get(1..);
+        let (part, after) = text.split_at_checked(dot)?;
+        rest = after.get(1..);
         Some(part)
     })
 }

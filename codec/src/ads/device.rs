@@ -1,4 +1,4 @@
-//! What a device says of itself: ReadDeviceInfo and ReadState.
+//! Information about a device: ReadDeviceInfo and ReadState.
 
 use zerocopy::IntoBytes as _;
 
@@ -16,7 +16,7 @@ const NAME_LEN: usize = 16;
 
 #[doc = include_str!("../../doc/device-info-reply.md")]
 ///
-/// The request has no data. A reply whose result is not 0 may stop behind it (ADS-6): then it is a
+/// The request has no data. A reply whose result is not 0 may end after it (ADS-6): then it is a
 /// [`WriteReply`](super::WriteReply).
 ///
 /// Source: the vendors' public help pages; the manuals do not describe it.
@@ -48,7 +48,7 @@ pub struct DeviceInfoReply {
     pub minor: u8,
     /// Third number of the version.
     pub build: u16,
-    /// All bytes of the name, those behind its NUL too.
+    /// All bytes of the name, including those after its NUL.
     pub name: [u8; NAME_LEN],
 }
 
@@ -75,7 +75,7 @@ impl<'a> Decode<'a> for DeviceInfoReply {
     const STREAM: Stream = Stream::DeviceInfoReply;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::all(Self::STREAM, bytes).map(Self::from_layout)
+        Reader::exact(Self::STREAM, bytes).map(Self::from_layout)
     }
 }
 
@@ -138,7 +138,7 @@ code! {
 stream! {
     /// The state of an ADS device: the reply to ReadState.
     ///
-    /// The request has no data. A reply whose result is not 0 may stop behind it (ADS-6): then it is a
+    /// The request has no data. A reply whose result is not 0 may end after it (ADS-6): then it is a
     /// [`WriteReply`](super::WriteReply).
     ///
     /// Source: the vendors' public help pages; the manuals do not describe it.

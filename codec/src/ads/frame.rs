@@ -4,14 +4,14 @@ use zerocopy::IntoBytes as _;
 
 use super::header::HeaderLayout;
 use super::{AmsHeader, AmsTcpHeader, ReadWriteRequestRef};
-use crate::bytes::{Writer, to_len, to_u32};
+use crate::bytes::{Writer, to_u32, to_usize};
 use crate::declare::Declared as _;
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Stream};
+use crate::layout::{Field, Stream, Subject};
 use crate::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN, length};
 use crate::stream::{Decode, Encode};
 
-/// One frame: an AMS header and the data behind it.
+/// One frame: an AMS header and the data after it.
 ///
 /// Source: the vendors' public help pages; the manuals do not describe it.
 ///
@@ -61,12 +61,12 @@ impl<'a> FrameRef<'a> {
         self.header
     }
 
-    /// The bytes behind the header.
+    /// The bytes after the header.
     pub const fn data(&self) -> &'a [u8] {
         self.data
     }
 
-    /// The first frame of `received` and how many bytes it takes; none if more have to come.
+    /// The first frame of `received` and its length; `None` if bytes are missing.
     ///
     /// # Errors
     /// As soon as the header that says so is whole: a `reserved` that is not 0, lengths that disagree
@@ -97,7 +97,7 @@ impl<'a> FrameRef<'a> {
             let (at, found) = (at.saturating_add(to_u32(AMS_TCP_HEADER_LEN)), header.data_length);
             return Err(Error::new(ErrorKind::Mismatch, field, at, data_length, found));
         }
-        Ok(rest.get(..to_len(data_length)).map(|data| {
+        Ok(rest.get(..to_usize(data_length)).map(|data| {
             let len = Self::HEADERS_LEN.saturating_add(data.len());
             (Self { header, data }, len)
         }))
@@ -113,7 +113,7 @@ impl Encode for FrameRef<'_> {
         // No frame has more, but the compiler sees here that no sum of lengths overflows.
         let data_length = to_u32(self.data.len().min(DATA_MAX));
         let length = data_length.saturating_add(to_u32(AMS_HEADER_LEN));
-        Writer::fill(Stream::AmsTcpHeader, self.encoded_len(), buf, |out| {
+        Writer::fill(Subject::Stream(Stream::AmsTcpHeader), self.encoded_len(), buf, |out| {
             out.stream(&AmsTcpHeader { reserved: 0, length });
             out.put(self.header.layout().as_bytes());
             out.put(self.data);

@@ -64,11 +64,11 @@ stream! {
     serde(from = "HeaderLayout", into = "HeaderLayout")
 )]
 pub struct AmsHeader {
-    /// Who receives the frame.
+    /// The receiver of the frame.
     pub target: AmsAddr,
-    /// Who sends the frame.
+    /// The sender of the frame.
     pub source: AmsAddr,
-    /// What the frame asks or answers.
+    /// The ADS command that the frame requests or answers.
     pub command: Command,
     /// Request or response.
     pub state_flags: StateFlags,
@@ -100,7 +100,7 @@ impl<'a> Decode<'a> for AmsHeader {
     const STREAM: Stream = Stream::AmsHeader;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::all(Self::STREAM, bytes).map(Self::from_layout)
+        Reader::exact(Self::STREAM, bytes).map(Self::from_layout)
     }
 }
 
@@ -142,7 +142,7 @@ impl AmsHeader {
         Self { target, source, command, state_flags, data_length: 0, error, invoke_id }
     }
 
-    /// What answers this request: back to where it came from, with its command and invoke ID.
+    /// The header of the response to this request: source and target swapped, same command and invoke ID.
     ///
     /// ```
     /// use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, StateFlags};

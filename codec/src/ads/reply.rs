@@ -30,8 +30,8 @@ stream! {
 
 /// The fields of a reply with data, which has the same table for Read and for ReadWrite.
 const fn fields(stream: Stream) -> [Field; 3] {
-    use crate::layout::field::read_reply::{DATA, LENGTH, RESULT};
-    [RESULT.of_stream(stream), LENGTH.of_stream(stream), DATA.of_stream(stream)]
+    use crate::layout::fields::read_reply::{DATA, LENGTH, RESULT};
+    [RESULT.in_stream(stream), LENGTH.in_stream(stream), DATA.in_stream(stream)]
 }
 
 fn decode(stream: Stream, bytes: &[u8]) -> Result<(AdsError, Option<&[u8]>), Error> {
@@ -73,7 +73,7 @@ macro_rules! reply_with_data {
     ($doc:literal, $stream:ident, $ref:ident, $owned:ident) => {
         #[doc = include_str!($doc)]
         ///
-        /// A reply whose result is not 0 may stop behind it (ADS-6): it has no data then.
+        /// A reply whose result is not 0 may end after it (ADS-6): then it has no data.
         ///
         /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
         ///
@@ -92,7 +92,7 @@ macro_rules! reply_with_data {
         pub struct $ref<'a> {
             /// ADS error number.
             pub result: AdsError,
-            /// The data; none if the reply stops behind the result.
+            /// The data; `None` if the reply ends after the result.
             pub data: Option<&'a [u8]>,
         }
 
@@ -131,7 +131,7 @@ macro_rules! reply_with_data {
         pub struct $owned {
             /// ADS error number.
             pub result: AdsError,
-            /// The data; none if the reply stops behind the result.
+            /// The data; `None` if the reply ends after the result.
             pub data: Option<alloc::vec::Vec<u8>>,
         }
 

@@ -1,10 +1,10 @@
 //! Reading from a slice and writing into one, by the rules of the field tables.
 
-mod faults;
+mod errors;
 mod reader;
 mod writer;
 
-pub(crate) use faults::cut;
+pub(crate) use errors::cut;
 pub(crate) use reader::Reader;
 pub(crate) use writer::Writer;
 
@@ -13,6 +13,6 @@ pub(crate) fn to_u32(len: usize) -> u32 {
     u32::try_from(len).unwrap_or(u32::MAX)
 }
 
-pub(crate) fn to_len(size: u32) -> usize {
+pub(crate) fn to_usize(size: u32) -> usize {
     usize::try_from(size).unwrap_or(usize::MAX)
 }

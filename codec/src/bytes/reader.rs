@@ -3,14 +3,14 @@
 use zerocopy::little_endian::U32;
 use zerocopy::{FromBytes, Immutable, KnownLayout, Unaligned};
 
-use super::faults::{cut, not_all, too_long};
-use super::{to_len, to_u32};
+use super::errors::{cut, not_all, too_long};
+use super::{to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
-use crate::text::end::{not_maybe_terminated, not_terminated, split_nul, split_padded, text_len};
+use crate::text::end::{not_cstring, not_optional_nul, split_nul, split_padded, text_len};
 use crate::text::{CncStr, TextRef};
 
-/// What is left of a stream, and where that begins.
+/// The rest of a stream, and its offset.
 pub(crate) struct Reader<'a> {
     stream: Stream,
     bytes: &'a [u8],
@@ -22,30 +22,30 @@ impl<'a> Reader<'a> {
     #[inline]
     pub(crate) fn new(stream: Stream, bytes: &'a [u8]) -> Result<Self, Error> {
         let max = stream.layout().max;
-        if bytes.len() > to_len(max) {
+        if bytes.len() > to_usize(max) {
             return Err(too_long(Field::whole(stream), max, to_u32(bytes.len())));
         }
-        Ok(Self::ending(stream, bytes))
+        Ok(Self::without_limit(stream, bytes))
     }
 
-    /// Begins to read a stream whose fields tell its end, which says more than a limit.
-    pub(crate) fn ending(stream: Stream, bytes: &'a [u8]) -> Self {
+    /// Begins to read a stream whose end is known from its fields: too many bytes are trailing.
+    pub(crate) fn without_limit(stream: Stream, bytes: &'a [u8]) -> Self {
         Self { stream, bytes, at: 0 }
     }
 
-    /// The fixed fields `T` that are all of `stream`, whose end they tell.
+    /// Reads a stream that consists of the fixed fields `T`.
     #[inline]
-    pub(crate) fn all<T>(stream: Stream, bytes: &'a [u8]) -> Result<&'a T, Error>
+    pub(crate) fn exact<T>(stream: Stream, bytes: &'a [u8]) -> Result<&'a T, Error>
     where
         T: FromBytes + KnownLayout + Immutable + Unaligned,
     {
         T::ref_from_bytes(bytes).map_err(|_| not_all(stream, size_of::<T>(), bytes.len()))
     }
 
-    /// The number that is all of the stream of `field`.
+    /// The number that is the only field of a stream.
     #[inline]
-    pub(crate) fn number(field: Field, bytes: &'a [u8]) -> Result<u32, Error> {
-        let mut input = Self::ending(field.stream(), bytes);
+    pub(crate) fn number(stream: Stream, field: Field, bytes: &'a [u8]) -> Result<u32, Error> {
+        let mut input = Self::without_limit(stream, bytes);
         let number = input.u32(field)?;
         input.finish()?;
         Ok(number)
@@ -79,7 +79,7 @@ impl<'a> Reader<'a> {
     /// The next `size` bytes, all of which belong to `field`.
     #[inline]
     pub(crate) fn take(&mut self, field: Field, size: u32) -> Result<&'a [u8], Error> {
-        let Some((head, rest)) = self.bytes.split_at_checked(to_len(size)) else {
+        let Some((head, rest)) = self.bytes.split_at_checked(to_usize(size)) else {
             return Err(self.error(ErrorKind::Truncated, field, size));
         };
         self.bytes = rest;
@@ -108,7 +108,7 @@ impl<'a> Reader<'a> {
         Ok(head)
     }
 
-    /// `count` items of `each` bytes; the count stands in the field `counter`, right before.
+    /// `count` items of `each` bytes; the field `counter`, right before, is the count.
     pub(crate) fn items(
         &mut self,
         counter: Field,
@@ -137,21 +137,21 @@ impl<'a> Reader<'a> {
         Ok(<[U32]>::ref_from_bytes(bytes).unwrap_or_default())
     }
 
-    /// All that is left: text, the NUL that must end it, NULs that may pad it. The stream's end is
-    /// its own, so that it is no longer than `max`.
-    pub(crate) fn terminated(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
+    /// Reads the rest of the stream as NUL-terminated text that NULs may pad. The caller has limited
+    /// the stream, so that the text is not longer than `max`.
+    pub(crate) fn cstring(&mut self, field: Field, max: u32) -> Result<TextRef<'a>, Error> {
         let at = self.at;
         let bytes = self.take_all();
         let len = text_len(bytes);
         match split_padded(bytes, len) {
             Some(text) => Ok(text),
-            None => Err(not_terminated(field, at, max, bytes, len)),
+            None => Err(not_cstring(field, at, max, bytes, len)),
         }
     }
 
     /// Text up to and including the NUL that must end it.
-    pub(crate) fn leading(&mut self, field: Field, max: u32) -> Result<CncStr<'a>, Error> {
-        let window = self.bytes.get(..to_len(max)).unwrap_or(self.bytes);
+    pub(crate) fn cstring_prefix(&mut self, field: Field, max: u32) -> Result<CncStr<'a>, Error> {
+        let window = self.bytes.get(..to_usize(max)).unwrap_or(self.bytes);
         let Some((text, _)) = split_nul(window) else {
             return Err(self.error(ErrorKind::MissingNul, field, max));
         };
@@ -169,23 +169,28 @@ impl<'a> Reader<'a> {
 
     /// All that is left, between `min` and `max` bytes.
     pub(crate) fn rest(&mut self, field: Field, min: u32, max: u32) -> Result<&'a [u8], Error> {
-        if self.bytes.len() < to_len(min) {
+        if self.bytes.len() < to_usize(min) {
             return Err(self.error(ErrorKind::Truncated, field, min));
         }
-        if self.bytes.len() > to_len(max) {
+        if self.bytes.len() > to_usize(max) {
             return Err(self.error(ErrorKind::TooLong, field, max));
         }
         Ok(self.take_all())
     }
 
-    /// As [`rest`](Self::rest): text, and its NUL and what follows if there is one.
+    /// As [`rest`](Self::rest), as text and, after a NUL, its tail.
     #[inline]
-    pub(crate) fn open(&mut self, field: Field, min: u32, max: u32) -> Result<TextRef<'a>, Error> {
+    pub(crate) fn text_and_tail(
+        &mut self,
+        field: Field,
+        min: u32,
+        max: u32,
+    ) -> Result<TextRef<'a>, Error> {
         self.rest(field, min, max).map(TextRef::split)
     }
 
-    /// All that is left, one byte at least: text, and NULs at its end if any.
-    pub(crate) fn may_terminate(&mut self, field: Field) -> Result<TextRef<'a>, Error> {
+    /// The rest of the stream, at least one byte, as text with any number of NULs at its end.
+    pub(crate) fn optional_nul(&mut self, field: Field) -> Result<TextRef<'a>, Error> {
         let at = self.at;
         let bytes = self.take_all();
         let len = text_len(bytes);
@@ -194,13 +199,13 @@ impl<'a> Reader<'a> {
             None if len == bytes.len() && len > 0 => {
                 Ok(TextRef::with_tail(CncStr::without_nul(bytes), None))
             }
-            None => Err(not_maybe_terminated(field, at, bytes, len)),
+            None => Err(not_optional_nul(field, at, bytes, len)),
         }
     }
 
     /// Four bytes that are not all 0.
     #[inline]
-    pub(crate) fn number_from_one(&mut self, field: Field) -> Result<&'a [u8], Error> {
+    pub(crate) fn non_zero(&mut self, field: Field) -> Result<&'a [u8], Error> {
         let at = self.at;
         let bytes = self.take(field, 4)?;
         match bytes {
@@ -211,7 +216,7 @@ impl<'a> Reader<'a> {
 
     /// All that is left: one, two or four bytes.
     #[inline]
-    pub(crate) fn one_two_or_four(&mut self, field: Field) -> Result<&'a [u8], Error> {
+    pub(crate) fn uns8_to_32(&mut self, field: Field) -> Result<&'a [u8], Error> {
         match self.left() {
             width @ (1 | 2) => self.take(field, width),
             _ => self.take(field, 4),

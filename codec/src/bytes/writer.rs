@@ -1,9 +1,9 @@
 //! Writing into a slice.
 
-use super::faults::too_long;
-use super::{to_len, to_u32};
+use super::errors::too_long;
+use super::{to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Stream};
+use crate::layout::{Field, Stream, Subject};
 use crate::stream::Encode;
 
 /// Writes into a buffer that was found large enough before the first byte.
@@ -29,17 +29,17 @@ impl<'b> Writer<'b> {
     #[inline]
     fn room(stream: Stream, len: usize, buf: &'b mut [u8]) -> Result<&'b mut [u8], Error> {
         let max = stream.layout().max;
-        if len > to_len(max) {
+        if len > to_usize(max) {
             return Err(too_long(Field::whole(stream), max, to_u32(len)));
         }
-        Self::part(stream, len, buf)
+        Self::part(Subject::Stream(stream), len, buf)
     }
 
     #[inline]
-    fn part(stream: Stream, len: usize, buf: &'b mut [u8]) -> Result<&'b mut [u8], Error> {
+    fn part(subject: Subject, len: usize, buf: &'b mut [u8]) -> Result<&'b mut [u8], Error> {
         let given = buf.len();
         buf.get_mut(..len).ok_or_else(|| {
-            let (whole, given) = (Field::whole(stream), to_u32(given));
+            let (whole, given) = (Field::whole_subject(subject), to_u32(given));
             Error::new(ErrorKind::BufferTooSmall, whole, 0, to_u32(len), given)
         })
     }
@@ -56,20 +56,20 @@ impl<'b> Writer<'b> {
         Self::run(stream, bytes.len(), buf, |out| out.put(bytes))
     }
 
-    /// As [`run`](Self::run), for more than the stream that errors are told of.
+    /// As [`run`](Self::run), without the maximum of a stream: errors name this subject.
     #[inline]
     pub(crate) fn fill(
-        stream: Stream,
+        subject: Subject,
         len: usize,
         buf: &'b mut [u8],
         write: impl FnOnce(&mut Writer<'_>),
     ) -> Result<&'b [u8], Error> {
-        let room = Self::part(stream, len, buf)?;
+        let room = Self::part(subject, len, buf)?;
         write(&mut Writer::new(room));
         Ok(room)
     }
 
-    /// The next `len` bytes to write; none if there were fewer, which cannot be.
+    /// The next `len` bytes to write; empty if fewer are left, which cannot happen.
     #[inline]
     pub(crate) fn next(&mut self, len: usize) -> &'b mut [u8] {
         match core::mem::take(&mut self.rest).split_at_mut_checked(len) {
@@ -109,7 +109,7 @@ impl<'b> Writer<'b> {
         self.array(number.to_le_bytes());
     }
 
-    /// A NUL and what follows it, which mostly is nothing.
+    /// A NUL and the bytes after it, which usually are none.
     #[inline]
     pub(crate) fn nul_and(&mut self, tail: &[u8]) {
         self.put(&[0]);

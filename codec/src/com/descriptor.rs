@@ -152,7 +152,7 @@ macro_rules! accessors {
             CncStr::until_nul(&self.0.type_name)
         }
 
-        /// Bytes of one item of the type (GEN-5); none for STRING and for any other name.
+        /// Bytes of one item of the type (GEN-5); `None` for STRING and for any other name.
         pub fn type_size(&self) -> Option<u32> {
             self.data_type().and_then(DataType::size)
         }
@@ -273,7 +273,7 @@ impl<'a> Decode<'a> for DescriptorRef<'a> {
     const STREAM: Stream = Stream::ObjectDescriptor;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::all(Self::STREAM, bytes).map(Self)
+        Reader::exact(Self::STREAM, bytes).map(Self)
     }
 }
 

@@ -48,19 +48,19 @@ impl<'a> DescriptorsRef<'a> {
         self.0.len()
     }
 
-    /// Whether there is none; never so after decoding.
+    /// Returns `true` if the list is empty. A decoded list never is.
     #[inline]
     pub const fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The descriptor at this place, from 0.
+    /// The descriptor at this index, from 0.
     #[inline]
     pub fn get(&self, place: usize) -> Option<DescriptorRef<'a>> {
         self.0.get(place).map(DescriptorRef)
     }
 
-    /// At most `count` of them from place `first` on; none beyond the end.
+    /// At most `count` of them from index `first` on; empty beyond the end.
     pub fn slice(&self, first: usize, count: usize) -> Self {
         let from = self.0.get(first..).unwrap_or_default();
         Self(from.get(..count).unwrap_or(from))
@@ -122,7 +122,7 @@ impl<'a> Decode<'a> for DescriptorsRef<'a> {
         let count = bytes.len() / DESCRIPTOR_LEN;
         match <[DescriptorLayout]>::ref_from_bytes_with_elems(bytes, count) {
             Ok(layouts) if !layouts.is_empty() => Ok(Self(layouts)),
-            // Behind the whole ones is one that is cut, or the first is missing.
+            // After the whole descriptors comes one that is cut, or the first is missing.
             _ => {
                 let whole = count.saturating_mul(DESCRIPTOR_LEN);
                 Err(cut(Self::STREAM, to_u32(whole), bytes.len().saturating_sub(whole)))
@@ -138,7 +138,7 @@ impl Encode for DescriptorsRef<'_> {
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         if self.is_empty() {
-            // No descriptor is no stream: nobody would decode it.
+            // An empty list is not a valid stream: no decoder accepts it.
             Self::decode(&[])?;
         }
         Writer::copy(Self::STREAM, self.0.as_bytes(), buf)

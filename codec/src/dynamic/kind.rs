@@ -1,4 +1,4 @@
-//! The four kinds and their places.
+//! The four kinds and their index offsets.
 
 use core::fmt;
 
@@ -50,7 +50,7 @@ impl DynamicKind {
     }
 
     /// The kind whose offset this is.
-    pub(crate) fn of_offset(offsets: [u32; 4], offset: IndexOffset) -> Option<Self> {
+    pub(crate) fn from_offset(offsets: [u32; 4], offset: IndexOffset) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.offset(offsets) == offset)
     }
 }

@@ -22,7 +22,7 @@ stream! {
     /// ```
     DynamicName "dynamic-name", "Name of a dynamic parameter, reply", "DYN-2", max 96;
     struct DynamicNameRef<'a> / DynamicName {
-        @0 name: TEXT(1, 96), "DYN-2", "name of the parameter";
+        @0 name: TEXT_AND_TAIL(1, 96), "DYN-2", "name of the parameter";
     }
 }
 
@@ -48,6 +48,6 @@ stream! {
     /// ```
     DynamicNameRequest "dynamic-name-request", "Dynamic parameter by name, request", "DYN-3", max 96;
     struct DynamicNameRequestRef<'a> / DynamicNameRequest {
-        @0 name: TEXT_MAYBE_NUL(96), "DYN-3", "name of the parameter";
+        @0 name: OPTIONAL_NUL(96), "DYN-3", "name of the parameter";
     }
 }

@@ -57,7 +57,7 @@ stream! {
     /// ```
     DynamicIndex "dynamic-index", "Dynamic parameter by index, request", "DYN-5", max 4;
     tuple DynamicIndex {
-        @0 index: UNS32_NOT_0, "DYN-5", "index of the parameter, from 1";
+        @0 index: UNS32_NON_ZERO, "DYN-5", "index of the parameter, from 1";
     }
 }
 
@@ -131,7 +131,7 @@ impl<'a> Decode<'a> for DynamicValue {
     const STREAM: Stream = Stream::DynamicValue;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        let bits: &U64 = Reader::all(Self::STREAM, bytes)?;
+        let bits: &U64 = Reader::exact(Self::STREAM, bytes)?;
         Ok(Self { bits: bits.get() })
     }
 }

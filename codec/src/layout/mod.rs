@@ -17,12 +17,20 @@
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 
+mod checks;
+mod field;
 mod head;
 mod spec;
+mod subject;
 mod tables;
 mod walk;
 
-pub use spec::{Field, FieldSpec, Layout, Size, Type};
+pub use field::Field;
+pub use spec::{FieldSpec, Layout, Size, Type};
+pub use subject::Subject;
+pub(crate) use subject::{
+    ams_net_id, index_group, index_offset, service, text, typed_value, variable_path,
+};
 pub use tables::Stream;
-pub(crate) use tables::field;
+pub(crate) use tables::fields;
 pub use walk::Segment;

@@ -1,10 +1,6 @@
-//! What a table says of a stream and of a field.
+//! The types of the table of a stream.
 
 use core::fmt;
-
-use super::Stream;
-use super::tables::TABLES;
-use crate::declare::Declared;
 
 /// The table of one stream.
 ///
@@ -21,12 +17,11 @@ use crate::declare::Declared;
 pub struct Layout {
     /// The stream's name in vectors and reports.
     pub name: &'static str,
-    /// What the stream is.
+    /// A description of the stream.
     pub title: &'static str,
     /// The requirement that defines it, by its ID.
     pub clause: &'static str,
-    /// The most bytes it may have; 0 for a table that is no stream, but names what errors of
-    /// addresses and texts are about.
+    /// The maximum length in bytes.
     pub max: u32,
     /// The fields are one record; the stream is one or more of them.
     pub repeats: bool,
@@ -35,15 +30,10 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Whether this is a stream, and not a table for errors alone.
-    pub const fn is_stream(&self) -> bool {
-        self.max > 0
-    }
-
     /// Whether every stream of this kind has the same length.
     pub fn is_fixed(&self) -> bool {
         let fixed =
-            |row: &FieldSpec| matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::FromOne);
+            |row: &FieldSpec| matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::NonZero);
         !self.repeats && self.fields.iter().all(fixed)
     }
 
@@ -52,60 +42,7 @@ impl Layout {
         super::head::head(self.fields)
     }
 
-    /// Whether all fixed fields are in front, where they are read.
-    pub(crate) const fn is_headed(&self) -> bool {
-        let (mut fields, mut is_head) = (self.fields, true);
-        while let [row, rest @ ..] = fields {
-            is_head = is_head && row.size.fixed() > 0 && row.per_item == 0;
-            if !is_head && row.size.fixed() > 0 {
-                return false;
-            }
-            fields = rest;
-        }
-        true
-    }
-
-    /// Whether the field of this name is where the rows before it end, at their fewest bytes.
-    pub(crate) const fn is_at(&self, name: &str) -> bool {
-        let (mut fields, mut end, mut per_item) = (self.fields, 0_u32, 0_u32);
-        while let [row, rest @ ..] = fields {
-            if is_same(row.name, name) {
-                return row.offset == end && row.per_item == per_item;
-            }
-            match row.size {
-                Size::Items { each, .. } => per_item = per_item.saturating_add(each),
-                Size::Leading { .. } => end = end.saturating_add(1),
-                size => end = end.saturating_add(size.fixed()),
-            }
-            fields = rest;
-        }
-        false
-    }
-
-    /// Whether the length of the stream leaves each row as much as the row may have at most, and no
-    /// more where nothing but that length limits the row.
-    pub(crate) const fn is_filled(&self) -> bool {
-        let (mut fields, mut before) = (self.fields, 0_u32);
-        while let [row, rest @ ..] = fields {
-            let left = self.max.saturating_sub(before).saturating_sub(least(rest));
-            let is_filled = match row.size {
-                Size::Items { each, max } => matches!(left.checked_div(each), Some(n) if n == max),
-                Size::Terminated { max, .. }
-                | Size::MayTerminate { max }
-                | Size::Rest { max, .. } => left == max,
-                Size::Open { max, .. } | Size::Leading { max } => max <= left,
-                _ => true,
-            };
-            if !is_filled {
-                return false;
-            }
-            before = before.saturating_add(row.size.least());
-            fields = rest;
-        }
-        true
-    }
-
-    /// The most that the field of this name may have: items of a list, bytes of any other.
+    /// The most items of a list, or bytes of another field, of this name.
     pub(crate) const fn most(&self, name: &str) -> u32 {
         self.row(name).size.most()
     }
@@ -130,7 +67,7 @@ impl Layout {
     }
 
     /// The index of the field of this name.
-    const fn index(&self, name: &str) -> u8 {
+    pub(super) const fn index(&self, name: &str) -> u8 {
         let (mut fields, mut index) = (self.fields, 0_u8);
         while let [row, rest @ ..] = fields {
             if is_same(row.name, name) {
@@ -143,20 +80,11 @@ impl Layout {
 
     /// Whether the fields tell where the stream ends: what follows is trailing, not too long.
     pub(crate) fn ends_itself(&self) -> bool {
-        self.is_fixed() || self.fields.iter().any(|row| row.size == Size::OneTwoOrFour)
+        self.is_fixed() || self.fields.iter().any(|row| row.size == Size::Uns8To32)
     }
 }
 
-/// The fewest bytes of these rows.
-const fn least(mut fields: &[FieldSpec]) -> u32 {
-    let mut least = 0_u32;
-    while let [row, rest @ ..] = fields {
-        (least, fields) = (least.saturating_add(row.size.least()), rest);
-    }
-    least
-}
-
-const fn is_same(one: &str, other: &str) -> bool {
+pub(super) const fn is_same(one: &str, other: &str) -> bool {
     let (mut one, mut other) = (one.as_bytes(), other.as_bytes());
     while let ([a, one_rest @ ..], [b, other_rest @ ..]) = (one, other) {
         if *a != *b {
@@ -172,7 +100,7 @@ const fn is_same(one: &str, other: &str) -> bool {
 /// ```
 /// use ads_cnc::layout::Stream;
 ///
-/// // The name stands behind m numbers of elements: at 20 + 4m.
+/// // The name follows the m dimensions: its offset is 20 + 4m.
 /// let name = Stream::VariableDescription.layout().fields.last().unwrap();
 /// assert_eq!((name.name, name.offset, name.per_item), ("name", 20, 4));
 /// ```
@@ -189,7 +117,7 @@ pub struct FieldSpec {
     pub size: Size,
     /// The type's name.
     pub ty: Type,
-    /// What the field says.
+    /// The meaning of the field.
     pub meaning: &'static str,
     /// The requirement that defines the field, by its ID.
     pub clause: &'static str,
@@ -209,50 +137,51 @@ pub struct FieldSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Size {
-    /// So many bytes.
+    /// Always this many bytes.
     Fixed(u32),
-    /// So many bytes; this and what follows may be absent if the field before is not 0 (ADS-6).
-    FixedUnlessError(u32),
-    /// As many items as the field before says.
+    /// This many bytes. This field and those after it may be absent if the field before, an ADS
+    /// result, is not 0 (ADS-6).
+    FixedOnSuccess(u32),
+    /// Items; the field before is their count.
     Items {
         /// Bytes of one item.
         each: u32,
         /// The most items the stream can hold.
         max: u32,
     },
-    /// Text that a NUL must end; more NULs may pad it.
-    Terminated {
+    /// NUL-terminated text; more NULs may pad it.
+    CString {
         /// The most bytes, NULs included.
         max: u32,
-        /// Zero bytes are accepted for the empty text.
-        may_be_absent: bool,
+        /// No bytes are accepted as the empty text.
+        is_optional: bool,
     },
-    /// Text that a NUL must end, and more of the stream behind it.
-    Leading {
+    /// NUL-terminated text before other fields of the stream.
+    CStringPrefix {
         /// The most bytes, the NUL included.
         max: u32,
     },
-    /// So many bytes; the stream may have none at all instead.
-    FixedOrNothing(u32),
-    /// Text that a NUL or the end of the stream ends; what follows the NUL is kept.
-    Open {
+    /// This many bytes, in a stream that may also be empty.
+    OptionalFixed(u32),
+    /// Text up to a NUL or to the end of the stream. Bytes after the NUL are the tail, and kept.
+    TextAndTail {
         /// The fewest bytes.
         min: u32,
         /// The most bytes in all.
         max: u32,
     },
-    /// Text that a NUL may end; more NULs may pad it.
-    MayTerminate {
+    /// Text with or without a NUL at its end; more NULs may pad it.
+    OptionalNul {
         /// The most bytes in all, one at least.
         max: u32,
     },
-    /// Four bytes, a number that is not 0.
-    FromOne,
+    /// Four bytes: a number that must not be 0.
+    NonZero,
     /// An unsigned number of one, two or four bytes, as the stream ends.
-    OneTwoOrFour,
-    /// Text in so many bytes, padded with NULs if shorter.
+    Uns8To32,
+    /// Text in this many bytes, padded with NULs.
     Padded(u32),
-    /// All that is left.
+    /// The rest of the stream.
     Rest {
         /// The fewest bytes.
         min: u32,
@@ -262,24 +191,24 @@ pub enum Size {
 }
 
 impl Size {
-    /// The bytes of a field that always has as many where it is at all.
+    /// The bytes of a field of fixed size, 0 for any other.
     pub(crate) const fn fixed(self) -> u32 {
         match self {
             Self::Fixed(size)
-            | Self::FixedUnlessError(size)
-            | Self::FixedOrNothing(size)
+            | Self::FixedOnSuccess(size)
+            | Self::OptionalFixed(size)
             | Self::Padded(size) => size,
-            Self::FromOne => 4,
+            Self::NonZero => 4,
             _ => 0,
         }
     }
 
     /// The fewest bytes of a field. An absent text counts as its NUL: it is absent only where
     /// nothing follows.
-    const fn least(self) -> u32 {
+    pub(super) const fn least(self) -> u32 {
         match self {
-            Self::Open { min, .. } | Self::Rest { min, .. } => min,
-            Self::Terminated { .. } | Self::Leading { .. } | Self::MayTerminate { .. } => 1,
+            Self::TextAndTail { min, .. } | Self::Rest { min, .. } => min,
+            Self::CString { .. } | Self::CStringPrefix { .. } | Self::OptionalNul { .. } => 1,
             size => size.fixed(),
         }
     }
@@ -288,12 +217,12 @@ impl Size {
     const fn most(self) -> u32 {
         match self {
             Self::Items { max, .. }
-            | Self::Terminated { max, .. }
-            | Self::Leading { max }
-            | Self::Open { max, .. }
-            | Self::MayTerminate { max }
+            | Self::CString { max, .. }
+            | Self::CStringPrefix { max }
+            | Self::TextAndTail { max, .. }
+            | Self::OptionalNul { max }
             | Self::Rest { max, .. } => max,
-            Self::OneTwoOrFour => 4,
+            Self::Uns8To32 => 4,
             size => size.fixed(),
         }
     }
@@ -346,203 +275,5 @@ impl fmt::Display for Type {
             Self::NetId => "BYTE[6]",
             Self::Bytes => "BYTE[]",
         })
-    }
-}
-
-/// A field of a stream, or the stream as a whole.
-///
-/// ```
-/// use ads_cnc::layout::{Field, Stream};
-/// use ads_cnc::{Decode, DescriptionRef};
-///
-/// let error = DescriptionRef::decode(&[2, 0, 0, 2, 1, 0]).unwrap_err();
-/// assert_eq!(Some(error.field()), Field::by_name(Stream::VariableDescription, "type"));
-/// assert_eq!(error.field().spec().unwrap().offset, 4);
-/// assert_eq!(Field::whole(Stream::VariableDescription).name(), "stream");
-/// ```
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Field {
-    stream: Stream,
-    index: u8,
-}
-
-impl Field {
-    #[inline]
-    pub(crate) const fn new(stream: Stream, index: u8) -> Self {
-        Self { stream, index }
-    }
-
-    /// The field of this name of a declared stream.
-    pub(crate) const fn of<T: Declared>(name: &str) -> Self {
-        let index = T::LAYOUT.index(name);
-        assert!(index != u8::MAX, "the stream has no field of this name");
-        Self { stream: T::STREAM, index }
-    }
-
-    /// The field before: the count of a list.
-    pub(crate) const fn before(self) -> Self {
-        Self { index: self.index.saturating_sub(1), ..self }
-    }
-
-    /// The same row of another stream, whose table is the same.
-    pub(crate) const fn of_stream(self, stream: Stream) -> Self {
-        Self { stream, ..self }
-    }
-
-    /// The stream as a whole: its length, its end.
-    pub const fn whole(stream: Stream) -> Self {
-        Self { stream, index: u8::MAX }
-    }
-
-    /// The field of `stream` with this name.
-    pub fn by_name(stream: Stream, name: &str) -> Option<Self> {
-        stream.fields().find(|field| field.name() == name)
-    }
-
-    /// The stream the field belongs to.
-    pub const fn stream(self) -> Stream {
-        self.stream
-    }
-
-    /// The row of the table; none for the stream as a whole.
-    pub fn spec(self) -> Option<&'static FieldSpec> {
-        self.stream.layout().fields.get(usize::from(self.index))
-    }
-
-    /// The field's name; `stream` for the stream as a whole.
-    pub fn name(self) -> &'static str {
-        self.spec().map_or("stream", |spec| spec.name)
-    }
-}
-
-impl fmt::Display for Field {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.stream.layout().name, self.name())
-    }
-}
-
-impl fmt::Debug for Field {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}.{}", self.stream.layout().name, self.name())
-    }
-}
-
-impl Stream {
-    /// The fields in their order on the wire.
-    pub fn fields(self) -> impl Iterator<Item = Field> {
-        (0u8..).zip(self.layout().fields).map(move |(index, _)| Field::new(self, index))
-    }
-
-    /// Every stream; not the tables that are none.
-    pub fn all() -> impl Iterator<Item = Self> {
-        TABLES.iter().copied().filter(|stream| stream.layout().is_stream())
-    }
-
-    /// The stream with this name.
-    pub fn by_name(name: &str) -> Option<Self> {
-        Self::all().find(|stream| stream.layout().name == name)
-    }
-}
-
-impl fmt::Display for Stream {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.layout().name)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{DescriptionRef, HandleWriteRef, NameWriteRef};
-
-    fn layout(rows: &[(&'static str, u32, u32, Size)]) -> Layout {
-        let row = |&(name, offset, per_item, size)| {
-            let (ty, meaning, clause) = (Type::Uns32, "", "");
-            FieldSpec { name, offset, per_item, size, ty, meaning, clause }
-        };
-        let fields: std::vec::Vec<FieldSpec> = rows.iter().map(row).collect();
-        Layout { fields: fields.leak(), ..DescriptionRef::LAYOUT }
-    }
-
-    /// What the compiler checks of each declaration is found where it is wrong.
-    #[test]
-    fn wrong_tables_are_found() {
-        const LIST: Size = Size::Items { each: 4, max: 5 };
-        const FOUR: Size = Size::Fixed(4);
-        const REST: Size = Size::Rest { min: 0, max: 9 };
-        let rows =
-            [("a", 0, 0, FOUR), ("n", 4, 0, FOUR), ("list", 8, 0, LIST), ("rest", 8, 4, REST)];
-        let right = layout(&rows);
-        assert!(["a", "n", "list", "rest"].iter().all(|name| right.is_at(name)));
-        assert!(right.is_headed() && right.head() == 8);
-        assert!(!right.is_at("b"));
-        assert_eq!([right.index("list"), right.index("lost")], [2, u8::MAX]);
-        let shifted = layout(&[("a", 0, 0, FOUR), ("b", 5, 0, FOUR)]);
-        assert!(shifted.is_at("a") && !shifted.is_at("b"));
-        let counted = layout(&[("list", 0, 0, LIST), ("rest", 0, 0, REST)]);
-        assert!(!counted.is_at("rest"));
-        let after = layout(&[("list", 0, 0, LIST), ("a", 0, 4, FOUR)]);
-        assert!(!after.is_headed());
-        assert!(NameWriteRef::LAYOUT.is_at("value") && HandleWriteRef::LAYOUT.is_at("value"));
-    }
-
-    /// A row may have at most what the stream's length leaves it, no more and no less.
-    #[test]
-    fn maxima_that_no_row_enforces_are_found() {
-        let filled = |max, rows: &[_]| Layout { max, ..layout(rows) }.is_filled();
-        let list = [("n", 0, 0, Size::Fixed(4)), ("list", 4, 0, Size::Items { each: 4, max: 5 })];
-        assert_eq!([23, 24, 27, 28].map(|max| filled(max, &list)), [false, true, true, false]);
-        let open = ("name", 4, 4, Size::Open { min: 1, max: 4 });
-        let named = [list[0], list[1], open];
-        assert_eq!([24, 25, 28, 29].map(|max| filled(max, &named)), [false, true, true, false]);
-        for size in [Size::Open { min: 1, max: 9 }, Size::Leading { max: 9 }] {
-            let rows = [("first", 0, 0, Size::Fixed(4)), ("last", 4, 0, size)];
-            assert_eq!([12, 13, 99].map(|max| filled(max, &rows)), [false, true, true]);
-        }
-        for size in [
-            Size::Rest { min: 0, max: 9 },
-            Size::MayTerminate { max: 9 },
-            Size::Terminated { max: 9, may_be_absent: false },
-        ] {
-            let rows = [("first", 0, 0, Size::Leading { max: 4 }), ("last", 1, 0, size)];
-            assert_eq!([9, 10, 11].map(|max| filled(max, &rows)), [false, true, false]);
-        }
-    }
-
-    /// Limits and offsets are those of the rows.
-    #[test]
-    fn limits_are_those_of_the_rows() {
-        for (size, most) in [
-            (Size::Fixed(4), 4),
-            (Size::Items { each: 4, max: 5 }, 5),
-            (Size::Open { min: 1, max: 9 }, 9),
-            (Size::Rest { min: 0, max: 8 }, 8),
-            (Size::Leading { max: 7 }, 7),
-            (Size::MayTerminate { max: 6 }, 6),
-            (Size::Terminated { max: 3, may_be_absent: true }, 3),
-            (Size::OneTwoOrFour, 4),
-        ] {
-            let rows = layout(&[("first", 0, 0, Size::Fixed(2)), ("last", 2, 0, size)]);
-            assert_eq!((rows.most("last"), rows.offset("last")), (most, 2));
-            assert_eq!((rows.most("first"), rows.offset("first")), (2, 0));
-        }
-    }
-
-    #[test]
-    #[should_panic = "no field of this name"]
-    fn a_name_of_no_field_has_no_maximum() {
-        layout(&[]).most("value");
-    }
-
-    #[test]
-    fn fields_are_found_by_name() {
-        let field = Field::of::<DescriptionRef<'_>>("dimensions");
-        assert_eq!((field.name(), field.before().name()), ("dimensions", "dimension_count"));
-    }
-
-    #[test]
-    #[should_panic = "no field of this name"]
-    fn a_name_of_no_field_is_no_field() {
-        Field::of::<DescriptionRef<'_>>("dimension");
     }
 }

@@ -1,13 +1,15 @@
 //! The tables themselves: one per stream, in the manual's order of fields.
 
+use super::field::Field;
 use super::head;
-use super::spec::{Field, FieldSpec, Layout, Size, Type};
+use super::spec::{FieldSpec, Layout, Size, Type};
+use super::subject::Subject;
 use crate::declare::Declared;
 
 const FIXED_4: Size = Size::Fixed(4);
 
 /// Declares [`Stream`], its layouts and, per stream, its rows and a constant for each field.
-/// A stream of records names the module of the record in place of rows.
+/// A stream of records names the module of the record instead of rows.
 macro_rules! layouts {
     ($(
         $(#[$doc:meta])*
@@ -17,10 +19,10 @@ macro_rules! layouts {
         $( , records of $record:ident; )?
         $( {
             $( $field:ident $field_name:literal @ $offset:literal $(+ $per_item:literal m)?,
-               $size:expr, $ty:ident, $field_clause:literal, $meaning:literal; )+
+               $size:expr, $ty:ident, $field_clause:literal, $meaning:literal; )*
         } )?
     )+) => {
-        /// A stream, or one of the tables that only name what an error is about.
+        /// A stream: bytes that the manuals describe by a table.
         ///
         /// ```
         /// use ads_cnc::layout::Stream;
@@ -28,7 +30,6 @@ macro_rules! layouts {
         /// let stream = Stream::by_name("variable-index-kind").unwrap();
         /// assert_eq!(stream, Stream::VariableIndexKind);
         /// assert_eq!(stream.layout().max, 260);
-        /// assert!(Stream::all().all(|stream| stream.layout().is_stream()));
         /// ```
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[non_exhaustive]
@@ -39,17 +40,17 @@ macro_rules! layouts {
         impl Stream {
             /// The stream's table.
             pub const fn layout(self) -> &'static Layout {
-                match self { $( Self::$stream => &field::$module::LAYOUT, )+ }
+                match self { $( Self::$stream => &fields::$module::LAYOUT, )+ }
             }
 
             /// The sizes of the fixed fields that a record begins with.
             pub(crate) const fn head_sizes(self) -> &'static [u8] {
-                match self { $( Self::$stream => &field::$module::HEAD, )+ }
+                match self { $( Self::$stream => &fields::$module::HEAD, )+ }
             }
         }
 
         /// A constant for each field, so that no decoder spells a name.
-        pub(crate) mod field { $(
+        pub(crate) mod fields { $(
             #[allow(dead_code, reason = "tables name every field, decoders not all of them")]
             pub(crate) mod $module {
                 use super::super::*;
@@ -76,14 +77,14 @@ macro_rules! layouts {
                         ty: Type::$ty,
                         meaning: $meaning,
                         clause: $field_clause,
-                    }, )+];
+                    }, )*];
                     #[allow(non_camel_case_types, clippy::upper_case_acronyms)]
-                    enum Place { $( $field, )+ }
+                    enum Index { $( $field, )* }
                     $(
                         #[allow(clippy::as_conversions, reason = "a discriminant, no input")]
                         pub(crate) const $field: Field =
-                            Field::new(Stream::$stream, Place::$field as u8);
-                    )+
+                            Field::new(Subject::Stream(Stream::$stream), Index::$field as u8);
+                    )*
                 )?
             }
         )+ }
@@ -100,7 +101,7 @@ layouts! {
     /// ADS Read, reply.
     ReadReply, read_reply: "read-reply", "ADS Read, reply", "ADS-1", max 0x40_0008 {
         RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
-        LENGTH "length" @ 4, Size::FixedUnlessError(4), Uns32, "ADS-1", "bytes of data";
+        LENGTH "length" @ 4, Size::FixedOnSuccess(4), Uns32, "ADS-1", "bytes of data";
         DATA "data" @ 8, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-1", "the data";
     }
     /// ADS Write, request.
@@ -112,7 +113,7 @@ layouts! {
     /// ADS ReadWrite, reply.
     ReadWriteReply, read_write_reply: "read-write-reply", "ADS ReadWrite, reply", "ADS-3", max 0x40_0008 {
         RESULT "result" @ 0, FIXED_4, Uns32, "ADS-4", "ADS error number, 0 for success";
-        LENGTH "length" @ 4, Size::FixedUnlessError(4), Uns32, "ADS-3", "bytes of data";
+        LENGTH "length" @ 4, Size::FixedOnSuccess(4), Uns32, "ADS-3", "bytes of data";
         DATA "data" @ 8, Size::Items { each: 1, max: 0x40_0000 }, Bytes, "ADS-3", "the data";
     }
     /// ADS ReadDeviceInfo, reply.
@@ -160,7 +161,7 @@ layouts! {
     ElementText, element_text: => crate::sda::ElementTextRef<'static>;
     /// Length of an element's content.
     ElementLength, element_length: "element-length", "Length of an element, reply", "SDA-8", max 4 {
-        LENGTH "length" @ 0, Size::OneTwoOrFour, Unsigned, "SDA-8", "bytes of the content";
+        LENGTH "length" @ 0, Size::Uns8To32, Unsigned, "SDA-8", "bytes of the content";
     }
     /// Whether an element may be written.
     ElementWriteFlag, element_write_flag: => crate::sda::ElementWriteFlag;
@@ -180,54 +181,6 @@ layouts! {
     VariableDescriptionByName, variable_description_by_name: => crate::DescriptionByNameRef<'static>;
     /// NC text in one write to the stream.
     ProgramStream, program_stream: => crate::streaming::ProgramStreamRef<'static>;
-    /// What comes back where nothing does; no stream of its own.
-    NoData, no_data: "no-data", "No data", "VAR-17", max 0 {
-        NOTHING "nothing" @ 0, Size::Rest { min: 0, max: 0 }, Bytes, "VAR-17", "nothing";
-    }
-    /// An index group put together from its parts; no stream of its own.
-    IndexGroup, index_group: "index-group", "Index group", "ADR-9", max 0 {
-        INSTANCE "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel, platform axis or spindle, 8 bits";
-        CHANNEL "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel, 1..=255";
-        PLATFORM_AXIS "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "platform axis, 1..=255";
-        SPINDLE "instance" @ 0, Size::Fixed(4), Uns32, "ADR-9", "spindle, 0..=255";
-    }
-    /// An index offset put together from its parts; no stream of its own.
-    IndexOffset, index_offset: "index-offset", "Index offset", "ADR-9", max 0 {
-        AXIS "axis" @ 0, Size::Fixed(4), Uns32, "ADR-9", "axis, 16 bits";
-        CHANNEL_AXIS "axis" @ 0, Size::Fixed(4), Uns32, "ADR-9", "channel axis, 1..=65535";
-        ELEMENT "element" @ 0, Size::Fixed(4), Uns32, "ADR-9", "element, 16 or 12 bits";
-    }
-    /// An AMS NetId as text; no stream of its own.
-    AmsNetId, ams_net_id: "ams-net-id", "AMS NetId as text", "ADS-5", max 0 {
-        NUMBERS "numbers" @ 0, Size::Rest { min: 11, max: 23 }, String, "ADS-5", "six numbers with dots between";
-        NUMBER "number" @ 0, Size::Rest { min: 1, max: 3 }, String, "ADS-5", "one of them, 0 to 255; the offset counts them";
-    }
-    /// A variable's name by its parts; no stream of its own.
-    VariablePath, variable_path: "variable-path", "Name of a variable", "VAR-20", max 0 {
-        KIND "kind" @ 0, Size::Rest { min: 0, max: 255 }, String, "VAR-20", "V.E, V.G, V.A, …";
-        PART "part" @ 0, Size::Rest { min: 0, max: 255 }, String, "VAR-20", "name of a structure or variable";
-        INDEX "index" @ 0, Size::Rest { min: 0, max: 255 }, String, "VAR-20", "number in brackets";
-    }
-    /// The variables of the Service Interface; each is the value of a variable, none a stream here.
-    Service, service: "service", "Service Interface", "SVC-1", max 0 {
-        UUID "uuid" @ 0, Size::Rest { min: 0, max: 128 }, String, "SVC-1", "which service is asked";
-        REQUEST "request" @ 0, Size::Rest { min: 0, max: 128 }, String, "SVC-1", "what it is asked";
-        REQUEST_STATE "request_state" @ 0, FIXED_4, Uns32, "SVC-2", "not 0: there is a request";
-        RESPONSE_STATE "response_state" @ 0, FIXED_4, Uns32, "SVC-5", "not 0: there is a response";
-        RESPONSE "response" @ 0, Size::Rest { min: 0, max: 128 }, String, "SVC-1", "what it answered";
-    }
-    /// A value by its type, which another stream says; no stream of its own.
-    TypedValue, typed_value: "typed-value", "Value by its type", "VAR-14", max 0 {
-        TYPE "type" @ 0, FIXED_4, Uns32, "VAR-5", "1 BOOLEAN … 9 STRING";
-        SIZE "size" @ 0, FIXED_4, Uns32, "VAR-8", "bytes of the whole";
-        DIMENSION "dimension" @ 0, FIXED_4, Uns32, "VAR-8", "elements in a dimension";
-        INDEX_COUNT "index_count" @ 0, FIXED_4, Uns32, "VAR-11", "indices, one for each dimension";
-        INDEX "index" @ 0, FIXED_4, Uns32, "VAR-11", "index in a dimension, from 0";
-        COUNT "count" @ 0, FIXED_4, Uns32, "VAR-8", "elements";
-        VALUE "value" @ 0, Size::Rest { min: 0, max: 0x40_0000 }, Bytes, "VAR-14", "one element, or all of the array";
-    }
-    /// A text before it stands in a stream.
-    Text, text: "text", "Text in CP1252", "GEN-3", max 0 {
-        TEXT "text" @ 0, Size::Rest { min: 0, max: 0xffff_ffff }, String, "GEN-3", "CP1252 without NUL";
-    }
+    /// The empty stream: what a CNC returns for a request without result data.
+    NoData, no_data: "no-data", "No data", "VAR-17", max 0 {}
 }

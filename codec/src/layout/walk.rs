@@ -3,7 +3,6 @@
 use super::{Field, Size, Stream};
 use crate::bytes::Reader;
 use crate::error::Error;
-use crate::stream::{Decode as _, NoData};
 
 /// The bytes of one field, or of one item of a field that has several.
 ///
@@ -29,7 +28,7 @@ pub struct Segment<'a> {
     pub item: u32,
     /// Offset of the bytes in the stream.
     pub offset: u32,
-    /// The bytes; none for a value or text that has none.
+    /// The bytes; empty for an empty value or text.
     pub bytes: &'a [u8],
 }
 
@@ -37,13 +36,10 @@ impl Stream {
     /// Calls `visit` for each field in turn, up to the end or to the first fault.
     ///
     /// # Errors
-    /// Those of the stream's decoders. A table that is no stream has room for no byte.
+    /// Those of the stream's decoders.
     pub fn walk<'a>(self, bytes: &'a [u8], visit: impl FnMut(Segment<'a>)) -> Result<(), Error> {
-        if self == Self::NoData {
-            NoData::decode(bytes)?;
-        }
         let input = match self.layout().ends_itself() {
-            true => Reader::ending(self, bytes),
+            true => Reader::without_limit(self, bytes),
             false => Reader::new(self, bytes)?,
         };
         let mut walk = Walk { input, record: 0, visit };
@@ -82,11 +78,11 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
         let mut count = 0_u32;
         for (field, spec) in stream.fields().zip(stream.layout().fields) {
             match spec.size {
-                Size::FixedUnlessError(_) if count != 0 && self.input.is_empty() => break,
-                Size::FixedOrNothing(_) if self.input.at() == 0 && self.input.is_empty() => break,
+                Size::FixedOnSuccess(_) if count != 0 && self.input.is_empty() => break,
+                Size::OptionalFixed(_) if self.input.at() == 0 && self.input.is_empty() => break,
                 Size::Fixed(size)
-                | Size::FixedUnlessError(size)
-                | Size::FixedOrNothing(size)
+                | Size::FixedOnSuccess(size)
+                | Size::OptionalFixed(size)
                 | Size::Padded(size) => {
                     let number = self.take(field, 0, size)?;
                     count = number.first_chunk().map_or(0, |le| u32::from_le_bytes(*le));
@@ -97,45 +93,47 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
                 Size::Items { each, max } => {
                     let mut at = self.input.at();
                     let items = self.input.items(counter, count, each, max)?;
-                    let size = crate::bytes::to_len(each).max(1);
+                    let size = crate::bytes::to_usize(each).max(1);
                     for (item, bytes) in (0..).zip(items.chunks_exact(size)) {
                         self.visit(field, item, at, bytes);
                         at = at.saturating_add(each);
                     }
                 }
-                Size::Terminated { may_be_absent: true, .. } if self.input.is_empty() => {
+                Size::CString { is_optional: true, .. } if self.input.is_empty() => {
                     self.take(field, 0, 0)?;
                 }
-                Size::Terminated { max, .. } => {
+                Size::CString { max, .. } => {
                     let at = self.input.at();
                     let bytes = self.input.as_bytes();
-                    self.input.terminated(field, max)?;
+                    self.input.cstring(field, max)?;
                     self.visit(field, 0, at, bytes);
                 }
-                Size::Leading { max } => {
+                Size::CStringPrefix { max } => {
                     let at = self.input.at();
                     let bytes = self.input.as_bytes();
-                    let used = self.input.leading(field, max)?.len().saturating_add(1);
+                    let used = self.input.cstring_prefix(field, max)?.len().saturating_add(1);
                     let bytes = bytes.get(..used).unwrap_or(bytes);
                     self.visit(field, 0, at, bytes);
                 }
-                Size::MayTerminate { .. } => {
+                Size::OptionalNul { .. } => {
                     let at = self.input.at();
                     let bytes = self.input.as_bytes();
-                    self.input.may_terminate(field)?;
+                    self.input.optional_nul(field)?;
                     self.visit(field, 0, at, bytes);
                 }
-                Size::FromOne => {
+                Size::NonZero => {
                     let at = self.input.at();
-                    let bytes = self.input.number_from_one(field)?;
+                    let bytes = self.input.non_zero(field)?;
                     self.visit(field, 0, at, bytes);
                 }
-                Size::OneTwoOrFour => {
+                Size::Uns8To32 => {
                     let at = self.input.at();
-                    let bytes = self.input.one_two_or_four(field)?;
+                    let bytes = self.input.uns8_to_32(field)?;
                     self.visit(field, 0, at, bytes);
                 }
-                Size::Open { min, max } | Size::Rest { min, max } => self.rest(field, min, max)?,
+                Size::TextAndTail { min, max } | Size::Rest { min, max } => {
+                    self.rest(field, min, max)?
+                }
             }
             counter = field;
         }

@@ -16,7 +16,7 @@ pub(super) trait Address: Copy {
     }
 
     /// The parts of an address that the rules contain.
-    fn of(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self>;
+    fn from_call(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self>;
 }
 
 impl Address for (Channel,) {
@@ -27,8 +27,8 @@ impl Address for (Channel,) {
         }
     }
 
-    fn of(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
-        Channel::of(group).map(|channel| (channel,))
+    fn from_call(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
+        Channel::from_group(group).map(|channel| (channel,))
     }
 }
 
@@ -42,8 +42,8 @@ impl Address for (Channel, ChannelAxis) {
         self.1.offset(rule.first().get()).unwrap_or(rule.first())
     }
 
-    fn of(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
-        Some((Channel::of(group)?, ChannelAxis::of(offset)?))
+    fn from_call(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
+        Some((Channel::from_group(group)?, ChannelAxis::from_offset(offset)?))
     }
 }
 
@@ -59,9 +59,11 @@ impl Address for (Channel, DynamicKind) {
         }
     }
 
-    fn of(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self> {
-        let OffsetRule::OfKind(offsets) = rule else { return None };
-        Some((Channel::of(group)?, DynamicKind::of_offset(offsets, offset)?))
+    fn from_call(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self> {
+        let OffsetRule::OfKind(offsets) = rule else {
+            return None;
+        };
+        Some((Channel::from_group(group)?, DynamicKind::from_offset(offsets, offset)?))
     }
 }
 
@@ -70,8 +72,10 @@ impl Address for (ObjectList,) {
         self.0.index_group()
     }
 
-    fn of(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Com(group) = group else { return None };
+    fn from_call(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
+        let Group::Com(group) = group else {
+            return None;
+        };
         Some((ObjectList(group),))
     }
 }
@@ -86,8 +90,8 @@ impl Address for (ObjectList, u32) {
         IndexOffset::new(self.1)
     }
 
-    fn of(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self> {
-        let (list,) = Address::of(group, offset, rule)?;
+    fn from_call(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self> {
+        let (list,) = Address::from_call(group, offset, rule)?;
         Some((list, offset.get()))
     }
 }
@@ -102,8 +106,10 @@ impl Address for ((ComGroup, IndexOffset),) {
         self.0.1
     }
 
-    fn of(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Com(group) = group else { return None };
+    fn from_call(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
+        let Group::Com(group) = group else {
+            return None;
+        };
         Some(((group, offset),))
     }
 }
@@ -114,8 +120,10 @@ impl Address for (ClassGroup,) {
         self.0.index_group()
     }
 
-    fn of(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Class(group) = group else { return None };
+    fn from_call(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
+        let Group::Class(group) = group else {
+            return None;
+        };
         Some((group,))
     }
 }
@@ -132,8 +140,10 @@ impl Address for (ElementAddress,) {
         self.0.index_offset()
     }
 
-    fn of(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Class(group) = group else { return None };
+    fn from_call(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
+        let Group::Class(group) = group else {
+            return None;
+        };
         Some((ElementAddress::new(group, offset),))
     }
 }

@@ -1,4 +1,4 @@
-//! What constructors of operations take: names and values.
+//! Arguments of the constructors of operations: names and values.
 
 use core::fmt;
 use core::hash::{Hash, Hasher};
@@ -34,7 +34,7 @@ pub trait IntoName<'a> {
     /// The name as CP1252 text.
     ///
     /// # Errors
-    /// Those of [`CncStr::new`] for a `&str`; none for text that is CP1252 already.
+    /// Those of [`CncStr::new`] for a `&str`; no error for text that is CP1252 already.
     fn into_name(self) -> Result<CncStr<'a>, Error>;
 }
 

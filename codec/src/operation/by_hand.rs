@@ -19,8 +19,8 @@ use crate::bytes::to_u32;
 use crate::com::{DescriptorRef, DescriptorsRef, ObjectCount};
 use crate::content::ContentRef;
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::index_group::INSTANCE;
-use crate::layout::field::index_offset::ELEMENT;
+use crate::layout::index_group::INSTANCE;
+use crate::layout::index_offset::ELEMENT;
 use crate::layout::{Field, Stream};
 use crate::limits::{ADS_DATA_MAX, DESCRIPTOR_LEN};
 use crate::sda::ObjectAddressQuery;
@@ -117,7 +117,7 @@ fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffs
     Ok((com, offset))
 }
 
-/// An element whose content is no function; the first element counts the others.
+/// An element whose content is not a function; the first element counts the others.
 fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
     content(Task::Sda, element.group(Attribute::Content), element.index_offset())?;
     Ok(element)
@@ -172,7 +172,7 @@ impl ReadObject {
     /// # let data = object.encode(&mut data)?;
     /// let list = Channel::new(1)?;
     /// for object in ReadDescriptors::new(list, 1, n)?.decode_reply(data)?.iter() {
-    ///     let op = ReadObject::of(&object)?;
+    ///     let op = ReadObject::for_descriptor(&object)?;
     ///     assert_eq!((op.index_offset().get(), op.read_length()), (3, 1));
     /// }
     /// # Ok::<(), ads_cnc::Error>(())
@@ -180,7 +180,7 @@ impl ReadObject {
     ///
     /// # Errors
     /// Those of [`new`](Self::new).
-    pub fn of<'d>(object: impl Into<DescriptorRef<'d>>) -> Result<Self, Error> {
+    pub fn for_descriptor<'d>(object: impl Into<DescriptorRef<'d>>) -> Result<Self, Error> {
         let object = object.into();
         Self::new(object.index_group(), object.index_offset(), object.size())
     }
@@ -188,7 +188,7 @@ impl ReadObject {
     /// For the group, the offset and the size in an object's descriptor.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a group that is none of COM's content, [`ErrorKind::Function`]
+    /// [`ErrorKind::Mismatch`] for a group that does not address COM content, [`ErrorKind::Function`]
     /// for the program stream, whose reading is not documented (STM-1), [`ErrorKind::TooLong`] for
     /// more than ADS carries.
     pub fn new(group: IndexGroup, offset: IndexOffset, size: u32) -> Result<Self, Error> {
@@ -206,7 +206,7 @@ impl<'a> WriteObject<'a> {
     ///
     /// # Errors
     /// Those of [`new`](Self::new).
-    pub fn of<'d>(
+    pub fn for_descriptor<'d>(
         object: impl Into<DescriptorRef<'d>>,
         content: impl Into<WriteValue<'a>>,
     ) -> Result<Self, Error> {
@@ -217,7 +217,7 @@ impl<'a> WriteObject<'a> {
     /// For the group and the offset in an object's descriptor.
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] for a group that is none of COM's content, [`ErrorKind::Function`]
+    /// [`ErrorKind::Mismatch`] for a group that does not address COM content, [`ErrorKind::Function`]
     /// for the program stream, which [`WriteProgramStream`](super::WriteProgramStream) writes.
     pub fn new(
         group: IndexGroup,

@@ -40,7 +40,7 @@ pub struct Call<'a> {
     pub index_offset: IndexOffset,
     /// The most bytes the client takes; 0 for a Write.
     pub read_length: u32,
-    /// The bytes it sent; none for a Read.
+    /// The bytes that it sends; empty for a Read.
     pub data: &'a [u8],
 }
 

@@ -300,7 +300,7 @@ macro_rules! documented {
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
         /// use ads_cnc::operation::{CountElements, Operation};
         ///
-        /// let first = ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 0)?;
+        /// let first = ElementAddress::for_channel(Channel::new(1)?, Class::Hld, 0)?;
         /// let op = CountElements::new(first)?;
         /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_3301, 0));
         /// assert_eq!(op.decode_reply(&[9, 0, 0, 0])?.0, 9);
@@ -318,12 +318,12 @@ macro_rules! documented {
         /// use ads_cnc::operation::{Operation, ReadElement};
         /// use ads_cnc::ErrorKind;
         ///
-        /// let feedhold = ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?;
+        /// let feedhold = ElementAddress::for_channel(Channel::new(1)?, Class::Hld, 1)?;
         /// let op = ReadElement::new(feedhold, 1)?;
         /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_3301, 1));
         ///
         /// // On the decoder the functions for variables are among the elements (SDA-12).
-        /// let function = ElementAddress::of_channel(Channel::new(1)?, Class::Decoder, 0x44)?;
+        /// let function = ElementAddress::for_channel(Channel::new(1)?, Class::Decoder, 0x44)?;
         /// assert_eq!(ReadElement::new(function, 4).unwrap_err().kind(), ErrorKind::Function);
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
@@ -340,7 +340,7 @@ macro_rules! documented {
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
         /// use ads_cnc::operation::{Operation, WriteElement};
         ///
-        /// let feedhold = ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?;
+        /// let feedhold = ElementAddress::for_channel(Channel::new(1)?, Class::Hld, 1)?;
         /// let op = WriteElement::new(feedhold, true)?;
         /// assert_eq!(op.encode(&mut [0; 1])?, [1]);
         /// # Ok::<(), ads_cnc::Error>(())
@@ -354,7 +354,7 @@ macro_rules! documented {
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
         /// use ads_cnc::operation::{Operation, ReadElementName};
         ///
-        /// let op = ReadElementName::new(ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?);
+        /// let op = ReadElementName::new(ElementAddress::for_channel(Channel::new(1)?, Class::Hld, 1)?);
         /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_3401, 1));
         /// assert_eq!(op.decode_reply(b"feedhold.enable\0")?.text.text(), "feedhold.enable");
         /// # Ok::<(), ads_cnc::Error>(())
@@ -368,7 +368,7 @@ macro_rules! documented {
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
         /// use ads_cnc::operation::{Operation, ReadElementType};
         ///
-        /// let op = ReadElementType::new(ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?);
+        /// let op = ReadElementType::new(ElementAddress::for_channel(Channel::new(1)?, Class::Hld, 1)?);
         /// assert_eq!(op.index_group().get(), 0x12_3501);
         /// assert_eq!(op.decode_reply(b"BOOLEAN\0")?.text.text(), "BOOLEAN");
         /// # Ok::<(), ads_cnc::Error>(())
@@ -382,7 +382,7 @@ macro_rules! documented {
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
         /// use ads_cnc::operation::{Operation, ReadElementLength};
         ///
-        /// let op = ReadElementLength::new(ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?);
+        /// let op = ReadElementLength::new(ElementAddress::for_channel(Channel::new(1)?, Class::Hld, 1)?);
         /// assert_eq!(op.index_group().get(), 0x12_3601);
         /// assert_eq!(op.decode_reply(&[1, 0, 0, 0])?.get(), 1);
         /// # Ok::<(), ads_cnc::Error>(())
@@ -396,7 +396,7 @@ macro_rules! documented {
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
         /// use ads_cnc::operation::{Operation, ReadElementUnit};
         ///
-        /// let op = ReadElementUnit::new(ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?);
+        /// let op = ReadElementUnit::new(ElementAddress::for_channel(Channel::new(1)?, Class::Hld, 1)?);
         /// assert_eq!(op.index_group().get(), 0x12_3701);
         /// assert_eq!(op.decode_reply(b"-\0")?.text.text(), "-");
         /// # Ok::<(), ads_cnc::Error>(())
@@ -412,7 +412,7 @@ macro_rules! documented {
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
         /// use ads_cnc::operation::{Operation, ReadElementWriteFlag};
         ///
-        /// let feedhold = ElementAddress::of_channel(Channel::new(1)?, Class::Hld, 1)?;
+        /// let feedhold = ElementAddress::for_channel(Channel::new(1)?, Class::Hld, 1)?;
         /// let op = ReadElementWriteFlag::new(feedhold);
         /// assert_eq!(op.index_group().get(), 0x12_3801);
         /// assert!(!op.decode_reply(&[0])?.is_writable());
@@ -449,7 +449,7 @@ macro_rules! documented {
         /// let object = Descriptor::new("mc_active_single_block_r", "BOOL")?
         ///     .with_size(1)
         ///     .with_content(IndexGroup::new(0x12_0101), IndexOffset::new(3));
-        /// let op = ReadObject::of(&object)?;
+        /// let op = ReadObject::for_descriptor(&object)?;
         /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_0101, 3));
         /// assert_eq!(op.decode_reply(&[1])?.bytes, [1]);
         /// # Ok::<(), ads_cnc::Error>(())

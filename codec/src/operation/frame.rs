@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::stream::{Decode, Encode};
 
 impl<'a> Call<'a> {
-    /// The call that a frame carries; none if its command is none of the three services.
+    /// The call that a frame carries; `None` if its command is not one of the three services.
     /// Whether the flags say that it is a request is not looked at.
     ///
     /// ```

@@ -41,7 +41,7 @@ use crate::streaming::ProgramStreamRef;
 use crate::text::{CncStr, TextRef};
 use crate::variable::{
     DescriptionByNameRef, DescriptionRef, ExtendedReply, Handle, HandleReadRef, HandleWriteRef,
-    Kind, NameWriteRef, Numbers, ValueRef, VariableCount, VariableIndexKindRef, VariableKindRef,
+    Kind, NameWriteRef, U32List, ValueRef, VariableCount, VariableIndexKindRef, VariableKindRef,
     VariableNameRef,
 };
 
@@ -68,7 +68,7 @@ functions! {
     WriteByHandle<'a> "write variable value by handle": Write Sda Write, ChannelOf(Decoder), At(0x49), "VAR-12", "4.3.6",
         plain(channel: Channel; handle: Handle, indices: Indices, value: Value) HandleWriteRef { handle, indices, value } => NoData;
     WriteByName<'a> "write variable value by name": Write Sda Write, ChannelOf(Decoder), At(0x4A), "VAR-13", "4.3.7",
-        checked(channel: Channel; name: Leading, value: Value) NameWriteRef { name, value } => NoData;
+        checked(channel: Channel; name: CStringPrefix, value: Value) NameWriteRef { name, value } => NoData;
     DescribeExtended<'a> "extended variable description by index": ReadWrite Sda Query, ChannelOf(Decoder), At(0x4B), "VAR-15", "4.3.8",
         plain(channel: Channel; index: Index, kind: Kind) VariableIndexKindRef { index, kind } => ExtendedReply, asks 2048;
     DescribeByName<'a> "variable description by name": ReadWrite Sda Query, ChannelOf(Decoder), At(0x4C), "VAR-28", "online",
@@ -78,15 +78,15 @@ functions! {
     AxisReadByName<'a> "read axis variable value by name": ReadWrite Sda Query, ChannelOf(Decoder), OfAxis(5), "VAR-26", "4.3.10",
         checked(channel: Channel, axis: Axis; name: Name) VariableNameRef { name } => ValueRef<'r>;
     AxisWriteByName<'a> "write axis variable value by name": Write Sda Write, ChannelOf(Decoder), OfAxis(6), "VAR-26", "4.3.11",
-        checked(channel: Channel, axis: Axis; name: Leading, value: Value) NameWriteRef { name, value } => NoData;
+        checked(channel: Channel, axis: Axis; name: CStringPrefix, value: Value) NameWriteRef { name, value } => NoData;
     CountDynamic "number of dynamic parameters": Read Sda Query, ChannelOf(Decoder), OfKind([0x02, 0x03, 0x04, 0x05]), "DYN-1", "3.1 … 3.4",
         plain(channel: Channel, kind: Parameters) => DynamicCount;
     DynamicNameByIndex "dynamic parameter name by index": ReadWrite Sda Query, ChannelOf(Decoder), OfKind([0x1B, 0x1E, 0x21, 0x24]), "DYN-2", "3.1 … 3.4",
-        checked(channel: Channel, kind: Parameters; index: FromOne) DynamicIndex(index) => DynamicNameRef<'r>;
+        checked(channel: Channel, kind: Parameters; index: NonZero) DynamicIndex(index) => DynamicNameRef<'r>;
     DynamicValueByName<'a> "dynamic parameter value by name": ReadWrite Sda Query, ChannelOf(Decoder), OfKind([0x1C, 0x1F, 0x22, 0x25]), "DYN-3", "3.1 … 3.4",
         checked(channel: Channel, kind: Parameters; name: Name) DynamicNameRequestRef { name } => DynamicValue;
     DynamicValueByIndex "dynamic parameter value by index": ReadWrite Sda Query, ChannelOf(Decoder), OfKind([0x1D, 0x20, 0x23, 0x26]), "DYN-4", "3.1 … 3.4",
-        checked(channel: Channel, kind: Parameters; index: FromOne) DynamicIndex(index) => DynamicValue;
+        checked(channel: Channel, kind: Parameters; index: NonZero) DynamicIndex(index) => DynamicValue;
     FindInstance "object address": ReadWrite Sda Query, Instances, At(0), "SDA-1", "2.2.2",
         by_hand(class: Class; channel: Number, axis: Number) ObjectAddressQuery { channel, axis } => ObjectAddress;
     CountElements "number of element types": Read Sda Query, Elements(Content), FirstElement, "SDA-4", "2.2.2",
@@ -114,7 +114,7 @@ functions! {
 }
 
 impl Function {
-    /// The function that has this address; none for content (SDA-12).
+    /// The function at this address; `None` for content (SDA-12).
     pub(super) fn at(task: Task, group: IndexGroup, offset: IndexOffset) -> Option<Self> {
         let group = group.parts()?;
         Self::ALL.iter().copied().find(|function| {

@@ -1,4 +1,4 @@
-//! What functions answer.
+//! The replies of the functions.
 
 use crate::com::{DescriptorsRef, ObjectCount};
 use crate::content::ContentRef;
@@ -67,7 +67,7 @@ replies! {
         Handle(Handle),
         /// Value of a variable.
         Value(ValueRef<'a>),
-        /// Extended description of a variable, or none.
+        /// Extended description of a variable, or `None`.
         Extended(ExtendedReply),
         /// Number of dynamic parameters.
         DynamicCount(DynamicCount),

@@ -1,4 +1,4 @@
-//! What an ADS request is sent with and to: service and task.
+//! The service and the task of an ADS request.
 
 use core::fmt;
 
@@ -75,7 +75,7 @@ impl Task {
         }
     }
 
-    /// The task behind a port.
+    /// The task that a port belongs to.
     #[inline]
     pub fn from_port(port: AmsPort) -> Option<Self> {
         match port {

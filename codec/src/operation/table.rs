@@ -4,7 +4,7 @@ use super::{GroupRule, OffsetRule, Service, Task};
 use crate::address::Group;
 use crate::layout::Stream;
 
-/// What the table has of a function.
+/// The row of a function.
 ///
 /// ```
 /// use ads_cnc::layout::Stream;
@@ -29,7 +29,7 @@ pub struct FunctionSpec {
     pub group: GroupRule,
     /// Its index offsets.
     pub offset: OffsetRule,
-    /// What it does to the machine.
+    /// The effect on the machine.
     pub effect: Effect,
     /// The stream of the request, if any.
     pub request: Option<Stream>,
@@ -55,7 +55,7 @@ impl FunctionSpec {
     }
 }
 
-/// What a function does to the machine.
+/// The effect of a function on the machine.
 ///
 /// ```
 /// use ads_cnc::operation::{Effect, Function};

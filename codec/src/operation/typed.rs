@@ -163,8 +163,8 @@ pub trait Operation: sealed::Sealed {
 /// constructor rejects.
 macro_rules! field {
     (errors Name)    => { "Those of [`IntoName::into_name`]." };
-    (errors Leading) => { "Those of [`IntoName::into_name`]." };
-    (errors FromOne) => { "[`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for the index 0." };
+    (errors CStringPrefix) => { "Those of [`IntoName::into_name`]." };
+    (errors NonZero) => { "[`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for the index 0." };
     (errors $kind:ident) => { "" };
     ($q:ident Channel $($i:ident)?)    => { field!(@$q [Channel] [Channel] [$($i)?] [$($i)?] "The channel.") };
     ($q:ident Axis $($i:ident)?)       => { field!(@$q [ChannelAxis] [ChannelAxis] [$($i)?] [$($i)?] "The axis, by its index in the channel.") };
@@ -175,12 +175,12 @@ macro_rules! field {
     ($q:ident Object $($i:ident)?)     => { field!(@$q [(ComGroup, IndexOffset)] [(ComGroup, IndexOffset)] [$($i)?] [$($i)?] "The object.") };
     ($q:ident Number $($i:ident)?)     => { field!(@$q [u32] [u32] [$($i)?] [$($i)?] "A number.") };
     ($q:ident Index $($i:ident)?)      => { field!(@$q [u32] [u32] [$($i)?] [$($i)?] "Index of the variable, from 0 to one less than their number.") };
-    ($q:ident FromOne $($i:ident)?)    => { field!(@$q [u32] [u32] [DynamicIndex($($i)?).check()?.0] [$($i)?] "Index of the parameter, from 1.") };
+    ($q:ident NonZero $($i:ident)?)    => { field!(@$q [u32] [u32] [DynamicIndex($($i)?).check()?.0] [$($i)?] "Index of the parameter, from 1.") };
     ($q:ident Kind $($i:ident)?)       => { field!(@$q [Kind<'a>] [Kind<'a>] [$($i)?] [$($i)?] "The kind of variables.") };
     ($q:ident Name $($i:ident)?)       => { field!(@$q [TextRef<'a>] [impl IntoName<'a>] [$($i)?.into_name()?.into()] [$($i)?] "Name of the variable or parameter.") };
-    ($q:ident Leading $($i:ident)?)    => { field!(@$q [CncStr<'a>] [impl IntoName<'a>] [$($i)?.into_name()?] [$($i)?] "Name of the variable.") };
+    ($q:ident CStringPrefix $($i:ident)?)    => { field!(@$q [CncStr<'a>] [impl IntoName<'a>] [$($i)?.into_name()?] [$($i)?] "Name of the variable.") };
     ($q:ident Handle $($i:ident)?)     => { field!(@$q [Handle] [Handle] [$($i)?] [$($i)?] "Handle of the variable.") };
-    ($q:ident Indices $($i:ident)?)    => { field!(@$q [Numbers<'a>] [impl Into<Numbers<'a>>] [$($i)?.into()] [$($i)?] "Index in each dimension, from 0; none for the whole variable.") };
+    ($q:ident Indices $($i:ident)?)    => { field!(@$q [U32List<'a>] [impl Into<U32List<'a>>] [$($i)?.into()] [$($i)?] "Index in each dimension, from 0; none for the whole variable.") };
     ($q:ident Value $($i:ident)?)      => { field!(@$q [WriteValue<'a>] [impl Into<WriteValue<'a>>] [$($i)?.into()] [$($i)?.as_bytes()] "The value.") };
     ($q:ident Lines $($i:ident)?)      => { field!(@$q [&'a [u8]] [&'a [u8]] [$($i)?] [$($i)?] "Whole lines of NC text; [`Sender`](crate::streaming::Sender) gives them.") };
     (@ty [$($ty:tt)*] $argument:tt $made:tt $lent:tt $doc:literal) => { $($ty)* };
@@ -232,7 +232,7 @@ macro_rules! operation {
             /// The operation that a server is asked for at an address that the rules contain.
             fn dispatched<'c>(group: Group, call: &Call<'c>) -> Result<Request<'c>, DispatchError> {
                 let rule = const { Function::$function.spec().offset };
-                let ($( $part, )+) = Address::of(group, call.index_offset, rule)
+                let ($( $part, )+) = Address::from_call(group, call.index_offset, rule)
                     .ok_or(DispatchError::Offset(call.index_offset))?;
                 $( let $data $body = Decode::decode(call.data).map_err(DispatchError::Stream)?; )?
                 Ok(Request::$function($function {

@@ -6,7 +6,7 @@ use crate::bytes::{Reader, Writer};
 use crate::declare::stream;
 use crate::error::Error;
 use crate::layout::Stream;
-use crate::layout::field::element_length;
+use crate::layout::fields::element_length;
 use crate::stream::{Decode, Encode};
 
 stream! {
@@ -28,7 +28,7 @@ stream! {
     /// ```
     ElementCount "element-count", "Number of element types, reply", "SDA-4", max 4;
     tuple ElementCount {
-        @0 count: UNS32, "SDA-4", "element types behind the first element";
+        @0 count: UNS32, "SDA-4", "element types after the first element";
     }
 }
 
@@ -53,7 +53,7 @@ stream! {
     /// ```
     ElementText "element-text", "Name, type or unit of an element, reply", "SDA-6", max 256;
     struct ElementTextRef<'a> / ElementText {
-        @0 text: TEXT(0, 256), "SDA-6", "name, type or unit";
+        @0 text: TEXT_AND_TAIL(0, 256), "SDA-6", "name, type or unit";
     }
 }
 
@@ -96,7 +96,7 @@ enum Width {
 }
 
 impl ElementLength {
-    /// So many bytes, in a number of four.
+    /// This many bytes, encoded in four.
     pub const fn new(length: u32) -> Self {
         Self { length, width: Width::Four }
     }
@@ -121,7 +121,7 @@ impl<'a> Decode<'a> for ElementLength {
         match *bytes {
             [a] => Ok(Self { length: a.into(), width: Width::One }),
             [a, b] => Ok(Self { length: u16::from_le_bytes([a, b]).into(), width: Width::Two }),
-            _ => Reader::number(element_length::LENGTH, bytes).map(Self::new),
+            _ => Reader::number(Self::STREAM, element_length::LENGTH, bytes).map(Self::new),
         }
     }
 }

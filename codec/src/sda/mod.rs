@@ -27,7 +27,7 @@
 //! // … and the answer of a CNC:
 //! let found = query.decode_reply(&[0x01, 0x33, 0x12, 0, 0, 0, 0, 0])?;
 //! let first = found.first_element()?.expect("the channel is configured");
-//! let name = ReadElementName::new(first.following(1)?);
+//! let name = ReadElementName::new(first.nth(1)?);
 //! assert_eq!((name.index_group().get(), name.index_offset().get()), (0x12_3401, 1));
 //! assert_eq!(name.decode_reply(b"feedhold.enable\0")?.text.text(), "feedhold.enable");
 //! # Ok::<(), ads_cnc::Error>(())

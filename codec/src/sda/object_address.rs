@@ -64,11 +64,11 @@ stream! {
 }
 
 impl ObjectAddress {
-    /// The answer that there is no such instance (SDA-2).
+    /// The reply for an instance that does not exist (SDA-2).
     pub const NONE: Self =
         Self { index_group: IndexGroup::new(0), index_offset: IndexOffset::new(0) };
 
-    /// The instance's first element; none if there is no such instance.
+    /// The instance's first element; `None` if the instance does not exist.
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] for a group that is not that of a class; the number is shown beside

@@ -63,11 +63,11 @@ use crate::text::CncStr;
 pub struct Host<'s> {
     services: &'s [ServiceId],
     phase: Phase,
-    /// The request: its service by place, its text, its state.
+    /// The request: the index of its service, its text, its state.
     service: usize,
     request: ServiceText,
     request_state: u32,
-    /// The answer to it, of state 0 as long as there is none.
+    /// The answer; its state is 0 until there is an answer.
     response: ServiceText,
     response_state: [u8; 4],
     outcome: Option<Outcome>,
@@ -100,7 +100,7 @@ enum Phase {
 }
 
 impl Phase {
-    /// What is to be read.
+    /// The variable to read.
     const fn asks(self) -> Option<ServiceVariable> {
         Some(match self {
             Self::PollState | Self::CheckState | Self::LookCleared | Self::LookRequestState => {
@@ -114,7 +114,7 @@ impl Phase {
     }
 }
 
-/// What a host needs next; shown at [`Host`].
+/// The next step of a host; see the example at [`Host`].
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -138,7 +138,7 @@ pub enum HostStep<'a> {
     Serve {
         /// The service that is asked, as it was given to [`Host::new`].
         uuid: &'a ServiceId,
-        /// What it is asked.
+        /// The text of the request.
         request: CncStr<'a>,
         /// The request state; not 0.
         request_state: u32,
@@ -164,7 +164,7 @@ pub enum HostStep<'a> {
 /// }
 /// host.answer(CncStr::new("too late")?, 1)?;
 /// host.read(&[0; 4])?; // REQUEST_STATE: the CNC was reset while the service was at work
-/// assert_eq!(host.outcome(), Some(Outcome::Dropped));
+/// assert_eq!(host.outcome(), Some(Outcome::Abandoned));
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -172,7 +172,7 @@ pub enum Outcome {
     /// It was written.
     Answered,
     /// It was dropped, or not all of it written: the request was no longer there.
-    Dropped,
+    Abandoned,
 }
 
 impl<'s> Host<'s> {
@@ -190,7 +190,7 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// What to do next; the same until it is done.
+    /// The next step; the same until it is done.
     pub fn step(&self) -> HostStep<'_> {
         if let Some(variable) = self.phase.asks() {
             return HostStep::Read(variable);
@@ -211,12 +211,12 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// How the last answer ended; none before the first, and while one is on its way.
+    /// The outcome of the last answer; `None` before the first, and while one is being written.
     pub const fn outcome(&self) -> Option<Outcome> {
         self.outcome
     }
 
-    /// The value that was read; does nothing if none was to be.
+    /// Takes the value that was read; does nothing if the step was not a read.
     ///
     /// # Errors
     /// - [`Truncated`](crate::ErrorKind::Truncated), [`Trailing`](crate::ErrorKind::Trailing): a
@@ -226,12 +226,14 @@ impl<'s> Host<'s> {
     /// What is wrong when it looks for a request is none; it waits for the next
     /// [`poll`](Self::poll). Later it reads again.
     pub fn read(&mut self, value: &[u8]) -> Result<(), Error> {
-        let Some(variable) = self.phase.asks() else { return Ok(()) };
+        let Some(variable) = self.phase.asks() else {
+            return Ok(());
+        };
         let state = || variable.state(value);
         let request = || ServiceText::decode(value, variable);
         let phase = self.phase;
         if matches!(phase, Phase::PollState | Phase::PollRequest) {
-            // What is wrong there is no request.
+            // A malformed value counts as "no request".
             self.phase = Phase::Idle;
         }
         self.phase = match phase {
@@ -276,7 +278,7 @@ impl<'s> Host<'s> {
     fn go_on(&mut self, as_it_was: bool, next: Phase) -> Phase {
         match as_it_was {
             true => next,
-            false if self.has_answer() => self.end(Outcome::Dropped),
+            false if self.has_answer() => self.end(Outcome::Abandoned),
             false => Phase::Idle,
         }
     }
@@ -318,7 +320,7 @@ impl<'s> Host<'s> {
         Ok(())
     }
 
-    /// The variable was written; does nothing if none was to be.
+    /// The variable was written; does nothing if the step was not a write.
     pub fn written(&mut self) {
         self.phase = match self.phase {
             Phase::Respond => Phase::Clear,
@@ -346,7 +348,7 @@ impl<'s> Host<'s> {
         }
     }
 
-    /// Forgets the request and its answer, and looks for a request. One that still stands is
+    /// Forgets the request and its answer, and looks for a request. A request that is still in the variables is
     /// served again.
     pub fn restart(&mut self) {
         self.phase = Phase::PollState;

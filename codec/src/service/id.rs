@@ -1,4 +1,4 @@
-//! Who a service is.
+//! The ID of a service.
 
 use core::fmt;
 use core::hash::{Hash, Hasher};

@@ -26,7 +26,7 @@
 //! let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
 //! let mut host = Host::new(&ids);
 //!
-//! // What the CNC program has written.
+//! // The values that the NC program has written.
 //! let value = |variable| match variable {
 //!     ServiceVariable::Uuid => &b"560AACBF-6335-44a9-895A-8B27F3ED5E47\0"[..],
 //!     ServiceVariable::Request => b"ping\0",

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::ServiceVariable;
-use crate::bytes::{to_len, to_u32};
+use crate::bytes::{to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 use crate::limits::SERVICE_TEXT_MAX;
 use crate::text::CncStr;
@@ -23,7 +23,7 @@ impl ServiceText {
     pub(super) fn new(text: CncStr<'_>, variable: ServiceVariable) -> Result<Self, Error> {
         let len = text.len().saturating_add(1);
         let Some(len) =
-            u8::try_from(len).ok().filter(|&len| to_len(len.into()) <= SERVICE_TEXT_MAX)
+            u8::try_from(len).ok().filter(|&len| to_usize(len.into()) <= SERVICE_TEXT_MAX)
         else {
             return Err(too_long(len, variable));
         };
@@ -43,7 +43,7 @@ impl ServiceText {
 
     /// The value: the text and one NUL.
     pub(super) fn value(&self) -> &[u8] {
-        self.bytes.get(..to_len(self.len.into())).unwrap_or(&self.bytes)
+        self.bytes.get(..to_usize(self.len.into())).unwrap_or(&self.bytes)
     }
 }
 

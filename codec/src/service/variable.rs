@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::layout::Field;
-use crate::layout::field::service;
+use crate::layout::service;
 use crate::variable::VariableType;
 
 /// A variable of the Service Interface (SVC-1). Each channel has its own five.
@@ -30,13 +30,13 @@ use crate::variable::VariableType;
 pub enum ServiceVariable {
     /// Which service is asked.
     Uuid,
-    /// What it is asked.
+    /// The text of the request.
     Request,
     /// Not 0: there is a request.
     RequestState,
     /// Not 0: there is a response.
     ResponseState,
-    /// What it answered.
+    /// The text of the response.
     Response,
 }
 

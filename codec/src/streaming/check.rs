@@ -1,4 +1,4 @@
-//! What a text has that streaming does not permit, or that would be lost.
+//! Diagnostics of an NC text.
 
 use core::fmt;
 
@@ -9,40 +9,40 @@ use super::words::{LoopWord, ProgramEnd};
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6.
 ///
 /// ```
-/// use ads_cnc::streaming::{FindingKind, LoopWord, NcText};
+/// use ads_cnc::streaming::{DiagnosticKind, LoopWord, NcText};
 ///
 /// let text = NcText::new(b"N10 G0 X0\nN20 $FOR P1=0,10,1 (ten times)\n")?;
-/// let finding = text.findings().next().unwrap();
+/// let finding = text.diagnostics().next().unwrap();
 /// assert_eq!((finding.line, finding.column), (2, 5));
-/// assert_eq!(finding.kind, FindingKind::Loop(LoopWord::For));
+/// assert_eq!(finding.kind, DiagnosticKind::Loop(LoopWord::For));
 /// assert_eq!(finding.to_string(), "line 2, column 5: $FOR in a stream (STM-8)");
 /// # Ok::<(), ads_cnc::streaming::LineError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Finding {
+pub struct Diagnostic {
     /// The line, from 1.
     pub line: u32,
     /// The column, from 1.
     pub column: u32,
-    /// What is there.
-    pub kind: FindingKind,
+    /// The class of the diagnostic.
+    pub kind: DiagnosticKind,
 }
 
-/// The class of a [`Finding`].
+/// The class of a [`Diagnostic`].
 ///
 /// ```
-/// use ads_cnc::streaming::{FindingKind, NcText};
+/// use ads_cnc::streaming::{DiagnosticKind, NcText};
 ///
 /// let text = NcText::new(b"N10: G0 X0\nN20 $GOTO N10\n")?;
-/// let kind = text.findings().next().unwrap().kind;
-/// assert_eq!(kind, FindingKind::BackwardJump { to: 1 });
+/// let kind = text.diagnostics().next().unwrap().kind;
+/// assert_eq!(kind, DiagnosticKind::BackwardJump { to: 1 });
 /// assert_eq!((kind.clause(), kind.ends_streaming()), ("STM-8", true));
 /// assert_eq!(kind.to_string(), "$GOTO back to line 1");
 /// # Ok::<(), ads_cnc::streaming::LineError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum FindingKind {
+pub enum DiagnosticKind {
     /// A word of a loop (STM-8).
     Loop(LoopWord),
     /// `$GOTO` to a label that is not below (STM-8).
@@ -50,9 +50,9 @@ pub enum FindingKind {
         /// The line of the label.
         to: u32,
     },
-    /// The first line behind a program end. If the CNC has read it with the end it is lost, else
+    /// The first line after a program end. If the CNC has read it with the end it is lost, else
     /// it stays in the interface and comes before the next program (STM-10).
-    BehindEnd {
+    AfterEnd {
         /// The end.
         end: ProgramEnd,
         /// The line of the end.
@@ -62,12 +62,12 @@ pub enum FindingKind {
     OpenComment,
 }
 
-impl FindingKind {
+impl DiagnosticKind {
     /// The requirement it is about.
     pub const fn clause(self) -> &'static str {
         match self {
             Self::Loop(_) | Self::BackwardJump { .. } => "STM-8",
-            Self::BehindEnd { .. } => "STM-10",
+            Self::AfterEnd { .. } => "STM-10",
             Self::OpenComment => "STM-9",
         }
     }
@@ -78,19 +78,19 @@ impl FindingKind {
     }
 }
 
-/// What is there, in a few words.
-impl fmt::Display for FindingKind {
+/// The class in a few words.
+impl fmt::Display for DiagnosticKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Loop(word) => write!(f, "{word} in a stream"),
             Self::BackwardJump { to } => write!(f, "$GOTO back to line {to}"),
-            Self::BehindEnd { end, of } => write!(f, "text behind the {end} of line {of}"),
+            Self::AfterEnd { end, of } => write!(f, "text after the {end} of line {of}"),
             Self::OpenComment => f.write_str("#COMMENT BEGIN without #COMMENT END"),
         }
     }
 }
 
-impl fmt::Display for Finding {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { line, column, kind } = self;
         write!(f, "line {line}, column {column}: {kind} ({})", kind.clause())

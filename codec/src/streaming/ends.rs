@@ -16,8 +16,8 @@ pub(super) fn split_at_end(bytes: &[u8]) -> (&[u8], &[u8]) {
     bytes.split_at_checked(len).unwrap_or((bytes, &[]))
 }
 
-/// What follows the line end that is here, if one is.
-pub(super) const fn behind_end(bytes: &[u8]) -> &[u8] {
+/// The text after the line end, if the text begins with one.
+pub(super) const fn after_end(bytes: &[u8]) -> &[u8] {
     match bytes {
         [LF, rest @ ..] | [CR, LF, rest @ ..] | [CR, rest @ ..] => rest,
         _ => bytes,
@@ -51,11 +51,11 @@ pub fn check_line_ends(data: &[u8]) -> Result<(), LineError> {
         let (line, end) = split_at_end(rest);
         let kind = match end {
             [CR, LF, ..] => {
-                rest = behind_end(end);
+                rest = after_end(end);
                 continue;
             }
-            [LF, ..] => LineErrorKind::LfAlone,
-            [CR, ..] => LineErrorKind::CrAlone,
+            [LF, ..] => LineErrorKind::BareLf,
+            [CR, ..] => LineErrorKind::BareCr,
             _ => LineErrorKind::NoLineEnd,
         };
         return Err(LineError::new(number, to_u32(line.len()).saturating_add(1), kind));

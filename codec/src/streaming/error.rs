@@ -1,4 +1,4 @@
-//! What is wrong with a line.
+//! Errors of lines.
 
 /// A line that cannot be streamed: where, what was expected, what was there.
 ///
@@ -54,10 +54,10 @@ pub enum LineErrorKind {
     Nul,
     /// LF without CR before it, in data that was received (STM-5).
     #[error("CR LF expected, LF alone found")]
-    LfAlone,
-    /// CR without LF behind it, in data that was received (STM-5).
+    BareLf,
+    /// CR without LF after it, in data that was received (STM-5).
     #[error("CR LF expected, CR alone found")]
-    CrAlone,
+    BareCr,
     /// Data that was received ends within a line (STM-5).
     #[error("CR LF expected, end of data found")]
     NoLineEnd,
@@ -69,7 +69,7 @@ impl LineErrorKind {
         match self {
             Self::TooLong { .. } => "STM-20",
             Self::NotAscii { .. } | Self::Nul => "STM-7",
-            Self::LfAlone | Self::CrAlone | Self::NoLineEnd => "STM-5",
+            Self::BareLf | Self::BareCr | Self::NoLineEnd => "STM-5",
         }
     }
 }

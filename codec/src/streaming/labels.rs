@@ -36,12 +36,12 @@ impl Generation {
 }
 
 impl Labels {
-    pub(super) const fn of_at_most(labels: usize, characters: usize) -> Self {
+    pub(super) const fn with_limits(labels: usize, characters: usize) -> Self {
         Self { recent: Generation::EMPTY, before: Generation::EMPTY, labels, characters }
     }
 
     /// The scan comes by a label.
-    pub(super) fn pass(&mut self, label: &Label<'_>, line: u32) {
+    pub(super) fn record(&mut self, label: &Label<'_>, line: u32) {
         let recent = &mut self.recent;
         if recent.lines.len() >= self.labels || recent.characters >= self.characters {
             self.before = core::mem::replace(recent, Generation::EMPTY);

@@ -1,10 +1,10 @@
 //! Pieces of a line.
 
-/// The number of a block, and what stands behind it. A `/` may stand before it, blanks anywhere.
+/// The number of a block, and the text after it. A `/` may come before it, blanks anywhere.
 pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     let mut at = skip_while(line, is_blank);
-    if let [b'/', behind @ ..] = at {
-        at = skip_while(skip_while(behind, u8::is_ascii_digit), is_blank);
+    if let [b'/', after @ ..] = at {
+        at = skip_while(skip_while(after, u8::is_ascii_digit), is_blank);
     }
     if let [b'N' | b'n', number @ ..] = at {
         if let Some((digits, rest)) = number_of(number) {
@@ -14,19 +14,19 @@ pub(super) fn block_number(line: &[u8]) -> (Option<&[u8]>, &[u8]) {
     (None, at)
 }
 
-/// Digits, and what stands behind them; none if there is no digit.
+/// Digits, and the text after them; `None` without a digit.
 pub(super) fn number_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
     let (digits, rest) = split_while(skip_while(text, is_blank), u8::is_ascii_digit);
     (!digits.is_empty()).then_some((digits, rest))
 }
 
-/// A name up to the closing bracket, and what stands behind it.
+/// A name up to the closing bracket, and the text after it.
 pub(super) fn name_of(text: &[u8]) -> Option<(&[u8], &[u8])> {
     let (name, rest) = split_while(text, |&byte| byte != b']');
     Some((name.trim_ascii(), rest.get(1..)?))
 }
 
-/// What stands behind `#COMMENT` and this word.
+/// The text after `#COMMENT` and this word.
 pub(super) fn comment_command<'a>(text: &'a [u8], word: &[u8]) -> Option<&'a [u8]> {
     let (command, rest) = text.split_at_checked(b"#COMMENT".len())?;
     if command.first() != Some(&b'#') {
@@ -42,9 +42,9 @@ pub(super) fn comment_command<'a>(text: &'a [u8], word: &[u8]) -> Option<&'a [u8
 pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
     loop {
         match rest {
-            [b' ' | b'\t', behind @ ..] => rest = behind,
+            [b' ' | b'\t', after @ ..] => rest = after,
             [b';', ..] => return &[],
-            [b'(', behind @ ..] => rest = behind_parentheses(behind),
+            [b'(', after @ ..] => rest = after_parentheses(after),
             _ => return rest,
         }
     }
@@ -53,13 +53,13 @@ pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
 /// Passes over what most lines are made of and no word that counts begins with: numbers, signs, and
 /// addresses of one letter such as X.
 pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
-    while let [byte, behind @ ..] = rest {
+    while let [byte, after @ ..] = rest {
         rest = match sort(*byte) {
-            Sort::Sign => behind,
-            Sort::Digit => skip_while(behind, is_in_number),
-            Sort::Letter => match behind {
-                [] => behind,
-                [next, ..] if matches!(sort(*next), Sort::Sign | Sort::Digit) => behind,
+            Sort::Sign => after,
+            Sort::Digit => skip_while(after, is_in_number),
+            Sort::Letter => match after {
+                [] => after,
+                [next, ..] if matches!(sort(*next), Sort::Sign | Sort::Digit) => after,
                 _ => return rest,
             },
             Sort::Other => return rest,
@@ -91,11 +91,11 @@ const fn sort(byte: u8) -> Sort {
     }
 }
 
-/// What stands behind the parenthesis that closes; nothing if none does.
-pub(super) fn behind_parentheses(mut rest: &[u8]) -> &[u8] {
+/// The text after the closing parenthesis; empty without one.
+pub(super) fn after_parentheses(mut rest: &[u8]) -> &[u8] {
     let mut open = 1_u32;
-    while let Some((&byte, behind)) = rest.split_first() {
-        rest = behind;
+    while let Some((&byte, after)) = rest.split_first() {
+        rest = after;
         match byte {
             b'(' => open = open.saturating_add(1),
             b')' => open = open.saturating_sub(1),
@@ -108,13 +108,13 @@ pub(super) fn behind_parentheses(mut rest: &[u8]) -> &[u8] {
     rest
 }
 
-/// What stands behind the bytes of a sort.
+/// The text after the bytes of a sort.
 pub(super) fn skip_while(mut bytes: &[u8], is: impl Fn(&u8) -> bool) -> &[u8] {
-    while let [byte, behind @ ..] = bytes {
+    while let [byte, after @ ..] = bytes {
         if !is(byte) {
             break;
         }
-        bytes = behind;
+        bytes = after;
     }
     bytes
 }

@@ -3,14 +3,14 @@
 //! | manual (`stream-en`) | here |
 //! |---|---|
 //! | 2.2, lines and packets | [`NcText`], [`Packets`] |
-//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain, with `alloc` | `Findings`; packet by packet, `Checker` |
+//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain, with `alloc` | `Diagnostics`; packet by packet, `Checker` |
 //! | 3.1, sizes | [`limits`](crate::limits) |
 //! | 3.2, the object | [`WriteProgramStream`](crate::operation::WriteProgramStream), [`ProgramStreamRef`], [`OBJECT_NAME`] |
 //! | 4.1, line ends | [`check_line_ends`], [`LINE_END_ERROR`] |
 //! | 4.2 and 5, acknowledgement and repetition | [`Sender`], [`Ack`], [`RETRY_AFTER`] |
 //!
 //! A packet is whole lines of ASCII, each ended by CR LF, without a NUL or a length before it
-//! (STM-4, STM-7). Nothing here sends anything, and nothing but `Findings` and `Checker`
+//! (STM-4, STM-7). Nothing here sends anything, and nothing but `Diagnostics` and `Checker`
 //! allocates.
 //!
 //! ```
@@ -19,12 +19,12 @@
 //! // Everything that can be wrong with the text is found before the first packet is out.
 //! let text = NcText::new(b"N10 G01 X200 F1000\nN20 X240 Y100\nN30 M30")?;
 //! # #[cfg(feature = "alloc")]
-//! assert_eq!(text.findings().next(), None);
+//! assert_eq!(text.diagnostics().next(), None);
 //!
 //! let mut sender = Sender::new(text);
 //! let mut written = Vec::new();
 //! while let Some(packet) = sender.packet() {
-//!     // Write it to the CNC. On `Ack::Later` wait `RETRY_AFTER`; the same packet comes again.
+//!     // Write it to the CNC. On `Ack::Busy` wait `RETRY_AFTER`; the same packet comes again.
 //!     written.extend_from_slice(packet);
 //!     sender.acknowledge(Ack::Accepted)?;
 //! }
@@ -57,16 +57,16 @@ mod text;
 mod words;
 
 #[cfg(feature = "alloc")]
-pub use check::{Finding, FindingKind};
+pub use check::{Diagnostic, DiagnosticKind};
 #[cfg(feature = "alloc")]
-pub use checker::{CheckedLines, Checker, Findings, Found};
+pub use checker::{CheckEvent, CheckEvents, Checker, Diagnostics};
 pub use ends::check_line_ends;
 pub use error::{LineError, LineErrorKind};
 pub use packets::Packets;
 #[cfg(feature = "alloc")]
 pub use program_stream::ProgramStream;
 pub use program_stream::ProgramStreamRef;
-pub use sender::{Ack, NoPacketOut, Progress, Sender, SenderState};
+pub use sender::{Ack, Progress, Sender, SenderState, UnexpectedAck};
 pub use text::{Lines, NcText};
 #[cfg(feature = "alloc")]
 pub use words::{LoopWord, ProgramEnd};

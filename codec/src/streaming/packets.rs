@@ -1,11 +1,11 @@
 //! From text to packets.
 
-use super::ends::{CR, LF, behind_end, split_at_end};
+use super::ends::{CR, LF, after_end, split_at_end};
 use crate::limits::STREAM_PACKET_MAX;
 
 /// The packets of a text: whole lines, each ended by CR LF, as many as fit 992 bytes.
 ///
-/// All packets together are the text with CR LF behind each line. Text whose lines already end
+/// All packets together are the text with CR LF after each line. Text whose lines already end
 /// in CR LF is not copied: its packets are parts of it. A line joined to the next by `\` is a line
 /// as any other, so the two may be in two packets (assumed).
 ///
@@ -50,7 +50,7 @@ impl<'a> Packets<'a> {
         self.rest
     }
 
-    /// The next packet, in `buf` or in the text itself; none behind the last line.
+    /// The next packet, in `buf` or in the text itself; `None` after the last line.
     pub fn next_into<'b>(&mut self, buf: &'b mut [u8; STREAM_PACKET_MAX]) -> Option<&'b [u8]>
     where
         'a: 'b,
@@ -106,7 +106,9 @@ impl<'a> Packets<'a> {
 fn copy<'a>(text: &'a [u8], packet: &mut [u8; STREAM_PACKET_MAX]) -> (&'a [u8], usize) {
     let (mut rest, mut room, mut free) = (text, packet.as_mut_slice(), STREAM_PACKET_MAX);
     while !rest.is_empty() {
-        let Some((after, left)) = copy_line(rest, room) else { break };
+        let Some((after, left)) = copy_line(rest, room) else {
+            break;
+        };
         (rest, free, room) = (after, left.len(), left);
     }
     (rest, STREAM_PACKET_MAX.saturating_sub(free))
@@ -120,7 +122,7 @@ fn copy_line<'a, 'b>(text: &'a [u8], room: &'b mut [u8]) -> Option<(&'a [u8], &'
     out.iter_mut().zip(line).for_each(|(out, byte)| *out = *byte);
     let (end, room) = room.split_first_chunk_mut()?;
     *end = [CR, LF];
-    Some((behind_end(text.get(line.len()..)?), room))
+    Some((after_end(text.get(line.len()..)?), room))
 }
 
 #[cfg(test)]
@@ -128,7 +130,7 @@ mod tests {
     use super::*;
     use crate::streaming::NcText;
 
-    /// The room behind the last line and the buffer's end are never taken for text.
+    /// Bytes of the buffer after the last line are never taken for text.
     #[test]
     fn a_line_is_copied_or_nothing_counts() {
         for len in 0..40 {

@@ -26,6 +26,6 @@ stream! {
     /// ```
     ProgramStream "program-stream", "Data streaming, request", "STM-2", max 992;
     struct ProgramStreamRef<'a> / ProgramStream {
-        @0 bytes "data": BYTES(1, 992), "STM-4", "whole lines of NC text";
+        @0 bytes "data": REST(1, 992), "STM-4", "whole lines of NC text";
     }
 }

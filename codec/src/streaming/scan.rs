@@ -1,20 +1,20 @@
-//! What of an NC text the checks need, word by word, without its comments.
+//! The words of an NC text that the checks need, without comments.
 
-use super::ends::{behind_end, split_at_end};
+use super::ends::{after_end, split_at_end};
 use super::lex::*;
 use super::words::{LoopWord, ProgramEnd};
 use crate::bytes::to_u32;
 
-/// A place of a text, both from 1.
+/// A position in a text; line and column count from 1.
 #[derive(Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct Position {
     pub(super) line: u32,
     pub(super) column: u32,
 }
 
 /// A word, and where it begins.
 pub(super) struct Token<'a> {
-    pub(super) place: Place,
+    pub(super) position: Position,
     pub(super) word: Word<'a>,
 }
 
@@ -40,47 +40,47 @@ impl Label<'_> {
         self.program
     }
 
-    /// What two labels of a program have in common if they are the same.
+    /// The key by which labels of a program are compared.
     pub(super) fn key(&self) -> alloc::vec::Vec<u8> {
         let text = self.text.iter().map(u8::to_ascii_lowercase);
         core::iter::once(u8::from(self.named)).chain(text).collect()
     }
 }
 
-/// What matters of lines for those that follow.
+/// The state of a scan between two lines.
 #[derive(Clone, Copy)]
-pub(super) struct Carry {
+pub(super) struct ScanState {
     /// Lines so far.
     pub(super) lines: u32,
     /// Lines so far that begin with `%`.
     pub(super) program: u32,
     /// Where the comment block began that is open.
-    pub(super) block: Option<Place>,
+    pub(super) block: Option<Position>,
 }
 
-impl Carry {
+impl ScanState {
     pub(super) const START: Self = Self { lines: 0, program: 0, block: None };
 }
 
-/// Goes through a text. What is within a comment block is passed over.
+/// Scans a text for words and labels; skips comment blocks.
 #[derive(Clone)]
 pub(super) struct Scan<'a> {
-    /// Behind the present line, its end included.
+    /// The text after the present line and its end.
     below: &'a [u8],
     line: &'a [u8],
     number: u32,
-    /// What is left of the present line.
+    /// The rest of the present line.
     rest: &'a [u8],
     stage: Stage,
     /// No bracket closes in what is left of the line.
     open: bool,
     /// The line after its block number.
     body: &'a [u8],
-    /// The label of the line, and what stands behind it.
+    /// The label of the line, and the text after it.
     label: Option<(Label<'a>, &'a [u8])>,
     program: u32,
     /// Where the comment block began that is open.
-    block: Option<Place>,
+    block: Option<Position>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -93,9 +93,9 @@ enum Stage {
 }
 
 impl<'a> Scan<'a> {
-    /// Goes on with the lines behind those of which this carries over.
-    pub(super) const fn behind(carry: Carry, text: &'a [u8]) -> Self {
-        let Carry { lines, program, block } = carry;
+    /// Resumes after the lines that led to this state.
+    pub(super) const fn resume(state: ScanState, text: &'a [u8]) -> Self {
+        let ScanState { lines, program, block } = state;
         Self {
             below: text,
             line: &[],
@@ -110,13 +110,13 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// What carries over from the lines up to the present one.
-    pub(super) const fn carry(&self) -> Carry {
-        Carry { lines: self.number, program: self.program, block: self.block }
+    /// The state after the present line.
+    pub(super) const fn state(&self) -> ScanState {
+        ScanState { lines: self.number, program: self.program, block: self.block }
     }
 
-    /// The lines behind the present one.
-    pub(super) const fn below(&self) -> &'a [u8] {
+    /// The lines after the present one.
+    pub(super) const fn remaining(&self) -> &'a [u8] {
         self.below
     }
 
@@ -130,23 +130,19 @@ impl<'a> Scan<'a> {
         None
     }
 
-    fn place(&self) -> Place {
-        self.place_of(self.rest.len())
-    }
-
-    /// Where so much of the line is left.
-    fn place_of(&self, left: usize) -> Place {
+    /// The position at which this many bytes of the line are left.
+    fn position_with(&self, left: usize) -> Position {
         let before = self.line.len().saturating_sub(left);
-        Place { line: self.number, column: to_u32(before).saturating_add(1) }
+        Position { line: self.number, column: to_u32(before).saturating_add(1) }
     }
 
-    /// Goes to the next line; false behind the last.
+    /// Goes to the next line; `false` after the last.
     fn enter_line(&mut self) -> bool {
         if self.below.is_empty() {
             return false;
         }
         let (line, below) = split_at_end(self.below);
-        (self.line, self.rest, self.below) = (line, line, behind_end(below));
+        (self.line, self.rest, self.below) = (line, line, after_end(below));
         self.number = self.number.saturating_add(1);
         (self.stage, self.open, self.label) = (Stage::Blank, false, None);
         let (number, at) = block_number(line);
@@ -167,7 +163,7 @@ impl<'a> Scan<'a> {
                 self.stage = Stage::Title;
             }
             [b'#', ..] if comment_command(at, b"BEGIN").is_some() => {
-                self.block = Some(self.place_of(at.len()));
+                self.block = Some(self.position_with(at.len()));
                 self.rest = &[];
             }
             [b':' | b'[', ..] => self.label = self.definition(number, at),
@@ -181,14 +177,14 @@ impl<'a> Scan<'a> {
         loop {
             self.rest = skip_comments(skip_addresses(self.rest));
             let left = self.rest.len();
-            let (&first, behind) = self.rest.split_first()?;
-            if let Some(word) = self.word(first, behind) {
+            let (&first, after) = self.rest.split_first()?;
+            if let Some(word) = self.word(first, after) {
                 return Some((left, word));
             }
         }
     }
 
-    /// What the code of a line begins with.
+    /// The first word of a line with code.
     fn head(&mut self) -> Word<'a> {
         match (self.stage, self.label) {
             (Stage::Title, _) => self.rest = &[],
@@ -204,11 +200,11 @@ impl<'a> Scan<'a> {
     }
 
     /// The word that begins here, if it is one that counts.
-    fn word(&mut self, first: u8, behind: &'a [u8]) -> Option<Word<'a>> {
+    fn word(&mut self, first: u8, after: &'a [u8]) -> Option<Word<'a>> {
         match first {
             b'$' => {
-                let (name, behind) = split_while(behind, u8::is_ascii_alphabetic);
-                self.rest = behind;
+                let (name, after) = split_while(after, u8::is_ascii_alphabetic);
+                self.rest = after;
                 if name.eq_ignore_ascii_case(b"GOTO") {
                     return self.target().map(Word::Goto);
                 }
@@ -217,22 +213,22 @@ impl<'a> Scan<'a> {
             }
             b'"' => {
                 // Quoted text, if the quote is closed.
-                let close = behind.iter().position(|&byte| byte == b'"');
-                self.rest = match close.and_then(|at| behind.get(at.saturating_add(1)..)) {
+                let close = after.iter().position(|&byte| byte == b'"');
+                self.rest = match close.and_then(|at| after.get(at.saturating_add(1)..)) {
                     Some(rest) => rest,
-                    None => behind,
+                    None => after,
                 };
                 None
             }
-            b'.' if behind.first().is_some_and(u8::is_ascii_alphabetic) => self.pass_path(),
+            b'.' if after.first().is_some_and(u8::is_ascii_alphabetic) => self.pass_path(),
             b'_' => self.pass_path(),
             b'0'..=b'9' => {
-                self.rest = skip_while(behind, is_in_number);
+                self.rest = skip_while(after, is_in_number);
                 None
             }
             _ if first.is_ascii_alphabetic() => self.letters(),
             _ => {
-                self.rest = behind;
+                self.rest = after;
                 None
             }
         }
@@ -240,25 +236,25 @@ impl<'a> Scan<'a> {
 
     /// An address with its number, a variable's name, a word of letters.
     fn letters(&mut self) -> Option<Word<'a>> {
-        let (letters, behind) = split_while(self.rest, u8::is_ascii_alphabetic);
-        match behind {
+        let (letters, after) = split_while(self.rest, u8::is_ascii_alphabetic);
+        match after {
             [b'_', ..] => return self.pass_path(),
             [b'.', next, ..] if next.is_ascii_alphabetic() || *next == b'_' => {
                 return self.pass_path();
             }
             // A subroutine's name may look like anything.
             [b' ' | b'\t', ..] if matches!(letters, b"L" | b"l" | b"LL" | b"ll") => {
-                let name = skip_while(behind, is_blank);
+                let name = skip_while(after, is_blank);
                 self.rest = skip_while(name, is_in_file_name);
                 return None;
             }
-            _ => self.rest = behind,
+            _ => self.rest = after,
         }
-        let (digits, behind) = split_while(behind, u8::is_ascii_digit);
-        if !matches!(letters, b"M" | b"m") || matches!(behind, [b'.' | b'_', ..]) {
+        let (digits, after) = split_while(after, u8::is_ascii_digit);
+        if !matches!(letters, b"M" | b"m") || matches!(after, [b'.' | b'_', ..]) {
             return None;
         }
-        self.rest = behind;
+        self.rest = after;
         match skip_while(digits, is_zero) {
             b"2" => Some(Word::End(ProgramEnd::M2)),
             b"30" => Some(Word::End(ProgramEnd::M30)),
@@ -300,7 +296,7 @@ impl<'a> Scan<'a> {
         Some(label)
     }
 
-    /// The label at the start of a line, and what stands behind it.
+    /// The label at the start of a line, and the text after it.
     fn definition(&self, number: Option<&'a [u8]>, at: &'a [u8]) -> Option<(Label<'a>, &'a [u8])> {
         match (number, at) {
             (Some(digits), [b':', rest @ ..]) => Some((self.number(digits), rest)),
@@ -312,7 +308,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Leading zeros do not matter.
+    /// CStringPrefix zeros do not matter.
     fn number(&self, digits: &'a [u8]) -> Label<'a> {
         self.label(false, skip_while(digits, is_zero))
     }
@@ -329,13 +325,13 @@ impl<'a> Iterator for Scan<'a> {
         loop {
             if self.stage == Stage::Body {
                 if let Some((left, word)) = self.next_word() {
-                    return Some(Token { place: self.place_of(left), word });
+                    return Some(Token { position: self.position_with(left), word });
                 }
             } else {
                 self.rest = skip_comments(self.rest);
                 if !self.rest.is_empty() {
-                    let place = self.place();
-                    return Some(Token { place, word: self.head() });
+                    let position = self.position_with(self.rest.len());
+                    return Some(Token { position, word: self.head() });
                 }
             }
             if !self.enter_line() {

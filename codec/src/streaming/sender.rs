@@ -1,4 +1,4 @@
-//! The writing end.
+//! The sender of an NC program.
 
 use core::fmt;
 
@@ -8,12 +8,11 @@ use super::packets::{Cut, Packets};
 use crate::ads::AdsError;
 use crate::limits::STREAM_PACKET_MAX;
 
-/// How a write to the stream was answered.
+/// The CNC's answer to a write to the stream.
 ///
-/// Which ADS result means which refusal is not documented ([`of`](Self::of)); the manual's driver
-/// takes each for a temporary one. A write whose answer never came may have been taken or not:
-/// nobody can tell, so to repeat it may run lines twice. Acknowledge it as
-/// [`Refused`](Self::Refused).
+/// Which ADS results are temporary is not documented ([`from_result`](Self::from_result)); the
+/// manual's driver retries after every error. If the reply to a write is lost, the outcome is
+/// unknown, and a retry may execute lines twice: acknowledge it as [`Rejected`](Self::Rejected).
 ///
 /// Manual: `stream-en`, sections 4.2 and 5 (STM-6).
 ///
@@ -21,33 +20,33 @@ use crate::limits::STREAM_PACKET_MAX;
 /// use ads_cnc::ads::AdsError;
 /// use ads_cnc::streaming::Ack;
 ///
-/// assert_eq!(Ack::of(AdsError(0)), Ack::Accepted);
-/// assert_eq!(Ack::of(AdsError::INVALID_SIZE), Ack::Refused);
+/// assert_eq!(Ack::from_result(AdsError(0)), Ack::Accepted);
+/// assert_eq!(Ack::from_result(AdsError::INVALID_SIZE), Ack::Rejected);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ack {
     /// The data was taken.
     Accepted,
     /// The data cannot be taken now; it is to be written again.
-    Later,
+    Busy,
     /// The data will not be taken.
-    Refused,
+    Rejected,
 }
 
 impl Ack {
-    /// What the result of the write says. Which numbers a CNC gives is not documented: that a
-    /// service, address, access or size it does not take is refused for good, and everything else
-    /// for now, is assumed (STM-6, ADS-7).
+    /// The acknowledgement that the result of a write means. The results of a CNC are not
+    /// documented. Assumed: it rejects an invalid service, address, access or size, and is busy at
+    /// every other error (STM-6, ADS-7).
     ///
     /// ```
     /// use ads_cnc::ads::AdsError;
     /// use ads_cnc::streaming::Ack;
     ///
-    /// assert_eq!(Ack::of(AdsError::NO_ERROR), Ack::Accepted);
-    /// assert_eq!(Ack::of(AdsError::INVALID_SIZE), Ack::Refused);
-    /// assert_eq!(Ack::of(AdsError::INVALID_DATA), Ack::Later);
+    /// assert_eq!(Ack::from_result(AdsError::NO_ERROR), Ack::Accepted);
+    /// assert_eq!(Ack::from_result(AdsError::INVALID_SIZE), Ack::Rejected);
+    /// assert_eq!(Ack::from_result(AdsError::INVALID_DATA), Ack::Busy);
     /// ```
-    pub const fn of(result: AdsError) -> Self {
+    pub const fn from_result(result: AdsError) -> Self {
         match result {
             AdsError::NO_ERROR => Self::Accepted,
             AdsError::TARGET_PORT_NOT_FOUND
@@ -56,13 +55,13 @@ impl Ack {
             | AdsError::INVALID_GROUP
             | AdsError::INVALID_OFFSET
             | AdsError::INVALID_ACCESS
-            | AdsError::INVALID_SIZE => Self::Refused,
-            _ => Self::Later,
+            | AdsError::INVALID_SIZE => Self::Rejected,
+            _ => Self::Busy,
         }
     }
 }
 
-/// Where a [`Sender`] stands.
+/// The state of a [`Sender`].
 ///
 /// ```
 /// use ads_cnc::streaming::{Ack, NcText, Sender, SenderState};
@@ -70,8 +69,8 @@ impl Ack {
 /// let mut sender = Sender::new(NcText::new(b"M30\n")?);
 /// assert_eq!(sender.state(), SenderState::Ready);
 /// sender.packet();
-/// assert_eq!(sender.state(), SenderState::Out);
-/// sender.acknowledge(Ack::Later)?;
+/// assert_eq!(sender.state(), SenderState::InFlight);
+/// sender.acknowledge(Ack::Busy)?;
 /// assert_eq!(sender.state(), SenderState::Waiting);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -79,11 +78,11 @@ impl Ack {
 pub enum SenderState {
     /// The next packet can be handed out.
     Ready,
-    /// A packet is out; its acknowledgement has to come.
-    Out,
-    /// A packet was refused for now; the same one can be handed out again.
+    /// A packet was handed out and is not acknowledged yet.
+    InFlight,
+    /// The CNC was busy; the same packet can be handed out again.
     Waiting,
-    /// A packet was refused for good; no more are handed out.
+    /// A packet was rejected; no more are handed out.
     Stopped,
     /// All packets were accepted.
     Done,
@@ -106,28 +105,28 @@ pub struct Progress {
     pub packets: usize,
     /// Lines.
     pub lines: usize,
-    /// Bytes, with CR LF behind each line.
+    /// Bytes, with CR LF after each line.
     pub bytes: usize,
 }
 
-/// An acknowledgement came while no packet was out.
+/// An acknowledgement came while no packet was in flight.
 ///
 /// ```
-/// use ads_cnc::streaming::{Ack, NcText, NoPacketOut, Sender};
+/// use ads_cnc::streaming::{Ack, NcText, UnexpectedAck, Sender};
 ///
 /// let mut sender = Sender::new(NcText::new(b"M30\n")?);
-/// assert_eq!(sender.acknowledge(Ack::Accepted), Err(NoPacketOut));
+/// assert_eq!(sender.acknowledge(Ack::Accepted), Err(UnexpectedAck));
 /// # Ok::<(), ads_cnc::streaming::LineError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 #[error("acknowledgement of no packet: one that is out expected, none found")]
-pub struct NoPacketOut;
+pub struct UnexpectedAck;
 
 /// Streams a text: hands out a packet, takes its acknowledgement, goes on.
 ///
-/// After [`Ack::Later`] the same packet comes again; the caller waits before, as long as it
+/// After [`Ack::Busy`] the same packet comes again; the caller waits before, as long as it
 /// likes ([`RETRY_AFTER`](super::RETRY_AFTER)), and may give up by dropping the sender. After
-/// [`Ack::Refused`] none comes. A packet that is out is handed out again if asked for: it counts
+/// [`Ack::Rejected`] it hands out no more. Asking again returns the packet in flight again: it counts
 /// once.
 ///
 /// Holds one packet, for text that is not [as on the wire](NcText::is_wire).
@@ -139,8 +138,8 @@ pub struct NoPacketOut;
 ///
 /// let mut sender = Sender::new(NcText::new(b"N10 G0 X0\nN20 M30")?);
 /// assert_eq!(sender.packet(), Some(&b"N10 G0 X0\r\nN20 M30\r\n"[..]));
-/// sender.acknowledge(Ack::Later)?;
-/// assert_eq!((sender.refusals(), sender.left_lines()), (1, 2));
+/// sender.acknowledge(Ack::Busy)?;
+/// assert_eq!((sender.busy_count(), sender.left_lines()), (1, 2));
 /// assert_eq!(sender.packet(), Some(&b"N10 G0 X0\r\nN20 M30\r\n"[..]));
 /// sender.acknowledge(Ack::Accepted)?;
 /// assert_eq!(sender.packet(), None);
@@ -150,13 +149,13 @@ pub struct NoPacketOut;
 #[derive(Clone)]
 pub struct Sender<'a> {
     text: NcText<'a>,
-    /// Behind what was accepted.
+    /// The packets that were not accepted yet.
     packets: Packets<'a>,
-    /// The packet that is out or waits, and the packets behind it.
-    held: Option<(Cut<'a>, Packets<'a>)>,
+    /// The packet in flight or waiting for a retry, and the packets after it.
+    in_flight: Option<(Cut<'a>, Packets<'a>)>,
     state: SenderState,
     sent: Progress,
-    refusals: u32,
+    busy_count: u32,
     buffer: [u8; STREAM_PACKET_MAX],
 }
 
@@ -167,48 +166,48 @@ impl<'a> Sender<'a> {
         Self {
             text,
             packets: text.packets(),
-            held: None,
+            in_flight: None,
             state: if empty { SenderState::Done } else { SenderState::Ready },
             sent: Progress { packets: 0, lines: 0, bytes: 0 },
-            refusals: 0,
+            busy_count: 0,
             buffer: [0; STREAM_PACKET_MAX],
         }
     }
 
-    /// The packet to write now; none if all were accepted or one was refused for good.
+    /// The packet to write now; `None` if all were accepted or one was rejected.
     pub fn packet(&mut self) -> Option<&[u8]> {
         if matches!(self.state, SenderState::Stopped | SenderState::Done) {
             return None;
         }
-        if self.held.is_none() {
-            let mut behind = self.packets.clone();
-            let cut = behind.cut(&mut self.buffer)?;
-            self.held = Some((cut, behind));
+        if self.in_flight.is_none() {
+            let mut rest = self.packets.clone();
+            let cut = rest.cut(&mut self.buffer)?;
+            self.in_flight = Some((cut, rest));
         }
-        self.state = SenderState::Out;
-        self.held()
+        self.state = SenderState::InFlight;
+        self.packet_in_flight()
     }
 
-    /// Takes the answer to the packet that is out.
+    /// Takes the acknowledgement of the packet in flight.
     ///
     /// # Errors
-    /// [`NoPacketOut`] if none is; nothing changes.
-    pub fn acknowledge(&mut self, ack: Ack) -> Result<(), NoPacketOut> {
-        if self.state != SenderState::Out {
-            return Err(NoPacketOut);
+    /// [`UnexpectedAck`] if no packet is in flight; nothing changes.
+    pub fn acknowledge(&mut self, ack: Ack) -> Result<(), UnexpectedAck> {
+        if self.state != SenderState::InFlight {
+            return Err(UnexpectedAck);
         }
         match ack {
             Ack::Accepted => self.accept(),
-            Ack::Later => {
+            Ack::Busy => {
                 self.state = SenderState::Waiting;
-                self.refusals = self.refusals.saturating_add(1);
+                self.busy_count = self.busy_count.saturating_add(1);
             }
-            Ack::Refused => self.state = SenderState::Stopped,
+            Ack::Rejected => self.state = SenderState::Stopped,
         }
         Ok(())
     }
 
-    /// Where the sender stands.
+    /// The state of the sender.
     pub const fn state(&self) -> SenderState {
         self.state
     }
@@ -218,12 +217,12 @@ impl<'a> Sender<'a> {
         self.sent
     }
 
-    /// Lines that were not accepted yet, those of the packet that is out among them.
+    /// Lines that were not accepted yet, those of the packet in flight among them.
     pub const fn left_lines(&self) -> usize {
         self.text.line_count().saturating_sub(self.sent.lines)
     }
 
-    /// Bytes that were not accepted yet, with CR LF behind each line.
+    /// Bytes that were not accepted yet, with CR LF after each line.
     pub const fn left_bytes(&self) -> usize {
         self.text.wire_len().saturating_sub(self.sent.bytes)
     }
@@ -233,30 +232,30 @@ impl<'a> Sender<'a> {
         self.packets.rest()
     }
 
-    /// How often the packet that waits or is out was refused for now.
-    pub const fn refusals(&self) -> u32 {
-        self.refusals
+    /// How often the present packet was answered by [`Ack::Busy`].
+    pub const fn busy_count(&self) -> u32 {
+        self.busy_count
     }
 
-    fn held(&self) -> Option<&[u8]> {
-        match self.held.as_ref()?.0 {
+    fn packet_in_flight(&self) -> Option<&[u8]> {
+        match self.in_flight.as_ref()?.0 {
             Cut::Text(packet) => Some(packet),
             Cut::Buffer(len) => self.buffer.get(..len),
         }
     }
 
     fn accept(&mut self) {
-        let packet = self.held().unwrap_or_default();
+        let packet = self.packet_in_flight().unwrap_or_default();
         let lines = packet.iter().filter(|&&byte| byte == LF).count();
         self.sent = Progress {
             packets: self.sent.packets.saturating_add(1),
             lines: self.sent.lines.saturating_add(lines),
             bytes: self.sent.bytes.saturating_add(packet.len()),
         };
-        if let Some((_, behind)) = self.held.take() {
-            self.packets = behind;
+        if let Some((_, rest)) = self.in_flight.take() {
+            self.packets = rest;
         }
-        self.refusals = 0;
+        self.busy_count = 0;
         let done = self.packets.rest().is_empty();
         self.state = if done { SenderState::Done } else { SenderState::Ready };
     }
@@ -264,12 +263,12 @@ impl<'a> Sender<'a> {
 
 impl fmt::Debug for Sender<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { text, state, sent, refusals, .. } = self;
+        let Self { text, state, sent, busy_count, .. } = self;
         f.debug_struct("Sender")
             .field("text", text)
             .field("state", state)
             .field("sent", sent)
-            .field("refusals", refusals)
+            .field("busy_count", busy_count)
             .finish_non_exhaustive()
     }
 }

@@ -3,15 +3,15 @@
 use core::fmt;
 
 #[cfg(feature = "alloc")]
-use super::Findings;
-use super::ends::{CR, LF, behind_end, split_at_end};
+use super::Diagnostics;
+use super::ends::{CR, LF, after_end, split_at_end};
 use super::{LineError, LineErrorKind, Packets};
 use crate::bytes::to_u32;
 use crate::limits::NC_LINE_MAX;
 
 /// NC text in which every line can be streamed.
 ///
-/// A line ends in LF, in CR LF, or in CR without LF (the last is assumed: so no CR ever stands
+/// A line ends in LF, in CR LF, or in CR without LF (the last is assumed: so no CR is ever
 /// within a line that is sent). The last line may be open. A line without characters is a line
 /// and is streamed; text without bytes has no line.
 ///
@@ -47,7 +47,7 @@ impl<'a> NcText<'a> {
             check(line, lines)?;
             wire_len = wire_len.saturating_add(line.len()).saturating_add(2);
             crlf &= matches!(end, [] | [CR, LF, ..]);
-            rest = behind_end(end);
+            rest = after_end(end);
         }
         Ok(Self { bytes, lines, wire_len, crlf })
     }
@@ -62,7 +62,7 @@ impl<'a> NcText<'a> {
         self.lines
     }
 
-    /// Bytes of all packets together: of the text with CR LF behind each line.
+    /// Bytes of all packets together: of the text with CR LF after each line.
     pub const fn wire_len(&self) -> usize {
         self.wire_len
     }
@@ -82,10 +82,10 @@ impl<'a> NcText<'a> {
         Packets::new(self.bytes, self.crlf)
     }
 
-    /// What streaming does not permit in the text, or what would be lost.
+    /// Diagnostics of the text: what streaming does not permit, and lines that would be lost.
     #[cfg(feature = "alloc")]
-    pub fn findings(&self) -> Findings<'a> {
-        Findings::new(*self)
+    pub fn diagnostics(&self) -> Diagnostics<'a> {
+        Diagnostics::new(*self)
     }
 }
 
@@ -115,7 +115,7 @@ impl<'a> Iterator for Lines<'a> {
             return None;
         }
         let (line, rest) = split_at_end(self.0);
-        self.0 = behind_end(rest);
+        self.0 = after_end(rest);
         Some(line)
     }
 }

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// A word of a loop; none is permitted in a stream (STM-8).
+/// A word of a loop; streams must not contain loops (STM-8).
 ///
 /// Manual: `stream-en`, section 2.3.3.
 ///
@@ -44,7 +44,7 @@ impl LoopWord {
         Self::EndWhile,
     ];
 
-    /// The word behind the `$`.
+    /// The word after the `$`.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::For => "FOR",

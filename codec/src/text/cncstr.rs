@@ -7,7 +7,7 @@ use super::end::text_len;
 use super::{char_to_cp1252, cp1252_to_char};
 use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
-use crate::layout::field;
+use crate::layout::text::TEXT;
 
 /// CP1252 text without a NUL, borrowed from a stream or from a Rust string.
 ///
@@ -43,11 +43,11 @@ impl<'a> CncStr<'a> {
         for (at, character) in (0_u32..).zip(text.chars()) {
             ascii &= character.is_ascii();
             if character == '\0' {
-                return Err(Error::new(ErrorKind::InnerNul, field::text::TEXT, at, 0, at));
+                return Err(Error::new(ErrorKind::InnerNul, TEXT, at, 0, at));
             }
             if char_to_cp1252(character).is_none() {
                 let point = u32::from(character);
-                return Err(Error::new(ErrorKind::NotCp1252, field::text::TEXT, at, 0, point));
+                return Err(Error::new(ErrorKind::NotCp1252, TEXT, at, 0, point));
             }
         }
         Ok(Self(if ascii { Source::Bytes(text.as_bytes()) } else { Source::Str(text) }))
@@ -61,7 +61,7 @@ impl<'a> CncStr<'a> {
         let at = text_len(bytes);
         if at < bytes.len() {
             let at = to_u32(at);
-            return Err(Error::new(ErrorKind::InnerNul, field::text::TEXT, at, 0, at));
+            return Err(Error::new(ErrorKind::InnerNul, TEXT, at, 0, at));
         }
         Ok(Self(Source::Bytes(bytes)))
     }
@@ -119,7 +119,7 @@ impl<'a> CncStr<'a> {
         }
     }
 
-    /// The text before and from a place in [`held`](Self::held); all and none if no character
+    /// The text before and from an offset in [`held`](Self::held); all and nothing if no character
     /// begins there.
     pub(crate) fn split_at(self, at: usize) -> (Self, Self) {
         match self.0 {
@@ -142,7 +142,7 @@ impl<'a> CncStr<'a> {
         }
     }
 
-    /// The CP1252 bytes in a vector with room for so many more.
+    /// The CP1252 bytes in a vector with room for `more` bytes.
     #[cfg(feature = "alloc")]
     pub(crate) fn to_bytes(self, more: usize) -> alloc::vec::Vec<u8> {
         let mut all = alloc::vec::Vec::with_capacity(self.len().saturating_add(more));

@@ -3,7 +3,7 @@
 /// Characters of the bytes 0x80..=0x9F; every other byte is the character of its number.
 ///
 /// 81 8D 8F 90 9D have no character in the code page. The control characters of the same
-/// number stand for them, so that every byte has one character and comes back from it.
+/// number replace them, so that every byte has one character and comes back from it.
 const HIGH: [char; 32] = [
     '\u{20AC}', '\u{81}', '\u{201A}', '\u{0192}', '\u{201E}', '\u{2026}', '\u{2020}', '\u{2021}',
     '\u{02C6}', '\u{2030}', '\u{0160}', '\u{2039}', '\u{0152}', '\u{8D}', '\u{017D}', '\u{8F}',

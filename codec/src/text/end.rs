@@ -5,7 +5,7 @@ use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
 
-/// The text before the first NUL and the bytes behind it.
+/// The text before the first NUL and the bytes after it.
 #[inline]
 pub(crate) fn split_nul(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let (text, rest) = bytes.split_at_checked(text_len(bytes))?;
@@ -35,41 +35,41 @@ fn padding_len(tail: &[u8]) -> usize {
     tail.iter().position(|&byte| byte != 0).unwrap_or(tail.len())
 }
 
-/// Why these bytes are no text of `len` bytes with its NUL.
+/// The error for bytes that are not a text of `len` bytes with its NUL.
 #[cold]
 #[inline(never)]
-pub(crate) fn not_terminated(field: Field, at: u32, max: u32, bytes: &[u8], len: usize) -> Error {
+pub(crate) fn not_cstring(field: Field, at: u32, max: u32, bytes: &[u8], len: usize) -> Error {
     match bytes.split_at_checked(len) {
         Some((_, [_, tail @ ..])) => not_padded(field, at, len, tail),
         _ => Error::new(ErrorKind::MissingNul, field, at, max, to_u32(bytes.len())),
     }
 }
 
-/// Why these bytes are no text of `len` bytes with its NUL, nor one without.
+/// The error for bytes that are not a text of `len` bytes, with or without its NUL.
 #[cold]
 #[inline(never)]
-pub(crate) fn not_maybe_terminated(field: Field, at: u32, bytes: &[u8], len: usize) -> Error {
+pub(crate) fn not_optional_nul(field: Field, at: u32, bytes: &[u8], len: usize) -> Error {
     match bytes.split_at_checked(len) {
         Some((_, [_, tail @ ..])) => not_padded(field, at, len, tail),
         _ => Error::new(ErrorKind::Truncated, field, at, 1, 0),
     }
 }
 
-/// Behind a text of `len` bytes and its NUL there is something else than NULs.
+/// The error for other bytes than NULs after a text of `len` bytes and its NUL.
 #[cold]
 #[inline(never)]
 pub(crate) fn not_padded(field: Field, at: u32, len: usize, tail: &[u8]) -> Error {
-    let behind = at.saturating_add(to_u32(len)).saturating_add(1);
-    let end = behind.saturating_add(to_u32(padding_len(tail)));
-    let given = behind.saturating_add(to_u32(tail.len()));
-    Error::new(ErrorKind::Trailing, Field::whole(field.stream()), end, end, given)
+    let after = at.saturating_add(to_u32(len)).saturating_add(1);
+    let end = after.saturating_add(to_u32(padding_len(tail)));
+    let given = after.saturating_add(to_u32(tail.len()));
+    Error::new(ErrorKind::Trailing, field.to_whole(), end, end, given)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Wherever the first NUL is, whatever is around it and behind it.
+    /// The first NUL ends the text, at any offset and with any bytes around it.
     #[test]
     fn the_first_nul_ends_a_text() {
         for filler in [1, 0x7F, 0x80, 0x81, 0xFF] {

@@ -1,10 +1,10 @@
-//! Text as it stands in a stream.
+//! Text as a field of a stream.
 
 use core::fmt;
 
 use super::CncStr;
 use super::end::{not_padded, split_nul};
-use crate::bytes::{Writer, to_len, to_u32};
+use crate::bytes::{Writer, to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
 
@@ -36,7 +36,7 @@ impl<'a> TextRef<'a> {
         Ok(CncStr::new(text)?.into())
     }
 
-    /// Text with another end: the bytes behind the NUL, or no NUL.
+    /// Text with another end: the bytes after the NUL, or no NUL.
     #[inline]
     pub const fn with_tail(text: CncStr<'a>, tail: Option<&'a [u8]>) -> Self {
         Self { text, tail }
@@ -57,7 +57,7 @@ impl<'a> TextRef<'a> {
         self.text
     }
 
-    /// The bytes behind the first NUL; none if there is no NUL.
+    /// The bytes after the first NUL; `None` without a NUL.
     #[inline]
     pub const fn tail(&self) -> Option<&'a [u8]> {
         self.tail
@@ -78,34 +78,36 @@ impl<'a> TextRef<'a> {
         }
     }
 
-    /// The bytes of a field that may stand at the end of a request: a NUL, and only NULs behind it.
-    pub(crate) fn check_terminated(&self, field: Field, at: u32, max: u32) -> Result<usize, Error> {
+    /// The bytes of a field at the end of a request: a NUL, and only NULs after it.
+    pub(crate) fn check_cstring(&self, field: Field, at: u32, max: u32) -> Result<usize, Error> {
         let len = self.field_len();
-        if len > to_len(max) {
+        if len > to_usize(max) {
             return Err(Error::new(ErrorKind::TooLong, field, at, max, to_u32(len)));
         }
         match self.tail {
             Some(tail) => self.check_padding(tail, field, at)?,
-            None => return Err(Error::new(ErrorKind::MissingNul, field, at, max, to_u32(len))),
+            None => {
+                return Err(Error::new(ErrorKind::MissingNul, field, at, max, to_u32(len)));
+            }
         }
         Ok(len)
     }
 
-    /// As [`check_terminated`](Self::check_terminated), but the NUL may be missing.
+    /// As [`check_cstring`](Self::check_cstring), but the NUL may be missing.
     #[inline]
-    pub(crate) fn check_may_terminate(
+    pub(crate) fn check_optional_nul(
         &self,
         field: Field,
         at: u32,
         max: u32,
     ) -> Result<usize, Error> {
-        let len = self.check_open(field, at, 1, max)?;
+        let len = self.check_text_and_tail(field, at, 1, max)?;
         self.check_padding(self.tail.unwrap_or_default(), field, at)?;
         Ok(len)
     }
 
     /// The bytes of a field that may have between `min` and `max` of them.
-    pub(crate) fn check_open(
+    pub(crate) fn check_text_and_tail(
         &self,
         field: Field,
         at: u32,
@@ -113,16 +115,16 @@ impl<'a> TextRef<'a> {
         max: u32,
     ) -> Result<usize, Error> {
         let len = self.field_len();
-        if len < to_len(min) {
+        if len < to_usize(min) {
             return Err(Error::new(ErrorKind::Truncated, field, at, min, to_u32(len)));
         }
-        if len > to_len(max) {
+        if len > to_usize(max) {
             return Err(Error::new(ErrorKind::TooLong, field, at, max, to_u32(len)));
         }
         Ok(len)
     }
 
-    /// Behind the NUL, if there is one, only NULs.
+    /// Only NULs may follow the NUL, if the text has one.
     #[inline]
     fn check_padding(&self, tail: &[u8], field: Field, at: u32) -> Result<(), Error> {
         match tail.iter().all(|&byte| byte == 0) {

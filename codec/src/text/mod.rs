@@ -1,9 +1,9 @@
-//! Text in code page CP1252 (GEN-3): on its own, and as it stands in a stream.
+//! Text in code page CP1252 (GEN-3): on its own, and as a field of a stream.
 //!
 //! | | borrowed | owned (feature `alloc`) |
 //! |---|---|---|
 //! | a text, which has no NUL | [`CncStr`] | `CncString` |
-//! | the field it stands in, with its NUL and what follows that | [`TextRef`] | `Text` |
+//! | a field of a stream: the text with its NUL and the bytes after that | [`TextRef`] | `Text` |
 //!
 //! ```
 //! use ads_cnc::{CncStr, TextRef};

@@ -97,7 +97,7 @@ impl fmt::Debug for CncString {
 pub struct Text {
     /// The text.
     pub text: CncString,
-    /// The bytes behind the first NUL; none if there is no NUL.
+    /// The bytes after the first NUL; `None` without a NUL.
     pub tail: Option<Vec<u8>>,
 }
 

@@ -1,21 +1,21 @@
-//! From what is said of a value to its elements.
+//! From the description of a value to its elements.
 
 use super::shape::known;
 use super::{DataType, Element, Elements, Shape};
 use crate::com::{Descriptor, DescriptorRef};
 use crate::error::Error;
-use crate::variable::{DescriptionByNameRef, DescriptionRef, Numbers, ValueRef, VariableType};
+use crate::variable::{DescriptionByNameRef, DescriptionRef, U32List, ValueRef, VariableType};
 
-/// What both descriptions, by index and by name, say of a value.
+/// The value's type and shape, from the descriptions by index and by name.
 macro_rules! describes {
     ($( $description:ident )+) => { $(
         impl<'a> $description<'a> {
             /// Type, dimensions and size of the variable, found to agree (VAR-8).
             ///
             /// # Errors
-            /// Those of [`Shape::of_variable`].
+            /// Those of [`Shape::for_variable`].
             pub fn shape(&self) -> Result<Shape<'a>, Error> {
-                Shape::of_variable(self.var_type, self.dimensions, self.size)
+                Shape::for_variable(self.var_type, self.dimensions, self.size)
             }
 
             /// The elements of the whole variable's value.
@@ -42,7 +42,7 @@ macro_rules! describes {
             /// # Errors
             /// Those of [`elements`](Self::elements).
             pub fn element(&self, value: &ValueRef<'a>) -> Result<Element<'a>, Error> {
-                self.shape()?.one().elements(value.bytes)?.element(Numbers::EMPTY)
+                self.shape()?.element_shape().elements(value.bytes)?.element(U32List::EMPTY)
             }
         }
     )+ };
@@ -51,15 +51,15 @@ macro_rules! describes {
 describes! { DescriptionRef DescriptionByNameRef }
 
 impl<'a> ValueRef<'a> {
-    /// The elements of a value of this type and these dimensions; none for a single element.
+    /// The elements of a value of this type and these dimensions; an empty list for a single element.
     ///
     /// With a description at hand, [`DescriptionRef::elements`] checks its size too.
     ///
     /// ```
-    /// use ads_cnc::{Decode, Element, Numbers, ValueRef, VariableType};
+    /// use ads_cnc::{Decode, Element, U32List, ValueRef, VariableType};
     ///
     /// let value = ValueRef::decode(&[77, 1, 0, 0, 200, 1, 0, 0])?;
-    /// let elements = value.elements(VariableType::SGN32, Numbers::from(&[2]))?;
+    /// let elements = value.elements(VariableType::SGN32, U32List::from(&[2]))?;
     /// assert!(elements.iter().eq([Element::Sgn32(333), Element::Sgn32(456)]));
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
@@ -70,7 +70,7 @@ impl<'a> ValueRef<'a> {
     pub fn elements(
         &self,
         var_type: VariableType,
-        dimensions: Numbers<'a>,
+        dimensions: U32List<'a>,
     ) -> Result<Elements<'a>, Error> {
         Elements::new(known(var_type)?, dimensions, self.bytes)
     }
@@ -100,7 +100,7 @@ mod owned {
                 /// As that of the description, borrowed.
                 ///
                 /// # Errors
-                /// Those of [`Shape::of_variable`].
+                /// Those of [`Shape::for_variable`].
                 pub fn shape(&self) -> Result<Shape<'_>, Error> {
                     self.as_ref().shape()
                 }

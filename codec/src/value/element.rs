@@ -6,24 +6,24 @@ use core::ops::Range;
 use zerocopy::FromBytes as _;
 
 use super::typed::beyond;
-use super::{Boolean, DataType, Item, Shape};
-use crate::bytes::{to_len, to_u32};
+use super::{Boolean, DataType, Scalar, Shape};
+use crate::bytes::{to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::typed_value::VALUE;
+use crate::layout::typed_value::VALUE;
 use crate::text::TextRef;
-use crate::variable::Numbers;
+use crate::variable::U32List;
 
 /// One element of a value.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2; sizes of the types: GEN-5.
 ///
 /// ```
-/// use ads_cnc::Numbers;
+/// use ads_cnc::U32List;
 /// use ads_cnc::value::{Boolean, DataType, Element, Elements};
 ///
 /// // two BOOLEANs, as of V.E.Variable_3
-/// let elements = Elements::new(DataType::Boolean, Numbers::from(&[2]), &[0, 1])?;
-/// let second = elements.element(Numbers::from(&[1]))?;
+/// let elements = Elements::new(DataType::Boolean, U32List::from(&[2]), &[0, 1])?;
+/// let second = elements.element(U32List::from(&[1]))?;
 /// assert_eq!(second, Element::Boolean(Boolean::TRUE));
 /// assert_eq!((second.data_type(), second.to_string()), (DataType::Boolean, "TRUE".into()));
 /// assert!(bool::try_from(second)?);
@@ -104,11 +104,11 @@ impl fmt::Display for Element<'_> {
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.2 and 4.3.4 … 4.3.7.
 ///
 /// ```
-/// use ads_cnc::Numbers;
+/// use ads_cnc::U32List;
 /// use ads_cnc::value::{DataType, Element, Elements};
 ///
-/// let elements = Elements::new(DataType::Uns16, Numbers::from(&[2, 2]), &[1, 0, 2, 0, 3, 0, 4, 0])?;
-/// assert_eq!(elements.element(Numbers::from(&[0, 1]))?, Element::Uns16(2));
+/// let elements = Elements::new(DataType::Uns16, U32List::from(&[2, 2]), &[1, 0, 2, 0, 3, 0, 4, 0])?;
+/// assert_eq!(elements.element(U32List::from(&[0, 1]))?, Element::Uns16(2));
 /// assert_eq!(elements.iter().last(), Some(Element::Uns16(4)));
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -119,7 +119,7 @@ pub struct Elements<'a> {
 }
 
 impl<'a> Elements<'a> {
-    /// The elements of a value of this type and these dimensions; none for a single element.
+    /// The elements of a value of this type and these dimensions; an empty list for a single element.
     ///
     /// The texts of an array have the same share of the bytes (assumed).
     ///
@@ -128,13 +128,13 @@ impl<'a> Elements<'a> {
     /// the elements; [`ErrorKind::Mismatch`] if texts cannot share them.
     pub fn new(
         data_type: DataType,
-        dimensions: Numbers<'a>,
+        dimensions: U32List<'a>,
         bytes: &'a [u8],
     ) -> Result<Self, Error> {
         let given = to_u32(bytes.len());
         match data_type.size() {
             None => Ok(Self { shape: Shape::new(data_type, dimensions, given)?, bytes }),
-            Some(each) => match Shape::of_fixed(data_type, each, dimensions) {
+            Some(each) => match Shape::with_element_size(data_type, each, dimensions) {
                 Some(shape) => shape.elements(bytes),
                 None => Err(Error::new(ErrorKind::Truncated, VALUE, 0, u32::MAX, given)),
             },
@@ -153,10 +153,10 @@ impl<'a> Elements<'a> {
 
     /// How many.
     pub fn len(&self) -> usize {
-        to_len(self.shape.count())
+        to_usize(self.shape.count())
     }
 
-    /// Whether there is none, as a dimension is 0.
+    /// Returns `true` if there are no elements: a dimension is 0.
     pub fn is_empty(&self) -> bool {
         self.shape.count() == 0
     }
@@ -174,7 +174,7 @@ impl<'a> Elements<'a> {
         if index >= self.len() {
             return None;
         }
-        let each = to_len(self.shape.element_size());
+        let each = to_usize(self.shape.element_size());
         let bytes = self.bytes.get(index.checked_mul(each)?..)?.get(..each)?;
         Some(match self.data_type() {
             DataType::Boolean => Element::Boolean(read(bytes)?),
@@ -196,8 +196,8 @@ impl<'a> Elements<'a> {
     ///
     /// # Errors
     /// Those of [`Shape::index_of`].
-    pub fn element(&self, indices: Numbers<'_>) -> Result<Element<'a>, Error> {
-        self.get(to_len(self.shape.index_of(indices)?))
+    pub fn element(&self, indices: U32List<'_>) -> Result<Element<'a>, Error> {
+        self.get(to_usize(self.shape.index_of(indices)?))
     }
 
     /// All in their order.
@@ -211,7 +211,7 @@ impl<'a> Elements<'a> {
     }
 }
 
-fn read<T: Item>(bytes: &[u8]) -> Option<T> {
+fn read<T: Scalar>(bytes: &[u8]) -> Option<T> {
     T::Wire::read_from_bytes(bytes).ok().map(T::from_wire)
 }
 
@@ -224,11 +224,11 @@ impl fmt::Debug for Elements<'_> {
 /// [`Elements`] in their order.
 ///
 /// ```
-/// use ads_cnc::Numbers;
+/// use ads_cnc::U32List;
 /// use ads_cnc::value::{DataType, Element, Elements};
 ///
 /// let bytes = [123_i32, 234, 345].map(i32::to_le_bytes).concat();
-/// let elements = Elements::new(DataType::Sgn32, Numbers::from(&[3]), &bytes)?;
+/// let elements = Elements::new(DataType::Sgn32, U32List::from(&[3]), &bytes)?;
 /// assert_eq!(elements.iter().last(), Some(Element::Sgn32(345)));
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```

@@ -5,12 +5,12 @@ use zerocopy::IntoBytes as _;
 use super::{DataType, Element, Elements};
 use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
-use crate::layout::Stream;
-use crate::layout::field::typed_value::VALUE;
+use crate::layout::Subject;
+use crate::layout::typed_value::VALUE;
 use crate::limits::ADS_DATA_MAX;
 use crate::text::{CncStr, TextRef};
 
-/// What becomes the bytes of a value: a number, a `bool` or [`Boolean`](super::Boolean), a slice or
+/// A value that is encoded to bytes: a number, a `bool` or [`Boolean`](super::Boolean), a slice or
 /// an array of them, a text, and each form in which values are read.
 ///
 /// The bytes are what requests take, and what the content of an object or of an element is. A
@@ -75,10 +75,10 @@ fn check(len: usize) -> Result<(), Error> {
     }
 }
 
-/// Writes so many bytes, or nothing at all.
+/// Writes exactly `len` bytes, or returns an error and writes nothing.
 fn fill(len: usize, buf: &mut [u8], write: impl FnOnce(&mut Writer<'_>)) -> Result<&[u8], Error> {
     check(len)?;
-    Writer::fill(Stream::TypedValue, len, buf, write)
+    Writer::fill(Subject::TypedValue, len, buf, write)
 }
 
 /// Of each form its type, its number of elements, its bytes, and how they are written.
@@ -88,11 +88,11 @@ macro_rules! encode_value {
         $(@$item:ident $(; $n:ident)?)? $form:ty, |$value:ident| $data_type:expr, $count:expr, $len:expr,
         |$buf:ident| $encode:expr;
     )+) => { $(
-        impl $(<$item: super::Item $(, const $n: usize)?>)? sealed::Sealed for $form {}
+        impl $(<$item: super::Scalar $(, const $n: usize)?>)? sealed::Sealed for $form {}
 
         $(#[$doc])*
         #[allow(unused_variables, reason = "the type alone may say it")]
-        impl $(<$item: super::Item $(, const $n: usize)?>)? EncodeValue for $form {
+        impl $(<$item: super::Scalar $(, const $n: usize)?>)? EncodeValue for $form {
             fn data_type(&self) -> DataType {
                 let $value = self;
                 $data_type
@@ -119,7 +119,7 @@ macro_rules! encode_value {
     )+ };
 }
 
-/// Does the same with whatever an element holds.
+/// Does the same with the value of any element.
 macro_rules! each {
     ($element:ident, $value:ident => $do:expr) => {
         match $element {

@@ -24,7 +24,7 @@
 //!
 //! ```
 //! use ads_cnc::value::{Element, EncodeValue};
-//! use ads_cnc::{Decode, DescriptionRef, Numbers, ValueRef};
+//! use ads_cnc::{Decode, DescriptionRef, U32List, ValueRef};
 //!
 //! // What the CNC says of a variable SGN32[2][3], and its value.
 //! let description = DescriptionRef::decode(
@@ -34,9 +34,9 @@
 //! let value = ValueRef::decode(bytes)?;
 //!
 //! let elements = description.elements(&value)?;
-//! assert_eq!(elements.element(Numbers::from(&[1, 0]))?, Element::Sgn32(21));
+//! assert_eq!(elements.element(U32List::from(&[1, 0]))?, Element::Sgn32(21));
 //! assert_eq!(
-//!     elements.element(Numbers::from(&[1, 3])).unwrap_err().to_string(),
+//!     elements.element(U32List::from(&[1, 3])).unwrap_err().to_string(),
 //!     "typed-value: index at offset 1: out of range, expected at most 2, found 3"
 //! );
 //! assert_eq!(elements.items::<i32>()?.sum::<i32>(), 102);
@@ -45,7 +45,7 @@
 //!
 //! // One element goes back by its indices, in the bytes of an SGN32.
 //! let mut buf = [0; 4];
-//! assert_eq!(description.shape()?.one().encode(&123_i32, &mut buf)?, [123, 0, 0, 0]);
+//! assert_eq!(description.shape()?.element_shape().encode(&123_i32, &mut buf)?, [123, 0, 0, 0]);
 //! assert_eq!([11, 12, 13].encode_value(&mut [0; 12])?, &bytes[..12]);
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
@@ -71,14 +71,14 @@ mod data_type;
 mod describe;
 mod element;
 mod encode;
-mod item;
 mod reader;
+mod scalar;
 mod shape;
 mod typed;
 
 pub use data_type::DataType;
 pub use element::{Element, ElementIter, Elements};
 pub use encode::EncodeValue;
-pub use item::{Boolean, Item};
 pub use reader::Reader;
+pub use scalar::{Boolean, Scalar};
 pub use shape::Shape;

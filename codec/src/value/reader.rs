@@ -2,7 +2,7 @@
 
 use zerocopy::{FromBytes as _, FromZeros as _};
 
-use super::Item;
+use super::Scalar;
 use crate::bytes::{self, to_u32};
 use crate::content::ContentRef;
 use crate::error::Error;
@@ -54,14 +54,14 @@ pub struct Reader<'a>(bytes::Reader<'a>);
 impl<'a> Reader<'a> {
     /// Begins at the first byte.
     pub fn new(bytes: &'a [u8]) -> Self {
-        Self(bytes::Reader::ending(Stream::Content, bytes))
+        Self(bytes::Reader::without_limit(Stream::Content, bytes))
     }
 
     /// The next number or BOOLEAN.
     ///
     /// # Errors
     /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes are left.
-    pub fn read<T: Item>(&mut self) -> Result<T, Error> {
+    pub fn read<T: Scalar>(&mut self) -> Result<T, Error> {
         let bytes = self.bytes(size_of::<T::Wire>())?;
         // The length is right, so that reading does not fail.
         let wire = T::Wire::read_from_bytes(bytes).unwrap_or_else(|_| T::Wire::new_zeroed());

@@ -2,12 +2,12 @@
 
 use super::element::Elements;
 use super::{DataType, EncodeValue};
-use crate::bytes::{Writer, to_len, to_u32};
+use crate::bytes::{Writer, to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
-use crate::layout::Stream;
-use crate::layout::field::typed_value::{COUNT, DIMENSION, INDEX, INDEX_COUNT, SIZE, TYPE, VALUE};
+use crate::layout::Subject;
+use crate::layout::typed_value::{COUNT, DIMENSION, INDEX, INDEX_COUNT, SIZE, TYPE, VALUE};
 use crate::text::{CncStr, TextRef};
-use crate::variable::{Numbers, VariableType};
+use crate::variable::{U32List, VariableType};
 
 /// Type, dimensions and bytes of a value, found to agree (VAR-8).
 ///
@@ -17,17 +17,17 @@ use crate::variable::{Numbers, VariableType};
 /// the elements follows from the example there.
 ///
 /// ```
-/// use ads_cnc::Numbers;
+/// use ads_cnc::U32List;
 /// use ads_cnc::value::{DataType, Shape};
 ///
-/// let shape = Shape::new(DataType::Sgn32, Numbers::from(&[2, 3]), 24)?;
-/// assert_eq!(shape.index_of(Numbers::from(&[1, 2]))?, 5);
+/// let shape = Shape::new(DataType::Sgn32, U32List::from(&[2, 3]), 24)?;
+/// assert_eq!(shape.index_of(U32List::from(&[1, 2]))?, 5);
 /// assert_eq!(
-///     shape.index_of(Numbers::from(&[2, 0])).unwrap_err().to_string(),
+///     shape.index_of(U32List::from(&[2, 0])).unwrap_err().to_string(),
 ///     "typed-value: index at offset 0: out of range, expected at most 1, found 2"
 /// );
 /// assert_eq!(
-///     Shape::new(DataType::Sgn32, Numbers::from(&[2, 3]), 20).unwrap_err().to_string(),
+///     Shape::new(DataType::Sgn32, U32List::from(&[2, 3]), 20).unwrap_err().to_string(),
 ///     "typed-value: size at offset 0: expected 24, found 20"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
@@ -35,43 +35,45 @@ use crate::variable::{Numbers, VariableType};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape<'a> {
     data_type: DataType,
-    dimensions: Numbers<'a>,
+    dimensions: U32List<'a>,
     count: u32,
     each: u32,
 }
 
 impl<'a> Shape<'a> {
-    /// A value of so many bytes; no dimension for a single element.
+    /// A value of `size` bytes; an empty list of dimensions for a single element.
     ///
     /// Each STRING of an array has the same share of the bytes, at least one (assumed).
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] of the size: that of the elements, or the next smaller one that so
     /// many texts can share, and the one given.
-    pub fn new(data_type: DataType, dimensions: Numbers<'a>, size: u32) -> Result<Self, Error> {
+    pub fn new(data_type: DataType, dimensions: U32List<'a>, size: u32) -> Result<Self, Error> {
         let mismatch = |expected| Err(Error::new(ErrorKind::Mismatch, SIZE, 0, expected, size));
         if let Some(each) = data_type.size() {
-            return match Self::of_fixed(data_type, each, dimensions) {
+            return match Self::with_element_size(data_type, each, dimensions) {
                 Some(shape) if shape.size() == size => Ok(shape),
                 shape => mismatch(shape.map_or(u32::MAX, |shape| shape.size())),
             };
         }
-        let Some(count) = count(dimensions) else { return mismatch(u32::MAX) };
+        let Some(count) = count(dimensions) else {
+            return mismatch(u32::MAX);
+        };
         let each = match (count, size.checked_div(count), size.checked_rem(count)) {
             (0, ..) if size == 0 => 0,
             (1, ..) => size,
             (_, Some(each), Some(0)) if each > 0 => each,
-            // So many texts have at least a NUL each; no text has nothing.
+            // Each text has at least its NUL; no texts have no bytes.
             (.., left) => return mismatch(size.saturating_sub(left.unwrap_or(size)).max(count)),
         };
         Ok(Self { data_type, dimensions, count, each })
     }
 
     /// Of a type of fixed size, if 32 bits hold the size of the whole.
-    pub(super) fn of_fixed(
+    pub(super) fn with_element_size(
         data_type: DataType,
         each: u32,
-        dimensions: Numbers<'a>,
+        dimensions: U32List<'a>,
     ) -> Option<Self> {
         let count = count(dimensions)?;
         count.checked_mul(each).map(|_| Self { data_type, dimensions, count, each })
@@ -82,17 +84,17 @@ impl<'a> Shape<'a> {
     /// # Errors
     /// Those of [`new`](Self::new), and [`ErrorKind::OutOfRange`] for a type the manuals do not
     /// have.
-    pub fn of_variable(
+    pub fn for_variable(
         var_type: VariableType,
-        dimensions: Numbers<'a>,
+        dimensions: U32List<'a>,
         size: u32,
     ) -> Result<Self, Error> {
         Self::new(known(var_type)?, dimensions, size)
     }
 
     /// One element of it, as it is read and written by its indices.
-    pub fn one(&self) -> Shape<'static> {
-        Shape { data_type: self.data_type, dimensions: Numbers::EMPTY, count: 1, each: self.each }
+    pub fn element_shape(&self) -> Shape<'static> {
+        Shape { data_type: self.data_type, dimensions: U32List::EMPTY, count: 1, each: self.each }
     }
 
     /// The type of the elements.
@@ -100,8 +102,8 @@ impl<'a> Shape<'a> {
         self.data_type
     }
 
-    /// Elements in each dimension; none for a single element.
-    pub const fn dimensions(&self) -> Numbers<'a> {
+    /// Elements in each dimension; empty for a single element.
+    pub const fn dimensions(&self) -> U32List<'a> {
         self.dimensions
     }
 
@@ -120,14 +122,14 @@ impl<'a> Shape<'a> {
         self.count.saturating_mul(self.each)
     }
 
-    /// Place of the element with these indices, from 0: the last index runs fastest (VAR-21,
+    /// Index of the element in the flat array, from 0: the last index runs fastest (VAR-21,
     /// assumed).
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] for another number of indices than dimensions;
     /// [`ErrorKind::OutOfRange`] for an index beyond its dimension, and [`ErrorKind::Missing`] for a
     /// dimension of 0, which has no element: the offset says which, from 0.
-    pub fn index_of(&self, indices: Numbers<'_>) -> Result<u32, Error> {
+    pub fn index_of(&self, indices: U32List<'_>) -> Result<u32, Error> {
         index_of(indices, self.dimensions)
     }
 
@@ -142,7 +144,7 @@ impl<'a> Shape<'a> {
             return Elements::new(self.data_type, self.dimensions, bytes);
         }
         let (size, given) = (self.size(), to_u32(bytes.len()));
-        if to_len(size) == bytes.len() {
+        if to_usize(size) == bytes.len() {
             return Ok(Elements { shape: *self, bytes });
         }
         match given < size {
@@ -158,10 +160,10 @@ impl<'a> Shape<'a> {
     ///
     /// ```
     /// use ads_cnc::value::{DataType, Shape};
-    /// use ads_cnc::{CncStr, Numbers};
+    /// use ads_cnc::{CncStr, U32List};
     ///
     /// // A STRING has 21 bytes by default.
-    /// let shape = Shape::new(DataType::String, Numbers::EMPTY, 21)?;
+    /// let shape = Shape::new(DataType::String, U32List::EMPTY, 21)?;
     /// assert_eq!(shape.encode(&CncStr::new("abc")?, &mut [0; 21])?, b"abc\0");
     /// assert_eq!(
     ///     shape.encode(&CncStr::new("a text of 21 letters.")?, &mut [0; 64]).unwrap_err().to_string(),
@@ -200,9 +202,9 @@ impl<'a> Shape<'a> {
     ///
     /// ```
     /// use ads_cnc::value::{DataType, Shape};
-    /// use ads_cnc::{CncStr, Numbers};
+    /// use ads_cnc::{CncStr, U32List};
     ///
-    /// let shape = Shape::new(DataType::String, Numbers::from(&[2]), 8)?;
+    /// let shape = Shape::new(DataType::String, U32List::from(&[2]), 8)?;
     /// let texts = [CncStr::new("abc")?, CncStr::new("d")?];
     /// assert_eq!(shape.encode_texts(&texts, &mut [0; 8])?, b"abc\0d\0\0\0");
     /// # Ok::<(), ads_cnc::Error>(())
@@ -228,10 +230,10 @@ impl<'a> Shape<'a> {
             self.check_text(to_u32(text.len()).saturating_add(1), at)?;
             at = at.saturating_add(self.each);
         }
-        Writer::fill(Stream::TypedValue, to_len(self.size()), buf, |out| {
+        Writer::fill(Subject::TypedValue, to_usize(self.size()), buf, |out| {
             for text in texts {
                 TextRef::from(*text).write(out);
-                let room = to_len(self.each).saturating_sub(text.len()).saturating_sub(1);
+                let room = to_usize(self.each).saturating_sub(text.len()).saturating_sub(1);
                 (0..room).for_each(|_| out.put(&[0]));
             }
         })
@@ -261,7 +263,7 @@ pub(super) fn known(var_type: VariableType) -> Result<DataType, Error> {
 }
 
 /// The product of the dimensions, if 32 bits hold it.
-fn count(dimensions: Numbers<'_>) -> Option<u32> {
+fn count(dimensions: U32List<'_>) -> Option<u32> {
     // A 0 makes it 0, however large the others are.
     if dimensions.iter().any(|dimension| dimension == 0) {
         return Some(0);
@@ -270,7 +272,7 @@ fn count(dimensions: Numbers<'_>) -> Option<u32> {
 }
 
 /// See [`Shape::index_of`].
-fn index_of(indices: Numbers<'_>, dimensions: Numbers<'_>) -> Result<u32, Error> {
+fn index_of(indices: U32List<'_>, dimensions: U32List<'_>) -> Result<u32, Error> {
     let (given, expected) = (to_u32(indices.len()), to_u32(dimensions.len()));
     if given != expected {
         return Err(Error::new(ErrorKind::Mismatch, INDEX_COUNT, 0, expected, given));

@@ -2,16 +2,16 @@
 
 use zerocopy::FromBytes as _;
 
-use super::{DataType, Element, Elements, Item};
+use super::{DataType, Element, Elements, Scalar};
 use crate::bytes::to_u32;
 use crate::content::ContentRef;
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::typed_value::{COUNT, INDEX, TYPE, VALUE};
+use crate::layout::typed_value::{COUNT, INDEX, TYPE, VALUE};
 use crate::text::{CncStr, TextRef};
 use crate::variable::ValueRef;
 
 /// The bytes of each number.
-fn split<T: Item>(bytes: &[u8]) -> Result<&[T::Wire], Error> {
+fn split<T: Scalar>(bytes: &[u8]) -> Result<&[T::Wire], Error> {
     <[T::Wire]>::ref_from_bytes(bytes).map_err(|_| {
         let each = size_of::<T::Wire>();
         let left = bytes.len().checked_rem(each).unwrap_or(0);
@@ -20,12 +20,12 @@ fn split<T: Item>(bytes: &[u8]) -> Result<&[T::Wire], Error> {
     })
 }
 
-fn get<T: Item>(bytes: &[u8], index: usize) -> Result<T, Error> {
+fn get<T: Scalar>(bytes: &[u8], index: usize) -> Result<T, Error> {
     let all = split::<T>(bytes)?;
     all.get(index).copied().map(T::from_wire).ok_or_else(|| beyond(all.len(), index))
 }
 
-fn copy_to<T: Item>(bytes: &[u8], out: &mut [T]) -> Result<(), Error> {
+fn copy_to<T: Scalar>(bytes: &[u8], out: &mut [T]) -> Result<(), Error> {
     let all = split::<T>(bytes)?;
     if all.len() != out.len() {
         let (count, given) = (to_u32(all.len()), to_u32(out.len()));
@@ -69,7 +69,7 @@ macro_rules! typed_reads {
             /// of the type's size, [`ErrorKind::OutOfRange`](crate::ErrorKind::OutOfRange) for an
             /// index beyond the last, [`ErrorKind::Missing`](crate::ErrorKind::Missing) if there are
             /// no bytes.
-            pub fn get<T: Item>(&self, index: usize) -> Result<T, Error> {
+            pub fn get<T: Scalar>(&self, index: usize) -> Result<T, Error> {
                 get(&self.bytes, index)
             }
 
@@ -78,7 +78,7 @@ macro_rules! typed_reads {
             /// # Errors
             /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
             /// of the type's size.
-            pub fn iter<$($own,)? T: Item>(
+            pub fn iter<$($own,)? T: Scalar>(
                 &$($own)? self,
             ) -> Result<
                 impl ExactSizeIterator<Item = T> + DoubleEndedIterator + Clone + use<$($view,)? $($own,)? T>,
@@ -94,7 +94,7 @@ macro_rules! typed_reads {
             /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
             /// of the type's size, [`ErrorKind::Mismatch`](crate::ErrorKind::Mismatch) for another
             /// number of elements; nothing is written.
-            pub fn copy_to<T: Item>(&self, out: &mut [T]) -> Result<(), Error> {
+            pub fn copy_to<T: Scalar>(&self, out: &mut [T]) -> Result<(), Error> {
                 copy_to(&self.bytes, out)
             }
 
@@ -104,7 +104,7 @@ macro_rules! typed_reads {
             /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if the bytes are not a multiple
             /// of the type's size.
             #[cfg(feature = "alloc")]
-            pub fn to_vec<T: Item>(&self) -> Result<alloc::vec::Vec<T>, Error> {
+            pub fn to_vec<T: Scalar>(&self) -> Result<alloc::vec::Vec<T>, Error> {
                 Ok(self.iter()?.collect())
             }
         }
@@ -147,7 +147,7 @@ impl<'a> Elements<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] for elements of another type.
-    pub fn items<T: Item>(
+    pub fn items<T: Scalar>(
         &self,
     ) -> Result<impl ExactSizeIterator<Item = T> + DoubleEndedIterator + Clone + use<'a, T>, Error>
     {
@@ -159,7 +159,7 @@ impl<'a> Elements<'a> {
     ///
     /// # Errors
     /// [`ErrorKind::Mismatch`] for another type or number of elements; nothing is written.
-    pub fn copy_to<T: Item>(&self, out: &mut [T]) -> Result<(), Error> {
+    pub fn copy_to<T: Scalar>(&self, out: &mut [T]) -> Result<(), Error> {
         self.check::<T>()?;
         copy_to(self.as_bytes(), out)
     }
@@ -169,11 +169,11 @@ impl<'a> Elements<'a> {
     /// # Errors
     /// [`ErrorKind::Mismatch`] for elements of another type.
     #[cfg(feature = "alloc")]
-    pub fn to_vec<T: Item>(&self) -> Result<alloc::vec::Vec<T>, Error> {
+    pub fn to_vec<T: Scalar>(&self) -> Result<alloc::vec::Vec<T>, Error> {
         Ok(self.items()?.collect())
     }
 
-    fn check<T: Item>(&self) -> Result<(), Error> {
+    fn check<T: Scalar>(&self) -> Result<(), Error> {
         match self.data_type() == T::TYPE {
             true => Ok(()),
             false => Err(mismatch(T::TYPE, self.data_type())),

@@ -4,7 +4,7 @@ use super::{Handle, VariableAccess, VariableType};
 use crate::declare::stream;
 
 stream! {
-    /// What a CNC says of a variable: the reply to a description by index.
+    /// The description of a variable: the reply to a request by index.
     ///
     /// How the name ends is not documented (E-17): a NUL, NULs up to 256 bytes, and the end of the
     /// stream are accepted. Bytes after the NUL are kept, and a name has at least one byte. A new
@@ -37,12 +37,12 @@ stream! {
               @12      size: UNS32,                            "VAR-8",  "bytes of the whole variable";
         count @16      dimension_count,                        "VAR-7",  "array dimensions m; 0 for an elementary variable";
               @20      dimensions: LIST(506),                  "VAR-4",  "elements in each dimension";
-              @20 + 4m name: TEXT(1, 256),                     "VAR-4",  "name of the variable";
+              @20 + 4m name: TEXT_AND_TAIL(1, 256),                     "VAR-4",  "name of the variable";
     }
 }
 
 stream! {
-    /// What a CNC says of a variable by its name: [`DescriptionRef`] without the name.
+    /// The description of a variable by its name: [`DescriptionRef`] without the name.
     ///
     /// Documented online only, for CNC versions from V3.1.3132.0 and V4.29.0 on; `ads-en` 1.05 and
     /// `ads-de` 1.051 reserve the offset in section 4.2.1.

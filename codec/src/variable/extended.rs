@@ -8,7 +8,7 @@ use crate::layout::Stream;
 use crate::stream::{Decode, Encode};
 
 stream! {
-    /// What a V.E variable has beyond its description.
+    /// Further properties of a V.E variable.
     ///
     /// V.G and V.A variables have no extended description: their reply has no bytes. Decode a reply as
     /// [`ExtendedReply`].
@@ -30,7 +30,7 @@ stream! {
     /// ```
     VariableExtendedDescription "variable-extended-description", "Extended variable description by index, reply", "VAR-15", max 8;
     struct ExtendedDescription {
-        @0 synchronisation: UNS32_OR_NOTHING as Synchronisation, "VAR-15", "1 NO_SYNC, 2 SYNCHRONIZED";
+        @0 synchronisation: OPTIONAL_UNS32 as Synchronisation, "VAR-15", "1 NO_SYNC, 2 SYNCHRONIZED";
         @4 validity: UNS32 as Validity,                          "VAR-15", "1 CHANNEL, 2 GLOBAL";
     }
 }

@@ -7,7 +7,7 @@ use crate::declare::stream;
 stream! {
     /// The handle of a variable.
     ///
-    /// Valid until the controller restarts; that of an axis variable belongs to the axis's place.
+    /// Valid until the controller restarts; that of an axis variable belongs to the index of the axis.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.3.
     ///
@@ -51,9 +51,9 @@ stream! {
     /// [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
-    /// use ads_cnc::{Encode, Handle, HandleReadRef, Numbers};
+    /// use ads_cnc::{Encode, Handle, HandleReadRef, U32List};
     ///
-    /// let element = HandleReadRef { handle: Handle(0x20012341), indices: Numbers::from(&[4]) };
+    /// let element = HandleReadRef { handle: Handle(0x20012341), indices: U32List::from(&[4]) };
     /// let mut buf = [0; 12];
     /// assert_eq!(element.encode(&mut buf)?, [0x41, 0x23, 1, 0x20, 1, 0, 0, 0, 4, 0, 0, 0]);
     /// # Ok::<(), ads_cnc::Error>(())
@@ -77,11 +77,11 @@ stream! {
     /// [`TooMany`](crate::ErrorKind::TooMany) or [`TooLong`](crate::ErrorKind::TooLong).
     ///
     /// ```
-    /// use ads_cnc::{Encode, Handle, HandleWriteRef, Numbers};
+    /// use ads_cnc::{Encode, Handle, HandleWriteRef, U32List};
     ///
     /// let write = HandleWriteRef {
     ///     handle: Handle(0x2001234),
-    ///     indices: Numbers::from(&[4]),
+    ///     indices: U32List::from(&[4]),
     ///     value: &123_i32.to_le_bytes(),
     /// };
     /// let mut buf = [0; 16];
@@ -93,7 +93,7 @@ stream! {
               @0      handle: UNS32 as Handle, "VAR-12", "handle of the variable";
         count @4      index_count,             "VAR-12", "indices n that follow; 0 for the whole variable";
               @8      indices: LIST(510),      "VAR-12", "index in each dimension, from 0";
-              @8 + 4n value: BYTES(0, 2040),   "VAR-12", "one element, or all of the array";
+              @8 + 4n value: REST(0, 2040),   "VAR-12", "one element, or all of the array";
     }
 }
 

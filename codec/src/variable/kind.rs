@@ -107,7 +107,7 @@ stream! {
     /// ```
     VariableKind "variable-kind", "Number of variable elements, request", "VAR-1", max 256;
     struct VariableKindRef<'a> / VariableKind {
-        @0 kind: TEXT_NUL_OR_NOTHING(256) as Kind, "VAR-1", "V.G, V.E or V.A; empty for all";
+        @0 kind: OPTIONAL_CSTRING(256) as Kind, "VAR-1", "V.G, V.E or V.A; empty for all";
     }
 }
 
@@ -155,6 +155,6 @@ stream! {
     VariableIndexKind "variable-index-kind", "Variable description by index, request", "VAR-3", max 260;
     struct VariableIndexKindRef<'a> / VariableIndexKind {
         @0 index: UNS32,                "VAR-3", "index of the variable, from 0";
-        @4 kind: TEXT_NUL(256) as Kind, "VAR-3", "V.G, V.E or V.A";
+        @4 kind: CSTRING(256) as Kind, "VAR-3", "V.G, V.E or V.A";
     }
 }

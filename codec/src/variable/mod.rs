@@ -6,8 +6,8 @@ mod extended;
 mod handle;
 mod kind;
 mod name;
-mod numbers;
 mod path;
+mod u32_list;
 mod value;
 
 pub use codes::{Synchronisation, Validity, VariableAccess, VariableType};
@@ -16,8 +16,8 @@ pub use extended::{ExtendedDescription, ExtendedReply};
 pub use handle::{Handle, HandleReadRef, HandleWriteRef};
 pub use kind::{Kind, VariableCount, VariableIndexKindRef, VariableKindRef};
 pub use name::{NameWriteRef, VariableNameRef};
-pub use numbers::Numbers;
 pub use path::{PathPart, PathParts, VariablePath};
+pub use u32_list::U32List;
 pub use value::ValueRef;
 
 #[cfg(feature = "alloc")]

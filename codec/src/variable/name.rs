@@ -24,7 +24,7 @@ stream! {
     /// ```
     VariableName "variable-name", "Variable by name, request", "VAR-9", max 256;
     struct VariableNameRef<'a> / VariableName {
-        @0 name: TEXT_NUL(256), "VAR-9", "name of the variable";
+        @0 name: CSTRING(256), "VAR-9", "name of the variable";
     }
 }
 
@@ -49,7 +49,7 @@ stream! {
     /// ```
     VariableNameWrite "variable-name-write", "Write variable value by name, request", "VAR-13", max 2048;
     struct NameWriteRef<'a> / NameWrite {
-        @0        name: TEXT_FIRST(256), "VAR-13", "name of the variable";
-        @1 + text value: BYTES(0, 2047), "VAR-13", "one element, or all of the array";
+        @0        name: CSTRING_PREFIX(256), "VAR-13", "name of the variable";
+        @1 + text value: REST(0, 2047), "VAR-13", "one element, or all of the array";
     }
 }

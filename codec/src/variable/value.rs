@@ -1,4 +1,4 @@
-//! Values. What their bytes mean is in the variable's description.
+//! Values. The variable's description tells what their bytes mean.
 
 use crate::declare::stream;
 
@@ -17,6 +17,6 @@ stream! {
     /// ```
     VariableValue "variable-value", "Variable value, reply", "VAR-14", max 2048;
     struct ValueRef<'a> / Value {
-        @0 bytes "value": BYTES(0, 2048), "VAR-14", "one element, or all of the array";
+        @0 bytes "value": REST(0, 2048), "VAR-14", "one element, or all of the array";
     }
 }

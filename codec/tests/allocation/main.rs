@@ -170,7 +170,7 @@ fn streaming_allocates_nothing() {
             let mut packets = text.packets();
             while packets.next_borrowed().is_some() {}
             let mut sender = Sender::new(text);
-            for ack in [Ack::Later, Ack::Accepted].into_iter().cycle() {
+            for ack in [Ack::Busy, Ack::Accepted].into_iter().cycle() {
                 let Some(packet) = sender.packet() else { break };
                 check_line_ends(packet).unwrap();
                 sender.acknowledge(ack).unwrap();
@@ -184,12 +184,12 @@ fn streaming_allocates_nothing() {
 /// Names are taken apart and put together without allocating.
 #[test]
 fn names_allocate_nothing() {
-    use ads_cnc::{Numbers, VariablePath};
+    use ads_cnc::{U32List, VariablePath};
 
     let (_, count) = measure(|| {
         let array = VariablePath::new("V.G.NP[0].Größe").unwrap();
         let mut buf = [0; 32];
-        let element = array.write_element(Numbers::from(&[1, 20]), &mut buf).unwrap();
+        let element = array.write_element(U32List::from(&[1, 20]), &mut buf).unwrap();
         assert_eq!(element.parts().map(|part| part.indices.len()).sum::<usize>(), 3);
     });
     assert_eq!(count, 0);
@@ -199,18 +199,18 @@ fn names_allocate_nothing() {
 #[test]
 fn typed_values_hold_no_more_than_their_bytes() {
     use ads_cnc::value::{DataType, Elements, EncodeValue};
-    use ads_cnc::{Element, Numbers};
+    use ads_cnc::{Element, U32List};
 
     let bytes = [7; 2048];
     for data_type in DataType::ALL {
         let count = data_type.size().map_or(2048, |each| 2048 / each);
         let dimensions = [2, count / 2];
-        let read = || Elements::new(data_type, Numbers::from(&dimensions), &bytes).unwrap();
+        let read = || Elements::new(data_type, U32List::from(&dimensions), &bytes).unwrap();
         let (_, allocated) = measure(|| {
             let mut buf = [0; 2048];
             let elements = read();
-            assert_eq!(elements.iter().next_back(), elements.element(Numbers::from(&[1, 3])).ok());
-            assert!(elements.element(Numbers::from(&[2, 0])).is_err());
+            assert_eq!(elements.iter().next_back(), elements.element(U32List::from(&[1, 3])).ok());
+            assert!(elements.element(U32List::from(&[2, 0])).is_err());
             assert_eq!(elements.encode_value(&mut buf), Ok(&bytes[..]));
             assert_eq!(elements.shape().encode(&elements, &mut buf), Ok(&bytes[..]));
             if let Ok(Element::Sgn32(first)) = elements.get(0) {

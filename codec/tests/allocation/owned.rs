@@ -61,8 +61,8 @@ fn owned_readings_allocate_what_they_return() {
         *most = (*most).max(decoded);
     });
     let numbers = |row: &FieldSpec| {
-        use Size::{Fixed, FixedOrNothing, FromOne, OneTwoOrFour, Padded};
-        matches!(row.size, Fixed(_) | FixedOrNothing(_) | FromOne | OneTwoOrFour | Padded(_))
+        use Size::{Fixed, NonZero, OptionalFixed, Padded, Uns8To32};
+        matches!(row.size, Fixed(_) | OptionalFixed(_) | NonZero | Uns8To32 | Padded(_))
     };
     for stream in Stream::all() {
         let layout = stream.layout();
@@ -174,7 +174,7 @@ fn findings_hold_no_more_than_the_labels_of_the_text() {
     let peak = |lines: &dyn Fn(usize) -> String| {
         let text: String = (0..20_000).map(lines).collect();
         let text = NcText::new(text.as_bytes()).unwrap();
-        measure(|| assert!(black_box(text.findings()).count() < 20_001)).0
+        measure(|| assert!(black_box(text.diagnostics()).count() < 20_001)).0
     };
     assert!(peak(&|n| format!("$GOTO N{n}\n$DO\n(N{n})\n")) < 1024);
     let names = 20_000 * "N10000".len();

@@ -1,20 +1,20 @@
 //! What holds for the findings in a program that comes packet by packet.
 
-use ads_cnc::streaming::{Checker, Finding, FindingKind, Found, NcText, ProgramEnd};
+use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 
 use super::findings::{FindingsBend, findings_of};
 use super::streaming::reference_lines;
 
-/// Findings but for the last, which is no event but what is missing, and program ends.
+/// Diagnostics but for the last, which is no event but what is missing, and program ends.
 pub(crate) fn check_lines(
     checker: &mut Checker,
     lines: &[u8],
-) -> (Vec<Finding>, Vec<(ProgramEnd, u32, u32)>) {
+) -> (Vec<Diagnostic>, Vec<(ProgramEnd, u32, u32)>) {
     let (mut findings, mut ends) = (Vec::new(), Vec::new());
     for found in checker.check(lines) {
         match found {
-            Found::Finding(finding) => findings.push(finding),
-            Found::End { end, line, column } => ends.push((end, line, column)),
+            CheckEvent::Diagnostic(finding) => findings.push(finding),
+            CheckEvent::ProgramEnd { end, line, column } => ends.push((end, line, column)),
         }
     }
     (findings, ends)
@@ -24,7 +24,7 @@ pub(crate) fn check_lines(
 fn first_end(text: &[u8]) -> Option<(ProgramEnd, u32)> {
     findings_of(&[text, b"\r\nX0\r\n"].concat()).into_iter().find_map(|finding| {
         match finding.kind {
-            FindingKind::BehindEnd { end, of } => Some((end, of)),
+            DiagnosticKind::AfterEnd { end, of } => Some((end, of)),
             _ => None,
         }
     })
@@ -45,13 +45,13 @@ impl CheckedLots {
     }
 
     /// Lines that can be streamed.
-    pub(crate) fn lot(&mut self, lot: &[u8]) -> Vec<Finding> {
+    pub(crate) fn lot(&mut self, lot: &[u8]) -> Vec<Diagnostic> {
         let before = self.checker.lines();
         self.so_far.extend_from_slice(lot);
         let (mut findings, ends) = check_lines(&mut self.checker, lot);
         (self.bend)(&mut findings, before);
         let mut wanted = findings_of(&self.so_far);
-        let open = wanted.iter().find(|found| found.kind == FindingKind::OpenComment).copied();
+        let open = wanted.iter().find(|found| found.kind == DiagnosticKind::OpenComment).copied();
         assert_eq!(self.checker.open_comment(), open);
         wanted.retain(|finding| Some(*finding) != open);
         wanted.retain(|finding| finding.line > before);

@@ -1,18 +1,18 @@
 //! What holds for the findings in a program.
 
-use ads_cnc::streaming::{Finding, FindingKind, NcText};
+use ads_cnc::streaming::{Diagnostic, DiagnosticKind, NcText};
 
 use super::streaming::reference_lines;
 
 /// What is wrong in one thing with what is found in some lines, behind so many others.
-pub(crate) type FindingsBend = fn(&mut Vec<Finding>, u32);
+pub(crate) type FindingsBend = fn(&mut Vec<Diagnostic>, u32);
 
-pub(crate) fn findings_of(text: &[u8]) -> Vec<Finding> {
-    NcText::new(text).expect("a text that can be streamed").findings().collect()
+pub(crate) fn findings_of(text: &[u8]) -> Vec<Diagnostic> {
+    NcText::new(text).expect("a text that can be streamed").diagnostics().collect()
 }
 
 /// Any text: the findings are in the text and in its order, and do not depend on how lines end.
-pub(crate) fn check_findings(text: &[u8], bend: FindingsBend) -> Vec<Finding> {
+pub(crate) fn check_findings(text: &[u8], bend: FindingsBend) -> Vec<Diagnostic> {
     let mut all = findings_of(text);
     bend(&mut all, 0);
     let lines = reference_lines(text);
@@ -20,14 +20,14 @@ pub(crate) fn check_findings(text: &[u8], bend: FindingsBend) -> Vec<Finding> {
         let line = &lines[finding.line as usize - 1];
         let at = &line[finding.column as usize - 1..];
         let is = match finding.kind {
-            FindingKind::Loop(_) | FindingKind::BackwardJump { .. } => at[0] == b'$',
-            FindingKind::OpenComment => at[0] == b'#',
+            DiagnosticKind::Loop(_) | DiagnosticKind::BackwardJump { .. } => at[0] == b'$',
+            DiagnosticKind::OpenComment => at[0] == b'#',
             _ => !b" \t(;".contains(&at[0]),
         };
         assert!(is, "{finding}");
     }
     let places = || {
-        let in_order = all.iter().filter(|at| at.kind != FindingKind::OpenComment);
+        let in_order = all.iter().filter(|at| at.kind != DiagnosticKind::OpenComment);
         in_order.map(|at| (at.line, at.column))
     };
     assert!(places().is_sorted());

@@ -105,9 +105,9 @@ pub(crate) fn check_bent(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<()
 fn ends_by_its_fields(stream: Stream) -> bool {
     let layout = stream.layout();
     let ends = |row: &FieldSpec| {
-        matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::FromOne | Size::Items { .. })
+        matches!(row.size, Size::Fixed(_) | Size::Padded(_) | Size::NonZero | Size::Items { .. })
     };
-    !layout.repeats && layout.is_stream() && layout.fields.iter().all(ends)
+    !layout.repeats && !layout.fields.is_empty() && layout.fields.iter().all(ends)
 }
 
 /// `decode_prefix` reads the same stream whether or not bytes follow it.
@@ -177,7 +177,7 @@ fn walk(stream: Stream, bytes: &[u8], bend: &Bend) -> Result<(), Error> {
     match verdict {
         Ok(()) => assert_eq!(end, bytes.len(), "{stream}: bytes in no segment of {bytes:x?}"),
         Err(error) => {
-            assert_eq!(error.field().stream(), stream);
+            assert_eq!(error.field().stream(), Some(stream));
             assert!(error.offset() as usize <= bytes.len(), "{error}");
         }
     }

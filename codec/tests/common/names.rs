@@ -2,7 +2,7 @@
 
 use ads_cnc::limits::NAME_MAX;
 use ads_cnc::text::cp1252_to_char;
-use ads_cnc::{CncStr, Error, ErrorKind, Kind, Numbers, PathPart, VariablePath};
+use ads_cnc::{CncStr, Error, ErrorKind, Kind, PathPart, U32List, VariablePath};
 
 use super::Fault;
 
@@ -27,7 +27,7 @@ impl Pieces {
     pub(crate) fn write<'b>(&self, buf: &'b mut [u8]) -> Result<VariablePath<'b>, Error> {
         let parts = self.parts.iter().map(|(name, indices)| PathPart {
             name: CncStr::new(name).unwrap(),
-            indices: Numbers::from(&indices[..]),
+            indices: U32List::from(&indices[..]),
         });
         VariablePath::write(Kind::new(&self.kind).unwrap(), parts, buf)
     }
@@ -117,7 +117,7 @@ fn check_parts(path: VariablePath<'_>, name: &str, pieces: &Pieces) {
     let mut array = pieces.clone();
     let indices = std::mem::take(&mut array.parts.last_mut().unwrap().1);
     assert_eq!((Pieces::of(variable), variable.variable()), (array, variable));
-    assert_eq!(path.elements(), Numbers::from(&indices[..]));
+    assert_eq!(path.elements(), U32List::from(&indices[..]));
     let axis = pieces.parts.iter().skip(1).last().filter(|_| pieces.kind == "V.A");
     assert_eq!(path.axis().map(|axis| axis.to_string()), axis.map(|(name, _)| name.clone()));
 }

@@ -6,7 +6,7 @@ use ads_cnc::address::{
 };
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::*;
-use ads_cnc::{Error, ErrorKind, Handle, Kind, Numbers};
+use ads_cnc::{Error, ErrorKind, Handle, Kind, U32List};
 
 use super::check_call;
 
@@ -51,9 +51,9 @@ impl Parameters<'_> {
 
     fn address(&self) -> Result<ElementAddress, Error> {
         match self.place % 3 {
-            0 => ElementAddress::of_channel(self.channel, self.class, self.element),
-            1 => ElementAddress::of_axis(self.channel, self.class, self.axis, self.element),
-            _ => ElementAddress::of_spindle(self.spindle, self.element),
+            0 => ElementAddress::for_channel(self.channel, self.class, self.element),
+            1 => ElementAddress::for_axis(self.channel, self.class, self.axis, self.element),
+            _ => ElementAddress::for_spindle(self.spindle, self.element),
         }
     }
 }
@@ -66,7 +66,7 @@ pub(crate) fn check_made(
     bend: &dyn Fn(&mut Call<'_>),
 ) -> Result<(), Error> {
     let Parameters { channel, axis, class, dynamic, number, count, text, bytes, .. } = *of;
-    let indices = Numbers::from(of.indices);
+    let indices = U32List::from(of.indices);
     let kind = || Kind::new(text);
     match function {
         Function::CountObjects => made(CountObjects::new(of.list()), bend),

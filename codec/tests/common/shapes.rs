@@ -1,7 +1,7 @@
 //! What holds for a value of any type, dimensions and size (VAR-8, VAR-21).
 
 use ads_cnc::value::{DataType, Element, Elements, EncodeValue as _, Shape};
-use ads_cnc::{ErrorKind, Numbers};
+use ads_cnc::{ErrorKind, U32List};
 
 use super::Fault;
 
@@ -70,7 +70,7 @@ fn place(of: &Described<'_>) -> Result<u128, Fault> {
 /// A shape is taken if its size is that of its elements; an element is where the sizes of the
 /// inner arrays say, and all is written back as it was.
 pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, ErrorKind> {
-    let dimensions = Numbers::from(of.dimensions);
+    let dimensions = U32List::from(of.dimensions);
     let shape = Shape::new(of.data_type, dimensions, (bend.size)(of.size));
     let wanted = each(of);
     assert_eq!(shape.map(|shape| shape.element_size()).ok(), wanted, "{of:?}");
@@ -82,7 +82,7 @@ pub(crate) fn check_shape(of: &Described<'_>, bend: ShapeBend) -> Result<u32, Er
 
     let mut indices = of.indices.to_vec();
     (bend.indices)(&mut indices);
-    let indices = Numbers::from(&indices[..]);
+    let indices = U32List::from(&indices[..]);
     let found = (bend.place)(shape.index_of(indices).map_err(Fault::of));
     let wanted = place(of);
     assert_eq!(found.map(u128::from), wanted, "{of:?}");
@@ -115,7 +115,7 @@ fn check_element(shape: Shape<'_>, element: Element<'_>, bytes: &[u8], bend: Sha
     assert_eq!(element.encode_value(&mut buf), Ok(bytes));
     if bytes.len() <= shape.element_size() as usize {
         let mut buf = vec![0x55; bytes.len() + 1];
-        assert_eq!(shape.one().encode(&element, &mut buf), Ok(bytes));
+        assert_eq!(shape.element_shape().encode(&element, &mut buf), Ok(bytes));
         (bend.written)(&mut buf[..bytes.len()]);
         assert_eq!((&buf[..bytes.len()], buf[bytes.len()]), (bytes, 0x55));
     }

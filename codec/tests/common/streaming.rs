@@ -149,7 +149,7 @@ impl<'t> CheckedSender<'t> {
         assert_eq!(self.sender.packet(), wanted.map(Vec::as_slice));
         let packet = wanted.cloned();
         if packet.is_some() {
-            self.state = SenderState::Out;
+            self.state = SenderState::InFlight;
         }
         self.check();
         packet
@@ -157,13 +157,13 @@ impl<'t> CheckedSender<'t> {
 
     /// Takes one acknowledgement for one packet, and none else.
     pub(crate) fn acknowledge(&mut self, ack: Ack) {
-        let out = self.state == SenderState::Out;
+        let out = self.state == SenderState::InFlight;
         let taken = self.sender.acknowledge((self.bend.ack)(ack));
-        assert_eq!(taken, if out { Ok(()) } else { Err(NoPacketOut) });
+        assert_eq!(taken, if out { Ok(()) } else { Err(UnexpectedAck) });
         match ack {
             _ if !out => {}
-            Ack::Refused => self.state = SenderState::Stopped,
-            Ack::Later => {
+            Ack::Rejected => self.state = SenderState::Stopped,
+            Ack::Busy => {
                 self.state = SenderState::Waiting;
                 self.refusals += 1;
             }
@@ -184,7 +184,7 @@ impl<'t> CheckedSender<'t> {
     /// the counts agree.
     fn check(&self) {
         let sender = &self.sender;
-        let found = ((self.bend.sent)(sender.sent()), sender.state(), sender.refusals());
+        let found = ((self.bend.sent)(sender.sent()), sender.state(), sender.busy_count());
         assert_eq!(found, (self.sent, self.state, self.refusals));
         assert_eq!(sender.left_bytes(), self.wire.len() - self.sent.bytes);
     }
@@ -208,10 +208,10 @@ pub(crate) fn missing_end(bytes: &[u8]) -> Option<TextFault> {
     for (at, &byte) in bytes.iter().enumerate() {
         match byte {
             b'\r' if bytes.get(at + 1) != Some(&b'\n') => {
-                return Some((line, column, LineErrorKind::CrAlone));
+                return Some((line, column, LineErrorKind::BareCr));
             }
             b'\n' if at == 0 || bytes[at - 1] != b'\r' => {
-                return Some((line, column, LineErrorKind::LfAlone));
+                return Some((line, column, LineErrorKind::BareLf));
             }
             b'\n' => (line, column) = (line + 1, 1),
             b'\r' => {}

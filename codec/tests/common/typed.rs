@@ -1,7 +1,7 @@
 //! What holds for any bytes as a value of any type.
 
-use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Item};
-use ads_cnc::{ErrorKind, Numbers, ValueRef};
+use ads_cnc::value::{DataType, Element, Elements, EncodeValue, Scalar};
+use ads_cnc::{ErrorKind, U32List, ValueRef};
 
 /// All ways of reading the bytes by a type agree, and each writes the same bytes again; `wrong` is
 /// what a codec does to those that are written element by element, if it is wrong.
@@ -10,7 +10,7 @@ pub(crate) fn check_typed(bytes: &[u8], wrong: fn(&mut [u8])) {
         let each = data_type.size().map_or(3, |size| size as usize);
         let count = bytes.len() / each;
         let dimension = [count as u32];
-        let elements = Elements::new(data_type, Numbers::from(&dimension), bytes);
+        let elements = Elements::new(data_type, U32List::from(&dimension), bytes);
         let each = if data_type == DataType::String { count } else { each };
         // No element has no byte.
         let fits = bytes.len().checked_rem(each).map_or(bytes.is_empty(), |left| left == 0);
@@ -53,7 +53,7 @@ fn check_elements(elements: Elements<'_>, bytes: &[u8], wrong: fn(&mut [u8])) {
 }
 
 /// The typed readings of a value and of its elements agree, and no other type is read.
-fn check_items<T: Item>(elements: Elements<'_>) {
+fn check_items<T: Scalar>(elements: Elements<'_>) {
     let (items, bytes) = (elements.items::<T>().expect("its own type"), elements.as_bytes());
     assert_eq!(items.len(), elements.len());
     let mut copy = vec![T::default(); items.len()];
@@ -101,11 +101,11 @@ fn check_strings(elements: Elements<'_>) {
 fn check_order(data_type: DataType, bytes: &[u8], count: u32) {
     for rows in [2, 3].into_iter().filter(|rows| count % rows == 0) {
         let dimensions = [rows, count / rows];
-        let elements = Elements::new(data_type, Numbers::from(&dimensions), bytes).unwrap();
+        let elements = Elements::new(data_type, U32List::from(&dimensions), bytes).unwrap();
         let mut all = elements.iter();
         for row in 0..rows {
             for column in 0..count / rows {
-                let element = elements.element(Numbers::from(&[row, column])).unwrap();
+                let element = elements.element(U32List::from(&[row, column])).unwrap();
                 assert!(same(&element, &all.next().unwrap()));
             }
         }

@@ -13,7 +13,7 @@ use ads_cnc::operation::{Call, Operation, ReadElement, ReadObject, Service, Writ
 use ads_cnc::sda::*;
 use ads_cnc::service::{Host, HostStep, ServiceId};
 use ads_cnc::streaming::{Ack, NcText, ProgramStreamRef, Sender, check_line_ends};
-use ads_cnc::value::{Boolean, EncodeValue as _, Item};
+use ads_cnc::value::{Boolean, EncodeValue as _, Scalar};
 use ads_cnc::*;
 use core::hint::black_box;
 
@@ -106,7 +106,7 @@ fn operations(bytes: &[u8]) -> Result<usize, Error> {
 /// The next element of whatever instance the bytes address, in each of its attributes.
 fn elements(bytes: &[u8]) -> Result<usize, Error> {
     let Some(first) = ObjectAddress::decode(bytes)?.first_element()? else { return Ok(0) };
-    let next = first.following(black_box(1))?;
+    let next = first.nth(black_box(1))?;
     let read = ReadElement::new(next, black_box(4))?;
     let write = WriteElement::new(next, bytes)?;
     let object = ReadObject::new(read.index_group(), read.index_offset(), read.read_length())?;
@@ -126,7 +126,7 @@ fn texts(bytes: &[u8]) -> Result<usize, Error> {
     let text = CncStr::from_bytes(bytes)?;
     let path = VariablePath::from_text(text)?;
     let mut buf = [0; 300];
-    let element = path.write_element(Numbers::from(&[1, 2]), &mut buf)?;
+    let element = path.write_element(U32List::from(&[1, 2]), &mut buf)?;
     let value = ValueRef { bytes }.elements(VariableType(9), element.elements())?;
     Ok(element.parts().count().wrapping_add(value.len()))
 }
@@ -179,7 +179,7 @@ fn converted(element: Element<'_>) -> usize {
     .sum()
 }
 
-fn items<T: Item>(elements: Elements<'_>) -> Result<usize, Error> {
+fn items<T: Scalar>(elements: Elements<'_>) -> Result<usize, Error> {
     let Ok(items) = elements.items::<T>() else { return Ok(0) };
     let (mut all, mut buf) = ([T::default(); 7], [0; 2200]);
     elements.copy_to(&mut all)?;
@@ -196,11 +196,11 @@ fn streams(bytes: &[u8]) -> usize {
     let mut sender = Sender::new(text);
     for _ in 0..black_box(3) {
         let Some(packet) = sender.packet() else { break };
-        let ack = if check_line_ends(packet).is_ok() { Ack::Accepted } else { Ack::Later };
+        let ack = if check_line_ends(packet).is_ok() { Ack::Accepted } else { Ack::Busy };
         let _none_out = sender.acknowledge(ack);
     }
     #[cfg(feature = "alloc")]
-    black_box(text.findings().count());
+    black_box(text.diagnostics().count());
     sender.left_bytes()
 }
 

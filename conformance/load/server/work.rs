@@ -7,7 +7,7 @@ use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef};
 use ads_cnc::operation::{
     Call, Operation as _, ReadByHandle, ReadByName, ReadDescriptors, ReadObject, Request, Service,
 };
-use ads_cnc::{Encode as _, Handle, Numbers};
+use ads_cnc::{Encode as _, Handle, U32List};
 use ads_cnc_conformance::cnc::{Cnc, DATA_MAX, NET_ID};
 use ads_cnc_conformance::services::{decode_reply, encode_reply};
 
@@ -40,7 +40,7 @@ impl Work {
         let object = object.iter().find(|one| one.name() == "example_dword_r");
         let object = object.ok_or("an object is missing")?;
         let object = ReadObject::new(object.index_group(), object.index_offset(), object.size())?;
-        let indices = Numbers::from(&[3]);
+        let indices = U32List::from(&[3]);
         let works: [(_, _, Request<'_>); 5] = [
             ("read", "Read of 4 bytes", object.into()),
             (

@@ -110,7 +110,7 @@ impl Client {
         if let Err(fault) = &said {
             if let Fault::Malformed(error) = fault {
                 // Of the headers, or of what is behind them.
-                let own = error.field().stream() == R::STREAM;
+                let own = error.field().stream() == Some(R::STREAM);
                 let requirement = if own { R::CLAUSE } else { "ADS-5" };
                 inquired.violations.push(Violation { requirement, what: error.to_string() });
             }

@@ -35,7 +35,7 @@ impl Client {
                     broken.push(Violation { requirement, what });
                 };
                 if let Fault::Malformed(error) = fault {
-                    if error.field().stream() == reply_stream(exchange.service) {
+                    if error.field().stream() == Some(reply_stream(exchange.service)) {
                         add(clause(exchange.service), error.to_string());
                         // Its numbers do not stand where they stand with 4 bytes each.
                         add("ADS-4", error.to_string());

@@ -107,7 +107,7 @@ fn attribute_name(attribute: Attribute) -> &'static str {
 pub(super) fn index_offset(context: &Context, bytes: &[u8]) -> Result<Decoded, Refused> {
     let stride = stride(context)?;
     let (axis, element) = IndexOffset::new(number(bytes)?).axis_and_element(stride)?;
-    let again = IndexOffset::of_axis(stride, axis, element)?;
+    let again = IndexOffset::for_axis(stride, axis, element)?;
     // Neither has more than 16 bits, or the offset would not have been put together again.
     let fields = vec![("axis", one(Type::Uns16, axis)), ("element", one(Type::Uns16, element))];
     Ok(Decoded { fields: collect(fields), bytes: again.get().to_le_bytes().to_vec() })
@@ -161,7 +161,7 @@ fn parts(of: Given<'_>) -> Result<Group, Refused> {
 
 pub(super) fn encode_offset(of: Given<'_>, context: &Context) -> Result<Vec<u8>, Refused> {
     let stride = stride(context)?;
-    let offset = IndexOffset::of_axis(stride, of.number("axis")?, of.number("element")?)?;
+    let offset = IndexOffset::for_axis(stride, of.number("axis")?, of.number("element")?)?;
     Ok(ObjectCount(offset.get()).encode_to_vec()?)
 }
 

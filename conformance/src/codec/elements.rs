@@ -1,7 +1,7 @@
 //! Bytes whose meaning the context has: values and contents by their types.
 
 use ads_cnc::value::{DataType, EncodeValue as _};
-use ads_cnc::{CncStr, Elements, Numbers};
+use ads_cnc::{CncStr, Elements, U32List};
 use ads_cnc_vectors::{Context, Tagged, Type, Value};
 
 use super::Refused;
@@ -31,7 +31,7 @@ pub(super) fn decode(field: &str, context: &Context, bytes: &[u8]) -> Result<Val
         return Ok(data(bytes));
     }
     let (kind, data_type, dimensions) = type_of(context)?;
-    let elements = Elements::new(data_type, Numbers::from(dimensions), bytes)?;
+    let elements = Elements::new(data_type, U32List::from(dimensions), bytes)?;
     let named = |item| Value::One(Tagged { kind, ..element(item) });
     Ok(Value::List(elements.iter().map(named).collect()))
 }
@@ -53,7 +53,7 @@ pub(super) fn encode(field: &str, context: &Context, value: &Value) -> Result<Ve
         count.checked_mul(usize::try_from(len).unwrap_or(usize::MAX))
     });
     if count != Some(items.len()) {
-        let dimensions = Numbers::from(dimensions);
+        let dimensions = U32List::from(dimensions);
         return Err(unfit(format_args!("{} elements for {dimensions:?}", items.len())));
     }
     encode_elements(data_type, &items)
@@ -88,7 +88,7 @@ fn encode_elements(data_type: DataType, items: &[&Tagged]) -> Result<Vec<u8>, Re
             return Err(unfit("texts of an array have the same room each"));
         }
         let count = [u32::try_from(items.len()).unwrap_or(u32::MAX)];
-        Elements::new(data_type, Numbers::from(&count), &bytes)?;
+        Elements::new(data_type, U32List::from(&count), &bytes)?;
     }
     Ok(bytes)
 }

@@ -1,7 +1,7 @@
 //! A variable's name by its parts, and put together again.
 
 use ads_cnc::text::CncStr;
-use ads_cnc::{Kind, Numbers, PathPart, TextRef, VariablePath};
+use ads_cnc::{Kind, PathPart, TextRef, U32List, VariablePath};
 use ads_cnc_vectors::{Tagged, Value};
 
 use super::given::Given;
@@ -30,7 +30,7 @@ pub(super) fn encode(of: Given<'_>) -> Result<Vec<u8>, Refused> {
     let parts = parts.collect::<Result<Vec<(CncStr<'_>, Vec<u32>)>, Refused>>()?;
     let parts = parts.iter().map(|(name, indices)| PathPart {
         name: *name,
-        indices: Numbers::from(indices.as_slice()),
+        indices: U32List::from(indices.as_slice()),
     });
     let kind = Kind::from_field(TextRef::from(of.characters("kind")?));
     let mut buf = [0; ads_cnc::limits::NAME_MAX];

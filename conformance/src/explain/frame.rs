@@ -58,7 +58,7 @@ impl Frames<'_> {
         let (tcp, rest) = halves(bytes, AMS_TCP_HEADER_LEN);
         let whole = self.header(Stream::AmsTcpHeader, at, tcp);
         if let (true, Err(error)) = (whole, &split)
-            && error.field().stream() == Stream::AmsTcpHeader
+            && error.field().stream() == Some(Stream::AmsTcpHeader)
         {
             self.fault(error, 0, rest);
             return None;

@@ -35,7 +35,7 @@ pub(super) fn add(part: &mut Part, segment: &Segment<'_>) {
     match NcText::new(data) {
         Err(error) => fault(part, &lines, &error, ""),
         Ok(text) => {
-            for finding in text.findings() {
+            for finding in text.diagnostics() {
                 let at = place(&lines, finding.line, finding.column);
                 let line = format!("line {}", finding.line);
                 if finding.kind.ends_streaming() {

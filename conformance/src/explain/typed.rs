@@ -1,7 +1,7 @@
 //! Values and contents, typed by what their description or descriptor says.
 
 use ads_cnc::value::{DataType, Element, Elements};
-use ads_cnc::{CncStr, Error, Numbers};
+use ads_cnc::{CncStr, Error, U32List};
 
 use super::codes::text_of;
 
@@ -46,7 +46,7 @@ pub(super) fn elements(
     dimensions: &[u32],
     bytes: &[u8],
 ) -> Result<Vec<Typed>, Error> {
-    let elements = Elements::new(ty, Numbers::from(dimensions), bytes)?;
+    let elements = Elements::new(ty, U32List::from(dimensions), bytes)?;
     let len = super::model::size(elements.shape().element_size());
     let placed = (0_u32..).zip(elements);
     Ok(placed

@@ -8,7 +8,7 @@ use ads_cnc::operation::{
     WriteElement, WriteObject, WriteProgramStream,
 };
 use ads_cnc::{
-    Description, DescriptionByName, Descriptor, Encode as _, Handle, Kind, Numbers, VariableAccess,
+    Description, DescriptionByName, Descriptor, Encode as _, Handle, Kind, U32List, VariableAccess,
     VariableType,
 };
 
@@ -70,7 +70,7 @@ fn by_name(name: &str) -> Vec<u8> {
 }
 
 fn element() -> ElementAddress {
-    ElementAddress::of_channel(channel(1), Class::Hld, 1).unwrap()
+    ElementAddress::for_channel(channel(1), Class::Hld, 1).unwrap()
 }
 
 /// One of each function that is no query, with the table that allows it.
@@ -247,7 +247,7 @@ fn learn<'a>(gate: &mut Gate, request: impl Into<Request<'a>>, reply: &[u8]) {
 }
 
 fn by_handle(handle: u32) -> Vec<u8> {
-    request(WriteByHandle::new(channel(1), Handle(handle), Numbers::from(&[4]), &[1]))
+    request(WriteByHandle::new(channel(1), Handle(handle), U32List::from(&[4]), &[1]))
 }
 
 fn give_handle(gate: &mut Gate, name: &str, handle: u32) {

@@ -66,7 +66,7 @@ impl Addresses {
     pub(super) fn of(&self, held: &Held) -> Step<Vec<At>> {
         use Addressing::{Index, Logical};
         let at = |stride, axis: u8| {
-            IndexOffset::of_axis(stride, axis.into(), held.element).map_err(harness)
+            IndexOffset::for_axis(stride, axis.into(), held.element).map_err(harness)
         };
         let own = at(AxisStride::X10000, 0)?;
         match held.holder {

@@ -6,7 +6,7 @@ use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::{
     AxisHandleByName, AxisReadByName, Call, HandleByName, ReadByHandle, ReadByName, Request,
 };
-use ads_cnc::{CncString, Decode as _, Description, Handle, Kind, Numbers, TextRef, VariablePath};
+use ads_cnc::{CncString, Decode as _, Description, Handle, Kind, TextRef, U32List, VariablePath};
 use ads_cnc_vectors::Hex;
 
 use super::axis_interface::{self, PLACES_MAX, answering};
@@ -200,7 +200,7 @@ fn values(probe: &mut Probe<'_>) -> Step {
             <[u8]>::to_vec,
         )?;
         // That handles of this interface are used there is assumed.
-        let by_handle = ReadByHandle::new(channel, variable.handle, Numbers::EMPTY);
+        let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
         let rules = [assumed("VAR-10")];
         still.same_part(probe, &rules, &what, by_handle.into(), request.into(), <[u8]>::to_vec)
     })?;

@@ -6,7 +6,7 @@ use ads_cnc::address::{Channel, ChannelAxis, IndexOffset};
 use ads_cnc::operation::{
     AxisHandleByName, AxisReadByName, Call, HandleByName, ReadByHandle, ReadByName, Request,
 };
-use ads_cnc::{CncString, Decode as _, Description, Handle, Numbers, TextRef};
+use ads_cnc::{CncString, Decode as _, Description, Handle, TextRef, U32List};
 use ads_cnc_vectors::Hex;
 
 use super::axis::{described, names};
@@ -172,7 +172,7 @@ fn seen(probe: &mut Probe<'_>, place: u32, handle: Handle) -> Step<Seen> {
     let channel = Channel::new(1).map_err(harness)?;
     let axis = ChannelAxis::new(place).map_err(harness)?;
     let by_place = AxisReadByName::new(channel, axis, NAME).map_err(harness)?;
-    let by_handle = ReadByHandle::new(channel, handle, Numbers::EMPTY);
+    let by_handle = ReadByHandle::new(channel, handle, U32List::EMPTY);
     Ok(Seen {
         by_place: probe.try_ask(by_place)?.unwrap_or_default(),
         by_handle: probe.try_ask(by_handle)?.unwrap_or_default(),
@@ -234,7 +234,7 @@ fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, S
     let handle = handle.and_then(|data| Handle::decode(&data).ok());
     let by_name = probe.try_ask(ReadByName::new(channel, &name).map_err(harness)?)?;
     let by_handle = match handle {
-        Some(handle) => probe.try_ask(ReadByHandle::new(channel, handle, Numbers::EMPTY))?,
+        Some(handle) => probe.try_ask(ReadByHandle::new(channel, handle, U32List::EMPTY))?,
         None => None,
     };
     let (by_place, by_handle) = (by_name.unwrap_or_default(), by_handle.unwrap_or_default());

@@ -128,8 +128,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
 
 /// The last element has a name, and behind it there is none.
 fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
-    let (last, beyond) =
-        (instance.first.following(count), instance.first.following(count.saturating_add(1)));
+    let (last, beyond) = (instance.first.nth(count), instance.first.nth(count.saturating_add(1)));
     let (Ok(last), Ok(beyond)) = (last, beyond) else { return Ok(()) };
     if count > 0 {
         attribute::<ElementText>(probe, "SDA-4", ReadElementName::new(last))?;

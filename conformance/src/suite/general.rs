@@ -8,7 +8,7 @@ use ads_cnc::operation::{
     ReadElementName, ReadElementUnit, Request,
 };
 use ads_cnc::sda::{ElementText, ObjectAddress};
-use ads_cnc::{CncString, Decode as _, Kind, Numbers, VariableType};
+use ads_cnc::{CncString, Decode as _, Kind, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::addresses::Addresses;
@@ -134,7 +134,7 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
             let expected = format!("{whole} bytes for {:?}", variable.var_type);
             let found = format!("{} bytes of {name}", variable.size);
             probe.check(rule, variable.size == whole, &expected, found);
-            let read = ReadByHandle::new(channel, variable.handle, Numbers::EMPTY);
+            let read = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
             // That it is read at all is judged elsewhere.
             let Some(value) = probe.try_ask(read)? else { continue };
             let found = format!("{} bytes of {name} read", value.len());

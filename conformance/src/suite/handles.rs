@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{HandleByName, ReadByHandle, ReadByName};
-use ads_cnc::{Decode as _, Description, Handle, Kind, Numbers, TextRef, VariablePath};
+use ads_cnc::{Decode as _, Description, Handle, Kind, TextRef, U32List, VariablePath};
 use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Rule, Step, Stop, assumed};
@@ -48,7 +48,7 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 pub(super) fn whole(channel: Channel, handle: Handle) -> ReadByHandle<'static> {
-    ReadByHandle::new(channel, handle, Numbers::EMPTY)
+    ReadByHandle::new(channel, handle, U32List::EMPTY)
 }
 
 fn described(probe: &mut Probe<'_>) -> Step {

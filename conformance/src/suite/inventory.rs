@@ -69,7 +69,7 @@ impl Instance {
 
     /// Its elements, without that which says how many there are.
     pub(super) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
-        (1..=self.reached).map_while(|place| self.first.following(place).ok())
+        (1..=self.reached).map_while(|place| self.first.nth(place).ok())
     }
 }
 
@@ -231,7 +231,7 @@ impl Probe<'_> {
     }
 
     fn is_named(&mut self, first: ElementAddress, place: u32) -> Step<bool> {
-        match first.following(place) {
+        match first.nth(place) {
             Ok(element) => Ok(self.try_ask(ReadElementName::new(element))?.is_some()),
             Err(_) => Ok(false),
         }

@@ -9,7 +9,7 @@ use ads_cnc::operation::{
     Call, CountObjects, CountVariables, DescribeByIndex, HandleByName, ObjectList, ReadByHandle,
     ReadByName, ReadDescriptors, Request, Service,
 };
-use ads_cnc::{Kind, Numbers, TextRef};
+use ads_cnc::{Kind, TextRef, U32List};
 
 use super::case::{Case, Rule, Step, Stop, assumed};
 use super::declare;
@@ -184,7 +184,7 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
     let variables = probe.variables(channel)?;
     let array = variables.iter().find(|variable| variable.dimensions.len() == 1);
     let array = array.ok_or(Stop::NotApplicable("no variable is an array".to_owned()))?;
-    let request = ReadByHandle::new(channel, array.handle, Numbers::from(&[0]));
+    let request = ReadByHandle::new(channel, array.handle, U32List::from(&[0]));
     let mut spoilt = Spoilt::new(probe, request)?;
     let good = spoilt.good.clone();
     for len in 0..good.len() {

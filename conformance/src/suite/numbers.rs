@@ -110,7 +110,7 @@ impl Counted {
                 DynamicNameByIndex::new(*channel, *kind, number).ok().map(Into::into)
             }
             Self::Elements(instance) => {
-                let element = instance.first.following(number).ok();
+                let element = instance.first.nth(number).ok();
                 element.map(|element| ReadElementName::new(element).into())
             }
         };

@@ -2,7 +2,7 @@
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{ReadByHandle, ReadByName, Request};
-use ads_cnc::{Description, Numbers, VariableType};
+use ads_cnc::{Description, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Evidence, Rule, Step, Stop};
@@ -164,7 +164,7 @@ pub(super) fn each_array(
 }
 
 fn whole(channel: Channel, variable: &Description) -> ReadByHandle<'static> {
-    ReadByHandle::new(channel, variable.handle, Numbers::EMPTY)
+    ReadByHandle::new(channel, variable.handle, U32List::EMPTY)
 }
 
 fn whole_by_handle(probe: &mut Probe<'_>) -> Step {

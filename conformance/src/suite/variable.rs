@@ -8,7 +8,7 @@ use ads_cnc::operation::{
     CountVariables, DescribeByIndex, HandleByName, ReadByHandle, ReadByName, Request,
 };
 use ads_cnc::{
-    Decode as _, Description, Kind, Numbers, TextRef, VariableAccess, VariableCount, VariablePath,
+    Decode as _, Description, Kind, TextRef, U32List, VariableAccess, VariableCount, VariablePath,
     VariableType,
 };
 
@@ -224,7 +224,7 @@ fn other_channel(probe: &mut Probe<'_>) -> Step {
     }
     let read = |channel| ReadByName { channel, name: name_of(known) };
     probe.refuses("VAR-14", &what, read(absent), read(channel))?;
-    let read = |channel| ReadByHandle::new(channel, known.handle, Numbers::EMPTY);
+    let read = |channel| ReadByHandle::new(channel, known.handle, U32List::EMPTY);
     probe.refuses("VAR-14", &what, read(absent), read(channel))
 }
 

@@ -232,7 +232,7 @@ fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<Twin>> {
         let is_same = other.first == one.instance.first
             || other.class == Class::Hld && other.axis > 0 && other.axis == one.instance.axis;
         let is_twin = other.class == one.instance.class && !is_same && number <= other.count;
-        if let (true, 1.., Ok(element)) = (is_twin, number, other.first.following(number)) {
+        if let (true, 1.., Ok(element)) = (is_twin, number, other.first.nth(number)) {
             others.push(("SDA-1".into(), other.to_string(), element));
         }
     }

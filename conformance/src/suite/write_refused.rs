@@ -3,7 +3,7 @@
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{Call, Request, WriteByHandle, WriteByName};
-use ads_cnc::{CncStr, CncString, Description, Handle, Numbers, VariableAccess, VariableType};
+use ads_cnc::{CncStr, CncString, Description, Handle, U32List, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::case::{Case, Rule, Step, Stop};
@@ -68,7 +68,7 @@ impl Known {
         self.variable.name.text.as_cnc_str()
     }
 
-    fn by_handle<'v>(&self, indices: Numbers<'v>, value: &'v [u8]) -> Request<'v> {
+    fn by_handle<'v>(&self, indices: U32List<'v>, value: &'v [u8]) -> Request<'v> {
         WriteByHandle::new(self.channel, self.variable.handle, indices, value).into()
     }
 
@@ -238,9 +238,9 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let (channel, watched, value) = (known.channel, known.place(), &known.value);
     let variables = probe.variables(channel)?;
     let is_free = |free: &u32| variables.iter().all(|one| one.handle.0 != *free);
-    let good = known.by_handle(Numbers::EMPTY, value);
+    let good = known.by_handle(U32List::EMPTY, value);
     if let Some(free) = [0, 1, u32::MAX].into_iter().find(is_free) {
-        let bad = WriteByHandle::new(channel, Handle(free), Numbers::EMPTY, value).into();
+        let bad = WriteByHandle::new(channel, Handle(free), U32List::EMPTY, value).into();
         let what = format!("a write to the handle {free:#x}");
         let rules = ["ADS-4", "VAR-12"].map(Rule::from);
         refused(probe, &rules, &what, (bad, good), &watched)?;
@@ -320,7 +320,7 @@ fn bad_requests(probe: &mut Probe<'_>) -> Step {
             let bad = Call { data: &data, ..call };
             refused_call(probe, &["VAR-13".into()], &what, (&bad, good), &watched)?;
         }
-        let good = known.by_handle(Numbers::EMPTY, &known.value);
+        let good = known.by_handle(U32List::EMPTY, &known.value);
         let mut buf = vec![0; good.encoded_len()];
         let call = good.encode(&mut buf).map_err(harness)?;
         for count in [0x4000_0000_u32, 0x8000_0001, u32::MAX] {

@@ -106,7 +106,7 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
         let at = (Class::Hld, other, instance.axis);
         let twin = all.iter().find(|one| (one.class, one.channel, one.axis) == at);
         let (start, at) = (instance.first.index_offset().get(), element.index_offset().get());
-        let twin = twin.and_then(|twin| twin.first.following(at.saturating_sub(start)).ok());
+        let twin = twin.and_then(|twin| twin.first.nth(at.saturating_sub(start)).ok());
         let (Some(element), Place::Element { length, .. }) = (twin, place) else { continue };
         any = true;
         let twin = Place::Element { element, length: *length };

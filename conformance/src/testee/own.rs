@@ -1,7 +1,7 @@
 //! This project's codec as a testee.
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
-use ads_cnc::streaming::{Checker, Found, LineErrorKind, NcText};
+use ads_cnc::streaming::{CheckEvent, Checker, LineErrorKind, NcText};
 use ads_cnc_vectors::vectors;
 
 use super::message::{
@@ -144,7 +144,7 @@ fn check(packets: &[Vec<u8>]) -> Result<Output, Answer> {
     let mut found = None;
     for packet in packets {
         for one in checker.check(packet) {
-            if let (None, Found::Finding(finding)) = (&found, one) {
+            if let (None, CheckEvent::Diagnostic(finding)) = (&found, one) {
                 found = Some(finding);
             }
         }

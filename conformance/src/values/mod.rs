@@ -13,7 +13,7 @@ pub use show::{hex_lines, lines, plain, printable};
 use std::fmt;
 
 use ads_cnc::value::{DataType, Shape};
-use ads_cnc::{CncStr, Elements, Error, Numbers, VariableType};
+use ads_cnc::{CncStr, Elements, Error, U32List, VariableType};
 
 /// The text of a STRING: what stands before the first NUL, or all.
 pub(crate) fn until_nul(value: &[u8]) -> &[u8] {
@@ -54,7 +54,7 @@ impl Type {
         Self { name: String::new(), data_type: None, dimensions: Vec::new(), size: None };
 
     /// Of a variable's description.
-    pub fn of_variable(var_type: VariableType, dimensions: Numbers<'_>, size: u32) -> Self {
+    pub fn of_variable(var_type: VariableType, dimensions: U32List<'_>, size: u32) -> Self {
         let data_type = var_type.data_type();
         let name = match data_type {
             Some(known) => known.name().to_owned(),
@@ -102,7 +102,7 @@ impl Type {
     ///
     /// # Errors
     /// What is wrong with the indices.
-    pub fn element(&self, indices: Numbers<'_>) -> Result<Self, String> {
+    pub fn element(&self, indices: U32List<'_>) -> Result<Self, String> {
         let one = Self { dimensions: Vec::new(), size: None, ..self.clone() };
         let dimensions = &self.dimensions;
         if indices.len() != dimensions.len() {
@@ -118,13 +118,13 @@ impl Type {
                 return Err(format!("index {index} is beyond {self}, counted from 0"));
             }
         }
-        let shape = self.shape().map(|shape| shape.one().size());
+        let shape = self.shape().map(|shape| shape.element_shape().size());
         Ok(Self { size: shape.or(one.data_type.and_then(DataType::size)), ..one })
     }
 
     /// Type, dimensions and size, if they agree.
     fn shape(&self) -> Option<Shape<'_>> {
-        Shape::new(self.data_type?, Numbers::from(self.dimensions.as_slice()), self.size?).ok()
+        Shape::new(self.data_type?, U32List::from(self.dimensions.as_slice()), self.size?).ok()
     }
 
     /// The elements of a value; none if the type is not known.
@@ -132,7 +132,7 @@ impl Type {
     /// # Errors
     /// Bytes that are not those of a value of this type.
     pub fn elements<'a>(&'a self, bytes: &'a [u8]) -> Result<Option<Elements<'a>>, Error> {
-        let dimensions = Numbers::from(self.dimensions.as_slice());
+        let dimensions = U32List::from(self.dimensions.as_slice());
         self.data_type.map(|known| Elements::new(known, dimensions, bytes)).transpose()
     }
 }

@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
-use ads_cnc::value::{Boolean, DataType, EncodeValue as _, Item, Shape};
-use ads_cnc::{CncStr, Numbers};
+use ads_cnc::value::{Boolean, DataType, EncodeValue as _, Scalar, Shape};
+use ads_cnc::{CncStr, U32List};
 
 use super::Type;
 
@@ -119,7 +119,7 @@ fn counted(ty: &Type, given: usize) -> Result<Vec<u32>, Unfit> {
     }
 }
 
-fn items<T: Item>(
+fn items<T: Scalar>(
     ty: &Type,
     text: &str,
     one: impl Fn(&str) -> Result<T, Unfit>,
@@ -152,7 +152,7 @@ fn texts(ty: &Type, given: &str) -> Result<Vec<u8>, Unfit> {
             "a STRING of {each} bytes has at most {most} characters and its NUL, {given} are given"
         )));
     }
-    let shape = Shape::new(DataType::String, Numbers::from(dimensions.as_slice()), size);
+    let shape = Shape::new(DataType::String, U32List::from(dimensions.as_slice()), size);
     let mut room = vec![0; usize::try_from(size).unwrap_or(usize::MAX)];
     let done = shape.and_then(|shape| shape.encode_texts(&texts, &mut room).map(<[u8]>::to_vec));
     done.map_err(|error| Unfit(error.to_string()))

@@ -51,8 +51,8 @@ fn default_is_started_and_not_without_end() {
 fn writes_of_a_wrong_size_are_refused_in_any_state() {
     for start in [Start::ByHand, Start::Once, Start::Again] {
         let mut program = Program::new(ProgramConfig { start, ..ProgramConfig::default() });
-        assert_eq!(program.write(b"", ZERO), Ack::Refused);
-        assert_eq!(program.write(&[b'X'; STREAM_PACKET_MAX + 1], ZERO), Ack::Refused);
+        assert_eq!(program.write(b"", ZERO), Ack::Rejected);
+        assert_eq!(program.write(&[b'X'; STREAM_PACKET_MAX + 1], ZERO), Ack::Rejected);
         assert_eq!((program.held(), program.refusals()), (0, 0));
     }
 }

@@ -1,6 +1,6 @@
 //! The golden sequences of streaming with the interface alone and a sender.
 
-use ads_cnc::streaming::{Ack, FindingKind, LINE_END_ERROR, NcText, ProgramEnd, Sender};
+use ads_cnc::streaming::{Ack, DiagnosticKind, LINE_END_ERROR, NcText, ProgramEnd, Sender};
 use ads_cnc_conformance::cnc::program::StreamingInterface;
 use ads_cnc_vectors::{Given, Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
@@ -78,8 +78,8 @@ impl Cnc<'_> {
         }
         let found = match ack {
             Ack::Accepted => StreamAck::Accepted,
-            Ack::Later => StreamAck::Later,
-            Ack::Refused => StreamAck::Refused,
+            Ack::Busy => StreamAck::Later,
+            Ack::Rejected => StreamAck::Refused,
         };
         match (found, step.ack.expect("a write has an answer")) {
             (StreamAck::Later, StreamAck::Accepted) => return Some("overfull"),
@@ -87,7 +87,7 @@ impl Cnc<'_> {
         }
         match (own, ack) {
             (false, _) => Some("order"),
-            (true, Ack::Refused) => Some("too-long"),
+            (true, Ack::Rejected) => Some("too-long"),
             _ => None,
         }
     }
@@ -112,10 +112,10 @@ impl Cnc<'_> {
         let before = lines(&self.program);
         self.program.extend_from_slice(&data);
         let text = NcText::new(&self.program).expect("lines that can be streamed");
-        for finding in text.findings().filter(|finding| finding.line as usize > before) {
+        for finding in text.diagnostics().filter(|finding| finding.line as usize > before) {
             let class = match finding.kind {
-                FindingKind::Loop(_) => "loop",
-                FindingKind::BackwardJump { .. } => "backward-jump",
+                DiagnosticKind::Loop(_) => "loop",
+                DiagnosticKind::BackwardJump { .. } => "backward-jump",
                 _ => continue,
             };
             let error = StreamError { number: None, line: finding.line, column: finding.column };
@@ -134,8 +134,8 @@ impl Cnc<'_> {
             .copied()
             .collect();
         assert_eq!(step.discarded.as_ref().map_or(Vec::new(), Pieces::bytes), behind, "{at}");
-        text.findings()
-            .any(|finding| matches!(finding.kind, FindingKind::BehindEnd { .. }))
+        text.diagnostics()
+            .any(|finding| matches!(finding.kind, DiagnosticKind::AfterEnd { .. }))
             .then_some("lost")
     }
 }
@@ -148,8 +148,8 @@ fn lines(text: &[u8]) -> usize {
 fn program_end(program: &[u8]) -> Option<(ProgramEnd, usize)> {
     let with_more = [program, b"X0\r\n"].concat();
     let text = NcText::new(&with_more).expect("lines that can be streamed");
-    text.findings().find_map(|finding| match finding.kind {
-        FindingKind::BehindEnd { end, of } => Some((end, of as usize)),
+    text.diagnostics().find_map(|finding| match finding.kind {
+        DiagnosticKind::AfterEnd { end, of } => Some((end, of as usize)),
         _ => None,
     })
 }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use ads_cnc::streaming::{Ack, Checker, FindingKind, Found, NcText, Sender};
+use ads_cnc::streaming::{Ack, CheckEvent, Checker, DiagnosticKind, NcText, Sender};
 use ads_cnc_conformance::cnc::program::{Message, Pace, Program, ProgramConfig, Start, State};
 use ads_cnc_vectors::{Given, Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
@@ -79,8 +79,8 @@ impl Scene<'_> {
         }
         let found = match ack {
             Ack::Accepted => StreamAck::Accepted,
-            Ack::Later => StreamAck::Later,
-            Ack::Refused => StreamAck::Refused,
+            Ack::Busy => StreamAck::Later,
+            Ack::Rejected => StreamAck::Refused,
         };
         match (found, step.ack.expect("a write has an answer")) {
             (StreamAck::Later, StreamAck::Accepted) => return Some("overfull"),
@@ -88,7 +88,7 @@ impl Scene<'_> {
         }
         match (own, ack) {
             (false, _) => Some("order"),
-            (true, Ack::Refused) => Some("too-long"),
+            (true, Ack::Rejected) => Some("too-long"),
             _ => None,
         }
     }
@@ -120,9 +120,9 @@ impl Scene<'_> {
                     "{at}"
                 );
                 assert_eq!(step.discarded.as_ref().map_or(Vec::new(), Pieces::bytes), behind);
-                let is_lost = |found: Found| {
-                    matches!(found, Found::Finding(found)
-                        if matches!(found.kind, FindingKind::BehindEnd { .. }))
+                let is_lost = |found: CheckEvent| {
+                    matches!(found, CheckEvent::Diagnostic(found)
+                        if matches!(found.kind, DiagnosticKind::AfterEnd { .. }))
                 };
                 Checker::new().check(&stated).any(is_lost).then_some("lost")
             }

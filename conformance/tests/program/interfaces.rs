@@ -107,12 +107,12 @@ fn the_interface_holds_4094_bytes() {
         assert_eq!(interface.write(&line), Ack::Accepted);
     }
     let room = STREAM_MAX - 4 * STREAM_PACKET_MAX;
-    assert_eq!(interface.write(&line), Ack::Later);
-    assert_eq!(interface.write(&line[..room + 1]), Ack::Later);
-    assert_eq!(interface.write(&[b' '; STREAM_PACKET_MAX + 1]), Ack::Refused);
+    assert_eq!(interface.write(&line), Ack::Busy);
+    assert_eq!(interface.write(&line[..room + 1]), Ack::Busy);
+    assert_eq!(interface.write(&[b' '; STREAM_PACKET_MAX + 1]), Ack::Rejected);
     assert_eq!(interface.len(), STREAM_MAX - room, "a refused write leaves nothing");
     assert_eq!(interface.write(&line[..room]), Ack::Accepted);
-    assert_eq!((interface.write(b"X"), interface.write(b"")), (Ack::Later, Ack::Refused));
+    assert_eq!((interface.write(b"X"), interface.write(b"")), (Ack::Busy, Ack::Rejected));
     interface.reset();
     assert!(interface.is_empty());
     assert_eq!((interface.write(&line), interface.len()), (Ack::Accepted, STREAM_PACKET_MAX));

@@ -223,8 +223,8 @@ impl CheckedInterface {
     /// All or nothing is taken.
     pub(crate) fn write(&mut self, data: &[u8]) -> Ack {
         let wanted = match data.len() {
-            0 | 993.. => Ack::Refused,
-            len if self.held.len() + len > STREAM_MAX => Ack::Later,
+            0 | 993.. => Ack::Rejected,
+            len if self.held.len() + len > STREAM_MAX => Ack::Busy,
             _ => Ack::Accepted,
         };
         assert_eq!((self.bend.write)(&mut self.interface, data), wanted);
@@ -266,10 +266,10 @@ fn missing_end(bytes: &[u8]) -> Option<TextFault> {
     for (at, &byte) in bytes.iter().enumerate() {
         match byte {
             b'\r' if bytes.get(at + 1) != Some(&b'\n') => {
-                return Some((line, column, LineErrorKind::CrAlone));
+                return Some((line, column, LineErrorKind::BareCr));
             }
             b'\n' if at == 0 || bytes[at - 1] != b'\r' => {
-                return Some((line, column, LineErrorKind::LfAlone));
+                return Some((line, column, LineErrorKind::BareLf));
             }
             b'\n' => (line, column) = (line + 1, 1),
             b'\r' => {}

@@ -20,8 +20,8 @@ fn stream(
     while let Some(packet) = sender.packet() {
         let (wait, refused) = between(last);
         now += wait;
-        let ack = if refused { Ack::Later } else { program.write(packet, now) };
-        assert_ne!(ack, Ack::Refused);
+        let ack = if refused { Ack::Busy } else { program.write(packet, now) };
+        assert_ne!(ack, Ack::Rejected);
         sender.acknowledge(ack).expect("a packet is out");
         last = Some(ack);
     }
@@ -47,8 +47,8 @@ fn ten_megabytes_arrive() {
     let cycle = Duration::from_millis(2);
     let mut most = 0;
     let now = stream(text, &mut program, |ack| {
-        most += usize::from(ack == Some(Ack::Later));
-        (if ack == Some(Ack::Later) { RETRY_AFTER / 20 } else { cycle }, false)
+        most += usize::from(ack == Some(Ack::Busy));
+        (if ack == Some(Ack::Busy) { RETRY_AFTER / 20 } else { cycle }, false)
     });
     assert!(most > 1000, "the decoder is slow: {most}");
     assert_eq!(program.refusals(), most as u64);

@@ -12,7 +12,7 @@ use ads_cnc::operation::{
     ReadByHandle, ReadByName, ReadDescriptors, ReadElement, ReadElementLength, ReadElementName,
     ReadElementType, ReadElementUnit, ReadElementWriteFlag, ReadObject,
 };
-use ads_cnc::{Decode as _, Description, Encode as _, Numbers};
+use ads_cnc::{Decode as _, Description, Encode as _, U32List};
 use ads_cnc_conformance::capture::Capture;
 use ads_cnc_conformance::cnc::Cnc;
 use ads_cnc_conformance::defect::Defect;
@@ -108,10 +108,10 @@ fn variables(session: &mut Session, channel: Channel) {
         let name = one.name.text.to_string();
         let Ok(by_name) = HandleByName::new(channel, &name) else { continue };
         let handle = session.call(&by_name).unwrap_or(one.handle);
-        let _ = session.call(&ReadByHandle::new(channel, handle, Numbers::EMPTY)).is_ok();
+        let _ = session.call(&ReadByHandle::new(channel, handle, U32List::EMPTY)).is_ok();
         if !one.dimensions.is_empty() {
             let first = vec![0; one.dimensions.len()];
-            let read = ReadByHandle::new(channel, handle, Numbers::from(&first[..]));
+            let read = ReadByHandle::new(channel, handle, U32List::from(&first[..]));
             let _ = session.call(&read).is_ok();
         }
         let _ = session.call(&ReadByName::new(channel, &name).unwrap()).is_ok();
@@ -121,12 +121,12 @@ fn variables(session: &mut Session, channel: Channel) {
 fn elements(session: &mut Session, channel: Channel) {
     for class in [Class::Hld, Class::Interpolator, Class::Decoder] {
         let _ = session.call(&FindInstance::new(class, 1, 0)).is_ok();
-        let first = ElementAddress::of_channel(channel, class, 0).unwrap();
+        let first = ElementAddress::for_channel(channel, class, 0).unwrap();
         let _ = session.call(&CountElements::new(first).unwrap()).is_ok();
         let _ = session.call(&ReadElementName::new(first)).is_ok();
     }
     for place in 1..=3 {
-        let element = ElementAddress::of_channel(channel, Class::Hld, place).unwrap();
+        let element = ElementAddress::for_channel(channel, Class::Hld, place).unwrap();
         let _ = session.call(&ReadElementName::new(element)).is_ok();
         let _ = session.call(&ReadElementType::new(element)).is_ok();
         let _ = session.call(&ReadElementUnit::new(element)).is_ok();

@@ -1,6 +1,6 @@
 //! What streaming does not permit in a program, packet by packet.
 
-use ads_cnc::streaming::{FindingKind, NcText};
+use ads_cnc::streaming::{DiagnosticKind, NcText};
 
 use crate::common::checker::{CheckedLots, check_any_lots};
 use crate::common::findings::{FindingsBend, check_findings};
@@ -49,16 +49,16 @@ fn bend(defect: Defect) -> FindingsBend {
     let defects: [FindingsBend; 5] = [
         |found, before| found.iter_mut().for_each(|finding| finding.line -= before),
         |found, before| {
-            let is = |kind| matches!(kind, FindingKind::BackwardJump { to } if to <= before);
+            let is = |kind| matches!(kind, DiagnosticKind::BackwardJump { to } if to <= before);
             found.retain(|finding| !is(finding.kind));
         },
         |found, before| {
-            let is = |kind| matches!(kind, FindingKind::BehindEnd { of, .. } if of <= before);
+            let is = |kind| matches!(kind, DiagnosticKind::AfterEnd { of, .. } if of <= before);
             found.retain(|finding| !is(finding.kind));
         },
         |found, _| {
             if found.len() > 1 {
-                found.retain(|at| at.line <= 10 || !matches!(at.kind, FindingKind::Loop(_)));
+                found.retain(|at| at.line <= 10 || !matches!(at.kind, DiagnosticKind::Loop(_)));
             }
         },
         |found, before| {

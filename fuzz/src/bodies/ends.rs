@@ -48,7 +48,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
             3 => drop(sender.packet()),
             4 => {
                 // The answer to a write that never came to the interface.
-                let ack = [Ack::Later, Ack::Accepted, Ack::Later, Ack::Refused];
+                let ack = [Ack::Busy, Ack::Accepted, Ack::Busy, Ack::Rejected];
                 let ack = ack[usize::from(event >> 3) % 4];
                 sender.acknowledge(ack);
                 pure &= ack != Ack::Accepted;
@@ -93,10 +93,10 @@ pub(crate) const DEFECTS: &[&str] = &[
 fn sender_bend(defect: Defect) -> SenderBend {
     let mut bend = SenderBend::NONE;
     if defect.is(1) {
-        bend.ack = |ack| if ack == Ack::Later { Ack::Accepted } else { ack };
+        bend.ack = |ack| if ack == Ack::Busy { Ack::Accepted } else { ack };
     }
     if defect.is(2) {
-        bend.ack = |ack| if ack == Ack::Refused { Ack::Later } else { ack };
+        bend.ack = |ack| if ack == Ack::Rejected { Ack::Busy } else { ack };
     }
     if defect.is(3) {
         bend.sent = |mut sent| {
@@ -118,7 +118,7 @@ fn interface_bend(defect: Defect) -> InterfaceBend {
     if defect.is(5) {
         bend.write = |interface, data| {
             let ack = interface.write(data);
-            if ack == Ack::Later {
+            if ack == Ack::Busy {
                 interface.write(&data[..1]);
             }
             ack

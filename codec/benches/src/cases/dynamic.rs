@@ -10,7 +10,7 @@ use crate::hand::{self, Hand};
 
 pub(super) const STREAMS: &[Entry] = &[
     stream!("dynamic count", DynamicCount, DynamicCount, by hand hand::Number),
-    stream!("dynamic index", DynamicIndex, DynamicIndex, by hand hand::FromOne),
+    stream!("dynamic index", DynamicIndex, DynamicIndex, by hand hand::NonZero),
     stream!(
         "dynamic name", DynamicName, DynamicNameRef<'_>, by hand hand::Open<&[u8], 1, 96>,
         owned DynamicName, by hand hand::Open<Vec<u8>, 1, 96>

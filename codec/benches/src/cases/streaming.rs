@@ -203,6 +203,6 @@ fn whole(size: usize, line: fn(usize, usize) -> String) -> Work {
 
 fn findings(text: Vec<u8>) -> Work {
     of_each_byte(text, |text| {
-        std::hint::black_box(NcText::new(text).unwrap().findings().count());
+        std::hint::black_box(NcText::new(text).unwrap().diagnostics().count());
     })
 }

@@ -19,9 +19,9 @@ impl<'a> Hand<'a> for Number {
 
 /// A number that is not 0.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FromOne(u32);
+pub(crate) struct NonZero(u32);
 
-impl FromOne {
+impl NonZero {
     fn check(self) -> Result<Self, Fault> {
         match self.0 {
             0 => Err(Fault::OutOfRange { at: 0, expected: 1, found: 0 }),
@@ -30,7 +30,7 @@ impl FromOne {
     }
 }
 
-impl<'a> Hand<'a> for FromOne {
+impl<'a> Hand<'a> for NonZero {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         Self(u32::from_le_bytes(*exactly(bytes)?)).check()
     }

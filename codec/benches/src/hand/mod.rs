@@ -15,7 +15,7 @@ pub(crate) use ads::{
 pub(crate) use bytes::Bytes;
 pub(crate) use descriptors::{Descriptor, Descriptors};
 pub(crate) use device::{DeviceInfo, DeviceState};
-pub(crate) use fixed::{Flag, FromOne, Length, Nothing, Number, Pair, Real};
+pub(crate) use fixed::{Flag, Length, NonZero, Nothing, Number, Pair, Real};
 pub(crate) use text::{Kind, Name, Open, Padded};
 pub(crate) use variable::{
     Description, DescriptionByName, Extended, HandleRead, HandleWrite, IndexKind, NameWrite,

@@ -6,14 +6,14 @@ use super::{Fault, Hand, Held, at_least, at_most, exactly, room, u32_at};
 const MAX: usize = 2048;
 
 /// Dimensions or indices, as they stand in the stream or as numbers.
-pub(crate) trait Numbers<'a> {
+pub(crate) trait U32List<'a> {
     fn read(bytes: &'a [u8]) -> Self;
     fn count(&self) -> usize;
     /// Fills `out`, which has four bytes for each.
     fn put(&self, out: &mut [u8]);
 }
 
-impl<'a> Numbers<'a> for &'a [u8] {
+impl<'a> U32List<'a> for &'a [u8] {
     fn read(bytes: &'a [u8]) -> Self {
         bytes
     }
@@ -27,7 +27,7 @@ impl<'a> Numbers<'a> for &'a [u8] {
     }
 }
 
-impl<'a> Numbers<'a> for Vec<u32> {
+impl<'a> U32List<'a> for Vec<u32> {
     fn read(bytes: &'a [u8]) -> Self {
         bytes.chunks_exact(4).map(|number| u32_at(number, 0)).collect()
     }
@@ -44,7 +44,7 @@ impl<'a> Numbers<'a> for Vec<u32> {
 }
 
 /// So many numbers and what stands behind them; their count stands at `at`, right before.
-fn numbers<'a, N: Numbers<'a>>(
+fn numbers<'a, N: U32List<'a>>(
     bytes: &'a [u8],
     at: usize,
     max: usize,
@@ -58,7 +58,7 @@ fn numbers<'a, N: Numbers<'a>>(
     Ok((N::read(numbers), rest))
 }
 
-fn check_count<'a>(numbers: &impl Numbers<'a>, at: u32, max: usize) -> Result<usize, Fault> {
+fn check_count<'a>(numbers: &impl U32List<'a>, at: u32, max: usize) -> Result<usize, Fault> {
     let count = numbers.count();
     match count > max {
         true => Err(Fault::TooMany { at, max: max as u32, found: count as u32 }),
@@ -101,7 +101,7 @@ pub(crate) struct Description<B, N> {
     name: Text<B>,
 }
 
-impl<'a, B: Held<'a>, N: Numbers<'a>> Hand<'a> for Description<B, N> {
+impl<'a, B: Held<'a>, N: U32List<'a>> Hand<'a> for Description<B, N> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(MAX, bytes.len())?;
         at_least(20, bytes)?;
@@ -134,7 +134,7 @@ pub(crate) struct DescriptionByName<N> {
     dimensions: N,
 }
 
-impl<'a, N: Numbers<'a>> Hand<'a> for DescriptionByName<N> {
+impl<'a, N: U32List<'a>> Hand<'a> for DescriptionByName<N> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(MAX, bytes.len())?;
         at_least(20, bytes)?;
@@ -161,7 +161,7 @@ pub(crate) struct HandleRead<N> {
     indices: N,
 }
 
-impl<'a, N: Numbers<'a>> Hand<'a> for HandleRead<N> {
+impl<'a, N: U32List<'a>> Hand<'a> for HandleRead<N> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(MAX, bytes.len())?;
         at_least(8, bytes)?;
@@ -190,7 +190,7 @@ pub(crate) struct HandleWrite<B, N> {
     value: B,
 }
 
-impl<'a, B: Held<'a>, N: Numbers<'a>> Hand<'a> for HandleWrite<B, N> {
+impl<'a, B: Held<'a>, N: U32List<'a>> Hand<'a> for HandleWrite<B, N> {
     fn decode(bytes: &'a [u8]) -> Result<Self, Fault> {
         at_most(MAX, bytes.len())?;
         at_least(8, bytes)?;

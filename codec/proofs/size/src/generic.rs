@@ -1,7 +1,7 @@
 //! What is generic, with the types it is used with, and iterators that have no name, to their end.
 
 pub(crate) mod views {
-    use ads_cnc::{CncStr, DescriptorRef, DescriptorsRef, Numbers};
+    use ads_cnc::{CncStr, DescriptorRef, DescriptorsRef, U32List};
 
     use crate::keep;
 
@@ -9,8 +9,8 @@ pub(crate) mod views {
         CncStr::bytes(text).for_each(visit);
     }
 
-    fn numbers(numbers: &Numbers<'_>, visit: fn(u32)) {
-        Numbers::iter(numbers).for_each(visit);
+    fn numbers(numbers: &U32List<'_>, visit: fn(u32)) {
+        U32List::iter(numbers).for_each(visit);
     }
 
     fn descriptors(list: &DescriptorsRef<'_>, visit: fn(DescriptorRef<'_>)) {
@@ -67,9 +67,9 @@ pub(crate) mod operations {
         write_object(group: IndexGroup, offset: IndexOffset, content: &'a [u8])
             -> Result<operation::WriteObject<'a>, Error> = operation::WriteObject::new;
         read_object_of(object: DescriptorRef<'a>)
-            -> Result<operation::ReadObject, Error> = operation::ReadObject::of;
+            -> Result<operation::ReadObject, Error> = operation::ReadObject::for_descriptor;
         write_object_of(object: DescriptorRef<'a>, content: &'a [u8])
-            -> Result<operation::WriteObject<'a>, Error> = operation::WriteObject::of;
+            -> Result<operation::WriteObject<'a>, Error> = operation::WriteObject::for_descriptor;
     }
 }
 
@@ -126,19 +126,19 @@ pub(crate) mod values {
         value::Shape::encode(shape, elements, buf)
     }
 
-    fn of_value<T: value::Item>(value: &ValueRef<'_>, visit: fn(T)) -> Result<(), Error> {
+    fn of_value<T: value::Scalar>(value: &ValueRef<'_>, visit: fn(T)) -> Result<(), Error> {
         ValueRef::iter(value).map(|all| all.for_each(visit))
     }
 
-    fn of_content<T: value::Item>(content: &ContentRef<'_>, visit: fn(T)) -> Result<(), Error> {
+    fn of_content<T: value::Scalar>(content: &ContentRef<'_>, visit: fn(T)) -> Result<(), Error> {
         ContentRef::iter(content).map(|all| all.for_each(visit))
     }
 
-    fn items<T: value::Item>(elements: &Elements<'_>, visit: fn(T)) -> Result<(), Error> {
+    fn items<T: value::Scalar>(elements: &Elements<'_>, visit: fn(T)) -> Result<(), Error> {
         Elements::items(elements).map(|all| all.for_each(visit))
     }
 
-    fn read<T: value::Item>(reader: &mut value::Reader<'_>) -> Result<T, Error> {
+    fn read<T: value::Scalar>(reader: &mut value::Reader<'_>) -> Result<T, Error> {
         value::Reader::read(reader)
     }
 

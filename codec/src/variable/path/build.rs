@@ -1,11 +1,11 @@
 //! Building names.
 
-use super::super::{Kind, Numbers};
+use super::super::{Kind, U32List};
 use super::{PathPart, VariablePath, scan};
 use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
-use crate::layout::Stream;
-use crate::layout::field::variable_path::{INDEX, KIND, PART};
+use crate::layout::Subject;
+use crate::layout::variable_path::{INDEX, KIND, PART};
 use crate::text::CncStr;
 
 /// Each of them writes a name that [`VariablePath::from_text`] takes apart into what it was made
@@ -14,10 +14,10 @@ impl<'a> VariablePath<'a> {
     /// Puts a name together from its parts.
     ///
     /// ```
-    /// use ads_cnc::{CncStr, Kind, Numbers, PathPart, VariablePath};
+    /// use ads_cnc::{CncStr, Kind, U32List, PathPart, VariablePath};
     ///
-    /// let np = PathPart { name: CncStr::new("NP")?, indices: Numbers::from(&[0]) };
-    /// let v = PathPart { name: CncStr::new("V")?, indices: Numbers::EMPTY };
+    /// let np = PathPart { name: CncStr::new("NP")?, indices: U32List::from(&[0]) };
+    /// let v = PathPart { name: CncStr::new("V")?, indices: U32List::EMPTY };
     /// let mut buf = [0; 32];
     /// let path = VariablePath::write(Kind::V_G, [np, v], &mut buf)?;
     /// assert_eq!(path.text(), "V.G.NP[0].V");
@@ -42,7 +42,7 @@ impl<'a> VariablePath<'a> {
         if len == kind_end {
             return Err(Error::new(ErrorKind::Truncated, PART, to_u32(len), 1, 0));
         }
-        let bytes = Writer::fill(Stream::VariablePath, len, buf, |out| {
+        let bytes = Writer::fill(Subject::VariablePath, len, buf, |out| {
             kind.text().write(out);
             parts.for_each(|part| write_part(part, out));
         })?;
@@ -52,11 +52,11 @@ impl<'a> VariablePath<'a> {
     /// The name of an element of this array: the name with indices at its end.
     ///
     /// ```
-    /// use ads_cnc::{Numbers, VariablePath};
+    /// use ads_cnc::{U32List, VariablePath};
     ///
     /// let array = VariablePath::new("V.E.test")?;
     /// let mut buf = [0; 16];
-    /// assert_eq!(array.write_element(Numbers::from(&[4]), &mut buf)?.text(), "V.E.test[4]");
+    /// assert_eq!(array.write_element(U32List::from(&[4]), &mut buf)?.text(), "V.E.test[4]");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ///
@@ -65,7 +65,7 @@ impl<'a> VariablePath<'a> {
     /// already: see [`variable`](Self::variable).
     pub fn write_element<'b>(
         &self,
-        indices: Numbers<'_>,
+        indices: U32List<'_>,
         buf: &'b mut [u8],
     ) -> Result<VariablePath<'b>, Error> {
         if !self.elements().is_empty() {
@@ -83,7 +83,7 @@ impl<'a> VariablePath<'a> {
     /// The name on the channel interface of a variable of the axis interface: the axis's instance
     /// identifier becomes the last part.
     ///
-    /// Indices at the end stay there, behind the axis: which place they have is not documented.
+    /// Indices at the end stay there, after the axis: their position is not documented.
     ///
     /// ```
     /// use ads_cnc::{CncStr, VariablePath};
@@ -134,7 +134,7 @@ impl<'a> VariablePath<'a> {
         let before = self.text.split_at(dot).0;
         let elements = self.text.split_at(self.variable_end).1;
         let len = before.len().saturating_add(elements.len());
-        let bytes = Writer::fill(Stream::VariablePath, len, buf, |out| {
+        let bytes = Writer::fill(Subject::VariablePath, len, buf, |out| {
             before.write(out);
             elements.write(out);
         })?;
@@ -155,7 +155,7 @@ impl<'a> VariablePath<'a> {
     }
 }
 
-/// Checks a part that begins behind `before` characters; says where its indices begin and end.
+/// Checks a part that begins after `before` characters; returns where its indices begin and end.
 fn check_part(part: PathPart<'_>, before: usize) -> Result<(usize, usize), Error> {
     let start = before.saturating_add(1);
     scan::part(part.name, start)?;
@@ -182,7 +182,7 @@ fn write_part(part: PathPart<'_>, out: &mut Writer<'_>) {
 
 fn digit_count(number: u32) -> usize {
     let more = number.checked_ilog10().unwrap_or(0);
-    crate::bytes::to_len(more.saturating_add(1))
+    crate::bytes::to_usize(more.saturating_add(1))
 }
 
 fn write_decimal(number: u32, out: &mut Writer<'_>) {
@@ -205,16 +205,16 @@ mod owned {
         /// As [`write_element`](Self::write_element).
         ///
         /// ```
-        /// use ads_cnc::{Numbers, VariablePath};
+        /// use ads_cnc::{U32List, VariablePath};
         ///
         /// let array = VariablePath::new("V.E.Testvar")?;
-        /// assert_eq!(array.element(Numbers::from(&[3]))?.to_string(), "V.E.Testvar[3]");
+        /// assert_eq!(array.element(U32List::from(&[3]))?.to_string(), "V.E.Testvar[3]");
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
         ///
         /// # Errors
         /// Those of [`write_element`](Self::write_element).
-        pub fn element(&self, indices: Numbers<'_>) -> Result<CncString, Error> {
+        pub fn element(&self, indices: U32List<'_>) -> Result<CncString, Error> {
             Ok(self.write_element(indices, &mut [0; NAME_MAX])?.text().into())
         }
 

@@ -9,7 +9,7 @@ use core::hash::{Hash, Hasher};
 
 pub use part::{PathPart, PathParts};
 
-use super::{Kind, Numbers};
+use super::{Kind, U32List};
 use crate::error::Error;
 use crate::text::CncStr;
 
@@ -42,19 +42,19 @@ const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICE
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1 (VAR-20); the axis: 4.1 and 4.2.2.
 ///
 /// ```
-/// use ads_cnc::{Handle, HandleReadRef, Kind, Numbers, VariablePath};
+/// use ads_cnc::{Handle, HandleReadRef, Kind, U32List, VariablePath};
 ///
 /// let path = VariablePath::new("V.G.NP[0].V[1]")?;
 /// assert_eq!(path.kind(), Kind::V_G);
 /// assert_eq!(path.variable().text(), "V.G.NP[0].V");
-/// assert_eq!(path.elements(), Numbers::from(&[1]));
+/// assert_eq!(path.elements(), U32List::from(&[1]));
 ///
 /// // The same element by the array's handle.
 /// let by_handle = HandleReadRef { handle: Handle(0x2001234), indices: path.elements() };
 ///
 /// // And a name made of another.
 /// let mut buf = [0; 32];
-/// let other = path.variable().write_element(Numbers::from(&[4]), &mut buf)?;
+/// let other = path.variable().write_element(U32List::from(&[4]), &mut buf)?;
 /// assert_eq!(other.text(), "V.G.NP[0].V[4]");
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -71,7 +71,7 @@ const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICE
 #[derive(Clone, Copy)]
 pub struct VariablePath<'a> {
     text: CncStr<'a>,
-    /// Where the dot behind the kind is, in what the text is held in.
+    /// The offset of the dot after the kind, in the bytes of the text.
     kind_end: usize,
     /// Where the indices at the end begin, likewise.
     variable_end: usize,
@@ -84,8 +84,8 @@ impl<'a> VariablePath<'a> {
     /// Offsets count characters.
     /// - Those of [`CncStr::new`].
     /// - [`Unexpected`](crate::ErrorKind::Unexpected): an empty part, a double dot, a bracket or
-    ///   a character in one where none may be, text behind a bracket, no kind.
-    /// - [`Truncated`](crate::ErrorKind::Truncated): the name ends in its kind, behind a dot or in
+    ///   a character that a part must not have, text after a bracket, no kind.
+    /// - [`Truncated`](crate::ErrorKind::Truncated): the name ends in its kind, after a dot or in
     ///   a bracket.
     /// - [`OutOfRange`](crate::ErrorKind::OutOfRange): an index over 4 294 967 294; one over 32
     ///   bits is shown as the largest of these.
@@ -123,24 +123,24 @@ impl<'a> VariablePath<'a> {
         Kind::from_field(self.text.split_at(self.kind_end).0.into())
     }
 
-    /// What follows the kind: structures, and last the variable in them. There is one at least.
+    /// The parts after the kind: structures, and last the variable in them. At least one.
     ///
     /// ```
-    /// use ads_cnc::{Numbers, VariablePath};
+    /// use ads_cnc::{U32List, VariablePath};
     ///
     /// let path = VariablePath::new("V.E.struct1[5].struct2[8].array_sgn32")?;
     /// let parts: Vec<String> = path.parts().map(|part| part.to_string()).collect();
     /// assert_eq!(parts, ["struct1[5]", "struct2[8]", "array_sgn32"]);
-    /// assert_eq!(path.parts().nth(1).unwrap().indices, Numbers::from(&[8]));
+    /// assert_eq!(path.parts().nth(1).unwrap().indices, U32List::from(&[8]));
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     pub fn parts(&self) -> PathParts<'a> {
         PathParts::new(self.text.split_at(self.kind_end).1)
     }
 
-    /// The indices at the end, which select an element of an array; none for all of it.
-    pub fn elements(&self) -> Numbers<'a> {
-        Numbers::from_name(self.text.split_at(self.variable_end).1.held())
+    /// The indices at the end, which select an element of an array; empty for the whole array.
+    pub fn elements(&self) -> U32List<'a> {
+        U32List::from_name(self.text.split_at(self.variable_end).1.held())
     }
 
     /// The name without the indices at its end: that of the whole array, if it is one.

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::super::Numbers;
+use super::super::U32List;
 use crate::text::CncStr;
 
 /// One part of a name: a structure or the variable, with its indices.
@@ -10,9 +10,9 @@ use crate::text::CncStr;
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1 (VAR-20).
 ///
 /// ```
-/// use ads_cnc::{CncStr, Numbers, PathPart};
+/// use ads_cnc::{CncStr, U32List, PathPart};
 ///
-/// let part = PathPart { name: CncStr::new("NP")?, indices: Numbers::from(&[0]) };
+/// let part = PathPart { name: CncStr::new("NP")?, indices: U32List::from(&[0]) };
 /// assert_eq!(part.to_string(), "NP[0]");
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -21,7 +21,7 @@ pub struct PathPart<'a> {
     /// The part's name.
     pub name: CncStr<'a>,
     /// Index in each dimension, from 0; of the last part they select the element.
-    pub indices: Numbers<'a>,
+    pub indices: U32List<'a>,
 }
 
 impl fmt::Display for PathPart<'_> {
@@ -31,7 +31,7 @@ impl fmt::Display for PathPart<'_> {
     }
 }
 
-/// The parts of a name behind its kind: see [`VariablePath::parts`](super::VariablePath::parts).
+/// The parts of a name after its kind: see [`VariablePath::parts`](super::VariablePath::parts).
 ///
 /// ```
 /// use ads_cnc::VariablePath;
@@ -60,7 +60,7 @@ impl<'a> Iterator for PathParts<'a> {
             let held = text.held();
             held.iter().position(|&byte| byte == wanted).unwrap_or(held.len())
         };
-        // Behind the dot, which is there unless this is the end.
+        // Skips the dot, which only the last part lacks.
         let (dot, rest) = self.0.split_at(1);
         if dot.is_empty() {
             return None;
@@ -68,6 +68,6 @@ impl<'a> Iterator for PathParts<'a> {
         let (part, rest) = rest.split_at(place(rest, b'.'));
         let (name, indices) = part.split_at(place(part, b'['));
         self.0 = rest;
-        Some(PathPart { name, indices: Numbers::from_name(indices.held()) })
+        Some(PathPart { name, indices: U32List::from_name(indices.held()) })
     }
 }

@@ -1,11 +1,11 @@
-//! The one pass over a name that finds its faults.
+//! Parses and checks a name in one pass.
 
-use super::super::numbers::decimal;
+use super::super::u32_list::decimal;
 use super::INDEX_MAX;
 use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
-use crate::layout::field::variable_path::{INDEX, KIND, PART};
-use crate::layout::{Field, Stream};
+use crate::layout::variable_path::{INDEX, KIND, PART};
+use crate::layout::{Field, Subject};
 use crate::limits::NAME_MAX;
 use crate::text::CncStr;
 
@@ -39,14 +39,14 @@ pub(super) fn kind(text: CncStr<'_>) -> Result<(), Error> {
     scan.end(KIND)
 }
 
-/// Checks the name of a part, which is to stand behind `before` characters.
+/// Checks the name of a part, which follows `before` characters.
 pub(super) fn part(text: CncStr<'_>, before: usize) -> Result<(), Error> {
     let mut scan = Scan { text, before, at: 0 };
     scan.part(PART)?;
     scan.end(PART)
 }
 
-/// Checks an index whose digits are to stand behind `before` characters.
+/// Checks an index whose digits follow `before` characters.
 pub(super) fn index(index: u32, before: usize) -> Result<(), Error> {
     if index <= INDEX_MAX {
         return Ok(());
@@ -54,16 +54,16 @@ pub(super) fn index(index: u32, before: usize) -> Result<(), Error> {
     Err(Error::new(ErrorKind::OutOfRange, INDEX, to_u32(before), INDEX_MAX, index))
 }
 
-/// A name may have so many characters.
+/// Checks the length of a name.
 pub(super) fn check_len(len: usize) -> Result<(), Error> {
     if len <= NAME_MAX {
         return Ok(());
     }
-    let (whole, max) = (Field::whole(Stream::VariablePath), to_u32(NAME_MAX));
+    let (whole, max) = (Field::whole_subject(Subject::VariablePath), to_u32(NAME_MAX));
     Err(Error::new(ErrorKind::TooLong, whole, max, max, to_u32(len)))
 }
 
-/// What ends a part's name. ASCII, so that it is one byte in CP1252 and in UTF-8 alike.
+/// The characters that end a part's name. ASCII, so that it is one byte in CP1252 and in UTF-8 alike.
 const fn is_syntax(byte: u8) -> bool {
     matches!(byte, b'.' | b'[' | b']')
 }
@@ -87,7 +87,7 @@ impl Scan<'_> {
         }
     }
 
-    /// The character that comes next is wrong, or there is none.
+    /// The next character is wrong, or missing.
     #[cold]
     fn fault(&self, field: Field) -> Error {
         let (before, after) = self.text.split_at(self.at);

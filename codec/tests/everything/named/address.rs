@@ -20,7 +20,7 @@ pub(super) fn runs() -> Result<(), Error> {
     let spindle = address::Spindle::new(any(1))?;
     seen((address::Spindle::index(spindle), address::Spindle::class(spindle, attribute)));
 
-    let offset = address::IndexOffset::of_axis(stride, any(1), any(2))?;
+    let offset = address::IndexOffset::for_axis(stride, any(1), any(2))?;
     seen((
         address::IndexOffset::get(offset),
         address::IndexOffset::axis_and_element(offset, stride),
@@ -36,13 +36,13 @@ pub(super) fn runs() -> Result<(), Error> {
     let com = address::ComGroup::platform(access);
     seen(address::ComGroup::index_group(com));
 
-    seen(address::ElementAddress::of_channel(channel, class, any(3)));
-    seen(address::ElementAddress::of_axis(channel, class, axis, any(3)));
-    seen(address::ElementAddress::of_spindle(spindle, any(3)));
+    seen(address::ElementAddress::for_channel(channel, class, any(3)));
+    seen(address::ElementAddress::for_axis(channel, class, axis, any(3)));
+    seen(address::ElementAddress::for_spindle(spindle, any(3)));
     let element = address::ElementAddress::new(group, offset);
     seen(address::ElementAddress::class_group(element));
     seen(address::ElementAddress::group(element, attribute));
     seen(address::ElementAddress::index_offset(element));
-    seen(address::ElementAddress::following(element, any(1)));
+    seen(address::ElementAddress::nth(element, any(1)));
     Ok(())
 }

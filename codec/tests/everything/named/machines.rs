@@ -37,16 +37,16 @@ pub(super) fn streaming(bytes: &[u8]) -> Result<(), LineError> {
         seen((streaming::LineError::line(&error), streaming::LineError::column(&error)));
         seen(streaming::LineErrorKind::clause(streaming::LineError::kind(&error)));
     }
-    seen(streaming::Ack::of(ads::AdsError(any(0))));
+    seen(streaming::Ack::from_result(ads::AdsError(any(0))));
 
     let text = streaming::NcText::new(bytes)?;
     seen((streaming::NcText::bytes(&text), streaming::NcText::is_wire(&text)));
     seen((streaming::NcText::line_count(&text), streaming::NcText::wire_len(&text)));
     streaming::NcText::lines(&text).for_each(seen);
     #[cfg(feature = "alloc")]
-    for finding in streaming::NcText::findings(&text) {
-        seen(streaming::FindingKind::clause(finding.kind));
-        seen(streaming::FindingKind::ends_streaming(finding.kind));
+    for finding in streaming::NcText::diagnostics(&text) {
+        seen(streaming::DiagnosticKind::clause(finding.kind));
+        seen(streaming::DiagnosticKind::ends_streaming(finding.kind));
     }
     let mut packets = streaming::NcText::packets(&text);
     seen(streaming::Packets::next_into(&mut packets, &mut [0; limits::STREAM_PACKET_MAX]));
@@ -58,7 +58,7 @@ pub(super) fn streaming(bytes: &[u8]) -> Result<(), LineError> {
         seen(packet);
         seen(streaming::Sender::acknowledge(&mut sender, any(Ack::Accepted)));
         seen((streaming::Sender::left(&sender), streaming::Sender::left_bytes(&sender)));
-        seen((streaming::Sender::left_lines(&sender), streaming::Sender::refusals(&sender)));
+        seen((streaming::Sender::left_lines(&sender), streaming::Sender::busy_count(&sender)));
         seen((streaming::Sender::sent(&sender), streaming::Sender::state(&sender)));
     }
     Ok(())

@@ -35,7 +35,7 @@ pub(super) fn makers(bytes: &[u8]) -> Result<(), Error> {
     let (name, kind) = (text(bytes, "V.E.a"), Kind::new(text(bytes, "V.E"))?);
     let (handle, number) = (Handle(any(1)), any(1));
     let indices = [any(3)];
-    let indices = Numbers::from(&indices);
+    let indices = U32List::from(&indices);
     ask(operation::AxisHandleByName::new(channel, axis, name), bytes);
     ask(operation::AxisReadByName::new(channel, axis, name), bytes);
     ask(operation::AxisWriteByName::new(channel, axis, name, bytes), bytes);
@@ -74,10 +74,13 @@ pub(super) fn makers(bytes: &[u8]) -> Result<(), Error> {
         seen((operation::WriteObject::address(&op), operation::WriteObject::content(&op)));
     }
     if let Ok(object) = DescriptorRef::decode(bytes) {
-        seen((operation::ReadObject::of(object), operation::WriteObject::of(object, any(true))));
+        seen((
+            operation::ReadObject::for_descriptor(object),
+            operation::WriteObject::for_descriptor(object, any(true)),
+        ));
     }
     arguments(channel, handle, bytes)?;
-    elements(ElementAddress::of_channel(channel, any(address::Class::Hld), any(1))?, bytes);
+    elements(ElementAddress::for_channel(channel, any(address::Class::Hld), any(1))?, bytes);
 
     Ok(())
 }

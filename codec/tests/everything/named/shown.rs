@@ -50,7 +50,7 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     show::<streaming::LoopWord>(any(streaming::LoopWord::For));
     #[cfg(feature = "alloc")]
     show::<streaming::ProgramEnd>(any(streaming::ProgramEnd::M2));
-    show::<streaming::NoPacketOut>(any(streaming::NoPacketOut));
+    show::<streaming::UnexpectedAck>(any(streaming::UnexpectedAck));
     refusals(bytes);
     programs(bytes);
     names(bytes)
@@ -101,9 +101,9 @@ fn programs(bytes: &[u8]) {
     match streaming::NcText::new(bytes) {
         #[cfg(feature = "alloc")]
         Ok(program) => {
-            for finding in program.findings() {
-                show::<streaming::FindingKind>(finding.kind);
-                show::<streaming::Finding>(finding);
+            for finding in program.diagnostics() {
+                show::<streaming::DiagnosticKind>(finding.kind);
+                show::<streaming::Diagnostic>(finding);
             }
         }
         #[cfg(not(feature = "alloc"))]

@@ -123,9 +123,9 @@ fn descriptors(bytes: &[u8]) -> Result<(), Error> {
 
 fn names(bytes: &[u8]) -> Result<(), Error> {
     let numbers = [any(1), any(2)];
-    let numbers = Numbers::from(&numbers);
-    seen((Numbers::len(&numbers), Numbers::is_empty(&numbers), Numbers::get(&numbers, any(1))));
-    Numbers::iter(&numbers).for_each(seen);
+    let numbers = U32List::from(&numbers);
+    seen((U32List::len(&numbers), U32List::is_empty(&numbers), U32List::get(&numbers, any(1))));
+    U32List::iter(&numbers).for_each(seen);
     let kind = Kind::new(text(bytes, "V.E"))?;
     let mut buf = [0; ROOM];
     let part = PathPart { name: cnc(bytes), indices: numbers };
@@ -145,9 +145,10 @@ pub(super) fn tables(bytes: &[u8]) -> Result<(), Error> {
     let name = text(bytes, "name");
     for stream in layout::Stream::all() {
         let table = layout::Stream::layout(stream);
-        seen((layout::Layout::is_stream(table), layout::Layout::is_fixed(table)));
+        seen(layout::Layout::is_fixed(table));
         let field = layout::Field::whole(stream);
         seen((layout::Field::name(field), layout::Field::spec(field)));
+        seen(layout::Subject::name(layout::Field::subject(field)));
         seen((layout::Field::stream(field), layout::Field::by_name(stream, name)));
         layout::Stream::fields(stream).for_each(seen);
         seen(layout::Stream::walk(stream, bytes, |segment| seen(segment.bytes)));

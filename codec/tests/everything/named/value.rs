@@ -7,7 +7,7 @@ use super::{ROOM, any, cnc, seen};
 
 pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     let dimensions = [any(2), any(3)];
-    let dimensions = Numbers::from(&dimensions);
+    let dimensions = U32List::from(&dimensions);
     for data_type in DataType::ALL.map(any) {
         seen((value::DataType::name(data_type), value::DataType::object_name(data_type)));
         seen((value::DataType::size(data_type), value::DataType::var_type(data_type)));
@@ -33,14 +33,14 @@ pub(super) fn runs(bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-fn shape(data_type: DataType, dimensions: Numbers<'_>, bytes: &[u8]) -> Result<(), Error> {
+fn shape(data_type: DataType, dimensions: U32List<'_>, bytes: &[u8]) -> Result<(), Error> {
     let mut buf = [0; ROOM];
-    seen(value::Shape::of_variable(VariableType(any(1)), dimensions, any(4)));
+    seen(value::Shape::for_variable(VariableType(any(1)), dimensions, any(4)));
     let shape = value::Shape::new(data_type, dimensions, any(4))?;
     seen((value::Shape::count(&shape), value::Shape::data_type(&shape)));
     seen((value::Shape::dimensions(&shape).len(), value::Shape::element_size(&shape)));
     seen((value::Shape::size(&shape), value::Shape::index_of(&shape, dimensions)));
-    seen(value::Shape::elements(&value::Shape::one(&shape), bytes));
+    seen(value::Shape::elements(&value::Shape::element_shape(&shape), bytes));
     seen(value::Shape::encode_texts(&shape, &[cnc(bytes), cnc(bytes)], &mut buf));
     let elements = Elements::new(data_type, dimensions, bytes)?;
     seen(value::Shape::encode(&shape, &elements, &mut buf));
@@ -57,7 +57,7 @@ fn shape(data_type: DataType, dimensions: Numbers<'_>, bytes: &[u8]) -> Result<(
     Ok(())
 }
 
-fn items<T: value::Item>(bytes: &[u8]) -> Result<(), Error> {
+fn items<T: value::Scalar>(bytes: &[u8]) -> Result<(), Error> {
     let (value, content) = (ValueRef { bytes }, ContentRef { bytes });
     seen((ValueRef::get::<T>(&value, any(1)), ContentRef::get::<T>(&content, any(1))));
     seen(ValueRef::copy_to(&value, &mut [T::default(); 4]));

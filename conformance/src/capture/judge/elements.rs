@@ -124,7 +124,7 @@ impl Bench<'_> {
             let same = u32::from(group.instance) == query.channel;
             page.check("ADR-5", same, format!("the group of instance {}", query.channel), &found);
         }
-        let of = |stride| IndexOffset::of_axis(stride, query.axis, 0).ok();
+        let of = |stride| IndexOffset::for_axis(stride, query.axis, 0).ok();
         let (rule, expected) = match (class, query.axis) {
             (_, 0) => (Rule::from("SDA-1"), vec![Some(IndexOffset::new(0))]),
             (Class::Decoder, _) => (Rule::from("ADR-7"), vec![of(AxisStride::X10000)]),

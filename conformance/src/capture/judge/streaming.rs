@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::Call;
-use ads_cnc::streaming::{Checker, FindingKind, Found, LineErrorKind, NcText};
+use ads_cnc::streaming::{CheckEvent, Checker, DiagnosticKind, LineErrorKind, NcText};
 
 use super::super::book::{Scene, Topic};
 use super::Bench;
@@ -89,10 +89,12 @@ impl Bench<'_> {
             let mut ended = false;
             for found in checker.check(data) {
                 match found {
-                    Found::End { .. } => ended = true,
-                    Found::Finding(finding) => {
+                    CheckEvent::ProgramEnd { .. } => ended = true,
+                    CheckEvent::Diagnostic(finding) => {
                         let clause = match finding.kind {
-                            FindingKind::Loop(_) | FindingKind::BackwardJump { .. } => "STM-8",
+                            DiagnosticKind::Loop(_) | DiagnosticKind::BackwardJump { .. } => {
+                                "STM-8"
+                            }
                             // Behind an end comes the next program, or what is left of it.
                             _ => continue,
                         };

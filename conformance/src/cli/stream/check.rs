@@ -27,7 +27,7 @@ pub(super) fn check<'a>(bytes: &'a [u8], name: &str, out: &mut dyn Write) -> Opt
         return None;
     };
     let mut ends = 0_usize;
-    for finding in text.findings() {
+    for finding in text.diagnostics() {
         let (line, column) = (finding.line, finding.column);
         let level = match finding.kind.ends_streaming() {
             true => "error",
@@ -114,7 +114,7 @@ mod tests {
             said,
             "part.nc:2:5: error: $GOTO back to line 1 (STM-8)\n\
              part.nc:3:5: error: $WHILE in a stream (STM-8)\n\
-             part.nc:5:1: warning: text behind the M30 of line 4 (STM-10)\n"
+             part.nc:5:1: warning: text after the M30 of line 4 (STM-10)\n"
         );
         assert_eq!(ends, Some(2));
     }

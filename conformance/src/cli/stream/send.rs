@@ -62,16 +62,16 @@ impl Sending<'_> {
             // What is no answer of the CNC's is not sent again.
             let ack = match &trouble {
                 None => Ack::Accepted,
-                Some(trouble) => trouble.ads_error().map_or(Ack::Refused, Ack::of),
+                Some(trouble) => trouble.ads_error().map_or(Ack::Rejected, Ack::from_result),
             };
             if let Err(trouble) = acknowledge(&mut self.sender, ack) {
                 return End::Stopped(trouble);
             }
             match trouble {
                 None => progress.show(self.sender.sent(), None),
-                Some(Trouble::Ads { error, .. }) if ack == Ack::Later => {
+                Some(Trouble::Ads { error, .. }) if ack == Ack::Busy => {
                     self.refusals = self.refusals.saturating_add(1);
-                    let times = self.sender.refusals();
+                    let times = self.sender.busy_count();
                     if times > self.retry.times {
                         return End::GivenUp(error);
                     }

@@ -10,7 +10,7 @@ use ads_cnc::operation::{
     ReadElementWriteFlag, ReadObject, WriteByHandle, WriteByName, WriteElement, WriteObject,
 };
 use ads_cnc::value::DataType;
-use ads_cnc::{CncStr, Descriptor, Handle, Kind, Numbers};
+use ads_cnc::{CncStr, Descriptor, Handle, Kind, U32List};
 use serde_json::{Value, json};
 
 use super::wire::{Fail, Wire};
@@ -223,7 +223,7 @@ fn by_handle(wire: &mut Wire, action: &Action, args: &mut Arguments<'_>) -> Resu
         some => numbers(some)?,
     };
     let (indices, ty, mut reply) =
-        (Numbers::from(indices.as_slice()), args.data_type()?, Vec::new());
+        (U32List::from(indices.as_slice()), args.data_type()?, Vec::new());
     if action.action == "read-by-handle" {
         let bytes = wire.call(&ReadByHandle::new(channel, handle, indices), &mut reply)?.bytes;
         return shown(wire, &ty, bytes);
@@ -283,16 +283,18 @@ fn element(wire: &mut Wire, action: &Action, args: &mut Arguments<'_>) -> Result
     let number = if action.action == "count-elements" { 0 } else { args.number()? };
     let mut reply = Vec::new();
     let at = match (class, channel, axis) {
-        (Class::Spindle, spindle, _) => ElementAddress::of_spindle(Spindle::new(spindle)?, number)?,
+        (Class::Spindle, spindle, _) => {
+            ElementAddress::for_spindle(Spindle::new(spindle)?, number)?
+        }
         (Class::PositionController, ..) | (Class::Hld, _, 1..) | (_, 0, _) => {
             let found = wire.call(&FindInstance::new(class, channel, axis), &mut reply)?;
             let first = found.first_element()?.ok_or("there is no such instance")?;
-            first.following(number)?
+            first.nth(number)?
         }
-        (_, channel, 0) => ElementAddress::of_channel(Channel::new(channel)?, class, number)?,
+        (_, channel, 0) => ElementAddress::for_channel(Channel::new(channel)?, class, number)?,
         (_, channel, axis) => {
             let axis = ChannelAxis::new(axis)?;
-            ElementAddress::of_axis(Channel::new(channel)?, class, axis, number)?
+            ElementAddress::for_axis(Channel::new(channel)?, class, axis, number)?
         }
     };
     Ok(match action.action.as_str() {

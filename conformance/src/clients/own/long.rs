@@ -30,12 +30,12 @@ pub(super) fn stream(wire: &mut Wire, channel: Channel, file: &str) -> Result<Va
             let write = WriteProgramStream::new(channel, &packet);
             let ack = match wire.call(&write, &mut Vec::new()) {
                 Ok(_) => break,
-                Err(Fail::Refused(error)) => (Ack::of(error), error),
+                Err(Fail::Refused(error)) => (Ack::from_result(error), error),
                 Err(fail) => return Err(fail),
             };
             match ack {
-                (Ack::Later, _) if wire.has(Flaw::StreamSkips) => break,
-                (Ack::Later, _) if begun.elapsed() < PATIENCE => thread::sleep(PAUSE),
+                (Ack::Busy, _) if wire.has(Flaw::StreamSkips) => break,
+                (Ack::Busy, _) if begun.elapsed() < PATIENCE => thread::sleep(PAUSE),
                 (_, error) => return Err(Fail::Refused(error)),
             }
         }
@@ -50,7 +50,7 @@ fn packets(flaw: Option<Flaw>, program: &[u8]) -> Result<Vec<Vec<u8>>, Fail> {
         return Ok(program.chunks(STREAM_PACKET_MAX).map(<[u8]>::to_vec).collect());
     }
     let text = NcText::new(program)?;
-    if let Some(finding) = text.findings().find(|finding| finding.kind.ends_streaming()) {
+    if let Some(finding) = text.diagnostics().find(|finding| finding.kind.ends_streaming()) {
         return Err(finding.into());
     }
     let (mut packets, mut buf) = (Vec::new(), [0; STREAM_PACKET_MAX]);

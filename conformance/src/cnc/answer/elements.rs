@@ -28,7 +28,7 @@ impl Running<'_> {
     fn instance(&self, group: ClassGroup, channel: u32, axis: u32) -> Option<ElementAddress> {
         let instance = u8::try_from(channel).ok()?;
         let stride = stride(group.class, instance);
-        let offset = IndexOffset::of_axis(stride, axis, 0).ok()?;
+        let offset = IndexOffset::for_axis(stride, axis, 0).ok()?;
         let group = ClassGroup { attribute: Attribute::Content, instance, ..group };
         let address = ElementAddress::new(group, offset);
         self.locate(address).is_ok().then_some(address)

@@ -12,7 +12,7 @@ use ads_cnc::operation::{
     WriteByHandle, WriteByName,
 };
 use ads_cnc::{
-    DescriptionByNameRef, DescriptionRef, ExtendedReply, Handle, Kind, Numbers, TextRef, ValueRef,
+    DescriptionByNameRef, DescriptionRef, ExtendedReply, Handle, Kind, TextRef, U32List, ValueRef,
     VariableAccess, VariableCount, VariableType,
 };
 
@@ -161,7 +161,7 @@ impl Running<'_> {
     }
 
     /// The value of a variable or of one of its elements; blank where no axis is (SDA-11).
-    fn read(&self, channel: usize, at: At, indices: Numbers<'_>) -> Answer {
+    fn read(&self, channel: usize, at: At, indices: U32List<'_>) -> Answer {
         let variable = self.variable(channel, at)?;
         let part = variable.part(indices).ok_or(AdsError::INVALID_DATA)?;
         let value = match (at, variable.service) {
@@ -183,7 +183,7 @@ impl Running<'_> {
         encode(ValueRef { bytes: value.get(part).ok_or(AdsError::INVALID_DATA)? })
     }
 
-    fn write(&mut self, channel: usize, at: At, indices: Numbers<'_>, bytes: &[u8]) -> Answer {
+    fn write(&mut self, channel: usize, at: At, indices: U32List<'_>, bytes: &[u8]) -> Answer {
         let variable = self.variable(channel, at)?;
         if tracing::enabled!(tracing::Level::DEBUG)
             && let (Ok(name), Some(model)) =

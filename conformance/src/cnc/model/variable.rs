@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{CncString, ExtendedDescription, Handle, Numbers, VariableAccess, VariableType};
+use ads_cnc::{CncString, ExtendedDescription, Handle, U32List, VariableAccess, VariableType};
 
 use super::item::Initial;
 use crate::cnc::to_len;
@@ -35,7 +35,7 @@ impl Variable {
 
     /// Where in the value: all of it without indices, one element with one index for each
     /// dimension. None for another number of indices, and for an index out of bounds.
-    pub(in crate::cnc) fn part(&self, indices: Numbers<'_>) -> Option<Range<usize>> {
+    pub(in crate::cnc) fn part(&self, indices: U32List<'_>) -> Option<Range<usize>> {
         if indices.is_empty() {
             return Some(0..self.initial.size);
         }
@@ -56,7 +56,7 @@ impl Variable {
     }
 
     /// Whether indices select one STRING, which may be written shorter than it is declared.
-    pub(in crate::cnc) fn is_text(&self, indices: Numbers<'_>) -> bool {
+    pub(in crate::cnc) fn is_text(&self, indices: U32List<'_>) -> bool {
         self.var_type == VariableType::STRING && indices.len() == self.dimensions.len()
     }
 }
@@ -112,19 +112,19 @@ mod tests {
     #[test]
     fn the_last_index_runs_fastest() {
         let cube = cube();
-        assert_eq!(cube.part(Numbers::from(&[0, 0, 1])), Some(2..4));
-        assert_eq!(cube.part(Numbers::from(&[0, 1, 0])), Some(8..10));
-        assert_eq!(cube.part(Numbers::from(&[1, 2, 3])), Some(46..48));
-        assert_eq!(cube.part(Numbers::EMPTY), Some(0..48));
+        assert_eq!(cube.part(U32List::from(&[0, 0, 1])), Some(2..4));
+        assert_eq!(cube.part(U32List::from(&[0, 1, 0])), Some(8..10));
+        assert_eq!(cube.part(U32List::from(&[1, 2, 3])), Some(46..48));
+        assert_eq!(cube.part(U32List::EMPTY), Some(0..48));
     }
 
     #[test]
     fn indices_out_of_bounds_or_of_another_number_address_nothing() {
         let cube = cube();
         for indices in [&[2, 0, 0][..], &[0, 3, 0], &[0, 0, 4], &[u32::MAX; 3], &[0], &[0; 4]] {
-            assert_eq!(cube.part(Numbers::from(indices)), None, "{indices:?}");
+            assert_eq!(cube.part(U32List::from(indices)), None, "{indices:?}");
         }
         let elementary = Variable { dimensions: vec![], ..cube };
-        assert_eq!(elementary.part(Numbers::from(&[0])), None);
+        assert_eq!(elementary.part(U32List::from(&[0])), None);
     }
 }

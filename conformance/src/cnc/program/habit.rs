@@ -1,6 +1,6 @@
 //! What NC programs can be made to do wrong: seeded defects.
 
-use ads_cnc::streaming::{Finding, FindingKind, Found, LoopWord, ProgramEnd};
+use ads_cnc::streaming::{CheckEvent, Diagnostic, DiagnosticKind, LoopWord, ProgramEnd};
 
 use super::executed::lines;
 
@@ -26,7 +26,7 @@ pub(crate) enum Habit {
     /// M30 alone does.
     EndM30,
     /// What was read with an end is run.
-    BehindEnd,
+    AfterEnd,
     /// An end empties the interface.
     EndEmpties,
     /// A reset does not.
@@ -77,21 +77,24 @@ impl Habit {
     }
 
     /// Whether it overlooks that.
-    pub(super) fn overlooks(self, found: &Found) -> bool {
+    pub(super) fn overlooks(self, found: &CheckEvent) -> bool {
         match found {
-            Found::Finding(Finding { kind: FindingKind::Loop(_), .. }) => self == Self::Loops,
-            Found::Finding(Finding { kind: FindingKind::BackwardJump { .. }, .. }) => {
-                self == Self::JumpsBack
+            CheckEvent::Diagnostic(Diagnostic { kind: DiagnosticKind::Loop(_), .. }) => {
+                self == Self::Loops
             }
-            Found::Finding(_) => false,
-            Found::End { end, .. } => {
+            CheckEvent::Diagnostic(Diagnostic {
+                kind: DiagnosticKind::BackwardJump { .. },
+                ..
+            }) => self == Self::JumpsBack,
+            CheckEvent::Diagnostic(_) => false,
+            CheckEvent::ProgramEnd { end, .. } => {
                 self == Self::NoEnd || self == Self::EndM30 && *end != ProgramEnd::M30
             }
         }
     }
 
     /// Where it finds something among the lines from this number on.
-    pub(super) fn finds(self, read: &[u8], first: u32) -> Option<Found> {
+    pub(super) fn finds(self, read: &[u8], first: u32) -> Option<CheckEvent> {
         let has = |line: &[u8], word: &[u8]| line.windows(word.len()).any(|part| part == word);
         let count = |word: &[u8]| lines(read).filter(|line| has(line, word)).count();
         let opens = |line: &[u8]| has(line, b"$IF") || has(line, b"$SWITCH");
@@ -100,7 +103,7 @@ impl Habit {
             let place = lines(read).position(is)?;
             Some(first.saturating_add(u32::try_from(place).ok()?))
         };
-        let branch = |line| Found::Finding(Finding { line, column: 1, kind: LOOP });
+        let branch = |line| CheckEvent::Diagnostic(Diagnostic { line, column: 1, kind: LOOP });
         match self {
             Self::BranchesWhole if !whole => line(&opens).map(branch),
             Self::Branches => line(&opens).map(branch),
@@ -110,11 +113,15 @@ impl Habit {
                     let mut words = line.split(|byte| byte.is_ascii_whitespace());
                     words.find(|word| !word.starts_with(b"N")) == Some(b"L")
                 };
-                line(&calls).map(|line| Found::End { end: ProgramEnd::M17, line, column: 1 })
+                line(&calls).map(|line| CheckEvent::ProgramEnd {
+                    end: ProgramEnd::M17,
+                    line,
+                    column: 1,
+                })
             }
             _ => None,
         }
     }
 }
 
-const LOOP: FindingKind = FindingKind::Loop(LoopWord::While);
+const LOOP: DiagnosticKind = DiagnosticKind::Loop(LoopWord::While);

@@ -44,16 +44,16 @@ impl StreamingInterface {
 
     /// Takes all of a write or nothing of it (STM-15: behind what is there).
     ///
-    /// [`Ack::Refused`] above 992 bytes, and of none, which hold no line (STM-4); [`Ack::Later`],
+    /// [`Ack::Rejected`] above 992 bytes, and of none, which hold no line (STM-4); [`Ack::Busy`],
     /// which goes with warning 11012, if it does not fit now (STM-6; that these are the causes is
     /// assumed). What the bytes are does not matter here.
     pub fn write(&mut self, data: &[u8]) -> Ack {
         if data.is_empty() || data.len() > STREAM_PACKET_MAX {
-            return Ack::Refused;
+            return Ack::Rejected;
         }
         let free = self.bytes.get_mut(self.len..).unwrap_or_default();
         let Some((place, _)) = free.split_at_mut_checked(data.len()) else {
-            return Ack::Later;
+            return Ack::Busy;
         };
         place.copy_from_slice(data);
         self.len = self.len.saturating_add(data.len());

@@ -1,6 +1,6 @@
 //! What a decoder has read at once and runs line by line.
 
-use ads_cnc::streaming::{Checker, Finding, Found, ProgramEnd};
+use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, ProgramEnd};
 
 use super::executed::lines;
 use super::habit::Habit;
@@ -20,14 +20,14 @@ enum Stop {
     /// Behind its line: what else was read with it is not run.
     End { end: ProgramEnd, line: u32 },
     /// In place of its line.
-    Fault(Finding),
+    Fault(Diagnostic),
 }
 
 /// What comes next in a segment.
 pub(super) enum Next<'a> {
     Line(&'a [u8]),
     End(ProgramEnd),
-    Fault(Finding),
+    Fault(Diagnostic),
     Nothing,
 }
 
@@ -42,17 +42,17 @@ impl Segment {
                 _ if habit.is_some_and(|habit| habit.overlooks(&found)) => {}
                 // Not run.
                 _ if end.is_some_and(|(_, line)| line < found.line()) => break,
-                Found::Finding(finding) if finding.kind.ends_streaming() => {
+                CheckEvent::Diagnostic(finding) if finding.kind.ends_streaming() => {
                     fault = Some(Stop::Fault(finding));
                     break;
                 }
-                Found::End { end: word, line, .. } => {
+                CheckEvent::ProgramEnd { end: word, line, .. } => {
                     end.get_or_insert((word, line));
                 }
-                Found::Finding(_) => {}
+                CheckEvent::Diagnostic(_) => {}
             }
         }
-        if let (Some((_, line)), Some(Habit::BehindEnd)) = (&mut end, habit) {
+        if let (Some((_, line)), Some(Habit::AfterEnd)) = (&mut end, habit) {
             *line = checker.lines();
         }
         let stop = fault.or(end.map(|(end, line)| Stop::End { end, line }));

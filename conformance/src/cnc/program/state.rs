@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use ads_cnc::streaming::{Finding, LINE_END_ERROR, LineError, ProgramEnd};
+use ads_cnc::streaming::{Diagnostic, LINE_END_ERROR, LineError, ProgramEnd};
 
 /// Where a streaming program stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,7 +46,7 @@ impl Message {
         }
     }
 
-    pub(super) fn of_finding(file: &str, finding: &Finding) -> Self {
+    pub(super) fn of_finding(file: &str, finding: &Diagnostic) -> Self {
         Self {
             number: None,
             file: file.to_owned(),

@@ -133,8 +133,8 @@ impl Program {
                 self.clock = Clock::begin(self.now);
                 self.run();
             }
-            Ack::Later => self.refusals = self.refusals.saturating_add(1),
-            Ack::Accepted | Ack::Refused => {}
+            Ack::Busy => self.refusals = self.refusals.saturating_add(1),
+            Ack::Accepted | Ack::Rejected => {}
         }
         ack
     }
@@ -143,11 +143,11 @@ impl Program {
         let Some(habit) = self.habit else { return self.interface.write(data) };
         let over = self.interface.len().saturating_add(data.len()) > Habit::LITTLE_ROOM;
         if habit == Habit::Narrow && over {
-            return Ack::Later;
+            return Ack::Busy;
         }
         let mut ack = self.interface.write(data);
         let all = self.written.iter().map(Vec::len).sum::<usize>().saturating_add(data.len());
-        if ack == Ack::Later && habit == Habit::Roomy && all <= 2 * Habit::ROOM {
+        if ack == Ack::Busy && habit == Habit::Roomy && all <= 2 * Habit::ROOM {
             ack = Ack::Accepted;
         }
         if ack == Ack::Accepted {
@@ -338,14 +338,14 @@ impl Program {
 /// use ads_cnc::streaming::Ack;
 /// use ads_cnc_conformance::cnc::program::result;
 ///
-/// for ack in [Ack::Accepted, Ack::Later, Ack::Refused] {
-///     assert_eq!(Ack::of(result(ack)), ack);
+/// for ack in [Ack::Accepted, Ack::Busy, Ack::Rejected] {
+///     assert_eq!(Ack::from_result(result(ack)), ack);
 /// }
 /// ```
 pub fn result(ack: Ack) -> AdsError {
     match ack {
         Ack::Accepted => AdsError::NO_ERROR,
-        Ack::Later => AdsError::INVALID_DATA,
-        Ack::Refused => AdsError::INVALID_SIZE,
+        Ack::Busy => AdsError::INVALID_DATA,
+        Ack::Rejected => AdsError::INVALID_SIZE,
     }
 }

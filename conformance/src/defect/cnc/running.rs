@@ -44,7 +44,7 @@ pub(super) const ROWS: &[Row] = &[
         "cnc.stm.behind-end-run",
         &["STM-10"],
         "what was read with a program end is run before the program ends",
-        Habit::BehindEnd,
+        Habit::AfterEnd,
     ),
     habit(
         "cnc.stm.end-empties",

@@ -172,7 +172,7 @@ impl Walk<'_> {
         };
         let mut tally = Tally::new(count);
         for place in 1..=count.min(ELEMENTS_MAX) {
-            let Ok(element) = first.following(place) else { break };
+            let Ok(element) = first.nth(place) else { break };
             let name = self.ask_task(&ReadElementName::new(element))?;
             let Some(name) = name.map(|name| CncString::from(name.text.text())) else {
                 if tally.refused(place.saturating_sub(1)) {

@@ -27,7 +27,7 @@ use ads_cnc::operation::{
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{
-    CncStr, CncString, Decode, DescriptionRef, DescriptorsRef, Handle, Kind, Numbers,
+    CncStr, CncString, Decode, DescriptionRef, DescriptorsRef, Handle, Kind, U32List,
     VariableAccess,
 };
 
@@ -302,7 +302,7 @@ impl Dialogue<'_> {
             let parts =
                 if first == 0 || by_name.map(Handle) != Some(handle) { &parts[..] } else { &[] };
             for part in [&[][..]].into_iter().chain(parts.iter().map(Vec::as_slice)) {
-                self.ask(ReadByHandle::new(*channel, handle, Numbers::from(part)));
+                self.ask(ReadByHandle::new(*channel, handle, U32List::from(part)));
             }
         }
     }
@@ -354,7 +354,7 @@ impl Dialogue<'_> {
                 let handle = AxisHandleByName::new(channel, axis, &name).ok();
                 let handle = handle.and_then(|op| self.ask(op)).and_then(|data| number(&data));
                 if let Some(handle) = handle {
-                    self.ask(ReadByHandle::new(channel, Handle(handle), Numbers::EMPTY));
+                    self.ask(ReadByHandle::new(channel, Handle(handle), U32List::EMPTY));
                 }
             }
         }
@@ -440,14 +440,14 @@ impl Dialogue<'_> {
             let channels = CHANNELS.iter().filter_map(|&number| Channel::new(number).ok());
             let ranks = CHANNELS.iter().filter_map(|&rank| Channel::by_index(rank).ok());
             for channel in channels.chain(ranks) {
-                addresses.extend(ElementAddress::of_channel(channel, class, 0).ok());
+                addresses.extend(ElementAddress::for_channel(channel, class, 0).ok());
                 for axis in AXES.iter().filter_map(|&axis| ChannelAxis::new(axis).ok()) {
-                    addresses.extend(ElementAddress::of_axis(channel, class, axis, 0).ok());
+                    addresses.extend(ElementAddress::for_axis(channel, class, axis, 0).ok());
                 }
             }
             let spindles = [0].into_iter().chain(AXES).filter_map(|index| Spindle::new(index).ok());
             let spindles = spindles.filter(|_| class == Class::Spindle);
-            addresses.extend(spindles.filter_map(|one| ElementAddress::of_spindle(one, 0).ok()));
+            addresses.extend(spindles.filter_map(|one| ElementAddress::for_spindle(one, 0).ok()));
             addresses.sort_unstable_by_key(|one| {
                 let parts = one.class_group();
                 (parts.instance, parts.addressing == Addressing::Index, one.index_offset().get())
@@ -467,7 +467,7 @@ impl Dialogue<'_> {
         }
         let count = count.as_deref().and_then(number).unwrap_or_default().min(LISTED_MAX);
         for place in 0..=count.saturating_add(1) {
-            let Ok(element) = first.following(place) else { continue };
+            let Ok(element) = first.nth(place) else { continue };
             self.ask(ReadElementName { element });
             self.ask(ReadElementType { element });
             self.ask(ReadElementUnit { element });
@@ -572,7 +572,7 @@ impl Dialogue<'_> {
         let by_name = by_name.and_then(|op| self.ask(op)).and_then(|data| number(&data));
         let Some(handle) = by_name.map(Handle) else { return };
         for part in [Vec::new()].into_iter().chain(parts(dimensions)) {
-            let indices = Numbers::from(&part[..]);
+            let indices = U32List::from(&part[..]);
             let Some(before) = self.ask(ReadByHandle::new(*channel, handle, indices)) else {
                 continue;
             };
@@ -592,7 +592,7 @@ impl Dialogue<'_> {
             }
         }
         if let Some(handle) = handle {
-            self.ask(ReadByHandle::new(channel, handle, Numbers::EMPTY));
+            self.ask(ReadByHandle::new(channel, handle, U32List::EMPTY));
         }
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use ads_cnc::address::Channel;
-use ads_cnc::streaming::{Ack, Checker, FindingKind, Found, NcText, Sender};
+use ads_cnc::streaming::{Ack, CheckEvent, Checker, DiagnosticKind, NcText, Sender};
 use ads_cnc_vectors::{
     Pieces, Requirement, StreamAck, StreamAction, StreamError, StreamStep, Streaming,
 };
@@ -117,16 +117,16 @@ fn write(
     // was stated says: that its number tells is assumed.
     let ack = match stated {
         _ if sent.is_taken() => Ack::Accepted,
-        StreamAck::Later => Ack::Later,
-        StreamAck::Accepted | StreamAck::Refused => Ack::Refused,
+        StreamAck::Later => Ack::Busy,
+        StreamAck::Accepted | StreamAck::Refused => Ack::Rejected,
     };
     match (stated, ack) {
         (StreamAck::Accepted, Ack::Accepted) => {}
         (StreamAck::Accepted, _) if held.saturating_add(data.len()) > HELD_MAX => {
             return Ok(Some("overfull"));
         }
-        (StreamAck::Later, Ack::Later) => scene.number("STM-6", Ack::Later, &sent),
-        (StreamAck::Refused, Ack::Refused) => scene.number("STM-2", Ack::Refused, &sent),
+        (StreamAck::Later, Ack::Busy) => scene.number("STM-6", Ack::Busy, &sent),
+        (StreamAck::Refused, Ack::Rejected) => scene.number("STM-2", Ack::Rejected, &sent),
         _ => return differs(format!("{stated:?} in {}", step.id), sent),
     }
     if let Some(sender) = sender.as_mut().filter(|_| own) {
@@ -134,7 +134,7 @@ fn write(
     }
     Ok(match (own, ack) {
         (false, _) => Some("order"),
-        (true, Ack::Refused) => Some("too-long"),
+        (true, Ack::Rejected) => Some("too-long"),
         _ => None,
     })
 }
@@ -172,9 +172,9 @@ fn take(scene: &Scene<'_, '_>, step: &StreamStep) -> Done<Option<&'static str>> 
             if stated_end != found {
                 return differs(format!("{stated_end:?} in {}", step.id), format!("{found:?}"));
             }
-            let is_lost = |found: Found| {
-                matches!(found, Found::Finding(found)
-                    if matches!(found.kind, FindingKind::BehindEnd { .. }))
+            let is_lost = |found: CheckEvent| {
+                matches!(found, CheckEvent::Diagnostic(found)
+                    if matches!(found.kind, DiagnosticKind::AfterEnd { .. }))
             };
             Ok(Checker::new().check(&stated).any(is_lost).then_some("lost"))
         }

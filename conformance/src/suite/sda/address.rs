@@ -66,7 +66,7 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
 /// The offset of an instance: printed for the decoder and, otherwise, for one axis of the HLD.
 fn offset(probe: &mut Probe<'_>, class: Class, axis: u32, first: ElementAddress) {
     let offset = first.index_offset();
-    let of = |stride| IndexOffset::of_axis(stride, axis, 0).ok();
+    let of = |stride| IndexOffset::for_axis(stride, axis, 0).ok();
     let (rule, expected) = match (class, axis) {
         (_, 0) => (Rule::from("SDA-1"), vec![Some(IndexOffset::new(0))]),
         (Class::Decoder, _) => (Rule::from("ADR-7"), vec![of(AxisStride::X10000)]),

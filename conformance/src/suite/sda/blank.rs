@@ -56,10 +56,10 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
     probe.ask("SDA-11", CountElements::new(one.first).map_err(harness)?)?;
     let count = occupied.iter().map(|other| other.count).chain([one.count]).max();
     for place in 1..=count.unwrap_or_default().min(OBJECTS_MAX) {
-        let Ok(element) = one.first.following(place) else { continue };
+        let Ok(element) = one.first.nth(place) else { continue };
         let mut theirs = Vec::new();
         for other in occupied {
-            let Ok(other) = other.first.following(place) else { continue };
+            let Ok(other) = other.first.nth(place) else { continue };
             theirs.extend(content(probe, other)?);
         }
         let length = match length_of(probe, element)? {
@@ -203,7 +203,7 @@ fn blank_at(
             continue;
         }
         for &(class, number) in elements.iter().filter(|(class, _)| *class == one.class) {
-            let Ok(element) = one.first.following(number) else { continue };
+            let Ok(element) = one.first.nth(number) else { continue };
             let content = content(probe, element)?.unwrap_or_default();
             all.push(((class, number), content));
         }

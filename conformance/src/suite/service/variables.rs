@@ -2,7 +2,7 @@
 
 use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{Decode as _, Handle, Numbers, VariableType};
+use ads_cnc::{Decode as _, Handle, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::{NONE, WIDE, get, put, within};
@@ -99,14 +99,14 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
             let handle = probe.try_ask(name)?.and_then(|data| Handle::decode(&data).ok());
             let Some(handle) = handle else { continue };
             let by_name = get(probe, channel, variable)?;
-            let request = ReadByHandle::new(channel, handle, Numbers::EMPTY);
+            let request = ReadByHandle::new(channel, handle, U32List::EMPTY);
             let by_handle = probe.try_ask(request)?.unwrap_or_default();
             let same = until_nul(&by_handle) == until_nul(&by_name);
             let expected = format!("{} of {}", Hex(by_name), variable.name());
             probe.check("SVC-1", same, expected, Hex(by_handle));
             // And the other way round.
             if variable == Response {
-                let write = WriteByHandle::new(channel, handle, Numbers::EMPTY, b"by handle\0");
+                let write = WriteByHandle::new(channel, handle, U32List::EMPTY, b"by handle\0");
                 probe.send(write)?;
                 let read = get(probe, channel, variable)?;
                 let same = until_nul(&read) == b"by handle";

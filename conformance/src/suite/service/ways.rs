@@ -3,7 +3,7 @@
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{Decode as _, Handle, Numbers};
+use ads_cnc::{Decode as _, Handle, U32List};
 use ads_cnc_vectors::Hex;
 
 use super::{NONE, ONE, WIDE, channels, get, put, within, within_at};
@@ -32,12 +32,12 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
                 let name = variable.name();
                 let expected = format!("{len} characters of {name} by its handle");
                 put(probe, channel, variable, &value)?;
-                let read = ReadByHandle::new(channel, handle, Numbers::EMPTY);
+                let read = ReadByHandle::new(channel, handle, U32List::EMPTY);
                 let read = probe.try_ask(read)?.unwrap_or_default();
                 let same = until_nul(&read) == until_nul(&value);
                 probe.check("SVC-1", same, &expected, Hex(read));
                 put(probe, channel, variable, b"\0")?;
-                let write = WriteByHandle::new(channel, handle, Numbers::EMPTY, &value);
+                let write = WriteByHandle::new(channel, handle, U32List::EMPTY, &value);
                 probe.send(write)?;
                 let read = get(probe, channel, variable)?;
                 let same = until_nul(&read) == until_nul(&value);

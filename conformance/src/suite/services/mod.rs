@@ -12,7 +12,7 @@ use ads_cnc::operation::{
     CountDynamic, CountElements, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex,
     Function, ReadByHandle, ReadByName, ReadDescriptors, ReadElement, Request,
 };
-use ads_cnc::{Decode as _, Description, Numbers, ObjectCount, VariableCount, VariableType};
+use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
 
 use super::case::{Case, Rule, Step, Stop};
 use super::declare;
@@ -189,7 +189,7 @@ fn same_by_handle(
         return Ok(());
     }
     let by_name = Request::from(ReadByName { channel, name: name_of(variable) });
-    let by_handle = ReadByHandle::new(channel, variable.handle, Numbers::EMPTY);
+    let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
     let what = variable.name.text.to_string();
     still.same_part(probe, &["ADS-3".into()], &what, by_name, by_handle.into(), <[u8]>::to_vec)
 }
@@ -259,7 +259,7 @@ fn elements_agree(probe: &mut Probe<'_>, rules: &[Rule]) -> Step<bool> {
                 probe.check(rule, count.is_some(), expected, format!("{data:02x?}"));
             }
             for place in 1..=count.unwrap_or_default().min(SOME) {
-                let Ok(element) = first.following(place) else { break };
+                let Ok(element) = first.nth(place) else { break };
                 let Some(length) = length_of(probe, element)? else { continue };
                 let Ok(read) = ReadElement::new(element, length) else { continue };
                 let Some(data) = maybe(probe, read)? else { continue };

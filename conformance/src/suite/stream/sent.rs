@@ -35,9 +35,9 @@ impl Sent {
     /// What the error number is taken for.
     pub(in crate::suite) fn assumed(&self) -> Ack {
         match self.error {
-            Some(error) => Ack::of(error),
+            Some(error) => Ack::from_result(error),
             None if self.answered => Ack::Accepted,
-            None => Ack::Refused,
+            None => Ack::Rejected,
         }
     }
 }

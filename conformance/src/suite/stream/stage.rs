@@ -118,7 +118,7 @@ pub(super) fn too_long(probe: &mut Probe<'_>) -> Step {
                 let expected = format!("{len} bytes refused");
                 probe.check("STM-2", sent.is_refused(), expected, &sent);
                 // That it is told by its number is assumed.
-                let good = sent.assumed() == Ack::Refused;
+                let good = sent.assumed() == Ack::Rejected;
                 probe.check(assumed("STM-2"), good, "refused for good", &sent);
                 expect(probe, &["STM-2"], held, stage.held()?);
             }
@@ -143,7 +143,7 @@ pub(super) fn full(probe: &mut Probe<'_>) -> Step {
             probe.check("STM-3", sent.is_refused(), "no byte more", &sent);
             probe.check("STM-6", sent.is_refused(), "refused for now", &sent);
             // That it is told by its number is assumed.
-            let now = sent.assumed() == Ack::Later;
+            let now = sent.assumed() == Ack::Busy;
             probe.check(assumed("STM-6"), now, "refused for now, and not for good", &sent);
             expect(probe, &["STM-6"], HELD_MAX, stage.held()?);
         }

@@ -76,7 +76,7 @@ fn a_write_that_failed_is_not_repeated_over_what_is_anothers() {
         channel.interface.write(Uuid, uuid.as_bytes()).unwrap();
         channel.interface.write(ResponseState, &[response_state, 0, 0, 0]).unwrap();
         assert_eq!(channel.skip_reads(&mut host), Did::Wait);
-        assert_eq!(host.outcome(), Some(Outcome::Dropped));
+        assert_eq!(host.outcome(), Some(Outcome::Abandoned));
         assert_eq!(channel.interface.read(ResponseState), [response_state, 0, 0, 0]);
     }
 }
@@ -171,10 +171,10 @@ fn a_late_answer_is_dropped() {
         host.answer(text("late"), 1).unwrap();
         assert_eq!(host.outcome(), None);
         assert_eq!(channel.skip_reads(&mut host), Did::Wait);
-        assert_eq!(host.outcome(), Some(Outcome::Dropped));
+        assert_eq!(host.outcome(), Some(Outcome::Abandoned));
         assert_eq!((channel.written.len(), channel.interface.read(Response)), (0, &b"\0"[..]));
         assert_eq!(channel.serve(&mut host, |_| ("x".to_string(), 1)), ours);
-        let last = if ours { Outcome::Answered } else { Outcome::Dropped };
+        let last = if ours { Outcome::Answered } else { Outcome::Abandoned };
         assert_eq!(host.outcome(), Some(last));
         // While the next answer is on its way, the last one's end is no more.
         channel.ask(ROOT, "5");
@@ -191,7 +191,7 @@ fn a_late_answer_is_dropped() {
     channel.interface.write(RequestState, &[2, 0, 0, 0]).unwrap();
     host.answer(text("late"), 1).unwrap();
     assert_eq!(channel.skip_reads(&mut host), Did::Wait);
-    assert_eq!((host.outcome(), channel.written.len()), (Some(Outcome::Dropped), 0));
+    assert_eq!((host.outcome(), channel.written.len()), (Some(Outcome::Abandoned), 0));
 }
 
 /// SVC-2: the program goes on to another service between two reads of a host; that host does not

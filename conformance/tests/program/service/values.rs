@@ -84,7 +84,7 @@ fn a_request_longer_than_its_field_is_refused() {
     host.answer(text("x"), 1).unwrap();
     reach(&mut channel, &mut host);
     host.read(&[b'3'; 128]).unwrap();
-    assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Dropped)));
+    assert_eq!((host.step(), host.outcome()), (HostStep::Wait, Some(Outcome::Abandoned)));
 }
 
 /// SVC-5, E-35: a response state of 0 is refused; another answer to the same request is not.

@@ -7,7 +7,7 @@ use ads_cnc::operation::{Call, Service};
 use ads_cnc::streaming::{NcText, check_line_ends};
 use ads_cnc::value::DataType;
 use ads_cnc_conformance::explain::{
-    Explanation, Outcome as Found, Place, Question, Subject, Values, explain, parse_hex,
+    Explanation, Outcome as CheckEvent, Place, Question, Subject, Values, explain, parse_hex,
 };
 
 use super::Input;
@@ -73,7 +73,7 @@ pub(crate) fn check(data: &[u8], defect: Defect) -> Outcome {
         _ => {}
     }
     match explanation.outcome {
-        Found::Explained => Outcome::accepted(plain),
+        CheckEvent::Explained => Outcome::accepted(plain),
         _ => Outcome::refused(plain),
     }
 }
@@ -95,7 +95,7 @@ fn bend(explanation: &mut Explanation, defect: Defect) {
     {
         explanation.parts.truncate(3);
     }
-    if defect.is(6) && matches!(explanation.outcome, Found::Explained) {
+    if defect.is(6) && matches!(explanation.outcome, CheckEvent::Explained) {
         let again = explanation.parts.iter().find(|part| !part.rows.is_empty()).cloned();
         explanation.parts.extend(again);
     }
@@ -114,7 +114,7 @@ fn accepts(stream: Stream, bytes: &[u8], typed: bool, faulty: bool) {
 fn is_nc(bytes: &[u8]) -> bool {
     check_line_ends(bytes).is_ok()
         && NcText::new(bytes)
-            .is_ok_and(|text| !text.findings().any(|finding| finding.kind.ends_streaming()))
+            .is_ok_and(|text| !text.diagnostics().any(|finding| finding.kind.ends_streaming()))
 }
 
 /// What the codec finds at a place is what is said to be there.

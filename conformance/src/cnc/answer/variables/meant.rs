@@ -4,7 +4,7 @@ use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::ads::AdsError;
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::Function;
-use ads_cnc::{CncStr, CncString, Handle, Kind, Numbers, VariablePath};
+use ads_cnc::{CncStr, CncString, Handle, Kind, U32List, VariablePath};
 
 use super::Running;
 use crate::cnc::model::{At, ChannelModel, Variable, handle_at, parameter_kind};
@@ -78,7 +78,7 @@ impl Running<'_> {
         function: Function,
         channel: usize,
         name: CncStr<'n>,
-    ) -> Result<(Named, Numbers<'n>), AdsError> {
+    ) -> Result<(Named, U32List<'n>), AdsError> {
         let path = VariablePath::from_text(name).map_err(|_| UNKNOWN)?;
         self.permit(function, path.kind())?;
         let model = self.model.channels.get(channel).ok_or(AdsError::INVALID_GROUP)?;
@@ -92,7 +92,7 @@ impl Running<'_> {
         }
         let (kind, name) = parameter(name)?;
         let found = self.state.parameters(channel, kind).any(|one| one.is.name == name);
-        if found { Ok((Named::Parameter, Numbers::EMPTY)) } else { Err(UNKNOWN) }
+        if found { Ok((Named::Parameter, U32List::EMPTY)) } else { Err(UNKNOWN) }
     }
 
     /// The variable in front of the last dot, of the axis whose name is behind it.
@@ -121,7 +121,7 @@ impl Running<'_> {
         channel: Channel,
         axis: ChannelAxis,
         name: CncStr<'n>,
-    ) -> Result<(usize, At, Numbers<'n>), AdsError> {
+    ) -> Result<(usize, At, U32List<'n>), AdsError> {
         let channel = self.channel(channel)?;
         let path = VariablePath::from_text(name).map_err(|_| UNKNOWN)?;
         self.permit(function, path.kind())?;

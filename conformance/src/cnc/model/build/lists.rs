@@ -143,7 +143,7 @@ fn of_axis(
     ids: &mut Ids,
 ) -> impl Iterator<Item = Result<Descriptor, Error>> {
     objects.items.iter().zip(&objects.elements).map(move |(item, &element)| {
-        let offset = IndexOffset::of_axis(AxisStride::X10000, place, element)?;
+        let offset = IndexOffset::for_axis(AxisStride::X10000, place, element)?;
         descriptor(item, ids.next(), group, offset)
     })
 }

@@ -1,4 +1,4 @@
-//! The types of the program that stand for types of the CNC.
+//! The Rust types of the CNC's numbers and BOOLEAN.
 
 use core::fmt;
 
@@ -8,12 +8,12 @@ use super::DataType;
 /// `u64`, `f32` and `f64`.
 ///
 /// ```
-/// use ads_cnc::value::{DataType, Item};
+/// use ads_cnc::value::{DataType, Scalar};
 ///
-/// assert_eq!(<i32 as Item>::TYPE, DataType::Sgn32);
-/// assert_eq!(<f32 as Item>::TYPE, DataType::Real32);
+/// assert_eq!(<i32 as Scalar>::TYPE, DataType::Sgn32);
+/// assert_eq!(<f32 as Scalar>::TYPE, DataType::Real32);
 /// ```
-pub trait Item: sealed::Wire + Copy + Default + PartialEq + fmt::Debug + 'static {
+pub trait Scalar: sealed::Wire + Copy + Default + PartialEq + fmt::Debug + 'static {
     /// The type of the CNC that it is.
     const TYPE: DataType;
 }
@@ -33,7 +33,7 @@ pub(super) mod sealed {
 
 macro_rules! items {
     ($( $item:ty as $size:literal, $data_type:ident; )+) => { $(
-        impl Item for $item {
+        impl Scalar for $item {
             const TYPE: DataType = DataType::$data_type;
         }
 
@@ -66,7 +66,7 @@ items! {
 }
 
 /// Any byte but 0 is TRUE, which is written as 1. [`Boolean`] keeps the byte.
-impl Item for bool {
+impl Scalar for bool {
     const TYPE: DataType = DataType::Boolean;
 }
 

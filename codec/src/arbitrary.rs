@@ -52,7 +52,7 @@ arbitrary! {
         let result = u.arbitrary()?;
         Self { result, data: reply_data(u, result)? }
     };
-    // One at least: none is no stream.
+    // At least one: an empty list is not a valid stream.
     Descriptors, u => {
         let mut list: Vec<Descriptor> = up_to(u, ADS_DATA_MAX / DESCRIPTOR_LEN)?;
         if list.is_empty() {

@@ -13,10 +13,10 @@ use crate::bytes::Writer;
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.2, 4.3.4 and 4.3.6.
 ///
 /// ```
-/// use ads_cnc::{Decode, HandleReadRef, Numbers};
+/// use ads_cnc::{Decode, HandleReadRef, U32List};
 ///
 /// let wire = HandleReadRef::decode(&[1, 0, 0, 2, 1, 0, 0, 0, 4, 0, 0, 0])?;
-/// assert_eq!(wire.indices, Numbers::from(&[4]));
+/// assert_eq!(wire.indices, U32List::from(&[4]));
 /// assert_eq!(wire.indices.iter().len(), 1);
 /// for index in wire.indices {
 ///     assert_eq!(index, 4);
@@ -24,7 +24,7 @@ use crate::bytes::Writer;
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy)]
-pub struct Numbers<'a>(Source<'a>);
+pub struct U32List<'a>(Source<'a>);
 
 #[derive(Clone, Copy)]
 enum Source<'a> {
@@ -34,16 +34,16 @@ enum Source<'a> {
     Name(&'a [u8]),
 }
 
-impl<'a> Numbers<'a> {
+impl<'a> U32List<'a> {
     /// No number.
-    pub const EMPTY: Numbers<'static> = Numbers(Source::Memory(&[]));
+    pub const EMPTY: U32List<'static> = U32List(Source::Memory(&[]));
 
     #[inline]
     pub(crate) const fn from_wire(numbers: &'a [U32]) -> Self {
         Self(Source::Wire(numbers))
     }
 
-    /// Indices as they stand in a name that was found to be well-formed.
+    /// The indices of a name that was checked to be well-formed.
     pub(crate) const fn from_name(brackets: &'a [u8]) -> Self {
         Self(Source::Name(brackets))
     }
@@ -58,13 +58,13 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// Whether there is none.
+    /// Returns `true` if the list is empty.
     #[inline]
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The number at this place, from 0.
+    /// The number at this index, from 0.
     #[inline]
     pub fn get(&self, place: usize) -> Option<u32> {
         match self.0 {
@@ -127,7 +127,7 @@ const fn count_opened(mut brackets: &[u8]) -> usize {
     count
 }
 
-/// [`Numbers`] in their order.
+/// [`U32List`] in their order.
 #[derive(Clone)]
 pub struct NumberIter<'a>(Source<'a>);
 
@@ -156,14 +156,14 @@ impl Iterator for NumberIter<'_> {
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        let len = Numbers(self.0).len();
+        let len = U32List(self.0).len();
         (len, Some(len))
     }
 }
 
 impl ExactSizeIterator for NumberIter<'_> {}
 
-impl<'a> IntoIterator for Numbers<'a> {
+impl<'a> IntoIterator for U32List<'a> {
     type Item = u32;
     type IntoIter = NumberIter<'a>;
 
@@ -180,41 +180,41 @@ pub(super) fn decimal(digits: &[u8]) -> u32 {
     })
 }
 
-impl<'a> From<&'a [u32]> for Numbers<'a> {
+impl<'a> From<&'a [u32]> for U32List<'a> {
     fn from(numbers: &'a [u32]) -> Self {
         Self(Source::Memory(numbers))
     }
 }
 
-impl<'a, const N: usize> From<&'a [u32; N]> for Numbers<'a> {
+impl<'a, const N: usize> From<&'a [u32; N]> for U32List<'a> {
     fn from(numbers: &'a [u32; N]) -> Self {
         Self(Source::Memory(numbers))
     }
 }
 
 #[cfg(feature = "alloc")]
-impl<'a> From<&'a alloc::vec::Vec<u32>> for Numbers<'a> {
+impl<'a> From<&'a alloc::vec::Vec<u32>> for U32List<'a> {
     fn from(numbers: &'a alloc::vec::Vec<u32>) -> Self {
         numbers.as_slice().into()
     }
 }
 
-impl PartialEq for Numbers<'_> {
-    fn eq(&self, other: &Numbers<'_>) -> bool {
+impl PartialEq for U32List<'_> {
+    fn eq(&self, other: &U32List<'_>) -> bool {
         self.len() == other.len() && self.iter().eq(other.iter())
     }
 }
 
-impl Eq for Numbers<'_> {}
+impl Eq for U32List<'_> {}
 
-impl core::hash::Hash for Numbers<'_> {
+impl core::hash::Hash for U32List<'_> {
     fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
         state.write_usize(self.len());
         self.iter().for_each(|number| state.write_u32(number));
     }
 }
 
-impl fmt::Debug for Numbers<'_> {
+impl fmt::Debug for U32List<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.iter()).finish()
     }
@@ -224,17 +224,17 @@ impl fmt::Debug for Numbers<'_> {
 mod tests {
     use super::*;
 
-    /// What is equal has one hash, whatever it is held in.
+    /// Equal lists have the same hash, in whichever form they are stored.
     #[test]
     fn equal_numbers_have_one_hash() {
         use std::hash::BuildHasher as _;
 
         let state = std::collections::hash_map::RandomState::new();
         let wire = [U32::new(3), U32::new(9)];
-        let hash = state.hash_one(Numbers::from(&[3, 9]));
-        assert_eq!(state.hash_one(Numbers::from_wire(&wire)), hash);
-        assert_eq!(state.hash_one(Numbers::from_name(b"[3][9]")), hash);
-        assert_ne!(state.hash_one(Numbers::from(&[3])), hash);
+        let hash = state.hash_one(U32List::from(&[3, 9]));
+        assert_eq!(state.hash_one(U32List::from_wire(&wire)), hash);
+        assert_eq!(state.hash_one(U32List::from_name(b"[3][9]")), hash);
+        assert_ne!(state.hash_one(U32List::from(&[3])), hash);
     }
 
     #[cfg(feature = "alloc")]
@@ -242,7 +242,7 @@ mod tests {
     fn copies_are_the_same_from_every_source() {
         let wire = [U32::new(3), U32::new(9)];
         for numbers in
-            [Numbers::from_wire(&wire), Numbers::from(&[3, 9]), Numbers::from_name(b"[3][9]")]
+            [U32List::from_wire(&wire), U32List::from(&[3, 9]), U32List::from_name(b"[3][9]")]
         {
             assert_eq!(numbers.to_vec(), [3, 9]);
         }
@@ -253,9 +253,9 @@ mod tests {
     fn iterators_know_their_length() {
         let wire = [U32::new(3), U32::new(0), U32::MAX_VALUE];
         let sources = [
-            Numbers::from_wire(&wire),
-            Numbers::from(&[3, 0, u32::MAX]),
-            Numbers::from_name(b"[3][0][4294967295]"),
+            U32List::from_wire(&wire),
+            U32List::from(&[3, 0, u32::MAX]),
+            U32List::from_name(b"[3][0][4294967295]"),
         ];
         for numbers in sources {
             let mut left = numbers.iter();
@@ -265,6 +265,6 @@ mod tests {
             }
             assert_eq!((left.len(), left.next(), numbers.get(3)), (0, None, None));
         }
-        assert_eq!(Numbers::from_name(b"").iter().len(), 0);
+        assert_eq!(U32List::from_name(b"").iter().len(), 0);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::to_u32;
 use crate::error::{Error, ErrorKind};
-use crate::layout::{Field, Stream};
+use crate::layout::{Field, Stream, Subject};
 
 /// The record at `at` ends after `left` bytes, within the fixed fields that it begins with.
 #[cold]
@@ -12,7 +12,8 @@ pub(crate) fn cut(stream: Stream, at: u32, left: usize) -> Error {
     for (field, &size) in (0_u8..).zip(stream.head_sizes()) {
         let (size, found) = (u32::from(size), left.saturating_sub(offset));
         if found < size {
-            let (field, at) = (Field::new(stream, field), at.saturating_add(offset));
+            let (field, at) =
+                (Field::new(Subject::Stream(stream), field), at.saturating_add(offset));
             return Error::new(ErrorKind::Truncated, field, at, size, found);
         }
         offset = offset.saturating_add(size);

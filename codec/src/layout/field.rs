@@ -1,0 +1,148 @@
+//! A field, as an error names it.
+
+use core::fmt;
+
+use super::spec::FieldSpec;
+use super::tables::TABLES;
+use super::{Stream, Subject};
+use crate::declare::Declared;
+
+/// A field of a stream, or a part of another [`Subject`]; or the whole of it.
+///
+/// ```
+/// use ads_cnc::layout::{Field, Stream};
+/// use ads_cnc::{Decode, DescriptionRef};
+///
+/// let error = DescriptionRef::decode(&[2, 0, 0, 2, 1, 0]).unwrap_err();
+/// assert_eq!(Some(error.field()), Field::by_name(Stream::VariableDescription, "type"));
+/// assert_eq!(error.field().spec().unwrap().offset, 4);
+/// assert_eq!(Field::whole(Stream::VariableDescription).name(), "stream");
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Field {
+    subject: Subject,
+    index: u8,
+}
+
+impl Field {
+    #[inline]
+    pub(crate) const fn new(subject: Subject, index: u8) -> Self {
+        Self { subject, index }
+    }
+
+    /// The field of this name of a declared stream.
+    pub(crate) const fn of<T: Declared>(name: &str) -> Self {
+        let index = T::LAYOUT.index(name);
+        assert!(index != u8::MAX, "the stream has no field of this name");
+        Self::new(Subject::Stream(T::STREAM), index)
+    }
+
+    /// The field before: the count of a list.
+    pub(crate) const fn before(self) -> Self {
+        Self { index: self.index.saturating_sub(1), ..self }
+    }
+
+    /// The same row of another stream, whose table is the same.
+    pub(crate) const fn in_stream(self, stream: Stream) -> Self {
+        Self { subject: Subject::Stream(stream), ..self }
+    }
+
+    /// The stream as a whole: its length, its end.
+    pub const fn whole(stream: Stream) -> Self {
+        Self::whole_subject(Subject::Stream(stream))
+    }
+
+    /// The subject as a whole.
+    pub(crate) const fn whole_subject(subject: Subject) -> Self {
+        Self { subject, index: u8::MAX }
+    }
+
+    /// The whole that this is a part of.
+    pub(crate) const fn to_whole(self) -> Self {
+        Self::whole_subject(self.subject)
+    }
+
+    /// The field of `stream` with this name.
+    pub fn by_name(stream: Stream, name: &str) -> Option<Self> {
+        stream.fields().find(|field| field.name() == name)
+    }
+
+    /// The subject that this is a part of.
+    pub const fn subject(self) -> Subject {
+        self.subject
+    }
+
+    /// The stream that the field belongs to; `None` for a part of another subject.
+    pub const fn stream(self) -> Option<Stream> {
+        match self.subject {
+            Subject::Stream(stream) => Some(stream),
+            _ => None,
+        }
+    }
+
+    /// The row of the stream's table; `None` for the stream as a whole and for a part of another
+    /// subject.
+    pub fn spec(self) -> Option<&'static FieldSpec> {
+        self.stream()?.layout().fields.get(usize::from(self.index))
+    }
+
+    /// The field's name; `stream` for the whole.
+    pub fn name(self) -> &'static str {
+        self.subject.part(self.index).unwrap_or("stream")
+    }
+}
+
+impl fmt::Display for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.subject.name(), self.name())
+    }
+}
+
+impl fmt::Debug for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.subject.name(), self.name())
+    }
+}
+
+impl Stream {
+    /// The fields in their order on the wire.
+    pub fn fields(self) -> impl Iterator<Item = Field> {
+        (0u8..)
+            .zip(self.layout().fields)
+            .map(move |(index, _)| Field::new(Subject::Stream(self), index))
+    }
+
+    /// Every stream that has bytes: all but [`NoData`](Self::NoData).
+    pub fn all() -> impl Iterator<Item = Self> {
+        TABLES.iter().copied().filter(|stream| *stream != Self::NoData)
+    }
+
+    /// The stream with this name.
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::all().find(|stream| stream.layout().name == name)
+    }
+}
+
+impl fmt::Display for Stream {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.layout().name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::DescriptionRef;
+
+    #[test]
+    fn fields_are_found_by_name() {
+        let field = Field::of::<DescriptionRef<'_>>("dimensions");
+        assert_eq!((field.name(), field.before().name()), ("dimensions", "dimension_count"));
+    }
+
+    #[test]
+    #[should_panic = "no field of this name"]
+    fn a_name_of_no_field_is_no_field() {
+        Field::of::<DescriptionRef<'_>>("dimension");
+    }
+}

@@ -1,0 +1,119 @@
+//! The subject of an error: a stream, or a value that is not decoded from a stream.
+
+use super::Stream;
+use super::field::Field;
+
+/// Declares [`Subject`] and, per subject, a constant for each of its parts.
+macro_rules! subjects {
+    ($(
+        $(#[$doc:meta])*
+        $subject:ident $name:literal, $module:ident { $( $part:ident $part_name:literal, )+ }
+    )+) => {
+        /// The subject of an [`Error`](crate::Error): a stream, or a value that is not decoded from
+        /// a stream.
+        ///
+        /// ```
+        /// use ads_cnc::address::Channel;
+        /// use ads_cnc::layout::{Stream, Subject};
+        /// use ads_cnc::{Decode, Handle};
+        ///
+        /// let subject = |error: ads_cnc::Error| error.field().subject();
+        /// let stream = Subject::Stream(Stream::VariableHandle);
+        /// assert_eq!(Handle::decode(&[]).map_err(subject), Err(stream));
+        /// assert_eq!(Channel::new(0).map_err(subject), Err(Subject::IndexGroup));
+        /// assert_eq!(Subject::IndexGroup.name(), "index-group");
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[non_exhaustive]
+        pub enum Subject {
+            /// A stream.
+            Stream(Stream),
+            $( $(#[$doc])* $subject, )+
+        }
+
+        impl Subject {
+            /// The name in errors and reports.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    Self::Stream(stream) => stream.layout().name,
+                    $( Self::$subject => $name, )+
+                }
+            }
+
+            /// The name of a part: of a field, if this is a stream.
+            pub(super) fn part(self, index: u8) -> Option<&'static str> {
+                let index = usize::from(index);
+                let parts: &[&str] = match self {
+                    Self::Stream(stream) => {
+                        return stream.layout().fields.get(index).map(|row| row.name);
+                    }
+                    $( Self::$subject => &[$( $part_name ),+], )+
+                };
+                parts.get(index).copied()
+            }
+        }
+
+        $(
+            pub(crate) mod $module {
+                use super::{Field, Subject};
+
+                #[allow(non_camel_case_types, clippy::upper_case_acronyms)]
+                enum Index { $( $part, )+ }
+                $(
+                    #[allow(clippy::as_conversions, reason = "a discriminant, no input")]
+                    pub(crate) const $part: Field =
+                        Field::new(Subject::$subject, Index::$part as u8);
+                )+
+            }
+        )+
+    };
+}
+
+subjects! {
+    /// An index group that is built from its parts.
+    IndexGroup "index-group", index_group {
+        INSTANCE "instance",
+        CHANNEL "instance",
+        PLATFORM_AXIS "instance",
+        SPINDLE "instance",
+    }
+    /// An index offset that is built from its parts.
+    IndexOffset "index-offset", index_offset {
+        AXIS "axis",
+        CHANNEL_AXIS "axis",
+        ELEMENT "element",
+    }
+    /// The text of an AMS NetId.
+    AmsNetId "ams-net-id", ams_net_id {
+        NUMBERS "numbers",
+        NUMBER "number",
+    }
+    /// The name of a variable, by its parts.
+    VariablePath "variable-path", variable_path {
+        KIND "kind",
+        PART "part",
+        INDEX "index",
+    }
+    /// The variables of the Service Interface.
+    Service "service", service {
+        UUID "uuid",
+        REQUEST "request",
+        REQUEST_STATE "request_state",
+        RESPONSE_STATE "response_state",
+        RESPONSE "response",
+    }
+    /// A value whose type another stream tells.
+    TypedValue "typed-value", typed_value {
+        TYPE "type",
+        SIZE "size",
+        DIMENSION "dimension",
+        INDEX_COUNT "index_count",
+        INDEX "index",
+        COUNT "count",
+        VALUE "value",
+    }
+    /// A text that is converted to CP1252.
+    Text "text", text {
+        TEXT "text",
+    }
+}

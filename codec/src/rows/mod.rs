@@ -1,0 +1,91 @@
+//! The kinds of rows that tables of streams have: how each is read, checked and written.
+
+#[cfg(feature = "arbitrary")]
+pub(crate) mod any;
+mod lists;
+mod numbers;
+mod text;
+
+pub(crate) use lists::{Data, List, Rest};
+pub(crate) use numbers::{Boolean, NonZero, Number};
+pub(crate) use text::{CString, CStringPrefix, KindText, OptionalNul, TextAndTail};
+
+use crate::bytes::{Reader, Writer, to_u32};
+use crate::error::Error;
+#[cfg(feature = "binrw")]
+use crate::io::Pull;
+use crate::layout::{Field, Size, Type};
+
+/// A kind of row.
+///
+/// The fixed rows that a stream begins with are its head. They are read after one check of the
+/// length, each at the offset that the table prints.
+pub(crate) trait Row {
+    /// Its type in a view.
+    type View<'a>: Copy;
+    const SIZE: Size;
+    const TYPE: Type;
+    /// Whether a fixed row may be rejected.
+    const REJECTS: bool = false;
+
+    /// Reads the row, which begins `at` this offset.
+    fn read<'a>(
+        input: &mut Reader<'a>,
+        head: &'a [u8],
+        field: Field,
+        at: usize,
+    ) -> Result<Self::View<'a>, Error>;
+    /// Bytes that it is encoded to, a count included.
+    fn len(view: Self::View<'_>) -> usize;
+    /// Rejects what `read` would reject; the row, a count included, begins at `at`.
+    #[inline]
+    fn check(_: Self::View<'_>, _: Field, _at: usize) -> Result<(), Error> {
+        Ok(())
+    }
+    /// Writes the bytes of the row that are in the head.
+    fn write_head(_: Self::View<'_>, _head: &mut [u8], _at: usize) {}
+    /// Writes the bytes after the head.
+    fn write(_: Self::View<'_>, _: &mut Writer<'_>) {}
+}
+
+/// A kind of row in a type that owns its data.
+#[cfg(feature = "alloc")]
+pub(crate) trait Owned: Row {
+    type Type;
+    /// The fewest bytes that it is encoded to.
+    #[cfg(feature = "arbitrary")]
+    const LEAST: usize;
+
+    fn own(view: Self::View<'_>) -> Self::Type;
+    fn lend(owned: &Self::Type) -> Self::View<'_>;
+    /// Takes the row's bytes from a reader; `read` rejects what is wrong with them.
+    #[cfg(feature = "binrw")]
+    fn pull(from: &mut impl Pull) -> binrw::io::Result<()>;
+    /// A value that a stream can have, with at most `room` bytes beyond the fewest.
+    #[cfg(feature = "arbitrary")]
+    fn any(u: any::Any<'_, '_>, room: usize) -> arbitrary::Result<Self::Type>;
+}
+
+/// The bytes of a head at an offset. `stream!` checks the offsets of its rows, so the head has them.
+#[inline(always)]
+fn part<const N: usize>(head: &[u8], at: usize) -> [u8; N] {
+    head.get(at..).and_then(<[u8]>::first_chunk).copied().unwrap_or([0; N])
+}
+
+#[inline(always)]
+fn put<const N: usize>(head: &mut [u8], at: usize, bytes: [u8; N]) {
+    if let Some(part) = head.get_mut(at..).and_then(<[u8]>::first_chunk_mut) {
+        *part = bytes;
+    }
+}
+
+/// The number before an offset: the count of a list.
+#[inline(always)]
+fn count(head: &[u8], at: usize) -> u32 {
+    u32::from_le_bytes(part(head, at.saturating_sub(4)))
+}
+
+#[inline(always)]
+fn put_count(head: &mut [u8], at: usize, count: usize) {
+    put(head, at.saturating_sub(4), to_u32(count).to_le_bytes());
+}
