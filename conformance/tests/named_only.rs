@@ -12,7 +12,7 @@ use std::thread::{self, JoinHandle};
 
 use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::cnc::{Cnc, NET_ID};
-use ads_cnc_conformance::defect::{self, Seed};
+use ads_cnc_conformance::defect::{self, Faulty, Seed};
 use ads_cnc_conformance::gate::{Allowed, Gate};
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
@@ -176,7 +176,7 @@ fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
         .finish();
     tracing::subscriber::with_default(log, || {
         let cnc = Cnc::with_default_model().unwrap().with_standing_clock();
-        let cnc = Arc::new(cnc.with_defect(Some(seed.clone())));
+        let cnc = Arc::new(Faulty::new(cnc, Some(seed)));
         let head = "target = \"127.0.0.1.1.1\"\nexpires = 2999-01-01T00:00:00Z\n";
         let allowed = Allowed::from_toml(&format!("{head}{}", named.table)).unwrap();
         let gate = Gate::queries().with_allowed(Some(allowed));

@@ -125,9 +125,9 @@ impl Cnc {
     /// # Errors
     /// [`ControlError::Channel`]
     pub fn set_program(&self, channel: u8, config: ProgramConfig) -> Result<(), ControlError> {
-        let (now, habit) = (self.now(), self.habit());
+        let (now, policy) = (self.now(), self.policy());
         self.of_channel(channel, |channel| {
-            channel.program = Program::new(config).with_habit(habit);
+            channel.program = Program::with_policy(config, policy);
             channel.program.advance(now);
         })
     }
@@ -168,7 +168,7 @@ impl Cnc {
 
     /// A program that asks services, as it is run here.
     pub(crate) fn as_run(&self, script: Script) -> Script {
-        script.with_habit(self.habit())
+        script.with_policy(self.policy())
     }
 
     fn of_channel<T>(

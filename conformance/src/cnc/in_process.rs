@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use ads_cnc::ads::AmsNetId;
 
-use super::{Cnc, Received};
+use super::{Received, Responder};
 use crate::net::Peer;
 
 /// The CNC's end of a connection.
@@ -16,7 +16,7 @@ use crate::net::Peer;
 /// that meets silence takes no time, and the same requests give the same answers each time.
 #[derive(Debug)]
 pub(crate) struct InProcess {
-    cnc: Arc<Cnc>,
+    cnc: Arc<dyn Responder>,
     net_id: AmsNetId,
     received: Received,
     /// Bytes for the client, in the pieces in which the CNC sent them.
@@ -25,7 +25,7 @@ pub(crate) struct InProcess {
 }
 
 impl InProcess {
-    pub(crate) fn new(cnc: Arc<Cnc>, net_id: AmsNetId) -> Self {
+    pub(crate) fn new(cnc: Arc<dyn Responder>, net_id: AmsNetId) -> Self {
         Self { cnc, net_id, received: Received::new(), answers: VecDeque::new(), closed: false }
     }
 }
@@ -39,9 +39,8 @@ impl Peer for InProcess {
             let (piece, rest) = bytes.split_at(count);
             room.iter_mut().zip(piece).for_each(|(to, from)| *to = *from);
             bytes = rest;
-            let taken = received.take(count, cnc, *net_id, |bytes| {
-                answers
-                    .extend(bytes.chunks(cnc.piece().unwrap_or(bytes.len())).map(<[u8]>::to_vec));
+            let taken = received.take(count, &**cnc, *net_id, |bytes| {
+                answers.extend(bytes.chunks(cnc.piece()).map(<[u8]>::to_vec));
                 Ok(())
             });
             // As the server: it ends a connection whose frames it cannot tell apart.

@@ -1,8 +1,9 @@
 //! The simulated CNC: a data model, the answers it gives, and an AMS/TCP server around them.
 //!
 //! [`Cnc::answer`] takes an ADS request and gives data or an error number, [`Cnc::respond`] does
-//! the same with whole frames, [`Server`] with TCP connections. What is unknown or does not fit
-//! is refused with an error number: never with silence, never with a panic.
+//! the same with whole frames, [`Server`] with TCP connections: of a [`Cnc`] or of any other
+//! [`Responder`]. What is unknown or does not fit is refused with an error number: never with
+//! silence, never with a panic.
 //!
 //! ```
 //! use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -32,6 +33,7 @@ mod model;
 mod parameters;
 pub mod program;
 mod respond;
+mod responder;
 mod server;
 mod state;
 mod within;
@@ -41,9 +43,9 @@ pub use control::ControlError;
 pub(crate) use in_process::InProcess;
 pub(crate) use model::Configured;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
-pub(crate) use respond::FRAME_MAX;
-pub(crate) use respond::INFO;
 pub use respond::{DATA_MAX, NET_ID};
+pub(crate) use respond::{FRAME_MAX, INFO, respond};
+pub use responder::Responder;
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
 pub(crate) use within::{Held, Holder};
 

@@ -1,19 +1,15 @@
 //! From a frame to the frame that answers it.
 
-use std::ops::Range;
-
 use ads_cnc::ads::{
     AdsError, AdsState, AmsHeader, AmsNetId, AmsTcpHeader, Command, DeviceInfoReply,
     DeviceStateReply, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags, WriteReply,
 };
-use ads_cnc::layout::Stream;
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::{Call, Service, Task};
 use ads_cnc::{Encode, Error};
 
-use super::{Cnc, to_len, to_u32};
-use crate::defect::{Seed, Twist};
-use crate::services::{reply_stream, request_stream, service_of};
+use super::{to_len, to_u32};
+use crate::services::service_of;
 
 /// The most bytes behind the AMS header of a frame that is taken or sent: more ends a connection,
 /// and is refused as the answer to a request.
@@ -30,169 +26,103 @@ pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 /// The bit that a response has and a request has not.
 const RESPONSE_BIT: u16 = StateFlags::REQUEST.0 ^ StateFlags::RESPONSE.0;
 
-impl Cnc {
-    /// Appends the frame to answer with, as the device of this NetId; nothing for a frame that is no
-    /// request.
-    ///
-    /// A frame for another NetId or a port that no task has is answered with an error in the AMS
-    /// header and no data, all other refusals with a result.
-    pub fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
-        let start = answers.len();
-        self.respond_right(net_id, frame, answers);
-        if let Some(Twist::Frame(sent)) = self.defect.as_ref().and_then(Seed::of_cnc)
-            && answers.len() > start
-        {
-            let right = answers.split_off(start);
-            answers.extend(sent(&self.right(), frame, right));
-        }
-    }
+/// Answers requests with data or an error number.
+type Asked<'a> = &'a dyn Fn(&Call<'_>) -> Result<Vec<u8>, AdsError>;
 
-    /// How many bytes leave at a time, if that is not as many as there are.
-    pub(super) fn piece(&self) -> Option<usize> {
-        match self.defect.as_ref().and_then(Seed::of_cnc) {
-            Some(Twist::Pieces(len)) => Some(len.max(1)),
-            _ => None,
-        }
+/// Appends the frame to answer with; see [`Responder::respond`](super::Responder::respond).
+pub(crate) fn respond(
+    cnc: Asked<'_>,
+    net_id: AmsNetId,
+    frame: &FrameRef<'_>,
+    answers: &mut Vec<u8>,
+) {
+    let header = frame.header();
+    if header.state_flags.0 & RESPONSE_BIT != 0 {
+        let flags = header.state_flags.0;
+        tracing::warn!("ignored, no request: state_flags {flags:#06x} from {}", header.source);
+        return;
     }
-
-    fn respond_right(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
-        let header = frame.header();
-        if header.state_flags.0 & RESPONSE_BIT != 0 {
-            let flags = header.state_flags.0;
-            tracing::warn!("ignored, no request: state_flags {flags:#06x} from {}", header.source);
-            return;
-        }
-        let start = answers.len();
-        // The headers come when the length of what they stand before is known.
-        answers.resize(start.saturating_add(FrameRef::HEADERS_LEN), 0);
-        let behind = answers.len();
-        let error = if header.target.net_id != net_id {
-            Ok(AdsError::TARGET_MACHINE_NOT_FOUND)
-        } else if Task::from_port(header.target.port).is_none() {
-            Ok(AdsError::TARGET_PORT_NOT_FOUND)
-        } else {
-            let served = self.serve(frame, answers);
-            served.map(|()| AdsError::NO_ERROR)
-        };
-        let data_length = to_u32(answers.len().saturating_sub(behind));
-        let done = error.and_then(|error| {
-            let answer = AmsHeader { error, data_length, ..header.response() };
-            self.write_headers(answer, answers, start)
-        });
-        if let Err(error) = done {
-            tracing::error!("no answer, it does not encode: {error}");
-            answers.truncate(start);
-        }
+    let start = answers.len();
+    // The headers come when the length of what they stand before is known.
+    answers.resize(start.saturating_add(FrameRef::HEADERS_LEN), 0);
+    let behind = answers.len();
+    let error = if header.target.net_id != net_id {
+        Ok(AdsError::TARGET_MACHINE_NOT_FOUND)
+    } else if Task::from_port(header.target.port).is_none() {
+        Ok(AdsError::TARGET_PORT_NOT_FOUND)
+    } else {
+        serve(cnc, frame, answers).map(|()| AdsError::NO_ERROR)
+    };
+    let data_length = to_u32(answers.len().saturating_sub(behind));
+    let done = error.and_then(|error| {
+        let answer = AmsHeader { error, data_length, ..header.response() };
+        write_headers(answer, answers, start)
+    });
+    if let Err(error) = done {
+        tracing::error!("no answer, it does not encode: {error}");
+        answers.truncate(start);
     }
+}
 
-    fn write_headers(
-        &self,
-        header: AmsHeader,
-        answers: &mut [u8],
-        start: usize,
-    ) -> Result<(), Error> {
-        let middle = start.saturating_add(AMS_TCP_HEADER_LEN);
-        let end = start.saturating_add(FrameRef::HEADERS_LEN);
-        let length = header.data_length.saturating_add(to_u32(AMS_HEADER_LEN));
-        let tcp = AmsTcpHeader { reserved: 0, length };
-        tcp.encode(answers.get_mut(start..middle).unwrap_or_default())?;
-        header.encode(answers.get_mut(middle..end).unwrap_or_default())?;
-        self.change_part(Stream::AmsTcpHeader, answers, start..middle);
-        self.change_part(Stream::AmsHeader, answers, middle..end);
-        Ok(())
-    }
+fn write_headers(header: AmsHeader, answers: &mut [u8], start: usize) -> Result<(), Error> {
+    let middle = start.saturating_add(AMS_TCP_HEADER_LEN);
+    let end = start.saturating_add(FrameRef::HEADERS_LEN);
+    let length = header.data_length.saturating_add(to_u32(AMS_HEADER_LEN));
+    let tcp = AmsTcpHeader { reserved: 0, length };
+    tcp.encode(answers.get_mut(start..middle).unwrap_or_default())?;
+    header.encode(answers.get_mut(middle..end).unwrap_or_default())?;
+    Ok(())
+}
 
-    /// Appends the data of the response to a command for a port that a task has.
-    fn serve(&self, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Result<(), Error> {
-        let (command, data) = (frame.header().command, frame.data());
-        if let Some(service) = service_of(command) {
-            return self.serve_service(service, frame, answers);
-        }
-        match command {
-            Command::READ_DEVICE_INFO => {
-                let result = without_data(data);
-                self.append(&DeviceInfoReply { result, ..INFO }, Stream::DeviceInfoReply, answers)
-            }
-            Command::READ_STATE => {
-                let (result, ads_state) = (without_data(data), AdsState::RUN);
-                let state = DeviceStateReply { result, ads_state, device_state: 0 };
-                self.append(&state, Stream::DeviceStateReply, answers)
-            }
-            _ => {
-                tracing::debug!("refused: command {}", command.0);
-                self.refuse(command, answers)
-            }
-        }
-    }
-
-    /// The same for a service: its request is read and its reply sent with the defect, if it is
-    /// about that stream.
-    fn serve_service(
-        &self,
-        service: Service,
-        frame: &FrameRef<'_>,
-        answers: &mut Vec<u8>,
-    ) -> Result<(), Error> {
-        let misread = self.change(request_stream(service), frame.data());
-        let asked = match &misread {
-            Some(data) => FrameRef::new(frame.header(), data),
-            None => Ok(*frame),
-        };
-        let reply = self.ask(asked);
+/// Appends the data of the response to a command for a port that a task has.
+fn serve(cnc: Asked<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Result<(), Error> {
+    let (command, data) = (frame.header().command, frame.data());
+    if let Some(service) = service_of(command) {
+        let reply = ask(cnc, frame);
         // An error has its length, 0, too: not all clients take a reply that stops before it.
         let (result, data) = match &reply {
             Ok(data) => (AdsError::NO_ERROR, Some(data.as_slice())),
             Err(result) => (*result, Some(&[][..])),
         };
-        let stream = reply_stream(service);
-        match service {
-            Service::Read => self.append(&ReadReplyRef { result, data }, stream, answers),
-            Service::Write => self.append(&WriteReply { result }, stream, answers),
-            Service::ReadWrite => self.append(&ReadWriteReplyRef { result, data }, stream, answers),
-        }
+        return match service {
+            Service::Read => append(&ReadReplyRef { result, data }, answers),
+            Service::Write => append(&WriteReply { result }, answers),
+            Service::ReadWrite => append(&ReadWriteReplyRef { result, data }, answers),
+        };
     }
-
-    /// What is not offered is refused in the shape that its reply has.
-    fn refuse(&self, command: Command, answers: &mut Vec<u8>) -> Result<(), Error> {
-        let result = AdsError::SERVICE_NOT_SUPPORTED;
-        match command {
-            // A result and the notification's handle, 0: as an empty Read has a result and length 0.
-            Command::ADD_NOTIFICATION => {
-                append(&ReadReplyRef { result, data: Some(&[]) }, answers).map(drop)
+    match command {
+        Command::READ_DEVICE_INFO => {
+            append(&DeviceInfoReply { result: without_data(data), ..INFO }, answers)
+        }
+        Command::READ_STATE => {
+            let (result, ads_state) = (without_data(data), AdsState::RUN);
+            append(&DeviceStateReply { result, ads_state, device_state: 0 }, answers)
+        }
+        _ => {
+            tracing::debug!("refused: command {}", command.0);
+            let result = AdsError::SERVICE_NOT_SUPPORTED;
+            match command {
+                // A result and the notification's handle, 0: as an empty Read has a result and
+                // length 0.
+                Command::ADD_NOTIFICATION => {
+                    append(&ReadReplyRef { result, data: Some(&[]) }, answers)
+                }
+                _ => append(&WriteReply { result }, answers),
             }
-            _ => self.append(&WriteReply { result }, Stream::WriteReply, answers),
         }
     }
+}
 
-    /// Asks the CNC; what no frame has room for is too much to ask.
-    fn ask(&self, frame: Result<FrameRef<'_>, Error>) -> Result<Vec<u8>, AdsError> {
-        let call = frame.and_then(|frame| Call::from_frame(&frame)).map_err(|error| {
-            // A service's header that does not hold together is a request of the wrong size.
-            tracing::debug!("refused: {error}");
-            AdsError::INVALID_SIZE
-        })?;
-        let answer = self.answer(&call.ok_or(AdsError::SERVICE_NOT_SUPPORTED)?)?;
-        let room = to_len(DATA_MAX).saturating_sub(SERVICE_LEN);
-        if answer.len() > room { Err(AdsError::INVALID_SIZE) } else { Ok(answer) }
-    }
-
-    fn append(
-        &self,
-        reply: &impl Encode,
-        stream: Stream,
-        answers: &mut Vec<u8>,
-    ) -> Result<(), Error> {
-        let part = append(reply, answers)?;
-        self.change_part(stream, answers, part);
-        Ok(())
-    }
-
-    fn change_part(&self, stream: Stream, bytes: &mut [u8], part: Range<usize>) {
-        let Some(part) = bytes.get_mut(part) else { return };
-        if let Some(changed) = self.change(stream, part) {
-            part.iter_mut().zip(changed).for_each(|(byte, new)| *byte = new);
-        }
-    }
+/// Asks the CNC; what no frame has room for is too much to ask.
+fn ask(cnc: Asked<'_>, frame: &FrameRef<'_>) -> Result<Vec<u8>, AdsError> {
+    let call = Call::from_frame(frame).map_err(|error| {
+        // A service's header that does not hold together is a request of the wrong size.
+        tracing::debug!("refused: {error}");
+        AdsError::INVALID_SIZE
+    })?;
+    let answer = cnc(&call.ok_or(AdsError::SERVICE_NOT_SUPPORTED)?)?;
+    let room = to_len(DATA_MAX).saturating_sub(SERVICE_LEN);
+    if answer.len() > room { Err(AdsError::INVALID_SIZE) } else { Ok(answer) }
 }
 
 /// Result and length before the data of a reply.
@@ -223,13 +153,11 @@ const fn without_data(data: &[u8]) -> AdsError {
     if data.is_empty() { AdsError::NO_ERROR } else { AdsError::INVALID_SIZE }
 }
 
-/// Appends a stream; where it stands.
-fn append(reply: &impl Encode, answers: &mut Vec<u8>) -> Result<Range<usize>, Error> {
+fn append(reply: &impl Encode, answers: &mut Vec<u8>) -> Result<(), Error> {
     let start = answers.len();
-    let part = start..start.saturating_add(reply.encoded_len());
-    answers.resize(part.end, 0);
-    reply.encode(answers.get_mut(part.clone()).unwrap_or_default())?;
-    Ok(part)
+    answers.resize(start.saturating_add(reply.encoded_len()), 0);
+    reply.encode(answers.get_mut(start..).unwrap_or_default())?;
+    Ok(())
 }
 
 #[cfg(test)]

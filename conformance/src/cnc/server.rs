@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use ads_cnc::ads::AmsNetId;
 
-use super::{Cnc, NET_ID};
+use super::{NET_ID, Responder};
 use crate::net;
 
 pub use connection::Received;
@@ -73,7 +73,7 @@ pub struct Server {
 
 #[derive(Debug)]
 struct Shared {
-    cnc: Arc<Cnc>,
+    cnc: Box<dyn Responder>,
     options: ServerOptions,
     stopped: AtomicBool,
     /// The open connections, to end them from outside.
@@ -85,7 +85,7 @@ impl Server {
     ///
     /// # Errors
     /// If the listener has no address or the system no thread.
-    pub fn start(listener: TcpListener, cnc: Arc<Cnc>) -> io::Result<Self> {
+    pub fn start(listener: TcpListener, cnc: impl Responder + 'static) -> io::Result<Self> {
         Self::with_options(listener, cnc, ServerOptions::default())
     }
 
@@ -95,13 +95,13 @@ impl Server {
     /// If the listener has no address or the system no thread.
     pub fn with_options(
         listener: TcpListener,
-        cnc: Arc<Cnc>,
+        cnc: impl Responder + 'static,
         options: ServerOptions,
     ) -> io::Result<Self> {
         let addr = listener.local_addr()?;
         let stopped = AtomicBool::new(false);
         let connections = Mutex::new(BTreeMap::new());
-        let shared = Arc::new(Shared { cnc, options, stopped, connections });
+        let shared = Arc::new(Shared { cnc: Box::new(cnc), options, stopped, connections });
         let accepting = Arc::clone(&shared);
         let acceptor = thread::Builder::new()
             .name("cnc-accept".to_owned())
@@ -112,11 +112,6 @@ impl Server {
     /// Where it listens.
     pub const fn addr(&self) -> SocketAddr {
         self.addr
-    }
-
-    /// The CNC it serves.
-    pub fn cnc(&self) -> Arc<Cnc> {
-        Arc::clone(&self.shared.cnc)
     }
 
     /// The AMS NetId it answers for.
@@ -186,7 +181,7 @@ impl Shared {
         let thread = thread::Builder::new().name(format!("cnc-{id}")).stack_size(STACK);
         thread.spawn(move || {
             tracing::info!(%peer, "connected");
-            match connection::serve(&open.shared.cnc, &options, &stream) {
+            match connection::serve(&*open.shared.cnc, &options, &stream) {
                 Ok(()) => tracing::info!(%peer, "closed"),
                 Err(error) => tracing::warn!(%peer, "connection ended: {error}"),
             }

@@ -10,13 +10,13 @@ use super::content::Owner;
 use super::model::{AxisModel, ChannelModel, Item, Model, Variables, class_place};
 use super::parameters::{ParameterState, Parameters};
 use super::program::service::ServiceInterface;
-use super::program::{Habit, Program, Script};
+use super::program::{Policy, Program, Script};
 
 /// Contents, in the order of what they belong to.
 pub(super) type Values = Vec<Vec<u8>>;
 
 /// The state of a CNC.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct State {
     /// In the model's order.
     pub(super) channels: Vec<ChannelState>,
@@ -26,7 +26,7 @@ pub(super) struct State {
 }
 
 /// Of a channel.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct ChannelState {
     pub(super) active: bool,
     /// Which axis is at which place now.
@@ -62,7 +62,7 @@ fn variables(variables: &Variables, instance: usize) -> Values {
 
 impl State {
     /// As at the start.
-    pub(super) fn new(model: &Model) -> Self {
+    pub(super) fn new(model: &Model, policy: Policy) -> Self {
         let channel = |(place, channel): (usize, &ChannelModel)| ChannelState {
             active: channel.active,
             places: channel.places.clone(),
@@ -76,9 +76,12 @@ impl State {
             }),
             parameters: Parameters::new(&channel.parameters),
             service: ServiceInterface::new(),
-            program: Program::new(channel.program.clone()),
+            program: Program::with_policy(channel.program.clone(), policy),
             // The model was checked: it is one.
-            script: channel.script.clone().and_then(|script| Script::new(script).ok()),
+            script: channel
+                .script
+                .clone()
+                .and_then(|script| Some(Script::new(script).ok()?.with_policy(policy))),
         };
         let axis = |(place, _): (usize, &AxisModel)| AxisState {
             objects: items(&model.platform_axis.items, place),
@@ -97,15 +100,6 @@ impl State {
                 .collect(),
             platform: items(&model.platform.items, 0),
         }
-    }
-
-    /// With a seeded defect of all NC programs.
-    pub(super) fn with_habit(mut self, habit: Option<Habit>) -> Self {
-        for channel in &mut self.channels {
-            channel.program = channel.program.clone().with_habit(habit);
-            channel.script = channel.script.take().map(|script| script.with_habit(habit));
-        }
-        self
     }
 
     /// Lets the parameters and programs of all channels make up for the time that has passed.

@@ -10,7 +10,7 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
-    Answer, Right, Row, Twist, behind, dimensions, fits, function, group, is, measured, number,
+    Answer, Row, Twist, Upstream, behind, dimensions, fits, function, group, is, measured, number,
     offset, put, records_mut, row, text, twisted, u32_at,
 };
 
@@ -23,7 +23,7 @@ const fn unprinted(mut row: Row) -> Row {
 const fn sent(
     id: &'static str,
     what: &'static str,
-    frame: fn(&Right<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
+    frame: fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
 ) -> Row {
     twisted(id, &[], what, Twist::Frame(frame))
 }
@@ -32,7 +32,7 @@ const TEXTS: &[Function] =
     &[Function::ReadElementName, Function::ReadElementType, Function::ReadElementUnit];
 
 /// The handles of replies and, back, of requests made others.
-fn handles(cnc: &Right<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Answer {
+fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Answer {
     match function(call) {
         Some(
             Function::HandleByName
@@ -58,7 +58,7 @@ fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
 }
 
 /// If it is too long for the client, as it was.
-fn or_short(cnc: &Right<'_>, call: &Call<'_>, answer: Answer) -> Answer {
+fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: Answer) -> Answer {
     fits(call, answer).or_else(|_| cnc.answer(call))
 }
 

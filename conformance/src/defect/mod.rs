@@ -1,8 +1,8 @@
 //! Seeded defects: what a codec or a CNC can get wrong, and what it may do otherwise.
 //!
-//! They change bytes or state around the codec and the simulated CNC; neither knows of them. The
-//! suite is tried with them: who has a defect has to fail by a requirement that it breaks, who only
-//! does things in another way may not.
+//! They change bytes around the codec and the simulated CNC, which know nothing of them, or set up
+//! the CNC with another model or policy. The suite is tried with them: who has a defect has to fail
+//! by a requirement that it breaks, who only does things in another way may not.
 //!
 //! ```
 //! use ads_cnc_conformance::defect::{self, Kind};
@@ -24,7 +24,8 @@ use std::sync::OnceLock;
 
 use crate::edition::Edition;
 
-pub(crate) use cnc::{Memory, Right, Twist};
+pub use cnc::Faulty;
+use cnc::Twist;
 pub use field::{Change, Defect};
 
 /// One thing done wrong, or otherwise.
@@ -154,14 +155,6 @@ impl Seed {
     pub fn field(&self) -> Option<&Defect> {
         match &self.how {
             How::Field(defect) => Some(defect),
-            _ => None,
-        }
-    }
-
-    /// What a CNC does around its answers.
-    pub(crate) const fn of_cnc(&self) -> Option<Twist> {
-        match self.how {
-            How::Cnc(twist) => Some(twist),
             _ => None,
         }
     }

@@ -5,21 +5,18 @@ mod elements;
 mod objects;
 mod variables;
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use ads_cnc::address::Channel;
-use ads_cnc::ads::AdsError;
-use ads_cnc::layout::Stream;
+use ads_cnc::ads::{AdsError, AmsNetId, FrameRef};
 use ads_cnc::operation::{Call, Reply, Request, WriteProgramStream};
 use ads_cnc::{Encode, NoData};
 
 use super::clock::Clock;
-use super::program::Habit;
+use super::program::Policy;
 use super::state::State;
-use super::{Model, ModelError, program, to_u32};
-use crate::defect::{Memory, Right, Seed, Twist};
+use super::{Model, ModelError, Responder, program, to_u32};
 
 /// The simulated CNC: a model, and its state behind one lock.
 #[derive(Debug)]
@@ -27,10 +24,7 @@ pub struct Cnc {
     model: Model,
     state: Mutex<State>,
     clock: Clock,
-    pub(super) defect: Option<Seed>,
-    memory: Mutex<Memory>,
-    /// Whether a wrong field has changed any byte.
-    shown: AtomicBool,
+    policy: Policy,
 }
 
 /// Data, or the error number.
@@ -39,9 +33,20 @@ type Answer = Result<Vec<u8>, AdsError>;
 impl Cnc {
     /// A CNC with this data model, in the state it starts in.
     pub fn new(model: Model) -> Self {
-        let state = Mutex::new(State::new(&model));
-        let (clock, memory) = (Clock::running(), Mutex::default());
-        Self { model, state, clock, defect: None, memory, shown: AtomicBool::new(false) }
+        let policy = Policy::DEFAULT;
+        let state = Mutex::new(State::new(&model, policy));
+        Self { model, state, clock: Clock::running(), policy }
+    }
+
+    /// With this data model, in the state it starts in.
+    pub(crate) fn with_model(self, model: Model) -> Self {
+        Self { clock: self.clock, ..Self::new(model) }
+    }
+
+    /// With NC programs of this policy, in the state it starts in.
+    pub(crate) fn with_policy(mut self, policy: Policy) -> Self {
+        self.state = Mutex::new(State::new(&self.model, policy));
+        Self { policy, ..self }
     }
 
     /// The CNC that answers what the manuals print: see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
@@ -50,24 +55,6 @@ impl Cnc {
     /// None: a test builds it.
     pub fn with_default_model() -> Result<Self, ModelError> {
         Model::default_model().map(Self::new)
-    }
-
-    /// With a seeded defect.
-    ///
-    /// Of a wrong field, streams of the requests are changed before they are read, streams of the
-    /// replies after they are encoded.
-    #[must_use]
-    pub fn with_defect(mut self, defect: Option<Seed>) -> Self {
-        if let Some(Twist::Model(model)) = defect.as_ref().and_then(Seed::of_cnc)
-            && let Ok(model) = Model::from_toml(model, "the defect's model")
-        {
-            self = Self { clock: self.clock, ..Self::new(model) };
-        }
-        self.defect = defect;
-        let habit = self.habit();
-        let state = self.state.into_inner().unwrap_or_else(PoisonError::into_inner);
-        self.state = Mutex::new(state.with_habit(habit));
-        self
     }
 
     /// With a clock that stands: time passes by [`pass`](Self::pass) only. What happens in time,
@@ -153,53 +140,22 @@ impl Cnc {
     /// # Errors
     /// One of these numbers.
     pub fn answer(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
-        match self.defect.as_ref().and_then(Seed::of_cnc) {
-            Some(Twist::Answer(answer)) => answer(&self.right(), call),
-            _ => self.answer_right(call),
-        }
-    }
-
-    /// The same, whatever the CNC does wrong around it.
-    pub(crate) fn answer_right(&self, call: &Call<'_>) -> Answer {
         let request = dispatch(call)?;
-        let spec = request.function().spec();
-        let misread = spec.request.and_then(|stream| self.change(stream, call.data));
-        let reply = match misread {
-            None => self.reply(&request)?,
-            Some(data) => self.reply(&dispatch(&Call { data: &data, ..*call })?)?,
-        };
+        let reply = self.reply(&request)?;
         if to_u32(reply.len()) > call.read_length {
             return Err(AdsError::INVALID_SIZE);
         }
-        Ok(spec.reply.and_then(|stream| self.change(stream, &reply)).unwrap_or(reply))
+        Ok(reply)
     }
 
-    /// What a defect is done around.
-    pub(super) fn right(&self) -> Right<'_> {
-        Right::new(self, &self.memory)
+    /// Appends the frame to answer with; see [`Responder::respond`].
+    pub fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
+        Responder::respond(self, net_id, frame, answers);
     }
 
-    /// What its NC programs do wrong.
-    pub(super) fn habit(&self) -> Option<Habit> {
-        match self.defect.as_ref().and_then(Seed::of_cnc) {
-            Some(Twist::Program(habit)) => Some(habit),
-            _ => None,
-        }
-    }
-
-    /// The bytes of a stream with the defect, if it is about that stream.
-    pub(super) fn change(&self, stream: Stream, bytes: &[u8]) -> Option<Vec<u8>> {
-        let field = self.defect.as_ref().and_then(Seed::field);
-        let defect = field.filter(|defect| defect.touches(stream))?;
-        let changed = Some(defect.apply(bytes)).filter(|changed| changed != bytes)?;
-        self.shown.store(true, Ordering::Relaxed);
-        Some(changed)
-    }
-
-    /// Whether the defect has shown so far: one that turns a field into what it is does not.
-    pub(crate) fn has_shown(&self) -> bool {
-        let is_field = self.defect.as_ref().and_then(Seed::field).is_some();
-        !is_field || self.shown.load(Ordering::Relaxed)
+    /// How its NC programs go about.
+    pub(super) const fn policy(&self) -> Policy {
+        self.policy
     }
 
     fn reply(&self, request: &Request<'_>) -> Answer {
@@ -239,6 +195,16 @@ impl Cnc {
             // A function of the table that this CNC does not serve is at no offset of it.
             _ => Err(AdsError::INVALID_OFFSET),
         }
+    }
+}
+
+impl Responder for Cnc {
+    fn answer(&self, call: &Call<'_>) -> Answer {
+        Self::answer(self, call)
+    }
+
+    fn pass(&self, time: Duration) {
+        Self::pass(self, time);
     }
 }
 

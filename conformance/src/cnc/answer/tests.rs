@@ -307,24 +307,6 @@ fn every_object_is_where_its_descriptor_says() {
     }
 }
 
-#[test]
-fn a_defect_shows_in_its_stream_only() {
-    let with = |id: &str, offset, data: &[u8]| {
-        let cnc = cnc().with_defect(crate::defect::by_id(id).cloned());
-        cnc.answer(&call(0x12_2301, offset, 2048, data))
-    };
-    let read = b"\x41\x23\x01\x20\x01\0\0\0\x04\0\0\0";
-    // The request is misread: the next element, another handle, one index less.
-    assert_eq!(with("variable-handle-read.indices.flip", 0x47, read), Ok(le(&[15])));
-    let handle = with("variable-handle-read.handle.flip", 0x47, read);
-    assert_eq!(handle, Err(AdsError::INVALID_DATA));
-    let count = with("variable-handle-read.index_count.flip", 0x47, read);
-    assert_eq!(count, Err(AdsError::INVALID_SIZE));
-    // The reply is changed.
-    assert_eq!(with("variable-count.count.flip", 0x44, b"V.E\0"), Ok(vec![122, 0, 0, 0]));
-    assert_eq!(with("variable-count.count.flip", 0x46, b"V.E.vartest\0"), Ok(vec![4, 0, 0, 2]));
-}
-
 /// Sixteen and more platform axes: the stride 0x1000 goes on beyond what looks like another.
 #[test]
 fn many_platform_axes() {
@@ -346,22 +328,6 @@ fn many_platform_axes() {
         // Counted wherever the first element is.
         assert_eq!(read(0x12_3300, 0x1000 * axis, 4), Ok(vec![1, 0, 0, 0]));
     }
-}
-
-/// Defects reach what elements and writes are made of too.
-#[test]
-fn a_defect_shows_in_elements_and_writes() {
-    let with = |id: &str| cnc().with_defect(crate::defect::by_id(id).cloned());
-    let read = |group| Call { service: Service::Read, ..call(group, 1, 256, &[]) };
-    let length = with("element-length.length.flip").answer(&read(0x12_3601));
-    assert_eq!(length, Ok(vec![0, 0, 0, 0]));
-    assert_eq!(with("content.content.invert").answer(&read(0x12_3301)), Ok(vec![0xFE]));
-    // The value is misread: 0x7A for 0x7B.
-    let cnc = with("variable-name-write.value.flip");
-    let write = call(0x12_2301, 0x4A, 0, b"V.E.test[4]\0\x7B\0\0\0");
-    assert_eq!(cnc.answer(&Call { service: Service::Write, ..write }), Ok(vec![]));
-    let element = cnc.answer(&call(0x12_2301, 0x48, 4, b"V.E.test[4]\0"));
-    assert_eq!(element, Ok(vec![0x7A, 0, 0, 0]));
 }
 
 /// They go to the program of a channel that is there.

@@ -31,9 +31,9 @@
 
 mod answer;
 mod executed;
-mod habit;
 mod interface;
 mod pace;
+mod policy;
 mod script;
 mod segment;
 pub mod service;
@@ -41,10 +41,12 @@ mod state;
 mod stream;
 
 pub use answer::{Answer, Outcome};
+pub(crate) use executed::lines;
 pub use executed::{Executed, digest};
-pub(crate) use habit::Habit;
 pub use interface::StreamingInterface;
 pub use pace::{Pace, ParsePaceError};
+pub(crate) use policy::{Buffer, Event, Policy};
 pub use script::{Repeat, Request, Script, ScriptConfig, ScriptError, ScriptState, Wait};
+pub(crate) use segment::Segment;
 pub use state::{Message, StartError, State};
 pub use stream::{Program, ProgramConfig, Start, result};

@@ -7,7 +7,7 @@ use ads_cnc::service::ServiceVariable::{RequestState, ResponseState, Uuid};
 use ads_cnc::{CncStr, CncString, Error};
 
 use super::answer::{Answer, Answers, Outcome};
-use super::habit::Habit;
+use super::policy::Policy;
 use super::service::{CallError, CallStep, ServiceCall, ServiceInterface, SysServiceWait};
 
 /// What an NC program asks services, and how often.
@@ -169,7 +169,7 @@ pub struct Script {
     due: Option<Duration>,
     pausing: bool,
     answers: Answers,
-    habit: Option<Habit>,
+    policy: Policy,
 }
 
 impl Script {
@@ -199,16 +199,15 @@ impl Script {
             due: None,
             pausing: false,
             answers: Answers::default(),
-            habit: None,
+            policy: Policy::DEFAULT,
         };
         script.restart();
         Ok(script)
     }
 
-    /// The same with a seeded defect.
-    pub(crate) fn with_habit(mut self, habit: Option<Habit>) -> Self {
-        self.habit = habit;
-        self
+    /// The same by another policy.
+    pub(crate) fn with_policy(self, policy: Policy) -> Self {
+        Self { policy, ..self }
     }
 
     /// Begins with the first request again, as after an NC reset and a start. The answers stay.
@@ -242,11 +241,11 @@ impl Script {
         self.due = Some(now.saturating_add(self.cycle));
         let Some((at, call)) = &mut self.present else { return };
         call.poll();
-        let time = if self.habit == Some(Habit::WaitsForEver) { Duration::ZERO } else { now };
+        let time = if self.policy.times_out { now } else { Duration::ZERO };
         // The interface takes what a call writes and has what it reads; else it is tried again.
         match call.step() {
             CallStep::Write(variable, value) => {
-                let first = (self.habit, variable) == (Some(Habit::StateFirst), Uuid);
+                let first = self.policy.state_first && variable == Uuid;
                 if first && interface.write(RequestState, &[1, 0, 0, 0]).is_err() {
                     return;
                 }
@@ -254,7 +253,7 @@ impl Script {
                     call.written(time);
                 }
             }
-            CallStep::Read(ResponseState) if self.habit == Some(Habit::WaitsNot) => {
+            CallStep::Read(ResponseState) if !self.policy.awaits_response => {
                 let _ = call.read(&[1, 0, 0, 0], time);
             }
             CallStep::Read(variable) => {

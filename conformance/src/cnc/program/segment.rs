@@ -3,11 +3,10 @@
 use ads_cnc::streaming::{Checker, Finding, Found, ProgramEnd};
 
 use super::executed::lines;
-use super::habit::Habit;
 
 /// Lines that were read together, and where they stop being run.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Segment {
+pub(crate) struct Segment {
     lines: Vec<u8>,
     at: usize,
     /// Number of the next line in the program, from 1.
@@ -32,14 +31,21 @@ pub(super) enum Next<'a> {
 }
 
 impl Segment {
-    pub(super) fn new(checker: &mut Checker, read: &[u8], habit: Option<Habit>) -> Self {
+    /// Lines that this checker has not seen yet.
+    pub(crate) fn new(checker: &mut Checker, read: &[u8]) -> Self {
         let number = checker.lines().saturating_add(1);
+        Self::with_findings(read, number, checker.check(read))
+    }
+
+    /// Lines from this number on, and what was found in them in their order.
+    pub(crate) fn with_findings(
+        read: &[u8],
+        number: u32,
+        found: impl IntoIterator<Item = Found>,
+    ) -> Self {
         let (mut end, mut fault) = (None, None);
-        let seen = habit.map(|habit| habit.seen(read));
-        let own = habit.and_then(|habit| habit.finds(read, number));
-        for found in own.into_iter().chain(checker.check(seen.as_deref().unwrap_or(read))) {
+        for found in found {
             match found {
-                _ if habit.is_some_and(|habit| habit.overlooks(&found)) => {}
                 // Not run.
                 _ if end.is_some_and(|(_, line)| line < found.line()) => break,
                 Found::Finding(finding) if finding.kind.ends_streaming() => {
@@ -51,9 +57,6 @@ impl Segment {
                 }
                 Found::Finding(_) => {}
             }
-        }
-        if let (Some((_, line)), Some(Habit::BehindEnd)) = (&mut end, habit) {
-            *line = checker.lines();
         }
         let stop = fault.or(end.map(|(end, line)| Stop::End { end, line }));
         Self { lines: read.to_vec(), at: 0, number, stop }

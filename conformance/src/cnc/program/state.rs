@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use ads_cnc::streaming::{Finding, LINE_END_ERROR, LineError, ProgramEnd};
+use ads_cnc::streaming::{Finding, LineError, ProgramEnd};
 
 /// Where a streaming program stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,9 +36,9 @@ pub struct Message {
 
 impl Message {
     /// A line without CR LF in what was read behind so many lines.
-    pub(super) fn of_line_end(file: &str, before: u32, error: &LineError) -> Self {
+    pub(super) fn of_line_end(file: &str, number: u32, before: u32, error: &LineError) -> Self {
         Self {
-            number: Some(LINE_END_ERROR),
+            number: Some(number),
             file: file.to_owned(),
             line: before.saturating_add(error.line()),
             column: error.column(),

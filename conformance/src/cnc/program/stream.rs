@@ -5,10 +5,9 @@ use std::time::Duration;
 use ads_cnc::ads::AdsError;
 use ads_cnc::streaming::{Ack, Checker};
 
-use super::executed::{Executed, lines};
-use super::habit::Habit;
-use super::interface::StreamingInterface;
+use super::executed::Executed;
 use super::pace::{Clock, Pace};
+use super::policy::{Buffer, Event, Policy};
 use super::segment::{Next, Segment};
 use super::state::{Message, StartError, State};
 
@@ -49,7 +48,7 @@ impl Default for ProgramConfig {
 
 /// The program that gets its lines through the streaming interface of a channel.
 ///
-/// - Writes go to the [`StreamingInterface`]; what it cannot take now is refused, with warning 11012
+/// - Writes go to the [`StreamingInterface`](super::StreamingInterface); what it cannot take now is refused, with warning 11012
 ///   (STM-3, STM-6).
 /// - The decoder, when it has run all lines it has, reads everything that is there at once
 ///   (STM-12), and runs it line by line. A line counts as run when its time at the [`Pace`] is
@@ -71,22 +70,20 @@ impl Default for ProgramConfig {
 /// the lines that are kept.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3, 3 and 4.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Program {
     config: ProgramConfig,
-    interface: StreamingInterface,
+    policy: Policy,
+    interface: Box<dyn Buffer>,
     checker: Checker,
     phase: Phase,
     clock: Clock,
     now: Duration,
     executed: Executed,
     refusals: u64,
-    habit: Option<Habit>,
-    /// What was written and not read, for a habit that needs it.
-    written: Vec<Vec<u8>>,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 enum Phase {
     Started(Segment),
     /// As the state says.
@@ -96,38 +93,34 @@ enum Phase {
 impl Program {
     /// A channel that was switched on.
     pub fn new(config: ProgramConfig) -> Self {
+        Self::with_policy(config, Policy::DEFAULT)
+    }
+
+    /// A channel that was switched on, by another policy.
+    pub(crate) fn with_policy(config: ProgramConfig, policy: Policy) -> Self {
         let mut program = Self {
-            interface: StreamingInterface::new(),
+            policy,
+            interface: (policy.buffer)(),
             checker: Checker::new(),
             phase: Phase::Over(State::Stopped),
             clock: Clock::default(),
             now: Duration::ZERO,
             executed: Executed::new(config.kept),
             refusals: 0,
-            habit: None,
-            written: Vec::new(),
             config,
         };
-        if program.config.start != Start::ByHand && !program.config.name.is_empty() {
+        let starts = policy.starts.contains(&Event::PowerOn);
+        if (starts || program.config.start != Start::ByHand) && !program.config.name.is_empty() {
             program.begin();
         }
         program
-    }
-
-    /// The same with a seeded defect.
-    pub(crate) fn with_habit(mut self, habit: Option<Habit>) -> Self {
-        self.habit = habit;
-        if habit == Some(Habit::StartsItself) && !self.config.name.is_empty() {
-            self.begin();
-        }
-        self
     }
 
     /// Writes to `mc_program_stream_w`; [`result`] is what ADS answers.
     pub fn write(&mut self, data: &[u8], now: Duration) -> Ack {
         self.advance(now);
         let was_dry = self.is_dry();
-        let ack = self.take(data);
+        let ack = self.interface.write(data);
         match ack {
             Ack::Accepted if was_dry => {
                 self.clock = Clock::begin(self.now);
@@ -135,23 +128,6 @@ impl Program {
             }
             Ack::Later => self.refusals = self.refusals.saturating_add(1),
             Ack::Accepted | Ack::Refused => {}
-        }
-        ack
-    }
-
-    fn take(&mut self, data: &[u8]) -> Ack {
-        let Some(habit) = self.habit else { return self.interface.write(data) };
-        let over = self.interface.len().saturating_add(data.len()) > Habit::LITTLE_ROOM;
-        if habit == Habit::Narrow && over {
-            return Ack::Later;
-        }
-        let mut ack = self.interface.write(data);
-        let all = self.written.iter().map(Vec::len).sum::<usize>().saturating_add(data.len());
-        if ack == Ack::Later && habit == Habit::Roomy && all <= 2 * Habit::ROOM {
-            ack = Ack::Accepted;
-        }
-        if ack == Ack::Accepted {
-            self.written.push(data.to_vec());
         }
         ack
     }
@@ -177,9 +153,7 @@ impl Program {
             Phase::Over(State::Aborted(_)) => return Err(StartError::Aborted),
             Phase::Over(_) => {}
         }
-        if self.habit == Some(Habit::StartEmpties) {
-            self.empty();
-        }
+        self.clear_at(Event::Start);
         self.begin();
         self.clock = Clock::begin(self.now);
         self.run();
@@ -190,19 +164,19 @@ impl Program {
     /// still be read back.
     pub fn reset(&mut self, now: Duration) {
         self.advance(now);
-        if self.habit != Some(Habit::ResetKeeps) {
-            self.empty();
+        self.clear_at(Event::Reset);
+        if self.policy.ends.contains(&Event::Reset) {
+            self.phase = Phase::Over(State::Stopped);
         }
-        match self.habit {
-            Some(Habit::ResetGoesOn) => {}
-            Some(Habit::StartsItself) => self.begin(),
-            _ => self.phase = Phase::Over(State::Stopped),
+        if self.policy.starts.contains(&Event::Reset) {
+            self.begin();
         }
     }
 
-    fn empty(&mut self) {
-        self.interface.reset();
-        self.written.clear();
+    fn clear_at(&mut self, event: Event) {
+        if self.policy.clears.contains(&event) {
+            self.interface.clear();
+        }
     }
 
     /// Changes how fast lines are run from now on; the line that is being run begins anew.
@@ -224,7 +198,7 @@ impl Program {
 
     fn is_dry(&self) -> bool {
         let Phase::Started(segment) = &self.phase else { return false };
-        self.interface.is_empty() && matches!(segment.next(), Next::Nothing)
+        self.interface.len() == 0 && matches!(segment.next(), Next::Nothing)
     }
 
     /// What was run, as of the last access, over all starts and resets.
@@ -274,16 +248,14 @@ impl Program {
                     self.phase = Phase::Over(State::Aborted(message));
                 }
                 Next::End(end) => {
-                    if self.habit == Some(Habit::EndEmpties) {
-                        self.empty();
-                    }
+                    self.clear_at(Event::End);
                     match self.config.start {
                         Start::Again => self.begin(),
                         _ => self.phase = Phase::Over(State::Ended(end)),
                     }
                 }
-                Next::Nothing if self.interface.is_empty() => {
-                    if self.habit == Some(Habit::DryEnds) && self.checker.lines() > 0 {
+                Next::Nothing if self.interface.len() == 0 => {
+                    if self.policy.ends.contains(&Event::Dry) && self.checker.lines() > 0 {
                         self.phase = Phase::Over(State::Stopped);
                     }
                     break;
@@ -294,38 +266,11 @@ impl Program {
     }
 
     fn read(&mut self) {
-        let written = std::mem::take(&mut self.written);
-        self.phase = match (self.interface.read(), self.habit) {
-            (Ok(lines), None) => Phase::Started(Segment::new(&mut self.checker, lines, None)),
-            (Ok(_), Some(habit)) => {
-                let lines = match (habit, written.as_slice()) {
-                    (Habit::Packets, [first, rest @ ..]) => {
-                        for packet in rest {
-                            self.interface.write(packet);
-                        }
-                        self.written = rest.to_vec();
-                        first.clone()
-                    }
-                    (Habit::Reversed, all) => all.iter().rev().flatten().copied().collect(),
-                    (_, all) => all.concat(),
-                };
-                if habit == Habit::Forgets {
-                    self.checker = Checker::new();
-                }
-                Phase::Started(Segment::new(&mut self.checker, &lines, self.habit))
-            }
-            (Err(_), Some(Habit::SkipsLines)) => {
-                let all = written.concat();
-                let whole = lines(&all).filter(|line| line.ends_with(b"\r\n"));
-                let whole: Vec<u8> = whole.flatten().copied().collect();
-                Phase::Started(Segment::new(&mut self.checker, &whole, self.habit))
-            }
-            (Err(error), habit) => {
-                let before = self.checker.lines();
-                let mut message = Message::of_line_end(&self.config.name, before, &error);
-                if habit == Some(Habit::OtherError) {
-                    message.number = message.number.map(|number| number.wrapping_add(1));
-                }
+        self.phase = match self.interface.read() {
+            Ok(lines) => Phase::Started((self.policy.segment)(&mut self.checker, &lines)),
+            Err(error) => {
+                let (number, before) = (self.policy.line_end_error, self.checker.lines());
+                let message = Message::of_line_end(&self.config.name, number, before, &error);
                 Phase::Over(State::Aborted(message))
             }
         };

@@ -1,6 +1,7 @@
 use ads_cnc::ads::{AmsAddr, AmsPort};
 
 use super::*;
+use crate::cnc::Cnc;
 
 const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };
 
@@ -108,21 +109,4 @@ fn a_response_is_not_answered() {
     let header =
         AmsHeader { state_flags: StateFlags::RESPONSE, ..request(Command::READ_WRITE, 552, COUNT) };
     assert_eq!(respond(&cnc, header, COUNT), None);
-}
-
-#[test]
-fn defects_reach_the_headers_too() {
-    let cnc = |id: &str| {
-        Cnc::with_default_model().unwrap().with_defect(crate::defect::by_id(id).cloned())
-    };
-    let ask =
-        |id: &str| respond(&cnc(id), request(Command::READ_WRITE, 552, COUNT), COUNT).unwrap();
-    assert_eq!(ask("ams-header.invoke_id.flip").0.invoke_id, 0x0102_0305);
-    assert_eq!(ask("read-write-reply.result.flip").1[0], 1);
-    // Read as offset 0x45.
-    assert_eq!(ask("read-write-request.index_offset.flip").1[..2], [5, 7]);
-    let frame = FrameRef::new(request(Command::READ_WRITE, 552, COUNT), COUNT).unwrap();
-    let mut bytes = Vec::new();
-    cnc("ams-tcp-header.length.flip").respond(NET_ID, &frame, &mut bytes);
-    assert_eq!(bytes[..6], [0, 0, 45, 0, 0, 0]);
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use ads_cnc::ads::{AmsNetId, FrameRef};
 
 use super::ServerOptions;
-use crate::cnc::{Cnc, DATA_MAX, FRAME_MAX};
+use crate::cnc::{DATA_MAX, FRAME_MAX, Responder};
 
 /// Room for the longest frame and what comes with it.
 const RECEIVED_MAX: usize = FRAME_MAX + 16 * 1024;
@@ -81,7 +81,7 @@ impl Received {
     pub fn take(
         &mut self,
         count: usize,
-        cnc: &Cnc,
+        cnc: &dyn Responder,
         net_id: AmsNetId,
         mut send: impl FnMut(&[u8]) -> io::Result<()>,
     ) -> io::Result<usize> {
@@ -119,7 +119,11 @@ impl Received {
 
 /// Answers frames in their order, however they are cut, until the client closes, says nothing for
 /// too long, or sends one that does not hold together: what follows it cannot be found.
-pub(super) fn serve(cnc: &Cnc, options: &ServerOptions, mut stream: &TcpStream) -> io::Result<()> {
+pub(super) fn serve(
+    cnc: &dyn Responder,
+    options: &ServerOptions,
+    mut stream: &TcpStream,
+) -> io::Result<()> {
     let mut received = Received::new();
     let mut limit = Limit::new(options);
     limit.set(stream)?;
@@ -148,10 +152,9 @@ pub(super) fn serve(cnc: &Cnc, options: &ServerOptions, mut stream: &TcpStream) 
     }
 }
 
-/// Sends answers, all at once but for a CNC that does not.
-fn send(cnc: &Cnc, mut stream: &TcpStream, answers: &[u8]) -> io::Result<()> {
-    let piece = cnc.piece().unwrap_or(answers.len());
-    answers.chunks(piece).try_for_each(|piece| stream.write_all(piece))
+/// Sends answers, in pieces of the responder's size.
+fn send(cnc: &dyn Responder, mut stream: &TcpStream, answers: &[u8]) -> io::Result<()> {
+    answers.chunks(cnc.piece()).try_for_each(|piece| stream.write_all(piece))
 }
 
 fn split(received: &[u8]) -> io::Result<Option<(FrameRef<'_>, usize)>> {

@@ -2,6 +2,7 @@ use std::io::{Read as _, Write as _};
 use std::time::Instant;
 
 use super::*;
+use crate::cnc::Cnc;
 
 /// How many V.E variables channel 1 has, as it goes over the wire but for the invoke ID.
 const COUNT: &[u8] = &[
@@ -29,8 +30,7 @@ fn server() -> Server {
 
 fn serving(options: ServerOptions) -> Server {
     let listener = net::listen("127.0.0.1:0".parse().unwrap()).unwrap();
-    let cnc = Arc::new(Cnc::with_default_model().unwrap());
-    Server::with_options(listener, cnc, options).unwrap()
+    Server::with_options(listener, Cnc::with_default_model().unwrap(), options).unwrap()
 }
 
 fn idle(millis: u64) -> ServerOptions {

@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::{joined, parts};
 use super::number::count;
 use super::{
-    Right, Row, behind, dimensions, fits, function, group, is, of_decoder, offset, reply, row,
+    Row, Upstream, behind, dimensions, fits, function, group, is, of_decoder, offset, reply, row,
     text, u32_at,
 };
 
@@ -16,7 +16,7 @@ const WRITE: &[Function] =
     &[Function::WriteByHandle, Function::WriteByName, Function::AxisWriteByName];
 
 /// The names of V.E and V.G in the order of their indices.
-fn listed(cnc: &Right<'_>, call: &Call<'_>) -> Vec<Vec<u8>> {
+fn listed(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<Vec<u8>> {
     let kinds = [b"V.E".as_slice(), b"V.G"];
     let all = kinds.into_iter().flat_map(|kind| {
         (0..count(cnc, call, kind)).filter_map(move |index| {
@@ -41,7 +41,7 @@ fn value_at(call: &Call<'_>) -> usize {
 }
 
 /// What is there now, by the same address.
-fn old(cnc: &Right<'_>, call: &Call<'_>) -> Vec<u8> {
+fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
     let head = call.data.get(..value_at(call)).unwrap_or_default();
     let read = match function(call) {
         Some(Function::WriteByHandle | Function::WriteByName) => offset(call).wrapping_sub(2),

@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc::text::cp1252_to_char;
 
 use super::{
-    Answer, Right, Row, behind, dimensions, fits, function, is, number, put, records, row, text,
+    Answer, Row, Upstream, behind, dimensions, fits, function, is, number, put, records, row, text,
     u32_at,
 };
 
@@ -29,7 +29,7 @@ const TEXTS: &[Function] = &[
 
 /// Changes the texts of replies and, back, the names of requests.
 fn texts(
-    cnc: &Right<'_>,
+    cnc: &Upstream<'_>,
     call: &Call<'_>,
     outwards: fn(&[u8]) -> Vec<u8>,
     inwards: fn(&[u8]) -> Vec<u8>,

@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Answer, Right, Row, fits, group, is, number, of_decoder, offset, put, row, text, u32_at,
+    Answer, Row, Upstream, fits, group, is, number, of_decoder, offset, put, row, text, u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountDynamic];
@@ -16,7 +16,7 @@ const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicVal
 
 /// The index asked for, made another.
 fn index(
-    cnc: &Right<'_>,
+    cnc: &Upstream<'_>,
     call: &Call<'_>,
     of: &[Function],
     other: impl FnOnce(u32) -> u32,
@@ -28,7 +28,7 @@ fn index(
 }
 
 /// How many there are of the kind that is asked about.
-fn count(cnc: &Right<'_>, call: &Call<'_>) -> u32 {
+fn count(cnc: &Upstream<'_>, call: &Call<'_>) -> u32 {
     let place = match offset(call) {
         0x1B..=0x1D => 2,
         0x1E..=0x20 => 3,

@@ -2,7 +2,7 @@
 
 use ads_cnc::ads::{Command, FrameRef};
 
-use super::{Right, Row, Twist, put, twisted, u32_at};
+use super::{Row, Twist, Upstream, put, twisted, u32_at};
 
 /// Where things are in a frame.
 pub(super) const TCP_LENGTH: usize = 2;
@@ -22,7 +22,7 @@ pub(super) const fn sent(
     id: &'static str,
     breaks: &'static [&'static str],
     what: &'static str,
-    frame: fn(&Right<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
+    frame: fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
 ) -> Row {
     twisted(id, breaks, what, Twist::Frame(frame))
 }

@@ -4,7 +4,7 @@ use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Answer, Right, Row, fours, function, group, is, number, of_decoder, offset, put, row, text,
+    Answer, Row, Upstream, fours, function, group, is, number, of_decoder, offset, put, row, text,
     u32_at,
 };
 
@@ -25,7 +25,7 @@ pub(super) fn joined(handle: u32, indices: &[u32], value: &[u8]) -> Vec<u8> {
 }
 
 /// The handle told, made another one that is understood again, or not.
-fn told(cnc: &Right<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Answer {
+fn told(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Answer {
     match function(call) {
         Some(Function::HandleByName | Function::AxisHandleByName) => {
             number(cnc.answer(call), 0, other)

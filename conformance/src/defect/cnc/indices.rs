@@ -5,14 +5,14 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::handle::{joined, parts};
 use super::variable::{described, element, first_element};
-use super::{Answer, Right, Row, dimensions, fits, is, of_decoder, put, row, u32_at};
+use super::{Answer, Row, Upstream, dimensions, fits, is, of_decoder, put, row, u32_at};
 
 const READ: &[Function] = &[Function::ReadByHandle];
 const WRITE: &[Function] = &[Function::WriteByHandle];
 
 /// The request by handle with other indices.
 fn indices(
-    cnc: &Right<'_>,
+    cnc: &Upstream<'_>,
     call: &Call<'_>,
     of: &[Function],
     other: impl FnOnce(Vec<u32>) -> Vec<u32>,

@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Function};
 use super::frame::{INVOKE_ID, LENGTH, RESULT, SOURCE, TARGET, sent, set};
 use super::handle::{joined, parts};
 use super::look::{instance, one, over};
-use super::{Answer, Right, Row, fits, frame, function, group, is, offset, row, text, u32_at};
+use super::{Answer, Row, Upstream, fits, frame, function, group, is, offset, row, text, u32_at};
 
 const FIND: &[Function] = &[Function::FindInstance];
 const UNIT: &[Function] = &[Function::ReadElementUnit];
@@ -18,7 +18,7 @@ const BY_INDEX: &[Function] = &[Function::DynamicValueByIndex];
 const SLOTS: u32 = 16;
 
 /// Handles by name take turns in a table that is too short.
-fn slots(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
+fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
     let gone = |handle: u32| (0x5106, handle, vec![u8::try_from(instance(call)).unwrap_or(0)]);
     match function(call) {
         Some(Function::HandleByName) => {
@@ -48,7 +48,7 @@ fn slots(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
 }
 
 /// Whether an axis is at the place that the offset names.
-fn occupied(cnc: &Right<'_>, call: &Call<'_>) -> Option<bool> {
+fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
     let channel = u8::try_from(instance(call)).ok()?;
     let place = u8::try_from(offset(call) >> 16).ok().filter(|place| *place > 0)?;
     let of_place = matches!(group(call) & 0xFFFF_FF00, 0x12_1300 | 0x12_2300 | 0x12_4300);

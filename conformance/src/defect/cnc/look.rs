@@ -3,7 +3,7 @@
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::operation::{Call, Service};
 
-use super::{Key, Right, dimensions, group, offset, records, text, u32_at};
+use super::{Key, Upstream, dimensions, group, offset, records, text, u32_at};
 
 /// The channel, axis or spindle in the group.
 pub(super) const fn instance(call: &Call<'_>) -> u32 {
@@ -21,7 +21,7 @@ pub(super) fn over(new: &[u8], old: &[u8]) -> Vec<u8> {
 }
 
 /// The descriptor of the object whose content is asked for.
-pub(super) fn descriptor(cnc: &Right<'_>, call: &Call<'_>) -> Option<[u8; 84]> {
+pub(super) fn descriptor(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<[u8; 84]> {
     let all = cnc.answer(&Call {
         port: call.port,
         service: Service::Read,
@@ -34,13 +34,13 @@ pub(super) fn descriptor(cnc: &Right<'_>, call: &Call<'_>) -> Option<[u8; 84]> {
 }
 
 /// Whether the object whose content is asked for is of this type.
-pub(super) fn object_is(cnc: &Right<'_>, call: &Call<'_>, name: &[u8]) -> bool {
+pub(super) fn object_is(cnc: &Upstream<'_>, call: &Call<'_>, name: &[u8]) -> bool {
     let record = descriptor(cnc, call);
     record.is_some_and(|record| text(record.get(52..).unwrap_or_default()) == name)
 }
 
 /// Whether the element whose content or attribute is asked for is of this type.
-pub(super) fn element_is(cnc: &Right<'_>, call: &Call<'_>, name: &[u8]) -> bool {
+pub(super) fn element_is(cnc: &Upstream<'_>, call: &Call<'_>, name: &[u8]) -> bool {
     let at = group(call) & !0xF00 | 0x500;
     cnc.read(call.port, at, offset(call)).is_ok_and(|bytes| text(&bytes) == name)
 }
@@ -65,12 +65,12 @@ pub(super) fn with_indices(name: &[u8], indices: &[u32]) -> Vec<u8> {
 }
 
 /// The description of the variable with this name, of an element of it too.
-pub(super) fn described(cnc: &Right<'_>, group: u32, name: &[u8]) -> Option<Vec<u8>> {
+pub(super) fn described(cnc: &Upstream<'_>, group: u32, name: &[u8]) -> Option<Vec<u8>> {
     cnc.ask(group, 0x4C, &[indexed(name).0, &[0]].concat()).ok()
 }
 
 /// The name of the variable of V.E or V.G with this handle.
-pub(super) fn name_of(cnc: &Right<'_>, group: u32, handle: u32) -> Option<Vec<u8>> {
+pub(super) fn name_of(cnc: &Upstream<'_>, group: u32, handle: u32) -> Option<Vec<u8>> {
     [&b"V.E\0"[..], b"V.G\0"].into_iter().find_map(|kind| {
         let all = (0_u32..)
             .map_while(|index| cnc.ask(group, 0x45, &[&index.to_le_bytes(), kind].concat()).ok());
@@ -81,7 +81,7 @@ pub(super) fn name_of(cnc: &Right<'_>, group: u32, handle: u32) -> Option<Vec<u8
 }
 
 /// The handle that the variable with this name has.
-pub(super) fn handle_of(cnc: &Right<'_>, group: u32, name: &str) -> Option<u32> {
+pub(super) fn handle_of(cnc: &Upstream<'_>, group: u32, name: &str) -> Option<u32> {
     u32_at(&cnc.ask(group, 0x46, &[name.as_bytes(), &[0]].concat()).ok()?, 0)
 }
 

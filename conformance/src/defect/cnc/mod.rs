@@ -14,6 +14,7 @@ mod crossed;
 mod device;
 mod dynamic;
 mod element;
+mod faulty;
 mod frame;
 mod handle;
 mod indices;
@@ -27,10 +28,10 @@ mod object;
 mod program;
 mod repeated;
 mod request;
-mod right;
 mod running;
 mod seldom;
 mod service;
+mod upstream;
 mod value;
 mod variable;
 mod write;
@@ -38,18 +39,20 @@ mod write;
 pub(in crate::defect) use self::bytes::{
     behind, dimensions, fours, number, put, records, records_mut, u32_at,
 };
+pub use self::faulty::Faulty;
 pub(in crate::defect) use self::request::{
     LOGICAL, at, class, com_group, function, group, is, named, of_decoder, offset,
 };
-pub(in crate::defect) use self::right::{Key, fits, later, put_off, reply};
-pub(crate) use self::right::{Memory, Right};
+use self::upstream::Memory;
+pub(crate) use self::upstream::Upstream;
+pub(in crate::defect) use self::upstream::{Key, fits, later, put_off, reply};
 pub(in crate::defect) use crate::values::until_nul as text;
 pub(in crate::defect) use frame::measured;
 
 use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::Call;
 
-use crate::cnc::program::Habit;
+use crate::cnc::program::Policy;
 use crate::edition::Edition;
 
 /// Data, or the error number.
@@ -59,13 +62,13 @@ pub(super) type Answer = Result<Vec<u8>, AdsError>;
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Twist {
     /// Around each request.
-    Answer(fn(&Right<'_>, &Call<'_>) -> Answer),
-    /// Behind each frame that answers one: what is sent in its place.
-    Frame(fn(&Right<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
+    Answer(fn(&Upstream<'_>, &Call<'_>) -> Answer),
+    /// After each frame that answers one: what is sent instead.
+    Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
     /// Bytes leave in pieces of so many at most.
     Pieces(usize),
     /// In its NC programs.
-    Program(Habit),
+    Program(Policy),
     /// It is another CNC: one with this model.
     Model(&'static str),
 }
@@ -87,7 +90,7 @@ pub(super) const fn row(
     id: &'static str,
     breaks: &'static [&'static str],
     what: &'static str,
-    answer: fn(&Right<'_>, &Call<'_>) -> Answer,
+    answer: fn(&Upstream<'_>, &Call<'_>) -> Answer,
 ) -> Row {
     twisted(id, breaks, what, Twist::Answer(answer))
 }
@@ -103,13 +106,13 @@ pub(super) const fn twisted(
 }
 
 /// A row about the NC program.
-pub(super) const fn habit(
+pub(super) const fn program(
     id: &'static str,
     breaks: &'static [&'static str],
     what: &'static str,
-    habit: Habit,
+    policy: Policy,
 ) -> Row {
-    twisted(id, breaks, what, Twist::Program(habit))
+    twisted(id, breaks, what, Twist::Program(policy))
 }
 
 /// All rows.

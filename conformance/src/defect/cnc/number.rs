@@ -3,14 +3,14 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
-use super::{Answer, Right, Row, group, is, number, of_decoder, offset, put, row, text, u32_at};
+use super::{Answer, Row, Upstream, group, is, number, of_decoder, offset, put, row, text, u32_at};
 
 const COUNT: &[Function] = &[Function::CountVariables];
 const INDEXED: &[Function] = &[Function::DescribeByIndex, Function::DescribeExtended];
 
 /// Index and kind, made others.
 fn indexed(
-    cnc: &Right<'_>,
+    cnc: &Upstream<'_>,
     call: &Call<'_>,
     other: impl FnOnce(u32, &[u8]) -> (u32, Vec<u8>),
 ) -> Answer {
@@ -22,7 +22,7 @@ fn indexed(
 }
 
 /// How many variables of a kind there are.
-pub(super) fn count(cnc: &Right<'_>, call: &Call<'_>, kind: &[u8]) -> u32 {
+pub(super) fn count(cnc: &Upstream<'_>, call: &Call<'_>, kind: &[u8]) -> u32 {
     let count = cnc.ask(group(call), 0x44, &[kind, &[0]].concat());
     count.ok().and_then(|count| u32_at(&count, 0)).unwrap_or_default()
 }

@@ -234,7 +234,7 @@ pub(super) const ROWS: &[Row] = &[
 ];
 
 /// Whether a write of what is there already succeeds.
-fn writable(cnc: &super::Right<'_>, call: &Call<'_>) -> bool {
+fn writable(cnc: &super::Upstream<'_>, call: &Call<'_>) -> bool {
     let old = cnc.read(call.port, group(call), offset(call));
     old.is_ok_and(|old| old.len() == call.data.len() && cnc.with(call, &old).is_ok())
 }

@@ -6,7 +6,7 @@ use ads_cnc::service::ServiceVariable;
 
 use super::look::{handle_of, instance, object_is, one, over};
 use super::service::{reads, writes};
-use super::{Answer, Right, Row, behind, function, group, is, offset, row, text, u32_at};
+use super::{Answer, Row, Upstream, behind, function, group, is, offset, row, text, u32_at};
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
@@ -16,16 +16,16 @@ const RESPONSE: &str = ServiceVariable::RESPONSE;
 const REQUEST: &str = ServiceVariable::REQUEST;
 
 /// Whether a function by handle has the handle of that variable.
-fn by_handle(cnc: &Right<'_>, call: &Call<'_>, of: Function, name: &str) -> bool {
+fn by_handle(cnc: &Upstream<'_>, call: &Call<'_>, of: Function, name: &str) -> bool {
     is(call, &[of]) && u32_at(call.data, 0) == handle_of(cnc, group(call), name)
 }
 
-fn read(cnc: &Right<'_>, group: u32, name: &str) -> Answer {
+fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> Answer {
     cnc.ask(group, 0x48, &[name.as_bytes(), &[0]].concat())
 }
 
 /// RESPONSE_STATE as it was before a write that should have reset it.
-fn stays(cnc: &Right<'_>, call: &Call<'_>, now: bool) -> Answer {
+fn stays(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> Answer {
     let key = (instance(call), 0x5C, Vec::new());
     if now {
         let before = read(cnc, group(call), RESPONSE_STATE)?;

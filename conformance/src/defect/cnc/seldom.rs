@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::parts;
 use super::look::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
-    Answer, LOGICAL, Right, Row, behind, dimensions, fits, function, group, is, number, of_decoder,
-    offset, put, records_mut, reply, row, text, u32_at,
+    Answer, LOGICAL, Row, Upstream, behind, dimensions, fits, function, group, is, number,
+    of_decoder, offset, put, records_mut, reply, row, text, u32_at,
 };
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
@@ -28,7 +28,7 @@ fn rounded(value: [u8; 8]) -> [u8; 8] {
 }
 
 /// Channels of the HLD hold platform axes apart from the HLD without a channel.
-fn hld_apart(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
+fn hld_apart(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
     let key = (0x3301, offset(call), Vec::new());
     match (group(call) | LOGICAL == 0x12_3301 && offset(call) >= 0x1_0000, function(call)) {
         (true, Some(Function::WriteElement)) => {

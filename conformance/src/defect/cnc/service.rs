@@ -5,10 +5,10 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    Answer, Right, Row, behind, dimensions, function, group, habit, is, number, offset, row, text,
-    u32_at,
+    Answer, Row, Upstream, behind, dimensions, function, group, is, number, offset, program, row,
+    text, u32_at,
 };
-use crate::cnc::program::Habit;
+use crate::cnc::program::Policy;
 
 const UUID: &str = ServiceVariable::UUID;
 const REQUEST: &str = ServiceVariable::REQUEST;
@@ -35,11 +35,11 @@ fn key(call: &Call<'_>) -> (u32, u32, Vec<u8>) {
     (group(call) & 0xFF, 0, Vec::new())
 }
 
-fn read(cnc: &Right<'_>, call: &Call<'_>, name: &str) -> Answer {
+fn read(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> Answer {
     cnc.ask(group(call), 0x48, &[name.as_bytes(), &[0]].concat())
 }
 
-fn state(cnc: &Right<'_>, call: &Call<'_>, name: &str) -> u32 {
+fn state(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> u32 {
     read(cnc, call, name).ok().and_then(|bytes| u32_at(&bytes, 0)).unwrap_or_default()
 }
 
@@ -279,22 +279,22 @@ pub(super) const ROWS: &[Row] = &[
             }
         },
     ),
-    habit(
+    program(
         "cnc.svc.program-waits-not",
         &["SVC-6"],
         "the NC program reads RESPONSE without waiting for RESPONSE_STATE",
-        Habit::WaitsNot,
+        Policy { awaits_response: false, ..Policy::DEFAULT },
     ),
-    habit(
+    program(
         "cnc.svc.program-state-first",
         &["SVC-12"],
         "the NC program writes REQUEST_STATE before UUID and REQUEST",
-        Habit::StateFirst,
+        Policy { state_first: true, ..Policy::DEFAULT },
     ),
-    habit(
+    program(
         "cnc.svc.program-waits-for-ever",
         &["SVC-8"],
         "the cycle that waits does not end after @P2",
-        Habit::WaitsForEver,
+        Policy { times_out: false, ..Policy::DEFAULT },
     ),
 ];

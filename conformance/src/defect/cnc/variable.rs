@@ -5,14 +5,14 @@ use ads_cnc::operation::{Call, Function};
 
 use super::number::count;
 use super::{
-    Answer, Right, Row, dimensions, fits, function, group, is, put, reply, row, text, u32_at,
+    Answer, Row, Upstream, dimensions, fits, function, group, is, put, reply, row, text, u32_at,
 };
 
 const DESCRIBE: &[Function] = &[Function::DescribeByIndex];
 const BOTH: &[Function] = &[Function::DescribeByIndex, Function::DescribeByName];
 
 /// The description of the variable with this handle or name, as it is read.
-pub(super) fn described(cnc: &Right<'_>, call: &Call<'_>) -> Option<Vec<u8>> {
+pub(super) fn described(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<Vec<u8>> {
     let handle = match function(call)? {
         Function::ReadByHandle | Function::WriteByHandle => u32_at(call.data, 0)?,
         Function::ReadByName | Function::WriteByName => {
@@ -43,7 +43,7 @@ pub(super) fn without_indices(mut name: &[u8]) -> &[u8] {
 }
 
 /// The answer cut behind the first element of the variable it is about.
-pub(super) fn first_element(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
+pub(super) fn first_element(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
     let len = described(cnc, call).map_or(usize::MAX, |found| element(&found));
     cnc.answer(call).map(|mut bytes| {
         bytes.truncate(len.max(1));

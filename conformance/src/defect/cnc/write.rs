@@ -4,7 +4,7 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::variable::without_indices;
-use super::{Answer, Right, Row, behind, function, group, is, of_decoder, put_off, row, text};
+use super::{Answer, Row, Upstream, behind, function, group, is, of_decoder, put_off, row, text};
 
 const WRITE: &[Function] =
     &[Function::WriteByHandle, Function::WriteByName, Function::AxisWriteByName];
@@ -12,7 +12,7 @@ const BY_HANDLE: &[Function] = &[Function::WriteByHandle];
 const BY_NAME: &[Function] = &[Function::WriteByName];
 
 /// A write that succeeds if the right one does, and is undone.
-fn undone(cnc: &Right<'_>, call: &Call<'_>, read: u32, key: &[u8]) -> Answer {
+fn undone(cnc: &Upstream<'_>, call: &Call<'_>, read: u32, key: &[u8]) -> Answer {
     let old = cnc.ask(group(call), read, key);
     let done = cnc.answer(call)?;
     if let Ok(old) = old {

@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::unprinted;
 use crate::defect::cnc::{
-    Answer, Right, Row, Twist, class, fits, function, group, is, number, offset, put, row, text,
+    Answer, Row, Twist, Upstream, class, fits, function, group, is, number, offset, put, row, text,
     twisted, u32_at,
 };
 
@@ -25,7 +25,7 @@ fn is_number(call: &Call<'_>) -> bool {
 }
 
 /// Instances of a class that are not there.
-fn without(cnc: &Right<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> Answer {
+fn without(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> Answer {
     match (is(call, FIND), u32_at(call.data, 0), u32_at(call.data, 4)) {
         (true, Some(channel), Some(axis)) if is_absent(group(call) & 0xF000, channel, axis) => {
             cnc.answer(call).map(|_| vec![0; 8])
@@ -44,7 +44,7 @@ fn empty_place(call: &Call<'_>) -> bool {
 }
 
 /// The stride of classes of which none is printed.
-fn strided(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
+fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
     let of = |at: Class| {
         matches!(at, Class::PositionController | Class::Interpolator | Class::PathPreparation)
     };

@@ -4,8 +4,8 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::{
-    Answer, Right, Row, Twist, function, group, is, offset, put, records_mut, row, text, twisted,
-    u32_at, unprinted,
+    Answer, Row, Twist, Upstream, function, group, is, offset, put, records_mut, row, text,
+    twisted, u32_at, unprinted,
 };
 use super::{measured, sent};
 
@@ -18,7 +18,7 @@ const BY_NAME: &[Function] = &[
 ];
 
 /// The request with the case of its name as it is listed, if it is in another.
-fn any_case(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
+fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
     let answer = cnc.answer(call);
     if !is(call, BY_NAME) || answer != Err(AdsError::SYMBOL_NOT_FOUND) {
         return answer;
@@ -44,7 +44,7 @@ fn any_case(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
 }
 
 /// Whether a STRING is written, other than one of the Service Interface.
-fn writes_text(cnc: &Right<'_>, call: &Call<'_>) -> Option<usize> {
+fn writes_text(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<usize> {
     if !is(call, &[Function::WriteByName]) || call.data.starts_with(b"V.G.SERVICE.") {
         return None;
     }
@@ -59,7 +59,7 @@ fn writes_text(cnc: &Right<'_>, call: &Call<'_>) -> Option<usize> {
 }
 
 /// Where an axis is now: it moves a little with each look at it.
-fn moved(cnc: &Right<'_>, answer: Answer) -> Answer {
+fn moved(cnc: &Upstream<'_>, answer: Answer) -> Answer {
     answer.map(|bytes| match bytes.first_chunk::<8>() {
         Some(value) if bytes.len() == 8 => {
             let mut memory = cnc.memory();

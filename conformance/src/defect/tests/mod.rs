@@ -1,5 +1,6 @@
 //! Each of them shows somewhere, and every requirement has one or a reason to have none.
 
+mod fields;
 mod talk;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -39,7 +40,7 @@ fn every_defect_of_a_cnc_shows() {
     let mut hidden = Vec::new();
     for seed in of_kind(&[Kind::Cnc, Kind::Different]) {
         // When bytes come, and in how many pieces, they do not show.
-        if matches!(seed.of_cnc(), Some(Twist::Pieces(_))) || seed.id == "different.slow" {
+        if matches!(seed.how, How::Cnc(Twist::Pieces(_))) || seed.id == "different.slow" {
             continue;
         }
         let right = right.entry(seed.edition).or_insert_with(|| match seed.edition {

@@ -3,14 +3,17 @@
 mod deeds;
 mod further;
 
+use std::sync::Arc;
+
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 
-use super::Seed;
-use crate::cnc::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
+use super::{Faulty, Seed};
+use crate::cnc::{Cnc, DEFAULT_MODEL, Model, NET_ID, Responder as _, Settings};
 
 /// A CNC that is asked, and what it has said: up to the first difference from another.
 pub(super) struct Talk<'t> {
-    cnc: Cnc,
+    faulty: Faulty,
+    cnc: Arc<Cnc>,
     other: Option<&'t [Vec<u8>]>,
     pub(super) said: Vec<Vec<u8>>,
     pub(super) differs: bool,
@@ -22,8 +25,9 @@ impl<'t> Talk<'t> {
         let edition = seed.and_then(|seed| seed.edition);
         let settings = Settings { edition, version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "default", settings).unwrap();
-        let cnc = Cnc::new(model).with_standing_clock().with_defect(seed.cloned());
-        let mut talk = Self { cnc, other, said: Vec::new(), differs: false, count: 0 };
+        let faulty = Faulty::new(Cnc::new(model).with_standing_clock(), seed);
+        let cnc = Arc::clone(faulty.cnc());
+        let mut talk = Self { faulty, cnc, other, said: Vec::new(), differs: false, count: 0 };
         talk.all();
         talk
     }
@@ -53,7 +57,7 @@ impl<'t> Talk<'t> {
         let target = AmsAddr { net_id: NET_ID, port };
         let header = AmsHeader::request(target, client, command, self.count | 0x5000_0000);
         let mut answers = Vec::new();
-        self.cnc.respond(NET_ID, &FrameRef::new(header, data).unwrap(), &mut answers);
+        self.faulty.respond(NET_ID, &FrameRef::new(header, data).unwrap(), &mut answers);
         self.hear(answers.clone());
         answers
     }

@@ -83,9 +83,9 @@ pub(super) fn answers(
     right: Option<&[u64]>,
 ) -> Result<Asked, Trouble> {
     let cnc = device.cnc(seed)?;
-    let session = Session::in_process(Arc::clone(&cnc), mode.gate(&device.allowed))?;
+    let session = Session::in_process(cnc.clone(), mode.gate(&device.allowed))?;
     let (client, _) = session.into_parts();
-    Ok(ask_everything(client, cnc, right))
+    Ok(ask_everything(client, Arc::clone(cnc.cnc()), right))
 }
 
 /// Correct variants, by the place and the digest of the first answer that is another than that of

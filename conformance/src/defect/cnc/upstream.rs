@@ -1,6 +1,5 @@
-//! The CNC that a defect is done around: what it answers rightly, and what is kept in mind of it.
+//! The CNC without the defect, and what a defect keeps in mind of it.
 
-use std::fmt;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -12,9 +11,9 @@ use super::request::{at, group, is, offset};
 use crate::cnc::Cnc;
 
 /// The CNC without the defect, and what the defect has kept in mind.
-pub(crate) struct Right<'a> {
+pub(crate) struct Upstream<'a> {
     pub(super) cnc: &'a Cnc,
-    memory: &'a Mutex<Memory>,
+    pub(super) memory: &'a Mutex<Memory>,
 }
 
 /// An address and a name.
@@ -57,14 +56,10 @@ impl Memory {
     }
 }
 
-impl<'a> Right<'a> {
-    pub(crate) const fn new(cnc: &'a Cnc, memory: &'a Mutex<Memory>) -> Self {
-        Self { cnc, memory }
-    }
-
+impl Upstream<'_> {
     /// The right answer.
     pub(in crate::defect) fn answer(&self, call: &Call<'_>) -> Answer {
-        self.cnc.answer_right(call)
+        self.cnc.answer(call)
     }
 
     /// The right answer at another address.
@@ -129,12 +124,6 @@ impl<'a> Right<'a> {
     }
 }
 
-impl fmt::Debug for Right<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Right")
-    }
-}
-
 /// The request, kept.
 pub(in crate::defect) fn later(call: &Call<'_>) -> Later {
     Later {
@@ -147,7 +136,7 @@ pub(in crate::defect) fn later(call: &Call<'_>) -> Later {
 }
 
 /// Keeps the write for the next one, and does that which was kept before.
-pub(in crate::defect) fn put_off(cnc: &Right<'_>, call: &Call<'_>) -> Answer {
+pub(in crate::defect) fn put_off(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
     let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
     before.iter().for_each(|one| _ = cnc.late(one));
     Ok(Vec::new())
@@ -165,7 +154,7 @@ pub(in crate::defect) fn fits(call: &Call<'_>, answer: Answer) -> Answer {
 
 /// The reply to these functions, made another.
 pub(in crate::defect) fn reply(
-    cnc: &Right<'_>,
+    cnc: &Upstream<'_>,
     call: &Call<'_>,
     of: &[Function],
     other: impl FnOnce(Vec<u8>) -> Vec<u8>,
