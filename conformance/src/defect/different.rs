@@ -11,7 +11,7 @@ use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
     Answer, Row, Twist, Upstream, behind, dimensions, fits, function, group, is, measured, number,
-    offset, put, records_mut, row, text, twisted, u32_at,
+    offset, on, put, records_mut, row, text, twisted, u32_at,
 };
 
 /// A row about something that does not answer as printed.
@@ -68,11 +68,9 @@ pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
     areas.into_iter().flatten()
 }
 
+#[rustfmt::skip]
 const ROWS: &[Row] = &[
-    unprinted(row(
-        "different.names-padded",
-        &[],
-        "names are padded with NULs as far as the field goes",
+    unprinted(row("different.names-padded", &[], "names are padded with NULs as far as the field goes",
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex) => {
                 let answer = cnc.whole(call);
@@ -95,12 +93,8 @@ const ROWS: &[Row] = &[
                 or_short(cnc, call, answer.map(|bytes| padded(bytes, 0, 64)))
             }
             _ => cnc.answer(call),
-        },
-    )),
-    unprinted(row(
-        "different.names-open",
-        &[],
-        "names end with the reply, without a NUL",
+        })),
+    unprinted(row("different.names-open", &[], "names end with the reply, without a NUL",
         |cnc, call| match function(call) {
             Some(Function::DescribeByIndex | Function::DynamicNameByIndex) => {
                 cnc.answer(call).map(|mut bytes| {
@@ -115,34 +109,20 @@ const ROWS: &[Row] = &[
                 })
             }
             _ => cnc.answer(call),
-        },
-    )),
+        })),
     twisted("different.bytes-alone", &[], "every byte is sent by itself", Twist::Pieces(1)),
-    twisted(
-        "different.pieces-of-40",
-        &[],
-        "answers are sent in pieces of 40 bytes",
-        Twist::Pieces(40),
-    ),
-    row("different.error-numbers", &[], "errors have other numbers", |cnc, call| {
-        cnc.answer(call).map_err(|error| AdsError(error.0 ^ 0x9811_0000))
+    twisted("different.pieces-of-40", &[], "answers are sent in pieces of 40 bytes", Twist::Pieces(40)),
+    row("different.error-numbers", &[], "errors have other numbers",
+        |cnc, call| cnc.answer(call).map_err(|error| AdsError(error.0 ^ 0x9811_0000))),
+    row("different.error-one", &[], "every error has the same number",
+        |cnc, call| cnc.answer(call).map_err(|_| AdsError(0x706))),
+    sent("different.errors-without-data", "a reply with an error ends behind the result", |_, _, mut bytes| {
+        if u32_at(&bytes, 38).is_some_and(|result| result != 0) {
+            bytes.truncate(42);
+        }
+        measured(bytes)
     }),
-    row("different.error-one", &[], "every error has the same number", |cnc, call| {
-        cnc.answer(call).map_err(|_| AdsError(0x706))
-    }),
-    sent(
-        "different.errors-without-data",
-        "a reply with an error ends behind the result",
-        |_, _, mut bytes| {
-            if u32_at(&bytes, 38).is_some_and(|result| result != 0) {
-                bytes.truncate(42);
-            }
-            measured(bytes)
-        },
-    ),
-    sent(
-        "different.errors-in-header",
-        "errors stand in the AMS header, and there is no data",
+    sent("different.errors-in-header", "errors stand in the AMS header, and there is no data",
         |_, _, mut bytes| match u32_at(&bytes, 38) {
             Some(error @ 1..) => {
                 put(&mut bytes, 30, error);
@@ -150,15 +130,10 @@ const ROWS: &[Row] = &[
                 measured(bytes)
             }
             _ => bytes,
-        },
-    ),
-    unprinted(row("different.handles", &[], "handles are other numbers", |cnc, call| {
-        handles(cnc, call, |handle| handle ^ 0xC0DE_5A00)
-    })),
-    unprinted(row(
-        "different.variables-reversed",
-        &[],
-        "the variables of a kind are in reverse order",
+        }),
+    unprinted(row("different.handles", &[], "handles are other numbers",
+        |cnc, call| handles(cnc, call, |handle| handle ^ 0xC0DE_5A00))),
+    unprinted(row("different.variables-reversed", &[], "the variables of a kind are in reverse order",
         |cnc, call| match (function(call), u32_at(call.data, 0), call.data.get(4..)) {
             (
                 Some(Function::DescribeByIndex | Function::DescribeExtended),
@@ -171,38 +146,27 @@ const ROWS: &[Row] = &[
                 cnc.with(call, &[&index.to_le_bytes(), kind].concat())
             }
             _ => cnc.answer(call),
-        },
-    )),
-    unprinted(row(
-        "different.objects-reversed",
-        &[],
-        "the objects of COM are in reverse order",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) {
-            true => {
-                let count = cnc.read(call.port, group(call), 0)?;
-                let count = u32_at(&count, 0).unwrap_or_default();
-                let first = offset(call);
-                let last =
-                    first.saturating_add((call.read_length / 84).saturating_sub(1)).min(count);
-                let one = |index: u32| {
-                    let index = count.wrapping_add(1).wrapping_sub(index);
-                    cnc.at(&Call { read_length: 84, ..*call }, group(call), index)
-                };
-                match first > count || call.read_length < 84 {
-                    true => cnc.answer(call),
-                    false => (first..=last)
-                        .map(one)
-                        .collect::<Result<Vec<_>, _>>()
-                        .map(|all| all.concat()),
-                }
+        })),
+    unprinted(on("different.objects-reversed", &[], "the objects of COM are in reverse order",
+        &[Function::ReadDescriptors], |cnc, call| {
+            let count = cnc.read(call.port, group(call), 0)?;
+            let count = u32_at(&count, 0).unwrap_or_default();
+            let first = offset(call);
+            let last =
+                first.saturating_add((call.read_length / 84).saturating_sub(1)).min(count);
+            let one = |index: u32| {
+                let index = count.wrapping_add(1).wrapping_sub(index);
+                cnc.at(&Call { read_length: 84, ..*call }, group(call), index)
+            };
+            match first > count || call.read_length < 84 {
+                true => cnc.answer(call),
+                false => (first..=last)
+                    .map(one)
+                    .collect::<Result<Vec<_>, _>>()
+                    .map(|all| all.concat()),
             }
-            false => cnc.answer(call),
-        },
-    )),
-    row(
-        "different.true-255",
-        &[],
-        "TRUE is 0xFF in write flags, 0xFFFF in descriptors",
+        })),
+    row("different.true-255", &[], "TRUE is 0xFF in write flags, 0xFFFF in descriptors",
         |cnc, call| match function(call) {
             Some(Function::ReadElementWriteFlag) => cnc.answer(call).map(|bytes| {
                 bytes.into_iter().map(|byte| if byte == 0 { 0 } else { 0xFF }).collect()
@@ -216,81 +180,48 @@ const ROWS: &[Row] = &[
                 bytes
             }),
             _ => cnc.answer(call),
-        },
-    ),
-    unprinted(row(
-        "different.length-1-byte",
-        &[],
-        "the length of an element takes 1 byte",
-        |cnc, call| match is(call, &[Function::ReadElementLength]) {
-            true => fits(
-                call,
-                cnc.whole(call).map(|mut bytes| {
-                    bytes.truncate(1);
-                    bytes
-                }),
-            ),
-            false => cnc.answer(call),
-        },
-    )),
-    unprinted(row(
-        "different.length-2-bytes",
-        &[],
-        "the length of an element takes 2 bytes",
-        |cnc, call| match is(call, &[Function::ReadElementLength]) {
-            true => fits(
-                call,
-                cnc.whole(call).map(|mut bytes| {
-                    bytes.truncate(2);
-                    bytes
-                }),
-            ),
-            false => cnc.answer(call),
-        },
-    )),
-    unprinted(row(
-        "different.descriptor-remains",
-        &[],
-        "descriptors carry remains of others: where nothing is assigned, and behind the NULs of texts",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) {
-            true => cnc.answer(call).map(|mut bytes| {
-                for record in records_mut(&mut bytes) {
-                    record.iter_mut().skip(10).take(2).for_each(|byte| *byte = 0xAA);
-                    for field in [20, 52] {
-                        let ended =
-                            record.iter_mut().skip(field).take(32).skip_while(|byte| **byte != 0);
-                        ended.skip(1).for_each(|byte| *byte = b'x');
-                    }
-                }
+        }),
+    unprinted(on("different.length-1-byte", &[], "the length of an element takes 1 byte",
+        &[Function::ReadElementLength], |cnc, call| fits(
+            call,
+            cnc.whole(call).map(|mut bytes| {
+                bytes.truncate(1);
                 bytes
             }),
-            false => cnc.answer(call),
-        },
-    )),
-    row(
-        "different.no-axis-lists",
-        &[],
-        "objects of platform axes are not described by lists of their own",
+        ))),
+    unprinted(on("different.length-2-bytes", &[], "the length of an element takes 2 bytes",
+        &[Function::ReadElementLength], |cnc, call| fits(
+            call,
+            cnc.whole(call).map(|mut bytes| {
+                bytes.truncate(2);
+                bytes
+            }),
+        ))),
+    unprinted(on("different.descriptor-remains", &[],
+        "descriptors carry remains of others: where nothing is assigned, and behind the NULs of texts",
+        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
+            for record in records_mut(&mut bytes) {
+                record.iter_mut().skip(10).take(2).for_each(|byte| *byte = 0xAA);
+                for field in [20, 52] {
+                    let ended =
+                        record.iter_mut().skip(field).take(32).skip_while(|byte| **byte != 0);
+                    ended.skip(1).for_each(|byte| *byte = b'x');
+                }
+            }
+            bytes
+        }))),
+    row("different.no-axis-lists", &[], "objects of platform axes are not described by lists of their own",
         |cnc, call| match group(call) & 0xEF_FF00 {
             0x03_0200 => Err(AdsError::INVALID_GROUP),
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "different.many-exactly",
-        &[],
+        }),
+    on("different.many-exactly", &[],
         "more descriptors than there are left are refused, and so is a length that is no multiple",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) {
-            true => cnc.answer(call).and_then(|bytes| {
-                let len = u32::try_from(bytes.len()).unwrap_or_default();
-                if len == call.read_length { Ok(bytes) } else { Err(AdsError::INVALID_SIZE) }
-            }),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "different.short-writes",
-        &[],
+        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).and_then(|bytes| {
+            let len = u32::try_from(bytes.len()).unwrap_or_default();
+            if len == call.read_length { Ok(bytes) } else { Err(AdsError::INVALID_SIZE) }
+        })),
+    row("different.short-writes", &[],
         "a content is written with fewer bytes than it has: those behind become 0",
         |cnc, call| match (is(call, &[Function::WriteObject]), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
@@ -300,23 +231,17 @@ const ROWS: &[Row] = &[
                 cnc.with(call, &data)
             }
             (_, answer) => answer,
-        },
-    ),
-    row("different.kind-with-nul", &[], "the empty kind takes its NUL", |cnc, call| {
-        match is(call, &[Function::CountVariables]) && call.data.is_empty() {
+        }),
+    row("different.kind-with-nul", &[], "the empty kind takes its NUL",
+        |cnc, call| match is(call, &[Function::CountVariables]) && call.data.is_empty() {
             true => Err(AdsError::INVALID_SIZE),
             false => cnc.answer(call),
-        }
-    }),
-    row(
-        "different.absent-refused",
-        &[],
-        "an instance that is not there is answered with an error",
+        }),
+    row("different.absent-refused", &[], "an instance that is not there is answered with an error",
         |cnc, call| match (is(call, &[Function::FindInstance]), cnc.answer(call)) {
             (true, Ok(bytes)) if bytes.iter().all(|byte| *byte == 0) => {
                 Err(AdsError::SYMBOL_NOT_FOUND)
             }
             (_, answer) => answer,
-        },
-    ),
+        }),
 ];

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::{joined, parts};
 use super::number::count;
 use super::{
-    Row, Upstream, behind, dimensions, fits, function, group, is, of_decoder, offset, reply, row,
-    text, u32_at,
+    Row, Upstream, behind, dimensions, fits, function, group, is, of_decoder, offset, on, reply,
+    row, text, u32_at,
 };
 
 const BY_NAME: &[Function] =
@@ -50,10 +50,9 @@ fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
     cnc.ask(group(call), read, head).unwrap_or_default()
 }
 
+#[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    row(
-        "cnc.var.name-compared-8",
-        &["VAR-9"],
+    row("cnc.var.name-compared-8", &["VAR-9"],
         "names are compared by their first 8 characters if there is none that is the same",
         |cnc, call| match (is(call, BY_NAME), cnc.answer(call)) {
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
@@ -63,26 +62,17 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &[other.as_deref().unwrap_or(name), &[0]].concat())
             }
             (_, answer) => answer,
-        },
-    ),
-    row(
-        "cnc.var.write-low-byte",
-        &["VAR-12", "VAR-13"],
+        }),
+    on("cnc.var.write-low-byte", &["VAR-12", "VAR-13"],
         "of a written value the first byte counts, the others stay",
-        |cnc, call| match is(call, WRITE) {
-            true => {
-                let (at, old) = (value_at(call), old(cnc, call));
-                let mut data = call.data.to_vec();
-                let value = data.iter_mut().skip(at).zip(old).skip(1);
-                value.for_each(|(byte, old)| *byte = old);
-                cnc.with(call, &data)
-            }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-next-element",
-        &["VAR-12"],
+        WRITE, |cnc, call| {
+            let (at, old) = (value_at(call), old(cnc, call));
+            let mut data = call.data.to_vec();
+            let value = data.iter_mut().skip(at).zip(old).skip(1);
+            value.for_each(|(byte, old)| *byte = old);
+            cnc.with(call, &data)
+        }),
+    row("cnc.var.write-next-element", &["VAR-12"],
         "a write of an element by handle writes the element behind it too",
         |cnc, call| match (is(call, WRITE), parts(call.data)) {
             (true, Some((handle, at, value)))
@@ -95,11 +85,8 @@ pub(super) const ROWS: &[Row] = &[
                 done
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-refused-done",
-        &["VAR-12", "VAR-13"],
+        }),
+    row("cnc.var.write-refused-done", &["VAR-12", "VAR-13"],
         "a value of more bytes than the variable has is refused, and its front written",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
@@ -108,11 +95,8 @@ pub(super) const ROWS: &[Row] = &[
                 Err(AdsError::INVALID_SIZE)
             }
             (_, answer) => answer,
-        },
-    ),
-    row(
-        "cnc.var.write-read-only-refused-done",
-        &["VAR-6"],
+        }),
+    row("cnc.var.write-read-only-refused-done", &["VAR-6"],
         "a write of what is READ_ONLY is refused, and its value read from then on",
         |cnc, call| {
             let key = (group(call), 0, text(call.data).to_vec());
@@ -128,75 +112,47 @@ pub(super) const ROWS: &[Row] = &[
                 }
                 _ => cnc.answer(call),
             }
-        },
-    ),
-    row(
-        "cnc.var.text-keeps-rest",
-        &["VAR-12", "VAR-13", "VAR-25"],
+        }),
+    on("cnc.var.text-keeps-rest", &["VAR-12", "VAR-13", "VAR-25"],
         "of a text that is written shorter the old one stays behind it",
-        |cnc, call| match is(call, WRITE) {
-            true => {
-                let (at, old) = (value_at(call), old(cnc, call));
-                let value = call.data.get(at..).unwrap_or_default();
-                let text = text(value);
-                match value.len() == old.len() || text.len() == value.len() {
-                    true => cnc.answer(call),
-                    false => {
-                        let rest = old.get(text.len()..).unwrap_or_default();
-                        let head = call.data.get(..at).unwrap_or_default();
-                        cnc.with(call, &[head, text, rest].concat())
-                    }
+        WRITE, |cnc, call| {
+            let (at, old) = (value_at(call), old(cnc, call));
+            let value = call.data.get(at..).unwrap_or_default();
+            let text = text(value);
+            match value.len() == old.len() || text.len() == value.len() {
+                true => cnc.answer(call),
+                false => {
+                    let rest = old.get(text.len()..).unwrap_or_default();
+                    let head = call.data.get(..at).unwrap_or_default();
+                    cnc.with(call, &[head, text, rest].concat())
                 }
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.extended-swapped",
-        &["VAR-15"],
-        "validity stands before synchronisation",
-        |cnc, call| {
-            reply(cnc, call, &[Function::DescribeExtended], |mut bytes| {
-                if bytes.len() == 8 {
-                    bytes.rotate_left(4);
-                }
-                bytes
-            })
-        },
-    ),
-    row(
-        "cnc.var.description-before",
-        &["VAR-3", "VAR-4"],
-        "a description is that of the request before",
-        |cnc, call| match is(call, &[Function::DescribeByIndex]) {
-            true => {
-                let own = cnc.answer(call)?;
-                let key = (0, 0, b"before".to_vec());
-                let before = cnc.memory().get(&key).unwrap_or_else(|| own.clone());
-                cnc.memory().keep(key, own);
-                fits(call, Ok(before))
+        }),
+    row("cnc.var.extended-swapped", &["VAR-15"], "validity stands before synchronisation",
+        |cnc, call| reply(cnc, call, &[Function::DescribeExtended], |mut bytes| {
+            if bytes.len() == 8 {
+                bytes.rotate_left(4);
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.axis-write-all",
-        &["VAR-26"],
+            bytes
+        })),
+    on("cnc.var.description-before", &["VAR-3", "VAR-4"], "a description is that of the request before",
+        &[Function::DescribeByIndex], |cnc, call| {
+            let own = cnc.answer(call)?;
+            let key = (0, 0, b"before".to_vec());
+            let before = cnc.memory().get(&key).unwrap_or_else(|| own.clone());
+            cnc.memory().keep(key, own);
+            fits(call, Ok(before))
+        }),
+    on("cnc.var.axis-write-all", &["VAR-26"],
         "a write on the axis interface is one to all axes of the channel",
-        |cnc, call| match is(call, &[Function::AxisWriteByName]) {
-            true => {
-                let done = cnc.answer(call);
-                for axis in (1..=3).filter(|_| done.is_ok()) {
-                    let _ = cnc.at(call, group(call), axis << 16 | offset(call) & 0xFFFF);
-                }
-                done
+        &[Function::AxisWriteByName], |cnc, call| {
+            let done = cnc.answer(call);
+            for axis in (1..=3).filter(|_| done.is_ok()) {
+                let _ = cnc.at(call, group(call), axis << 16 | offset(call) & 0xFFFF);
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.axis-name-optional",
-        &["VAR-26"],
+            done
+        }),
+    row("cnc.var.axis-name-optional", &["VAR-26"],
         "on the channel interface a name without its axis is that of the first",
         |cnc, call| match (of_decoder(call), text(call.data)) {
             (Some(at @ (0x46 | 0x48)), name)
@@ -207,29 +163,20 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.at(call, group(call), 0x1_0000 | function)
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.value-cached",
-        &["VAR-13", "VAR-14"],
+        }),
+    on("cnc.var.value-cached", &["VAR-13", "VAR-14"],
         "a value is read by name as it was when it was first read",
-        |cnc, call| match is(call, &[Function::ReadByName]) {
-            true => {
-                let key = (group(call), 1, text(call.data).to_vec());
-                let kept = cnc.memory().get(&key);
-                match kept {
-                    Some(kept) => fits(call, Ok(kept)),
-                    None => cnc.answer(call).inspect(|bytes| {
-                        cnc.memory().keep(key, bytes.clone());
-                    }),
-                }
+        &[Function::ReadByName], |cnc, call| {
+            let key = (group(call), 1, text(call.data).to_vec());
+            let kept = cnc.memory().get(&key);
+            match kept {
+                Some(kept) => fits(call, Ok(kept)),
+                None => cnc.answer(call).inspect(|bytes| {
+                    cnc.memory().keep(key, bytes.clone());
+                }),
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.count-8-bit-of-indices",
-        &["VAR-11", "VAR-24"],
+        }),
+    row("cnc.var.count-8-bit-of-indices", &["VAR-11", "VAR-24"],
         "of the number of indices the lowest byte counts",
         |cnc, call| match (of_decoder(call), u32_at(call.data, 4)) {
             (Some(0x47), Some(count @ 0x100..)) => {
@@ -238,11 +185,8 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &data)
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.structure-index-beyond",
-        &["VAR-20"],
+        }),
+    row("cnc.var.structure-index-beyond", &["VAR-20"],
         "an index within a name that is out of bounds is taken for 0",
         |cnc, call| match (is(call, BY_NAME), cnc.answer(call)) {
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
@@ -254,6 +198,5 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, format!("{head}[0]{tail}\0").as_bytes())
             }
             (_, answer) => answer,
-        },
-    ),
+        }),
 ];

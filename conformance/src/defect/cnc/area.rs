@@ -5,7 +5,7 @@ use ads_cnc::operation::{Call, Function};
 use ads_cnc::text::cp1252_to_char;
 
 use super::{
-    Answer, Row, Upstream, behind, dimensions, fits, function, is, number, put, records, row, text,
+    Answer, Row, Upstream, behind, dimensions, fits, function, number, on, put, records, row, text,
     u32_at,
 };
 
@@ -61,19 +61,12 @@ fn again(text: &[u8], other: fn(&[u8]) -> Vec<u8>, tail: &[u8]) -> Vec<u8> {
     bytes
 }
 
+#[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    row(
-        "cnc.gen.numbers-big-endian",
-        &["GEN-1"],
+    on("cnc.gen.numbers-big-endian", &["GEN-1"],
         "counts and handles are answered with the most significant byte first",
-        |cnc, call| match is(call, NUMBERS) {
-            true => number(cnc.answer(call), 0, u32::swap_bytes),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.gen.reals-big-endian",
-        &["GEN-1"],
+        NUMBERS, |cnc, call| number(cnc.answer(call), 0, u32::swap_bytes)),
+    row("cnc.gen.reals-big-endian", &["GEN-1"],
         "REAL64 of parameters is answered with the most significant byte first",
         |cnc, call| match function(call) {
             Some(Function::DynamicValueByName | Function::DynamicValueByIndex) => {
@@ -83,11 +76,8 @@ pub(super) const ROWS: &[Row] = &[
                 })
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.gen.reals-words-swapped",
-        &["GEN-1"],
+        }),
+    row("cnc.gen.reals-words-swapped", &["GEN-1"],
         "the two halves of a REAL64 of a variable stand in the other order",
         |cnc, call| match function(call) {
             Some(Function::ReadByName | Function::ReadByHandle | Function::AxisReadByName) => {
@@ -98,11 +88,8 @@ pub(super) const ROWS: &[Row] = &[
                 }
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.gen.requests-big-endian",
-        &["GEN-1"],
+        }),
+    row("cnc.gen.requests-big-endian", &["GEN-1"],
         "indices in requests are read with the most significant byte first",
         |cnc, call| match function(call) {
             Some(
@@ -118,43 +105,29 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &data)
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.gen.description-aligned",
-        &["GEN-2"],
-        "the name of a description is aligned to 8 bytes",
-        |cnc, call| match is(call, &[Function::DescribeByIndex]) {
-            true => fits(
-                call,
-                cnc.whole(call).map(|mut bytes| {
-                    let (_, name) = dimensions(&bytes);
-                    if name % 8 != 0 && name <= bytes.len() {
-                        bytes.splice(name..name, [0; 4]);
-                    }
-                    bytes
-                }),
-            ),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.gen.descriptor-access-wide",
-        &["GEN-2"],
-        "write access takes 4 bytes, and all behind it in a descriptor 2 bytes more",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) {
-            true => cnc.answer(call).map(|bytes| {
-                let records = records(&bytes);
-                let wide = |record: &[u8; 84]| {
-                    let (head, tail) = record.split_at(12);
-                    [head, &[0, 0], tail.split_last_chunk::<2>().map_or(tail, |(tail, _)| tail)]
-                        .concat()
-                };
-                records.iter().flat_map(wide).collect()
+        }),
+    on("cnc.gen.description-aligned", &["GEN-2"], "the name of a description is aligned to 8 bytes",
+        &[Function::DescribeByIndex], |cnc, call| fits(
+            call,
+            cnc.whole(call).map(|mut bytes| {
+                let (_, name) = dimensions(&bytes);
+                if name % 8 != 0 && name <= bytes.len() {
+                    bytes.splice(name..name, [0; 4]);
+                }
+                bytes
             }),
-            false => cnc.answer(call),
-        },
-    ),
+        )),
+    on("cnc.gen.descriptor-access-wide", &["GEN-2"],
+        "write access takes 4 bytes, and all behind it in a descriptor 2 bytes more",
+        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|bytes| {
+            let records = records(&bytes);
+            let wide = |record: &[u8; 84]| {
+                let (head, tail) = record.split_at(12);
+                [head, &[0, 0], tail.split_last_chunk::<2>().map_or(tail, |(tail, _)| tail)]
+                    .concat()
+            };
+            records.iter().flat_map(wide).collect()
+        })),
     row("cnc.gen.utf-8", &["GEN-3"], "names are read and answered in UTF-8", |cnc, call| {
         let outwards = |text: &[u8]| {
             let text: String = text.iter().map(|&byte| cp1252_to_char(byte)).collect();
@@ -166,43 +139,29 @@ pub(super) const ROWS: &[Row] = &[
         };
         texts(cnc, call, outwards, inwards)
     }),
-    row(
-        "cnc.gen.ascii",
-        &["GEN-3"],
-        "characters of names beyond ASCII are answered as question marks",
+    row("cnc.gen.ascii", &["GEN-3"], "characters of names beyond ASCII are answered as question marks",
         |cnc, call| {
             let outwards = |text: &[u8]| {
                 text.iter().map(|byte| if byte.is_ascii() { *byte } else { b'?' }).collect()
             };
             texts(cnc, call, outwards, <[u8]>::to_vec)
-        },
-    ),
-    row(
-        "cnc.gen.seven-bits",
-        &["GEN-3"],
+        }),
+    row("cnc.gen.seven-bits", &["GEN-3"],
         "the highest bit of every character of a name in a request is dropped",
-        |cnc, call| {
-            texts(cnc, call, <[u8]>::to_vec, |text| text.iter().map(|&byte| byte & 0x7F).collect())
-        },
-    ),
-    row(
-        "cnc.gen.com-at-sda",
-        &["GEN-4"],
-        "COM is served at the port 552, and not at 553",
+        |cnc, call| texts(cnc, call, <[u8]>::to_vec, |text| text.iter().map(|&byte| byte & 0x7F).collect())),
+    row("cnc.gen.com-at-sda", &["GEN-4"], "COM is served at the port 552, and not at 553",
         |cnc, call| match (call.port, super::com_group(call)) {
             (AmsPort::COM, Some(_)) => Err(AdsError::INVALID_GROUP),
             (AmsPort::SDA, Some(_)) => cnc.answer(&Call { port: AmsPort::COM, ..*call }),
             _ => cnc.answer(call),
-        },
-    ),
-    row("cnc.gen.any-port", &["GEN-4"], "each port answers for all tasks", |cnc, call| {
-        match super::com_group(call) {
+        }),
+    row("cnc.gen.any-port", &["GEN-4"], "each port answers for all tasks",
+        |cnc, call| match super::com_group(call) {
             Some(_) => cnc.answer(&Call { port: AmsPort::COM, ..*call }),
             None => cnc.answer(&Call { port: AmsPort::SDA, ..*call }),
-        }
-    }),
-    row("cnc.gen.boolean-4-bytes", &["GEN-5"], "a BOOLEAN variable takes 4 bytes", |cnc, call| {
-        match function(call) {
+        }),
+    row("cnc.gen.boolean-4-bytes", &["GEN-5"], "a BOOLEAN variable takes 4 bytes",
+        |cnc, call| match function(call) {
             Some(Function::DescribeByIndex | Function::DescribeByName) => {
                 cnc.answer(call).map(|mut bytes| {
                     if u32_at(&bytes, 4) == Some(1) {
@@ -220,6 +179,5 @@ pub(super) const ROWS: &[Row] = &[
                 }
             }
             _ => cnc.answer(call),
-        }
-    }),
+        }),
 ];

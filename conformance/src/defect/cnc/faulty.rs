@@ -9,7 +9,7 @@ use ads_cnc::layout::Stream;
 use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
 use ads_cnc::operation::Call;
 
-use super::{Answer, Memory, Twist, Upstream};
+use super::{Answer, Memory, Twist, Upstream, is};
 use crate::cnc::{Cnc, Model, Responder, respond};
 use crate::defect::{How, Seed};
 use crate::services::{reply_stream, request_stream, service_of};
@@ -92,6 +92,9 @@ impl Responder for Faulty {
     fn answer(&self, call: &Call<'_>) -> Answer {
         match &self.how {
             Some(How::Cnc(Twist::Answer(answer))) => answer(&self.upstream(), call),
+            Some(How::Cnc(Twist::Function(functions, answer))) if is(call, functions) => {
+                answer(&self.upstream(), call)
+            }
             Some(How::Field(_)) => {
                 let spec = call.dispatch().ok().map(|request| request.function().spec());
                 let misread = self.change(spec.and_then(|spec| spec.request), call.data);

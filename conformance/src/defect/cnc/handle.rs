@@ -4,7 +4,7 @@ use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Answer, Row, Upstream, fours, function, group, is, number, of_decoder, offset, put, row, text,
+    Answer, Row, Upstream, fours, function, group, number, of_decoder, offset, on, put, row, text,
     u32_at,
 };
 
@@ -34,31 +34,19 @@ fn told(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Answer {
     }
 }
 
+#[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    row(
-        "cnc.var.handle-not-understood",
-        &["VAR-10"],
+    row("cnc.var.handle-not-understood", &["VAR-10"],
         "the handle by name is another than the one that is understood",
-        |cnc, call| told(cnc, call, |handle| handle ^ 0x5A00_0000),
-    ),
-    row(
-        "cnc.var.handle-16-bit",
-        &["VAR-10"],
-        "the handle by name is the lower 16 bits",
-        |cnc, call| told(cnc, call, |handle| handle & 0xFFFF),
-    ),
-    row("cnc.var.handle-2-bytes", &["VAR-10"], "the handle by name takes 2 bytes", |cnc, call| {
-        match is(call, HANDLE) {
-            true => cnc.answer(call).map(|mut bytes| {
-                bytes.truncate(2);
-                bytes
-            }),
-            false => cnc.answer(call),
-        }
-    }),
-    row(
-        "cnc.var.handle-changes",
-        &["VAR-10"],
+        |cnc, call| told(cnc, call, |handle| handle ^ 0x5A00_0000)),
+    row("cnc.var.handle-16-bit", &["VAR-10"], "the handle by name is the lower 16 bits",
+        |cnc, call| told(cnc, call, |handle| handle & 0xFFFF)),
+    on("cnc.var.handle-2-bytes", &["VAR-10"], "the handle by name takes 2 bytes",
+        HANDLE, |cnc, call| cnc.answer(call).map(|mut bytes| {
+            bytes.truncate(2);
+            bytes
+        })),
+    row("cnc.var.handle-changes", &["VAR-10"],
         "the handle by name is another at each request; all of them are understood",
         |cnc, call| match (function(call), parts(call.data)) {
             (Some(Function::HandleByName), _) => {
@@ -76,12 +64,8 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &joined(handle, &at, value))
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.handle-used-up",
-        &["VAR-10"],
-        "a handle is valid for one read",
+        }),
+    row("cnc.var.handle-used-up", &["VAR-10"], "a handle is valid for one read",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::ReadByHandle), Some(handle)) => {
                 let key = (handle, group(call), b"used".to_vec());
@@ -93,12 +77,8 @@ pub(super) const ROWS: &[Row] = &[
                 answer
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.handle-last-only",
-        &["VAR-10"],
-        "with a new handle by name all others become invalid",
+        }),
+    row("cnc.var.handle-last-only", &["VAR-10"], "with a new handle by name all others become invalid",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::HandleByName), _) => cnc.answer(call).inspect(|bytes| {
                 cnc.memory().count = u32_at(bytes, 0).unwrap_or_default();
@@ -109,11 +89,8 @@ pub(super) const ROWS: &[Row] = &[
                 Err(AdsError::INVALID_DATA)
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.handle-needs-name",
-        &["VAR-10"],
+        }),
+    row("cnc.var.handle-needs-name", &["VAR-10"],
         "the handle of a description is understood only behind a handle by name",
         |cnc, call| match (function(call), u32_at(call.data, 0)) {
             (Some(Function::HandleByName), _) => cnc.answer(call).inspect(|bytes| {
@@ -126,11 +103,8 @@ pub(super) const ROWS: &[Row] = &[
                 Err(AdsError::INVALID_DATA)
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.handle-shared",
-        &["VAR-10"],
+        }),
+    row("cnc.var.handle-shared", &["VAR-10"],
         "the handle by name of every variable of V.G is that of the first asked for",
         |cnc, call| match function(call) {
             Some(Function::HandleByName) if text(call.data).starts_with(b"V.G.") => {
@@ -143,32 +117,15 @@ pub(super) const ROWS: &[Row] = &[
                 }))
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.handle-in-description",
-        &["VAR-4", "VAR-10"],
-        "the handle in a description is the index",
-        |cnc, call| match is(call, &[Function::DescribeByIndex]) {
-            true => cnc.answer(call).map(|mut bytes| {
-                put(&mut bytes, 0, u32_at(call.data, 0).unwrap_or_default());
-                bytes
-            }),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.handle-0-in-description",
-        &["VAR-4"],
-        "the handle in a description is 0",
-        |cnc, call| match is(call, &[Function::DescribeByIndex]) {
-            true => number(cnc.answer(call), 0, |_| 0),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.handle-of-axis",
-        &["VAR-10"],
+        }),
+    on("cnc.var.handle-in-description", &["VAR-4", "VAR-10"], "the handle in a description is the index",
+        &[Function::DescribeByIndex], |cnc, call| cnc.answer(call).map(|mut bytes| {
+            put(&mut bytes, 0, u32_at(call.data, 0).unwrap_or_default());
+            bytes
+        })),
+    on("cnc.var.handle-0-in-description", &["VAR-4"], "the handle in a description is 0",
+        &[Function::DescribeByIndex], |cnc, call| number(cnc.answer(call), 0, |_| 0)),
+    row("cnc.var.handle-of-axis", &["VAR-10"],
         "the handle of an axis variable belongs to the axis, not to its place",
         |cnc, call| {
             // Where an axis is shows by its number; handles count places in their third byte.
@@ -195,16 +152,12 @@ pub(super) const ROWS: &[Row] = &[
                 }
                 _ => cnc.answer(call),
             }
-        },
-    ),
-    row(
-        "cnc.var.by-handle-at-index",
-        &["VAR-10", "VAR-11"],
+        }),
+    row("cnc.var.by-handle-at-index", &["VAR-10", "VAR-11"],
         "reading by handle is at 0x46, the handle by name at 0x47",
         |cnc, call| match of_decoder(call) {
             Some(0x46) => cnc.at(call, group(call), 0x47),
             Some(0x47) => cnc.at(call, group(call), 0x46),
             _ => cnc.at(call, group(call), offset(call)),
-        },
-    ),
+        }),
 ];

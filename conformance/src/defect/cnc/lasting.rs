@@ -6,7 +6,9 @@ use ads_cnc::operation::{Call, Function};
 use super::frame::{INVOKE_ID, LENGTH, RESULT, SOURCE, TARGET, sent, set};
 use super::handle::{joined, parts};
 use super::look::{instance, one, over};
-use super::{Answer, Row, Upstream, fits, frame, function, group, is, offset, row, text, u32_at};
+use super::{
+    Answer, Row, Upstream, fits, frame, function, group, is, offset, on, row, text, u32_at,
+};
 
 const FIND: &[Function] = &[Function::FindInstance];
 const UNIT: &[Function] = &[Function::ReadElementUnit];
@@ -55,25 +57,18 @@ fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
     of_place.then(|| cnc.cnc.axis_at(channel, place) != 0)
 }
 
+#[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    row(
-        "cnc.sda.unit-runs-on",
-        &["SDA-6"],
+    on("cnc.sda.unit-runs-on", &["SDA-6"],
         "a unit that is shorter than the one read before it runs on with the rest of that",
-        |cnc, call| match is(call, UNIT) {
-            true => {
-                let unit = cnc.whole(call)?;
-                let before = cnc.memory().get(&one(1)).unwrap_or_default();
-                let unit = over(text(&unit), &before);
-                cnc.memory().keep(one(1), unit.clone());
-                fits(call, Ok([&unit[..], &[0]].concat()))
-            }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.sda.absent-as-before",
-        &["SDA-2"],
+        UNIT, |cnc, call| {
+            let unit = cnc.whole(call)?;
+            let before = cnc.memory().get(&one(1)).unwrap_or_default();
+            let unit = over(text(&unit), &before);
+            cnc.memory().keep(one(1), unit.clone());
+            fits(call, Ok([&unit[..], &[0]].concat()))
+        }),
+    row("cnc.sda.absent-as-before", &["SDA-2"],
         "an instance that is not there is answered as the one that was found last",
         |cnc, call| {
             let answer = cnc.answer(call)?;
@@ -85,12 +80,8 @@ pub(super) const ROWS: &[Row] = &[
                 }
                 _ => Ok(answer),
             }
-        },
-    ),
-    row(
-        "cnc.sda.blank-remains",
-        &["SDA-11"],
-        "a place that its axis has left reads as it was read last",
+        }),
+    row("cnc.sda.blank-remains", &["SDA-11"], "a place that its axis has left reads as it was read last",
         |cnc, call| match (is(call, &[Function::ReadElement]), occupied(cnc, call)) {
             (true, Some(true)) => {
                 let bytes = cnc.answer(call)?;
@@ -102,85 +93,55 @@ pub(super) const ROWS: &[Row] = &[
                 kept.map_or_else(|| cnc.answer(call), Ok)
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.dyn.count-never-falls",
-        &["DYN-1"],
+        }),
+    on("cnc.dyn.count-never-falls", &["DYN-1"],
         "the number of parameters counts those that were there once and are gone",
-        |cnc, call| match is(call, COUNT) {
-            true => {
-                let now = cnc.answer(call)?;
-                let key = (group(call) & 0xFF, offset(call), Vec::new());
-                let most = cnc.memory().get(&key).filter(|most| u32_at(most, 0) > u32_at(&now, 0));
-                let most = most.unwrap_or(now);
-                cnc.memory().keep(key, most.clone());
-                Ok(most)
-            }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.dyn.index-remembered",
-        &["DYN-4"],
+        COUNT, |cnc, call| {
+            let now = cnc.answer(call)?;
+            let key = (group(call) & 0xFF, offset(call), Vec::new());
+            let most = cnc.memory().get(&key).filter(|most| u32_at(most, 0) > u32_at(&now, 0));
+            let most = most.unwrap_or(now);
+            cnc.memory().keep(key, most.clone());
+            Ok(most)
+        }),
+    on("cnc.dyn.index-remembered", &["DYN-4"],
         "a value by index is that of the parameter which was first read by the index",
-        |cnc, call| match is(call, BY_INDEX) {
-            true => {
-                let key = (group(call) & 0xFF, offset(call), call.data.to_vec());
-                let known = cnc.memory().get(&key);
-                let name = match known {
-                    Some(name) => name,
-                    None => cnc.ask(group(call), offset(call).wrapping_sub(2), call.data)?,
-                };
-                cnc.memory().keep(key, name.clone());
-                let at = offset(call).wrapping_sub(1);
-                cnc.at(&Call { data: &name, ..*call }, group(call), at)
-            }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.dyn.name-after-error",
-        &["DYN-2"],
+        BY_INDEX, |cnc, call| {
+            let key = (group(call) & 0xFF, offset(call), call.data.to_vec());
+            let known = cnc.memory().get(&key);
+            let name = match known {
+                Some(name) => name,
+                None => cnc.ask(group(call), offset(call).wrapping_sub(2), call.data)?,
+            };
+            cnc.memory().keep(key, name.clone());
+            let at = offset(call).wrapping_sub(1);
+            cnc.at(&Call { data: &name, ..*call }, group(call), at)
+        }),
+    on("cnc.dyn.name-after-error", &["DYN-2"],
         "behind an index that was refused the next name is that of the first parameter",
-        |cnc, call| match is(call, NAME) {
-            true => {
-                let answer = cnc.answer(call);
-                let before = std::mem::replace(&mut cnc.memory().count, u32::from(answer.is_err()));
-                match answer {
-                    Ok(_) if before == 1 => cnc.with(call, &[1, 0, 0, 0]),
-                    answer => answer,
-                }
+        NAME, |cnc, call| {
+            let answer = cnc.answer(call);
+            let before = std::mem::replace(&mut cnc.memory().count, u32::from(answer.is_err()));
+            match answer {
+                Ok(_) if before == 1 => cnc.with(call, &[1, 0, 0, 0]),
+                answer => answer,
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.extended-remains",
-        &["VAR-16"],
+        }),
+    on("cnc.var.extended-remains", &["VAR-16"],
         "the extended description of V.G and V.A is the one of V.E that was read before",
-        |cnc, call| match is(call, &[Function::DescribeExtended]) {
-            true => {
-                let bytes = cnc.answer(call)?;
-                if !bytes.is_empty() {
-                    cnc.memory().keep(one(1), bytes.clone());
-                }
-                let kept = cnc.memory().get(&one(1)).unwrap_or_default();
-                fits(call, Ok(kept))
+        &[Function::DescribeExtended], |cnc, call| {
+            let bytes = cnc.answer(call)?;
+            if !bytes.is_empty() {
+                cnc.memory().keep(one(1), bytes.clone());
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.handle-slots",
-        &["VAR-10"],
+            let kept = cnc.memory().get(&one(1)).unwrap_or_default();
+            fits(call, Ok(kept))
+        }),
+    row("cnc.var.handle-slots", &["VAR-10"],
         "16 handles are known at a time: the one after takes the place of the oldest, whose number \
          then stands for its variable",
-        slots,
-    ),
-    row(
-        "cnc.var.handle-channel-of-last",
-        &["VAR-10", "VAR-11"],
+        slots),
+    row("cnc.var.handle-channel-of-last", &["VAR-10", "VAR-11"],
         "a handle is looked for in the channel in which a handle was last asked for",
         |cnc, call| match function(call) {
             Some(Function::HandleByName) => {
@@ -193,11 +154,8 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.at(call, at, offset(call))
             }
             _ => cnc.answer(call),
-        },
-    ),
-    sent(
-        "cnc.ads.target-of-first",
-        &["ADS-5"],
+        }),
+    sent("cnc.ads.target-of-first", &["ADS-5"],
         "the target of every response is the address that asked first",
         |cnc, _, bytes| {
             let source = bytes.get(TARGET..SOURCE).unwrap_or_default().to_vec();
@@ -207,22 +165,16 @@ pub(super) const ROWS: &[Row] = &[
             }
             let first = memory.frame.clone();
             set(bytes, TARGET, &first)
-        },
-    ),
-    sent(
-        "cnc.ads.source-port-of-before",
-        &["ADS-5"],
+        }),
+    sent("cnc.ads.source-port-of-before", &["ADS-5"],
         "the source port of a response is the port that the request before was for",
         |cnc, request, bytes| {
             let port = u32::from(request.header().target.port.0);
             let before = std::mem::replace(&mut cnc.memory().count, port);
             let port = u16::try_from(if before == 0 { port } else { before }).unwrap_or_default();
             set(bytes, SOURCE.wrapping_add(6), &port.to_le_bytes())
-        },
-    ),
-    sent(
-        "cnc.ads.result-stays",
-        &["ADS-2", "ADS-4"],
+        }),
+    sent("cnc.ads.result-stays", &["ADS-2", "ADS-4"],
         "the first Write behind a refusal has the result of that, and is done",
         |cnc, request, bytes| {
             let result = u32_at(&bytes, RESULT).unwrap_or_default();
@@ -237,20 +189,13 @@ pub(super) const ROWS: &[Row] = &[
                     bytes
                 }
             }
-        },
-    ),
-    sent(
-        "cnc.ads.refused-invoke-id-0",
-        &["ADS-5"],
-        "a refusal has the invoke ID 0",
+        }),
+    sent("cnc.ads.refused-invoke-id-0", &["ADS-5"], "a refusal has the invoke ID 0",
         |_, _, bytes| match u32_at(&bytes, RESULT) {
             Some(1..) => set(bytes, INVOKE_ID, &[0; 4]),
             _ => bytes,
-        },
-    ),
-    sent(
-        "cnc.ads.refused-data-length",
-        &["ADS-5"],
+        }),
+    sent("cnc.ads.refused-data-length", &["ADS-5"],
         "the data length of a refused Read or ReadWrite counts the result alone, and not the length \
          behind it",
         |_, request, bytes| match u32_at(&bytes, RESULT) {
@@ -258,30 +203,20 @@ pub(super) const ROWS: &[Row] = &[
                 set(bytes, frame::DATA_LENGTH, &[4, 0, 0, 0])
             }
             _ => bytes,
-        },
-    ),
-    row(
-        "cnc.ads.read-length-16-bit-wide",
-        &["ADS-1", "ADS-3", "ADS-4"],
+        }),
+    row("cnc.ads.read-length-16-bit-wide", &["ADS-1", "ADS-3", "ADS-4"],
         "of the read length the lower 16 bits count: 0x10002 is 2",
-        |cnc, call| cnc.answer(&Call { read_length: call.read_length & 0xFFFF, ..*call }),
-    ),
-    row(
-        "cnc.dyn.count-8-bytes",
-        &["DYN-1"],
+        |cnc, call| cnc.answer(&Call { read_length: call.read_length & 0xFFFF, ..*call })),
+    row("cnc.dyn.count-8-bytes", &["DYN-1"],
         "the number of parameters takes 8 bytes where a Read has room for them",
         |cnc, call| match is(call, COUNT) && call.read_length >= 8 {
             true => cnc.answer(call).map(|bytes| [&bytes[..], &[0; 4]].concat()),
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.sda.found-not-read",
-        &["SDA-5", "ADR-7"],
+        }),
+    row("cnc.sda.found-not-read", &["SDA-5", "ADR-7"],
         "of the position controller three axes are read, though all of them are found",
         |cnc, call| match group(call) & 0xFF_FFFF {
             0x12_0300..=0x12_08FF if offset(call) >= 0x4_0000 => Err(AdsError::INVALID_OFFSET),
             _ => cnc.answer(call),
-        },
-    ),
+        }),
 ];

@@ -50,7 +50,7 @@ pub(in crate::defect) use crate::values::until_nul as text;
 pub(in crate::defect) use frame::measured;
 
 use ads_cnc::ads::{AdsError, FrameRef};
-use ads_cnc::operation::Call;
+use ads_cnc::operation::{Call, Function};
 
 use crate::cnc::program::Policy;
 use crate::edition::Edition;
@@ -63,6 +63,8 @@ pub(super) type Answer = Result<Vec<u8>, AdsError>;
 pub(crate) enum Twist {
     /// Around each request.
     Answer(fn(&Upstream<'_>, &Call<'_>) -> Answer),
+    /// Around each request for one of these functions.
+    Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> Answer),
     /// After each frame that answers one: what is sent instead.
     Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
     /// Bytes leave in pieces of so many at most.
@@ -93,6 +95,17 @@ pub(super) const fn row(
     answer: fn(&Upstream<'_>, &Call<'_>) -> Answer,
 ) -> Row {
     twisted(id, breaks, what, Twist::Answer(answer))
+}
+
+/// A row about requests for functions.
+pub(super) const fn on(
+    id: &'static str,
+    breaks: &'static [&'static str],
+    what: &'static str,
+    functions: &'static [Function],
+    answer: fn(&Upstream<'_>, &Call<'_>) -> Answer,
+) -> Row {
+    twisted(id, breaks, what, Twist::Function(functions, answer))
 }
 
 /// A row about something else.

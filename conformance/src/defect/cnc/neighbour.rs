@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::{joined, parts};
 use super::look::{described, indexed, instance, is_string, name_of, with_indices};
 use super::{
-    Answer, LOGICAL, Row, Upstream, behind, dimensions, function, group, is, number, offset, put,
-    records_mut, reply, row, text, u32_at,
+    Answer, LOGICAL, Row, Upstream, behind, dimensions, function, group, is, number, offset, on,
+    put, records_mut, reply, row, text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
@@ -53,19 +53,15 @@ fn behind_kind(cnc: &Upstream<'_>, call: &Call<'_>, at: u32, index: u32) -> Answ
     )
 }
 
+#[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    row(
-        "cnc.adr.spindle-written-first",
-        &["ADR-2"],
+    row("cnc.adr.spindle-written-first", &["ADR-2"],
         "what is written to the second spindle is written to the first",
         |cnc, call| match (is(call, WRITE), group(call)) {
             (true, 0x02_5301..=0x02_53FF) => cnc.at(call, 0x02_5300, offset(call)),
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.adr.attributes-of-channel",
-        &["ADR-6", "ADR-7"],
+        }),
+    row("cnc.adr.attributes-of-channel", &["ADR-6", "ADR-7"],
         "type, length and unit of an axis's element are those of the channel's with the same number",
         |cnc, call| match is(
             call,
@@ -74,58 +70,39 @@ pub(super) const ROWS: &[Row] = &[
         {
             true => cnc.at(call, group(call), offset(call) & 0xFFFF).or_else(|_| cnc.answer(call)),
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.com.many-access-stays",
-        &["COM-2", "COM-3"],
+        }),
+    row("cnc.com.many-access-stays", &["COM-2", "COM-3"],
         "of several descriptors those behind one with write access have it too",
-        |cnc, call| {
-            reply(cnc, call, DESCRIPTORS, |mut bytes| {
-                let mut writable = false;
+        |cnc, call| reply(cnc, call, DESCRIPTORS, |mut bytes| {
+            let mut writable = false;
+            for record in records_mut(&mut bytes) {
+                writable |= record.get(8) == Some(&1);
+                record.iter_mut().skip(8).take(1).for_each(|byte| *byte = u8::from(writable));
+            }
+            bytes
+        })),
+    row("cnc.com.many-types-run-on", &["COM-2", "COM-3"],
+        "of several descriptors a type shorter than the one before runs on with the rest of that",
+        |cnc, call| reply(cnc, call, DESCRIPTORS, |bytes| {
+            let mut records = super::records(&bytes);
+            run_on(&mut records, 52);
+            records.concat()
+        })),
+    on("cnc.com.id-of-first-place", &["COM-2"],
+        "objects of the same name have the same ID, whichever place of the channel has them",
+        DESCRIPTORS, |cnc, call| {
+            let first = Call { read_length: 84 * 512, ..*call };
+            let all = super::records(&cnc.at(&first, group(call), 1)?);
+            cnc.answer(call).map(|mut bytes| {
                 for record in records_mut(&mut bytes) {
-                    writable |= record.get(8) == Some(&1);
-                    record.iter_mut().skip(8).take(1).for_each(|byte| *byte = u8::from(writable));
+                    let same = all.iter().find(|other| other.get(20..52) == record.get(20..52));
+                    let id = same.and_then(|other| u32_at(other, 0)).unwrap_or_default();
+                    put(record, 0, id);
                 }
                 bytes
             })
-        },
-    ),
-    row(
-        "cnc.com.many-types-run-on",
-        &["COM-2", "COM-3"],
-        "of several descriptors a type shorter than the one before runs on with the rest of that",
-        |cnc, call| {
-            reply(cnc, call, DESCRIPTORS, |bytes| {
-                let mut records = super::records(&bytes);
-                run_on(&mut records, 52);
-                records.concat()
-            })
-        },
-    ),
-    row(
-        "cnc.com.id-of-first-place",
-        &["COM-2"],
-        "objects of the same name have the same ID, whichever place of the channel has them",
-        |cnc, call| match is(call, DESCRIPTORS) {
-            true => {
-                let first = Call { read_length: 84 * 512, ..*call };
-                let all = super::records(&cnc.at(&first, group(call), 1)?);
-                cnc.answer(call).map(|mut bytes| {
-                    for record in records_mut(&mut bytes) {
-                        let same = all.iter().find(|other| other.get(20..52) == record.get(20..52));
-                        let id = same.and_then(|other| u32_at(other, 0)).unwrap_or_default();
-                        put(record, 0, id);
-                    }
-                    bytes
-                })
-            }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.com.write-first-channel-too",
-        &["COM-5"],
+        }),
+    row("cnc.com.write-first-channel-too", &["COM-5"],
         "what is written to an object of channel 2 is written to that of channel 1 too",
         |cnc, call| {
             let done = cnc.answer(call);
@@ -136,31 +113,21 @@ pub(super) const ROWS: &[Row] = &[
                 let _ = cnc.at(call, 0x12_0101, offset(call));
             }
             done
-        },
-    ),
-    row(
-        "cnc.sda.count-writable",
-        &["SDA-4"],
-        "the number of elements counts those with write access",
-        |cnc, call| match is(call, &[Function::CountElements]) {
-            true => {
-                let count = u32_at(&cnc.answer(call)?, 0).unwrap_or_default();
-                let flag = |element: &u32| {
-                    let at = offset(call).wrapping_add(*element);
-                    cnc.read(call.port, group(call) | 0x500, at).is_ok_and(|flag| flag == [1])
-                };
-                let writable = (1..=count).filter(flag).count();
-                number(cnc.answer(call), 0, |_| 0).map(|mut bytes| {
-                    put(&mut bytes, 0, u32::try_from(writable).unwrap_or_default());
-                    bytes
-                })
-            }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.dyn.index-into-next-kind",
-        &["DYN-5"],
+        }),
+    on("cnc.sda.count-writable", &["SDA-4"], "the number of elements counts those with write access",
+        &[Function::CountElements], |cnc, call| {
+            let count = u32_at(&cnc.answer(call)?, 0).unwrap_or_default();
+            let flag = |element: &u32| {
+                let at = offset(call).wrapping_add(*element);
+                cnc.read(call.port, group(call) | 0x500, at).is_ok_and(|flag| flag == [1])
+            };
+            let writable = (1..=count).filter(flag).count();
+            number(cnc.answer(call), 0, |_| 0).map(|mut bytes| {
+                put(&mut bytes, 0, u32::try_from(writable).unwrap_or_default());
+                bytes
+            })
+        }),
+    row("cnc.dyn.index-into-next-kind", &["DYN-5"],
         "behind the last index of a kind names and values of the next kind follow",
         |cnc, call| {
             let kinds = [Function::DynamicNameByIndex, Function::DynamicValueByIndex];
@@ -170,37 +137,22 @@ pub(super) const ROWS: &[Row] = &[
                 }
                 (_, answer, _) => answer,
             }
-        },
-    ),
-    row(
-        "cnc.dyn.names-sorted",
-        &["DYN-4", "DYN-2"],
+        }),
+    on("cnc.dyn.names-sorted", &["DYN-4", "DYN-2"],
         "names by index are sorted by the alphabet, values by index are not",
-        |cnc, call| match is(call, &[Function::DynamicNameByIndex]) {
-            true => {
-                cnc.answer(call)?;
-                let all = (1_u32..).map_while(|index| cnc.with(call, &index.to_le_bytes()).ok());
-                let mut all: Vec<Vec<u8>> = all.collect();
-                all.sort();
-                let place = u32_at(call.data, 0).and_then(|index| usize::try_from(index).ok());
-                let place = place.and_then(|place| place.checked_sub(1)).unwrap_or_default();
-                super::fits(call, all.get(place).cloned().ok_or(AdsError::INVALID_DATA))
-            }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-element-4-bytes",
-        &["VAR-13"],
+        &[Function::DynamicNameByIndex], |cnc, call| {
+            cnc.answer(call)?;
+            let all = (1_u32..).map_while(|index| cnc.with(call, &index.to_le_bytes()).ok());
+            let mut all: Vec<Vec<u8>> = all.collect();
+            all.sort();
+            let place = u32_at(call.data, 0).and_then(|index| usize::try_from(index).ok());
+            let place = place.and_then(|place| place.checked_sub(1)).unwrap_or_default();
+            super::fits(call, all.get(place).cloned().ok_or(AdsError::INVALID_DATA))
+        }),
+    on("cnc.var.write-element-4-bytes", &["VAR-13"],
         "an element of one byte is written by name as 4 bytes: the three behind it become 0",
-        |cnc, call| match is(call, &[Function::WriteByName]) {
-            true => zero_behind(cnc, call),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.row-beyond",
-        &["VAR-11", "VAR-4"],
+        &[Function::WriteByName], |cnc, call| zero_behind(cnc, call)),
+    row("cnc.var.row-beyond", &["VAR-11", "VAR-4"],
         "an index behind the end of a row, by handle, goes on in the next row",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
             (true, Some((handle, indices, _))) if indices.len() == 2 => {
@@ -221,11 +173,8 @@ pub(super) const ROWS: &[Row] = &[
                 }
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.strings-127-apart",
-        &["VAR-11", "VAR-14"],
+        }),
+    row("cnc.var.strings-127-apart", &["VAR-11", "VAR-14"],
         "elements of an array of STRING, by handle, are a byte less apart than they are long",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
             (true, Some((handle, indices, _))) if indices.len() == 1 => {
@@ -242,11 +191,8 @@ pub(super) const ROWS: &[Row] = &[
                 }
             }
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.count-of-axes",
-        &["VAR-2"],
+        }),
+    row("cnc.var.count-of-axes", &["VAR-2"],
         "the number of V.A counts each variable once, and its descriptions come for each axis",
         |cnc, call| match is(call, &[Function::CountVariables]) && text(call.data) == b"V.A" {
             true => {
@@ -267,12 +213,8 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.answer(call).map(|_| count.to_le_bytes().to_vec())
             }
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.sum-with-cycle",
-        &["VAR-1"],
-        "the sum of all kinds counts V.CYC too",
+        }),
+    row("cnc.var.sum-with-cycle", &["VAR-1"], "the sum of all kinds counts V.CYC too",
         |cnc, call| match is(call, &[Function::CountVariables]) && text(call.data).is_empty() {
             true => {
                 let names = [&b"V.CYC.count\0"[..], b"V.CYC.matrix\0"];
@@ -285,27 +227,18 @@ pub(super) const ROWS: &[Row] = &[
                 })
             }
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.stm.room-of-all",
-        &["STM-3"],
+        }),
+    on("cnc.stm.room-of-all", &["STM-3"],
         "what the interfaces of all channels hold counts against the 4094 bytes of each",
-        |cnc, call| match is(call, STREAM) {
-            true => {
-                let held = |channel: u8| cnc.cnc.with_program(channel, |program| program.held());
-                let held: usize = cnc.channels().into_iter().filter_map(|one| held(one).ok()).sum();
-                match held.saturating_add(call.data.len()) > 4094 {
-                    true => Err(AdsError::INVALID_DATA),
-                    false => cnc.answer(call),
-                }
+        STREAM, |cnc, call| {
+            let held = |channel: u8| cnc.cnc.with_program(channel, |program| program.held());
+            let held: usize = cnc.channels().into_iter().filter_map(|one| held(one).ok()).sum();
+            match held.saturating_add(call.data.len()) > 4094 {
+                true => Err(AdsError::INVALID_DATA),
+                false => cnc.answer(call),
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.axis-two-copies",
-        &["VAR-26"],
+        }),
+    row("cnc.var.axis-two-copies", &["VAR-26"],
         "what is written on the axis interface is read there, and not on the channel interface",
         |cnc, call| {
             let key = (group(call) & 0xFF, offset(call) >> 16, text(call.data).to_vec());
@@ -324,6 +257,5 @@ pub(super) const ROWS: &[Row] = &[
                 }
                 _ => cnc.answer(call),
             }
-        },
-    ),
+        }),
 ];

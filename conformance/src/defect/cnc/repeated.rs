@@ -6,7 +6,7 @@ use ads_cnc::service::ServiceVariable;
 
 use super::look::{handle_of, instance, object_is, one, over};
 use super::service::{reads, writes};
-use super::{Answer, Row, Upstream, behind, function, group, is, offset, row, text, u32_at};
+use super::{Answer, Row, Upstream, behind, function, group, is, offset, on, row, text, u32_at};
 
 const BY_NAME: &[Function] = &[Function::WriteByName];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
@@ -47,10 +47,9 @@ fn lines(packet: &[u8]) -> impl Iterator<Item = &[u8]> {
     packet.split_inclusive(|byte| *byte == b'\n')
 }
 
+#[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    row(
-        "cnc.com.string-runs-on",
-        &["COM-5"],
+    row("cnc.com.string-runs-on", &["COM-5"],
         "a STRING that is written over a longer one runs on with the rest of that",
         |cnc, call| match is(call, &[Function::WriteObject]) && object_is(cnc, call, b"STRING") {
             true => {
@@ -59,11 +58,8 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &[&new[..], &[0]].concat())
             }
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.com.refused-write-done",
-        &["COM-5"],
+        }),
+    row("cnc.com.refused-write-done", &["COM-5"],
         "a write of fewer bytes than a content has is refused, and those bytes are written",
         |cnc, call| match (is(call, &[Function::WriteObject]), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
@@ -74,28 +70,19 @@ pub(super) const ROWS: &[Row] = &[
                 Err(AdsError::INVALID_SIZE)
             }
             (_, answer) => answer,
-        },
-    ),
-    row(
-        "cnc.sda.written-once",
-        &["SDA-9"],
+        }),
+    on("cnc.sda.written-once", &["SDA-9"],
         "an element is written once: from then on it is refused, whatever its flag says",
-        |cnc, call| match is(call, &[Function::WriteElement]) {
-            true => {
-                let key = (group(call), offset(call), Vec::new());
-                if cnc.memory().get(&key).is_some() {
-                    return Err(AdsError::INVALID_ACCESS);
-                }
-                let done = cnc.answer(call)?;
-                cnc.memory().keep(key, Vec::new());
-                Ok(done)
+        &[Function::WriteElement], |cnc, call| {
+            let key = (group(call), offset(call), Vec::new());
+            if cnc.memory().get(&key).is_some() {
+                return Err(AdsError::INVALID_ACCESS);
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.sda.blank-written",
-        &["SDA-11"],
+            let done = cnc.answer(call)?;
+            cnc.memory().keep(key, Vec::new());
+            Ok(done)
+        }),
+    row("cnc.sda.blank-written", &["SDA-11"],
         "what is written at a place without an axis is taken and read there",
         |cnc, call| {
             let key = (group(call), offset(call), Vec::new());
@@ -112,59 +99,38 @@ pub(super) const ROWS: &[Row] = &[
                 }
                 (_, answer) => answer,
             }
-        },
-    ),
-    row(
-        "cnc.var.write-after-error",
-        &["VAR-13"],
+        }),
+    on("cnc.var.write-after-error", &["VAR-13"],
         "the first write by name behind one that was refused succeeds and changes nothing",
-        |cnc, call| match is(call, BY_NAME) {
-            true => {
-                if std::mem::take(&mut cnc.memory().count) == 1 {
-                    return Ok(Vec::new());
-                }
-                let done = cnc.answer(call);
-                cnc.memory().count = u32::from(done.is_err());
-                done
+        BY_NAME, |cnc, call| {
+            if std::mem::take(&mut cnc.memory().count) == 1 {
+                return Ok(Vec::new());
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.stm.same-ignored",
-        &["STM-4", "STM-15"],
+            let done = cnc.answer(call);
+            cnc.memory().count = u32::from(done.is_err());
+            done
+        }),
+    on("cnc.stm.same-ignored", &["STM-4", "STM-15"],
         "a packet that is the same as the one before is taken for its repetition and ignored",
-        |cnc, call| match is(call, STREAM) {
-            true => {
-                if cnc.memory().get(&one(instance(call))).as_deref() == Some(call.data) {
-                    return Ok(Vec::new());
-                }
-                let done = cnc.answer(call)?;
-                cnc.memory().keep(one(instance(call)), call.data.to_vec());
-                Ok(done)
+        STREAM, |cnc, call| {
+            if cnc.memory().get(&one(instance(call))).as_deref() == Some(call.data) {
+                return Ok(Vec::new());
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.stm.again-lost",
-        &["STM-6"],
+            let done = cnc.answer(call)?;
+            cnc.memory().keep(one(instance(call)), call.data.to_vec());
+            Ok(done)
+        }),
+    on("cnc.stm.again-lost", &["STM-6"],
         "the first write behind one that was refused for now is acknowledged and lost",
-        |cnc, call| match is(call, STREAM) {
-            true => {
-                if std::mem::take(&mut cnc.memory().count) == 1 {
-                    return Ok(Vec::new());
-                }
-                let done = cnc.answer(call);
-                cnc.memory().count = u32::from(done == Err(AdsError::INVALID_DATA));
-                done
+        STREAM, |cnc, call| {
+            if std::mem::take(&mut cnc.memory().count) == 1 {
+                return Ok(Vec::new());
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.stm.full-in-part",
-        &["STM-6"],
+            let done = cnc.answer(call);
+            cnc.memory().count = u32::from(done == Err(AdsError::INVALID_DATA));
+            done
+        }),
+    row("cnc.stm.full-in-part", &["STM-6"],
         "of a write that there is no room for the first line is taken, and the whole is refused",
         |cnc, call| match (is(call, STREAM), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_DATA)) => {
@@ -172,28 +138,19 @@ pub(super) const ROWS: &[Row] = &[
                 Err(AdsError::INVALID_DATA)
             }
             (_, answer) => answer,
-        },
-    ),
-    row(
-        "cnc.stm.behind-end-lost",
-        &["STM-10"],
+        }),
+    on("cnc.stm.behind-end-lost", &["STM-10"],
         "the packet that is written behind one with a program end is acknowledged and lost",
-        |cnc, call| match is(call, STREAM) {
-            true => {
-                if std::mem::take(&mut cnc.memory().count) == 1 {
-                    return Ok(Vec::new());
-                }
-                let done = cnc.answer(call)?;
-                let ends = call.data.windows(3).any(|part| part == b"M30");
-                cnc.memory().count = u32::from(ends);
-                Ok(done)
+        STREAM, |cnc, call| {
+            if std::mem::take(&mut cnc.memory().count) == 1 {
+                return Ok(Vec::new());
             }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.svc.resets-once",
-        &["SVC-3"],
+            let done = cnc.answer(call)?;
+            let ends = call.data.windows(3).any(|part| part == b"M30");
+            cnc.memory().count = u32::from(ends);
+            Ok(done)
+        }),
+    row("cnc.svc.resets-once", &["SVC-3"],
         "the first write of REQUEST_STATE in a channel sets RESPONSE_STATE to 0, no other does",
         |cnc, call| match writes(call, REQUEST_STATE) {
             true => {
@@ -221,11 +178,8 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.answer(call)
             }
             false => stays(cnc, call, false),
-        },
-    ),
-    row(
-        "cnc.svc.response-runs-on",
-        &["SVC-1", "SVC-5"],
+        }),
+    row("cnc.svc.response-runs-on", &["SVC-1", "SVC-5"],
         "a RESPONSE that is shorter than the one before runs on with the rest of that",
         |cnc, call| match writes(call, RESPONSE) {
             true => {
@@ -234,11 +188,8 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &[RESPONSE.as_bytes(), &[0], &new, &[0]].concat())
             }
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.svc.finished-everywhere",
-        &["SVC-4", "SVC-1"],
+        }),
+    row("cnc.svc.finished-everywhere", &["SVC-4", "SVC-1"],
         "an answer in one channel ends the requests of all: their REQUEST_STATE becomes 0",
         |cnc, call| {
             let done = cnc.answer(call)?;
@@ -254,18 +205,13 @@ pub(super) const ROWS: &[Row] = &[
                 }
             }
             Ok(done)
-        },
-    ),
-    row(
-        "cnc.svc.request-by-handle-20",
-        &["SVC-1"],
-        "REQUEST is read by its handle up to its 20th character",
+        }),
+    row("cnc.svc.request-by-handle-20", &["SVC-1"], "REQUEST is read by its handle up to its 20th character",
         |cnc, call| match by_handle(cnc, call, Function::ReadByHandle, REQUEST) {
             true => cnc.answer(call).map(|mut bytes| {
                 bytes.iter_mut().skip(20).for_each(|byte| *byte = 0);
                 bytes
             }),
             false => cnc.answer(call),
-        },
-    ),
+        }),
 ];

@@ -4,7 +4,9 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::variable::without_indices;
-use super::{Answer, Row, Upstream, behind, function, group, is, of_decoder, put_off, row, text};
+use super::{
+    Answer, Row, Upstream, behind, function, group, is, of_decoder, on, put_off, row, text,
+};
 
 const WRITE: &[Function] =
     &[Function::WriteByHandle, Function::WriteByName, Function::AxisWriteByName];
@@ -23,87 +25,46 @@ fn undone(cnc: &Upstream<'_>, call: &Call<'_>, read: u32, key: &[u8]) -> Answer 
     Ok(done)
 }
 
+#[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    row(
-        "cnc.var.write-by-handle-ignored",
-        &["VAR-12"],
-        "a write by handle succeeds and changes nothing",
-        |cnc, call| match is(call, BY_HANDLE) {
-            true => {
-                let count = super::u32_at(call.data, 4).and_then(|n| usize::try_from(n).ok());
-                let head = count.unwrap_or_default().saturating_mul(4).saturating_add(8);
-                undone(cnc, call, 0x47, call.data.get(..head).unwrap_or_default())
-            }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-by-name-ignored",
-        &["VAR-13"],
-        "a write by name succeeds and changes nothing",
-        |cnc, call| match is(call, BY_NAME) {
-            true => undone(cnc, call, 0x48, &[text(call.data), &[0]].concat()),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-late",
-        &["VAR-12", "VAR-13"],
-        "a write takes effect with the next one",
-        |cnc, call| match is(call, WRITE) {
-            true => put_off(cnc, call),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-by-handle-refused",
-        &["VAR-12"],
-        "writes by handle are refused",
-        |cnc, call| match is(call, BY_HANDLE) {
-            true => Err(AdsError::INVALID_ACCESS),
-            false => cnc.answer(call),
-        },
-    ),
-    row("cnc.var.write-by-name-refused", &["VAR-13"], "writes by name are refused", |cnc, call| {
-        match is(call, BY_NAME) {
-            true => Err(AdsError::INVALID_ACCESS),
-            false => cnc.answer(call),
-        }
-    }),
-    row(
-        "cnc.var.write-read-only-accepted",
-        &["VAR-6"],
+    on("cnc.var.write-by-handle-ignored", &["VAR-12"], "a write by handle succeeds and changes nothing",
+        BY_HANDLE, |cnc, call| {
+            let count = super::u32_at(call.data, 4).and_then(|n| usize::try_from(n).ok());
+            let head = count.unwrap_or_default().saturating_mul(4).saturating_add(8);
+            undone(cnc, call, 0x47, call.data.get(..head).unwrap_or_default())
+        }),
+    on("cnc.var.write-by-name-ignored", &["VAR-13"], "a write by name succeeds and changes nothing",
+        BY_NAME, |cnc, call| undone(cnc, call, 0x48, &[text(call.data), &[0]].concat())),
+    on("cnc.var.write-late", &["VAR-12", "VAR-13"], "a write takes effect with the next one",
+        WRITE, |cnc, call| put_off(cnc, call)),
+    on("cnc.var.write-by-handle-refused", &["VAR-12"], "writes by handle are refused",
+        BY_HANDLE, |_, _| Err(AdsError::INVALID_ACCESS)),
+    on("cnc.var.write-by-name-refused", &["VAR-13"], "writes by name are refused",
+        BY_NAME, |_, _| Err(AdsError::INVALID_ACCESS)),
+    row("cnc.var.write-read-only-accepted", &["VAR-6"],
         "a write of what is READ_ONLY succeeds, and changes nothing",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
             (_, answer) => answer,
-        },
-    ),
-    row(
-        "cnc.var.write-read-only-done",
-        &["VAR-6"],
-        "what is READ_ONLY is written by name",
-        |cnc, call| {
-            let key = (group(call), 0, text(call.data).to_vec());
-            match function(call) {
-                Some(Function::WriteByName) => match cnc.answer(call) {
-                    Err(AdsError::INVALID_ACCESS) => {
-                        cnc.memory().keep(key, behind(call.data).to_vec());
-                        Ok(Vec::new())
-                    }
-                    answer => answer,
-                },
-                Some(Function::ReadByName) => {
-                    let kept = cnc.memory().get(&key);
-                    kept.map_or_else(|| cnc.answer(call), Ok)
+        }),
+    row("cnc.var.write-read-only-done", &["VAR-6"], "what is READ_ONLY is written by name", |cnc, call| {
+        let key = (group(call), 0, text(call.data).to_vec());
+        match function(call) {
+            Some(Function::WriteByName) => match cnc.answer(call) {
+                Err(AdsError::INVALID_ACCESS) => {
+                    cnc.memory().keep(key, behind(call.data).to_vec());
+                    Ok(Vec::new())
                 }
-                _ => cnc.answer(call),
+                answer => answer,
+            },
+            Some(Function::ReadByName) => {
+                let kept = cnc.memory().get(&key);
+                kept.map_or_else(|| cnc.answer(call), Ok)
             }
-        },
-    ),
-    row(
-        "cnc.var.write-long-accepted",
-        &["VAR-12", "VAR-13"],
+            _ => cnc.answer(call),
+        }
+    }),
+    row("cnc.var.write-long-accepted", &["VAR-12", "VAR-13"],
         "a value of more bytes than the variable has is cut and written",
         |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
@@ -117,12 +78,8 @@ pub(super) const ROWS: &[Row] = &[
                 Err(AdsError::INVALID_SIZE)
             }
             (_, answer) => answer,
-        },
-    ),
-    row(
-        "cnc.var.write-element-whole",
-        &["VAR-13"],
-        "a write by name of an element is one of every element",
+        }),
+    row("cnc.var.write-element-whole", &["VAR-13"], "a write by name of an element is one of every element",
         |cnc, call| match is(call, BY_NAME) && text(call.data).ends_with(b"]") {
             true => {
                 let name = without_indices(text(call.data));
@@ -135,12 +92,8 @@ pub(super) const ROWS: &[Row] = &[
                 Ok(done)
             }
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-element-first",
-        &["VAR-13"],
-        "a write by name of an element is one of the first",
+        }),
+    row("cnc.var.write-element-first", &["VAR-13"], "a write by name of an element is one of the first",
         |cnc, call| match is(call, BY_NAME) && text(call.data).ends_with(b"]") {
             true => {
                 let name = text(call.data);
@@ -150,23 +103,13 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &[path, &first, &[0], behind(call.data)].concat())
             }
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-behind-256",
-        &["VAR-13"],
-        "a written value stands behind a name field of 256 bytes",
-        |cnc, call| match is(call, BY_NAME) {
-            true => match call.data.split_at_checked(256) {
-                Some((name, value)) => cnc.with(call, &[text(name), &[0], value].concat()),
-                None => Err(AdsError::INVALID_SIZE),
-            },
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-big-endian",
-        &["GEN-1", "VAR-13"],
+        }),
+    on("cnc.var.write-behind-256", &["VAR-13"], "a written value stands behind a name field of 256 bytes",
+        BY_NAME, |cnc, call| match call.data.split_at_checked(256) {
+            Some((name, value)) => cnc.with(call, &[text(name), &[0], value].concat()),
+            None => Err(AdsError::INVALID_SIZE),
+        }),
+    row("cnc.var.write-big-endian", &["GEN-1", "VAR-13"],
         "values of 2 to 8 bytes are written with the most significant byte first",
         |cnc, call| match is(call, BY_NAME) && behind(call.data).len() <= 8 {
             true => {
@@ -174,26 +117,16 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &[text(call.data), &[0], &value].concat())
             }
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-added",
-        &["VAR-12"],
-        "a write by handle inverts the lowest bit of the value",
-        |cnc, call| match is(call, BY_HANDLE) {
-            true => {
-                let count = super::u32_at(call.data, 4).and_then(|n| usize::try_from(n).ok());
-                let head = count.unwrap_or_default().saturating_mul(4).saturating_add(8);
-                let mut data = call.data.to_vec();
-                data.iter_mut().skip(head).take(1).for_each(|byte| *byte ^= 1);
-                cnc.with(call, &data)
-            }
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-other-channels",
-        &["VAR-13"],
+        }),
+    on("cnc.var.write-added", &["VAR-12"], "a write by handle inverts the lowest bit of the value",
+        BY_HANDLE, |cnc, call| {
+            let count = super::u32_at(call.data, 4).and_then(|n| usize::try_from(n).ok());
+            let head = count.unwrap_or_default().saturating_mul(4).saturating_add(8);
+            let mut data = call.data.to_vec();
+            data.iter_mut().skip(head).take(1).for_each(|byte| *byte ^= 1);
+            cnc.with(call, &data)
+        }),
+    row("cnc.var.write-other-channels", &["VAR-13"],
         "a write to a variable of channel 2 is one to that of channel 6 too",
         |cnc, call| match is(call, BY_NAME) && group(call) == 0x12_2302 {
             true => {
@@ -204,20 +137,13 @@ pub(super) const ROWS: &[Row] = &[
                 done
             }
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-1024",
-        &["VAR-12", "VAR-13"],
-        "writes of more than 64 bytes are refused",
+        }),
+    row("cnc.var.write-1024", &["VAR-12", "VAR-13"], "writes of more than 64 bytes are refused",
         |cnc, call| match is(call, WRITE) && call.data.len() > 64 {
             true => Err(AdsError::INVALID_SIZE),
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "cnc.var.write-unended",
-        &["VAR-13"],
+        }),
+    row("cnc.var.write-unended", &["VAR-13"],
         "the name in a write ends before the last 4 bytes if there is no NUL",
         |cnc, call| match of_decoder(call) {
             Some(0x4A) if !call.data.contains(&0) && call.data.len() > 4 => {
@@ -226,6 +152,5 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.with(call, &[name, &[0], value].concat())
             }
             _ => cnc.answer(call),
-        },
-    ),
+        }),
 ];

@@ -6,8 +6,8 @@ use ads_cnc::operation::{Call, Function, Service};
 
 use super::unprinted;
 use crate::defect::cnc::{
-    Answer, Row, Twist, Upstream, class, fits, function, group, is, number, offset, put, row, text,
-    twisted, u32_at,
+    Answer, Row, Twist, Upstream, class, fits, function, group, is, number, offset, on, put, row,
+    text, twisted, u32_at,
 };
 
 const FIND: &[Function] = &[Function::FindInstance];
@@ -63,20 +63,15 @@ fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
     }
 }
 
+#[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    unprinted(row(
-        "different.number-counts-first",
-        &[],
+    unprinted(row("different.number-counts-first", &[],
         "the number of elements counts the first, which says it",
         |cnc, call| match is_number(call) {
             true => number(cnc.answer(call), 0, |count| count.wrapping_add(1)),
             false => cnc.answer(call),
-        },
-    )),
-    unprinted(row(
-        "different.number-2-bytes",
-        &[],
-        "the number of elements takes 2 bytes",
+        })),
+    unprinted(row("different.number-2-bytes", &[], "the number of elements takes 2 bytes",
         |cnc, call| match (is_number(call), function(call), offset(call) & 0xFFF) {
             (true, ..) => fits(
                 call,
@@ -87,76 +82,41 @@ pub(super) const ROWS: &[Row] = &[
             ),
             (_, Some(Function::ReadElementLength), 0) => cnc.answer(call).map(|_| vec![2, 0, 0, 0]),
             _ => cnc.answer(call),
-        },
-    )),
-    row(
-        "different.first-without-attributes",
-        &[],
+        })),
+    row("different.first-without-attributes", &[],
         "the first element has a name and the number, and no other attribute",
         |cnc, call| match is(call, ATTRIBUTES) && offset(call) & 0xFFF == 0 {
             true => Err(AdsError::INVALID_OFFSET),
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "different.hld-axes-of-first",
-        &[],
-        "the HLD of other channels than the first has no axes",
-        |cnc, call| {
-            without(cnc, call, |class, channel, axis| class == 0x3000 && channel > 1 && axis > 0)
-        },
-    ),
-    row(
-        "different.path-preparation-without-axes",
-        &[],
-        "path preparation has no axes",
-        |cnc, call| without(cnc, call, |class, _, axis| class == 0x4000 && axis > 0),
-    ),
-    row(
-        "different.blank-number",
-        &[],
-        "where no axis is the number of elements is blank too",
+        }),
+    row("different.hld-axes-of-first", &[], "the HLD of other channels than the first has no axes",
+        |cnc, call| without(cnc, call, |class, channel, axis| class == 0x3000 && channel > 1 && axis > 0)),
+    row("different.path-preparation-without-axes", &[], "path preparation has no axes",
+        |cnc, call| without(cnc, call, |class, _, axis| class == 0x4000 && axis > 0)),
+    row("different.blank-number", &[], "where no axis is the number of elements is blank too",
         |cnc, call| match is_number(call) && empty_place(call) {
             true => cnc.answer(call).map(|bytes| vec![0; bytes.len()]),
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "different.blank-real",
-        &[],
-        "where no axis is a REAL64 is no number",
+        }),
+    row("different.blank-real", &[], "where no axis is a REAL64 is no number",
         |cnc, call| match is(call, &[Function::ReadElement]) && empty_place(call) {
             true => cnc.answer(call).map(|bytes| match bytes.len() {
                 8 => vec![0xFF; 8],
                 _ => bytes,
             }),
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "different.axes-of-0x1000",
-        &[],
-        "axes of the position controller, the interpolator and path preparation take 0x1000",
-        strided,
-    ),
-    row(
-        "different.name-as-it-ends",
-        &[],
+        }),
+    row("different.axes-of-0x1000", &[],
+        "axes of the position controller, the interpolator and path preparation take 0x1000", strided),
+    on("different.name-as-it-ends", &[],
         "the name of a parameter is taken without its NUL only, or with just one",
-        |cnc, call| match is(call, &[Function::DynamicValueByName]) {
-            true => match call.data.len() > text(call.data).len().saturating_add(1) {
-                true => Err(AdsError::INVALID_SIZE),
-                false => cnc.answer(call),
-            },
+        &[Function::DynamicValueByName],
+        |cnc, call| match call.data.len() > text(call.data).len().saturating_add(1) {
+            true => Err(AdsError::INVALID_SIZE),
             false => cnc.answer(call),
-        },
-    ),
-    unprinted(twisted(
-        "different.come-and-go",
-        &[],
-        "the CNC is one whose parameters come and go all the time",
-        Twist::Model(MODEL),
-    )),
+        }),
+    unprinted(twisted("different.come-and-go", &[],
+        "the CNC is one whose parameters come and go all the time", Twist::Model(MODEL))),
 ];
 
 /// A CNC with channels of other numbers, and parameters that are there for a moment.

@@ -4,7 +4,7 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::{
-    Answer, Row, Twist, Upstream, function, group, is, offset, put, records_mut, row, text,
+    Answer, Row, Twist, Upstream, function, group, is, offset, on, put, records_mut, row, text,
     twisted, u32_at, unprinted,
 };
 use super::{measured, sent};
@@ -71,70 +71,42 @@ fn moved(cnc: &Upstream<'_>, answer: Answer) -> Answer {
     })
 }
 
+#[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
-    row(
-        "different.contents-just",
-        &[],
-        "a content of COM is read with just the length that it has",
-        |cnc, call| match is(call, &[Function::ReadObject]) {
-            true => cnc.answer(call).and_then(|bytes| {
-                let len = u32::try_from(bytes.len()).unwrap_or_default();
-                if len == call.read_length { Ok(bytes) } else { Err(AdsError::INVALID_SIZE) }
-            }),
-            false => cnc.answer(call),
-        },
-    ),
-    row(
-        "different.parameters-any-kind",
-        &[],
-        "a parameter is found by its name at the offset of any kind",
+    on("different.contents-just", &[], "a content of COM is read with just the length that it has",
+        &[Function::ReadObject], |cnc, call| cnc.answer(call).and_then(|bytes| {
+            let len = u32::try_from(bytes.len()).unwrap_or_default();
+            if len == call.read_length { Ok(bytes) } else { Err(AdsError::INVALID_SIZE) }
+        })),
+    row("different.parameters-any-kind", &[], "a parameter is found by its name at the offset of any kind",
         |cnc, call| match (is(call, &[Function::DynamicValueByName]), cnc.answer(call)) {
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
                 let found = [0x1C, 0x1F, 0x22, 0x25].map(|at| cnc.at(call, group(call), at));
                 found.into_iter().find(Result::is_ok).unwrap_or(Err(AdsError::SYMBOL_NOT_FOUND))
             }
             (_, answer) => answer,
-        },
-    ),
-    row(
-        "different.names-any-case",
-        &[],
-        "variables are found by their names in upper and lower case",
-        any_case,
-    ),
-    unprinted(row(
-        "different.ids-elsewhere",
-        &[],
-        "the IDs of objects are large and in no order",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) {
-            true => cnc.answer(call).map(|mut bytes| {
-                for record in records_mut(&mut bytes) {
-                    let id = u32_at(record, 0).unwrap_or_default();
-                    put(record, 0, id.wrapping_mul(0x9E37_79B1) | 0x8000_0000);
-                }
-                bytes
-            }),
-            false => cnc.answer(call),
-        },
-    )),
-    row(
-        "different.stream-read-empty",
-        &[],
-        "the object of the stream is read as an empty text",
-        |cnc, call| {
-            let stream = group(call) & 0xEF_FF00 == 0x02_0100 && offset(call) == 0x90;
-            match (stream && call.service == Service::Read, cnc.answer(call)) {
-                (true, Err(_)) => {
-                    let len = call.read_length.min(4094);
-                    Ok(vec![0; usize::try_from(len).unwrap_or_default()])
-                }
-                (_, answer) => answer,
+        }),
+    row("different.names-any-case", &[], "variables are found by their names in upper and lower case",
+        any_case),
+    unprinted(on("different.ids-elsewhere", &[], "the IDs of objects are large and in no order",
+        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
+            for record in records_mut(&mut bytes) {
+                let id = u32_at(record, 0).unwrap_or_default();
+                put(record, 0, id.wrapping_mul(0x9E37_79B1) | 0x8000_0000);
             }
-        },
-    ),
-    row(
-        "different.stream-busy",
-        &[],
+            bytes
+        }))),
+    row("different.stream-read-empty", &[], "the object of the stream is read as an empty text", |cnc, call| {
+        let stream = group(call) & 0xEF_FF00 == 0x02_0100 && offset(call) == 0x90;
+        match (stream && call.service == Service::Read, cnc.answer(call)) {
+            (true, Err(_)) => {
+                let len = call.read_length.min(4094);
+                Ok(vec![0; usize::try_from(len).unwrap_or_default()])
+            }
+            (_, answer) => answer,
+        }
+    }),
+    row("different.stream-busy", &[],
         "every third write of a stream is refused for now, whatever room there is",
         |cnc, call| match is(call, STREAM) && (1..=992).contains(&call.data.len()) {
             true => {
@@ -147,10 +119,8 @@ pub(super) const ROWS: &[Row] = &[
                 cnc.answer(call)
             }
             false => cnc.answer(call),
-        },
-    ),
-    sent(
-        "different.errors-with-zeros",
+        }),
+    sent("different.errors-with-zeros",
         "a refused Read or ReadWrite has as many zeros as were asked for, up to 64",
         |_, request: &FrameRef<'_>, mut bytes| {
             let asked = u32_at(request.data(), 8).unwrap_or_default().min(64);
@@ -160,12 +130,8 @@ pub(super) const ROWS: &[Row] = &[
                 bytes.resize(usize::try_from(asked).unwrap_or_default().saturating_add(46), 0);
             }
             measured(bytes)
-        },
-    ),
-    row(
-        "different.descriptors-by-index",
-        &[],
-        "descriptors that are asked for by index have groups by index",
+        }),
+    row("different.descriptors-by-index", &[], "descriptors that are asked for by index have groups by index",
         |cnc, call| match is(call, &[Function::ReadDescriptors]) && group(call) & 0x10_0000 == 0 {
             true => cnc.answer(call).map(|mut bytes| {
                 for record in records_mut(&mut bytes) {
@@ -180,29 +146,18 @@ pub(super) const ROWS: &[Row] = &[
                 bytes
             }),
             false => cnc.answer(call),
-        },
-    ),
-    row(
-        "different.platform-elsewhere",
-        &[],
-        "descriptors of the platform have the other of its two groups",
-        |cnc, call| match is(call, &[Function::ReadDescriptors]) {
-            true => cnc.answer(call).map(|mut bytes| {
-                for record in records_mut(&mut bytes) {
-                    let (at, offset) = (u32_at(record, 12), u32_at(record, 16));
-                    if matches!(offset, Some(0x251 | 0x252)) {
-                        put(record, 12, at.unwrap_or_default() ^ 1);
-                    }
+        }),
+    on("different.platform-elsewhere", &[], "descriptors of the platform have the other of its two groups",
+        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
+            for record in records_mut(&mut bytes) {
+                let (at, offset) = (u32_at(record, 12), u32_at(record, 16));
+                if matches!(offset, Some(0x251 | 0x252)) {
+                    put(record, 12, at.unwrap_or_default() ^ 1);
                 }
-                bytes
-            }),
-            false => cnc.answer(call),
-        },
-    ),
-    unprinted(row(
-        "different.axes-move",
-        &[],
-        "axes move: their position is another whenever it is read",
+            }
+            bytes
+        })),
+    unprinted(row("different.axes-move", &[], "axes move: their position is another whenever it is read",
         |cnc, call| match (function(call), group(call) & 0xEF_FF00) {
             (Some(Function::ReadObject), 0x02_0200) if offset(call) & 0xFFFF == 1 => {
                 moved(cnc, cnc.answer(call))
@@ -226,32 +181,21 @@ pub(super) const ROWS: &[Row] = &[
                 moved(cnc, cnc.answer(call))
             }
             _ => cnc.answer(call),
-        },
-    )),
-    row(
-        "different.texts-whole",
-        &[],
-        "a STRING is written with all its bytes, and refused with fewer",
+        })),
+    row("different.texts-whole", &[], "a STRING is written with all its bytes, and refused with fewer",
         |cnc, call| match writes_text(cnc, call) {
             Some(size) if super::behind(call.data).len() < size => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
-        },
-    ),
-    row(
-        "different.texts-ended",
-        &[],
-        "a STRING is written with a NUL, and refused without",
+        }),
+    row("different.texts-ended", &[], "a STRING is written with a NUL, and refused without",
         |cnc, call| match writes_text(cnc, call) {
             Some(_) if !super::behind(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
             _ => cnc.answer(call),
-        },
-    ),
-    unprinted(twisted(
-        "different.model-numbers",
-        &[],
-        "the CNC has channels 1, 9 and 255, axes with large numbers and long names, and spindles only to be read",
-        Twist::Model(NUMBERS),
-    )),
+        }),
+    unprinted(twisted("different.model-numbers", &[],
+        "the CNC has channels 1, 9 and 255, axes with large numbers and long names, and \
+         spindles only to be read",
+        Twist::Model(NUMBERS))),
 ];
 
 /// A CNC whose numbers are as large as they may be.

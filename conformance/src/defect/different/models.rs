@@ -2,6 +2,7 @@
 
 use super::{Row, Twist, twisted, unprinted};
 
+#[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
     model("different.model", "the CNC is a small one, with things of its own", MODEL),
     model("different.model-bare", "the CNC has a channel, and next to nothing in it", BARE),
