@@ -95,10 +95,10 @@ impl Cnc {
     ) -> Result<(), ControlError> {
         let mut new: Vec<Parameter> = Vec::new();
         for &(name, value) in parameters {
-            let wrong = || ControlError::Name(name.to_owned());
-            let text: CncString = name.parse().map_err(|_| wrong())?;
+            let invalid = || ControlError::Name(name.to_owned());
+            let text: CncString = name.parse().map_err(|_| invalid())?;
             if parameter_kind(&text) != Ok(kind) || new.iter().any(|one| one.name == text) {
-                return Err(wrong());
+                return Err(invalid());
             }
             let value = DynamicValue::from(value);
             new.push(Parameter { kind, name: text, value, needs: None, times: Times::default() });

@@ -29,6 +29,7 @@ mod clock;
 mod content;
 mod control;
 mod in_process;
+mod inspect;
 mod model;
 mod parameters;
 pub mod program;
@@ -36,18 +37,17 @@ mod respond;
 mod responder;
 mod server;
 mod state;
-mod within;
 
 pub use answer::Cnc;
 pub use control::ControlError;
 pub(crate) use in_process::InProcess;
+pub(crate) use inspect::{Held, Holder};
 pub(crate) use model::Configured;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
 pub use respond::{DATA_MAX, NET_ID};
 pub(crate) use respond::{FRAME_MAX, INFO, respond};
 pub use responder::Responder;
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
-pub(crate) use within::{Held, Holder};
 
 use crate::edition::Edition;
 

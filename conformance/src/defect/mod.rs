@@ -13,8 +13,8 @@
 
 mod cnc;
 mod codec;
-mod different;
 mod field;
+mod variants;
 
 #[cfg(test)]
 mod tests;
@@ -86,8 +86,8 @@ pub fn all() -> &'static [Seed] {
     ALL.get_or_init(|| {
         let fields = Defect::all().into_iter().map(Seed::from);
         let cnc = cnc::rows().map(|row| Seed::of_row(row, Kind::Cnc));
-        let different = different::rows().map(|row| Seed::of_row(row, Kind::Different));
-        fields.chain(codec::seeds()).chain(cnc).chain(different).collect()
+        let variants = variants::rows().map(|row| Seed::of_row(row, Kind::Different));
+        fields.chain(codec::seeds()).chain(cnc).chain(variants).collect()
     })
 }
 

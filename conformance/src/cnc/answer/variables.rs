@@ -1,6 +1,6 @@
 //! Variables with flexible data type (VAR).
 
-mod meant;
+mod resolve;
 
 use std::borrow::Cow;
 
@@ -16,7 +16,7 @@ use ads_cnc::{
     VariableAccess, VariableCount, VariableType,
 };
 
-use self::meant::{Named, UNKNOWN, parameter};
+use self::resolve::{Named, UNKNOWN, parameter};
 use super::{Answer, Running, encode};
 use crate::cnc::content::{check_size, put};
 use crate::cnc::model::At;

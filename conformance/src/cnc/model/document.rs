@@ -1,4 +1,4 @@
-//! A model as it stands in the file. Whatever may be wrong has its place with it.
+//! A model as it stands in the file. Each part has its place in the file, for errors.
 
 use serde::Deserialize;
 use toml::{Spanned, Value};

@@ -1,4 +1,4 @@
-//! What is wrong with a data model, and where.
+//! An error of a data model, and where it is.
 
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ impl ModelError {
         self.line
     }
 
-    /// What is wrong there.
+    /// The error.
     pub fn reason(&self) -> &str {
         &self.reason
     }

@@ -92,7 +92,7 @@ impl ScriptConfig {
 pub struct ScriptError {
     /// The place of the request, from 0.
     pub request: usize,
-    /// What is wrong with it.
+    /// Its error.
     pub error: CallError,
 }
 

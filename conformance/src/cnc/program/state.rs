@@ -30,7 +30,7 @@ pub struct Message {
     pub line: u32,
     /// The column, from 1.
     pub column: u32,
-    /// What is wrong.
+    /// The error.
     pub text: String,
 }
 

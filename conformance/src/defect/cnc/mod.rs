@@ -1,40 +1,40 @@
 //! What a CNC can get wrong: how it answers is changed around the simulated one.
 
-mod across;
 mod address;
 mod ads;
-mod area;
 mod axis;
-mod border;
+mod bounds;
 mod bytes;
 mod code;
 mod com;
+mod consistency;
 mod content;
-mod crossed;
 mod device;
 mod dynamic;
 mod element;
 mod faulty;
 mod frame;
+mod general;
 mod handle;
 mod indices;
 mod instance;
-mod lasting;
-mod look;
+mod lookup;
 mod name;
-mod neighbour;
 mod number;
 mod object;
-mod program;
-mod repeated;
+mod off_by_one;
+mod partial;
 mod request;
-mod running;
-mod seldom;
 mod service;
+mod stale;
+mod stream_program;
+mod stream_write;
 mod upstream;
 mod value;
 mod variable;
+mod variable_consistency;
 mod write;
+mod write_sequence;
 
 pub(in crate::defect) use self::bytes::{
     behind, dimensions, fours, number, put, records, records_mut, u32_at,
@@ -131,16 +131,16 @@ pub(super) const fn program(
 /// All rows.
 pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
     let areas: [&'static [Row]; 30] = [
-        across::ROWS,
+        variable_consistency::ROWS,
         address::ROWS,
         ads::ROWS,
-        area::ROWS,
+        general::ROWS,
         axis::ROWS,
-        border::ROWS,
+        bounds::ROWS,
         code::ROWS,
         com::ROWS,
         content::ROWS,
-        crossed::ROWS,
+        consistency::ROWS,
         device::ROWS,
         dynamic::ROWS,
         element::ROWS,
@@ -148,15 +148,15 @@ pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
         handle::ROWS,
         indices::ROWS,
         instance::ROWS,
-        lasting::ROWS,
+        stale::ROWS,
         name::ROWS,
-        neighbour::ROWS,
+        off_by_one::ROWS,
         number::ROWS,
         object::ROWS,
-        program::ROWS,
-        repeated::ROWS,
-        running::ROWS,
-        seldom::ROWS,
+        stream_write::ROWS,
+        write_sequence::ROWS,
+        stream_program::ROWS,
+        partial::ROWS,
         service::ROWS,
         value::ROWS,
         variable::ROWS,

@@ -1,13 +1,13 @@
 //! Each of them shows somewhere, and every requirement has one or a reason to have none.
 
 mod fields;
-mod talk;
+mod transcript;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use ads_cnc_vectors::{Level, clause, requirements};
 
-use self::talk::Talk;
+use self::transcript::Transcript;
 use super::*;
 use crate::testee::{self, Answer, Own, Question};
 use crate::{clients, suite};
@@ -36,7 +36,7 @@ fn ids_differ_and_sentences_say_something() {
 /// One that changes nothing is none.
 #[test]
 fn every_defect_of_a_cnc_shows() {
-    let mut right: BTreeMap<Option<Edition>, Talk<'_>> = BTreeMap::new();
+    let mut right: BTreeMap<Option<Edition>, Transcript<'_>> = BTreeMap::new();
     let mut hidden = Vec::new();
     for seed in of_kind(&[Kind::Cnc, Kind::Different]) {
         // When bytes come, and in how many pieces, they do not show.
@@ -44,17 +44,18 @@ fn every_defect_of_a_cnc_shows() {
             continue;
         }
         let right = right.entry(seed.edition).or_insert_with(|| match seed.edition {
-            None => Talk::new(None, None),
-            Some(_) => {
-                Talk::new(Some(&Seed { how: How::Cnc(Twist::Pieces(0)), ..seed.clone() }), None)
-            }
+            None => Transcript::new(None, None),
+            Some(_) => Transcript::new(
+                Some(&Seed { how: How::Cnc(Twist::Pieces(0)), ..seed.clone() }),
+                None,
+            ),
         });
-        if !Talk::new(Some(seed), Some(&right.said)).differs {
+        if !Transcript::new(Some(seed), Some(&right.said)).differs {
             hidden.push(seed.id.as_str());
         }
     }
-    // A function that nobody asks for in the talk cannot go wrong there.
-    assert_eq!(hidden, [""; 0], "no answer to what tests/talk.rs asks is another");
+    // A function that nobody asks for in the transcript cannot go wrong there.
+    assert_eq!(hidden, [""; 0], "no answer to what tests/transcript.rs asks is another");
 }
 
 /// All that the vectors and sequences ask a codec.
@@ -67,12 +68,12 @@ fn questions() -> Vec<Question> {
 fn every_defect_of_a_codec_shows() {
     let questions = questions();
     let right: Vec<Answer> = questions.iter().map(|one| Own::default().answer(one)).collect();
-    let cnc = Talk::new(None, None).said;
+    let cnc = Transcript::new(None, None).said;
     let hidden = all().iter().filter(|seed| seed.is_for_codec()).filter(|seed| {
         let own = Own { defect: Some((*seed).clone()) };
         let same = |(question, right): (&Question, &Answer)| own.answer(question) == *right;
         questions.iter().zip(&right).all(same)
-            && !(seed.is_for_cnc() && Talk::new(Some(seed), Some(&cnc)).differs)
+            && !(seed.is_for_cnc() && Transcript::new(Some(seed), Some(&cnc)).differs)
     });
     assert_eq!(hidden.map(|seed| seed.id.as_str()).collect::<Vec<_>>(), [""; 0]);
 }

@@ -94,7 +94,7 @@ fn request(source: Source<'_>, row: &RequestRow) -> Result<Request, ModelError> 
         pause: Duration::ZERO,
         cycle: Duration::ZERO,
     };
-    if let Err(wrong) = Script::new(alone) {
+    if let Err(invalid) = Script::new(alone) {
         // Whichever of them it is about.
         let timer = wait.is_some_and(|wait| wait.p2.is_some() && wait.p3.is_none());
         let span = match (&row.state, &row.wait) {
@@ -102,7 +102,7 @@ fn request(source: Source<'_>, row: &RequestRow) -> Result<Request, ModelError> 
             (_, Some(wait)) if timer => wait.span(),
             _ => row.request.span(),
         };
-        return Err(source.error(&span, wrong.error));
+        return Err(source.error(&span, invalid.error));
     }
     Ok(request)
 }

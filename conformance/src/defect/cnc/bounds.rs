@@ -1,11 +1,11 @@
-//! Further defects: at the first and the last, the longest and what is just too much.
+//! The first and the last, the longest, and one more than is allowed.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
 use ads_cnc::service::ServiceVariable;
 
 use super::handle::{joined, parts};
-use super::look::{indexed, instance, with_indices};
+use super::lookup::{indexed, instance, with_indices};
 use super::{
     LOGICAL, Row, behind, dimensions, fits, function, group, is, number, offset, on, records,
     reply, row, text, u32_at,
@@ -150,7 +150,7 @@ pub(super) const ROWS: &[Row] = &[
     on("cnc.var.whole-first-row", &["VAR-14"],
         "of a whole array with more dimensions the first row is read by name",
         &[Function::ReadByName], |cnc, call| {
-            let described = super::look::described(cnc, group(call), text(call.data));
+            let described = super::lookup::described(cnc, group(call), text(call.data));
             let numbers = dimensions(&described.unwrap_or_default()).0;
             let whole = indexed(text(call.data)).1.is_empty();
             cnc.answer(call).map(|mut bytes| {

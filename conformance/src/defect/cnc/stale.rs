@@ -1,11 +1,11 @@
-//! Further defects: what is left of one request in the next.
+//! State that one request leaves to the next.
 
 use ads_cnc::ads::{AdsError, Command};
 use ads_cnc::operation::{Call, Function};
 
 use super::frame::{INVOKE_ID, LENGTH, RESULT, SOURCE, TARGET, sent, set};
 use super::handle::{joined, parts};
-use super::look::{instance, one, over};
+use super::lookup::{instance, one, over};
 use super::{
     Answer, Row, Upstream, fits, frame, function, group, is, offset, on, row, text, u32_at,
 };

@@ -1,4 +1,4 @@
-//! Variables across functions (VAR): what one function does shows by another.
+//! Functions of one variable that contradict each other (VAR).
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};

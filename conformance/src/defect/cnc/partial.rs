@@ -1,10 +1,10 @@
-//! Further defects: wrong for one type or in one way of asking, right in all others.
+//! Defects of one type or one way of asking: all others are answered rightly.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::handle::parts;
-use super::look::{described, descriptor, element_is, indexed, is_string, object_is};
+use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
     Answer, LOGICAL, Row, Upstream, behind, dimensions, fits, function, group, is, number,
     of_decoder, offset, on, put, records_mut, reply, row, text, u32_at,

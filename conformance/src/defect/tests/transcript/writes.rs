@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use ads_cnc::dynamic::DynamicKind;
 
-use super::{Talk, number, numbers};
+use super::{Transcript, number, numbers};
 use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start, Wait};
 
-impl Talk<'_> {
+impl Transcript<'_> {
     pub(super) fn writes(&mut self) {
         let contents = [
             (0x12_0101, 1, &[1][..]),
@@ -130,14 +130,14 @@ impl Talk<'_> {
     }
 
     pub(super) fn exchange(&mut self) {
-        let look = |talk: &mut Self| {
+        let look = |it: &mut Self| {
             for axis in 1..4 {
-                talk.read(553, 0x12_0200 | axis, 1, 8);
-                talk.read(553, 0x12_0101, axis << 16 | 1, 8);
-                talk.ask(0x12_2301, axis << 16 | 5, 8, b"V.A.WCS\0");
-                let handle = talk.ask(0x12_2301, axis << 16 | 4, 4, b"V.A.WCS\0");
+                it.read(553, 0x12_0200 | axis, 1, 8);
+                it.read(553, 0x12_0101, axis << 16 | 1, 8);
+                it.ask(0x12_2301, axis << 16 | 5, 8, b"V.A.WCS\0");
+                let handle = it.ask(0x12_2301, axis << 16 | 4, 4, b"V.A.WCS\0");
                 let handle = number(&handle, 0).unwrap_or_default();
-                talk.ask(0x12_2301, 0x47, 8, &numbers(&[handle, 0]));
+                it.ask(0x12_2301, 0x47, 8, &numbers(&[handle, 0]));
             }
         };
         self.exchanged(1, 2, 3);

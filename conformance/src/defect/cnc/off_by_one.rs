@@ -1,10 +1,10 @@
-//! Further defects: one channel, axis, kind or place for the one beside it.
+//! One channel, axis, kind or index for the one next to it.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::handle::{joined, parts};
-use super::look::{described, indexed, instance, is_string, name_of, with_indices};
+use super::lookup::{described, indexed, instance, is_string, name_of, with_indices};
 use super::{
     Answer, LOGICAL, Row, Upstream, behind, dimensions, function, group, is, number, offset, on,
     put, records_mut, reply, row, text, u32_at,

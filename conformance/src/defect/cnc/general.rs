@@ -1,4 +1,4 @@
-//! What is common to all streams (GEN).
+//! Rules of all streams (GEN).
 
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, Function};

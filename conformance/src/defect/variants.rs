@@ -1,10 +1,10 @@
 //! What a CNC may do otherwise: nothing of it is wrong.
 
 mod elements;
-mod freely;
-mod further;
 mod models;
+mod replies;
 mod requests;
+mod unspecified;
 
 use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
@@ -64,7 +64,8 @@ fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: Answer) -> Answer {
 
 /// All rows.
 pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
-    let areas = [ROWS, elements::ROWS, freely::ROWS, further::ROWS, models::ROWS, requests::ROWS];
+    let areas =
+        [ROWS, elements::ROWS, unspecified::ROWS, replies::ROWS, models::ROWS, requests::ROWS];
     areas.into_iter().flatten()
 }
 

@@ -1,10 +1,10 @@
-//! What shows behind other requests only, and at the ends of what there is.
+//! Requests whose answer depends on others, and the ends of lists.
 
 use std::time::Duration;
 
 use ads_cnc::ads::{AmsPort, Command};
 
-use super::{Talk, number, numbers};
+use super::{Transcript, number, numbers};
 use crate::cnc::program::{Pace, ProgramConfig, Start};
 
 const RESPONSE: &[u8] = b"V.G.SERVICE.RESPONSE\0";
@@ -12,8 +12,8 @@ const REQUEST: &[u8] = b"V.G.SERVICE.REQUEST\0";
 const REQUEST_STATE: &[u8] = b"V.G.SERVICE.REQUEST_STATE\0";
 const RESPONSE_STATE: &[u8] = b"V.G.SERVICE.RESPONSE_STATE\0";
 
-impl Talk<'_> {
-    pub(super) fn further(&mut self) {
+impl Transcript<'_> {
+    pub(super) fn sequences(&mut self) {
         self.addresses();
         self.contents();
         self.parts();

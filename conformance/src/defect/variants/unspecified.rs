@@ -1,4 +1,4 @@
-//! Further ways: what the manuals leave to the CNC, done as another might.
+//! What the manuals leave open, done as another CNC might.
 
 use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};

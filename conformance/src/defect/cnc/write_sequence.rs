@@ -1,10 +1,10 @@
-//! Further defects: writes that fare otherwise for what was written before them.
+//! Writes that depend on what was written before.
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 use ads_cnc::service::ServiceVariable;
 
-use super::look::{handle_of, instance, object_is, one, over};
+use super::lookup::{handle_of, instance, object_is, one, over};
 use super::service::{reads, writes};
 use super::{Answer, Row, Upstream, behind, function, group, is, offset, on, row, text, u32_at};
 

@@ -1,4 +1,4 @@
-//! Further ways: of refusing, of answering late, and of ending texts.
+//! Other ways to reject, to answer late, and to end texts.
 
 use std::thread;
 use std::time::Duration;

@@ -1,4 +1,4 @@
-//! What shows when one answer is held against another (SDA, DYN).
+//! Answers that contradict each other (SDA, DYN).
 
 use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;

@@ -1,7 +1,7 @@
 //! All that a CNC is asked, to see whether it says anything else than another.
 
-mod deeds;
-mod further;
+mod sequences;
+mod writes;
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::{Faulty, Seed};
 use crate::cnc::{Cnc, DEFAULT_MODEL, Model, NET_ID, Responder as _, Settings};
 
 /// A CNC that is asked, and what it has said: up to the first difference from another.
-pub(super) struct Talk<'t> {
+pub(super) struct Transcript<'t> {
     faulty: Faulty,
     cnc: Arc<Cnc>,
     other: Option<&'t [Vec<u8>]>,
@@ -20,16 +20,17 @@ pub(super) struct Talk<'t> {
     count: u32,
 }
 
-impl<'t> Talk<'t> {
+impl<'t> Transcript<'t> {
     pub(super) fn new(seed: Option<&Seed>, other: Option<&'t [Vec<u8>]>) -> Self {
         let edition = seed.and_then(|seed| seed.edition);
         let settings = Settings { edition, version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "default", settings).unwrap();
         let faulty = Faulty::new(Cnc::new(model).with_standing_clock(), seed);
         let cnc = Arc::clone(faulty.cnc());
-        let mut talk = Self { faulty, cnc, other, said: Vec::new(), differs: false, count: 0 };
-        talk.all();
-        talk
+        let mut transcript =
+            Self { faulty, cnc, other, said: Vec::new(), differs: false, count: 0 };
+        transcript.all();
+        transcript
     }
 
     fn hear(&mut self, said: Vec<u8>) {
@@ -97,7 +98,7 @@ impl<'t> Talk<'t> {
         self.writes();
         self.services();
         let others: [fn(&mut Self); 5] =
-            [Self::exchange, Self::changes, Self::streams, Self::scripts, Self::further];
+            [Self::exchange, Self::changes, Self::streams, Self::scripts, Self::sequences];
         for other in others {
             if !self.differs {
                 other(self);

@@ -1,4 +1,4 @@
-//! What a defect looks up before it strikes: channels, types, descriptions.
+//! What a defect looks up: channels, types, descriptions.
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::operation::{Call, Service};
