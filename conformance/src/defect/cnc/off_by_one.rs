@@ -151,7 +151,7 @@ pub(super) const ROWS: &[Row] = &[
         }),
     on("cnc.var.write-element-4-bytes", &["VAR-13"],
         "an element of one byte is written by name as 4 bytes: the three behind it become 0",
-        &[Function::WriteByName], |cnc, call| zero_behind(cnc, call)),
+        &[Function::WriteByName], zero_behind),
     row("cnc.var.row-beyond", &["VAR-11", "VAR-4"],
         "an index behind the end of a row, by handle, goes on in the next row",
         |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {

@@ -36,7 +36,7 @@ pub(super) const ROWS: &[Row] = &[
     on("cnc.var.write-by-name-ignored", &["VAR-13"], "a write by name succeeds and changes nothing",
         BY_NAME, |cnc, call| undone(cnc, call, 0x48, &[text(call.data), &[0]].concat())),
     on("cnc.var.write-late", &["VAR-12", "VAR-13"], "a write takes effect with the next one",
-        WRITE, |cnc, call| put_off(cnc, call)),
+        WRITE, put_off),
     on("cnc.var.write-by-handle-refused", &["VAR-12"], "writes by handle are refused",
         BY_HANDLE, |_, _| Err(AdsError::INVALID_ACCESS)),
     on("cnc.var.write-by-name-refused", &["VAR-13"], "writes by name are refused",
