@@ -14,11 +14,11 @@ use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, Fra
 use ads_cnc::operation::{Call, Service};
 
 use crate::capture::Capture;
-use crate::cnc::{InProcess, Responder};
 use crate::exchange::{Answer, Exchange, Fault, Violation};
 use crate::gate::{Gate, Moment, Permit};
 use crate::net::Wire;
 use crate::services::{decode_reply, service_of};
+use crate::simulator::{InProcess, Responder};
 
 pub use inquiry::{Inquired, Inquiry, Said};
 pub(crate) use judge::violations;

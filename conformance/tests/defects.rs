@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use ads_cnc::layout::{Field, Stream};
 use ads_cnc_conformance::client::{Client, Target};
-use ads_cnc_conformance::cnc::{Cnc, DEFAULT_MODEL, Model, Server, Settings};
-use ads_cnc_conformance::defect::{Change, Defect, Faulty, Seed};
 use ads_cnc_conformance::edition::Edition;
+use ads_cnc_conformance::faults::{Change, Defect, Faulty, Seed};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
+use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, Model, Server, Settings};
 use ads_cnc_conformance::suite::{self, Case, Judgement, Needs, Outcome, Session};
 use ads_cnc_conformance::verdict::Verdict;
 

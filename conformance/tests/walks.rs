@@ -1,11 +1,11 @@
 //! What is asked of a CNC to find what it has: not more than there is to find, and an end however
 //! the CNC answers.
 
-use ads_cnc_conformance::cnc::{Cnc, Responder};
-use ads_cnc_conformance::defect::{Defect, Faulty};
+use ads_cnc_conformance::faults::{Defect, Faulty};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::objects::{Found, Options, Pattern, walk};
 use ads_cnc_conformance::session::Session;
+use ads_cnc_conformance::simulator::{Cnc, Responder};
 
 fn found(cnc: impl Responder + 'static, options: &Options) -> Found {
     let mut session = Session::embedded(cnc, Gate::queries()).unwrap();

@@ -11,14 +11,14 @@ use ads_cnc::ads::AmsNetId;
 use super::executed::{self, ExecutedTo};
 use super::model::ModelArgs;
 use super::{complain, find_defect, refuse};
-use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
-use crate::cnc::{
-    CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
-};
-use crate::defect::{self, Faulty};
+use crate::faults::{self, Faulty};
 use crate::interrupt::Interrupt;
 use crate::net;
 use crate::session::Trouble;
+use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
+use crate::simulator::{
+    CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
+};
 use crate::verdict::Exit;
 
 /// For the end of the help.
@@ -238,7 +238,7 @@ fn print_model() -> ExitCode {
 
 fn list_defects() -> ExitCode {
     let mut out = io::stdout().lock();
-    for seed in defect::all() {
+    for seed in faults::all() {
         let broken = seed.requirements.join(" ");
         if writeln!(out, "{}\t{broken}\t{seed}", seed.id).is_err() {
             // Whoever reads has seen enough.

@@ -4,18 +4,18 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::{Candidate, Group, Outcomes};
-use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::defect::{self, Faulty, Kind, Seed};
 use crate::edition::Edition;
+use crate::faults::{self, Faulty, Kind, Seed};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
+use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, Case, Needs, Outcome, Session};
 
 /// A version that has 0x4C and all kinds.
 const NEWEST: &str = "V4.29.0";
 
 pub(super) fn candidates() -> Vec<Candidate> {
-    defect::all().iter().filter(|seed| seed.is_for_cnc()).map(of_seed).collect()
+    faults::all().iter().filter(|seed| seed.is_for_cnc()).map(of_seed).collect()
 }
 
 fn of_seed(seed: &'static Seed) -> Candidate {

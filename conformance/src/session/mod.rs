@@ -17,13 +17,13 @@ use ads_cnc::{Kind, address::Channel};
 
 use crate::capture::Capture;
 use crate::client::{Client, Inquiry, Said, Target};
-use crate::cnc::{NET_ID, Responder, Server};
 use crate::deadline::Deadline;
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Gate;
 use crate::net;
 use crate::profile::{Claim, Profile};
 use crate::report::hex;
+use crate::simulator::{NET_ID, Responder, Server};
 
 pub use trouble::Trouble;
 
@@ -32,7 +32,7 @@ pub use trouble::Trouble;
 /// ```
 /// use ads_cnc::address::Channel;
 /// use ads_cnc::operation::{ReadByName, WriteByName};
-/// use ads_cnc_conformance::cnc::Cnc;
+/// use ads_cnc_conformance::simulator::Cnc;
 /// use ads_cnc_conformance::gate::Gate;
 /// use ads_cnc_conformance::session::{Session, Trouble};
 ///
@@ -242,7 +242,7 @@ impl Session {
     ///
     /// ```
     /// use ads_cnc::operation::Task;
-    /// use ads_cnc_conformance::cnc::Cnc;
+    /// use ads_cnc_conformance::simulator::Cnc;
     /// use ads_cnc_conformance::gate::Gate;
     /// use ads_cnc_conformance::session::Session;
     ///
@@ -262,7 +262,7 @@ impl Session {
     /// ```
     /// use ads_cnc::ads::AdsState;
     /// use ads_cnc::operation::Task;
-    /// use ads_cnc_conformance::cnc::Cnc;
+    /// use ads_cnc_conformance::simulator::Cnc;
     /// use ads_cnc_conformance::gate::Gate;
     /// use ads_cnc_conformance::session::Session;
     ///

@@ -14,10 +14,10 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Decode as _, Description, Encode as _, Numbers};
 use ads_cnc_conformance::capture::Capture;
-use ads_cnc_conformance::cnc::Cnc;
-use ads_cnc_conformance::defect::{Defect, Faulty};
+use ads_cnc_conformance::faults::{Defect, Faulty};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::session::Session;
+use ads_cnc_conformance::simulator::Cnc;
 
 use crate::maker::{Link, Message, messages, pcap, segments};
 

@@ -17,13 +17,13 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use ads_cnc::address::{Channel, ChannelAxis};
 
-use crate::cnc::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
-use crate::defect::{Faulty, Seed};
 use crate::edition::Edition;
+use crate::faults::{Faulty, Seed};
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::objects::{self, Access, Options};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
+use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
 use crate::suite::{self, Needs, Outcome, Selection};
 use crate::verdict::Verdict;
 
