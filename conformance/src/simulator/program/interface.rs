@@ -1,5 +1,4 @@
-//! The CNC's end of data streaming. The codec's tests include this file by its path, so it uses only
-//! `ads_cnc` and `std`.
+//! The CNC's end of data streaming.
 
 use std::fmt;
 
