@@ -24,10 +24,10 @@ use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::*;
 use ads_cnc::streaming::{Ack, NcText, Sender};
 use ads_cnc_conformance::client::Target;
-use ads_cnc_conformance::cnc::program::{Pace, ProgramConfig, digest};
-use ads_cnc_conformance::cnc::{Cnc, NET_ID, Server};
 use ads_cnc_conformance::gate::{Allowed, Gate};
 use ads_cnc_conformance::session::{Session, Trouble};
+use ads_cnc_conformance::simulator::program::{Pace, ProgramConfig, digest};
+use ads_cnc_conformance::simulator::{Cnc, NET_ID, Server};
 
 type Result<T> = std::result::Result<T, Box<dyn Error + Send + Sync>>;
 

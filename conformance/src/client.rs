@@ -14,11 +14,11 @@ use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, Fra
 use ads_cnc::operation::{Call, Service};
 
 use crate::capture::Capture;
-use crate::cnc::{Cnc, InProcess};
 use crate::exchange::{Answer, Exchange, Fault, Violation};
 use crate::gate::{Gate, Moment, Permit};
 use crate::net::Wire;
 use crate::services::{decode_reply, service_of};
+use crate::simulator::{InProcess, Responder};
 
 pub use inquiry::{Inquired, Inquiry, Said};
 pub(crate) use judge::violations;
@@ -49,7 +49,7 @@ enum Dial {
     /// Over TCP, to the target's address.
     Tcp,
     /// To a CNC of this process, without a socket.
-    InProcess(Arc<Cnc>),
+    InProcess(Arc<dyn Responder>),
 }
 
 /// Between the pieces of a frame that is sent in pieces.
@@ -75,7 +75,7 @@ impl Client {
     ///
     /// # Errors
     /// If the gate is open wider than is safe for another machine.
-    pub fn in_process(target: Target, gate: Gate, cnc: Arc<Cnc>) -> io::Result<Self> {
+    pub fn in_process(target: Target, gate: Gate, cnc: Arc<dyn Responder>) -> io::Result<Self> {
         Self::dialled(target, gate, Dial::InProcess(cnc))
     }
 

@@ -10,9 +10,9 @@ use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, ReadByName, Request};
 use ads_cnc_conformance::capture::Capture;
 use ads_cnc_conformance::client::{Client, Target};
-use ads_cnc_conformance::cnc::{Cnc, Server};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::net;
+use ads_cnc_conformance::simulator::{Cnc, Server};
 use pcap_file::DataLink;
 use pcap_file::pcapng::{Block, PcapNgReader};
 

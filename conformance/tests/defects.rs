@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use ads_cnc::layout::{Field, Stream};
 use ads_cnc_conformance::client::{Client, Target};
-use ads_cnc_conformance::cnc::{Cnc, DEFAULT_MODEL, Model, Server, Settings};
-use ads_cnc_conformance::defect::{Change, Defect, Seed};
 use ads_cnc_conformance::edition::Edition;
+use ads_cnc_conformance::faults::{Change, Defect, Faulty, Seed};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
+use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, Model, Server, Settings};
 use ads_cnc_conformance::suite::{self, Case, Judgement, Needs, Outcome, Session};
 use ads_cnc_conformance::verdict::Verdict;
 
@@ -32,10 +32,10 @@ fn run_against(
 ) -> Vec<Outcome> {
     let cases = suite::cases().into_iter().filter(wanted).collect();
     let seed = defect.cloned().map(Seed::from);
-    let cnc = cnc.with_defect(seed.clone());
+    let faulty = Faulty::new(cnc, seed.as_ref());
+    let cnc = Arc::clone(faulty.cnc());
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
-    let cnc = Arc::new(cnc);
-    let server = Server::start(listener, Arc::clone(&cnc)).unwrap();
+    let server = Server::start(listener, faulty).unwrap();
     let target = Target::local(server.addr(), server.net_id());
     let client = Client::connect(target, Gate::of_embedded(&server)).unwrap();
     let mut session = Session::new(client, profile).with_cnc(cnc);

@@ -10,7 +10,7 @@ use ads_cnc::Encode as _;
 use ads_cnc::address::{Class, Group};
 use ads_cnc::ads::{AdsError, AmsHeader, AmsPort, FrameRef, ReadWriteReplyRef};
 use ads_cnc::operation::Call;
-use ads_cnc_conformance::cnc::{Cnc, NET_ID};
+use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 use common::fake::{Reaction, reacting};
 
 /// Who has the position controller.

@@ -11,11 +11,11 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 
 use ads_cnc_conformance::client::{Client, Target};
-use ads_cnc_conformance::cnc::{Cnc, NET_ID};
-use ads_cnc_conformance::defect::{self, Seed};
+use ads_cnc_conformance::faults::{self, Faulty, Seed};
 use ads_cnc_conformance::gate::{Allowed, Gate};
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
+use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 use ads_cnc_conformance::suite::{self, Selection};
 use common::file::TestFile;
 use common::harmless::number;
@@ -29,7 +29,7 @@ struct Logged {
 
 impl Logged {
     fn start(options: &[&str]) -> Self {
-        let log = ["--log", "ads_cnc_conformance::cnc=debug"];
+        let log = ["--log", "ads_cnc_conformance::simulator=debug"];
         let mut serve = Serve::logging(&[&log[..], options].concat());
         let stderr = BufReader::new(serve.process.stderr.take().unwrap());
         let writes = |line: &String| line.contains("write to a ");
@@ -116,7 +116,7 @@ fn all(defects: Vec<(&'static str, &'static Named)>) -> (BTreeMap<String, usize>
 }
 
 fn seeds(is: impl Fn(&str) -> bool, named: &'static Named) -> Vec<(&'static str, &'static Named)> {
-    let seeds = defect::all().iter().filter(|seed| seed.is_for_cnc() && is(&seed.id));
+    let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc() && is(&seed.id));
     seeds.map(|seed| (seed.id.as_str(), named)).collect()
 }
 
@@ -176,7 +176,7 @@ fn written(seed: &Seed, named: &Named) -> BTreeSet<String> {
         .finish();
     tracing::subscriber::with_default(log, || {
         let cnc = Cnc::with_default_model().unwrap().with_standing_clock();
-        let cnc = Arc::new(cnc.with_defect(Some(seed.clone())));
+        let cnc = Arc::new(Faulty::new(cnc, Some(seed)));
         let head = "target = \"127.0.0.1.1.1\"\nexpires = 2999-01-01T00:00:00Z\n";
         let allowed = Allowed::from_toml(&format!("{head}{}", named.table)).unwrap();
         let gate = Gate::queries().with_allowed(Some(allowed));
@@ -202,7 +202,7 @@ const MISREAD: [&str; 3] = [
 /// Every defect of the CNC, in this process.
 #[test]
 fn no_defect_has_anything_else_written() {
-    let seeds: Vec<_> = defect::all().iter().filter(|seed| seed.is_for_cnc()).collect();
+    let seeds: Vec<_> = faults::all().iter().filter(|seed| seed.is_for_cnc()).collect();
     assert!(seeds.len() > 900, "{}", seeds.len());
     let queue = Mutex::new(seeds.into_iter());
     let found = Mutex::new((BTreeMap::new(), 0));

@@ -109,7 +109,7 @@ fn logs_are_filtered() {
         ("off", false),
         ("error", false),
         ("info", true),
-        ("warn,ads_cnc_conformance::cnc::server=debug", true),
+        ("warn,ads_cnc_conformance::simulator::server=debug", true),
         ("info,ads_cnc_conformance=error", false),
     ] {
         let mut serve = Serve::logging(&["--log", filter]);

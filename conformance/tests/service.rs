@@ -11,13 +11,13 @@ use std::time::{Duration, Instant};
 use ads_cnc::CncStr;
 use ads_cnc::service::ServiceId;
 use ads_cnc::service::ServiceVariable::{RequestState, Uuid};
+use ads_cnc_conformance::net;
 #[cfg(unix)]
-use ads_cnc_conformance::cnc::program::service::{
+use ads_cnc_conformance::simulator::program::service::{
     CallStep, ServiceCall, ServiceInterface, SysServiceWait,
 };
-use ads_cnc_conformance::cnc::program::{Script, ScriptConfig};
-use ads_cnc_conformance::cnc::{Cnc, Server};
-use ads_cnc_conformance::net;
+use ads_cnc_conformance::simulator::program::{Script, ScriptConfig};
+use ads_cnc_conformance::simulator::{Cnc, Server};
 use common::file::TestFile;
 
 const ID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";

@@ -11,9 +11,9 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::ads::AdsError;
 use ads_cnc::streaming::Ack;
-use ads_cnc_conformance::cnc::program::{Pace, ProgramConfig, StreamingInterface};
-use ads_cnc_conformance::cnc::{Cnc, Server};
 use ads_cnc_conformance::net;
+use ads_cnc_conformance::simulator::program::{Pace, ProgramConfig, StreamingInterface};
+use ads_cnc_conformance::simulator::{Cnc, Server};
 use common::fake::{Answer, fake};
 use common::file::TestFile;
 

@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use ads_cnc_conformance::defect;
+use ads_cnc_conformance::faults;
 use ads_cnc_conformance::suite::{self, Case, Needs, Outcome, Subject};
 use ads_cnc_conformance::testee::{Judged, Miniature, Own, Process, TESTEE, Terms, Testee, judge};
 use ads_cnc_conformance::verdict::{Exit, Verdict};
@@ -151,7 +151,7 @@ fn a_field_done_wrong_fails_its_requirement() {
         ("ams-header.invoke_id.swap", "ADS-5"),
         ("dynamic-value.value.swap", "GEN-1"),
     ] {
-        let mut own = Own { defect: defect::by_id(id).cloned() };
+        let mut own = Own { defect: faults::by_id(id).cloned() };
         let judged = judge(&mut own, cases(), OF_A_TESTEE);
         assert!(failed(&judged.outcomes).contains(&requirement), "{id}");
     }

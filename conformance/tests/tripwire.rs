@@ -10,8 +10,8 @@ use std::process::{Command, Output};
 use std::sync::{Arc, Mutex};
 use std::thread;
 
-use ads_cnc_conformance::cnc::{Cnc, Server};
 use ads_cnc_conformance::net;
+use ads_cnc_conformance::simulator::{Cnc, Server};
 use common::connect;
 use common::harmless::{is_harmless, number};
 

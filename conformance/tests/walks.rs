@@ -1,13 +1,13 @@
 //! What is asked of a CNC to find what it has: not more than there is to find, and an end however
 //! the CNC answers.
 
-use ads_cnc_conformance::cnc::Cnc;
-use ads_cnc_conformance::defect::Defect;
+use ads_cnc_conformance::faults::{Defect, Faulty};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::objects::{Found, Options, Pattern, walk};
 use ads_cnc_conformance::session::Session;
+use ads_cnc_conformance::simulator::{Cnc, Responder};
 
-fn found(cnc: Cnc, options: &Options) -> Found {
+fn found(cnc: impl Responder + 'static, options: &Options) -> Found {
     let mut session = Session::embedded(cnc, Gate::queries()).unwrap();
     walk(&mut session, options, &mut |_| {}).unwrap()
 }
@@ -55,7 +55,7 @@ fn wrong_answers_end() {
         }
         tried += 1;
         for variables in [false, true] {
-            let cnc = default_cnc().with_defect(Some(defect.clone().into()));
+            let cnc = Faulty::new(default_cnc(), Some(&defect.clone().into()));
             let found = found(cnc, &Options { variables, ..Options::default() });
             assert!(found.requests < 4000, "{}: {} requests", defect.id, found.requests);
         }

@@ -1,7 +1,7 @@
 //! The simulated CNC without a socket, for whoever counts instructions: the bytes of connections
 //! are fed to the code that a connection's thread runs.
 
-use ads_cnc_conformance::cnc::{Cnc, NET_ID, Received};
+use ads_cnc_conformance::simulator::{Cnc, NET_ID, Received};
 
 use crate::work::{Result, Work};
 

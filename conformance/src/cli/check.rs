@@ -8,10 +8,10 @@ use clap::Args;
 use super::complain;
 use super::forms::Reports;
 use crate::capture::{self, AMS_TCP_PORT, Checked, Collector, Options, Ports};
-use crate::cnc;
 use crate::edition::Edition;
 use crate::gate::Moment;
 use crate::report::{self, About, Report, TargetReport};
+use crate::simulator;
 use crate::suite::{Case, Selection};
 use crate::verdict::Exit;
 
@@ -51,7 +51,7 @@ pub(super) struct Check {
     only: Vec<String>,
 
     /// Judge by this edition alone, en-1.05 or de-1.051 [default: both]
-    #[arg(long, value_name = "EDITION", value_parser = cnc::edition)]
+    #[arg(long, value_name = "EDITION", value_parser = simulator::edition)]
     edition: Option<Edition>,
 
     #[command(flatten)]

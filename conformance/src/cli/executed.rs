@@ -5,8 +5,8 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use crate::cnc::Cnc;
-use crate::cnc::program::State;
+use crate::simulator::Cnc;
+use crate::simulator::program::State;
 
 /// A channel, and the file that gets its lines.
 #[derive(Clone, Debug)]

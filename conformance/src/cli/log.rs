@@ -17,7 +17,7 @@ impl std::str::FromStr for Filter {
     fn from_str(text: &str) -> Result<Self, String> {
         let odd = || {
             "a level (off, error, warn, info, debug, trace) or a list of module=level is needed, \
-             as ads_cnc_conformance::cnc=debug"
+             as ads_cnc_conformance::simulator=debug"
                 .to_owned()
         };
         // Any word is a module to it.

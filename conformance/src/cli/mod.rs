@@ -32,7 +32,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::defect::{self, Seed};
+use crate::faults::{self, Seed};
 use crate::verdict::Exit;
 
 /// Reads, judges and simulates the ADS interface of ISG and TwinCAT CNCs.
@@ -146,8 +146,8 @@ fn number(text: &str) -> Result<u32, String> {
 /// The defect with this ID, if one is asked for.
 fn find_defect(id: Option<&str>) -> Result<Option<Seed>, String> {
     let Some(id) = id else { return Ok(None) };
-    defect::by_id(id).cloned().map(Some).ok_or_else(|| {
-        let all = defect::all();
+    faults::by_id(id).cloned().map(Some).ok_or_else(|| {
+        let all = faults::all();
         // One of each stream or area is enough to show what IDs look like.
         let mut some: Vec<&str> = all.iter().map(|seed| seed.id.as_str()).collect();
         some.dedup_by_key(|id| id.split('.').next().unwrap_or_default());

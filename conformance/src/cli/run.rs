@@ -10,14 +10,14 @@ use super::list;
 use super::run_client::ClientArgs;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect, run_testee};
-use crate::cnc::{self, Model};
-use crate::defect::Seed;
 use crate::edition::Edition;
+use crate::faults::Seed;
 use crate::gate::Moment;
 use crate::interrupt::Interrupt;
 use crate::profile::{self, Profile};
 use crate::report::{self, About, Report, TargetReport};
 use crate::session::Trouble;
+use crate::simulator::{self, Model};
 use crate::suite::{self, Case, Changes, Needs, Plan, Selection, Subject, Unmatched};
 use crate::verdict::Exit;
 use crate::waivers::Waivers;
@@ -76,7 +76,7 @@ pub(super) struct Run {
     only: Vec<String>,
 
     /// Judge by this edition alone, en-1.05 or de-1.051; the embedded CNC follows it [default: both]
-    #[arg(long, help_heading = SELECTION, value_name = "EDITION", value_parser = cnc::edition)]
+    #[arg(long, help_heading = SELECTION, value_name = "EDITION", value_parser = simulator::edition)]
     edition: Option<Edition>,
 
     /// The order of the cases [default: a new one each time, which the report names]
@@ -309,7 +309,7 @@ impl Run {
 
     fn testee(&self, command: &str, seed: u32, waivers: Waivers) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let edition = self.edition.map(cnc::edition_name);
+        let edition = self.edition.map(simulator::edition_name);
         let timeout = self.target.timeout();
         let cases = plan.cases.clone();
         let judged = run_testee::run(

@@ -11,14 +11,14 @@ use ads_cnc::ads::AmsNetId;
 use super::executed::{self, ExecutedTo};
 use super::model::ModelArgs;
 use super::{complain, find_defect, refuse};
-use crate::cnc::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
-use crate::cnc::{
-    CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
-};
-use crate::defect;
+use crate::faults::{self, Faulty};
 use crate::interrupt::Interrupt;
 use crate::net;
 use crate::session::Trouble;
+use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
+use crate::simulator::{
+    CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
+};
 use crate::verdict::Exit;
 
 /// For the end of the help.
@@ -116,10 +116,11 @@ pub(super) fn serve(args: &Args) -> ExitCode {
             format_args!("{} is a defect of a codec, not of a CNC", seed.id),
         );
     }
-    let cnc = match args.model.cnc() {
-        Ok(cnc) => cnc,
+    let faulty = match args.model.cnc() {
+        Ok(cnc) => Faulty::new(cnc, defect.as_ref()),
         Err(why) => return refuse(Exit::Usage, why),
     };
+    let cnc = Arc::clone(faulty.cnc());
     if let Err(why) = programs(&cnc, args) {
         return refuse(Exit::Internal, why);
     }
@@ -135,8 +136,7 @@ pub(super) fn serve(args: &Args) -> ExitCode {
     if let Some(defect) = &defect {
         tracing::warn!("serving with a seeded defect: {defect}");
     }
-    let cnc = Arc::new(cnc.with_defect(defect));
-    let server = match start(args.listen, Arc::clone(&cnc), args.options()) {
+    let server = match start(args.listen, faulty, args.options()) {
         Ok(server) => server,
         Err(why) => return refuse(Exit::Internal, why),
     };
@@ -192,7 +192,7 @@ pub(super) fn check_address(addr: SocketAddr, allow_remote: bool) -> Result<(), 
     ))
 }
 
-fn start(addr: SocketAddr, cnc: Arc<Cnc>, options: ServerOptions) -> Result<Server, String> {
+fn start(addr: SocketAddr, cnc: Faulty, options: ServerOptions) -> Result<Server, String> {
     let listener = net::listen(addr).map_err(|error| {
         let next = match error.kind() {
             io::ErrorKind::AddrInUse => {
@@ -238,7 +238,7 @@ fn print_model() -> ExitCode {
 
 fn list_defects() -> ExitCode {
     let mut out = io::stdout().lock();
-    for seed in defect::all() {
+    for seed in faults::all() {
         let broken = seed.requirements.join(" ");
         if writeln!(out, "{}\t{broken}\t{seed}", seed.id).is_err() {
             // Whoever reads has seen enough.

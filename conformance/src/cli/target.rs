@@ -15,10 +15,10 @@ use clap::Args;
 use super::complain;
 use crate::capture::{AMS_TCP_PORT, Capture};
 use crate::client::Target;
-use crate::cnc::{Cnc, NET_ID};
 use crate::deadline::Deadline;
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::session::{Session, TIMEOUT, Trouble};
+use crate::simulator::{Cnc, NET_ID};
 use crate::verdict::Exit;
 
 /// Under which these options stand in the help.

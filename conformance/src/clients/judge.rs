@@ -15,8 +15,8 @@ use super::scenario::{Expect, Scenario};
 use super::script::Script;
 use super::stage::{Stage, Turn};
 use super::{Actor, CLIENT, Defect, Own, asked, requests, scenarios, watch};
-use crate::cnc::Cnc;
 use crate::interrupt;
+use crate::simulator::Cnc;
 use crate::suite::{Body, Case, Needs, Outcome, Record, Rule, Stop, Subject};
 use crate::verdict::Verdict;
 

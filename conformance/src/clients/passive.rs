@@ -6,7 +6,7 @@ use super::findings::Findings;
 use super::script::Script;
 use super::stage::{Stage, Turn};
 use super::{CLIENT, requests};
-use crate::cnc::{Cnc, ModelError};
+use crate::simulator::{Cnc, ModelError};
 use crate::suite::{Body, Case, Needs, Outcome, Stop, Subject};
 
 /// The case that all requests are judged in: by whatever requirement each of them touches.

@@ -7,8 +7,8 @@ use ads_cnc::operation::{Call, DispatchError, Effect, Function, Request, Task};
 use super::CLIENT;
 use super::findings::Findings;
 use super::stage::Turn;
-use crate::cnc::{DATA_MAX, NET_ID};
 use crate::services::{self, service_of};
+use crate::simulator::{DATA_MAX, NET_ID};
 use crate::suite::assumed;
 
 /// What is known of the request before: its connection and its invoke ID.

@@ -10,7 +10,7 @@ use ads_cnc::{Decode as _, Encode as _, Handle};
 
 use super::knob::{Deed, Knob};
 use super::literal::Literal;
-use crate::cnc::{Cnc, DATA_MAX, NET_ID};
+use crate::simulator::{Cnc, DATA_MAX, NET_ID};
 
 /// How often a host of the Service Interface lets the client look before it has the response.
 const LOOKS: usize = 2;

@@ -10,7 +10,7 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString};
 
 use super::{Doubt, Learnt, Moment, Reason};
-use crate::cnc::NET_ID;
+use crate::simulator::NET_ID;
 
 /// What may be written, to whom and until when.
 ///

@@ -43,7 +43,7 @@ use ads_cnc::ads::{AmsNetId, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Effect, Function, Request, Service, Task};
 use ads_cnc::streaming;
 
-use crate::cnc::Server;
+use crate::simulator::Server;
 use learnt::Learnt;
 
 /// Decides over every frame before a byte of it is sent.

@@ -36,7 +36,7 @@ pub struct Question {
 ///
 /// ```
 /// use ads_cnc::address::Channel;
-/// use ads_cnc_conformance::cnc::Cnc;
+/// use ads_cnc_conformance::simulator::Cnc;
 /// use ads_cnc_conformance::gate::Gate;
 /// use ads_cnc_conformance::named::{Question, find};
 /// use ads_cnc_conformance::session::Session;

@@ -8,11 +8,11 @@ use super::model::{
 };
 use super::{BytesReport, hex};
 use crate::clients::CLIENT;
-use crate::cnc;
 use crate::edition::Edition;
 use crate::explain;
 use crate::gate::Moment;
 use crate::profile::Profile;
+use crate::simulator;
 use crate::suite::{Body, Evidence, Judgement, Outcome, Subject, gravest, names};
 use crate::testee::TESTEE;
 use crate::verdict::{Tally, Verdict};
@@ -85,8 +85,8 @@ impl Report {
             suite: env!("CARGO_PKG_VERSION").to_owned(),
             vectors: ads_cnc_vectors::VERSION.to_owned(),
             time: time.to_string(),
-            editions: edition.map_or(Edition::ALL.map(cnc::edition_name).to_vec(), |one| {
-                vec![cnc::edition_name(one)]
+            editions: edition.map_or(Edition::ALL.map(simulator::edition_name).to_vec(), |one| {
+                vec![simulator::edition_name(one)]
             }),
             seed,
             only,

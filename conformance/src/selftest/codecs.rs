@@ -5,7 +5,7 @@ use std::time::Duration;
 use ads_cnc::layout::Stream;
 
 use super::{Candidate, Group};
-use crate::defect::{self, Seed};
+use crate::faults::{self, Seed};
 use crate::session::Trouble;
 use crate::suite::{self, Body, Case, Needs, Outcome, Subject};
 use crate::testee::{Miniature, Own, Process, TESTEE, Terms, judge};
@@ -20,7 +20,7 @@ const TERMS: Terms<'static> =
     Terms { seed: 1, subject: Subject::Testee, edition: None, strict: false };
 
 pub(super) fn candidates() -> Vec<Candidate> {
-    let seeds = defect::all().iter().filter(|seed| seed.is_for_codec()).map(of_seed);
+    let seeds = faults::all().iter().filter(|seed| seed.is_for_codec()).map(of_seed);
     seeds.chain(Miniature::ALL.map(of_miniature)).collect()
 }
 

@@ -19,7 +19,7 @@ use std::thread;
 
 use serde::Serialize;
 
-use crate::defect::{self, Kind};
+use crate::faults::{self, Kind};
 use crate::session::Trouble;
 use crate::suite::Outcome;
 use crate::verdict::{Exit, Verdict};
@@ -171,7 +171,7 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) ->
     // Most of their time they wait for each other's ends of a connection.
     let tried = parallel(&candidates, 3, attempt, &tell);
     let stale = if only.is_empty() { reasons::stale(&tried) } else { Vec::new() };
-    let seeds = defect::all().iter().filter(|seed| seed.is_for_cnc());
+    let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
     let seeds = seeds.filter(|seed| {
         let group = if seed.kind == Kind::Different { Group::Different } else { Group::Cnc };
         wanted(&seed.id, group, &seed.requirements)

@@ -1,20 +1,21 @@
 //! CNCs with a defect, and CNCs that do things otherwise.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use super::{Candidate, Group, Outcomes};
-use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::defect::{self, Kind, Seed};
 use crate::edition::Edition;
+use crate::faults::{self, Faulty, Kind, Seed};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
+use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, Case, Needs, Outcome, Session};
 
 /// A version that has 0x4C and all kinds.
 const NEWEST: &str = "V4.29.0";
 
 pub(super) fn candidates() -> Vec<Candidate> {
-    defect::all().iter().filter(|seed| seed.is_for_cnc()).map(of_seed).collect()
+    faults::all().iter().filter(|seed| seed.is_for_cnc()).map(of_seed).collect()
 }
 
 fn of_seed(seed: &'static Seed) -> Candidate {
@@ -65,23 +66,20 @@ fn run(
 ) -> Result<(Vec<Outcome>, bool), Trouble> {
     let internal = |error| Trouble::Internal(format!("the default model: {error}"));
     let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
-    let cnc = Cnc::new(model.map_err(internal)?).with_defect(Some(seed.clone()));
+    let faulty = Arc::new(Faulty::new(Cnc::new(model.map_err(internal)?), Some(seed)));
+    let cnc = Arc::clone(faulty.cnc());
     let profile = cnc.model().profile();
     let profile = Profile { printed_examples: seed.printed, ..profile };
-    let session = session::Session::embedded_to_try(cnc)?;
+    let session = session::Session::embedded_to_try(Arc::clone(&faulty))?;
     // The CNC runs as long as it is held.
-    let (client, running) = session.into_parts();
+    let (client, _running) = session.into_parts();
     let client = match seed.kind {
         Kind::Different => client,
         Kind::Codec | Kind::Cnc => client.with_timeout(IMPATIENCE),
     };
-    let mut session = Session::new(client, profile);
-    if let Some(server) = &running {
-        session = session.with_cnc(server.cnc());
-    }
+    let mut session = Session::new(client, profile).with_cnc(cnc);
     let of_target = |case: &Case| case.needs != Needs::Codec && wanted(case);
     let cases = suite::cases().into_iter().filter(of_target).collect();
     let outcomes = suite::run(cases, Some(&mut session), None, 1);
-    let has_shown = running.is_none_or(|server| server.cnc().has_shown());
-    Ok((outcomes, has_shown))
+    Ok((outcomes, faulty.has_shown()))
 }

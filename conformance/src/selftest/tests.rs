@@ -128,7 +128,7 @@ fn the_table_is_whole() {
         detection::inputs(),
         "renew it: ads-cnc selftest --renew conformance/doc"
     );
-    let seeds = defect::all().iter().filter(|seed| seed.is_for_cnc());
+    let seeds = faults::all().iter().filter(|seed| seed.is_for_cnc());
     let ids: Vec<&str> = seeds.map(|seed| seed.id.as_str()).collect();
     assert_eq!(table.rows.iter().map(|row| row.id.as_str()).collect::<Vec<_>>(), ids);
     for mode in Mode::ALL {

@@ -17,13 +17,13 @@ use ads_cnc::{Kind, address::Channel};
 
 use crate::capture::Capture;
 use crate::client::{Client, Inquiry, Said, Target};
-use crate::cnc::{Cnc, NET_ID, Server};
 use crate::deadline::Deadline;
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Gate;
 use crate::net;
 use crate::profile::{Claim, Profile};
 use crate::report::hex;
+use crate::simulator::{NET_ID, Responder, Server};
 
 pub use trouble::Trouble;
 
@@ -32,7 +32,7 @@ pub use trouble::Trouble;
 /// ```
 /// use ads_cnc::address::Channel;
 /// use ads_cnc::operation::{ReadByName, WriteByName};
-/// use ads_cnc_conformance::cnc::Cnc;
+/// use ads_cnc_conformance::simulator::Cnc;
 /// use ads_cnc_conformance::gate::Gate;
 /// use ads_cnc_conformance::session::{Session, Trouble};
 ///
@@ -82,12 +82,12 @@ impl Session {
     ///
     /// # Errors
     /// If the system has no socket or no thread left.
-    pub fn embedded(cnc: Cnc, gate: Gate) -> Result<Self, Trouble> {
+    pub fn embedded(cnc: impl Responder + 'static, gate: Gate) -> Result<Self, Trouble> {
         let failed = |error: io::Error| {
             Trouble::Internal(format!("the embedded CNC could not be started: {error}"))
         };
         let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
-        let server = Server::start(listener, Arc::new(cnc)).map_err(failed)?;
+        let server = Server::start(listener, cnc).map_err(failed)?;
         // No network is in between: whoever is that late has not been let run by this machine.
         let target =
             Target { timeout: EMBEDDED_TIMEOUT, ..Target::local(server.addr(), server.net_id()) };
@@ -99,7 +99,7 @@ impl Session {
     ///
     /// # Errors
     /// If the gate is open wider than is safe for another machine.
-    pub(crate) fn in_process(cnc: Arc<Cnc>, gate: Gate) -> Result<Self, Trouble> {
+    pub(crate) fn in_process(cnc: Arc<dyn Responder>, gate: Gate) -> Result<Self, Trouble> {
         let target = Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID);
         let client = Client::in_process(target, gate, cnc);
         let client = client.map_err(|error| Trouble::unreachable(&target, &error))?;
@@ -111,7 +111,7 @@ impl Session {
     ///
     /// # Errors
     /// Those of [`embedded`](Self::embedded).
-    pub fn embedded_to_try(cnc: Cnc) -> Result<Self, Trouble> {
+    pub fn embedded_to_try(cnc: impl Responder + 'static) -> Result<Self, Trouble> {
         let session = Self::embedded(cnc, Gate::queries())?;
         match session.embedded.as_ref().map(Gate::of_embedded) {
             Some(gate) => session.behind(gate),
@@ -242,7 +242,7 @@ impl Session {
     ///
     /// ```
     /// use ads_cnc::operation::Task;
-    /// use ads_cnc_conformance::cnc::Cnc;
+    /// use ads_cnc_conformance::simulator::Cnc;
     /// use ads_cnc_conformance::gate::Gate;
     /// use ads_cnc_conformance::session::Session;
     ///
@@ -262,7 +262,7 @@ impl Session {
     /// ```
     /// use ads_cnc::ads::AdsState;
     /// use ads_cnc::operation::Task;
-    /// use ads_cnc_conformance::cnc::Cnc;
+    /// use ads_cnc_conformance::simulator::Cnc;
     /// use ads_cnc_conformance::gate::Gate;
     /// use ads_cnc_conformance::session::Session;
     ///

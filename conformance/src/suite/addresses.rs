@@ -9,7 +9,7 @@ use super::case::{Rule, Step, Stop, assumed};
 use super::inventory::{Instance, Object};
 use super::place::Place;
 use super::probe::{Probe, harness};
-use crate::cnc::{Held, Holder};
+use crate::simulator::{Held, Holder};
 
 /// What a target says itself of where things are, where no manual does.
 pub(super) struct Addresses {

@@ -11,7 +11,7 @@ use super::case::{Case, Step};
 use super::declare;
 use super::probe::Probe;
 use super::survey::VARIABLES_MAX;
-use crate::cnc::Configured;
+use crate::simulator::Configured;
 
 pub(super) fn cases() -> Vec<Case> {
     vec![declare!(

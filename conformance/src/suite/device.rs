@@ -7,7 +7,7 @@ use super::case::{Case, Evidence, Step};
 use super::declare;
 use super::probe::Probe;
 use crate::client::{Inquired, Inquiry, Said};
-use crate::cnc;
+use crate::simulator;
 use crate::values::until_nul;
 
 pub(super) fn cases() -> Vec<Case> {
@@ -68,8 +68,13 @@ fn device_state(probe: &mut Probe<'_>) -> Step {
 fn as_it_is(probe: &mut Probe<'_>) -> Step {
     probe.cnc()?;
     each(probe, |probe, info: DeviceInfoReply| {
-        let own = info == cnc::INFO;
-        probe.check(DeviceInfoReply::CLAUSE, own, format!("{:?}", cnc::INFO), format!("{info:?}"));
+        let own = info == simulator::INFO;
+        probe.check(
+            DeviceInfoReply::CLAUSE,
+            own,
+            format!("{:?}", simulator::INFO),
+            format!("{info:?}"),
+        );
         Ok(())
     })?;
     each(probe, |probe, state: DeviceStateReply| {

@@ -11,7 +11,7 @@ use super::inventory::Object;
 use super::numbers::is_permuted;
 use super::place::{self, Place};
 use super::probe::Probe;
-use crate::cnc::{Held, Holder};
+use crate::simulator::{Held, Holder};
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -245,7 +245,7 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cnc::Cnc;
+    use crate::simulator::Cnc;
 
     /// What is read in place of another, or in another order, is not taken for it.
     #[test]

@@ -14,12 +14,12 @@ use ads_cnc_vectors::Level;
 use super::case::{Evidence, Judgement, Rule, Step, Stop};
 use super::record::{Checks, Record};
 use super::session::Session;
-use crate::cnc::Cnc;
 use crate::deadline::Deadline;
 use crate::exchange::{Exchange, Fault, Violation};
 use crate::gate::Reason;
 use crate::interrupt;
 use crate::profile::Claim;
+use crate::simulator::Cnc;
 use crate::verdict::Verdict;
 
 /// Requests in a row without an answer after which no more are sent.

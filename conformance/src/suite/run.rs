@@ -8,7 +8,7 @@ use super::probe::Probe;
 use super::session::Session;
 use super::{printed, replay};
 use crate::deadline::Deadline;
-use crate::defect::Seed;
+use crate::faults::Seed;
 use crate::interrupt;
 use crate::testee::{self, Terms};
 use crate::verdict::Verdict;
@@ -107,10 +107,10 @@ mod tests {
 
     use super::*;
     use crate::client::{Client, Target};
-    use crate::cnc::{Cnc, NET_ID, Server};
     use crate::gate::{Allowed, Gate};
     use crate::net;
     use crate::profile::Profile;
+    use crate::simulator::{Cnc, NET_ID, Server};
     use crate::suite::case::Step;
     use crate::suite::place::{Place, Trial};
 

@@ -10,9 +10,9 @@ use super::inventory::Inventory;
 use super::record::Record;
 use super::undo::Changes;
 use crate::client::Client;
-use crate::cnc::Cnc;
 use crate::deadline::Deadline;
 use crate::profile::Profile;
+use crate::simulator::Cnc;
 
 /// The connection, and what has been learnt of the target so far.
 #[derive(Debug)]

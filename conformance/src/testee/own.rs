@@ -8,7 +8,7 @@ use super::message::{
     Answer, Capabilities, Hello, Identity, Output, PROTOCOL, Question, Rejection,
 };
 use crate::codec::{self, Refused};
-use crate::defect::{Defect, Seed};
+use crate::faults::{Defect, Seed};
 
 /// The codec's answers, with a defect if that is asked for.
 #[derive(Clone, Debug, Default)]

@@ -1,6 +1,6 @@
 //! Places of channels, and channels themselves: axis exchange and activation.
 
-use ads_cnc_conformance::cnc::DEFAULT_MODEL;
+use ads_cnc_conformance::simulator::DEFAULT_MODEL;
 
 use super::{CHANNEL_1, Cnc};
 

@@ -1,6 +1,6 @@
 //! Dynamic parameters.
 
-use ads_cnc_conformance::cnc::DEFAULT_MODEL;
+use ads_cnc_conformance::simulator::DEFAULT_MODEL;
 
 use super::timed::Timed;
 use super::{CHANNEL_1, Cnc};

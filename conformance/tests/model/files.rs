@@ -2,7 +2,7 @@
 
 use std::process::{Command, Stdio};
 
-use ads_cnc_conformance::cnc::{DEFAULT_MODEL, Model};
+use ads_cnc_conformance::simulator::{DEFAULT_MODEL, Model};
 
 use super::common::file::TestFile;
 use super::{CHANNEL_1, Cnc};

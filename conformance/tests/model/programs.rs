@@ -1,8 +1,8 @@
 //! What the model says of the NC programs of a channel.
 
 use ads_cnc::streaming::ProgramEnd;
-use ads_cnc_conformance::cnc::program::{Outcome, ScriptState, State};
-use ads_cnc_conformance::cnc::{DEFAULT_MODEL, Model};
+use ads_cnc_conformance::simulator::program::{Outcome, ScriptState, State};
+use ads_cnc_conformance::simulator::{DEFAULT_MODEL, Model};
 
 use super::common::file::TestFile;
 use super::timed::Timed;

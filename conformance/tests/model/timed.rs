@@ -5,7 +5,7 @@ use std::time::Duration;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{Call, Service};
-use ads_cnc_conformance::cnc::{Cnc, Model};
+use ads_cnc_conformance::simulator::{Cnc, Model};
 
 use super::CHANNEL_1;
 

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::streaming::{Ack, ProgramEnd};
-use ads_cnc_conformance::cnc::program::{
+use ads_cnc_conformance::simulator::program::{
     Pace, Program, ProgramConfig, Start, StartError, State, digest,
 };
 use proptest::prelude::*;

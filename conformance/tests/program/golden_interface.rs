@@ -1,7 +1,7 @@
 //! The golden sequences of streaming with the interface alone and a sender.
 
 use ads_cnc::streaming::{Ack, DiagnosticKind, LINE_END_ERROR, NcText, ProgramEnd, Sender};
-use ads_cnc_conformance::cnc::program::StreamingInterface;
+use ads_cnc_conformance::simulator::program::StreamingInterface;
 use ads_cnc_vectors::{Given, Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
 use crate::{cases, stated_fault};

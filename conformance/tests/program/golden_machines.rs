@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use ads_cnc::service::*;
 use ads_cnc::{CncStr, ErrorKind};
-use ads_cnc_conformance::cnc::program::service::*;
+use ads_cnc_conformance::simulator::program::service::*;
 use ads_cnc_vectors::{Given, Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
 use crate::{cases, stated_fault};

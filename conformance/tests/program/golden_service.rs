@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::{CncStr, CncString, ErrorKind};
-use ads_cnc_conformance::cnc::program::service::{CallError, CallStep, ServiceInterface};
-use ads_cnc_conformance::cnc::program::{
+use ads_cnc_conformance::simulator::program::service::{CallError, CallStep, ServiceInterface};
+use ads_cnc_conformance::simulator::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
 };
 use ads_cnc_vectors::{Given, Pieces, ServiceAction, ServiceSequence, ServiceStep};

@@ -3,7 +3,9 @@
 use std::time::Duration;
 
 use ads_cnc::streaming::{Ack, CheckEvent, Checker, DiagnosticKind, NcText, Sender};
-use ads_cnc_conformance::cnc::program::{Message, Pace, Program, ProgramConfig, Start, State};
+use ads_cnc_conformance::simulator::program::{
+    Message, Pace, Program, ProgramConfig, Start, State,
+};
 use ads_cnc_vectors::{Given, Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
 use crate::{cases, stated_fault};

@@ -7,8 +7,8 @@ use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
 use ads_cnc::service::ServiceId;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::streaming::{Ack, LineErrorKind, NcText, Sender};
-use ads_cnc_conformance::cnc::program::StreamingInterface;
-use ads_cnc_conformance::cnc::program::service::{
+use ads_cnc_conformance::simulator::program::StreamingInterface;
+use ads_cnc_conformance::simulator::program::service::{
     CallError, CallStep, Clears, ServiceCall, ServiceInterface, SysServiceWait,
 };
 use proptest::collection::vec;

@@ -2,7 +2,7 @@
 //! reads that fail, against a model that counts.
 
 use ads_cnc::service::ServiceId;
-use ads_cnc_conformance::cnc::program::service::Clears;
+use ads_cnc_conformance::simulator::program::service::Clears;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;

@@ -9,8 +9,8 @@ use ads_cnc::CncStr;
 use ads_cnc::limits::STREAM_MAX;
 use ads_cnc::service::*;
 use ads_cnc::streaming::{Ack, LineError, LineErrorKind};
-use ads_cnc_conformance::cnc::program::StreamingInterface;
-use ads_cnc_conformance::cnc::program::service::*;
+use ads_cnc_conformance::simulator::program::StreamingInterface;
+use ads_cnc_conformance::simulator::program::service::*;
 
 /// The text of a value, up to its NUL.
 fn text(value: &[u8]) -> &[u8] {

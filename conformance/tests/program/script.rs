@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::{CncStr, CncString, ErrorKind};
-use ads_cnc_conformance::cnc::program::service::{CallStep, ServiceInterface};
-use ads_cnc_conformance::cnc::program::{
+use ads_cnc_conformance::simulator::program::service::{CallStep, ServiceInterface};
+use ads_cnc_conformance::simulator::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
 };
 use proptest::prelude::*;

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use ads_cnc::streaming::{Ack, NcText, RETRY_AFTER, Sender};
-use ads_cnc_conformance::cnc::program::{Pace, Program, ProgramConfig, State, digest};
+use ads_cnc_conformance::simulator::program::{Pace, Program, ProgramConfig, State, digest};
 use proptest::prelude::*;
 
 use crate::kept;

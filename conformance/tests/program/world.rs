@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use ads_cnc::CncStr;
 use ads_cnc::service::*;
-use ads_cnc_conformance::cnc::program::service::*;
+use ads_cnc_conformance::simulator::program::service::*;
 
 const NOW: Duration = Duration::ZERO;
 

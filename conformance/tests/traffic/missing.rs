@@ -2,7 +2,7 @@
 //! hide is inconclusive, what is wrong in spite of them fails.
 
 use ads_cnc_conformance::capture::Checked;
-use ads_cnc_conformance::defect::Defect;
+use ads_cnc_conformance::faults::Defect;
 use ads_cnc_conformance::verdict::Verdict;
 
 use crate::defects::written;

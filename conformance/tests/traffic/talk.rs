@@ -14,10 +14,10 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Decode as _, Description, Encode as _, U32List};
 use ads_cnc_conformance::capture::Capture;
-use ads_cnc_conformance::cnc::Cnc;
-use ads_cnc_conformance::defect::Defect;
+use ads_cnc_conformance::faults::{Defect, Faulty};
 use ads_cnc_conformance::gate::Gate;
 use ads_cnc_conformance::session::Session;
+use ads_cnc_conformance::simulator::Cnc;
 
 use crate::maker::{Link, Message, messages, pcap, segments};
 
@@ -41,7 +41,8 @@ pub(crate) fn conversation(
     defect: Option<&Defect>,
     talk: impl FnOnce(&mut Session),
 ) -> Vec<Message> {
-    let cnc = Cnc::with_default_model().unwrap().with_defect(defect.cloned().map(Into::into));
+    let seed = defect.cloned().map(Into::into);
+    let cnc = Faulty::new(Cnc::with_default_model().unwrap(), seed.as_ref());
     let memory = Memory::default();
     let capture = Capture::new(Box::new(memory.clone())).unwrap();
     let session = Session::embedded(cnc, Gate::queries()).unwrap();

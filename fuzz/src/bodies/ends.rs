@@ -2,7 +2,7 @@
 
 use ads_cnc::limits::NC_LINE_MAX;
 use ads_cnc::streaming::{Ack, NcText};
-use ads_cnc_conformance::cnc::program::StreamingInterface;
+use ads_cnc_conformance::simulator::program::StreamingInterface;
 
 use super::input::Input;
 use crate::common::streaming::{CheckedSender, SenderBend};

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use ads_cnc::service::{HostStep, ServiceId, ServiceVariable};
-use ads_cnc_conformance::cnc::program::service::{Clears, ServiceInterface};
+use ads_cnc_conformance::simulator::program::service::{Clears, ServiceInterface};
 
 use super::input::Input;
 use crate::common::machines::{CheckedHost, HostBend, service_ids};

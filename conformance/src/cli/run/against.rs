@@ -1,18 +1,19 @@
 //! The suite against a device, or against the embedded CNC.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use ads_cnc::operation::Task;
 
 use super::{Run, Stopped};
 use crate::cli::forms::show;
 use crate::cli::{complain, run_dry};
-use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::defect::Seed;
+use crate::faults::{Faulty, Seed};
 use crate::gate::Moment;
 use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
+use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::suite::{self, Changes, Needs, Outcome, Plan, RequirementVerdict, Session};
 use crate::verdict::Verdict;
 use crate::waivers::Waivers;
@@ -67,16 +68,14 @@ impl Run {
         let internal = |error| Trouble::Internal(format!("the default model: {error}"));
         let settings = Settings { edition: Some(profile.edition), version: None };
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
-        let cnc = Cnc::new(model.map_err(internal)?).with_defect(defect.clone());
-        let session = session::Session::embedded_to_try(cnc)?;
+        let faulty = Faulty::new(Cnc::new(model.map_err(internal)?), defect.as_ref());
+        let cnc = Arc::clone(faulty.cnc());
+        let session = session::Session::embedded_to_try(faulty)?;
         let mut session = self.target.recorded(session)?;
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs as long as it is held.
-        let (client, running) = session.into_parts();
-        let mut session = Session::new(client, profile);
-        if let Some(server) = &running {
-            session = session.with_cnc(server.cnc());
-        }
+        let (client, _running) = session.into_parts();
+        let session = Session::new(client, profile).with_cnc(cnc);
         let target = TargetReport {
             name: match &defect {
                 None => "embedded CNC".to_owned(),

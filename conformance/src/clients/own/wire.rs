@@ -11,8 +11,8 @@ use super::Flaw;
 use super::spoil::{Asked, believe, misread, spoil_frame};
 use crate::client::{SOURCE_PORT, answer, frame, net_id_of};
 use crate::clients::Place;
-use crate::cnc::DATA_MAX;
 use crate::net;
+use crate::simulator::DATA_MAX;
 
 /// How long it waits for a reply.
 const TIMEOUT: Duration = Duration::from_secs(3);

@@ -75,7 +75,7 @@ pub struct Seen {
 /// Finds all that is meant. What the CNC refuses to tell is noted and left out.
 ///
 /// ```
-/// use ads_cnc_conformance::cnc::Cnc;
+/// use ads_cnc_conformance::simulator::Cnc;
 /// use ads_cnc_conformance::gate::Gate;
 /// use ads_cnc_conformance::objects::{Options, Pattern, walk};
 /// use ads_cnc_conformance::session::Session;

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::{Detection, Figures, Found, Mode, Row, Table, hash, inputs, measure};
-use crate::defect::Seed;
+use crate::faults::Seed;
 use crate::selftest::parallel;
 use crate::suite::order;
 

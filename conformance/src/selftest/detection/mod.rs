@@ -17,13 +17,13 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 use ads_cnc::address::{Channel, ChannelAxis};
 
-use crate::cnc::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
-use crate::defect::Seed;
 use crate::edition::Edition;
+use crate::faults::{Faulty, Seed};
 use crate::gate::{Allowed, Entry, Gate, Moment};
 use crate::objects::{self, Access, Options};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
+use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
 use crate::suite::{self, Needs, Outcome, Selection};
 use crate::verdict::Verdict;
 
@@ -150,11 +150,11 @@ impl Device {
     }
 
     /// A CNC of it, with this defect if there is one.
-    fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Cnc>, Trouble> {
+    fn cnc(&self, seed: Option<&Seed>) -> Result<Arc<Faulty>, Trouble> {
         let internal = |error| Trouble::Internal(format!("the model: {error}"));
         let model = Model::with_settings(self.model, "the model", self.settings);
-        let cnc = Cnc::new(model.map_err(internal)?);
-        Ok(Arc::new(cnc.with_standing_clock().with_defect(seed.cloned())))
+        let cnc = Cnc::new(model.map_err(internal)?).with_standing_clock();
+        Ok(Arc::new(Faulty::new(cnc, seed)))
     }
 
     /// The answers of the CNC without a defect to every request that a mode may send.

@@ -32,9 +32,9 @@ use ads_cnc::{
 };
 
 use crate::client::{Client, Inquiry};
-use crate::cnc::Cnc;
-use crate::cnc::program::digest;
 use crate::exchange::Fault;
+use crate::simulator::Cnc;
+use crate::simulator::program::digest;
 use crate::values::until_nul;
 
 /// Channel numbers and ranks that are asked for; a CNC with more is asked for these alone.

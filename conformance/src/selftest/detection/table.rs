@@ -10,9 +10,9 @@ use std::fmt::{self, Write as _};
 use serde::Serialize;
 
 use super::{Detection, Found, Mode};
-use crate::cnc::DEFAULT_MODEL;
-use crate::cnc::program::digest;
-use crate::defect::{self, Kind, Seed};
+use crate::faults::{self, Kind, Seed};
+use crate::simulator::DEFAULT_MODEL;
+use crate::simulator::program::digest;
 use crate::suite;
 
 /// The table of this version, which `selftest --renew` writes.
@@ -106,7 +106,7 @@ impl Table {
     /// profile: the median and the 90th percentile of those that are caught at all.
     pub fn blame(&self, of_fields: bool) -> (usize, usize) {
         let of_field = |row: &&Row| {
-            let seed = defect::by_id(&row.id);
+            let seed = faults::by_id(&row.id);
             seed.is_some_and(|seed| {
                 seed.field().is_some() == of_fields && seed.kind != Kind::Different
             })
@@ -203,7 +203,7 @@ impl Table {
         for mode in Mode::ALL {
             let _ = write!(text, "\n### {}\n\n", mode.name());
             for (row, request) in self.missed(mode) {
-                let what = defect::by_id(&row.id).map_or("", |seed| seed.what.as_str());
+                let what = faults::by_id(&row.id).map_or("", |seed| seed.what.as_str());
                 let _ = writeln!(text, "- `{}`: {what}. {request}", row.id);
             }
         }

@@ -9,9 +9,9 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::requests::{Asked, ask_everything};
 use super::{Device, Found, Mode};
-use crate::cnc::Settings;
-use crate::defect::{self, Change, Defect, Kind, Seed};
+use crate::faults::{self, Change, Defect, Kind, Seed};
 use crate::session::{Session, Trouble};
+use crate::simulator::Settings;
 
 /// Fields whose value is free, so that a one-to-one change of it gives a right CNC too: stream, field,
 /// changes, and why.
@@ -83,9 +83,9 @@ pub(super) fn answers(
     right: Option<&[u64]>,
 ) -> Result<Asked, Trouble> {
     let cnc = device.cnc(seed)?;
-    let session = Session::in_process(Arc::clone(&cnc), mode.gate(&device.allowed))?;
+    let session = Session::in_process(cnc.clone(), mode.gate(&device.allowed))?;
     let (client, _) = session.into_parts();
-    Ok(ask_everything(client, cnc, right))
+    Ok(ask_everything(client, Arc::clone(cnc.cnc()), right))
 }
 
 /// Correct variants, by the place and the digest of the first answer that is another than that of
@@ -102,7 +102,7 @@ fn variants(device: &'static Device, mode: Mode) -> Result<Variants, Trouble> {
         return Ok(Arc::clone(variants));
     }
     let mut variants: BTreeMap<_, Vec<&Seed>> = BTreeMap::new();
-    let different = defect::all().iter().filter(|seed| seed.kind == Kind::Different);
+    let different = faults::all().iter().filter(|seed| seed.kind == Kind::Different);
     for seed in different.filter(|seed| seed.own_model().is_none()) {
         if seed.edition.is_none_or(|edition| Some(edition) == device.settings.edition) {
             let answers = answers(device, Some(seed), mode, Some(device.right(mode)?))?.answers;

@@ -10,7 +10,7 @@ use ads_cnc_vectors::Hex;
 use super::super::case::Step;
 use super::super::probe::{Probe, harness};
 use super::{number, prefix};
-use crate::cnc::Cnc;
+use crate::simulator::Cnc;
 
 /// More than a byte has numbers.
 const MANY: u32 = 300;

@@ -91,6 +91,6 @@ fn show(fault: Option<(&str, &str)>) -> String {
 }
 
 /// What the embedded CNC refuses to have done to it is a mistake of the suite.
-fn within<T>(done: Result<T, crate::cnc::ControlError>) -> Done<T> {
+fn within<T>(done: Result<T, crate::simulator::ControlError>) -> Done<T> {
     done.map_err(|error| harness(error).into())
 }

@@ -11,7 +11,7 @@ use super::super::content::read_of;
 use super::super::inventory::{Instance, OBJECTS_MAX, OF_PLACES};
 use super::super::probe::{Probe, harness};
 use super::length_of;
-use crate::cnc::Cnc;
+use crate::simulator::Cnc;
 
 pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
     let places = probe.session.profile.empty_places.clone();

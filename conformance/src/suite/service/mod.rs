@@ -260,7 +260,7 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
 /// start.
 fn within(
     probe: &mut Probe<'_>,
-    then: impl FnOnce(&mut Probe<'_>, Channel, &crate::cnc::Cnc) -> Step,
+    then: impl FnOnce(&mut Probe<'_>, Channel, &crate::simulator::Cnc) -> Step,
 ) -> Step {
     let lacks = || Stop::NotApplicable("no channel has the Service Interface".to_owned());
     let channel = channels(probe)?.into_iter().next().ok_or_else(lacks)?;
@@ -271,7 +271,7 @@ fn within(
 fn within_at(
     probe: &mut Probe<'_>,
     channel: Channel,
-    then: impl FnOnce(&mut Probe<'_>, Channel, &crate::cnc::Cnc) -> Step,
+    then: impl FnOnce(&mut Probe<'_>, Channel, &crate::simulator::Cnc) -> Step,
 ) -> Step {
     let cnc = probe.cnc()?;
     let number = channel.number();

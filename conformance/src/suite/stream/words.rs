@@ -2,7 +2,7 @@
 
 use super::send_until_taken;
 use super::stage::{expect, set_up, taken};
-use crate::cnc::program::{Pace, Start, State};
+use crate::simulator::program::{Pace, Start, State};
 use crate::suite::case::{Rule, Step};
 use crate::suite::probe::Probe;
 

@@ -5,7 +5,7 @@ use std::time::Duration;
 use ads_cnc::ErrorKind::*;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;
-use ads_cnc_conformance::cnc::program::service::*;
+use ads_cnc_conformance::simulator::program::service::*;
 
 use super::channel::*;
 use super::{Fault, fault};

@@ -2,7 +2,7 @@
 
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
 use ads_cnc::service::*;
-use ads_cnc_conformance::cnc::program::service::*;
+use ads_cnc_conformance::simulator::program::service::*;
 
 use super::channel::*;
 

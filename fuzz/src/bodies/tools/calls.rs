@@ -4,7 +4,7 @@ use ads_cnc::Encode as _;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsAddr, AmsHeader, AmsNetId, AmsPort, FrameRef};
 use ads_cnc::operation::{Call, Service};
-use ads_cnc_conformance::cnc::NET_ID;
+use ads_cnc_conformance::simulator::NET_ID;
 
 use super::Input;
 

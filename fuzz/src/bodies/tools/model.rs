@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::operation::{Call, Reply, Request};
-use ads_cnc_conformance::cnc::{Cnc, Model};
+use ads_cnc_conformance::simulator::{Cnc, Model};
 
 use super::toml::{placed, text};
 use crate::common::CALLS;

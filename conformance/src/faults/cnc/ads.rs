@@ -1,0 +1,144 @@
+//! Services (ADS).
+
+use ads_cnc::ads::{AdsError, Command};
+use ads_cnc::operation::{Call, Service};
+
+use super::frame::{DATA, LENGTH, RESULT, is, measured, result, sent};
+use super::{Row, fits, put, row};
+
+const READS: &[Command] = &[Command::READ, Command::READ_WRITE];
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("cnc.ads.read-more", &["ADS-1"], "a Read is answered with all there is, however short the length",
+        |cnc, call| match call.service { Service::Read => cnc.whole(call), _ => cnc.answer(call) }),
+    row("cnc.ads.read-write-more", &["ADS-3"],
+        "a ReadWrite is answered with all there is, however short the read length",
+        |cnc, call| match call.service { Service::ReadWrite => cnc.whole(call), _ => cnc.answer(call) }),
+    row("cnc.ads.read-padded", &["ADS-1"], "the data of a Read is padded with zeros to the length asked for",
+        |cnc, call| {
+            let len = usize::try_from(call.read_length).unwrap_or_default().min(0xFFF0);
+            cnc.answer(call).map(|mut bytes| {
+                if call.service == Service::Read {
+                    bytes.resize(bytes.len().max(len), 0);
+                }
+                bytes
+            })
+        }),
+    row("cnc.ads.read-write-padded", &["ADS-3"],
+        "the data of a ReadWrite is padded with zeros to the read length",
+        |cnc, call| {
+            let len = usize::try_from(call.read_length).unwrap_or_default().min(0xFFF0);
+            cnc.answer(call).map(|mut bytes| {
+                if call.service == Service::ReadWrite {
+                    bytes.resize(bytes.len().max(len), 0);
+                }
+                bytes
+            })
+        }),
+    row("cnc.ads.read-write-echo", &["ADS-3"],
+        "the data of a ReadWrite begins with the data that was written",
+        |cnc, call| match call.service {
+            Service::ReadWrite => {
+                fits(call, cnc.whole(call).map(|bytes| [call.data, &bytes].concat()))
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.ads.errors-as-nothing", &["ADS-4", "ADS-7"], "errors are answered as success without data",
+        |cnc, call| cnc.answer(call).or_else(|_| Ok(Vec::new()))),
+    row("cnc.ads.errors-as-zeros", &["ADS-4", "ADS-7"], "errors of reads are answered as success with zeros",
+        |cnc, call| {
+            let len = usize::try_from(call.read_length).unwrap_or_default().min(2048);
+            cnc.answer(call).or_else(|_| Ok(vec![0; len]))
+        }),
+    row("cnc.ads.service-any", &["ADS-7"], "a Write is taken for a ReadWrite and the other way round",
+        |cnc, call| match cnc.answer(call) {
+            Err(AdsError::SERVICE_NOT_SUPPORTED) => match call.service {
+                Service::ReadWrite => {
+                    cnc.answer(&Call { service: Service::Write, read_length: 0, ..*call })
+                }
+                _ => cnc
+                    .answer(&Call { service: Service::ReadWrite, read_length: 2048, ..*call })
+                    .map(|bytes| if call.service == Service::Write { Vec::new() } else { bytes }),
+            },
+            answer => answer,
+        }),
+    sent("cnc.ads.read-without-length", &["ADS-1"], "the reply to a Read has no length before the data",
+        |_, request, mut bytes| {
+            if is(request, &[Command::READ]) && bytes.len() >= DATA {
+                bytes.drain(LENGTH..DATA);
+            }
+            measured(bytes)
+        }),
+    sent("cnc.ads.read-write-without-length", &["ADS-3"],
+        "the reply to a ReadWrite has no length before the data",
+        |_, request, mut bytes| {
+            if is(request, &[Command::READ_WRITE]) && bytes.len() >= DATA {
+                bytes.drain(LENGTH..DATA);
+            }
+            measured(bytes)
+        }),
+    sent("cnc.ads.read-length-as-asked", &["ADS-1", "ADS-3"],
+        "the length in a reply is that of the reply with result and length",
+        |_, request, mut bytes| {
+            let length = u32::try_from(bytes.len()).unwrap_or_default();
+            if is(request, READS) && bytes.len() > DATA {
+                put(&mut bytes, LENGTH, length.saturating_sub(38));
+            }
+            bytes
+        }),
+    sent("cnc.ads.read-length-0", &["ADS-1", "ADS-3"], "the length in a reply is 0", |_, request, mut bytes| {
+        if is(request, READS) {
+            put(&mut bytes, LENGTH, 0);
+        }
+        bytes
+    }),
+    sent("cnc.ads.read-length-16-bit", &["ADS-4"], "the length in a reply takes 2 bytes",
+        |_, request, mut bytes| {
+            if is(request, READS) && bytes.len() >= DATA {
+                bytes.drain(44..46);
+            }
+            measured(bytes)
+        }),
+    sent("cnc.ads.result-16-bit", &["ADS-4"], "the result takes 2 bytes", |_, _, mut bytes| {
+        if bytes.len() >= LENGTH {
+            bytes.drain(40..42);
+        }
+        measured(bytes)
+    }),
+    sent("cnc.ads.result-1", &["ADS-4"], "the result of success is 1", |_, _, mut bytes| {
+        if result(&bytes) == 0 {
+            put(&mut bytes, RESULT, 1);
+        }
+        bytes
+    }),
+    sent("cnc.ads.result-missing", &["ADS-4"], "a reply has no result", |_, _, mut bytes| {
+        if bytes.len() >= LENGTH {
+            bytes.drain(RESULT..LENGTH);
+        }
+        measured(bytes)
+    }),
+    sent("cnc.ads.write-reply-length", &["ADS-2", "VAR-17"],
+        "the reply to a Write has a length, 0, behind the result",
+        |_, request, mut bytes| {
+            if is(request, &[Command::WRITE]) {
+                bytes.extend([0; 4]);
+            }
+            measured(bytes)
+        }),
+    sent("cnc.ads.write-reply-data", &["ADS-2", "VAR-17"],
+        "the reply to a Write has the data that was written",
+        |_, request, mut bytes| {
+            if is(request, &[Command::WRITE]) {
+                bytes.extend_from_slice(request.data().get(8..).unwrap_or_default());
+            }
+            measured(bytes)
+        }),
+    sent("cnc.ads.write-reply-empty", &["ADS-2"], "the reply to a Write has no result",
+        |_, request, mut bytes| {
+            if is(request, &[Command::WRITE]) {
+                bytes.truncate(RESULT);
+            }
+            measured(bytes)
+        }),
+];

@@ -1,0 +1,224 @@
+//! The first and the last, the longest, and one more than is allowed.
+
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::Function;
+use ads_cnc::service::ServiceVariable;
+
+use super::handle::{joined, parts};
+use super::lookup::{indexed, instance, with_indices};
+use super::{
+    LOGICAL, Row, behind, dimensions, fits, function, group, is, number, offset, on, records,
+    reply, row, text, u32_at,
+};
+
+const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
+const STREAM: &[Function] = &[Function::WriteProgramStream];
+const DESCRIBE: &[Function] = &[Function::DescribeByIndex, Function::DescribeByName];
+const UUID: &str = ServiceVariable::UUID;
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("cnc.adr.logical-beyond-number", &["ADR-1"],
+        "logical numbers of channels go up to the number of channels: in SDA and GEO channel 6 is refused",
+        |cnc, call| match (group(call) & 0xFF_0F00, usize::try_from(instance(call))) {
+            (0x12_0300..=0x12_0800, Ok(channel)) if channel > cnc.channels().len() => {
+                Err(AdsError::INVALID_GROUP)
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.adr.platform-axis-last", &["ADR-3"],
+        "the contents of the last platform axis are refused, its descriptors are not",
+        |cnc, call| {
+            let next = cnc.read(call.port, (group(call) | 0x13_0000).wrapping_add(1), 0);
+            match group(call) & 0xEF_FF00 == 0x02_0200 && instance(call) > 0 && next.is_err() {
+                true => Err(AdsError::INVALID_GROUP),
+                false => cnc.answer(call),
+            }
+        }),
+    row("cnc.adr.axis-8-bit", &["ADR-7", "SDA-5"],
+        "of the axis in an index offset of SDA and GEO the lowest 8 bits count: axis 257 is axis 1",
+        |cnc, call| match group(call) & 0xF00 {
+            0x300..=0x800 => cnc.at(call, group(call), offset(call) & 0xFF_FFFF),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.com.count-without-platform", &["COM-1", "COM-4"],
+        "the number of objects of channel 1 leaves out the platform's, whose descriptors are there",
+        |cnc, call| match is(call, &[Function::CountObjects]) && group(call) | LOGICAL == 0x13_0101
+        {
+            true => {
+                let platform = cnc.read(call.port, 0x13_0100, 0)?;
+                let platform = u32_at(&platform, 0).unwrap_or_default();
+                let all = u32_at(&cnc.answer(call)?, 0).unwrap_or_default();
+                Ok(all.wrapping_sub(platform).to_le_bytes().to_vec())
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.com.many-12", &["COM-3"],
+        "there are 12 descriptors at most, as many as 1024 bytes have room for",
+        |cnc, call| reply(cnc, call, DESCRIPTORS, |mut bytes| {
+            bytes.truncate(84 * 12);
+            bytes
+        })),
+    on("cnc.com.many-to-last", &["COM-3"],
+        "of several descriptors up to the last object that of the last object is missing",
+        DESCRIPTORS, |cnc, call| {
+            let count = u32_at(&cnc.read(call.port, group(call), 0)?, 0).unwrap_or_default();
+            cnc.answer(call).map(|mut bytes| {
+                let given = u32::try_from(records(&bytes).len()).unwrap_or_default();
+                let end = offset(call).wrapping_add(given).wrapping_sub(1);
+                if given > 1 && end == count {
+                    bytes.truncate(bytes.len().saturating_sub(84));
+                }
+                bytes
+            })
+        }),
+    row("cnc.dyn.name-of-96", &["DYN-6"],
+        "a name that takes 96 bytes with its NUL is refused where a value is asked for by name",
+        |cnc, call| match is(call, &[Function::DynamicValueByName]) && call.data.len() == 96 {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        }),
+    on("cnc.var.index-one-digit", &["VAR-20"],
+        "of an index in the name of an element the first digit counts: [12] is [1]",
+        &[Function::ReadByName], |cnc, call| {
+            let (name, indices) = indexed(text(call.data));
+            let first = |index: &u32| {
+                std::iter::successors(Some(*index), |index| Some(index / 10).filter(|n| *n > 0))
+                    .last()
+                    .unwrap_or_default()
+            };
+            let indices: Vec<u32> = indices.iter().map(first).collect();
+            match indices.is_empty() {
+                true => cnc.answer(call),
+                false => cnc.with(call, &with_indices(name, &indices)),
+            }
+        }),
+    row("cnc.var.write-indices-8-bit", &["VAR-12"],
+        "of an index in a write by handle the lowest byte counts: 256 is 0",
+        |cnc, call| match (is(call, &[Function::WriteByHandle]), parts(call.data)) {
+            (true, Some((handle, indices, value))) => {
+                let indices: Vec<u32> = indices.iter().map(|index| index & 0xFF).collect();
+                cnc.with(call, &joined(handle, &indices, value))
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.var.write-2048", &["VAR-12", "VAR-13"],
+        "a write of 2048 bytes, with what stands in front of the value, is refused",
+        |cnc, call| match is(call, &[Function::WriteByHandle, Function::WriteByName])
+            && call.data.len() == 2048
+        {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        }),
+    row("cnc.var.read-2048", &["VAR-14"], "a value of 2048 bytes is refused by handle",
+        |cnc, call| match (is(call, &[Function::ReadByHandle]), cnc.answer(call)) {
+            (true, Ok(bytes)) if bytes.len() == 2048 => Err(AdsError::INVALID_SIZE),
+            (_, answer) => answer,
+        }),
+    row("cnc.var.write-name-of-255", &["VAR-13"],
+        "a value that stands behind the longest name, at the offset 256, is refused",
+        |cnc, call| match is(call, &[Function::WriteByName]) && text(call.data).len() == 255 {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        }),
+    on("cnc.var.extended-last", &["VAR-15"],
+        "the last variable of V.E has no extended description: its index is refused",
+        &[Function::DescribeExtended], |cnc, call| {
+            let answer = cnc.answer(call)?;
+            let index = u32_at(call.data, 0).unwrap_or_default().wrapping_add(1);
+            let kind = call.data.get(4..).unwrap_or_default();
+            cnc.with(call, &[&index.to_le_bytes(), kind].concat()).map(|_| answer)
+        }),
+    row("cnc.var.dimensions-2", &["VAR-4", "VAR-8"],
+        "a description tells two dimensions at most: of three the last is left out",
+        |cnc, call| reply(cnc, call, DESCRIBE, |mut bytes| {
+            let (numbers, end) = dimensions(&bytes);
+            if numbers.len() > 2 {
+                bytes.drain(28..end);
+                super::put(&mut bytes, 16, 2);
+            }
+            bytes
+        })),
+    row("cnc.var.third-index-0", &["VAR-11"], "by handle the third index of an element is taken for 0",
+        |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
+            (true, Some((handle, mut indices, value))) => {
+                indices.iter_mut().skip(2).for_each(|index| *index = 0);
+                cnc.with(call, &joined(handle, &indices, value))
+            }
+            _ => cnc.answer(call),
+        }),
+    on("cnc.var.whole-first-row", &["VAR-14"],
+        "of a whole array with more dimensions the first row is read by name",
+        &[Function::ReadByName], |cnc, call| {
+            let described = super::lookup::described(cnc, group(call), text(call.data));
+            let numbers = dimensions(&described.unwrap_or_default()).0;
+            let whole = indexed(text(call.data)).1.is_empty();
+            cnc.answer(call).map(|mut bytes| {
+                if let ([rows, _, ..], true) = (&numbers[..], whole) {
+                    let rows = usize::try_from(*rows).unwrap_or(1);
+                    bytes.truncate(bytes.len().checked_div(rows).unwrap_or_default());
+                }
+                bytes
+            })
+        }),
+    on("cnc.stm.room-4093", &["STM-3"],
+        "the interface holds 4093 bytes: the write that would fill it is refused for now",
+        STREAM, |cnc, call| {
+            let channel = u8::try_from(instance(call)).unwrap_or_default();
+            let held =
+                cnc.cnc.with_program(channel, |program| program.held()).unwrap_or_default();
+            match held.saturating_add(call.data.len()) == 4094 {
+                true => Err(AdsError::INVALID_DATA),
+                false => cnc.answer(call),
+            }
+        }),
+    row("cnc.stm.length-8-bit", &["STM-2", "STM-4"],
+        "a packet whose length is a multiple of 256 is acknowledged and lost",
+        |cnc, call| match is(call, STREAM) && call.data.len() % 256 == 0 {
+            true => Ok(Vec::new()),
+            false => cnc.answer(call),
+        }),
+    on("cnc.stm.lines-of-80", &["STM-20", "STM-7"], "of a line the first 80 characters are kept",
+        STREAM, |cnc, call| {
+            let kept: Vec<u8> = call
+                .data
+                .split_inclusive(|byte| *byte == b'\n')
+                .flat_map(|line| match line.strip_suffix(b"\r\n") {
+                    Some(line) => [line.get(..80).unwrap_or(line), b"\r\n"].concat(),
+                    None => line.to_vec(),
+                })
+                .collect();
+            cnc.with(call, &kept)
+        }),
+    row("cnc.svc.response-127", &["SVC-1"], "a RESPONSE of 128 bytes, its NUL among them, is refused",
+        |cnc, call| {
+            let name = ServiceVariable::RESPONSE.as_bytes();
+            match is(call, &[Function::WriteByName]) && text(call.data) == name {
+                true if behind(call.data).len() == 128 => Err(AdsError::INVALID_SIZE),
+                _ => cnc.answer(call),
+            }
+        }),
+    row("cnc.svc.uuid-35", &["SVC-1", "SVC-2"], "UUID is read without its 36th character",
+        |cnc, call| match is(call, &[Function::ReadByName]) && text(call.data) == UUID.as_bytes() {
+            true => fits(
+                call,
+                cnc.answer(call).map(|mut bytes| {
+                    bytes.iter_mut().skip(35).for_each(|byte| *byte = 0);
+                    bytes
+                }),
+            ),
+            false => cnc.answer(call),
+        }),
+    row("cnc.adr.index-of-com", &["ADR-1", "ADR-12"],
+        "contents of COM by index are those of the channel with that number: 0x20106 is channel 6",
+        |cnc, call| match (group(call) & 0xFF_FF00, function(call)) {
+            (0x02_0100, Some(Function::ReadObject | Function::WriteObject))
+                if instance(call) > 0 =>
+            {
+                cnc.at(call, group(call) | LOGICAL, offset(call))
+            }
+            _ => cnc.answer(call),
+        }),
+    on("cnc.dyn.by-index-positive", &["DYN-4"], "values by index have no sign",
+        &[Function::DynamicValueByIndex], |cnc, call| number(cnc.answer(call), 4, |high| high & 0x7FFF_FFFF)),
+];

@@ -1,0 +1,54 @@
+//! What is in the bytes of requests and replies.
+
+use super::{Answer, text};
+
+/// The UNS32 at a place.
+pub(in crate::faults) fn u32_at(bytes: &[u8], place: usize) -> Option<u32> {
+    let four = bytes.get(place..)?.first_chunk::<4>()?;
+    Some(u32::from_le_bytes(*four))
+}
+
+/// Puts an UNS32 at a place, if there is room.
+pub(in crate::faults) fn put(bytes: &mut [u8], place: usize, number: u32) {
+    if let Some(four) = bytes.get_mut(place..).and_then(<[u8]>::first_chunk_mut::<4>) {
+        *four = number.to_le_bytes();
+    }
+}
+
+/// The answer with the UNS32 at a place made another.
+pub(in crate::faults) fn number(answer: Answer, place: usize, other: fn(u32) -> u32) -> Answer {
+    answer.map(|mut bytes| {
+        if let Some(number) = u32_at(&bytes, place) {
+            put(&mut bytes, place, other(number));
+        }
+        bytes
+    })
+}
+
+/// From behind the first NUL on.
+pub(in crate::faults) fn behind(bytes: &[u8]) -> &[u8] {
+    bytes.get(text(bytes).len().saturating_add(1)..).unwrap_or_default()
+}
+
+/// The UNS32 of a sequence.
+pub(in crate::faults) fn fours(bytes: &[u8]) -> Vec<u32> {
+    bytes.chunks_exact(4).filter_map(|four| u32_at(four, 0)).collect()
+}
+
+/// The records of a sequence of descriptors.
+pub(in crate::faults) fn records(bytes: &[u8]) -> Vec<[u8; 84]> {
+    bytes.chunks_exact(84).filter_map(|record| record.first_chunk::<84>()).copied().collect()
+}
+
+/// The same, to be changed.
+pub(in crate::faults) fn records_mut(bytes: &mut [u8]) -> impl Iterator<Item = &mut [u8; 84]> {
+    bytes.chunks_exact_mut(84).filter_map(|record| record.first_chunk_mut::<84>())
+}
+
+/// The numbers of dimensions of a description, and where its name is.
+pub(in crate::faults) fn dimensions(description: &[u8]) -> (Vec<u32>, usize) {
+    let count = u32_at(description, 16).and_then(|m| usize::try_from(m).ok()).unwrap_or_default();
+    let end = count.saturating_mul(4).saturating_add(20).min(description.len());
+    let numbers = description.get(20..end).unwrap_or_default();
+    (fours(numbers), end)
+}

@@ -1,0 +1,170 @@
+//! Answers that contradict each other (SDA, DYN).
+
+use ads_cnc::address::Class;
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Function};
+
+use super::{
+    Answer, Key, Row, Upstream, class, group, is, number, offset, on, put, reply, row, text, u32_at,
+};
+
+const FIND: &[Function] = &[Function::FindInstance];
+const WRITE: &[Function] = &[Function::WriteElement];
+const NAME: &[Function] = &[Function::DynamicNameByIndex];
+const BY_NAME: &[Function] = &[Function::DynamicValueByName];
+const VALUES: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
+
+/// The question for an instance with one of its numbers made another.
+fn asked(cnc: &Upstream<'_>, call: &Call<'_>, place: usize, other: fn(u32) -> u32) -> Answer {
+    match (is(call, FIND), u32_at(call.data, place)) {
+        (true, Some(number)) => {
+            let mut data = call.data.to_vec();
+            put(&mut data, place, other(number));
+            cnc.with(call, &data)
+        }
+        _ => cnc.answer(call),
+    }
+}
+
+/// Instances of a class behind an axis are not found.
+fn few_axes(cnc: &Upstream<'_>, call: &Call<'_>, of: u32, last: u32) -> Answer {
+    match is(call, FIND) && group(call) & 0xF000 == of {
+        true if u32_at(call.data, 4) > Some(last) => cnc.answer(call).map(|_| vec![0; 8]),
+        _ => cnc.answer(call),
+    }
+}
+
+/// What was answered once is answered for ever.
+fn kept(cnc: &Upstream<'_>, call: &Call<'_>, of: &[Function]) -> Answer {
+    if !is(call, of) {
+        return cnc.answer(call);
+    }
+    let key: Key = (group(call), offset(call), call.data.to_vec());
+    let known = cnc.memory().get(&key);
+    if let Some(known) = known {
+        return Ok(known);
+    }
+    let bytes = cnc.answer(call)?;
+    cnc.memory().keep(key, bytes.clone());
+    Ok(bytes)
+}
+
+/// A write that goes elsewhere too, if there is something of that length.
+fn written(cnc: &Upstream<'_>, call: &Call<'_>, group: u32, offset: u32) -> Answer {
+    let done = cnc.answer(call);
+    if done.is_ok() {
+        let _also = cnc.at(call, group, offset);
+    }
+    done
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("cnc.sda.address-of-channel-1", &["SDA-1"],
+        "whichever channel is asked for, the address is that of channel 1",
+        |cnc, call| asked(cnc, call, 0, |channel| channel.min(1))),
+    row("cnc.sda.address-of-channel", &["SDA-1"],
+        "whichever axis is asked for, the address is that of the channel",
+        |cnc, call| match group(call) & 0xF000 {
+            0x1000 | 0x2000 | 0x4000 => asked(cnc, call, 4, |_| 0),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.absent-far", &["SDA-2"],
+        "an instance that is not there is answered with its group and an offset of all ones",
+        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
+            if bytes.iter().all(|byte| *byte == 0) {
+                put(&mut bytes, 0, group(call).wrapping_sub(0x600));
+                put(&mut bytes, 4, u32::MAX);
+            }
+            bytes
+        })),
+    row("cnc.sda.interpolator-no-axes", &["SDA-5"],
+        "axes of the interpolator are not found, those of the decoder are",
+        |cnc, call| few_axes(cnc, call, 0x1000, 0)),
+    row("cnc.sda.decoder-one-axis", &["SDA-5"], "the decoder has the first axis of a channel only",
+        |cnc, call| few_axes(cnc, call, 0x2000, 1)),
+    row("cnc.sda.axis-24-bit", &["SDA-5", "SDA-2"], "of the axis asked for the lowest 24 bits count",
+        |cnc, call| asked(cnc, call, 4, |axis| axis & 0xFF_FFFF)),
+    row("cnc.sda.types-padded", &["SDA-7"], "types are padded with blanks to 8 characters",
+        |cnc, call| reply(cnc, call, &[Function::ReadElementType], |bytes| {
+            format!("{:8}\0", String::from_utf8_lossy(text(&bytes))).into_bytes()
+        })),
+    on("cnc.sda.type-of-next", &["SDA-7", "SDA-8"], "the type of an element is that of the next one",
+        &[Function::ReadElementType], |cnc, call| cnc
+        .at(call, group(call), offset(call).wrapping_add(1))
+        .or_else(|_| cnc.answer(call))),
+    row("cnc.sda.first-length", &["SDA-8"], "the length of the number of elements is that of element 1",
+        |cnc, call| match is(call, &[Function::ReadElementLength]) && offset(call) & 0xFFF == 0 {
+            true => cnc.at(call, group(call), offset(call) | 1),
+            false => cnc.answer(call),
+        }),
+    row("cnc.sda.flag-beyond", &["SDA-4"], "elements behind the last have a unit and a write flag",
+        |cnc, call| {
+            let of = [Function::ReadElementWriteFlag, Function::ReadElementUnit];
+            match (is(call, &of), cnc.answer(call)) {
+                (true, Err(AdsError::INVALID_OFFSET)) => Ok(vec![0]),
+                (_, answer) => answer,
+            }
+        }),
+    row("cnc.sda.write-every-channel", &["SDA-9", "SDA-1"],
+        "a write of an element of channel 2 is one of channel 1 too",
+        |cnc, call| match (is(call, WRITE), group(call) & 0xFF) {
+            (true, 2) => written(cnc, call, group(call) & !0xFF | 1, offset(call)),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.write-every-axis", &["SDA-9", "SDA-1"],
+        "a write of an element of an axis is one of the next axis too",
+        |cnc, call| match (is(call, WRITE), class(call).map(|at| at.class)) {
+            (true, Some(Class::PathPreparation | Class::PositionController)) => {
+                written(cnc, call, group(call), offset(call).wrapping_add(0x1_0000))
+            }
+            _ => cnc.answer(call),
+        }),
+    on("cnc.dyn.count-8-bit", &["DYN-1"], "of the number of parameters the lowest byte is told",
+        &[Function::CountDynamic], |cnc, call| number(cnc.answer(call), 0, |count| count & 0xFF)),
+    row("cnc.dyn.names-kept", &["DYN-2"], "the name of an index is what it was when it was first asked for",
+        |cnc, call| kept(cnc, call, NAME)),
+    row("cnc.dyn.values-kept", &["DYN-3", "DYN-4"],
+        "a parameter has the value it had when it was first asked for", |cnc, call| kept(cnc, call, VALUES)),
+    row("cnc.dyn.names-in-turn", &["DYN-2"], "names come one behind the other, whatever index is asked for",
+        |cnc, call| {
+            let known = is(call, NAME) && cnc.answer(call).is_ok();
+            if !known {
+                return cnc.answer(call);
+            }
+            let mut memory = cnc.memory();
+            memory.count = memory.count.wrapping_add(1);
+            let next = memory.count;
+            drop(memory);
+            cnc.with(call, &next.to_le_bytes()).or_else(|_| {
+                cnc.memory().count = 1;
+                cnc.with(call, &[1, 0, 0, 0])
+            })
+        }),
+    row("cnc.dyn.name-cut", &["DYN-6", "DYN-2"],
+        "names are told up to their 63rd character, and not found so",
+        |cnc, call| reply(cnc, call, NAME, |bytes| {
+            let name = text(&bytes);
+            [name.get(..63).unwrap_or(name), &[0]].concat()
+        })),
+    row("cnc.dyn.by-name-8-characters", &["DYN-3"], "of a name the first 8 characters are looked at",
+        |cnc, call| {
+            let first = |name: &[u8]| text(name).get(..8).map(<[u8]>::to_vec);
+            let (true, Err(_), Some(wanted)) =
+                (is(call, BY_NAME), cnc.answer(call), first(call.data))
+            else {
+                return cnc.answer(call);
+            };
+            let found = (1_u32..=300).map_while(|index| {
+                let at = offset(call).wrapping_sub(1);
+                cnc.ask(group(call), at, &index.to_le_bytes()).ok()
+            });
+            let found = found.into_iter().find(|name| name.starts_with(&wanted));
+            cnc.with(call, found.as_deref().unwrap_or(call.data))
+        }),
+    on("cnc.dyn.by-name-channel-1", &["DYN-3"],
+        "a parameter that channel 1 has too has that value by its name",
+        BY_NAME, |cnc, call| {
+            cnc.at(call, group(call) & !0xFF | 1, offset(call)).or_else(|_| cnc.answer(call))
+        }),
+];

@@ -1,0 +1,130 @@
+//! Contents of elements of SDA and GEO (SDA).
+
+use ads_cnc::address::Class;
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Function, Service};
+
+use super::{Row, at, class, function, group, is, number, offset, on, row};
+
+const COUNT: &[Function] = &[Function::CountElements];
+const WRITE: &[Function] = &[Function::WriteElement];
+
+const fn is_blank(offset: u32) -> bool {
+    offset >= 0x2_0000
+}
+
+/// Whether it is a place of channel 2 or 6 where no axis is.
+fn empty_place(call: &Call<'_>) -> bool {
+    class(call).is_some_and(|at| {
+        matches!(at.class, Class::Interpolator | Class::Decoder | Class::PathPreparation)
+            && at.instance > 1
+            && is_blank(offset(call))
+    })
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    on("cnc.sda.count-itself", &["SDA-4"], "the number of element types is twice what it should be",
+        COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.wrapping_mul(2))),
+    on("cnc.sda.count-one-less", &["SDA-4", "OBJ-1"], "the number of element types leaves out the last",
+        COUNT, |cnc, call| number(cnc.answer(call), 0, |count| count.saturating_sub(1))),
+    row("cnc.sda.count-of-channel", &["SDA-4"],
+        "the number of element types of an axis is that of its channel",
+        |cnc, call| match is(call, COUNT) && offset(call) >= 0x1_0000 {
+            true => cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call)),
+            false => cnc.answer(call),
+        }),
+    row("cnc.sda.elements-from-0", &["SDA-4"],
+        "elements are counted from 0: there is no number in front of them",
+        |cnc, call| match class(call) {
+            Some(_) if group(call) & 0xF00 != 0x900 && offset(call) & 0xFFF < 0x20 => {
+                cnc.at(call, group(call), offset(call).wrapping_add(1))
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.elements-beyond", &["SDA-4"], "behind the last element there is it again",
+        |cnc, call| match (class(call), cnc.answer(call)) {
+            (Some(_), Err(AdsError::INVALID_OFFSET)) if offset(call) & 0xFFF > 1 => {
+                cnc.at(call, group(call), offset(call).wrapping_sub(1))
+            }
+            (_, answer) => answer,
+        }),
+    on("cnc.sda.write-refused", &["SDA-9"], "elements are never written, whatever their flag",
+        WRITE, |_, _| Err(AdsError::INVALID_ACCESS)),
+    on("cnc.sda.write-ignored", &["SDA-9"], "writes of elements succeed and change nothing",
+        WRITE, |cnc, call| {
+            let old = cnc.read(call.port, group(call), offset(call))?;
+            match old.len() == call.data.len() {
+                true => cnc.with(call, &old),
+                false => cnc.answer(call),
+            }
+        }),
+    row("cnc.sda.write-read-only", &["SDA-9"], "a write of an element that is read-only succeeds",
+        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
+            (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
+            (_, answer) => answer,
+        }),
+    row("cnc.sda.feedhold-2", &["SDA-10"], "the content of feedhold.enable is 2",
+        |cnc, call| match feedhold(call, 0x300) && call.service == Service::Read {
+            true => cnc.answer(call).map(|_| vec![2]),
+            false => cnc.answer(call),
+        }),
+    row("cnc.sda.feedhold-name", &["SDA-10"], "feedhold.enable is called feedhold_enable",
+        |cnc, call| match feedhold(call, 0x400) {
+            true => cnc.answer(call).map(|_| b"feedhold_enable\0".to_vec()),
+            false => cnc.answer(call),
+        }),
+    row("cnc.sda.feedhold-unit", &["SDA-10"], "the unit of feedhold.enable is empty",
+        |cnc, call| match feedhold(call, 0x700) {
+            true => cnc.answer(call).map(|_| vec![0]),
+            false => cnc.answer(call),
+        }),
+    row("cnc.sda.feedhold-type", &["SDA-10"], "feedhold.enable is an UNS08",
+        |cnc, call| match feedhold(call, 0x500) {
+            true => cnc.answer(call).map(|_| b"UNS08\0".to_vec()),
+            false => cnc.answer(call),
+        }),
+    row("cnc.sda.blank-refused", &["SDA-11"], "reading at a place without an axis is refused",
+        |cnc, call| match empty_place(call) && group(call) & 0xF00 == 0x300 {
+            true => Err(AdsError::INVALID_DATA),
+            false => cnc.answer(call),
+        }),
+    row("cnc.sda.blank-axis-number", &["SDA-11"],
+        "the logical axis number of a place without an axis is 0xFFFF",
+        |cnc, call| match empty_place(call) && is(call, &[Function::ReadElement]) {
+            true => cnc.answer(call).map(|bytes| match bytes.len() {
+                2 => vec![0xFF; 2],
+                _ => bytes,
+            }),
+            false => cnc.answer(call),
+        }),
+    row("cnc.sda.blank-of-first", &["SDA-11"],
+        "reading at a place without an axis gives what the first place has",
+        |cnc, call| match empty_place(call) && is(call, &[Function::ReadElement]) {
+            true => cnc.at(call, group(call), offset(call) & 0xFFFF | 0x1_0000),
+            false => cnc.answer(call),
+        }),
+    row("cnc.sda.blank-com-refused", &["SDA-11"], "objects of COM at a place without an axis are refused",
+        |cnc, call| match (group(call) & 0xEF_FFFF, is_blank(offset(call))) {
+            (0x02_0102 | 0x02_0103 | 0x02_0106, true) => Err(AdsError::INVALID_DATA),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.functions-shadowed", &["SDA-12"],
+        "contents of the decoder are where the numbers of dynamic parameters should be",
+        |cnc, call| match function(call) {
+            Some(Function::CountDynamic) => cnc.answer(call).map(|bytes| vec![0xA5; bytes.len()]),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.functions-behind-content", &["SDA-12"],
+        "the functions of the decoder have offsets from 0x100 on, behind its contents",
+        |cnc, call| match super::of_decoder(call) {
+            Some(0x02..=0x05 | 0x1B..=0x26 | 0x44..=0x4C) => Err(AdsError::INVALID_OFFSET),
+            Some(0x102..=0x14C) => cnc.answer(&at(call, group(call), offset(call) & 0xFF)),
+            _ => cnc.answer(call),
+        }),
+];
+
+/// Whether it is the printed element, with this attribute.
+fn feedhold(call: &Call<'_>, attribute: u32) -> bool {
+    group(call) & 0xEF_FFFF == 0x02_3001 | attribute && offset(call) == 1
+}

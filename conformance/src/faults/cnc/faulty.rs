@@ -1,0 +1,133 @@
+//! A CNC with a defect.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use ads_cnc::ads::{AmsNetId, Command, FrameRef};
+use ads_cnc::layout::Stream;
+use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use ads_cnc::operation::Call;
+
+use super::{Answer, Memory, Twist, Upstream, is};
+use crate::faults::{How, Seed};
+use crate::services::{reply_stream, request_stream, service_of};
+use crate::simulator::{Cnc, Model, Responder, respond};
+
+/// A CNC, and a defect around it if there is one.
+///
+/// Of a wrong field, streams of the requests are changed before the CNC has them, streams of the
+/// replies after.
+#[derive(Debug)]
+pub struct Faulty {
+    cnc: Arc<Cnc>,
+    how: Option<How>,
+    memory: Mutex<Memory>,
+    /// Whether a wrong field has changed any byte.
+    shown: AtomicBool,
+}
+
+impl Faulty {
+    /// A CNC in the state it starts in, with this defect.
+    pub fn new(cnc: Cnc, seed: Option<&Seed>) -> Self {
+        let how = seed.map(|seed| seed.how.clone());
+        let cnc = match &how {
+            Some(How::Cnc(Twist::Model(model))) => {
+                match Model::from_toml(model, "the model of a variant") {
+                    Ok(model) => cnc.with_model(model),
+                    Err(_) => cnc,
+                }
+            }
+            Some(How::Cnc(Twist::Program(policy))) => cnc.with_policy(*policy),
+            _ => cnc,
+        };
+        Self { cnc: Arc::new(cnc), how, memory: Mutex::default(), shown: AtomicBool::new(false) }
+    }
+
+    /// The CNC that the defect is around.
+    pub const fn cnc(&self) -> &Arc<Cnc> {
+        &self.cnc
+    }
+
+    /// Whether the defect has shown so far: one that turns a field into what it is does not.
+    pub(crate) fn has_shown(&self) -> bool {
+        !matches!(self.how, Some(How::Field(_))) || self.shown.load(Ordering::Relaxed)
+    }
+
+    fn upstream(&self) -> Upstream<'_> {
+        Upstream { cnc: &self.cnc, memory: &self.memory }
+    }
+
+    /// The bytes of a stream with the defect, if it changes any.
+    fn change(&self, stream: Option<Stream>, bytes: &[u8]) -> Option<Vec<u8>> {
+        let Some(How::Field(defect)) = &self.how else { return None };
+        let changed = stream.filter(|stream| defect.touches(*stream)).map(|_| defect.apply(bytes));
+        let changed = changed.filter(|changed| changed != bytes)?;
+        self.shown.store(true, Ordering::Relaxed);
+        Some(changed)
+    }
+
+    /// The same of a frame that answers a command.
+    fn change_frame(&self, command: Command, answer: &mut [u8]) {
+        let reply = match (service_of(command), command) {
+            (Some(service), _) => Some(reply_stream(service)),
+            (None, Command::READ_DEVICE_INFO) => Some(Stream::DeviceInfoReply),
+            (None, Command::READ_STATE) => Some(Stream::DeviceStateReply),
+            (None, Command::ADD_NOTIFICATION) => None,
+            (None, _) => Some(Stream::WriteReply),
+        };
+        let (tcp, rest) = answer.split_at_mut_checked(AMS_TCP_HEADER_LEN).unwrap_or_default();
+        let (ams, data) = rest.split_at_mut_checked(AMS_HEADER_LEN).unwrap_or_default();
+        let parts =
+            [(Some(Stream::AmsTcpHeader), tcp), (Some(Stream::AmsHeader), ams), (reply, data)];
+        for (stream, part) in parts {
+            if let Some(changed) = self.change(stream, part) {
+                part.iter_mut().zip(changed).for_each(|(byte, new)| *byte = new);
+            }
+        }
+    }
+}
+
+impl Responder for Faulty {
+    fn answer(&self, call: &Call<'_>) -> Answer {
+        match &self.how {
+            Some(How::Cnc(Twist::Answer(answer))) => answer(&self.upstream(), call),
+            Some(How::Cnc(Twist::Function(functions, answer))) if is(call, functions) => {
+                answer(&self.upstream(), call)
+            }
+            Some(How::Field(_)) => {
+                let spec = call.dispatch().ok().map(|request| request.function().spec());
+                let misread = self.change(spec.and_then(|spec| spec.request), call.data);
+                let data = misread.as_deref().unwrap_or(call.data);
+                let reply = self.cnc.answer(&Call { data, ..*call })?;
+                Ok(self.change(spec.and_then(|spec| spec.reply), &reply).unwrap_or(reply))
+            }
+            _ => self.cnc.answer(call),
+        }
+    }
+
+    fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
+        let (start, command) = (answers.len(), frame.header().command);
+        let misread = self.change(service_of(command).map(request_stream), frame.data());
+        let misread = misread.as_deref().and_then(|data| FrameRef::new(frame.header(), data).ok());
+        respond(&|call| self.answer(call), net_id, misread.as_ref().unwrap_or(frame), answers);
+        if let Some(How::Cnc(Twist::Frame(sent))) = self.how
+            && answers.len() > start
+        {
+            let right = answers.split_off(start);
+            answers.extend(sent(&self.upstream(), frame, right));
+        }
+        self.change_frame(command, answers.get_mut(start..).unwrap_or_default());
+    }
+
+    fn piece(&self) -> usize {
+        match self.how {
+            Some(How::Cnc(Twist::Pieces(len))) => len.max(1),
+            _ => usize::MAX,
+        }
+    }
+
+    fn pass(&self, time: Duration) {
+        self.cnc.pass(time);
+    }
+}

@@ -1,0 +1,183 @@
+//! Rules of all streams (GEN).
+
+use ads_cnc::ads::{AdsError, AmsPort};
+use ads_cnc::operation::{Call, Function};
+use ads_cnc::text::cp1252_to_char;
+
+use super::{
+    Answer, Row, Upstream, behind, dimensions, fits, function, number, on, put, records, row, text,
+    u32_at,
+};
+
+/// Functions whose reply is a number.
+const NUMBERS: &[Function] = &[
+    Function::CountObjects,
+    Function::CountVariables,
+    Function::HandleByName,
+    Function::CountDynamic,
+    Function::CountElements,
+    Function::AxisHandleByName,
+];
+
+/// Functions whose reply is a text.
+const TEXTS: &[Function] = &[
+    Function::ReadElementName,
+    Function::ReadElementUnit,
+    Function::ReadElementType,
+    Function::DynamicNameByIndex,
+];
+
+/// Changes the texts of replies and, back, the names of requests.
+fn texts(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    outwards: fn(&[u8]) -> Vec<u8>,
+    inwards: fn(&[u8]) -> Vec<u8>,
+) -> Answer {
+    let answer = match function(call) {
+        Some(function) if TEXTS.contains(&function) => {
+            cnc.whole(call).map(|bytes| again(text(&bytes), outwards, &[0]))
+        }
+        Some(Function::DescribeByIndex) => cnc.whole(call).map(|bytes| {
+            let (_, name) = dimensions(&bytes);
+            let (head, name) = bytes.split_at_checked(name).unwrap_or_default();
+            [head, &again(text(name), outwards, &[0])].concat()
+        }),
+        Some(Function::ReadByName | Function::HandleByName | Function::DescribeByName) => {
+            return cnc.with(call, &again(text(call.data), inwards, &[0]));
+        }
+        Some(Function::WriteByName) => {
+            let tail = [&[0], behind(call.data)].concat();
+            return cnc.with(call, &again(text(call.data), inwards, &tail));
+        }
+        _ => return cnc.answer(call),
+    };
+    fits(call, answer)
+}
+
+fn again(text: &[u8], other: fn(&[u8]) -> Vec<u8>, tail: &[u8]) -> Vec<u8> {
+    let mut bytes = other(text);
+    bytes.extend_from_slice(tail);
+    bytes
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    on("cnc.gen.numbers-big-endian", &["GEN-1"],
+        "counts and handles are answered with the most significant byte first",
+        NUMBERS, |cnc, call| number(cnc.answer(call), 0, u32::swap_bytes)),
+    row("cnc.gen.reals-big-endian", &["GEN-1"],
+        "REAL64 of parameters is answered with the most significant byte first",
+        |cnc, call| match function(call) {
+            Some(Function::DynamicValueByName | Function::DynamicValueByIndex) => {
+                cnc.answer(call).map(|mut bytes| {
+                    bytes.reverse();
+                    bytes
+                })
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.gen.reals-words-swapped", &["GEN-1"],
+        "the two halves of a REAL64 of a variable stand in the other order",
+        |cnc, call| match function(call) {
+            Some(Function::ReadByName | Function::ReadByHandle | Function::AxisReadByName) => {
+                let answer = cnc.answer(call)?;
+                match answer.split_at_checked(4) {
+                    Some((low, high)) if high.len() == 4 => Ok([high, low].concat()),
+                    _ => Ok(answer),
+                }
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.gen.requests-big-endian", &["GEN-1"],
+        "indices in requests are read with the most significant byte first",
+        |cnc, call| match function(call) {
+            Some(
+                Function::DescribeByIndex
+                | Function::DescribeExtended
+                | Function::DynamicNameByIndex
+                | Function::DynamicValueByIndex,
+            ) => {
+                let mut data = call.data.to_vec();
+                if let Some(index) = u32_at(&data, 0) {
+                    put(&mut data, 0, index.swap_bytes());
+                }
+                cnc.with(call, &data)
+            }
+            _ => cnc.answer(call),
+        }),
+    on("cnc.gen.description-aligned", &["GEN-2"], "the name of a description is aligned to 8 bytes",
+        &[Function::DescribeByIndex], |cnc, call| fits(
+            call,
+            cnc.whole(call).map(|mut bytes| {
+                let (_, name) = dimensions(&bytes);
+                if name % 8 != 0 && name <= bytes.len() {
+                    bytes.splice(name..name, [0; 4]);
+                }
+                bytes
+            }),
+        )),
+    on("cnc.gen.descriptor-access-wide", &["GEN-2"],
+        "write access takes 4 bytes, and all behind it in a descriptor 2 bytes more",
+        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|bytes| {
+            let records = records(&bytes);
+            let wide = |record: &[u8; 84]| {
+                let (head, tail) = record.split_at(12);
+                [head, &[0, 0], tail.split_last_chunk::<2>().map_or(tail, |(tail, _)| tail)]
+                    .concat()
+            };
+            records.iter().flat_map(wide).collect()
+        })),
+    row("cnc.gen.utf-8", &["GEN-3"], "names are read and answered in UTF-8", |cnc, call| {
+        let outwards = |text: &[u8]| {
+            let text: String = text.iter().map(|&byte| cp1252_to_char(byte)).collect();
+            text.into_bytes()
+        };
+        let inwards = |text: &[u8]| {
+            let text = String::from_utf8_lossy(text).into_owned();
+            text.chars().map(|one| u8::try_from(one).unwrap_or(b'?')).collect()
+        };
+        texts(cnc, call, outwards, inwards)
+    }),
+    row("cnc.gen.ascii", &["GEN-3"], "characters of names beyond ASCII are answered as question marks",
+        |cnc, call| {
+            let outwards = |text: &[u8]| {
+                text.iter().map(|byte| if byte.is_ascii() { *byte } else { b'?' }).collect()
+            };
+            texts(cnc, call, outwards, <[u8]>::to_vec)
+        }),
+    row("cnc.gen.seven-bits", &["GEN-3"],
+        "the highest bit of every character of a name in a request is dropped",
+        |cnc, call| texts(cnc, call, <[u8]>::to_vec, |text| text.iter().map(|&byte| byte & 0x7F).collect())),
+    row("cnc.gen.com-at-sda", &["GEN-4"], "COM is served at the port 552, and not at 553",
+        |cnc, call| match (call.port, super::com_group(call)) {
+            (AmsPort::COM, Some(_)) => Err(AdsError::INVALID_GROUP),
+            (AmsPort::SDA, Some(_)) => cnc.answer(&Call { port: AmsPort::COM, ..*call }),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.gen.any-port", &["GEN-4"], "each port answers for all tasks",
+        |cnc, call| match super::com_group(call) {
+            Some(_) => cnc.answer(&Call { port: AmsPort::COM, ..*call }),
+            None => cnc.answer(&Call { port: AmsPort::SDA, ..*call }),
+        }),
+    row("cnc.gen.boolean-4-bytes", &["GEN-5"], "a BOOLEAN variable takes 4 bytes",
+        |cnc, call| match function(call) {
+            Some(Function::DescribeByIndex | Function::DescribeByName) => {
+                cnc.answer(call).map(|mut bytes| {
+                    if u32_at(&bytes, 4) == Some(1) {
+                        let size = u32_at(&bytes, 12).unwrap_or_default();
+                        put(&mut bytes, 12, size.wrapping_mul(4));
+                    }
+                    bytes
+                })
+            }
+            Some(Function::ReadByName | Function::ReadByHandle) => {
+                let answer = cnc.answer(call)?;
+                match (answer.as_slice(), call.read_length) {
+                    ([one @ (0 | 1)], 4..) => Ok(vec![*one, 0, 0, 0]),
+                    _ => Ok(answer),
+                }
+            }
+            _ => cnc.answer(call),
+        }),
+];

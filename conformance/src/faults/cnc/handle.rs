@@ -1,0 +1,163 @@
+//! Handles of variables (VAR).
+
+use ads_cnc::ads::{AdsError, AmsPort};
+use ads_cnc::operation::{Call, Function};
+
+use super::{
+    Answer, Row, Upstream, fours, function, group, number, of_decoder, offset, on, put, row, text,
+    u32_at,
+};
+
+const HANDLE: &[Function] = &[Function::HandleByName, Function::AxisHandleByName];
+
+/// What a request by handle has: handle, indices, value.
+pub(super) fn parts(data: &[u8]) -> Option<(u32, Vec<u32>, &[u8])> {
+    let count = usize::try_from(u32_at(data, 4)?).ok()?;
+    let end = count.checked_mul(4)?.checked_add(8)?;
+    let indices = fours(data.get(8..end)?);
+    Some((u32_at(data, 0)?, indices, data.get(end..)?))
+}
+
+pub(super) fn joined(handle: u32, indices: &[u32], value: &[u8]) -> Vec<u8> {
+    let count = u32::try_from(indices.len()).unwrap_or_default();
+    let numbers = [handle, count].into_iter().chain(indices.iter().copied());
+    numbers.flat_map(u32::to_le_bytes).chain(value.iter().copied()).collect()
+}
+
+/// The handle told, made another one that is understood again, or not.
+fn told(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Answer {
+    match function(call) {
+        Some(Function::HandleByName | Function::AxisHandleByName) => {
+            number(cnc.answer(call), 0, other)
+        }
+        _ => cnc.answer(call),
+    }
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("cnc.var.handle-not-understood", &["VAR-10"],
+        "the handle by name is another than the one that is understood",
+        |cnc, call| told(cnc, call, |handle| handle ^ 0x5A00_0000)),
+    row("cnc.var.handle-16-bit", &["VAR-10"], "the handle by name is the lower 16 bits",
+        |cnc, call| told(cnc, call, |handle| handle & 0xFFFF)),
+    on("cnc.var.handle-2-bytes", &["VAR-10"], "the handle by name takes 2 bytes",
+        HANDLE, |cnc, call| cnc.answer(call).map(|mut bytes| {
+            bytes.truncate(2);
+            bytes
+        })),
+    row("cnc.var.handle-changes", &["VAR-10"],
+        "the handle by name is another at each request; all of them are understood",
+        |cnc, call| match (function(call), parts(call.data)) {
+            (Some(Function::HandleByName), _) => {
+                let mut answer = cnc.answer(call)?;
+                let mut memory = cnc.memory();
+                memory.count = memory.count.wrapping_add(1);
+                let made = memory.count | 0x7000_0000;
+                memory.keep((made, 0, Vec::new()), answer.clone());
+                put(&mut answer, 0, made);
+                Ok(answer)
+            }
+            (Some(Function::ReadByHandle | Function::WriteByHandle), Some((handle, at, value))) => {
+                let kept = cnc.memory().get(&(handle, 0, Vec::new()));
+                let handle = kept.and_then(|kept| u32_at(&kept, 0)).unwrap_or(handle);
+                cnc.with(call, &joined(handle, &at, value))
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.var.handle-used-up", &["VAR-10"], "a handle is valid for one read",
+        |cnc, call| match (function(call), u32_at(call.data, 0)) {
+            (Some(Function::ReadByHandle), Some(handle)) => {
+                let key = (handle, group(call), b"used".to_vec());
+                let used = cnc.memory().get(&key).is_some();
+                let answer = if used { Err(AdsError::INVALID_DATA) } else { cnc.answer(call) };
+                if answer.is_ok() {
+                    cnc.memory().keep(key, Vec::new());
+                }
+                answer
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.var.handle-last-only", &["VAR-10"], "with a new handle by name all others become invalid",
+        |cnc, call| match (function(call), u32_at(call.data, 0)) {
+            (Some(Function::HandleByName), _) => cnc.answer(call).inspect(|bytes| {
+                cnc.memory().count = u32_at(bytes, 0).unwrap_or_default();
+            }),
+            (Some(Function::ReadByHandle | Function::WriteByHandle), Some(handle))
+                if cnc.memory().count != 0 && cnc.memory().count != handle =>
+            {
+                Err(AdsError::INVALID_DATA)
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.var.handle-needs-name", &["VAR-10"],
+        "the handle of a description is understood only behind a handle by name",
+        |cnc, call| match (function(call), u32_at(call.data, 0)) {
+            (Some(Function::HandleByName), _) => cnc.answer(call).inspect(|bytes| {
+                let handle = u32_at(bytes, 0).unwrap_or_default();
+                cnc.memory().keep((handle, 0, Vec::new()), Vec::new());
+            }),
+            (Some(Function::ReadByHandle | Function::WriteByHandle), Some(handle))
+                if cnc.memory().get(&(handle, 0, Vec::new())).is_none() =>
+            {
+                Err(AdsError::INVALID_DATA)
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.var.handle-shared", &["VAR-10"],
+        "the handle by name of every variable of V.G is that of the first asked for",
+        |cnc, call| match function(call) {
+            Some(Function::HandleByName) if text(call.data).starts_with(b"V.G.") => {
+                let own = cnc.answer(call)?;
+                let key = (group(call), 0, b"shared".to_vec());
+                let kept = cnc.memory().get(&key);
+                Ok(kept.unwrap_or_else(|| {
+                    cnc.memory().keep(key, own.clone());
+                    own
+                }))
+            }
+            _ => cnc.answer(call),
+        }),
+    on("cnc.var.handle-in-description", &["VAR-4", "VAR-10"], "the handle in a description is the index",
+        &[Function::DescribeByIndex], |cnc, call| cnc.answer(call).map(|mut bytes| {
+            put(&mut bytes, 0, u32_at(call.data, 0).unwrap_or_default());
+            bytes
+        })),
+    on("cnc.var.handle-0-in-description", &["VAR-4"], "the handle in a description is 0",
+        &[Function::DescribeByIndex], |cnc, call| number(cnc.answer(call), 0, |_| 0)),
+    row("cnc.var.handle-of-axis", &["VAR-10"],
+        "the handle of an axis variable belongs to the axis, not to its place",
+        |cnc, call| {
+            // Where an axis is shows by its number; handles count places in their third byte.
+            let axis = |place: u32| {
+                let number = cnc.read(AmsPort::COM, 0x12_0101, place << 16 | 3);
+                number.ok().and_then(|bytes| bytes.first().copied()).map(u32::from)
+            };
+            let is_axis = |handle: u32| handle & 0xFF00_FF00 == 0x0100_0000;
+            match (function(call), parts(call.data)) {
+                (Some(Function::HandleByName | Function::AxisHandleByName), _) => {
+                    let mut bytes = cnc.answer(call)?;
+                    let handle = u32_at(&bytes, 0).filter(|handle| is_axis(*handle));
+                    if let Some(handle) = handle
+                        && let Some(number) = axis(handle >> 16 & 0xFF).filter(|one| *one != 0)
+                    {
+                        put(&mut bytes, 0, handle & 0xFF00_FFFF | number << 16);
+                    }
+                    Ok(bytes)
+                }
+                (Some(Function::ReadByHandle), Some((handle, at, value))) if is_axis(handle) => {
+                    let place = (1..=3).find(|place| axis(*place) == Some(handle >> 16 & 0xFF));
+                    let place = place.ok_or(AdsError::INVALID_DATA)?;
+                    cnc.with(call, &joined(handle & 0xFF00_FFFF | place << 16, &at, value))
+                }
+                _ => cnc.answer(call),
+            }
+        }),
+    row("cnc.var.by-handle-at-index", &["VAR-10", "VAR-11"],
+        "reading by handle is at 0x46, the handle by name at 0x47",
+        |cnc, call| match of_decoder(call) {
+            Some(0x46) => cnc.at(call, group(call), 0x47),
+            Some(0x47) => cnc.at(call, group(call), 0x46),
+            _ => cnc.at(call, group(call), offset(call)),
+        }),
+];

@@ -1,0 +1,211 @@
+//! Where instances of SDA and GEO are (SDA).
+
+use ads_cnc::address::Class;
+use ads_cnc::ads::{AdsError, AmsPort};
+use ads_cnc::operation::{Call, Function, Service};
+
+use super::{Answer, LOGICAL, Row, Upstream, class, group, is, offset, put, reply, row, u32_at};
+
+const FIND: &[Function] = &[Function::FindInstance];
+
+/// The question for an instance, with channel and axis made others.
+fn asked(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32, u32) -> (u32, u32)) -> Answer {
+    let (Some(channel), Some(axis)) = (u32_at(call.data, 0), u32_at(call.data, 4)) else {
+        return cnc.answer(call);
+    };
+    if !is(call, FIND) {
+        return cnc.answer(call);
+    }
+    let (channel, axis) = other(channel, axis);
+    let mut data = call.data.to_vec();
+    put(&mut data, 0, channel);
+    put(&mut data, 4, axis);
+    cnc.with(call, &data)
+}
+
+/// The answer (0, 0) where this says so.
+fn absent(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> Answer {
+    let numbers = (u32_at(call.data, 0), u32_at(call.data, 4));
+    match (is(call, FIND), numbers) {
+        (true, (Some(channel), Some(axis))) if is_absent(group(call) & 0xF000, channel, axis) => {
+            cnc.answer(call).map(|_| vec![0; 8])
+        }
+        _ => cnc.answer(call),
+    }
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("cnc.sda.query-swapped", &["SDA-1"], "the question for an instance is read as axis and channel",
+        |cnc, call| asked(cnc, call, |channel, axis| (axis, channel))),
+    row("cnc.sda.address-swapped", &["SDA-1"], "an instance is answered as index offset and index group",
+        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
+            bytes.rotate_left(4);
+            bytes
+        })),
+    row("cnc.sda.query-with-channel", &["SDA-1"],
+        "instances are asked for at the group with channel 1, 0x123901, and not at 0x123900",
+        |cnc, call| match (class(call), group(call) & 0xF00) {
+            (Some(of), 0x900) if of.class != Class::Spindle => match of.instance {
+                0 => Err(AdsError::INVALID_GROUP),
+                _ => cnc.at(call, group(call) & !0xFF, offset(call)),
+            },
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.query-by-write-and-read", &["SDA-1"],
+        "the question for an instance is written, and the answer then read",
+        |cnc, call| match (class(call), group(call) & 0xF00, call.service) {
+            (Some(_), 0x900, Service::ReadWrite) => Err(AdsError::SERVICE_NOT_SUPPORTED),
+            (Some(_), 0x900, Service::Write) => {
+                let found =
+                    cnc.answer(&Call { service: Service::ReadWrite, read_length: 8, ..*call })?;
+                cnc.memory().keep((0, 0, Vec::new()), found);
+                Ok(Vec::new())
+            }
+            (Some(_), 0x900, Service::Read) => {
+                cnc.memory().get(&(0, 0, Vec::new())).ok_or(AdsError::INVALID_DATA)
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.address-of-query", &["SDA-1"],
+        "the index group of an instance is that of its object address, 0x123901",
+        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
+            match u32_at(&bytes, 0) {
+                Some(0) | None => {}
+                Some(group) => put(&mut bytes, 0, group.wrapping_add(0x600)),
+            }
+            bytes
+        })),
+    row("cnc.sda.address-of-second", &["SDA-1", "SDA-3"],
+        "the address of an instance is that of its element 1",
+        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
+            if let (Some(1..), Some(offset)) = (u32_at(&bytes, 0), u32_at(&bytes, 4)) {
+                put(&mut bytes, 4, offset.wrapping_add(1));
+            }
+            bytes
+        })),
+    row("cnc.sda.address-by-index", &["SDA-3"],
+        "the index group of an instance lacks the bit of logical addressing",
+        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
+            let group = u32_at(&bytes, 0).unwrap_or_default();
+            put(&mut bytes, 0, group & !LOGICAL);
+            bytes
+        })),
+    row("cnc.sda.address-16-bit", &["SDA-1"], "the index group of an instance is its lower 16 bits",
+        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
+            let group = u32_at(&bytes, 0).unwrap_or_default();
+            put(&mut bytes, 0, group & 0xFFFF);
+            bytes
+        })),
+    row("cnc.sda.absent-answered", &["SDA-2"], "an address is made of whatever is asked for, there or not",
+        |cnc, call| reply(cnc, call, FIND, |mut bytes| {
+            if bytes.iter().all(|byte| *byte == 0) {
+                let channel = u32_at(call.data, 0).unwrap_or_default() & 0xFF;
+                put(&mut bytes, 0, group(call).wrapping_sub(0x600) | channel);
+                put(&mut bytes, 4, u32_at(call.data, 4).unwrap_or_default() << 16);
+            }
+            bytes
+        })),
+    row("cnc.sda.absent-ones", &["SDA-2"], "an instance that is not there is answered as (-1, -1)",
+        |cnc, call| reply(cnc, call, FIND, |bytes| {
+            if bytes.iter().all(|byte| *byte == 0) { vec![0xFF; 8] } else { bytes }
+        })),
+    row("cnc.sda.absent-nothing", &["SDA-2"], "an instance that is not there is answered without data",
+        |cnc, call| reply(cnc, call, FIND, |bytes| {
+            if bytes.iter().all(|byte| *byte == 0) { Vec::new() } else { bytes }
+        })),
+    row("cnc.sda.hld-stride-10000", &["SDA-3"], "platform axes of the HLD take 0x10000 of the index offset",
+        |cnc, call| match (is(call, FIND), group(call) & 0xEF_F0FF) {
+            (true, 0x02_3000) => cnc.answer(call).map(|mut bytes| {
+                if u32_at(&bytes, 0) == Some(0x12_3300) {
+                    let offset = u32_at(&bytes, 4).unwrap_or_default();
+                    put(&mut bytes, 4, offset << 4);
+                }
+                bytes
+            }),
+            (false, 0x02_3000) if offset(call) >= 0x1_0000 => {
+                let (axis, element) = (offset(call) >> 16, offset(call) & 0xFFF);
+                cnc.at(call, group(call), axis << 12 | element)
+            }
+            (false, 0x02_3000) => Err(AdsError::INVALID_OFFSET),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.channel-1-only", &["SDA-5"],
+        "of interpolator, decoder, path preparation and HLD only channel 1 is found",
+        |cnc, call| absent(cnc, call, |class, channel, _| (0x1000..0x5000).contains(&class) && channel > 1)),
+    row("cnc.sda.no-axes", &["SDA-5"], "axes of interpolator, decoder and path preparation are not found",
+        |cnc, call| absent(cnc, call, |class, _, axis| {
+            matches!(class, 0x1000 | 0x2000 | 0x4000) && axis > 0
+        })),
+    row("cnc.sda.no-axis-0", &["SDA-5"],
+        "channels of interpolator, decoder and path preparation are found with an axis only",
+        |cnc, call| absent(cnc, call, |class, _, axis| {
+            matches!(class, 0x1000 | 0x2000 | 0x4000) && axis == 0
+        })),
+    row("cnc.sda.position-controller-channel-1", &["SDA-5"],
+        "the position controller is found with channel 1, and not with 0",
+        |cnc, call| match group(call) & 0xF000 {
+            0 => asked(cnc, call, |channel, axis| match channel {
+                1 => (0, axis),
+                _ => (9, axis),
+            }),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.position-controller-one-axis", &["SDA-5"],
+        "the last axis of the position controller is not found",
+        |cnc, call| absent(cnc, call, |class, _, axis| class == 0 && axis > 4)),
+    row("cnc.sda.position-controller-axis-from-0", &["SDA-5", "GEN-6"],
+        "axes of the position controller are asked for from 0",
+        |cnc, call| match group(call) & 0xF000 {
+            0 => asked(cnc, call, |channel, axis| (channel, axis.wrapping_add(1))),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.position-controller-any-channel", &["SDA-5"],
+        "the position controller is found with any channel",
+        |cnc, call| match group(call) & 0xF000 {
+            0 => asked(cnc, call, |_, axis| (0, axis)),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.channel-0", &["SDA-5", "GEN-6"], "channel 0 is taken for channel 1",
+        |cnc, call| match group(call) & 0xF000 {
+            0x1000 | 0x2000 | 0x4000 => asked(cnc, call, |channel, axis| (channel.max(1), axis)),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.channel-8-bit", &["SDA-5", "SDA-2"],
+        "of the channel asked for the lowest 8 bits count: 257 is channel 1",
+        |cnc, call| asked(cnc, call, |channel, axis| (channel & 0xFF, axis))),
+    row("cnc.sda.axis-16-bit", &["SDA-5", "SDA-2"], "of the axis asked for the lowest 16 bits count",
+        |cnc, call| asked(cnc, call, |channel, axis| (channel, axis & 0xFFFF))),
+    row("cnc.sda.hld-channel-missing", &["SDA-5"], "the HLD of a channel is not found without an axis",
+        |cnc, call| absent(cnc, call, |class, channel, axis| class == 0x3000 && channel > 0 && axis == 0)),
+    row("cnc.sda.hld-platform-missing", &["SDA-5"], "the HLD of an axis is not found without a channel",
+        |cnc, call| absent(cnc, call, |class, channel, axis| class == 0x3000 && channel == 0 && axis > 0)),
+    row("cnc.sda.spindle-from-1", &["SDA-5", "GEN-6"], "spindles are asked for from 1",
+        |cnc, call| match group(call) & 0xF000 {
+            0x5000 => asked(cnc, call, |spindle, axis| (spindle.wrapping_sub(1), axis)),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.spindle-one-only", &["SDA-5"], "the first spindle is the only one found",
+        |cnc, call| absent(cnc, call, |class, spindle, _| class == 0x5000 && spindle > 0)),
+    row("cnc.sda.hld-own-axes", &["SDA-13"],
+        "the HLD of the first channel holds the axes of this channel alone",
+        |cnc, call| match (group(call) & 0xEF_FFFF, is(call, FIND)) {
+            (0x02_3900, true) => absent(cnc, call, |_, channel, axis| channel == 1 && axis > 3),
+            (0x02_3301..=0x02_38FF, _) if group(call) & 0xFF == 1 && offset(call) >= 0x4_0000 => {
+                Err(AdsError::INVALID_OFFSET)
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.sda.hld-no-axes", &["SDA-13"], "the HLD of the first channel has no axes",
+        |cnc, call| match (group(call) & 0xEF_FFFF, is(call, FIND)) {
+            (0x02_3900, true) => absent(cnc, call, |_, channel, axis| channel == 1 && axis > 0),
+            (0x02_3301..=0x02_38FF, _) if group(call) & 0xFF == 1 && offset(call) >= 0x1_0000 => {
+                Err(AdsError::INVALID_OFFSET)
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.gen.geo-missing", &["GEN-4"], "nothing answers at the port 551", |cnc, call| match call.port {
+        AmsPort::GEO => Err(AdsError::TARGET_PORT_NOT_FOUND),
+        _ => cnc.answer(call),
+    }),
+];

@@ -1,0 +1,91 @@
+//! What a defect looks up: channels, types, descriptions.
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::operation::{Call, Service};
+
+use super::{Key, Upstream, dimensions, group, offset, records, text, u32_at};
+
+/// The channel, axis or spindle in the group.
+pub(super) const fn instance(call: &Call<'_>) -> u32 {
+    group(call) & 0xFF
+}
+
+/// Something to keep in mind that there is one of.
+pub(super) const fn one(number: u32) -> Key {
+    (number, 0, Vec::new())
+}
+
+/// A text written over another one without its NUL.
+pub(super) fn over(new: &[u8], old: &[u8]) -> Vec<u8> {
+    [new, old.get(new.len()..).unwrap_or_default()].concat()
+}
+
+/// The descriptor of the object whose content is asked for.
+pub(super) fn descriptor(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<[u8; 84]> {
+    let all = cnc.answer(&Call {
+        port: call.port,
+        service: Service::Read,
+        index_group: IndexGroup::new(group(call) | 0x01_0000),
+        index_offset: IndexOffset::new(1),
+        read_length: 84 * 512,
+        data: &[],
+    });
+    records(&all.ok()?).into_iter().find(|record| u32_at(record, 16) == Some(offset(call)))
+}
+
+/// Whether the object whose content is asked for is of this type.
+pub(super) fn object_is(cnc: &Upstream<'_>, call: &Call<'_>, name: &[u8]) -> bool {
+    let record = descriptor(cnc, call);
+    record.is_some_and(|record| text(record.get(52..).unwrap_or_default()) == name)
+}
+
+/// Whether the element whose content or attribute is asked for is of this type.
+pub(super) fn element_is(cnc: &Upstream<'_>, call: &Call<'_>, name: &[u8]) -> bool {
+    let at = group(call) & !0xF00 | 0x500;
+    cnc.read(call.port, at, offset(call)).is_ok_and(|bytes| text(&bytes) == name)
+}
+
+/// The name without the indices of an element, and these.
+pub(super) fn indexed(name: &[u8]) -> (&[u8], Vec<u32>) {
+    let (mut name, mut indices) = (name, Vec::new());
+    while let Some(open) = name.strip_suffix(b"]") {
+        let Some(at) = open.iter().rposition(|&byte| byte == b'[') else { break };
+        let digits = open.get(at.saturating_add(1)..).and_then(|all| std::str::from_utf8(all).ok());
+        let Some(index) = digits.and_then(|digits| digits.parse().ok()) else { break };
+        indices.insert(0, index);
+        name = open.get(..at).unwrap_or_default();
+    }
+    (name, indices)
+}
+
+/// The name with the indices of an element behind it, and a NUL.
+pub(super) fn with_indices(name: &[u8], indices: &[u32]) -> Vec<u8> {
+    let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
+    [name, indices.as_bytes(), &[0]].concat()
+}
+
+/// The description of the variable with this name, of an element of it too.
+pub(super) fn described(cnc: &Upstream<'_>, group: u32, name: &[u8]) -> Option<Vec<u8>> {
+    cnc.ask(group, 0x4C, &[indexed(name).0, &[0]].concat()).ok()
+}
+
+/// The name of the variable of V.E or V.G with this handle.
+pub(super) fn name_of(cnc: &Upstream<'_>, group: u32, handle: u32) -> Option<Vec<u8>> {
+    [&b"V.E\0"[..], b"V.G\0"].into_iter().find_map(|kind| {
+        let all = (0_u32..)
+            .map_while(|index| cnc.ask(group, 0x45, &[&index.to_le_bytes(), kind].concat()).ok());
+        let mut same = all.filter(|bytes| u32_at(bytes, 0) == Some(handle));
+        let bytes = same.next()?;
+        Some(text(bytes.get(dimensions(&bytes).1..)?).to_vec())
+    })
+}
+
+/// The handle that the variable with this name has.
+pub(super) fn handle_of(cnc: &Upstream<'_>, group: u32, name: &str) -> Option<u32> {
+    u32_at(&cnc.ask(group, 0x46, &[name.as_bytes(), &[0]].concat()).ok()?, 0)
+}
+
+/// Whether the type in a description is STRING.
+pub(super) fn is_string(description: &[u8]) -> bool {
+    u32_at(description, 4) == Some(9)
+}

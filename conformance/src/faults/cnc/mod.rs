@@ -1,0 +1,166 @@
+//! What a CNC can get wrong: how it answers is changed around the simulated one.
+
+mod address;
+mod ads;
+mod axis;
+mod bounds;
+mod bytes;
+mod code;
+mod com;
+mod consistency;
+mod content;
+mod device;
+mod dynamic;
+mod element;
+mod faulty;
+mod frame;
+mod general;
+mod handle;
+mod indices;
+mod instance;
+mod lookup;
+mod name;
+mod number;
+mod object;
+mod off_by_one;
+mod partial;
+mod request;
+mod service;
+mod stale;
+mod stream_program;
+mod stream_write;
+mod upstream;
+mod value;
+mod variable;
+mod variable_consistency;
+mod write;
+mod write_sequence;
+
+pub(in crate::faults) use self::bytes::{
+    behind, dimensions, fours, number, put, records, records_mut, u32_at,
+};
+pub use self::faulty::Faulty;
+pub(in crate::faults) use self::request::{
+    LOGICAL, at, class, com_group, function, group, is, named, of_decoder, offset,
+};
+use self::upstream::Memory;
+pub(crate) use self::upstream::Upstream;
+pub(in crate::faults) use self::upstream::{Key, fits, later, put_off, reply};
+pub(in crate::faults) use crate::values::until_nul as text;
+pub(in crate::faults) use frame::measured;
+
+use ads_cnc::ads::{AdsError, FrameRef};
+use ads_cnc::operation::{Call, Function};
+
+use crate::edition::Edition;
+use crate::simulator::program::Policy;
+
+/// Data, or the error number.
+pub(super) type Answer = Result<Vec<u8>, AdsError>;
+
+/// How a CNC does something wrong, or otherwise.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Twist {
+    /// Around each request.
+    Answer(fn(&Upstream<'_>, &Call<'_>) -> Answer),
+    /// Around each request for one of these functions.
+    Function(&'static [Function], fn(&Upstream<'_>, &Call<'_>) -> Answer),
+    /// After each frame that answers one: what is sent instead.
+    Frame(fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>),
+    /// Bytes leave in pieces of so many at most.
+    Pieces(usize),
+    /// In its NC programs.
+    Program(Policy),
+    /// It is another CNC: one with this model.
+    Model(&'static str),
+}
+
+/// A row of the tables of defects.
+pub(super) struct Row {
+    pub(super) id: &'static str,
+    pub(super) breaks: &'static [&'static str],
+    pub(super) what: &'static str,
+    pub(super) twist: Twist,
+    /// The edition it shows in, if it does not in any.
+    pub(super) edition: Option<Edition>,
+    /// Whether printed examples are answered as printed, as far as it is about.
+    pub(super) printed: bool,
+}
+
+/// A row about requests.
+pub(super) const fn row(
+    id: &'static str,
+    breaks: &'static [&'static str],
+    what: &'static str,
+    answer: fn(&Upstream<'_>, &Call<'_>) -> Answer,
+) -> Row {
+    twisted(id, breaks, what, Twist::Answer(answer))
+}
+
+/// A row about requests for functions.
+pub(super) const fn on(
+    id: &'static str,
+    breaks: &'static [&'static str],
+    what: &'static str,
+    functions: &'static [Function],
+    answer: fn(&Upstream<'_>, &Call<'_>) -> Answer,
+) -> Row {
+    twisted(id, breaks, what, Twist::Function(functions, answer))
+}
+
+/// A row about something else.
+pub(super) const fn twisted(
+    id: &'static str,
+    breaks: &'static [&'static str],
+    what: &'static str,
+    twist: Twist,
+) -> Row {
+    Row { id, breaks, what, twist, edition: None, printed: true }
+}
+
+/// A row about the NC program.
+pub(super) const fn program(
+    id: &'static str,
+    breaks: &'static [&'static str],
+    what: &'static str,
+    policy: Policy,
+) -> Row {
+    twisted(id, breaks, what, Twist::Program(policy))
+}
+
+/// All rows.
+pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
+    let areas: [&'static [Row]; 30] = [
+        variable_consistency::ROWS,
+        address::ROWS,
+        ads::ROWS,
+        general::ROWS,
+        axis::ROWS,
+        bounds::ROWS,
+        code::ROWS,
+        com::ROWS,
+        content::ROWS,
+        consistency::ROWS,
+        device::ROWS,
+        dynamic::ROWS,
+        element::ROWS,
+        frame::ROWS,
+        handle::ROWS,
+        indices::ROWS,
+        instance::ROWS,
+        stale::ROWS,
+        name::ROWS,
+        off_by_one::ROWS,
+        number::ROWS,
+        object::ROWS,
+        stream_write::ROWS,
+        write_sequence::ROWS,
+        stream_program::ROWS,
+        partial::ROWS,
+        service::ROWS,
+        value::ROWS,
+        variable::ROWS,
+        write::ROWS,
+    ];
+    areas.into_iter().flatten()
+}

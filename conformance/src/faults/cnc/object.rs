@@ -1,0 +1,175 @@
+//! Contents of objects (COM).
+
+use ads_cnc::address::{Access, ComGroup, ComTable};
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Function, Service};
+
+use super::com::set;
+use super::{LOGICAL, Row, at, com_group, group, is, offset, on, put_off, records_mut, row};
+
+const READ: &[Function] = &[Function::ReadObject];
+const WRITE: &[Function] = &[Function::WriteObject];
+
+/// What is at an address, however it is written.
+fn key(call: &Call<'_>) -> (u32, u32, Vec<u8>) {
+    (group(call) | LOGICAL, offset(call), Vec::new())
+}
+
+fn content(call: &Call<'_>) -> Option<ComGroup> {
+    com_group(call).filter(|com| com.access == Access::Element)
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    on("cnc.com.content-short", &["COM-5"], "contents lack their last byte",
+        READ, |cnc, call| cnc.answer(call).map(|mut bytes| {
+            bytes.pop();
+            bytes
+        })),
+    row("cnc.com.content-4-bytes", &["COM-5"], "contents take 4 bytes at least if there is room for them",
+        |cnc, call| match is(call, READ) && call.read_length >= 4 {
+            true => cnc.answer(call).map(|mut bytes| {
+                bytes.resize(bytes.len().max(4), 0);
+                bytes
+            }),
+            false => cnc.answer(call),
+        }),
+    on("cnc.com.content-none", &["COM-5"], "contents are read as nothing: no error, and no data",
+        READ, |cnc, call| cnc.answer(call).map(|_| Vec::new())),
+    row("cnc.com.content-big-endian", &["GEN-1", "COM-5"],
+        "contents are read and written with the most significant byte first",
+        |cnc, call| match (is(call, READ), is(call, WRITE)) {
+            (true, _) => cnc.answer(call).map(|mut bytes| {
+                if bytes.len() <= 8 {
+                    bytes.reverse();
+                }
+                bytes
+            }),
+            (_, true) if call.data.len() <= 8 => {
+                let data: Vec<u8> = call.data.iter().rev().copied().collect();
+                cnc.with(call, &data)
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.com.content-refused", &["COM-5"], "contents are read with ReadWrite, and not with Read",
+        |cnc, call| match (is(call, READ), content(call), call.service) {
+            (true, ..) => Err(AdsError::SERVICE_NOT_SUPPORTED),
+            (_, Some(_), Service::ReadWrite) if call.data.is_empty() => {
+                cnc.answer(&Call { service: Service::Read, ..*call })
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.com.axis-content-refused", &["COM-5"], "objects of channel axes are described, but not read",
+        |cnc, call| match content(call) {
+            Some(com) if com.table == ComTable::Channel && offset(call) >= 0x1_0000 => {
+                Err(AdsError::INVALID_OFFSET)
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.com.content-of-channel-1", &["COM-5"], "contents of channels are those of channel 1",
+        |cnc, call| match content(call) {
+            Some(com) if com.table == ComTable::Channel && com.instance > 1 => {
+                cnc.at(call, 0x12_0101, offset(call))
+            }
+            _ => cnc.answer(call),
+        }),
+    on("cnc.com.write-ignored", &["COM-5"], "a write succeeds and changes nothing",
+        WRITE, |cnc, call| {
+            let size = cnc.answer(&Call {
+                service: Service::Read,
+                data: &[],
+                read_length: u32::MAX,
+                ..*call
+            })?;
+            match size.len() == call.data.len() && writable(cnc, call) {
+                true => Ok(Vec::new()),
+                false => cnc.answer(call),
+            }
+        }),
+    row("cnc.com.write-late", &["COM-5"], "a write takes effect with the next one",
+        |cnc, call| match is(call, WRITE) && writable(cnc, call) {
+            true => put_off(cnc, call),
+            false => cnc.answer(call),
+        }),
+    on("cnc.com.write-refused", &["COM-5", "COM-2"], "what the descriptor calls writable is refused",
+        WRITE, |_, _| Err(AdsError::INVALID_ACCESS)),
+    row("cnc.com.write-read-only-accepted", &["COM-2"],
+        "a write of what is read-only succeeds, and changes nothing",
+        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
+            (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
+            (_, answer) => answer,
+        }),
+    row("cnc.com.write-read-only-done", &["COM-2"], "what is read-only is written", |cnc, call| {
+        if let Some(kept) = cnc.memory().get(&key(call))
+            && is(call, READ)
+        {
+            return Ok(kept);
+        }
+        match (is(call, WRITE), cnc.answer(call)) {
+            (true, Err(AdsError::INVALID_ACCESS)) => {
+                cnc.memory().keep(key(call), call.data.to_vec());
+                Ok(Vec::new())
+            }
+            (_, answer) => answer,
+        }
+    }),
+    row("cnc.com.write-two", &["COM-5"], "a write to an object of one axis is one to that of every axis",
+        |cnc, call| match is(call, WRITE) && offset(call) >= 0x1_0000 && offset(call) & 0xFFFF != 3
+        {
+            true => {
+                let done = cnc.answer(call);
+                if done.is_ok() {
+                    for axis in 1..=3 {
+                        let _ = cnc.at(call, group(call), offset(call) & 0xFFFF | axis << 16);
+                    }
+                }
+                done
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.com.write-bit", &["COM-5"], "a write of a BOOL inverts it",
+        |cnc, call| match is(call, WRITE) && call.data.len() == 1 {
+            true => {
+                let data: Vec<u8> = call.data.iter().map(|byte| u8::from(*byte == 0)).collect();
+                cnc.with(call, &data)
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.com.axis-not-in-offset", &["COM-6"],
+        "a platform axis stands in the group only: (0x120200, 0x10001) is refused",
+        |cnc, call| match content(call) {
+            Some(com) if com.table == ComTable::Axis && com.instance == 0 => {
+                Err(AdsError::INVALID_OFFSET)
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.com.command-elsewhere", &["COM-6"],
+        "mc_command_single_block_w is at the offset 0x2, where its descriptor says it is",
+        |cnc, call| match (content(call), offset(call)) {
+            (Some(com), 1) if com.table == ComTable::Channel => Err(AdsError::INVALID_OFFSET),
+            (Some(com), 2) if com.table == ComTable::Channel && com.instance > 0 => {
+                cnc.at(call, group(call), 1)
+            }
+            _ => cnc.answer(call).map(|mut bytes| {
+                if is(call, &[Function::ReadDescriptors]) {
+                    let commands = records_mut(&mut bytes).filter(|record| {
+                        record.iter().skip(20).zip(b"mc_command_single").all(|(a, b)| a == b)
+                    });
+                    commands.for_each(|record| set(record, 16, &[2]));
+                }
+                bytes
+            }),
+        }),
+    row("cnc.com.platform-elsewhere", &["COM-6"], "platform data is at (0x120200, 0x251)",
+        |cnc, call| match (group(call) & !LOGICAL, offset(call)) {
+            (0x02_0100 | 0x02_0101, 0x251) => Err(AdsError::INVALID_OFFSET),
+            (0x02_0200, 0x251) => cnc.answer(&at(call, 0x12_0100, 0x251)),
+            _ => cnc.answer(call),
+        }),
+];
+
+/// Whether a write of what is there already succeeds.
+fn writable(cnc: &super::Upstream<'_>, call: &Call<'_>) -> bool {
+    let old = cnc.read(call.port, group(call), offset(call));
+    old.is_ok_and(|old| old.len() == call.data.len() && cnc.with(call, &old).is_ok())
+}

@@ -1,0 +1,261 @@
+//! One channel, axis, kind or index for the one next to it.
+
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Function};
+
+use super::handle::{joined, parts};
+use super::lookup::{described, indexed, instance, is_string, name_of, with_indices};
+use super::{
+    Answer, LOGICAL, Row, Upstream, behind, dimensions, function, group, is, number, offset, on,
+    put, records_mut, reply, row, text, u32_at,
+};
+
+const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
+const STREAM: &[Function] = &[Function::WriteProgramStream];
+const WRITE: &[Function] = &[Function::WriteElement];
+
+/// A text of a descriptor that does not end where a shorter one does.
+fn run_on(records: &mut [[u8; 84]], field: usize) {
+    let mut before: Vec<u8> = Vec::new();
+    for record in records {
+        let Some(bytes) = record.get_mut(field..field.saturating_add(32)) else { continue };
+        let len = text(bytes).len();
+        let rest = before.iter().skip(len);
+        bytes.iter_mut().skip(len).zip(rest).for_each(|(byte, old)| *byte = *old);
+        before = text(bytes).to_vec();
+    }
+}
+
+/// Elements of one byte behind the one that was written become 0.
+fn zero_behind(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+    let done = cnc.answer(call)?;
+    let (name, indices) = indexed(text(call.data));
+    let described = described(cnc, group(call), name).unwrap_or_default();
+    if let (true, [before @ .., last], 1) =
+        (!is_string(&described), &indices[..], behind(call.data).len())
+    {
+        for next in 1..4 {
+            let other = [before, &[last.wrapping_add(next)]].concat();
+            let _ = cnc.with(call, &[&with_indices(name, &other)[..], &[0]].concat());
+        }
+    }
+    Ok(done)
+}
+
+/// Kinds of parameters in the order of their functions, from one on.
+fn behind_kind(cnc: &Upstream<'_>, call: &Call<'_>, at: u32, index: u32) -> Answer {
+    let count = cnc.read(call.port, group(call), (at.wrapping_sub(0x1B) / 3).saturating_add(2))?;
+    let count = u32_at(&count, 0).unwrap_or_default();
+    cnc.at(
+        &Call { data: &index.wrapping_sub(count).to_le_bytes(), ..*call },
+        group(call),
+        offset(call).wrapping_add(3),
+    )
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("cnc.adr.spindle-written-first", &["ADR-2"],
+        "what is written to the second spindle is written to the first",
+        |cnc, call| match (is(call, WRITE), group(call)) {
+            (true, 0x02_5301..=0x02_53FF) => cnc.at(call, 0x02_5300, offset(call)),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.adr.attributes-of-channel", &["ADR-6", "ADR-7"],
+        "type, length and unit of an axis's element are those of the channel's with the same number",
+        |cnc, call| match is(
+            call,
+            &[Function::ReadElementType, Function::ReadElementLength, Function::ReadElementUnit],
+        ) && instance(call) > 0
+        {
+            true => cnc.at(call, group(call), offset(call) & 0xFFFF).or_else(|_| cnc.answer(call)),
+            false => cnc.answer(call),
+        }),
+    row("cnc.com.many-access-stays", &["COM-2", "COM-3"],
+        "of several descriptors those behind one with write access have it too",
+        |cnc, call| reply(cnc, call, DESCRIPTORS, |mut bytes| {
+            let mut writable = false;
+            for record in records_mut(&mut bytes) {
+                writable |= record.get(8) == Some(&1);
+                record.iter_mut().skip(8).take(1).for_each(|byte| *byte = u8::from(writable));
+            }
+            bytes
+        })),
+    row("cnc.com.many-types-run-on", &["COM-2", "COM-3"],
+        "of several descriptors a type shorter than the one before runs on with the rest of that",
+        |cnc, call| reply(cnc, call, DESCRIPTORS, |bytes| {
+            let mut records = super::records(&bytes);
+            run_on(&mut records, 52);
+            records.concat()
+        })),
+    on("cnc.com.id-of-first-place", &["COM-2"],
+        "objects of the same name have the same ID, whichever place of the channel has them",
+        DESCRIPTORS, |cnc, call| {
+            let first = Call { read_length: 84 * 512, ..*call };
+            let all = super::records(&cnc.at(&first, group(call), 1)?);
+            cnc.answer(call).map(|mut bytes| {
+                for record in records_mut(&mut bytes) {
+                    let same = all.iter().find(|other| other.get(20..52) == record.get(20..52));
+                    let id = same.and_then(|other| u32_at(other, 0)).unwrap_or_default();
+                    put(record, 0, id);
+                }
+                bytes
+            })
+        }),
+    row("cnc.com.write-first-channel-too", &["COM-5"],
+        "what is written to an object of channel 2 is written to that of channel 1 too",
+        |cnc, call| {
+            let done = cnc.answer(call);
+            if done.is_ok()
+                && is(call, &[Function::WriteObject])
+                && group(call) | LOGICAL == 0x12_0102
+            {
+                let _ = cnc.at(call, 0x12_0101, offset(call));
+            }
+            done
+        }),
+    on("cnc.sda.count-writable", &["SDA-4"], "the number of elements counts those with write access",
+        &[Function::CountElements], |cnc, call| {
+            let count = u32_at(&cnc.answer(call)?, 0).unwrap_or_default();
+            let flag = |element: &u32| {
+                let at = offset(call).wrapping_add(*element);
+                cnc.read(call.port, group(call) | 0x500, at).is_ok_and(|flag| flag == [1])
+            };
+            let writable = (1..=count).filter(flag).count();
+            number(cnc.answer(call), 0, |_| 0).map(|mut bytes| {
+                put(&mut bytes, 0, u32::try_from(writable).unwrap_or_default());
+                bytes
+            })
+        }),
+    row("cnc.dyn.index-into-next-kind", &["DYN-5"],
+        "behind the last index of a kind names and values of the next kind follow",
+        |cnc, call| {
+            let kinds = [Function::DynamicNameByIndex, Function::DynamicValueByIndex];
+            match (is(call, &kinds), cnc.answer(call), u32_at(call.data, 0)) {
+                (true, Err(AdsError::INVALID_DATA), Some(index @ 1..)) => {
+                    behind_kind(cnc, call, offset(call), index).or(Err(AdsError::INVALID_DATA))
+                }
+                (_, answer, _) => answer,
+            }
+        }),
+    on("cnc.dyn.names-sorted", &["DYN-4", "DYN-2"],
+        "names by index are sorted by the alphabet, values by index are not",
+        &[Function::DynamicNameByIndex], |cnc, call| {
+            cnc.answer(call)?;
+            let all = (1_u32..).map_while(|index| cnc.with(call, &index.to_le_bytes()).ok());
+            let mut all: Vec<Vec<u8>> = all.collect();
+            all.sort();
+            let place = u32_at(call.data, 0).and_then(|index| usize::try_from(index).ok());
+            let place = place.and_then(|place| place.checked_sub(1)).unwrap_or_default();
+            super::fits(call, all.get(place).cloned().ok_or(AdsError::INVALID_DATA))
+        }),
+    on("cnc.var.write-element-4-bytes", &["VAR-13"],
+        "an element of one byte is written by name as 4 bytes: the three behind it become 0",
+        &[Function::WriteByName], zero_behind),
+    row("cnc.var.row-beyond", &["VAR-11", "VAR-4"],
+        "an index behind the end of a row, by handle, goes on in the next row",
+        |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
+            (true, Some((handle, indices, _))) if indices.len() == 2 => {
+                let name = name_of(cnc, group(call), handle).unwrap_or_default();
+                let described = described(cnc, group(call), &name).unwrap_or_default();
+                let (rows, columns) = match dimensions(&described).0[..] {
+                    [rows, columns] if columns > 0 => (rows, columns),
+                    _ => return cnc.answer(call),
+                };
+                let [row, column] = indices[..] else { return cnc.answer(call) };
+                let flat = row.saturating_mul(columns).saturating_add(column);
+                match flat < rows.saturating_mul(columns) {
+                    true => {
+                        let inside = [flat / columns, flat % columns];
+                        cnc.with(call, &joined(handle, &inside, &[]))
+                    }
+                    false => cnc.answer(call),
+                }
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.var.strings-127-apart", &["VAR-11", "VAR-14"],
+        "elements of an array of STRING, by handle, are a byte less apart than they are long",
+        |cnc, call| match (is(call, &[Function::ReadByHandle]), parts(call.data)) {
+            (true, Some((handle, indices, _))) if indices.len() == 1 => {
+                let right = cnc.answer(call)?;
+                let name = name_of(cnc, group(call), handle).unwrap_or_default();
+                let described = described(cnc, group(call), &name).unwrap_or_default();
+                let whole = cnc.whole(&Call { data: &joined(handle, &[], &[]), ..*call })?;
+                let index = indices.first().and_then(|one| usize::try_from(*one).ok());
+                let start = right.len().saturating_sub(1).saturating_mul(index.unwrap_or_default());
+                let part = whole.get(start..start.saturating_add(right.len()));
+                match is_string(&described) {
+                    true => Ok(part.map_or(right, <[u8]>::to_vec)),
+                    false => Ok(right),
+                }
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.var.count-of-axes", &["VAR-2"],
+        "the number of V.A counts each variable once, and its descriptions come for each axis",
+        |cnc, call| match is(call, &[Function::CountVariables]) && text(call.data) == b"V.A" {
+            true => {
+                let kind = b"V.A\0";
+                let all = (0_u32..).map_while(|index| {
+                    cnc.ask(group(call), 0x45, &[&index.to_le_bytes(), &kind[..]].concat()).ok()
+                });
+                let mut names: Vec<Vec<u8>> = all
+                    .map(|bytes| {
+                        let name = text(bytes.get(dimensions(&bytes).1..).unwrap_or_default());
+                        let dot = name.iter().rposition(|&byte| byte == b'.').unwrap_or_default();
+                        name.get(..dot).unwrap_or_default().to_vec()
+                    })
+                    .collect();
+                names.sort();
+                names.dedup();
+                let count = u32::try_from(names.len()).unwrap_or_default();
+                cnc.answer(call).map(|_| count.to_le_bytes().to_vec())
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.var.sum-with-cycle", &["VAR-1"], "the sum of all kinds counts V.CYC too",
+        |cnc, call| match is(call, &[Function::CountVariables]) && text(call.data).is_empty() {
+            true => {
+                let names = [&b"V.CYC.count\0"[..], b"V.CYC.matrix\0"];
+                let there = names.iter().filter(|name| cnc.ask(group(call), 0x48, name).is_ok());
+                let more = u32::try_from(there.count()).unwrap_or_default();
+                cnc.answer(call).map(|mut bytes| {
+                    let sum = u32_at(&bytes, 0).unwrap_or_default();
+                    put(&mut bytes, 0, sum.wrapping_add(more));
+                    bytes
+                })
+            }
+            false => cnc.answer(call),
+        }),
+    on("cnc.stm.room-of-all", &["STM-3"],
+        "what the interfaces of all channels hold counts against the 4094 bytes of each",
+        STREAM, |cnc, call| {
+            let held = |channel: u8| cnc.cnc.with_program(channel, |program| program.held());
+            let held: usize = cnc.channels().into_iter().filter_map(|one| held(one).ok()).sum();
+            match held.saturating_add(call.data.len()) > 4094 {
+                true => Err(AdsError::INVALID_DATA),
+                false => cnc.answer(call),
+            }
+        }),
+    row("cnc.var.axis-two-copies", &["VAR-26"],
+        "what is written on the axis interface is read there, and not on the channel interface",
+        |cnc, call| {
+            let key = (group(call) & 0xFF, offset(call) >> 16, text(call.data).to_vec());
+            match function(call) {
+                Some(Function::AxisWriteByName) => {
+                    let name = [text(call.data), &[0]].concat();
+                    let old = cnc.ask(group(call), offset(call).wrapping_sub(1), &name);
+                    let done = cnc.answer(call)?;
+                    cnc.memory().keep(key, behind(call.data).to_vec());
+                    let _ = cnc.with(call, &[&name[..], &old?].concat());
+                    Ok(done)
+                }
+                Some(Function::AxisReadByName) => {
+                    let kept = cnc.memory().get(&key);
+                    kept.map_or_else(|| cnc.answer(call), Ok)
+                }
+                _ => cnc.answer(call),
+            }
+        }),
+];

@@ -1,0 +1,219 @@
+//! The Service Interface (SVC).
+
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Function};
+use ads_cnc::service::ServiceVariable;
+
+use super::{
+    Answer, Row, Upstream, behind, dimensions, function, group, is, number, offset, on, program,
+    row, text, u32_at,
+};
+use crate::simulator::program::Policy;
+
+const UUID: &str = ServiceVariable::UUID;
+const REQUEST: &str = ServiceVariable::REQUEST;
+const REQUEST_STATE: &str = ServiceVariable::REQUEST_STATE;
+const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
+const RESPONSE: &str = ServiceVariable::RESPONSE;
+
+/// Whether the variable with this name is read by name.
+pub(super) fn reads(call: &Call<'_>, name: &str) -> bool {
+    is(call, &[Function::ReadByName]) && text(call.data) == name.as_bytes()
+}
+
+/// Whether it is written by name.
+pub(super) fn writes(call: &Call<'_>, name: &str) -> bool {
+    is(call, &[Function::WriteByName]) && text(call.data) == name.as_bytes()
+}
+
+/// Whether it is one of the five.
+fn of_service(call: &Call<'_>) -> bool {
+    text(call.data).starts_with(b"V.G.SERVICE.")
+}
+
+fn key(call: &Call<'_>) -> (u32, u32, Vec<u8>) {
+    (group(call) & 0xFF, 0, Vec::new())
+}
+
+fn read(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> Answer {
+    cnc.ask(group(call), 0x48, &[name.as_bytes(), &[0]].concat())
+}
+
+fn state(cnc: &Upstream<'_>, call: &Call<'_>, name: &str) -> u32 {
+    read(cnc, call, name).ok().and_then(|bytes| u32_at(&bytes, 0)).unwrap_or_default()
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("cnc.svc.missing", &["SVC-1", "SVC-11"], "the variables of the Service Interface are not there",
+        |cnc, call| match of_service(call) && super::of_decoder(call).is_some() {
+            true => Err(AdsError::SYMBOL_NOT_FOUND),
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.channel-1", &["SVC-1"], "there is one Service Interface for all channels",
+        |cnc, call| match of_service(call) && super::of_decoder(call).is_some() {
+            true => cnc.at(call, 0x12_2301, offset(call)),
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.response-20", &["SVC-1"], "RESPONSE takes 20 characters, and what is more is lost",
+        |cnc, call| match writes(call, RESPONSE) && behind(call.data).len() > 21 {
+            true => {
+                let response = behind(call.data).get(..20).unwrap_or_default();
+                cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.response-64", &["SVC-1"], "a RESPONSE of more than 64 bytes is refused",
+        |cnc, call| match writes(call, RESPONSE) && behind(call.data).len() > 64 {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.response-129", &["SVC-1"], "a RESPONSE of more than 128 bytes is cut and taken",
+        |cnc, call| match writes(call, RESPONSE) && behind(call.data).len() > 128 {
+            true => {
+                let response = behind(call.data).get(..127).unwrap_or_default();
+                cnc.with(call, &[text(call.data), &[0], response, &[0]].concat())
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.request-64", &["SVC-1"], "REQUEST is read as its first 63 characters",
+        |cnc, call| match reads(call, REQUEST) {
+            true => cnc.answer(call).map(|mut bytes| {
+                bytes.truncate(64);
+                bytes.iter_mut().skip(63).for_each(|byte| *byte = 0);
+                bytes
+            }),
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.texts-upper-case", &["SVC-1"], "REQUEST is read in upper case",
+        |cnc, call| match reads(call, REQUEST) {
+            true => cnc.answer(call).map(|bytes| bytes.to_ascii_uppercase()),
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.response-read-empty", &["SVC-1"], "RESPONSE is written and not read back: it is empty",
+        |cnc, call| match reads(call, RESPONSE) {
+            true => cnc.answer(call).map(|bytes| vec![0; bytes.len()]),
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.states-real", &["SVC-1"], "the states are REAL64, as numbers of the NC program",
+        |cnc, call| match reads(call, REQUEST_STATE) || reads(call, RESPONSE_STATE) {
+            true => cnc.answer(call).map(|bytes| {
+                f64::from(u32_at(&bytes, 0).unwrap_or_default()).to_le_bytes().to_vec()
+            }),
+            false => cnc.answer(call),
+        }),
+    on("cnc.svc.types-uns08", &["SVC-1"], "UUID, REQUEST and RESPONSE are arrays of UNS08",
+        &[Function::DescribeByIndex, Function::DescribeByName],
+        |cnc, call| cnc.answer(call).and_then(|bytes| {
+            let name = match function(call) {
+                Some(Function::DescribeByName) => text(call.data),
+                _ => text(bytes.get(dimensions(&bytes).1..).unwrap_or_default()),
+            };
+            match name.starts_with(b"V.G.SERVICE.") && u32_at(&bytes, 4) == Some(9) {
+                true => number(Ok(bytes), 4, |_| 3),
+                false => Ok(bytes),
+            }
+        })),
+    row("cnc.svc.read-only", &["SVC-1"], "RESPONSE and RESPONSE_STATE are not written over ADS",
+        |cnc, call| match writes(call, RESPONSE) || writes(call, RESPONSE_STATE) {
+            true => Err(AdsError::INVALID_ACCESS),
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.uuid-and-request-swapped", &["SVC-1"], "UUID reads as REQUEST, REQUEST as UUID",
+        |cnc, call| match (reads(call, UUID), reads(call, REQUEST)) {
+            (true, _) => read(cnc, call, REQUEST),
+            (_, true) => read(cnc, call, UUID),
+            _ => cnc.answer(call),
+        }),
+    row("cnc.svc.request-state-resets-not", &["SVC-3"],
+        "a write of REQUEST_STATE leaves RESPONSE_STATE as it is",
+        |cnc, call| {
+            if reads(call, RESPONSE_STATE)
+                && let Some(kept) = cnc.memory().get(&key(call))
+            {
+                return Ok(kept);
+            }
+            if writes(call, REQUEST_STATE) {
+                let before = read(cnc, call, RESPONSE_STATE)?;
+                if before.iter().any(|byte| *byte != 0) {
+                    cnc.memory().keep(key(call), before);
+                }
+            } else if writes(call, RESPONSE_STATE) {
+                cnc.memory().forget();
+            }
+            cnc.answer(call)
+        }),
+    row("cnc.svc.request-state-0-resets-not", &["SVC-3"],
+        "a write of REQUEST_STATE resets RESPONSE to nothing in place of RESPONSE_STATE",
+        |cnc, call| {
+            let mut empty = false;
+            if writes(call, REQUEST_STATE) {
+                let kept = read(cnc, call, RESPONSE_STATE)?;
+                let mut memory = cnc.memory();
+                memory.keep(key(call), kept);
+                memory.count = 1;
+            } else if writes(call, RESPONSE_STATE) || writes(call, RESPONSE) {
+                let mut memory = cnc.memory();
+                memory.forget();
+                memory.count = 0;
+            } else {
+                empty = cnc.memory().count == 1;
+            }
+            match (reads(call, RESPONSE_STATE), reads(call, RESPONSE)) {
+                (true, _) => cnc.memory().get(&key(call)).map_or_else(|| cnc.answer(call), Ok),
+                (_, true) if empty => cnc.answer(call).map(|bytes| vec![0; bytes.len()]),
+                _ => cnc.answer(call),
+            }
+        }),
+    row("cnc.svc.request-state-stays", &["SVC-4"],
+        "REQUEST_STATE stays as it is when the service has finished",
+        |cnc, call| {
+            if reads(call, REQUEST_STATE)
+                && let Some(kept) = cnc.memory().get(&key(call))
+            {
+                return Ok(kept);
+            }
+            if writes(call, RESPONSE_STATE) {
+                let before = read(cnc, call, REQUEST_STATE)?;
+                cnc.memory().keep(key(call), before);
+            } else if writes(call, REQUEST_STATE) {
+                cnc.memory().forget();
+            }
+            cnc.answer(call)
+        }),
+    row("cnc.svc.request-cleared", &["SVC-1", "SVC-2"], "REQUEST is empty as soon as REQUEST_STATE is set",
+        |cnc, call| match reads(call, REQUEST) && state(cnc, call, REQUEST_STATE) != 0 {
+            true => cnc.answer(call).map(|bytes| vec![0; bytes.len()]),
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.request-state-1", &["SVC-1"], "a REQUEST_STATE that is not 0 is read as 1",
+        |cnc, call| match reads(call, REQUEST_STATE) {
+            true => number(cnc.answer(call), 0, |state| state.min(1)),
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.response-state-8-bit", &["SVC-1"], "of RESPONSE_STATE the lowest byte counts",
+        |cnc, call| match reads(call, RESPONSE_STATE) {
+            true => number(cnc.answer(call), 0, |state| state & 0xFF),
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.by-other-names", &["SVC-1"], "the variables are called V.G.SERVICE_UUID and so on",
+        |cnc, call| {
+            let name = text(call.data);
+            match name.strip_prefix(b"V.G.SERVICE_") {
+                Some(rest) => {
+                    let data = [b"V.G.SERVICE.", rest, &[0], behind(call.data)].concat();
+                    cnc.with(call, &data)
+                }
+                None if of_service(call) => Err(AdsError::SYMBOL_NOT_FOUND),
+                None => cnc.answer(call),
+            }
+        }),
+    program("cnc.svc.program-waits-not", &["SVC-6"],
+        "the NC program reads RESPONSE without waiting for RESPONSE_STATE",
+        Policy { awaits_response: false, ..Policy::DEFAULT }),
+    program("cnc.svc.program-state-first", &["SVC-12"],
+        "the NC program writes REQUEST_STATE before UUID and REQUEST",
+        Policy { state_first: true, ..Policy::DEFAULT }),
+    program("cnc.svc.program-waits-for-ever", &["SVC-8"], "the cycle that waits does not end after @P2",
+        Policy { times_out: false, ..Policy::DEFAULT }),
+];

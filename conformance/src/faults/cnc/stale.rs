@@ -1,0 +1,222 @@
+//! State that one request leaves to the next.
+
+use ads_cnc::ads::{AdsError, Command};
+use ads_cnc::operation::{Call, Function};
+
+use super::frame::{INVOKE_ID, LENGTH, RESULT, SOURCE, TARGET, sent, set};
+use super::handle::{joined, parts};
+use super::lookup::{instance, one, over};
+use super::{
+    Answer, Row, Upstream, fits, frame, function, group, is, offset, on, row, text, u32_at,
+};
+
+const FIND: &[Function] = &[Function::FindInstance];
+const UNIT: &[Function] = &[Function::ReadElementUnit];
+const COUNT: &[Function] = &[Function::CountDynamic];
+const NAME: &[Function] = &[Function::DynamicNameByIndex];
+const BY_INDEX: &[Function] = &[Function::DynamicValueByIndex];
+
+/// So many handles are known at a time.
+const SLOTS: u32 = 16;
+
+/// Handles by name take turns in a table that is too short.
+fn slots(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+    let gone = |handle: u32| (0x5106, handle, vec![u8::try_from(instance(call)).unwrap_or(0)]);
+    match function(call) {
+        Some(Function::HandleByName) => {
+            let answer = cnc.answer(call)?;
+            let handle = u32_at(&answer, 0).unwrap_or_default();
+            let mut memory = cnc.memory();
+            let known = (0..SLOTS)
+                .any(|slot| memory.get(&(0x5107, slot, Vec::new())).as_ref() == Some(&answer));
+            if !known {
+                let slot = (0x5107, memory.count % SLOTS, Vec::new());
+                if let Some(old) = memory.get(&slot).and_then(|old| u32_at(&old, 0)) {
+                    memory.keep(gone(old), answer.clone());
+                }
+                memory.keep(gone(handle), answer.clone());
+                memory.keep(slot, answer.clone());
+                memory.count = memory.count.wrapping_add(1);
+            }
+            Ok(answer)
+        }
+        Some(Function::ReadByHandle | Function::WriteByHandle) => {
+            let Some((handle, indices, value)) = parts(call.data) else { return cnc.answer(call) };
+            let now = cnc.memory().get(&gone(handle)).and_then(|now| u32_at(&now, 0));
+            cnc.with(call, &joined(now.unwrap_or(handle), &indices, value))
+        }
+        _ => cnc.answer(call),
+    }
+}
+
+/// Whether an axis is at the place that the offset names.
+fn occupied(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<bool> {
+    let channel = u8::try_from(instance(call)).ok()?;
+    let place = u8::try_from(offset(call) >> 16).ok().filter(|place| *place > 0)?;
+    let of_place = matches!(group(call) & 0xFFFF_FF00, 0x12_1300 | 0x12_2300 | 0x12_4300);
+    of_place.then(|| cnc.cnc.axis_at(channel, place) != 0)
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    on("cnc.sda.unit-runs-on", &["SDA-6"],
+        "a unit that is shorter than the one read before it runs on with the rest of that",
+        UNIT, |cnc, call| {
+            let unit = cnc.whole(call)?;
+            let before = cnc.memory().get(&one(1)).unwrap_or_default();
+            let unit = over(text(&unit), &before);
+            cnc.memory().keep(one(1), unit.clone());
+            fits(call, Ok([&unit[..], &[0]].concat()))
+        }),
+    row("cnc.sda.absent-as-before", &["SDA-2"],
+        "an instance that is not there is answered as the one that was found last",
+        |cnc, call| {
+            let answer = cnc.answer(call)?;
+            match (is(call, FIND), answer.iter().all(|byte| *byte == 0)) {
+                (true, true) => Ok(cnc.memory().get(&one(1)).unwrap_or(answer)),
+                (true, false) => {
+                    cnc.memory().keep(one(1), answer.clone());
+                    Ok(answer)
+                }
+                _ => Ok(answer),
+            }
+        }),
+    row("cnc.sda.blank-remains", &["SDA-11"], "a place that its axis has left reads as it was read last",
+        |cnc, call| match (is(call, &[Function::ReadElement]), occupied(cnc, call)) {
+            (true, Some(true)) => {
+                let bytes = cnc.answer(call)?;
+                cnc.memory().keep((group(call), offset(call), Vec::new()), bytes.clone());
+                Ok(bytes)
+            }
+            (true, Some(false)) => {
+                let kept = cnc.memory().get(&(group(call), offset(call), Vec::new()));
+                kept.map_or_else(|| cnc.answer(call), Ok)
+            }
+            _ => cnc.answer(call),
+        }),
+    on("cnc.dyn.count-never-falls", &["DYN-1"],
+        "the number of parameters counts those that were there once and are gone",
+        COUNT, |cnc, call| {
+            let now = cnc.answer(call)?;
+            let key = (group(call) & 0xFF, offset(call), Vec::new());
+            let most = cnc.memory().get(&key).filter(|most| u32_at(most, 0) > u32_at(&now, 0));
+            let most = most.unwrap_or(now);
+            cnc.memory().keep(key, most.clone());
+            Ok(most)
+        }),
+    on("cnc.dyn.index-remembered", &["DYN-4"],
+        "a value by index is that of the parameter which was first read by the index",
+        BY_INDEX, |cnc, call| {
+            let key = (group(call) & 0xFF, offset(call), call.data.to_vec());
+            let known = cnc.memory().get(&key);
+            let name = match known {
+                Some(name) => name,
+                None => cnc.ask(group(call), offset(call).wrapping_sub(2), call.data)?,
+            };
+            cnc.memory().keep(key, name.clone());
+            let at = offset(call).wrapping_sub(1);
+            cnc.at(&Call { data: &name, ..*call }, group(call), at)
+        }),
+    on("cnc.dyn.name-after-error", &["DYN-2"],
+        "behind an index that was refused the next name is that of the first parameter",
+        NAME, |cnc, call| {
+            let answer = cnc.answer(call);
+            let before = std::mem::replace(&mut cnc.memory().count, u32::from(answer.is_err()));
+            match answer {
+                Ok(_) if before == 1 => cnc.with(call, &[1, 0, 0, 0]),
+                answer => answer,
+            }
+        }),
+    on("cnc.var.extended-remains", &["VAR-16"],
+        "the extended description of V.G and V.A is the one of V.E that was read before",
+        &[Function::DescribeExtended], |cnc, call| {
+            let bytes = cnc.answer(call)?;
+            if !bytes.is_empty() {
+                cnc.memory().keep(one(1), bytes.clone());
+            }
+            let kept = cnc.memory().get(&one(1)).unwrap_or_default();
+            fits(call, Ok(kept))
+        }),
+    row("cnc.var.handle-slots", &["VAR-10"],
+        "16 handles are known at a time: the one after takes the place of the oldest, whose number \
+         then stands for its variable",
+        slots),
+    row("cnc.var.handle-channel-of-last", &["VAR-10", "VAR-11"],
+        "a handle is looked for in the channel in which a handle was last asked for",
+        |cnc, call| match function(call) {
+            Some(Function::HandleByName) => {
+                cnc.memory().count = instance(call);
+                cnc.answer(call)
+            }
+            Some(Function::ReadByHandle) => {
+                let channel = cnc.memory().count;
+                let at = if channel == 0 { group(call) } else { group(call) & !0xFF | channel };
+                cnc.at(call, at, offset(call))
+            }
+            _ => cnc.answer(call),
+        }),
+    sent("cnc.ads.target-of-first", &["ADS-5"],
+        "the target of every response is the address that asked first",
+        |cnc, _, bytes| {
+            let source = bytes.get(TARGET..SOURCE).unwrap_or_default().to_vec();
+            let mut memory = cnc.memory();
+            if memory.frame.is_empty() {
+                memory.frame = source;
+            }
+            let first = memory.frame.clone();
+            set(bytes, TARGET, &first)
+        }),
+    sent("cnc.ads.source-port-of-before", &["ADS-5"],
+        "the source port of a response is the port that the request before was for",
+        |cnc, request, bytes| {
+            let port = u32::from(request.header().target.port.0);
+            let before = std::mem::replace(&mut cnc.memory().count, port);
+            let port = u16::try_from(if before == 0 { port } else { before }).unwrap_or_default();
+            set(bytes, SOURCE.wrapping_add(6), &port.to_le_bytes())
+        }),
+    sent("cnc.ads.result-stays", &["ADS-2", "ADS-4"],
+        "the first Write behind a refusal has the result of that, and is done",
+        |cnc, request, bytes| {
+            let result = u32_at(&bytes, RESULT).unwrap_or_default();
+            let mut memory = cnc.memory();
+            match (frame::is(request, &[Command::WRITE]), result) {
+                (true, 0) => {
+                    let before = std::mem::take(&mut memory.count);
+                    set(bytes, RESULT, &before.to_le_bytes())
+                }
+                _ => {
+                    memory.count = result;
+                    bytes
+                }
+            }
+        }),
+    sent("cnc.ads.refused-invoke-id-0", &["ADS-5"], "a refusal has the invoke ID 0",
+        |_, _, bytes| match u32_at(&bytes, RESULT) {
+            Some(1..) => set(bytes, INVOKE_ID, &[0; 4]),
+            _ => bytes,
+        }),
+    sent("cnc.ads.refused-data-length", &["ADS-5"],
+        "the data length of a refused Read or ReadWrite counts the result alone, and not the length \
+         behind it",
+        |_, request, bytes| match u32_at(&bytes, RESULT) {
+            Some(1..) if !frame::is(request, &[Command::WRITE]) && bytes.len() > LENGTH => {
+                set(bytes, frame::DATA_LENGTH, &[4, 0, 0, 0])
+            }
+            _ => bytes,
+        }),
+    row("cnc.ads.read-length-16-bit-wide", &["ADS-1", "ADS-3", "ADS-4"],
+        "of the read length the lower 16 bits count: 0x10002 is 2",
+        |cnc, call| cnc.answer(&Call { read_length: call.read_length & 0xFFFF, ..*call })),
+    row("cnc.dyn.count-8-bytes", &["DYN-1"],
+        "the number of parameters takes 8 bytes where a Read has room for them",
+        |cnc, call| match is(call, COUNT) && call.read_length >= 8 {
+            true => cnc.answer(call).map(|bytes| [&bytes[..], &[0; 4]].concat()),
+            false => cnc.answer(call),
+        }),
+    row("cnc.sda.found-not-read", &["SDA-5", "ADR-7"],
+        "of the position controller three axes are read, though all of them are found",
+        |cnc, call| match group(call) & 0xFF_FFFF {
+            0x12_0300..=0x12_08FF if offset(call) >= 0x4_0000 => Err(AdsError::INVALID_OFFSET),
+            _ => cnc.answer(call),
+        }),
+];

@@ -1,0 +1,282 @@
+//! What streamed programs do (STM).
+
+use ads_cnc::limits::STREAM_MAX;
+use ads_cnc::streaming::{
+    Ack, CheckEvent, Checker, Diagnostic, DiagnosticKind, LINE_END_ERROR, LineError, LoopWord,
+    ProgramEnd, check_line_ends,
+};
+
+use super::{Row, program};
+use crate::simulator::program::{Buffer, Event, Policy, Segment, StreamingInterface, lines};
+
+const RIGHT: Policy = Policy::DEFAULT;
+
+/// Bytes of the interface that is too small.
+const NARROW: usize = 2048;
+
+/// An interface that holds half as much.
+#[derive(Debug, Default)]
+struct Narrow(StreamingInterface);
+
+impl Buffer for Narrow {
+    fn write(&mut self, data: &[u8]) -> Ack {
+        match self.0.len().saturating_add(data.len()) > NARROW {
+            true => Ack::Busy,
+            false => self.0.write(data),
+        }
+    }
+
+    fn read(&mut self) -> Result<Vec<u8>, LineError> {
+        Buffer::read(&mut self.0)
+    }
+
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    fn clear(&mut self) {
+        self.0.reset();
+    }
+}
+
+/// An interface that knows where each write ended.
+#[derive(Debug)]
+struct Packets {
+    held: Vec<Vec<u8>>,
+    room: usize,
+    /// Takes lines out of the packets, which may have a line without CR LF.
+    take: Take,
+}
+
+type Taken = Result<Vec<u8>, LineError>;
+type Take = fn(&mut Vec<Vec<u8>>, Result<(), LineError>) -> Taken;
+
+impl Packets {
+    fn of(room: usize, take: Take) -> Box<dyn Buffer> {
+        Box::new(Self { held: Vec::new(), room, take })
+    }
+
+    fn all(held: &mut Vec<Vec<u8>>, ends: Result<(), LineError>) -> Taken {
+        let all = std::mem::take(held).concat();
+        ends.map(|()| all)
+    }
+
+    fn first(held: &mut Vec<Vec<u8>>, ends: Result<(), LineError>) -> Taken {
+        match ends {
+            Ok(()) => Ok(held.drain(..1.min(held.len())).flatten().collect()),
+            Err(error) => {
+                held.clear();
+                Err(error)
+            }
+        }
+    }
+
+    fn reversed(held: &mut Vec<Vec<u8>>, ends: Result<(), LineError>) -> Taken {
+        held.reverse();
+        Self::all(held, ends)
+    }
+
+    fn whole_lines(held: &mut Vec<Vec<u8>>, _: Result<(), LineError>) -> Taken {
+        let all = std::mem::take(held).concat();
+        Ok(lines(&all).filter(|line| line.ends_with(b"\r\n")).flatten().copied().collect())
+    }
+}
+
+impl Buffer for Packets {
+    fn write(&mut self, data: &[u8]) -> Ack {
+        // Too short or too long: as ever.
+        if StreamingInterface::new().write(data) == Ack::Rejected {
+            return Ack::Rejected;
+        }
+        if self.len().saturating_add(data.len()) > self.room {
+            return Ack::Busy;
+        }
+        self.held.push(data.to_vec());
+        Ack::Accepted
+    }
+
+    fn read(&mut self) -> Taken {
+        let ends = check_line_ends(&self.held.concat());
+        (self.take)(&mut self.held, ends)
+    }
+
+    fn len(&self) -> usize {
+        self.held.iter().map(Vec::len).sum()
+    }
+
+    fn clear(&mut self) {
+        self.held.clear();
+    }
+}
+
+/// The lines without what is overlooked in them.
+fn overlooking(
+    checker: &mut Checker,
+    read: &[u8],
+    is_overlooked: fn(&CheckEvent) -> bool,
+) -> Segment {
+    let number = checker.lines().saturating_add(1);
+    let found = checker.check(read).filter(|found| !is_overlooked(found));
+    Segment::with_findings(read, number, found)
+}
+
+const fn kind(found: &CheckEvent) -> Option<DiagnosticKind> {
+    match found {
+        CheckEvent::Diagnostic(finding) => Some(finding.kind),
+        CheckEvent::ProgramEnd { .. } => None,
+    }
+}
+
+fn loops(checker: &mut Checker, read: &[u8]) -> Segment {
+    overlooking(checker, read, |found| matches!(kind(found), Some(DiagnosticKind::Loop(_))))
+}
+
+fn jumps_back(checker: &mut Checker, read: &[u8]) -> Segment {
+    overlooking(checker, read, |found| {
+        matches!(kind(found), Some(DiagnosticKind::BackwardJump { .. }))
+    })
+}
+
+fn no_end(checker: &mut Checker, read: &[u8]) -> Segment {
+    overlooking(checker, read, |found| matches!(found, CheckEvent::ProgramEnd { .. }))
+}
+
+fn m30_only(checker: &mut Checker, read: &[u8]) -> Segment {
+    overlooking(
+        checker,
+        read,
+        |found| matches!(found, CheckEvent::ProgramEnd { end, .. } if *end != ProgramEnd::M30),
+    )
+}
+
+/// Labels are known within a read only.
+fn forgets(checker: &mut Checker, read: &[u8]) -> Segment {
+    *checker = Checker::new();
+    Segment::new(checker, read)
+}
+
+fn comments(checker: &mut Checker, read: &[u8]) -> Segment {
+    let number = checker.lines().saturating_add(1);
+    let blank = |byte: &u8| if b"();#".contains(byte) { b' ' } else { *byte };
+    let seen: Vec<u8> = read.iter().map(blank).collect();
+    Segment::with_findings(read, number, checker.check(&seen))
+}
+
+/// The program ends after the last of the lines.
+fn past_end(checker: &mut Checker, read: &[u8]) -> Segment {
+    let number = checker.lines().saturating_add(1);
+    let mut found: Vec<CheckEvent> = checker.check(read).collect();
+    if let Some(at) = found.iter().position(|found| matches!(found, CheckEvent::ProgramEnd { .. }))
+    {
+        let line = found.get(at).map(CheckEvent::line);
+        found.retain(|one| Some(one.line()) <= line);
+    }
+    for one in &mut found {
+        if let CheckEvent::ProgramEnd { line, .. } = one {
+            *line = checker.lines();
+        }
+    }
+    Segment::with_findings(read, number, found)
+}
+
+/// The program is ended by the first of these lines too, if any is.
+fn ended_by(
+    checker: &mut Checker,
+    read: &[u8],
+    found: fn(u32) -> CheckEvent,
+    is_end: fn(&[u8]) -> bool,
+) -> Segment {
+    let number = checker.lines().saturating_add(1);
+    let place = lines(read).position(is_end).and_then(|place| u32::try_from(place).ok());
+    let own = place.map(|place| found(number.saturating_add(place)));
+    Segment::with_findings(read, number, own.into_iter().chain(checker.check(read)))
+}
+
+/// A word of a loop.
+const fn looped(line: u32) -> CheckEvent {
+    CheckEvent::Diagnostic(Diagnostic {
+        line,
+        column: 1,
+        kind: DiagnosticKind::Loop(LoopWord::While),
+    })
+}
+
+fn has(line: &[u8], word: &[u8]) -> bool {
+    line.windows(word.len()).any(|part| part == word)
+}
+
+fn branches(checker: &mut Checker, read: &[u8]) -> Segment {
+    ended_by(checker, read, looped, |line| has(line, b"$IF") || has(line, b"$SWITCH"))
+}
+
+fn whole_branches(checker: &mut Checker, read: &[u8]) -> Segment {
+    let count = |word: &[u8]| lines(read).filter(|line| has(line, word)).count();
+    match count(b"$IF") == count(b"$ENDIF") && count(b"$SWITCH") == count(b"$ENDSWITCH") {
+        true => Segment::new(checker, read),
+        false => branches(checker, read),
+    }
+}
+
+fn jumps(checker: &mut Checker, read: &[u8]) -> Segment {
+    ended_by(checker, read, looped, |line| has(line, b"$GOTO"))
+}
+
+fn subroutines(checker: &mut Checker, read: &[u8]) -> Segment {
+    let end = |line| CheckEvent::ProgramEnd { end: ProgramEnd::M17, line, column: 1 };
+    ended_by(checker, read, end, |line| {
+        let mut words = line.split(|byte| byte.is_ascii_whitespace());
+        words.find(|word| !word.starts_with(b"N")) == Some(b"L")
+    })
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    program("cnc.stm.room-8188", &["STM-3"], "the interface holds up to 8188 bytes",
+        Policy { buffer: || Packets::of(2 * STREAM_MAX, Packets::all), ..RIGHT }),
+    program("cnc.stm.room-2048", &["STM-3"], "the interface holds 2048 bytes",
+        Policy { buffer: || Box::new(Narrow::default()), ..RIGHT }),
+    program("cnc.stm.loops-run", &["STM-8"], "words of loops are run", Policy { segment: loops, ..RIGHT }),
+    program("cnc.stm.jumps-back-run", &["STM-8"], "a jump back is run",
+        Policy { segment: jumps_back, ..RIGHT }),
+    program("cnc.stm.jumps-back-forgotten", &["STM-8"], "a jump back to a label of an earlier read is run",
+        Policy { segment: forgets, ..RIGHT }),
+    program("cnc.stm.branches-whole", &["STM-8"],
+        "an $IF or $SWITCH without its end in the same read ends streaming",
+        Policy { segment: whole_branches, ..RIGHT }),
+    program("cnc.stm.branches-refused", &["STM-19"], "$IF and $SWITCH end streaming, as loops do",
+        Policy { segment: branches, ..RIGHT }),
+    program("cnc.stm.jumps-refused", &["STM-19"], "every $GOTO ends streaming",
+        Policy { segment: jumps, ..RIGHT }),
+    program("cnc.stm.comments-run", &["STM-9"], "a word of a loop in a comment ends streaming",
+        Policy { segment: comments, ..RIGHT }),
+    program("cnc.stm.end-ignored", &["STM-10"], "M2, M30, M17 and M29 end nothing",
+        Policy { segment: no_end, ..RIGHT }),
+    program("cnc.stm.end-m30-only", &["STM-10"], "M30 ends a program, M2, M17 and M29 do not",
+        Policy { segment: m30_only, ..RIGHT }),
+    program("cnc.stm.behind-end-run", &["STM-10"],
+        "what was read with a program end is run before the program ends",
+        Policy { segment: past_end, ..RIGHT }),
+    program("cnc.stm.end-empties", &["STM-10"], "a program end empties the interface",
+        Policy { clears: &[Event::Reset, Event::End], ..RIGHT }),
+    program("cnc.stm.reset-keeps", &["STM-11"], "an NC reset leaves the interface as it is",
+        Policy { clears: &[], ..RIGHT }),
+    program("cnc.stm.reset-goes-on", &["STM-11"], "an NC reset does not end streaming",
+        Policy { ends: &[], ..RIGHT }),
+    program("cnc.stm.reads-packets", &["STM-12"], "the CNC reads one packet at a time",
+        Policy { buffer: || Packets::of(STREAM_MAX, Packets::first), ..RIGHT }),
+    program("cnc.stm.starts-itself", &["STM-14"], "streaming begins without a start",
+        Policy { starts: &[Event::PowerOn, Event::Reset], ..RIGHT }),
+    program("cnc.stm.starts-empty", &["STM-14"], "a start empties the interface",
+        Policy { clears: &[Event::Reset, Event::Start], ..RIGHT }),
+    program("cnc.stm.reads-reversed", &["STM-15"], "packets that wait are taken last first",
+        Policy { buffer: || Packets::of(STREAM_MAX, Packets::reversed), ..RIGHT }),
+    program("cnc.stm.dry-ends", &["STM-16"], "without more lines the program ends",
+        Policy { ends: &[Event::Reset, Event::Dry], ..RIGHT }),
+    program("cnc.stm.subroutine-ends", &["STM-18"],
+        "the M17 of a global subroutine ends the stream that calls it",
+        Policy { segment: subroutines, ..RIGHT }),
+    program("cnc.stm.error-none", &["STM-5"], "a line without CR LF is skipped",
+        Policy { buffer: || Packets::of(STREAM_MAX, Packets::whole_lines), ..RIGHT }),
+    program("cnc.stm.error-other", &["STM-5"], "the error of a line without CR LF is 21477",
+        Policy { line_end_error: LINE_END_ERROR + 1, ..RIGHT }),
+];

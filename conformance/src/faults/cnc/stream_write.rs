@@ -1,0 +1,225 @@
+//! Writes of data streaming (STM).
+
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Function};
+
+use super::{Answer, LOGICAL, Row, Upstream, at, function, group, later, offset, records_mut, row};
+
+/// Whether it is a write to a stream, of whatever length.
+fn stream(call: &Call<'_>) -> bool {
+    group(call) & 0xEF_FF00 == 0x02_0100
+        && offset(call) == 0x90
+        && call.service == ads_cnc::operation::Service::Write
+}
+
+/// The write with other data.
+fn written(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(&[u8]) -> Vec<u8>) -> Answer {
+    match stream(call) {
+        true => cnc.with(call, &other(call.data)),
+        false => cnc.answer(call),
+    }
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("cnc.stm.object-renamed", &["STM-1"], "the object of the stream is called mc_program_stream",
+        |cnc, call| {
+            let mut answer = cnc.answer(call)?;
+            if function(call) == Some(Function::ReadDescriptors) {
+                for record in records_mut(&mut answer) {
+                    let name =
+                        record.iter().skip(20).zip(b"mc_program_stream_w").all(|(a, b)| a == b);
+                    if name {
+                        record.iter_mut().skip(37).take(2).for_each(|byte| *byte = 0);
+                    }
+                }
+            }
+            Ok(answer)
+        }),
+    row("cnc.stm.object-moved", &["STM-1"],
+        "the stream is written at the offset 0x91, as its descriptor says",
+        |cnc, call| match (stream(call), offset(call)) {
+            (true, _) => Err(AdsError::INVALID_OFFSET),
+            (_, 0x91) if group(call) & 0xEF_FF00 == 0x02_0100 => {
+                cnc.answer(&at(call, group(call), 0x90))
+            }
+            _ => {
+                let mut answer = cnc.answer(call)?;
+                if function(call) == Some(Function::ReadDescriptors) {
+                    for record in records_mut(&mut answer) {
+                        let name = record.iter().skip(20).zip(b"mc_program_stream_w");
+                        if name.into_iter().all(|(a, b)| a == b) {
+                            record.iter_mut().skip(16).take(1).for_each(|byte| *byte = 0x91);
+                        }
+                    }
+                }
+                Ok(answer)
+            }
+        }),
+    row("cnc.stm.group-logical-only", &["STM-1", "ADR-12"],
+        "the stream is written at 0x120100 + channel, and not at 0x20100 + channel",
+        |cnc, call| match stream(call) && group(call) & LOGICAL == 0 {
+            true => Err(AdsError::INVALID_GROUP),
+            false => cnc.answer(call),
+        }),
+    row("cnc.stm.by-read-write", &["STM-1"], "the stream takes a ReadWrite, and no Write",
+        |cnc, call| match stream(call) {
+            true => Err(AdsError::SERVICE_NOT_SUPPORTED),
+            false => cnc.answer(call),
+        }),
+    row("cnc.stm.first-channel", &["STM-1"], "what is written to the stream of any channel runs in channel 1",
+        |cnc, call| match stream(call) { true => cnc.at(call, 0x12_0101, 0x90), false => cnc.answer(call) }),
+    row("cnc.stm.packet-993", &["STM-2"], "a write of up to 1024 bytes is taken",
+        |cnc, call| match stream(call) && (993..=1024).contains(&call.data.len()) {
+            true => {
+                let (one, other) = call.data.split_at_checked(512).unwrap_or_default();
+                cnc.with(call, one)?;
+                cnc.with(call, other)
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.stm.packet-cut", &["STM-2"], "a write of more than 992 bytes is taken, and what is more is lost",
+        |cnc, call| match stream(call) && call.data.len() > 992 {
+            true => cnc.with(call, call.data.get(..992).unwrap_or_default()),
+            false => cnc.answer(call),
+        }),
+    row("cnc.stm.packet-991", &["STM-2"], "a write of 992 bytes is refused",
+        |cnc, call| match stream(call) && call.data.len() == 992 {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        }),
+    row("cnc.stm.packet-512", &["STM-2"], "a write of more than 512 bytes is refused",
+        |cnc, call| match stream(call) && call.data.len() > 512 {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        }),
+    row("cnc.stm.never-full", &["STM-3", "STM-6"],
+        "the interface is never full: what it has no room for is acknowledged and kept",
+        |cnc, call| {
+            let mut waiting = std::mem::take(&mut cnc.memory().later);
+            while let Some(first) = waiting.first() {
+                if cnc.late(first).is_err() {
+                    break;
+                }
+                waiting.remove(0);
+            }
+            let answer = match stream(call) && !waiting.is_empty() {
+                true => Err(AdsError::INVALID_DATA),
+                false => cnc.answer(call),
+            };
+            let answer = match (stream(call), answer) {
+                (true, Err(AdsError::INVALID_DATA)) => {
+                    waiting.push(later(call));
+                    Ok(Vec::new())
+                }
+                (_, answer) => answer,
+            };
+            cnc.memory().later = waiting;
+            answer
+        }),
+    row("cnc.stm.full-lost", &["STM-6"], "what the interface has no room for is acknowledged and lost",
+        |cnc, call| match (stream(call), cnc.answer(call)) {
+            (true, Err(AdsError::INVALID_DATA)) => Ok(Vec::new()),
+            (_, answer) => answer,
+        }),
+    row("cnc.stm.taken-refused", &["STM-6"], "every fourth write is taken and acknowledged negatively",
+        |cnc, call| match stream(call) {
+            true => {
+                let done = cnc.answer(call);
+                let mut memory = cnc.memory();
+                memory.count = memory.count.wrapping_add(1);
+                match memory.count & 3 {
+                    0 => done.and(Err(AdsError::INVALID_DATA)),
+                    _ => done,
+                }
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.stm.full-for-good", &["STM-6"], "once full, the interface takes nothing any more",
+        |cnc, call| match stream(call) {
+            true if cnc.memory().count > 0 => Err(AdsError::INVALID_DATA),
+            true => cnc.answer(call).inspect_err(|error| {
+                cnc.memory().count = u32::from(*error == AdsError::INVALID_DATA);
+            }),
+            false => cnc.answer(call),
+        }),
+    row("cnc.stm.one-line", &["STM-4"], "of a write the first line is taken",
+        |cnc, call| written(cnc, call, |data| {
+            data.split_inclusive(|byte| *byte == b'\n').next().unwrap_or_default().to_vec()
+        })),
+    row("cnc.stm.lines-merged", &["STM-4"], "the lines of a write are taken as one",
+        |cnc, call| written(cnc, call, |data| {
+            let (lines, end) =
+                data.split_at_checked(data.len().saturating_sub(2)).unwrap_or_default();
+            let one =
+                lines.iter().map(|byte| if b"\r\n".contains(byte) { b' ' } else { *byte });
+            one.chain(end.iter().copied()).collect()
+        })),
+    row("cnc.stm.lf-mended", &["STM-5"], "a line that ends in LF alone is taken as one that ends in CR LF",
+        |cnc, call| written(cnc, call, |data| {
+            let lines = data.split_inclusive(|byte| *byte == b'\n');
+            lines
+                .flat_map(|line| match line {
+                    [.., b'\r', b'\n'] => line.to_vec(),
+                    [text @ .., b'\n'] => [text, b"\r\n"].concat(),
+                    line => line.to_vec(),
+                })
+                .collect()
+        })),
+    row("cnc.stm.end-mended", &["STM-5"], "a last line without an end is given one",
+        |cnc, call| written(cnc, call, |data| match data {
+            [.., b'\r' | b'\n'] => data.to_vec(),
+            data => [data, b"\r\n"].concat(),
+        })),
+    row("cnc.stm.end-awaited", &["STM-5"], "a line without an end is kept until the next write brings it",
+        |cnc, call| match stream(call) {
+            true => {
+                let key = (group(call), 0, Vec::new());
+                let before = cnc.memory().get(&key).unwrap_or_default();
+                let data = [before.as_slice(), call.data].concat();
+                let end = data
+                    .iter()
+                    .rposition(|byte| *byte == b'\n')
+                    .map_or(0, |at| at.saturating_add(1));
+                let (lines, rest) = data.split_at_checked(end).unwrap_or_default();
+                cnc.memory().keep(key, rest.to_vec());
+                if lines.is_empty() { Ok(Vec::new()) } else { cnc.with(call, lines) }
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.stm.upper-case", &["STM-7"], "the characters of a stream are made upper case",
+        |cnc, call| written(cnc, call, <[u8]>::to_ascii_uppercase)),
+    row("cnc.stm.blanks-dropped", &["STM-7"], "blanks in a stream are dropped",
+        |cnc, call| written(cnc, call, |data| data.iter().copied().filter(|byte| *byte != b' ').collect())),
+    row("cnc.stm.order-swapped", &["STM-15"], "of two writes the second is taken before the first",
+        |cnc, call| match stream(call) {
+            true => {
+                let before = std::mem::take(&mut cnc.memory().later);
+                match before.first() {
+                    None => {
+                        cnc.memory().later.push(later(call));
+                        Ok(Vec::new())
+                    }
+                    Some(first) => {
+                        let done = cnc.answer(call);
+                        cnc.late(first)?;
+                        done
+                    }
+                }
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.stm.taken-twice", &["STM-15"], "every write is taken twice", |cnc, call| {
+        if stream(call) {
+            cnc.answer(call)?;
+        }
+        cnc.answer(call)
+    }),
+    row("cnc.stm.line-of-512", &["STM-20"], "a line of more than 510 characters is refused", |cnc, call| {
+        let long = |line: &[u8]| line.len() > 512;
+        match stream(call) && call.data.split_inclusive(|byte| *byte == b'\n').any(long) {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        }
+    }),
+];

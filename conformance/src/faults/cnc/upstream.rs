@@ -1,0 +1,166 @@
+//! The CNC without the defect, and what a defect keeps in mind of it.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::{AdsError, AmsPort};
+use ads_cnc::operation::{Call, Function, Service};
+
+use super::Answer;
+use super::request::{at, group, is, offset};
+use crate::simulator::Cnc;
+
+/// The CNC without the defect, and what the defect has kept in mind.
+pub(crate) struct Upstream<'a> {
+    pub(super) cnc: &'a Cnc,
+    pub(super) memory: &'a Mutex<Memory>,
+}
+
+/// An address and a name.
+pub(in crate::faults) type Key = (u32, u32, Vec<u8>);
+
+/// What a defect keeps in mind.
+#[derive(Debug, Default)]
+pub(crate) struct Memory {
+    pub(in crate::faults) count: u32,
+    /// Bytes under an address and a name.
+    kept: Vec<(Key, Vec<u8>)>,
+    /// Requests that were put off.
+    pub(in crate::faults) later: Vec<Later>,
+    /// A frame that was put off.
+    pub(in crate::faults) frame: Vec<u8>,
+}
+
+/// A request that was put off.
+#[derive(Clone, Debug)]
+pub(in crate::faults) struct Later {
+    port: AmsPort,
+    service: Service,
+    group: u32,
+    offset: u32,
+    data: Vec<u8>,
+}
+
+impl Memory {
+    pub(in crate::faults) fn get(&self, key: &Key) -> Option<Vec<u8>> {
+        self.kept.iter().find(|(known, _)| known == key).map(|(_, bytes)| bytes.clone())
+    }
+
+    pub(in crate::faults) fn forget(&mut self) {
+        self.kept.clear();
+    }
+
+    pub(in crate::faults) fn keep(&mut self, key: Key, bytes: Vec<u8>) {
+        self.kept.retain(|(known, _)| *known != key);
+        self.kept.push((key, bytes));
+    }
+}
+
+impl Upstream<'_> {
+    /// The right answer.
+    pub(in crate::faults) fn answer(&self, call: &Call<'_>) -> Answer {
+        self.cnc.answer(call)
+    }
+
+    /// The right answer at another address.
+    pub(in crate::faults) fn at(&self, call: &Call<'_>, group: u32, offset: u32) -> Answer {
+        self.answer(&at(call, group, offset))
+    }
+
+    /// The right answer to other data.
+    pub(in crate::faults) fn with(&self, call: &Call<'_>, data: &[u8]) -> Answer {
+        self.answer(&Call { data, ..*call })
+    }
+
+    /// The right answer, however long it is.
+    pub(in crate::faults) fn whole(&self, call: &Call<'_>) -> Answer {
+        self.answer(&Call { read_length: u32::MAX, ..*call })
+    }
+
+    /// The right answer of SDA to a name or the like.
+    pub(in crate::faults) fn ask(&self, group: u32, offset: u32, data: &[u8]) -> Answer {
+        self.answer(&Call {
+            port: AmsPort::SDA,
+            service: Service::ReadWrite,
+            index_group: IndexGroup::new(group),
+            index_offset: IndexOffset::new(offset),
+            read_length: u32::MAX,
+            data,
+        })
+    }
+
+    /// The right answer of this task to a Read.
+    pub(in crate::faults) fn read(&self, port: AmsPort, group: u32, offset: u32) -> Answer {
+        self.answer(&Call {
+            port,
+            service: Service::Read,
+            index_group: IndexGroup::new(group),
+            index_offset: IndexOffset::new(offset),
+            read_length: u32::MAX,
+            data: &[],
+        })
+    }
+
+    /// The right answer to what was put off.
+    pub(in crate::faults) fn late(&self, later: &Later) -> Answer {
+        self.answer(&Call {
+            port: later.port,
+            service: later.service,
+            index_group: IndexGroup::new(later.group),
+            index_offset: IndexOffset::new(later.offset),
+            read_length: 0,
+            data: &later.data,
+        })
+    }
+
+    pub(in crate::faults) fn memory(&self) -> MutexGuard<'_, Memory> {
+        // Whole whatever happened.
+        self.memory.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The numbers of its channels.
+    pub(in crate::faults) fn channels(&self) -> Vec<u8> {
+        self.cnc.model().channels().collect()
+    }
+}
+
+/// The request, kept.
+pub(in crate::faults) fn later(call: &Call<'_>) -> Later {
+    Later {
+        port: call.port,
+        service: call.service,
+        group: group(call),
+        offset: offset(call),
+        data: call.data.to_vec(),
+    }
+}
+
+/// Keeps the write for the next one, and does that which was kept before.
+pub(in crate::faults) fn put_off(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+    let before = std::mem::replace(&mut cnc.memory().later, vec![later(call)]);
+    before.iter().for_each(|one| _ = cnc.late(one));
+    Ok(Vec::new())
+}
+
+/// The answer no longer than asked for.
+pub(in crate::faults) fn fits(call: &Call<'_>, answer: Answer) -> Answer {
+    answer.and_then(|bytes| {
+        match u32::try_from(bytes.len()).is_ok_and(|len| len <= call.read_length) {
+            true => Ok(bytes),
+            false => Err(AdsError::INVALID_SIZE),
+        }
+    })
+}
+
+/// The reply to these functions, made another.
+pub(in crate::faults) fn reply(
+    cnc: &Upstream<'_>,
+    call: &Call<'_>,
+    of: &[Function],
+    other: impl FnOnce(Vec<u8>) -> Vec<u8>,
+) -> Answer {
+    match is(call, of) {
+        true => fits(call, cnc.whole(call).map(other)),
+        false => cnc.answer(call),
+    }
+}

@@ -1,0 +1,202 @@
+//! Functions of one variable that contradict each other (VAR).
+
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Function};
+
+use super::handle::{joined, parts};
+use super::number::count;
+use super::{
+    Row, Upstream, behind, dimensions, fits, function, group, is, of_decoder, offset, on, reply,
+    row, text, u32_at,
+};
+
+const BY_NAME: &[Function] =
+    &[Function::HandleByName, Function::ReadByName, Function::DescribeByName];
+const WRITE: &[Function] =
+    &[Function::WriteByHandle, Function::WriteByName, Function::AxisWriteByName];
+
+/// The names of V.E and V.G in the order of their indices.
+fn listed(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<Vec<u8>> {
+    let kinds = [b"V.E".as_slice(), b"V.G"];
+    let all = kinds.into_iter().flat_map(|kind| {
+        (0..count(cnc, call, kind)).filter_map(move |index| {
+            let data = [&index.to_le_bytes(), kind, &[0]].concat();
+            let found = cnc.ask(group(call), 0x45, &data).ok()?;
+            let name = dimensions(&found).1;
+            Some(text(found.get(name..).unwrap_or_default()).to_vec())
+        })
+    });
+    all.collect()
+}
+
+/// Where the value of a write begins.
+fn value_at(call: &Call<'_>) -> usize {
+    match function(call) {
+        Some(Function::WriteByHandle) => {
+            let len = parts(call.data).map_or(0, |(.., value)| value.len());
+            call.data.len().saturating_sub(len)
+        }
+        _ => call.data.len().saturating_sub(behind(call.data).len()),
+    }
+}
+
+/// What is there now, by the same address.
+fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
+    let head = call.data.get(..value_at(call)).unwrap_or_default();
+    let read = match function(call) {
+        Some(Function::WriteByHandle | Function::WriteByName) => offset(call).wrapping_sub(2),
+        _ => offset(call).wrapping_sub(1),
+    };
+    cnc.ask(group(call), read, head).unwrap_or_default()
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("cnc.var.name-compared-8", &["VAR-9"],
+        "names are compared by their first 8 characters if there is none that is the same",
+        |cnc, call| match (is(call, BY_NAME), cnc.answer(call)) {
+            (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
+                let name = text(call.data);
+                let same = |other: &Vec<u8>| name.len() > 8 && other.get(..8) == name.get(..8);
+                let other = listed(cnc, call).into_iter().find(same);
+                cnc.with(call, &[other.as_deref().unwrap_or(name), &[0]].concat())
+            }
+            (_, answer) => answer,
+        }),
+    on("cnc.var.write-low-byte", &["VAR-12", "VAR-13"],
+        "of a written value the first byte counts, the others stay",
+        WRITE, |cnc, call| {
+            let (at, old) = (value_at(call), old(cnc, call));
+            let mut data = call.data.to_vec();
+            let value = data.iter_mut().skip(at).zip(old).skip(1);
+            value.for_each(|(byte, old)| *byte = old);
+            cnc.with(call, &data)
+        }),
+    row("cnc.var.write-next-element", &["VAR-12"],
+        "a write of an element by handle writes the element behind it too",
+        |cnc, call| match (is(call, WRITE), parts(call.data)) {
+            (true, Some((handle, at, value)))
+                if function(call) == Some(Function::WriteByHandle) =>
+            {
+                let done = cnc.answer(call);
+                if let ([index], Ok(_)) = (at.as_slice(), &done) {
+                    let _ = cnc.with(call, &joined(handle, &[index.wrapping_add(1)], value));
+                }
+                done
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.var.write-refused-done", &["VAR-12", "VAR-13"],
+        "a value of more bytes than the variable has is refused, and its front written",
+        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
+            (true, Err(AdsError::INVALID_SIZE)) => {
+                let len = value_at(call).saturating_add(old(cnc, call).len());
+                let _ = cnc.with(call, call.data.get(..len).unwrap_or(call.data));
+                Err(AdsError::INVALID_SIZE)
+            }
+            (_, answer) => answer,
+        }),
+    row("cnc.var.write-read-only-refused-done", &["VAR-6"],
+        "a write of what is READ_ONLY is refused, and its value read from then on",
+        |cnc, call| {
+            let key = (group(call), 0, text(call.data).to_vec());
+            match function(call) {
+                Some(Function::WriteByName) => cnc.answer(call).inspect_err(|error| {
+                    if *error == AdsError::INVALID_ACCESS {
+                        cnc.memory().keep(key, behind(call.data).to_vec());
+                    }
+                }),
+                Some(Function::ReadByName) => {
+                    let kept = cnc.memory().get(&key);
+                    kept.map_or_else(|| cnc.answer(call), Ok)
+                }
+                _ => cnc.answer(call),
+            }
+        }),
+    on("cnc.var.text-keeps-rest", &["VAR-12", "VAR-13", "VAR-25"],
+        "of a text that is written shorter the old one stays behind it",
+        WRITE, |cnc, call| {
+            let (at, old) = (value_at(call), old(cnc, call));
+            let value = call.data.get(at..).unwrap_or_default();
+            let text = text(value);
+            match value.len() == old.len() || text.len() == value.len() {
+                true => cnc.answer(call),
+                false => {
+                    let rest = old.get(text.len()..).unwrap_or_default();
+                    let head = call.data.get(..at).unwrap_or_default();
+                    cnc.with(call, &[head, text, rest].concat())
+                }
+            }
+        }),
+    row("cnc.var.extended-swapped", &["VAR-15"], "validity stands before synchronisation",
+        |cnc, call| reply(cnc, call, &[Function::DescribeExtended], |mut bytes| {
+            if bytes.len() == 8 {
+                bytes.rotate_left(4);
+            }
+            bytes
+        })),
+    on("cnc.var.description-before", &["VAR-3", "VAR-4"], "a description is that of the request before",
+        &[Function::DescribeByIndex], |cnc, call| {
+            let own = cnc.answer(call)?;
+            let key = (0, 0, b"before".to_vec());
+            let before = cnc.memory().get(&key).unwrap_or_else(|| own.clone());
+            cnc.memory().keep(key, own);
+            fits(call, Ok(before))
+        }),
+    on("cnc.var.axis-write-all", &["VAR-26"],
+        "a write on the axis interface is one to all axes of the channel",
+        &[Function::AxisWriteByName], |cnc, call| {
+            let done = cnc.answer(call);
+            for axis in (1..=3).filter(|_| done.is_ok()) {
+                let _ = cnc.at(call, group(call), axis << 16 | offset(call) & 0xFFFF);
+            }
+            done
+        }),
+    row("cnc.var.axis-name-optional", &["VAR-26"],
+        "on the channel interface a name without its axis is that of the first",
+        |cnc, call| match (of_decoder(call), text(call.data)) {
+            (Some(at @ (0x46 | 0x48)), name)
+                if name.starts_with(b"V.A.")
+                    && name.iter().filter(|byte| **byte == b'.').count() == 2 =>
+            {
+                let function = if at == 0x46 { 4 } else { 5 };
+                cnc.at(call, group(call), 0x1_0000 | function)
+            }
+            _ => cnc.answer(call),
+        }),
+    on("cnc.var.value-cached", &["VAR-13", "VAR-14"],
+        "a value is read by name as it was when it was first read",
+        &[Function::ReadByName], |cnc, call| {
+            let key = (group(call), 1, text(call.data).to_vec());
+            let kept = cnc.memory().get(&key);
+            match kept {
+                Some(kept) => fits(call, Ok(kept)),
+                None => cnc.answer(call).inspect(|bytes| {
+                    cnc.memory().keep(key, bytes.clone());
+                }),
+            }
+        }),
+    row("cnc.var.count-8-bit-of-indices", &["VAR-11", "VAR-24"],
+        "of the number of indices the lowest byte counts",
+        |cnc, call| match (of_decoder(call), u32_at(call.data, 4)) {
+            (Some(0x47), Some(count @ 0x100..)) => {
+                let mut data = call.data.to_vec();
+                super::put(&mut data, 4, count & 0xFF);
+                cnc.with(call, &data)
+            }
+            _ => cnc.answer(call),
+        }),
+    row("cnc.var.structure-index-beyond", &["VAR-20"],
+        "an index within a name that is out of bounds is taken for 0",
+        |cnc, call| match (is(call, BY_NAME), cnc.answer(call)) {
+            (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
+                let name = String::from_utf8_lossy(text(call.data)).into_owned();
+                let Some((head, tail)) = name.split_once('[') else {
+                    return Err(AdsError::SYMBOL_NOT_FOUND);
+                };
+                let tail = tail.split_once(']').map_or("", |(_, tail)| tail);
+                cnc.with(call, format!("{head}[0]{tail}\0").as_bytes())
+            }
+            (_, answer) => answer,
+        }),
+];

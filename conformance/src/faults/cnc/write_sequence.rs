@@ -1,0 +1,217 @@
+//! Writes that depend on what was written before.
+
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Function};
+use ads_cnc::service::ServiceVariable;
+
+use super::lookup::{handle_of, instance, object_is, one, over};
+use super::service::{reads, writes};
+use super::{Answer, Row, Upstream, behind, function, group, is, offset, on, row, text, u32_at};
+
+const BY_NAME: &[Function] = &[Function::WriteByName];
+const STREAM: &[Function] = &[Function::WriteProgramStream];
+const REQUEST_STATE: &str = ServiceVariable::REQUEST_STATE;
+const RESPONSE_STATE: &str = ServiceVariable::RESPONSE_STATE;
+const RESPONSE: &str = ServiceVariable::RESPONSE;
+const REQUEST: &str = ServiceVariable::REQUEST;
+
+/// Whether a function by handle has the handle of that variable.
+fn by_handle(cnc: &Upstream<'_>, call: &Call<'_>, of: Function, name: &str) -> bool {
+    is(call, &[of]) && u32_at(call.data, 0) == handle_of(cnc, group(call), name)
+}
+
+fn read(cnc: &Upstream<'_>, group: u32, name: &str) -> Answer {
+    cnc.ask(group, 0x48, &[name.as_bytes(), &[0]].concat())
+}
+
+/// RESPONSE_STATE as it was before a write that should have reset it.
+fn stays(cnc: &Upstream<'_>, call: &Call<'_>, now: bool) -> Answer {
+    let key = (instance(call), 0x5C, Vec::new());
+    if now {
+        let before = read(cnc, group(call), RESPONSE_STATE)?;
+        let known = cnc.memory().get(&key).unwrap_or(before);
+        cnc.memory().keep(key, known);
+        return cnc.answer(call);
+    }
+    if writes(call, RESPONSE_STATE) || writes(call, REQUEST_STATE) {
+        cnc.memory().forget();
+    } else if reads(call, RESPONSE_STATE) {
+        let kept = cnc.memory().get(&key);
+        return kept.map_or_else(|| cnc.answer(call), Ok);
+    }
+    cnc.answer(call)
+}
+
+/// The lines of a packet, each with its end.
+fn lines(packet: &[u8]) -> impl Iterator<Item = &[u8]> {
+    packet.split_inclusive(|byte| *byte == b'\n')
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("cnc.com.string-runs-on", &["COM-5"],
+        "a STRING that is written over a longer one runs on with the rest of that",
+        |cnc, call| match is(call, &[Function::WriteObject]) && object_is(cnc, call, b"STRING") {
+            true => {
+                let old = cnc.read(call.port, group(call), offset(call)).unwrap_or_default();
+                let new = over(text(call.data), text(&old));
+                cnc.with(call, &[&new[..], &[0]].concat())
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.com.refused-write-done", &["COM-5"],
+        "a write of fewer bytes than a content has is refused, and those bytes are written",
+        |cnc, call| match (is(call, &[Function::WriteObject]), cnc.answer(call)) {
+            (true, Err(AdsError::INVALID_SIZE)) => {
+                let old = cnc.read(call.port, group(call), offset(call)).unwrap_or_default();
+                if old.len() > call.data.len() {
+                    let _ = cnc.with(call, &over(call.data, &old));
+                }
+                Err(AdsError::INVALID_SIZE)
+            }
+            (_, answer) => answer,
+        }),
+    on("cnc.sda.written-once", &["SDA-9"],
+        "an element is written once: from then on it is refused, whatever its flag says",
+        &[Function::WriteElement], |cnc, call| {
+            let key = (group(call), offset(call), Vec::new());
+            if cnc.memory().get(&key).is_some() {
+                return Err(AdsError::INVALID_ACCESS);
+            }
+            let done = cnc.answer(call)?;
+            cnc.memory().keep(key, Vec::new());
+            Ok(done)
+        }),
+    row("cnc.sda.blank-written", &["SDA-11"],
+        "what is written at a place without an axis is taken and read there",
+        |cnc, call| {
+            let key = (group(call), offset(call), Vec::new());
+            match (function(call), cnc.answer(call)) {
+                (Some(Function::WriteElement), Err(AdsError::INVALID_DATA)) => {
+                    cnc.memory().keep(key, call.data.to_vec());
+                    Ok(Vec::new())
+                }
+                (Some(Function::ReadElement), Ok(bytes)) => {
+                    let blank = bytes.iter().all(|byte| *byte == 0);
+                    let kept =
+                        cnc.memory().get(&key).filter(|kept| blank && kept.len() == bytes.len());
+                    Ok(kept.unwrap_or(bytes))
+                }
+                (_, answer) => answer,
+            }
+        }),
+    on("cnc.var.write-after-error", &["VAR-13"],
+        "the first write by name behind one that was refused succeeds and changes nothing",
+        BY_NAME, |cnc, call| {
+            if std::mem::take(&mut cnc.memory().count) == 1 {
+                return Ok(Vec::new());
+            }
+            let done = cnc.answer(call);
+            cnc.memory().count = u32::from(done.is_err());
+            done
+        }),
+    on("cnc.stm.same-ignored", &["STM-4", "STM-15"],
+        "a packet that is the same as the one before is taken for its repetition and ignored",
+        STREAM, |cnc, call| {
+            if cnc.memory().get(&one(instance(call))).as_deref() == Some(call.data) {
+                return Ok(Vec::new());
+            }
+            let done = cnc.answer(call)?;
+            cnc.memory().keep(one(instance(call)), call.data.to_vec());
+            Ok(done)
+        }),
+    on("cnc.stm.again-lost", &["STM-6"],
+        "the first write behind one that was refused for now is acknowledged and lost",
+        STREAM, |cnc, call| {
+            if std::mem::take(&mut cnc.memory().count) == 1 {
+                return Ok(Vec::new());
+            }
+            let done = cnc.answer(call);
+            cnc.memory().count = u32::from(done == Err(AdsError::INVALID_DATA));
+            done
+        }),
+    row("cnc.stm.full-in-part", &["STM-6"],
+        "of a write that there is no room for the first line is taken, and the whole is refused",
+        |cnc, call| match (is(call, STREAM), cnc.answer(call)) {
+            (true, Err(AdsError::INVALID_DATA)) => {
+                let _ = cnc.with(call, lines(call.data).next().unwrap_or_default());
+                Err(AdsError::INVALID_DATA)
+            }
+            (_, answer) => answer,
+        }),
+    on("cnc.stm.behind-end-lost", &["STM-10"],
+        "the packet that is written behind one with a program end is acknowledged and lost",
+        STREAM, |cnc, call| {
+            if std::mem::take(&mut cnc.memory().count) == 1 {
+                return Ok(Vec::new());
+            }
+            let done = cnc.answer(call)?;
+            let ends = call.data.windows(3).any(|part| part == b"M30");
+            cnc.memory().count = u32::from(ends);
+            Ok(done)
+        }),
+    row("cnc.svc.resets-once", &["SVC-3"],
+        "the first write of REQUEST_STATE in a channel sets RESPONSE_STATE to 0, no other does",
+        |cnc, call| match writes(call, REQUEST_STATE) {
+            true => {
+                let key = (instance(call), 0x5D, Vec::new());
+                let other = cnc.memory().get(&key).is_some();
+                if other {
+                    return stays(cnc, call, true);
+                }
+                cnc.memory().keep(key, Vec::new());
+                cnc.answer(call)
+            }
+            false if writes(call, RESPONSE_STATE) => {
+                let (stay, once) =
+                    ((instance(call), 0x5C, Vec::new()), (instance(call), 0x5D, Vec::new()));
+                let mut memory = cnc.memory();
+                let known = memory.get(&once).is_some();
+                let others = memory.get(&stay).is_some();
+                if others {
+                    memory.forget();
+                }
+                if known {
+                    memory.keep(once, Vec::new());
+                }
+                drop(memory);
+                cnc.answer(call)
+            }
+            false => stays(cnc, call, false),
+        }),
+    row("cnc.svc.response-runs-on", &["SVC-1", "SVC-5"],
+        "a RESPONSE that is shorter than the one before runs on with the rest of that",
+        |cnc, call| match writes(call, RESPONSE) {
+            true => {
+                let old = read(cnc, group(call), RESPONSE)?;
+                let new = over(text(behind(call.data)), text(&old));
+                cnc.with(call, &[RESPONSE.as_bytes(), &[0], &new, &[0]].concat())
+            }
+            false => cnc.answer(call),
+        }),
+    row("cnc.svc.finished-everywhere", &["SVC-4", "SVC-1"],
+        "an answer in one channel ends the requests of all: their REQUEST_STATE becomes 0",
+        |cnc, call| {
+            let done = cnc.answer(call)?;
+            if writes(call, RESPONSE_STATE) {
+                let state = [REQUEST_STATE.as_bytes(), &[0; 5]].concat();
+                for channel in cnc.channels() {
+                    let other = 0x12_2300 | u32::from(channel);
+                    let asks = read(cnc, other, REQUEST_STATE)
+                        .is_ok_and(|bytes| bytes.iter().any(|byte| *byte != 0));
+                    if other & 0xFF != instance(call) && asks {
+                        let _ = cnc.at(&Call { data: &state, ..*call }, other, offset(call));
+                    }
+                }
+            }
+            Ok(done)
+        }),
+    row("cnc.svc.request-by-handle-20", &["SVC-1"], "REQUEST is read by its handle up to its 20th character",
+        |cnc, call| match by_handle(cnc, call, Function::ReadByHandle, REQUEST) {
+            true => cnc.answer(call).map(|mut bytes| {
+                bytes.iter_mut().skip(20).for_each(|byte| *byte = 0);
+                bytes
+            }),
+            false => cnc.answer(call),
+        }),
+];

@@ -1,0 +1,151 @@
+//! What streaming does not permit in NC text (STM).
+
+use super::{Right, Row, Twist, accepted, refused, row};
+use crate::testee::{Answer, Output, Question, Rejection};
+
+/// What the text is with every line made another.
+pub(super) fn lines(text: &[u8], other: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
+    text.split_inclusive(|byte| *byte == b'\n').flat_map(other).collect()
+}
+
+/// The text with every such word made another of the same length, whatever its case.
+fn without(text: &[u8], word: &str, other: &str) -> Vec<u8> {
+    let mut text = text.to_vec();
+    let is_word = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_alphanumeric);
+    for place in 0..text.len() {
+        let end = place.saturating_add(word.len());
+        let found =
+            text.get(place..end).is_some_and(|part| part.eq_ignore_ascii_case(word.as_bytes()));
+        if found && !is_word(text.get(end)) {
+            let part = text.iter_mut().skip(place);
+            part.zip(other.bytes()).for_each(|(old, new)| *old = new);
+        }
+    }
+    text
+}
+
+/// The text with all such bytes made others.
+fn bytes(text: &[u8], of: &[u8], other: u8) -> Vec<u8> {
+    text.iter().map(|byte| if of.contains(byte) { other } else { *byte }).collect()
+}
+
+/// Refuses NC text with this in it, whatever its case.
+fn refuses(right: Right<'_>, question: &Question, word: &[u8], clause: &str) -> Answer {
+    let text = question.packets.iter().flatten().flatten().copied().collect::<Vec<u8>>();
+    let text = text.to_ascii_uppercase();
+    match question.op == "check" && text.windows(word.len()).any(|part| part == word) {
+        true => refused(clause),
+        false => right(question),
+    }
+}
+
+/// Takes what is refused for this.
+pub(super) fn takes(right: Right<'_>, question: &Question, op: &str, class: &str) -> Answer {
+    match right(question) {
+        Answer::Reject(Rejection { class: Some(found), .. })
+            if question.op == op && found == class =>
+        {
+            match question.op.as_str() {
+                "check" => Answer::Ok(Output::default()),
+                "packets" => Answer::Ok(Output {
+                    packets: Some(vec![question.hex.clone().unwrap_or_default()]),
+                    ..Output::default()
+                }),
+                _ => accepted(),
+            }
+        }
+        answer => answer,
+    }
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("codec.nc.blind-for", &["STM-8"], "$FOR is overlooked",
+        Twist::Text(|text| without(text, "$FOR", "XFOR"))),
+    row("codec.nc.blind-endfor", &["STM-8"], "$ENDFOR is overlooked",
+        Twist::Text(|text| without(text, "$ENDFOR", "XENDFOR"))),
+    row("codec.nc.blind-do", &["STM-8"], "$DO is overlooked",
+        Twist::Text(|text| without(text, "$DO", "XDO"))),
+    row("codec.nc.blind-enddo", &["STM-8"], "$ENDDO is overlooked",
+        Twist::Text(|text| without(text, "$ENDDO", "XENDDO"))),
+    row("codec.nc.blind-repeat", &["STM-8"], "$REPEAT is overlooked",
+        Twist::Text(|text| without(text, "$REPEAT", "XREPEAT"))),
+    row("codec.nc.blind-until", &["STM-8"], "$UNTIL is overlooked",
+        Twist::Text(|text| without(text, "$UNTIL", "XUNTIL"))),
+    row("codec.nc.blind-while", &["STM-8"], "$WHILE is overlooked",
+        Twist::Text(|text| without(text, "$WHILE", "XWHILE"))),
+    row("codec.nc.blind-endwhile", &["STM-8"], "$ENDWHILE is overlooked",
+        Twist::Text(|text| without(text, "$ENDWHILE", "XENDWHILE"))),
+    row("codec.nc.blind-jump", &["STM-8"], "$GOTO is overlooked",
+        Twist::Text(|text| without(text, "$GOTO", "XGOTO"))),
+    row("codec.nc.blind-jump-packets", &["STM-8"], "a jump back into a packet before is overlooked",
+        Twist::Around(|right, question| {
+            let packets = question.packets.clone().unwrap_or_default();
+            let alone = |packet: Vec<u8>| {
+                right(&Question { packets: Some(vec![packet]), ..question.clone() })
+            };
+            match question.op.as_str() {
+                "check" if packets.len() > 1 => {
+                    let refused = |answer: &Answer| matches!(answer, Answer::Reject(_));
+                    let first = packets.into_iter().map(alone).find(refused);
+                    first.unwrap_or_else(|| Answer::Ok(Output::default()))
+                }
+                _ => right(question),
+            }
+        })),
+    row("codec.nc.jumps-refused", &["STM-19"], "every $GOTO is refused",
+        Twist::Around(|right, question| refuses(right, question, b"$GOTO", "STM-8"))),
+    row("codec.nc.branches-refused", &["STM-19", "STM-8"], "$IF is refused",
+        Twist::Around(|right, question| refuses(right, question, b"$IF", "STM-8"))),
+    row("codec.nc.switch-refused", &["STM-19", "STM-8"], "$SWITCH is refused",
+        Twist::Around(|right, question| refuses(right, question, b"$SWITCH", "STM-8"))),
+    row("codec.nc.subroutine-refused", &["STM-18"], "a call of a subroutine is refused",
+        Twist::Around(|right, question| refuses(right, question, b" L ", "STM-18"))),
+    row("codec.nc.comment-parentheses", &["STM-9"], "comments in parentheses are looked through",
+        Twist::Text(|text| bytes(text, b"()", b' '))),
+    row("codec.nc.comment-semicolon", &["STM-9"], "comments behind a semicolon are looked through",
+        Twist::Text(|text| bytes(text, b";", b' '))),
+    row("codec.nc.comment-block", &["STM-9"],
+        "what is between #COMMENT BEGIN and #COMMENT END is looked through",
+        Twist::Text(|text| without(text, "#COMMENT", "XCOMMENT"))),
+    row("codec.nc.comment-block-never-ends", &["STM-9"], "#COMMENT END is overlooked",
+        Twist::Text(|text| without(text, "END", "XXX"))),
+    row("codec.nc.comment-open", &["STM-9"], "a parenthesis that is not closed goes on in the next line",
+        Twist::Text(|text| {
+            let mut open = false;
+            text.iter()
+                .map(|&byte| {
+                    open = byte == b'(' || open && byte != b')';
+                    if open && b"\r\n".contains(&byte) { b' ' } else { byte }
+                })
+                .collect()
+        })),
+    row("codec.nc.comment-block-open", &["STM-9"], "a comment that is never ended is not told",
+        Twist::Around(|right, question| takes(right, question, "check", "STM-9"))),
+    row("codec.nc.end-m2", &["STM-10"], "M2 is overlooked", Twist::Text(|text| without(text, "M2", "M9"))),
+    row("codec.nc.end-m30", &["STM-10"], "M30 is overlooked",
+        Twist::Text(|text| without(text, "M30", "M90"))),
+    row("codec.nc.end-m17", &["STM-10"], "M17 is overlooked",
+        Twist::Text(|text| without(text, "M17", "M90"))),
+    row("codec.nc.end-m29", &["STM-10"], "M29 is overlooked",
+        Twist::Text(|text| without(text, "M29", "M90"))),
+    row("codec.nc.next-program", &["STM-17"], "the next program is sent with the end of the one before",
+        Twist::Text(|text| {
+            let ends = ["M2", "M30", "M17", "M29"];
+            ends.iter().fold(text.to_vec(), |text, end| without(&text, end, "M9"))
+        })),
+    row("codec.nc.end-m3", &["STM-10"], "M3 is taken for M30", Twist::Text(|text| {
+        let long = |line: &[u8]| match line
+            .windows(3)
+            .position(|part| part == b"M3 " || part == b"M3\r")
+        {
+            None => line.to_vec(),
+            Some(at) => {
+                let (head, tail) =
+                    line.split_at_checked(at.saturating_add(2)).unwrap_or_default();
+                [head, b"0", tail].concat()
+            }
+        };
+        lines(text, long)
+    })),
+];

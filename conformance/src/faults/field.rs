@@ -1,0 +1,213 @@
+//! Bytes of one field changed on their way into or out of the codec.
+//!
+//! They are generated from the codec's field tables, so every field has its own.
+//!
+//! ```
+//! use ads_cnc_conformance::faults::Defect;
+//!
+//! let defect = Defect::by_id("variable-handle-read.handle.flip").unwrap();
+//! assert_eq!(defect.apply(&[1, 0, 0, 2, 0, 0, 0, 0]), [0, 0, 0, 2, 0, 0, 0, 0]);
+//! ```
+
+use std::fmt;
+
+use ads_cnc::layout::{Field, Segment, Size, Stream};
+
+/// One field done wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Defect {
+    /// Stream, field and change: `variable-description.size.flip`.
+    pub id: String,
+    /// The stream.
+    pub stream: Stream,
+    /// The field.
+    pub field: Field,
+    /// What happens to its bytes.
+    pub change: Change,
+}
+
+/// What happens to the bytes of a field. Their number never changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Change {
+    /// The lowest bit of the first byte is inverted.
+    FlipLow,
+    /// Every bit is inverted.
+    Invert,
+    /// The bytes stand in reverse order.
+    SwapBytes,
+    /// Every byte is 0.
+    Zero,
+}
+
+impl Change {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::FlipLow, Self::Invert, Self::SwapBytes, Self::Zero];
+
+    /// The change's name in the ID of a defect.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::FlipLow => "flip",
+            Self::Invert => "invert",
+            Self::SwapBytes => "swap",
+            Self::Zero => "zero",
+        }
+    }
+
+    fn apply(self, bytes: &mut [u8]) {
+        match self {
+            Self::FlipLow => bytes.iter_mut().take(1).for_each(|byte| *byte ^= 1),
+            Self::Invert => bytes.iter_mut().for_each(|byte| *byte = !*byte),
+            Self::SwapBytes => bytes.reverse(),
+            Self::Zero => bytes.fill(0),
+        }
+    }
+}
+
+impl Defect {
+    /// The defects of every stream that goes over the wire.
+    ///
+    /// Descriptors in sequence have none of their own: a defect of the descriptor is in each.
+    pub fn all() -> Vec<Self> {
+        let streams = Stream::all().filter(|stream| *stream != Stream::ObjectDescriptors);
+        streams.flat_map(Self::of_stream).collect()
+    }
+
+    /// The defects of one stream: every change of every field. One byte has no order to reverse.
+    pub fn of_stream(stream: Stream) -> Vec<Self> {
+        let each = |field: Field| {
+            let one = field.spec().is_some_and(|spec| spec.size == Size::Fixed(1));
+            let changes = Change::ALL.into_iter();
+            let changes = changes.filter(move |change| !(one && *change == Change::SwapBytes));
+            changes.map(move |change| Self::new(stream, field, change))
+        };
+        stream.fields().flat_map(each).collect()
+    }
+
+    fn new(stream: Stream, field: Field, change: Change) -> Self {
+        let id = format!("{}.{}.{}", stream.layout().name, field.name(), change.name());
+        Self { id, stream, field, change }
+    }
+
+    /// The defect with this ID.
+    pub fn by_id(id: &str) -> Option<Self> {
+        Stream::all().flat_map(Self::of_stream).find(|defect| defect.id == id)
+    }
+
+    /// Whether the field is one of this stream's: of its own, or of the records it is made of.
+    pub fn touches(&self, stream: Stream) -> bool {
+        self.stream == stream || stream == self.sequence()
+    }
+
+    /// The stream with the bytes of the field changed, of each record and item.
+    ///
+    /// Bytes that the walk over the stream does not reach stay as they are.
+    pub fn apply(&self, bytes: &[u8]) -> Vec<u8> {
+        let mut places = Vec::new();
+        // A fault ends the walk: what it has reached is changed nonetheless.
+        let _reached = self.sequence().walk(bytes, |segment: Segment<'_>| {
+            if segment.field.name() == self.field.name() {
+                let start = usize::try_from(segment.offset).unwrap_or(usize::MAX);
+                places.push((start, start.saturating_add(segment.bytes.len())));
+            }
+        });
+        let mut changed = bytes.to_vec();
+        for (start, end) in places {
+            if let Some(field) = changed.get_mut(start..end) {
+                self.change.apply(field);
+            }
+        }
+        changed
+    }
+
+    /// What one record is a sequence of one of, so that one walk serves both.
+    fn sequence(&self) -> Stream {
+        match self.stream {
+            Stream::ObjectDescriptor => Stream::ObjectDescriptors,
+            stream => stream,
+        }
+    }
+}
+
+impl fmt::Display for Defect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let what = match self.change {
+            Change::FlipLow => "the lowest bit of its first byte inverted",
+            Change::Invert => "every bit inverted",
+            Change::SwapBytes => "its bytes in reverse order",
+            Change::Zero => "every byte 0",
+        };
+        write!(f, "{} with {what}", self.field)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The printed one but for its handle, which reads the same from both ends.
+    const DESCRIPTION: &[u8] =
+        b"\x02\0\0\x03\x01\0\0\0\x01\0\0\0\x02\0\0\0\x01\0\0\0\x02\0\0\0V.E.Variable_3\0";
+
+    fn defect(id: &str) -> Defect {
+        Defect::by_id(id).unwrap()
+    }
+
+    #[test]
+    fn every_defect_is_found_by_its_id() {
+        let all = Defect::all();
+        assert!(all.len() > 100);
+        for one in all {
+            assert_eq!(Defect::by_id(&one.id), Some(one));
+        }
+        assert_eq!(Defect::by_id("variable-description.size.melt"), None);
+    }
+
+    #[test]
+    fn just_the_field_changes() {
+        for one in Defect::of_stream(Stream::VariableDescription) {
+            let changed = one.apply(DESCRIPTION);
+            assert_eq!(changed.len(), DESCRIPTION.len());
+            let mut at = Vec::new();
+            one.stream
+                .walk(DESCRIPTION, |segment| {
+                    let start = segment.offset as usize;
+                    let range = start..start + segment.bytes.len();
+                    if changed[range] != *segment.bytes {
+                        at.push(segment.field);
+                    }
+                })
+                .unwrap();
+            assert_eq!(at, [one.field], "{}", one.id);
+        }
+    }
+
+    #[test]
+    fn changes_do_what_they_say() {
+        let size = |id: &str| defect(id).apply(DESCRIPTION)[12..16].to_vec();
+        assert_eq!(size("variable-description.size.flip"), [3, 0, 0, 0]);
+        assert_eq!(size("variable-description.size.invert"), [0xFD, 0xFF, 0xFF, 0xFF]);
+        assert_eq!(size("variable-description.size.swap"), [0, 0, 0, 2]);
+        assert_eq!(size("variable-description.size.zero"), [0, 0, 0, 0]);
+    }
+
+    #[test]
+    fn every_item_and_every_record_changes() {
+        let indices = defect("variable-handle-read.indices.flip");
+        let request = [1, 0, 0, 2, 2, 0, 0, 0, 4, 0, 0, 0, 6, 0, 0, 0];
+        assert_eq!(indices.apply(&request)[8..], [5, 0, 0, 0, 7, 0, 0, 0]);
+
+        let id = defect("object-descriptor.id.flip");
+        assert!(id.touches(Stream::ObjectDescriptors) && id.touches(Stream::ObjectDescriptor));
+        assert!(!id.touches(Stream::ObjectCount));
+        let two = id.apply(&[0; 168]);
+        assert_eq!((two[0], two[84]), (1, 1));
+        assert_eq!(two.iter().filter(|&&byte| byte != 0).count(), 2);
+    }
+
+    #[test]
+    fn what_the_walk_does_not_reach_stays() {
+        let name = defect("variable-description.name.invert");
+        assert_eq!(name.apply(&DESCRIPTION[..22]), &DESCRIPTION[..22]);
+        assert_eq!(name.apply(&[]), [0; 0]);
+    }
+}

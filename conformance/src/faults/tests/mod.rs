@@ -1,0 +1,95 @@
+//! Each of them shows somewhere, and every requirement has one or a reason to have none.
+
+mod fields;
+mod transcript;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use ads_cnc_vectors::{Level, clause, requirements};
+
+use self::transcript::Transcript;
+use super::*;
+use crate::testee::{self, Answer, Own, Question};
+use crate::{clients, suite};
+
+fn of_kind(kinds: &[Kind]) -> impl Iterator<Item = &'static Seed> {
+    let kinds = kinds.to_vec();
+    all().iter().filter(move |seed| kinds.contains(&seed.kind) && seed.field().is_none())
+}
+
+#[test]
+fn ids_differ_and_sentences_say_something() {
+    let ids: BTreeSet<&str> = all().iter().map(|seed| seed.id.as_str()).collect();
+    assert_eq!(ids.len(), all().len());
+    for seed in all() {
+        assert_eq!(by_id(&seed.id).map(|one| &one.what), Some(&seed.what));
+        assert!(seed.what.len() > 10 && !seed.what.ends_with('.'), "{}", seed.id);
+        assert!(seed.id.bytes().all(|byte| byte.is_ascii_graphic()), "{}", seed.id);
+        assert_eq!(seed.requirements.is_empty(), seed.kind == Kind::Different, "{}", seed.id);
+        for id in &seed.requirements {
+            let clause = clause(id).unwrap_or_else(|| panic!("{}: {id}", seed.id));
+            assert!(clause.requirement.excluded.is_none(), "{}: {id} is excluded", seed.id);
+        }
+    }
+}
+
+/// One that changes nothing is none.
+#[test]
+fn every_defect_of_a_cnc_shows() {
+    let mut right: BTreeMap<Option<Edition>, Transcript<'_>> = BTreeMap::new();
+    let mut hidden = Vec::new();
+    for seed in of_kind(&[Kind::Cnc, Kind::Different]) {
+        // When bytes come, and in how many pieces, they do not show.
+        if matches!(seed.how, How::Cnc(Twist::Pieces(_))) || seed.id == "different.slow" {
+            continue;
+        }
+        let right = right.entry(seed.edition).or_insert_with(|| match seed.edition {
+            None => Transcript::new(None, None),
+            Some(_) => Transcript::new(
+                Some(&Seed { how: How::Cnc(Twist::Pieces(0)), ..seed.clone() }),
+                None,
+            ),
+        });
+        if !Transcript::new(Some(seed), Some(&right.said)).differs {
+            hidden.push(seed.id.as_str());
+        }
+    }
+    // A function that nobody asks for in the transcript cannot go wrong there.
+    assert_eq!(hidden, [""; 0], "no answer to what tests/transcript.rs asks is another");
+}
+
+/// All that the vectors and sequences ask a codec.
+fn questions() -> Vec<Question> {
+    let cases = suite::cases();
+    cases.iter().flat_map(|case| testee::questions(case, "en-1.05")).collect()
+}
+
+#[test]
+fn every_defect_of_a_codec_shows() {
+    let questions = questions();
+    let right: Vec<Answer> = questions.iter().map(|one| Own::default().answer(one)).collect();
+    let cnc = Transcript::new(None, None).said;
+    let hidden = all().iter().filter(|seed| seed.is_for_codec()).filter(|seed| {
+        let own = Own { defect: Some((*seed).clone()) };
+        let same = |(question, right): (&Question, &Answer)| own.answer(question) == *right;
+        questions.iter().zip(&right).all(same)
+            && !(seed.is_for_cnc() && Transcript::new(Some(seed), Some(&cnc)).differs)
+    });
+    assert_eq!(hidden.map(|seed| seed.id.as_str()).collect::<Vec<_>>(), [""; 0]);
+}
+
+/// A must without a defect has a reason, and none has both.
+#[test]
+fn every_must_can_be_broken() {
+    let clients = clients::defects().iter().map(|defect| defect.requirement);
+    let targets: BTreeSet<&str> =
+        all().iter().flat_map(|seed| seed.requirements.iter().copied()).chain(clients).collect();
+    let reasons: BTreeMap<&str, &str> = without().iter().copied().collect();
+    for one in requirements() {
+        let must = one.level == Level::Must && one.excluded.is_none();
+        let id = one.id.as_str();
+        let (broken, reason) = (targets.contains(id), reasons.contains_key(id));
+        assert!(!must || broken != reason, "{id}: defect {broken}, reason {reason}");
+    }
+    assert!(reasons.values().all(|reason| reason.len() > 40));
+}

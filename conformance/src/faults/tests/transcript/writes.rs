@@ -1,0 +1,276 @@
+//! What is written to a CNC, and done to it.
+
+use std::time::Duration;
+
+use ads_cnc::dynamic::DynamicKind;
+
+use super::{Transcript, number, numbers};
+use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig, Start, Wait};
+
+impl Transcript<'_> {
+    pub(super) fn writes(&mut self) {
+        let contents = [
+            (0x12_0101, 1, &[1][..]),
+            (0x12_0102, 1, &[1]),
+            (0x12_0101, 0x10, &[0]),
+            (0x12_0101, 0x14, &[1, 2]),
+            (0x12_0101, 0x14, &[1]),
+            (0x12_0101, 0x1A, &[1, 2, 3, 4, 5, 6, 7, 8]),
+            (0x12_0101, 0x1_0002, &[1]),
+            (0x12_0202, 2, &[1]),
+            (0x12_0101, 0x15, &[1, 2, 3, 4]),
+        ];
+        for (group, offset, data) in contents {
+            self.write(553, group, offset, data);
+            for axis in 0..4 {
+                self.read(553, group, axis << 16 | offset & 0xFFFF, 64);
+            }
+            self.read(553, group, offset, 64);
+        }
+        for (group, offset, data) in [
+            (0x12_1301, 1, &[7, 0][..]),
+            (0x12_1301, 2, &[1, 2, 3, 4]),
+            (0x12_3301, 2, &[9, 9]),
+            (0x12_3301, 1, &[1]),
+            (0x12_3302, 2, &[3, 4]),
+            (0x12_4301, 0x1_0001, &[1, 2, 3, 4, 5, 6, 7, 8]),
+            (0x02_5301, 1, &[1, 2, 3, 4, 5, 6, 7, 8]),
+        ] {
+            self.write(552, group, offset, data);
+            self.read(552, group, offset, 64);
+            self.read(552, group & !0xFF | 1, offset, 64);
+            self.read(552, group, offset + 0x1_0000, 64);
+        }
+        for (name, value) in [
+            ("V.E.Testvar[3]", &[9, 8, 7, 6][..]),
+            ("V.E.Testvar", &[5; 20]),
+            ("V.E.Testvar", &[5; 19]),
+            ("V.E.vartest", &[1, 2]),
+            ("V.E.vartest", &[1, 2, 3]),
+            ("V.E.largest[1]", &[1, 2, 3, 4]),
+            ("V.E.matrix[1][2]", &[4, 5]),
+            ("V.E.array[1]", &[4, 5, 6, 7]),
+            ("V.E.texts", &[65; 384]),
+        ] {
+            for group in [0x12_2301, 0x12_2302] {
+                self.write(552, group, 0x4A, &[name.as_bytes(), &[0], value].concat());
+                let whole = name.split('[').next().unwrap();
+                for group in [0x12_2301, 0x12_2302, 0x12_2306] {
+                    self.ask(group, 0x48, 4096, format!("{whole}\0").as_bytes());
+                }
+            }
+        }
+        self.odd_writes();
+        self.write(552, 0x12_2301, 0x4A, b"V.E.vartest\x01\x02\x03\x04");
+        self.write(552, 0x12_2301, 0x4A, b"V.E.sgn32\x01\x02\x03\x04");
+        let matrix = self.ask(0x12_2301, 0x46, 4, b"V.E.matrix\0");
+        let matrix = number(&matrix, 0).unwrap_or_default();
+        for (header, value) in [
+            (&[0x200_1234, 1, 3][..], &[1, 2, 3, 4][..]),
+            (&[0x200_1234, 0], &[6; 20]),
+            (&[0x200_1234, 1, 5], &[1, 2, 3, 4]),
+            (&[0x200_1234, 0], &[6; 80]),
+            (&[matrix, 2, 0, 1], &[1, 2]),
+            (&[matrix, 2, 1, 0], &[3, 4]),
+        ] {
+            self.write(552, 0x12_2301, 0x49, &[numbers(header), value.to_vec()].concat());
+            self.ask(0x12_2301, 0x47, 64, &numbers(&[header[0], 0]));
+            self.ask(0x12_2301, 0x48, 64, b"V.E.test\0");
+            self.ask(0x12_2301, 0x47, 64, &numbers(&[0x200_1234, 0]));
+        }
+        for (place, value) in [(1, [1; 8]), (2, [2; 8])] {
+            self.write(552, 0x12_2301, place << 16 | 6, &[&b"V.A.WCS\0"[..], &value].concat());
+            for place in 1..4 {
+                self.ask(0x12_2301, place << 16 | 5, 8, b"V.A.WCS\0");
+            }
+        }
+    }
+
+    /// Writes that are refused, or shorter than what is there; and names that nobody has.
+    fn odd_writes(&mut self) {
+        for (name, value) in [
+            ("V.E.vartest", &[7, 7, 7][..]),
+            ("V.E.channel", &[9, 9, 9, 9]),
+            ("V.E.text", b"a long text\0"),
+            ("V.E.text", b"b\0"),
+        ] {
+            let name = format!("{name}\0");
+            self.write(552, 0x12_2301, 0x4A, &[name.as_bytes(), value].concat());
+            self.ask(0x12_2301, 0x48, 64, name.as_bytes());
+        }
+        for name in ["V.A.WCS\0", "V.E.struct1[9].struct2[0].array_sgn32\0"] {
+            self.ask(0x12_2301, 0x46, 4, name.as_bytes());
+        }
+        self.ask(0x12_2301, 0x47, 64, &numbers(&[0x200_1234, 0x101, 1]));
+    }
+
+    pub(super) fn services(&mut self) {
+        for (name, value) in [
+            ("UUID", &b"560AACBF\0"[..]),
+            ("REQUEST", b"a request in lower case, longer than twenty-one and sixty-four bytes\0"),
+            ("REQUEST_STATE", &[7, 0, 0, 0]),
+            ("RESPONSE", b"a response longer than twenty-one bytes\0"),
+            ("RESPONSE_STATE", &[1, 1, 0, 0]),
+            ("REQUEST_STATE", &[1, 0, 0, 0]),
+            ("RESPONSE", &[b'x'; 100]),
+            ("RESPONSE", &[b'x'; 129]),
+            ("RESPONSE_STATE", &[2, 0, 0, 0]),
+            ("REQUEST_STATE", &[0, 0, 0, 0]),
+        ] {
+            let name = format!("V.G.SERVICE.{name}\0");
+            self.write(552, 0x12_2301, 0x4A, &[name.as_bytes(), value].concat());
+            for name in ["UUID", "REQUEST", "REQUEST_STATE", "RESPONSE_STATE", "RESPONSE"] {
+                for group in [0x12_2301, 0x12_2302] {
+                    let name = format!("V.G.SERVICE.{name}\0");
+                    self.ask(group, 0x48, 256, name.as_bytes());
+                }
+            }
+        }
+        self.ask(0x12_2301, 0x48, 256, b"V.G.SERVICE_UUID\0");
+    }
+
+    pub(super) fn exchange(&mut self) {
+        let look = |it: &mut Self| {
+            for axis in 1..4 {
+                it.read(553, 0x12_0200 | axis, 1, 8);
+                it.read(553, 0x12_0101, axis << 16 | 1, 8);
+                it.ask(0x12_2301, axis << 16 | 5, 8, b"V.A.WCS\0");
+                let handle = it.ask(0x12_2301, axis << 16 | 4, 4, b"V.A.WCS\0");
+                let handle = number(&handle, 0).unwrap_or_default();
+                it.ask(0x12_2301, 0x47, 8, &numbers(&[handle, 0]));
+            }
+        };
+        self.exchanged(1, 2, 3);
+        look(self);
+        self.exchanged(1, 2, 2);
+        self.exchanged(1, 3, 3);
+        self.cnc.set_active(1, false).unwrap();
+        for group in [0x02_2301, 0x02_2302, 0x02_2303, 0x12_2306] {
+            self.ask(group, 0x48, 4, b"V.E.channel\0");
+        }
+        self.cnc.set_active(1, true).unwrap();
+    }
+
+    fn exchanged(&mut self, channel: u8, place: u8, axis: u32) {
+        let done = self.cnc.exchange_axis(channel, place, axis);
+        self.hear(format!("{done:?}").into_bytes());
+    }
+
+    pub(super) fn changes(&mut self) {
+        for first in [1_u32, 2] {
+            let all: Vec<_> = (first..300).map(|at| (format!("P{at}"), f64::from(at))).collect();
+            let all: Vec<_> = all.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+            self.cnc.set_parameters(6, DynamicKind::P, &all).unwrap();
+            self.read(552, 0x12_2306, 2, 4);
+            self.ask(0x12_2306, 0x1B, 96, &numbers(&[7]));
+            self.ask(0x12_2306, 0x1D, 8, &numbers(&[7]));
+        }
+    }
+
+    pub(super) fn streams(&mut self) {
+        let hold = |pace, start| ProgramConfig { pace, start, ..ProgramConfig::default() };
+        let texts: [&[&[u8]]; 17] = [
+            &[b"N10 x1 y2\r\n", b"N20 X2\r\n"],
+            &[b"N10 $WHILE 1\r\nN20 X1\r\n"],
+            &[b"N10: X1\r\nN20 $GOTO N10\r\nN30 X1\r\n"],
+            &[b"N10: X1\r\n", b"N20 $GOTO N10\r\n", b"N30 X1\r\n"],
+            &[b"N10 $IF 1\r\n", b"N20 X1\r\n", b"N30 $ENDIF\r\n"],
+            &[b"N10 $IF 1\r\nN30 $ENDIF\r\n"],
+            &[b"N10 $GOTO N20\r\nN20: X1\r\n"],
+            &[b"N10 X1 ( $WHILE )\r\nN20 X1\r\n"],
+            &[b"N10 M2\r\nN20 X1\r\n"],
+            &[b"N10 M30\r\nN20 X1\r\n", b"N30 X2\r\n"],
+            &[b"N10 M17\r\nN20 X1\r\n"],
+            &[b"N10 L sub.nc\r\nN20 X1\r\n"],
+            &[b"N10 X1\n"],
+            &[b"N10 X1", b"\r\nN20 X2\r\n"],
+            &[&[b'X'; 993]],
+            &[&[b'X'; 992]],
+            &[&[&[b'X'; 700][..], b"\r\n"].concat(), &[b'X'; 700]],
+        ];
+        for text in texts {
+            // Written one by one, and all before the start.
+            for (pace, start) in [(Pace::Fast, Start::Once), (Pace::Fast, Start::ByHand)] {
+                self.cnc.set_program(1, hold(pace, start)).unwrap();
+                for packet in text {
+                    for group in [0x02_0101, 0x12_0101] {
+                        self.write(553, group, 0x90, packet);
+                        self.write(553, group, 0x91, packet);
+                    }
+                    self.cnc.pass(Duration::from_millis(1));
+                    self.tell();
+                }
+                let now = Duration::from_secs(5);
+                self.cnc.with_program(1, |program| program.start(now).is_ok()).unwrap();
+                self.tell();
+                self.cnc.with_program(1, |program| program.reset(now)).unwrap();
+                self.tell();
+                self.write(553, 0x02_0101, 0x90, b"N90 X9\r\n");
+                self.tell();
+                self.cnc.with_program(1, |program| program.start(now).is_ok()).unwrap();
+                self.tell();
+            }
+        }
+        self.write(553, 0x12_0102, 0x90, b"N10 X1\r\n");
+        self.tell();
+        // More comes while what was read with an end is run.
+        let slow = Pace::lines_per_second(10).unwrap();
+        self.cnc.set_program(1, hold(slow, Start::Once)).unwrap();
+        self.write(553, 0x12_0101, 0x90, b"N10 X1\r\nN20 M30\r\n");
+        self.write(553, 0x12_0101, 0x90, b"N30 X3\r\n");
+        for _ in 0..3 {
+            self.cnc.pass(Duration::from_secs(1));
+            self.tell();
+            self.cnc
+                .with_program(1, |program| program.start(Duration::from_secs(8)).is_ok())
+                .unwrap();
+        }
+        // Full, and emptied.
+        self.cnc.set_program(1, hold(Pace::Fast, Start::ByHand)).unwrap();
+        let line = [&[b'X'; 498][..], b"\r\n"].concat();
+        for _ in 0..20 {
+            self.write(553, 0x02_0101, 0x90, &line);
+            self.tell();
+        }
+        self.cnc.with_program(1, |program| program.start(Duration::from_secs(9)).is_ok()).unwrap();
+        self.tell();
+        for _ in 0..4 {
+            self.write(553, 0x02_0101, 0x90, &line);
+            self.tell();
+        }
+    }
+
+    /// What programs have run, and where they stand.
+    pub(super) fn tell(&mut self) {
+        for channel in [1, 2] {
+            let said = self.cnc.with_program(channel, |program| {
+                let lines = program.executed().kept().to_vec();
+                [lines, format!("{:?} {}", program.state(), program.held()).into_bytes()].concat()
+            });
+            self.hear(said.unwrap_or_default());
+        }
+    }
+
+    pub(super) fn scripts(&mut self) {
+        let mut config = ScriptConfig::square_root().unwrap();
+        config.repeat = Repeat::Times(1);
+        config.pause = Duration::from_millis(1);
+        for request in &mut config.requests {
+            request.wait = Wait::Cycle { p1: None, p2: Some(20), p3: Some(1) };
+        }
+        self.cnc.set_script(1, Some(Script::new(config).unwrap())).unwrap();
+        for _ in 0..60 {
+            self.cnc.pass(Duration::from_millis(1));
+            for name in ["UUID", "REQUEST", "REQUEST_STATE"] {
+                let name = format!("V.G.SERVICE.{name}\0");
+                self.ask(0x12_2301, 0x48, 256, name.as_bytes());
+            }
+        }
+        let answers = |script: Option<&mut Script>| {
+            format!("{:?}", script.unwrap().answers().collect::<Vec<_>>()).into_bytes()
+        };
+        let said = self.cnc.with_script(1, answers).unwrap();
+        self.hear(said);
+        self.cnc.set_script(1, None).unwrap();
+    }
+}

@@ -1,0 +1,248 @@
+//! What a CNC may do otherwise: nothing of it is wrong.
+
+mod elements;
+mod models;
+mod replies;
+mod requests;
+mod unspecified;
+
+use ads_cnc::ads::{AdsError, FrameRef};
+use ads_cnc::operation::{Call, Function};
+
+use super::cnc::{
+    Answer, Row, Twist, Upstream, behind, dimensions, fits, function, group, is, measured, number,
+    offset, on, put, records_mut, row, text, twisted, u32_at,
+};
+
+/// A row about something that does not answer as printed.
+const fn unprinted(mut row: Row) -> Row {
+    row.printed = false;
+    row
+}
+
+const fn sent(
+    id: &'static str,
+    what: &'static str,
+    frame: fn(&Upstream<'_>, &FrameRef<'_>, Vec<u8>) -> Vec<u8>,
+) -> Row {
+    twisted(id, &[], what, Twist::Frame(frame))
+}
+
+const TEXTS: &[Function] =
+    &[Function::ReadElementName, Function::ReadElementType, Function::ReadElementUnit];
+
+/// The handles of replies and, back, of requests made others.
+fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Answer {
+    match function(call) {
+        Some(
+            Function::HandleByName
+            | Function::AxisHandleByName
+            | Function::DescribeByIndex
+            | Function::DescribeByName,
+        ) => number(cnc.answer(call), 0, other),
+        Some(Function::ReadByHandle | Function::WriteByHandle) => {
+            let mut data = call.data.to_vec();
+            let handle = u32_at(&data, 0).unwrap_or_default();
+            put(&mut data, 0, other(handle));
+            cnc.with(call, &data)
+        }
+        _ => cnc.answer(call),
+    }
+}
+
+/// The text at the end of a reply, from a place on, padded with NULs to so many bytes.
+fn padded(mut bytes: Vec<u8>, from: usize, len: usize) -> Vec<u8> {
+    let end = from.saturating_add(len).max(bytes.len());
+    bytes.resize(end, 0);
+    bytes
+}
+
+/// If it is too long for the client, as it was.
+fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: Answer) -> Answer {
+    fits(call, answer).or_else(|_| cnc.answer(call))
+}
+
+/// All rows.
+pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
+    let areas =
+        [ROWS, elements::ROWS, unspecified::ROWS, replies::ROWS, models::ROWS, requests::ROWS];
+    areas.into_iter().flatten()
+}
+
+#[rustfmt::skip]
+const ROWS: &[Row] = &[
+    unprinted(row("different.names-padded", &[], "names are padded with NULs as far as the field goes",
+        |cnc, call| match function(call) {
+            Some(Function::DescribeByIndex) => {
+                let answer = cnc.whole(call);
+                or_short(
+                    cnc,
+                    call,
+                    answer.map(|bytes| {
+                        let (_, name) = dimensions(&bytes);
+                        let room = 2048_usize.saturating_sub(name).min(256);
+                        padded(bytes, name, room)
+                    }),
+                )
+            }
+            Some(Function::DynamicNameByIndex) => {
+                let answer = cnc.whole(call);
+                or_short(cnc, call, answer.map(|bytes| padded(bytes, 0, 96)))
+            }
+            Some(function) if TEXTS.contains(&function) => {
+                let answer = cnc.whole(call);
+                or_short(cnc, call, answer.map(|bytes| padded(bytes, 0, 64)))
+            }
+            _ => cnc.answer(call),
+        })),
+    unprinted(row("different.names-open", &[], "names end with the reply, without a NUL",
+        |cnc, call| match function(call) {
+            Some(Function::DescribeByIndex | Function::DynamicNameByIndex) => {
+                cnc.answer(call).map(|mut bytes| {
+                    bytes.pop();
+                    bytes
+                })
+            }
+            Some(function) if TEXTS.contains(&function) => {
+                cnc.answer(call).map(|bytes| match text(&bytes) {
+                    [] => bytes,
+                    text => text.to_vec(),
+                })
+            }
+            _ => cnc.answer(call),
+        })),
+    twisted("different.bytes-alone", &[], "every byte is sent by itself", Twist::Pieces(1)),
+    twisted("different.pieces-of-40", &[], "answers are sent in pieces of 40 bytes", Twist::Pieces(40)),
+    row("different.error-numbers", &[], "errors have other numbers",
+        |cnc, call| cnc.answer(call).map_err(|error| AdsError(error.0 ^ 0x9811_0000))),
+    row("different.error-one", &[], "every error has the same number",
+        |cnc, call| cnc.answer(call).map_err(|_| AdsError(0x706))),
+    sent("different.errors-without-data", "a reply with an error ends behind the result", |_, _, mut bytes| {
+        if u32_at(&bytes, 38).is_some_and(|result| result != 0) {
+            bytes.truncate(42);
+        }
+        measured(bytes)
+    }),
+    sent("different.errors-in-header", "errors stand in the AMS header, and there is no data",
+        |_, _, mut bytes| match u32_at(&bytes, 38) {
+            Some(error @ 1..) => {
+                put(&mut bytes, 30, error);
+                bytes.truncate(38);
+                measured(bytes)
+            }
+            _ => bytes,
+        }),
+    unprinted(row("different.handles", &[], "handles are other numbers",
+        |cnc, call| handles(cnc, call, |handle| handle ^ 0xC0DE_5A00))),
+    unprinted(row("different.variables-reversed", &[], "the variables of a kind are in reverse order",
+        |cnc, call| match (function(call), u32_at(call.data, 0), call.data.get(4..)) {
+            (
+                Some(Function::DescribeByIndex | Function::DescribeExtended),
+                Some(index),
+                Some(kind),
+            ) => {
+                let count = cnc.ask(group(call), 0x44, kind)?;
+                let last = u32_at(&count, 0).unwrap_or_default().wrapping_sub(1);
+                let index = last.wrapping_sub(index);
+                cnc.with(call, &[&index.to_le_bytes(), kind].concat())
+            }
+            _ => cnc.answer(call),
+        })),
+    unprinted(on("different.objects-reversed", &[], "the objects of COM are in reverse order",
+        &[Function::ReadDescriptors], |cnc, call| {
+            let count = cnc.read(call.port, group(call), 0)?;
+            let count = u32_at(&count, 0).unwrap_or_default();
+            let first = offset(call);
+            let last =
+                first.saturating_add((call.read_length / 84).saturating_sub(1)).min(count);
+            let one = |index: u32| {
+                let index = count.wrapping_add(1).wrapping_sub(index);
+                cnc.at(&Call { read_length: 84, ..*call }, group(call), index)
+            };
+            match first > count || call.read_length < 84 {
+                true => cnc.answer(call),
+                false => (first..=last)
+                    .map(one)
+                    .collect::<Result<Vec<_>, _>>()
+                    .map(|all| all.concat()),
+            }
+        })),
+    row("different.true-255", &[], "TRUE is 0xFF in write flags, 0xFFFF in descriptors",
+        |cnc, call| match function(call) {
+            Some(Function::ReadElementWriteFlag) => cnc.answer(call).map(|bytes| {
+                bytes.into_iter().map(|byte| if byte == 0 { 0 } else { 0xFF }).collect()
+            }),
+            Some(Function::ReadDescriptors) => cnc.answer(call).map(|mut bytes| {
+                for record in records_mut(&mut bytes) {
+                    if record.iter().skip(8).take(2).any(|byte| *byte != 0) {
+                        record.iter_mut().skip(8).take(2).for_each(|byte| *byte = 0xFF);
+                    }
+                }
+                bytes
+            }),
+            _ => cnc.answer(call),
+        }),
+    unprinted(on("different.length-1-byte", &[], "the length of an element takes 1 byte",
+        &[Function::ReadElementLength], |cnc, call| fits(
+            call,
+            cnc.whole(call).map(|mut bytes| {
+                bytes.truncate(1);
+                bytes
+            }),
+        ))),
+    unprinted(on("different.length-2-bytes", &[], "the length of an element takes 2 bytes",
+        &[Function::ReadElementLength], |cnc, call| fits(
+            call,
+            cnc.whole(call).map(|mut bytes| {
+                bytes.truncate(2);
+                bytes
+            }),
+        ))),
+    unprinted(on("different.descriptor-remains", &[],
+        "descriptors carry remains of others: where nothing is assigned, and behind the NULs of texts",
+        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
+            for record in records_mut(&mut bytes) {
+                record.iter_mut().skip(10).take(2).for_each(|byte| *byte = 0xAA);
+                for field in [20, 52] {
+                    let ended =
+                        record.iter_mut().skip(field).take(32).skip_while(|byte| **byte != 0);
+                    ended.skip(1).for_each(|byte| *byte = b'x');
+                }
+            }
+            bytes
+        }))),
+    row("different.no-axis-lists", &[], "objects of platform axes are not described by lists of their own",
+        |cnc, call| match group(call) & 0xEF_FF00 {
+            0x03_0200 => Err(AdsError::INVALID_GROUP),
+            _ => cnc.answer(call),
+        }),
+    on("different.many-exactly", &[],
+        "more descriptors than there are left are refused, and so is a length that is no multiple",
+        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).and_then(|bytes| {
+            let len = u32::try_from(bytes.len()).unwrap_or_default();
+            if len == call.read_length { Ok(bytes) } else { Err(AdsError::INVALID_SIZE) }
+        })),
+    row("different.short-writes", &[],
+        "a content is written with fewer bytes than it has: those behind become 0",
+        |cnc, call| match (is(call, &[Function::WriteObject]), cnc.answer(call)) {
+            (true, Err(AdsError::INVALID_SIZE)) => {
+                let old = cnc.read(call.port, group(call), offset(call))?;
+                let mut data = call.data.to_vec();
+                data.resize(old.len(), 0);
+                cnc.with(call, &data)
+            }
+            (_, answer) => answer,
+        }),
+    row("different.kind-with-nul", &[], "the empty kind takes its NUL",
+        |cnc, call| match is(call, &[Function::CountVariables]) && call.data.is_empty() {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        }),
+    row("different.absent-refused", &[], "an instance that is not there is answered with an error",
+        |cnc, call| match (is(call, &[Function::FindInstance]), cnc.answer(call)) {
+            (true, Ok(bytes)) if bytes.iter().all(|byte| *byte == 0) => {
+                Err(AdsError::SYMBOL_NOT_FOUND)
+            }
+            (_, answer) => answer,
+        }),
+];

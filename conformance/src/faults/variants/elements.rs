@@ -1,0 +1,173 @@
+//! What a CNC may do otherwise with elements and parameters: nothing of it is wrong.
+
+use ads_cnc::address::{Attribute, Class};
+use ads_cnc::ads::AdsError;
+use ads_cnc::operation::{Call, Function, Service};
+
+use super::unprinted;
+use crate::faults::cnc::{
+    Answer, Row, Twist, Upstream, class, fits, function, group, is, number, offset, on, put, row,
+    text, twisted, u32_at,
+};
+
+const FIND: &[Function] = &[Function::FindInstance];
+const ATTRIBUTES: &[Function] = &[
+    Function::ReadElementType,
+    Function::ReadElementLength,
+    Function::ReadElementUnit,
+    Function::ReadElementWriteFlag,
+];
+
+/// Whether the number of elements is read: a multiple of the stride alone does not tell.
+fn is_number(call: &Call<'_>) -> bool {
+    let of_content = class(call).is_some_and(|at| at.attribute == Attribute::Content);
+    of_content && call.service == Service::Read && offset(call) & 0xFFF == 0
+}
+
+/// Instances of a class that are not there.
+fn without(cnc: &Upstream<'_>, call: &Call<'_>, is_absent: fn(u32, u32, u32) -> bool) -> Answer {
+    match (is(call, FIND), u32_at(call.data, 0), u32_at(call.data, 4)) {
+        (true, Some(channel), Some(axis)) if is_absent(group(call) & 0xF000, channel, axis) => {
+            cnc.answer(call).map(|_| vec![0; 8])
+        }
+        _ => cnc.answer(call),
+    }
+}
+
+/// Whether it is at a place of channel 2 or 6 where no axis is.
+fn empty_place(call: &Call<'_>) -> bool {
+    class(call).is_some_and(|at| {
+        matches!(at.class, Class::Interpolator | Class::Decoder | Class::PathPreparation)
+            && at.instance > 1
+            && offset(call) >= 0x2_0000
+    })
+}
+
+/// The stride of classes of which none is printed.
+fn strided(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+    let of = |at: Class| {
+        matches!(at, Class::PositionController | Class::Interpolator | Class::PathPreparation)
+    };
+    let is_other = class(call).is_some_and(|at| of(at.class));
+    match (is_other, function(call)) {
+        (false, _) => cnc.answer(call),
+        (true, Some(Function::FindInstance)) => cnc.answer(call).map(|mut bytes| {
+            let offset = u32_at(&bytes, 4).unwrap_or_default();
+            put(&mut bytes, 4, offset >> 4);
+            bytes
+        }),
+        (true, _) => {
+            let (axis, element) = (offset(call) >> 12, offset(call) & 0xFFF);
+            cnc.at(call, group(call), axis << 16 | element)
+        }
+    }
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    unprinted(row("different.number-counts-first", &[],
+        "the number of elements counts the first, which says it",
+        |cnc, call| match is_number(call) {
+            true => number(cnc.answer(call), 0, |count| count.wrapping_add(1)),
+            false => cnc.answer(call),
+        })),
+    unprinted(row("different.number-2-bytes", &[], "the number of elements takes 2 bytes",
+        |cnc, call| match (is_number(call), function(call), offset(call) & 0xFFF) {
+            (true, ..) => fits(
+                call,
+                cnc.whole(call).map(|mut bytes| {
+                    bytes.truncate(2);
+                    bytes
+                }),
+            ),
+            (_, Some(Function::ReadElementLength), 0) => cnc.answer(call).map(|_| vec![2, 0, 0, 0]),
+            _ => cnc.answer(call),
+        })),
+    row("different.first-without-attributes", &[],
+        "the first element has a name and the number, and no other attribute",
+        |cnc, call| match is(call, ATTRIBUTES) && offset(call) & 0xFFF == 0 {
+            true => Err(AdsError::INVALID_OFFSET),
+            false => cnc.answer(call),
+        }),
+    row("different.hld-axes-of-first", &[], "the HLD of other channels than the first has no axes",
+        |cnc, call| without(cnc, call, |class, channel, axis| class == 0x3000 && channel > 1 && axis > 0)),
+    row("different.path-preparation-without-axes", &[], "path preparation has no axes",
+        |cnc, call| without(cnc, call, |class, _, axis| class == 0x4000 && axis > 0)),
+    row("different.blank-number", &[], "where no axis is the number of elements is blank too",
+        |cnc, call| match is_number(call) && empty_place(call) {
+            true => cnc.answer(call).map(|bytes| vec![0; bytes.len()]),
+            false => cnc.answer(call),
+        }),
+    row("different.blank-real", &[], "where no axis is a REAL64 is no number",
+        |cnc, call| match is(call, &[Function::ReadElement]) && empty_place(call) {
+            true => cnc.answer(call).map(|bytes| match bytes.len() {
+                8 => vec![0xFF; 8],
+                _ => bytes,
+            }),
+            false => cnc.answer(call),
+        }),
+    row("different.axes-of-0x1000", &[],
+        "axes of the position controller, the interpolator and path preparation take 0x1000", strided),
+    on("different.name-as-it-ends", &[],
+        "the name of a parameter is taken without its NUL only, or with just one",
+        &[Function::DynamicValueByName],
+        |cnc, call| match call.data.len() > text(call.data).len().saturating_add(1) {
+            true => Err(AdsError::INVALID_SIZE),
+            false => cnc.answer(call),
+        }),
+    unprinted(twisted("different.come-and-go", &[],
+        "the CNC is one whose parameters come and go all the time", Twist::Model(MODEL))),
+];
+
+/// A CNC with channels of other numbers, and parameters that are there for a moment.
+const MODEL: &str = r#"
+cnc-version = "V4.29.0"
+spindles = 1
+
+[[axis]]
+name = "X"
+number = 7
+[[axis]]
+name = "C"
+number = 3
+[[axis]]
+name = "A"
+number = 12
+
+[platform-axis]
+objects = [{ name = "actual_r", type = "LREAL", offset = 5, values = [1.5, 2.5, 3.5] }]
+
+[channel-axis]
+variables = [{ name = "V.A.ACT_POS", type = "REAL64", values = [1.0, 2.0, 3.0] }]
+
+[[channel]]
+number = 1
+places = [3, 0]
+objects = [{ name = "override_w", type = "WORD", offset = 4, writable = true, value = 500 }]
+variables = [{ name = "V.E.one", type = "REAL64", writable = true, value = 0.5 }]
+parameters = [
+  { name = "P5", value = 1.5, comes = "3ms", goes = "11ms", period = "19ms" },
+  { name = "P6", value = 2.5 },
+  { name = "V.L.x", value = 3.5, comes = "0ms", goes = "5ms", period = "7ms" },
+  { name = "V.P.always", value = 4.5 },
+  { name = "V.S.at_times", value = 5.5, comes = "10ms", goes = "20ms", period = "30ms" },
+]
+
+[[channel]]
+number = 4
+places = [7, 12]
+objects = [{ name = "override_w", type = "WORD", offset = 4, writable = true, value = 500 }]
+variables = [{ name = "V.E.one", type = "REAL64", writable = true, value = 1.5 }]
+
+[class.position-controller.axis]
+name = "LR {}"
+elements = [{ name = "pos", type = "SGN32", unit = "0.1um", values = [1, 2, 3] }]
+
+[class.decoder.channel]
+name = "DEC {}"
+elements = [{ name = "line", type = "UNS32", unit = "", value = 77 }]
+
+[class.spindle.each]
+name = "SPINDLE {}"
+elements = [{ name = "speed", type = "REAL32", unit = "rpm", writable = true, value = 1.0 }]
+"#;

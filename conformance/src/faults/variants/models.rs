@@ -1,0 +1,181 @@
+//! Other CNCs: with channels, axes, objects and variables of their own.
+
+use super::{Row, Twist, twisted, unprinted};
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    model("different.model", "the CNC is a small one, with things of its own", MODEL),
+    model("different.model-bare", "the CNC has a channel, and next to nothing in it", BARE),
+    model("different.model-many", "the CNC has twelve channels, and axes in another order", MANY),
+];
+
+/// A row about a CNC with another model.
+const fn model(id: &'static str, what: &'static str, model: &'static str) -> Row {
+    unprinted(twisted(id, &[], what, Twist::Model(model)))
+}
+
+/// A CNC of an old version that offers next to nothing: no axis, nothing to be written, streaming
+/// off, no Service Interface.
+const BARE: &str = r#"
+cnc-version = "V2.11.2010.0"
+
+[[channel]]
+number = 1
+objects = [{ name = "state", type = "LWORD", offset = 1, value = 5 }]
+variables = [{ name = "V.E.only", type = "REAL64", value = 0.5 }]
+[channel.streaming]
+file = ""
+[class.position-controller.axis]
+name = "LR {}"
+[class.interpolator.channel]
+name = "IPO {}"
+[class.interpolator.axis]
+name = "IPO axis {}"
+[class.decoder.channel]
+name = "SDA {}"
+[class.decoder.axis]
+name = "SDA axis {}"
+[class.hld.channel]
+name = "HLD {}"
+[class.hld.axis]
+name = "HLD axis {}"
+[class.path-preparation.channel]
+name = "BV {}"
+[class.path-preparation.axis]
+name = "BV axis {}"
+[class.spindle.each]
+name = "S {}"
+"#;
+
+/// A CNC with more than one usually has, and in another order.
+const MANY: &str = r#"
+spindles = 3
+
+[[axis]]
+name = "Z"
+[[axis]]
+name = "Y"
+number = 7
+[[axis]]
+name = "X"
+number = 12
+[[axis]]
+name = "W"
+
+[channel-axis]
+objects = [{ name = "position", type = "LREAL", offset = 4, values = [1.0, 2.0, 3.0, 4.0] }]
+variables = [{ name = "V.A.POS", type = "REAL64", values = [1.5, 2.5, 3.5, 4.5] }]
+
+[[channel]]
+number = 1
+places = [12, 0, 1]
+objects = [
+  { name = "mc_program_stream_w", type = "STRING", offset = 0x90, size = 4094, writable = true },
+  { name = "word", type = "INT", offset = 0x12, writable = true, value = -3 },
+  { name = "text", type = "STRING", offset = 0x13, size = 80, writable = true, value = "as it is" },
+]
+variables = [
+  { name = "V.E.texts", type = "STRING", dimensions = [3], size = 16, writable = true },
+  { name = "V.E.cube", type = "SGN16", dimensions = [2, 2, 2], writable = true },
+  { name = "V.E.s[0].t", type = "BOOLEAN", writable = true },
+  { name = "V.E.s[1].t", type = "BOOLEAN", writable = true },
+  { name = "V.G.long", type = "REAL64", dimensions = [255], writable = true },
+]
+parameters = [{ name = "P99", value = 1.0 }, { name = "P100", value = 2.0 }, { name = "V.L.x", value = 0.0 }]
+[channel.streaming]
+start = "by-hand"
+
+[[channel]]
+number = 2
+places = [7]
+[[channel]]
+number = 3
+places = [4]
+[[channel]]
+number = 4
+[[channel]]
+number = 5
+[[channel]]
+number = 6
+[[channel]]
+number = 7
+[[channel]]
+number = 8
+[[channel]]
+number = 9
+[[channel]]
+number = 10
+[[channel]]
+number = 11
+[[channel]]
+number = 12
+
+[class.interpolator.channel]
+name = "ipo {}"
+elements = [{ name = "override", type = "UNS16", unit = "%", writable = true, value = 100 }]
+[class.interpolator.axis]
+name = "ipo axis {}"
+elements = [{ name = "target", type = "REAL64", unit = "mm", value = 1.25 }]
+[class.spindle.each]
+name = "spindle {}"
+elements = [{ name = "speed", type = "REAL32", unit = "1/min" }]
+[class.position-controller.axis]
+name = "LR {}"
+[class.decoder.channel]
+name = "SDA {}"
+[class.decoder.axis]
+name = "SDA axis {}"
+[class.hld.channel]
+name = "HLD {}"
+[class.hld.axis]
+name = "HLD axis {}"
+[class.path-preparation.channel]
+name = "BV {}"
+[class.path-preparation.axis]
+name = "BV axis {}"
+"#;
+
+/// A small CNC.
+const MODEL: &str = r#"
+cnc-version = "V4.29.0"
+
+[[axis]]
+name = "A"
+
+[[channel]]
+number = 1
+places = [1]
+objects = [
+  { name = "small_state_r", type = "DWORD", offset = 7, value = 5 },
+  { name = "mc_program_stream_w", type = "STRING", offset = 0x90, size = 4094, writable = true },
+]
+variables = [
+  { name = "V.E.small", type = "UNS16", writable = true, value = 3 },
+  { name = "V.E.pair", type = "SGN32", dimensions = [2], writable = true, value = [1, -1] },
+]
+parameters = [{ name = "P10", value = 1.5 }]
+[channel.streaming]
+pace = "1000 lines/s"
+
+[class.hld.channel]
+name = "HLD {}"
+elements = [{ name = "small", type = "UNS32", unit = "-", writable = true, value = 9 }]
+[class.position-controller.axis]
+name = "LR {}"
+[class.interpolator.channel]
+name = "IPO {}"
+[class.interpolator.axis]
+name = "IPO axis {}"
+[class.decoder.channel]
+name = "SDA {}"
+[class.decoder.axis]
+name = "SDA axis {}"
+[class.hld.axis]
+name = "HLD axis {}"
+[class.path-preparation.channel]
+name = "BV {}"
+[class.path-preparation.axis]
+name = "BV axis {}"
+[class.spindle.each]
+name = "S {}"
+"#;

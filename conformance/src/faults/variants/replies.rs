@@ -1,0 +1,110 @@
+//! Other ways to reject, to answer late, and to end texts.
+
+use std::thread;
+use std::time::Duration;
+
+use ads_cnc::ads::{AdsError, Command};
+use ads_cnc::operation::Function;
+use ads_cnc::service::ServiceVariable;
+
+use super::{
+    Row, TEXTS, function, group, is, measured, offset, on, or_short, put, row, sent, text, u32_at,
+    unprinted,
+};
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    row("different.request-over-early", &[],
+        "REQUEST_STATE becomes 0 when RESPONSE is written, and not when RESPONSE_STATE is",
+        |cnc, call| {
+            let name = ServiceVariable::RESPONSE.as_bytes();
+            let done = cnc.answer(call);
+            if done.is_ok() && is(call, &[Function::WriteByName]) && text(call.data) == name {
+                let state = [ServiceVariable::REQUEST_STATE.as_bytes(), &[0; 5]].concat();
+                cnc.with(call, &state)?;
+            }
+            done
+        }),
+    row("different.instances-named-alike", &[], "the name of element 0 of an axis is that of its channel",
+        |cnc, call| match is(call, &[Function::ReadElementName]) && offset(call) & 0xFFFF == 0 {
+            true => cnc.at(call, group(call), 0).or_else(|_| cnc.answer(call)),
+            false => cnc.answer(call),
+        }),
+    sent("different.errors-in-both", "errors stand in both headers", |_, _, mut bytes| {
+        if let Some(error @ 1..) = u32_at(&bytes, 38) {
+            put(&mut bytes, 30, error);
+        }
+        bytes
+    }),
+    sent("different.slow", "an answer now and then takes 20 ms", |cnc, _, bytes| {
+        let mut memory = cnc.memory();
+        memory.count = memory.count.wrapping_add(1);
+        if memory.count % 128 == 0 {
+            drop(memory);
+            thread::sleep(Duration::from_millis(20));
+        }
+        bytes
+    }),
+    sent("different.device-silent-of-itself", "ReadDeviceInfo and ReadState are refused",
+        |_, request, mut bytes| {
+            let inquiries = [Command::READ_DEVICE_INFO, Command::READ_STATE];
+            if inquiries.contains(&request.header().command) {
+                bytes.truncate(42);
+                put(&mut bytes, 38, AdsError::SERVICE_NOT_SUPPORTED.0);
+            }
+            measured(bytes)
+        }),
+    on("different.extended-external-only", &[], "an extended description of what has none is refused",
+        &[Function::DescribeExtended], |cnc, call| cnc.answer(call).and_then(|bytes| match bytes.is_empty() {
+            true => Err(AdsError::INVALID_DATA),
+            false => Ok(bytes),
+        })),
+    unprinted(row("different.remains-behind-names", &[],
+        "behind the NUL of names, types and units there are remains of others",
+        |cnc, call| match function(call) {
+            Some(Function::DescribeByIndex | Function::DynamicNameByIndex) => {
+                let remains = |bytes: Vec<u8>| {
+                    // As far as the longest name goes.
+                    let room = if is(call, &[Function::DynamicNameByIndex]) { 90 } else { 240 };
+                    let remains = if bytes.len() < room { &b"ns\0of"[..] } else { &[] };
+                    [&bytes[..], remains].concat()
+                };
+                or_short(cnc, call, cnc.whole(call).map(remains))
+            }
+            Some(function) if TEXTS.contains(&function) => {
+                or_short(cnc, call, cnc.whole(call).map(|bytes| [&bytes[..], b"x\0"].concat()))
+            }
+            _ => cnc.answer(call),
+        })),
+    unprinted(row("different.texts-end", &[], "the value of a STRING ends behind its NUL", |cnc, call| {
+        // Whichever way it is read: handles are known from where they were given.
+        let key = |handle: u32| (group(call) & 0xFF, handle, Vec::new());
+        let is_text =
+            |bytes: &[u8]| (u32_at(bytes, 4), u32_at(bytes, 16)) == (Some(9), Some(0));
+        let answer = cnc.answer(call);
+        let text_now = match function(call) {
+            Some(Function::DescribeByIndex | Function::DescribeByName) => {
+                if let Ok(bytes) = &answer
+                    && is_text(bytes)
+                {
+                    cnc.memory().keep(key(u32_at(bytes, 0).unwrap_or_default()), Vec::new());
+                }
+                false
+            }
+            Some(Function::ReadByName) => {
+                cnc.ask(group(call), 0x4C, call.data).is_ok_and(|bytes| is_text(&bytes))
+            }
+            Some(Function::ReadByHandle) => {
+                let handle = u32_at(call.data, 0).unwrap_or_default();
+                cnc.memory().get(&key(handle)).is_some()
+            }
+            _ => false,
+        };
+        answer.map(|mut bytes| {
+            if text_now {
+                bytes.truncate(text(&bytes).len().saturating_add(1));
+            }
+            bytes
+        })
+    })),
+];

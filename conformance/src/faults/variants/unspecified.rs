@@ -1,0 +1,274 @@
+//! What the manuals leave open, done as another CNC might.
+
+use ads_cnc::ads::{AdsError, FrameRef};
+use ads_cnc::operation::{Call, Function, Service};
+
+use super::{
+    Answer, Row, Twist, Upstream, function, group, is, offset, on, put, records_mut, row, text,
+    twisted, u32_at, unprinted,
+};
+use super::{measured, sent};
+
+const STREAM: &[Function] = &[Function::WriteProgramStream];
+const BY_NAME: &[Function] = &[
+    Function::ReadByName,
+    Function::WriteByName,
+    Function::HandleByName,
+    Function::DescribeByName,
+];
+
+/// The request with the case of its name as it is listed, if it is in another.
+fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
+    let answer = cnc.answer(call);
+    if !is(call, BY_NAME) || answer != Err(AdsError::SYMBOL_NOT_FOUND) {
+        return answer;
+    }
+    let asked = text(call.data);
+    let (base, rest) =
+        asked.split_at(asked.iter().rposition(|&byte| byte == b'[').unwrap_or(asked.len()));
+    let listed = [&b"V.E\0"[..], b"V.G\0", b"V.A\0"].into_iter().find_map(|kind| {
+        let all = (0_u32..).map_while(|index| {
+            cnc.ask(group(call), 0x45, &[&index.to_le_bytes(), kind].concat()).ok()
+        });
+        let names =
+            all.filter_map(|bytes| Some(text(bytes.get(super::dimensions(&bytes).1..)?).to_vec()));
+        names.into_iter().find(|name| name.eq_ignore_ascii_case(base))
+    });
+    match listed {
+        Some(name) => {
+            let tail = call.data.get(asked.len()..).unwrap_or_default();
+            cnc.with(call, &[&name[..], rest, tail].concat())
+        }
+        None => answer,
+    }
+}
+
+/// Whether a STRING is written, other than one of the Service Interface.
+fn writes_text(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<usize> {
+    if !is(call, &[Function::WriteByName]) || call.data.starts_with(b"V.G.SERVICE.") {
+        return None;
+    }
+    let name = [text(call.data), &[0]].concat();
+    let bare = match name.iter().rposition(|&byte| byte == b'[') {
+        Some(at) if name.ends_with(b"]\0") => [name.get(..at).unwrap_or_default(), &[0]].concat(),
+        _ => name.clone(),
+    };
+    let described = cnc.ask(group(call), 0x4C, &bare).ok()?;
+    let size = cnc.ask(group(call), 0x48, &name).ok()?.len();
+    (u32_at(&described, 4) == Some(9)).then_some(size)
+}
+
+/// Where an axis is now: it moves a little with each look at it.
+fn moved(cnc: &Upstream<'_>, answer: Answer) -> Answer {
+    answer.map(|bytes| match bytes.first_chunk::<8>() {
+        Some(value) if bytes.len() == 8 => {
+            let mut memory = cnc.memory();
+            memory.count = memory.count.wrapping_add(1);
+            let now = f64::from_le_bytes(*value) + f64::from(memory.count) / 8.0;
+            now.to_le_bytes().to_vec()
+        }
+        _ => bytes,
+    })
+}
+
+#[rustfmt::skip]
+pub(super) const ROWS: &[Row] = &[
+    on("different.contents-just", &[], "a content of COM is read with just the length that it has",
+        &[Function::ReadObject], |cnc, call| cnc.answer(call).and_then(|bytes| {
+            let len = u32::try_from(bytes.len()).unwrap_or_default();
+            if len == call.read_length { Ok(bytes) } else { Err(AdsError::INVALID_SIZE) }
+        })),
+    row("different.parameters-any-kind", &[], "a parameter is found by its name at the offset of any kind",
+        |cnc, call| match (is(call, &[Function::DynamicValueByName]), cnc.answer(call)) {
+            (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
+                let found = [0x1C, 0x1F, 0x22, 0x25].map(|at| cnc.at(call, group(call), at));
+                found.into_iter().find(Result::is_ok).unwrap_or(Err(AdsError::SYMBOL_NOT_FOUND))
+            }
+            (_, answer) => answer,
+        }),
+    row("different.names-any-case", &[], "variables are found by their names in upper and lower case",
+        any_case),
+    unprinted(on("different.ids-elsewhere", &[], "the IDs of objects are large and in no order",
+        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
+            for record in records_mut(&mut bytes) {
+                let id = u32_at(record, 0).unwrap_or_default();
+                put(record, 0, id.wrapping_mul(0x9E37_79B1) | 0x8000_0000);
+            }
+            bytes
+        }))),
+    row("different.stream-read-empty", &[], "the object of the stream is read as an empty text", |cnc, call| {
+        let stream = group(call) & 0xEF_FF00 == 0x02_0100 && offset(call) == 0x90;
+        match (stream && call.service == Service::Read, cnc.answer(call)) {
+            (true, Err(_)) => {
+                let len = call.read_length.min(4094);
+                Ok(vec![0; usize::try_from(len).unwrap_or_default()])
+            }
+            (_, answer) => answer,
+        }
+    }),
+    row("different.stream-busy", &[],
+        "every third write of a stream is refused for now, whatever room there is",
+        |cnc, call| match is(call, STREAM) && (1..=992).contains(&call.data.len()) {
+            true => {
+                let mut memory = cnc.memory();
+                memory.count = memory.count.wrapping_add(1);
+                if memory.count % 3 == 0 {
+                    return Err(AdsError::INVALID_DATA);
+                }
+                drop(memory);
+                cnc.answer(call)
+            }
+            false => cnc.answer(call),
+        }),
+    sent("different.errors-with-zeros",
+        "a refused Read or ReadWrite has as many zeros as were asked for, up to 64",
+        |_, request: &FrameRef<'_>, mut bytes| {
+            let asked = u32_at(request.data(), 8).unwrap_or_default().min(64);
+            let refused = matches!(u32_at(&bytes, 38), Some(1..));
+            if refused && bytes.len() == 46 && matches!(request.header().command.0, 2 | 9) {
+                put(&mut bytes, 42, asked);
+                bytes.resize(usize::try_from(asked).unwrap_or_default().saturating_add(46), 0);
+            }
+            measured(bytes)
+        }),
+    row("different.descriptors-by-index", &[], "descriptors that are asked for by index have groups by index",
+        |cnc, call| match is(call, &[Function::ReadDescriptors]) && group(call) & 0x10_0000 == 0 {
+            true => cnc.answer(call).map(|mut bytes| {
+                for record in records_mut(&mut bytes) {
+                    let own = u32_at(record, 12).unwrap_or_default() & 0x0F_FF00;
+                    let asked = group(call) & 0xFF;
+                    let all = u32_at(record, 12).unwrap_or_default();
+                    // The platform's stay where they are.
+                    if all & 0xFF != 0 && own == group(call) & 0x0E_FF00 {
+                        put(record, 12, own | asked);
+                    }
+                }
+                bytes
+            }),
+            false => cnc.answer(call),
+        }),
+    on("different.platform-elsewhere", &[], "descriptors of the platform have the other of its two groups",
+        &[Function::ReadDescriptors], |cnc, call| cnc.answer(call).map(|mut bytes| {
+            for record in records_mut(&mut bytes) {
+                let (at, offset) = (u32_at(record, 12), u32_at(record, 16));
+                if matches!(offset, Some(0x251 | 0x252)) {
+                    put(record, 12, at.unwrap_or_default() ^ 1);
+                }
+            }
+            bytes
+        })),
+    unprinted(row("different.axes-move", &[], "axes move: their position is another whenever it is read",
+        |cnc, call| match (function(call), group(call) & 0xEF_FF00) {
+            (Some(Function::ReadObject), 0x02_0200) if offset(call) & 0xFFFF == 1 => {
+                moved(cnc, cnc.answer(call))
+            }
+            (Some(Function::ReadObject), 0x02_0100)
+                if offset(call) >= 0x1_0000 && offset(call) & 0xFFFF == 1 =>
+            {
+                moved(cnc, cnc.answer(call))
+            }
+            (Some(Function::ReadElement), 0x02_0300) if offset(call) & 0xFFFF == 1 => {
+                moved(cnc, cnc.answer(call))
+            }
+            (Some(Function::ReadByName | Function::AxisReadByName), _)
+                if call.data.starts_with(b"V.A.ACT_POS") =>
+            {
+                moved(cnc, cnc.answer(call))
+            }
+            (Some(Function::ReadByHandle), _)
+                if u32_at(call.data, 0).is_some_and(|one| one & 0xFF00_00FF == 0x0100_001A) =>
+            {
+                moved(cnc, cnc.answer(call))
+            }
+            _ => cnc.answer(call),
+        })),
+    row("different.texts-whole", &[], "a STRING is written with all its bytes, and refused with fewer",
+        |cnc, call| match writes_text(cnc, call) {
+            Some(size) if super::behind(call.data).len() < size => Err(AdsError::INVALID_SIZE),
+            _ => cnc.answer(call),
+        }),
+    row("different.texts-ended", &[], "a STRING is written with a NUL, and refused without",
+        |cnc, call| match writes_text(cnc, call) {
+            Some(_) if !super::behind(call.data).contains(&0) => Err(AdsError::INVALID_SIZE),
+            _ => cnc.answer(call),
+        }),
+    unprinted(twisted("different.model-numbers", &[],
+        "the CNC has channels 1, 9 and 255, axes with large numbers and long names, and \
+         spindles only to be read",
+        Twist::Model(NUMBERS))),
+];
+
+/// A CNC whose numbers are as large as they may be.
+const NUMBERS: &str = r#"
+cnc-version = "V3.1.3100.0"
+edition = "de-1.051"
+spindles = 5
+
+[[axis]]
+name = "X1"
+number = 65535
+[[axis]]
+name = "SCHLITTEN"
+number = 40000
+[[axis]]
+name = "C"
+number = 3
+
+[platform]
+objects = [{ name = "platform_dint_w", type = "DINT", offset = 0xFFFF, writable = true, value = -7 }]
+[platform-axis]
+objects = [{ name = "position_r", type = "REAL", offset = 0x77, values = [1.5, 2.5, 3.5] }]
+[channel-axis]
+objects = [
+  { name = "position_r", type = "LREAL", offset = 0x33, values = [1.5, 2.5, 3.5] },
+  { name = "number_r", type = "DWORD", offset = 0x34, is = "axis-number" },
+]
+variables = [{ name = "V.A.OFFSETS", type = "REAL64", dimensions = [2], writable = true }]
+
+[[channel]]
+number = 1
+places = [3, 0, 65535]
+objects = [
+  { name = "sint_w", type = "SINT", offset = 0xFFFE, writable = true, value = -1 },
+  { name = "mc_program_stream_w", type = "STRING", offset = 0x90, size = 4094, writable = true },
+]
+variables = [
+  { name = "V.E.deep.er[7].and[1].deeper", type = "UNS32", dimensions = [1], writable = true },
+  { name = "V.G.one", type = "STRING", size = 1, writable = true },
+]
+parameters = [{ name = "V.S.PI", value = 3.141592653589793 }, { name = "P4294967295", value = -0.0 }]
+
+[[channel]]
+number = 9
+places = [40000]
+parameters = [{ name = "V.P.alone", value = 1e300 }]
+
+[[channel]]
+number = 255
+objects = [{ name = "lint_w", type = "LINT", offset = 0x1, writable = true, value = -1 }]
+variables = [{ name = "V.E.b", type = "BOOLEAN", dimensions = [1, 1, 1], writable = true }]
+
+[class.interpolator.channel]
+name = "IPO {}"
+[class.interpolator.axis]
+name = "IPO axis {}"
+elements = [{ name = "distance", type = "REAL64", unit = "mm" }]
+[class.decoder.channel]
+name = "SDA {}"
+[class.decoder.axis]
+name = "SDA axis {}"
+[class.hld.channel]
+name = "HLD {}"
+[class.hld.axis]
+name = "HLD axis {}"
+[class.path-preparation.channel]
+name = "BV {}"
+[class.path-preparation.axis]
+name = "BV axis {}"
+[class.position-controller.axis]
+name = "LR {}"
+elements = [{ name = "number", type = "UNS16", unit = "-", is = "axis-number" }]
+[class.spindle.each]
+name = "S {}"
+elements = [{ name = "speed", type = "REAL32", unit = "1/min", values = [1.0, 2.0, 3.0, 4.0, 5.0] }]
+"#;

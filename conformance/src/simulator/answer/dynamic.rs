@@ -1,0 +1,47 @@
+//! Dynamic parameters (DYN).
+
+use ads_cnc::TextRef;
+use ads_cnc::ads::AdsError;
+use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicNameRef};
+use ads_cnc::operation::{
+    CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName,
+};
+
+use super::{Answer, Running, encode};
+use crate::simulator::parameters::ParameterState;
+use crate::simulator::{to_len, to_u32};
+
+impl Running<'_> {
+    pub(super) fn count_dynamic(&self, op: &CountDynamic) -> Answer {
+        let channel = self.channel(op.channel)?;
+        encode(DynamicCount(to_u32(self.state.parameters(channel, op.kind).count())))
+    }
+
+    pub(super) fn dynamic_name(&self, op: &DynamicNameByIndex) -> Answer {
+        let channel = self.channel(op.channel)?;
+        let parameter = self.parameter(channel, op.kind, op.index)?;
+        encode(DynamicNameRef { name: TextRef::from(parameter.name()) })
+    }
+
+    pub(super) fn dynamic_by_index(&self, op: &DynamicValueByIndex) -> Answer {
+        let channel = self.channel(op.channel)?;
+        encode(self.parameter(channel, op.kind, op.index)?.value)
+    }
+
+    pub(super) fn dynamic_by_name(&self, op: &DynamicValueByName<'_>) -> Answer {
+        let channel = self.channel(op.channel)?;
+        let mut parameters = self.state.parameters(channel, op.kind);
+        let found = parameters.find(|one| one.name() == op.name.text());
+        encode(found.ok_or(AdsError::SYMBOL_NOT_FOUND)?.value)
+    }
+
+    fn parameter(
+        &self,
+        channel: usize,
+        kind: DynamicKind,
+        index: u32,
+    ) -> Result<&ParameterState, AdsError> {
+        let before = to_len(index).checked_sub(1).ok_or(AdsError::INVALID_DATA)?;
+        self.state.parameters(channel, kind).nth(before).ok_or(AdsError::INVALID_DATA)
+    }
+}

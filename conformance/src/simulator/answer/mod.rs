@@ -1,0 +1,248 @@
+//! From an ADS request to data or an error number.
+
+mod dynamic;
+mod elements;
+mod objects;
+mod variables;
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use ads_cnc::address::Channel;
+use ads_cnc::ads::{AdsError, AmsNetId, FrameRef};
+use ads_cnc::operation::{Call, Reply, Request, WriteProgramStream};
+use ads_cnc::{Encode, NoData};
+
+use super::clock::Clock;
+use super::program::Policy;
+use super::state::State;
+use super::{Model, ModelError, Responder, program, to_u32};
+
+/// The simulated CNC: a model, and its state behind one lock.
+#[derive(Debug)]
+pub struct Cnc {
+    model: Model,
+    state: Mutex<State>,
+    clock: Clock,
+    policy: Policy,
+}
+
+/// Data, or the error number.
+type Answer = Result<Vec<u8>, AdsError>;
+
+impl Cnc {
+    /// A CNC with this data model, in the state it starts in.
+    pub fn new(model: Model) -> Self {
+        let policy = Policy::DEFAULT;
+        let state = Mutex::new(State::new(&model, policy));
+        Self { model, state, clock: Clock::running(), policy }
+    }
+
+    /// With this data model, in the state it starts in.
+    pub(crate) fn with_model(self, model: Model) -> Self {
+        Self { clock: self.clock, ..Self::new(model) }
+    }
+
+    /// With NC programs of this policy, in the state it starts in.
+    pub(crate) fn with_policy(mut self, policy: Policy) -> Self {
+        self.state = Mutex::new(State::new(&self.model, policy));
+        Self { policy, ..self }
+    }
+
+    /// The CNC that answers what the manuals print: see [`DEFAULT_MODEL`](super::DEFAULT_MODEL).
+    ///
+    /// # Errors
+    /// None: a test builds it.
+    pub fn with_default_model() -> Result<Self, ModelError> {
+        Model::default_model().map(Self::new)
+    }
+
+    /// With a clock that stands: time passes by [`pass`](Self::pass) only. What happens in time,
+    /// a test then has under control.
+    ///
+    /// ```
+    /// use std::time::Duration;
+    ///
+    /// use ads_cnc::address::{IndexGroup, IndexOffset};
+    /// use ads_cnc::ads::AmsPort;
+    /// use ads_cnc::operation::{Call, Service};
+    /// use ads_cnc_conformance::simulator::{Cnc, Model};
+    ///
+    /// let model = r#"
+    /// [[channel]]
+    /// number = 1
+    /// parameters = [{ name = "V.L.feed", comes = "2s", goes = "5s" }]
+    /// "#;
+    /// let cnc = Cnc::new(Model::from_toml(model, "an example")?).with_standing_clock();
+    /// let count = Call {
+    ///     port: AmsPort::SDA,
+    ///     service: Service::Read,
+    ///     index_group: IndexGroup::new(0x12_2301),
+    ///     index_offset: IndexOffset::new(0x03),
+    ///     read_length: 4,
+    ///     data: &[],
+    /// };
+    /// assert_eq!(cnc.answer(&count), Ok(vec![0; 4]));
+    /// cnc.pass(Duration::from_secs(2));
+    /// assert_eq!(cnc.answer(&count), Ok(vec![1, 0, 0, 0]));
+    /// # Ok::<(), ads_cnc_conformance::simulator::ModelError>(())
+    /// ```
+    #[must_use]
+    pub fn with_standing_clock(mut self) -> Self {
+        self.clock = Clock::standing();
+        self
+    }
+
+    /// Lets time pass: parameters come and go, programs run on.
+    pub fn pass(&self, time: Duration) {
+        self.clock.pass(time);
+    }
+
+    /// Its data model.
+    pub const fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The state as it is by now.
+    pub(super) fn state(&self) -> MutexGuard<'_, State> {
+        self.state_and_time().0
+    }
+
+    /// The same, and when that is: the clock is read once for each request.
+    fn state_and_time(&self) -> (MutexGuard<'_, State>, Duration) {
+        // No panic is reachable under the lock, and each value is whole whatever happened.
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        let now = self.now();
+        state.advance(now);
+        (state, now)
+    }
+
+    /// Time since it was switched on.
+    pub(super) fn now(&self) -> Duration {
+        self.clock.now()
+    }
+
+    /// The data to answer with.
+    ///
+    /// Which error number a CNC gives is not documented (ADS-7), so these are assumed:
+    ///
+    /// | number | for |
+    /// |---|---|
+    /// | 0x6 | a port that no task has |
+    /// | 0x701 | a service that the function does not take |
+    /// | 0x702 | an index group without functions, a channel, axis or spindle that is not there |
+    /// | 0x703 | an index offset without function, an object or element that is not there; 0x4C on a CNC too old for it |
+    /// | 0x704 | a write of what is read-only |
+    /// | 0x705 | a request, a value or a read length of the wrong size |
+    /// | 0x706 | an index out of bounds or too many, a handle of no variable of the channel, a handle of a kind that is by name only, a write where no axis is, an axis exchange that cannot be, NC text for which there is no room now |
+    /// | 0x710 | a name or kind that is not there |
+    ///
+    /// # Errors
+    /// One of these numbers.
+    pub fn answer(&self, call: &Call<'_>) -> Result<Vec<u8>, AdsError> {
+        let request = dispatch(call)?;
+        let reply = self.reply(&request)?;
+        if to_u32(reply.len()) > call.read_length {
+            return Err(AdsError::INVALID_SIZE);
+        }
+        Ok(reply)
+    }
+
+    /// Appends the frame to answer with; see [`Responder::respond`].
+    pub fn respond(&self, net_id: AmsNetId, frame: &FrameRef<'_>, answers: &mut Vec<u8>) {
+        Responder::respond(self, net_id, frame, answers);
+    }
+
+    /// How its NC programs go about.
+    pub(super) const fn policy(&self) -> Policy {
+        self.policy
+    }
+
+    fn reply(&self, request: &Request<'_>) -> Answer {
+        let (state, now) = self.state_and_time();
+        let mut running = Running { model: &self.model, state, now };
+        match request {
+            Request::CountObjects(op) => running.count_objects(op),
+            Request::ReadDescriptors(op) => running.descriptors(op),
+            Request::ReadObject(op) => running.read_object(op),
+            Request::WriteObject(op) => running.write_object(op),
+            Request::FindInstance(op) => running.find_instance(op),
+            Request::CountElements(op) => running.read_element(op.element()),
+            Request::ReadElement(op) => running.read_element(op.element()),
+            Request::WriteElement(op) => running.write_element(op),
+            Request::ReadElementName(op) => running.element_name(op.element),
+            Request::ReadElementType(op) => running.element_type(op.element),
+            Request::ReadElementLength(op) => running.element_length(op.element),
+            Request::ReadElementUnit(op) => running.element_unit(op.element),
+            Request::ReadElementWriteFlag(op) => running.element_write_flag(op.element),
+            Request::CountVariables(op) => running.count_variables(op),
+            Request::DescribeByIndex(op) => running.describe_by_index(op),
+            Request::DescribeExtended(op) => running.describe_extended(op),
+            Request::DescribeByName(op) => running.describe_by_name(op),
+            Request::HandleByName(op) => running.handle_by_name(op),
+            Request::ReadByHandle(op) => running.read_by_handle(op),
+            Request::ReadByName(op) => running.read_by_name(op),
+            Request::WriteByHandle(op) => running.write_by_handle(op),
+            Request::WriteByName(op) => running.write_by_name(op),
+            Request::AxisHandleByName(op) => running.axis_handle_by_name(op),
+            Request::AxisReadByName(op) => running.axis_read_by_name(op),
+            Request::AxisWriteByName(op) => running.axis_write_by_name(op),
+            Request::CountDynamic(op) => running.count_dynamic(op),
+            Request::DynamicNameByIndex(op) => running.dynamic_name(op),
+            Request::DynamicValueByName(op) => running.dynamic_by_name(op),
+            Request::DynamicValueByIndex(op) => running.dynamic_by_index(op),
+            Request::WriteProgramStream(op) => running.write_program_stream(op),
+            // A function of the table that this CNC does not serve is at no offset of it.
+            _ => Err(AdsError::INVALID_OFFSET),
+        }
+    }
+}
+
+impl Responder for Cnc {
+    fn answer(&self, call: &Call<'_>) -> Answer {
+        Self::answer(self, call)
+    }
+
+    fn pass(&self, time: Duration) {
+        Self::pass(self, time);
+    }
+}
+
+/// The CNC while it answers.
+struct Running<'a> {
+    model: &'a Model,
+    state: MutexGuard<'a, State>,
+    now: Duration,
+}
+
+impl Running<'_> {
+    fn channel(&self, at: Channel) -> Result<usize, AdsError> {
+        self.state.channel(self.model, at.addressing(), at.number())
+    }
+
+    fn write_program_stream(&mut self, op: &WriteProgramStream<'_>) -> Answer {
+        let channel = self.channel(op.channel)?;
+        let channel = self.state.channels.get_mut(channel).ok_or(AdsError::INVALID_GROUP)?;
+        match program::result(channel.program.write(op.packet, self.now)) {
+            AdsError::NO_ERROR => encode(NoData),
+            refused => Err(refused),
+        }
+    }
+}
+
+fn dispatch<'a>(call: &Call<'a>) -> Result<Request<'a>, AdsError> {
+    call.dispatch().map_err(|refusal| {
+        tracing::debug!(group = %call.index_group, offset = %call.index_offset, "refused: {refusal}");
+        refusal.ads_error()
+    })
+}
+
+fn encode<'a>(reply: impl Into<Reply<'a>>) -> Answer {
+    // The model was checked to fit: this does not fail.
+    reply.into().encode_to_vec().map_err(|_| AdsError::INVALID_DATA)
+}
+
+#[cfg(test)]
+mod any_call;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,177 @@
+//! Which variable a kind and an index, a handle or a name mean, and what it is.
+
+use ads_cnc::address::{Channel, ChannelAxis};
+use ads_cnc::ads::AdsError;
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::operation::Function;
+use ads_cnc::{CncStr, CncString, Handle, Kind, U32List, VariablePath};
+
+use super::Running;
+use crate::simulator::model::{At, ChannelModel, Variable, handle_at, parameter_kind};
+use crate::simulator::to_len;
+
+/// What a name on the channel interface stands for.
+pub(super) enum Named {
+    Variable(At),
+    /// A V.P, V.L or V.S, in editions that have them here.
+    Parameter,
+}
+
+/// A refusal of a name that stands for nothing.
+pub(super) const UNKNOWN: AdsError = AdsError::SYMBOL_NOT_FOUND;
+
+impl Running<'_> {
+    /// Whether edition and version have a function for a kind.
+    pub(super) fn permit(&self, function: Function, kind: Kind<'_>) -> Result<(), AdsError> {
+        let answer = self.model.edition.permits(function, kind, self.model.version);
+        match (answer.available, function) {
+            (true, _) => Ok(()),
+            // It is there, but has no handle.
+            (false, Function::HandleByName) if answer.requirement == "VAR-18" => {
+                Err(AdsError::INVALID_DATA)
+            }
+            (false, _) => Err(UNKNOWN),
+        }
+    }
+
+    /// The variables of a kind in the order of their indices; V.A of axes that are there.
+    pub(super) fn of_kind(
+        &self,
+        channel: usize,
+        kind: Kind<'_>,
+    ) -> impl Iterator<Item = At> + use<'_> {
+        let model = self.model.channels.get(channel);
+        // NULs may pad a kind: its text counts.
+        let is = |known: Kind<'_>| kind.text() == known.text();
+        let own = match model {
+            Some(model) if is(Kind::V_E) => model.external.as_slice(),
+            Some(model) if is(Kind::V_G) => model.global.as_slice(),
+            _ => &[],
+        };
+        let of_axes = if is(Kind::V_A) { self.model.axis_variables.list.len() } else { 0 };
+        let places = (0..model.map_or(0, |model| model.places.len()))
+            .filter(move |&place| self.state.axis_at(channel, place).is_some());
+        let of_axes = (0..of_axes).flat_map(move |variable| {
+            places.clone().map(move |place| At::Place { place, variable })
+        });
+        own.iter().copied().map(At::Own).chain(of_axes)
+    }
+
+    pub(super) fn by_index(
+        &self,
+        channel: usize,
+        kind: Kind<'_>,
+        index: u32,
+    ) -> Result<At, AdsError> {
+        self.of_kind(channel, kind).nth(to_len(index)).ok_or(AdsError::INVALID_DATA)
+    }
+
+    pub(super) fn by_handle(&self, channel: usize, handle: Handle) -> Result<At, AdsError> {
+        let channel = self.model.channels.get(channel);
+        let at = channel.and_then(|channel| channel.by_handle.get(&handle.0));
+        at.copied().ok_or(AdsError::INVALID_DATA)
+    }
+
+    /// What a name on the channel interface means, and the element that it selects.
+    pub(super) fn named<'n>(
+        &self,
+        function: Function,
+        channel: usize,
+        name: CncStr<'n>,
+    ) -> Result<(Named, U32List<'n>), AdsError> {
+        let path = VariablePath::from_text(name).map_err(|_| UNKNOWN)?;
+        self.permit(function, path.kind())?;
+        let model = self.model.channels.get(channel).ok_or(AdsError::INVALID_GROUP)?;
+        let (whole, indices) = (CncString::from(path.variable().text()), path.elements());
+        if let Some(place) = model.variables.named(whole.as_bytes()) {
+            return Ok((Named::Variable(At::Own(place)), indices));
+        }
+        if path.kind() == Kind::V_A {
+            let at = self.of_named_axis(channel, model, whole.as_bytes()).ok_or(UNKNOWN)?;
+            return Ok((Named::Variable(at), indices));
+        }
+        let (kind, name) = parameter(name)?;
+        let found = self.state.parameters(channel, kind).any(|one| one.is.name == name);
+        if found { Ok((Named::Parameter, U32List::EMPTY)) } else { Err(UNKNOWN) }
+    }
+
+    /// The variable in front of the last dot, of the axis whose name is behind it.
+    pub(super) fn of_named_axis(
+        &self,
+        channel: usize,
+        model: &ChannelModel,
+        whole: &[u8],
+    ) -> Option<At> {
+        let dot = whole.iter().rposition(|&byte| byte == b'.')?;
+        let (name, axis) = whole.split_at_checked(dot)?;
+        let axis = axis.strip_prefix(b".")?;
+        let variable = self.model.axis_variables.named(name)?;
+        let place = (0..model.places.len()).find(|&place| {
+            let there = self.state.axis_at(channel, place);
+            let there = there.and_then(|there| self.model.axes.get(there));
+            there.is_some_and(|there| there.name.as_bytes() == axis)
+        })?;
+        Some(At::Place { place, variable })
+    }
+
+    /// What a name on the axis interface means: of whatever axis is at the place.
+    pub(super) fn of_axis<'n>(
+        &self,
+        function: Function,
+        channel: Channel,
+        axis: ChannelAxis,
+        name: CncStr<'n>,
+    ) -> Result<(usize, At, U32List<'n>), AdsError> {
+        let channel = self.channel(channel)?;
+        let path = VariablePath::from_text(name).map_err(|_| UNKNOWN)?;
+        self.permit(function, path.kind())?;
+        let places = self.model.channels.get(channel).map_or(0, |channel| channel.places.len());
+        let place = usize::from(axis.index()).checked_sub(1).filter(|&place| place < places);
+        let whole = CncString::from(path.variable().text());
+        let variable = self.model.axis_variables.named(whole.as_bytes()).ok_or(UNKNOWN)?;
+        let at = At::Place { place: place.ok_or(UNKNOWN)?, variable };
+        Ok((channel, at, path.elements()))
+    }
+
+    pub(super) fn variable(&self, channel: usize, at: At) -> Result<&Variable, AdsError> {
+        let variable = match at {
+            At::Own(place) => {
+                self.model.channels.get(channel).and_then(|one| one.variables.list.get(place))
+            }
+            At::Place { variable, .. } => self.model.axis_variables.list.get(variable),
+        };
+        variable.ok_or(AdsError::INVALID_DATA)
+    }
+
+    /// With the axis's name behind it, if it is one's.
+    pub(super) fn name(&self, channel: usize, at: At) -> Result<CncString, AdsError> {
+        let variable = self.variable(channel, at)?;
+        let At::Place { place, .. } = at else { return Ok(variable.name.clone()) };
+        let axis = self.state.axis_at(channel, place);
+        let axis = axis.and_then(|axis| self.model.axes.get(axis)).ok_or(UNKNOWN)?;
+        let path = VariablePath::from_text(variable.name.as_cnc_str()).map_err(|_| UNKNOWN)?;
+        path.with_axis(axis.name.as_cnc_str()).map_err(|_| UNKNOWN)
+    }
+
+    /// The handle; 0 for what is by name only.
+    pub(super) fn handle(&self, channel: usize, at: At) -> Result<Handle, AdsError> {
+        let handle = self.variable(channel, at)?.handle.unwrap_or(Handle(0));
+        let number = self.model.channels.get(channel).map_or(0, |channel| channel.number);
+        Ok(match at {
+            At::Own(_) => handle,
+            At::Place { place, .. } => {
+                let place = u8::try_from(place.saturating_add(1)).unwrap_or(u8::MAX);
+                handle_at(handle, number, place)
+            }
+        })
+    }
+}
+
+/// The kind and the name of a V.P, V.L or V.S.
+pub(super) fn parameter(name: CncStr<'_>) -> Result<(DynamicKind, CncString), AdsError> {
+    let name = CncString::from(name);
+    match parameter_kind(&name) {
+        Ok(kind) if kind != DynamicKind::P => Ok((kind, name)),
+        _ => Err(UNKNOWN),
+    }
+}

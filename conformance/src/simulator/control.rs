@@ -1,0 +1,291 @@
+//! What happens to a CNC from within: nobody asks for it over ADS.
+
+use ads_cnc::CncString;
+use ads_cnc::dynamic::{DynamicKind, DynamicValue};
+
+use super::Cnc;
+use super::model::{Parameter, Times, parameter_kind};
+use super::program::service::ServiceInterface;
+use super::program::{Program, ProgramConfig, Script};
+use super::state::ChannelState;
+
+/// What the CNC cannot be made to do.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ControlError {
+    /// No channel has the number.
+    #[error("there is no channel {0}")]
+    Channel(u8),
+    /// The place is none of the channel's, the axis is not there, or another axis of the channel
+    /// has its name.
+    #[error("the axis {axis} cannot be put at place {place} of channel {channel}")]
+    Exchange {
+        /// Logical number of the channel.
+        channel: u8,
+        /// The place, from 1.
+        place: u8,
+        /// Logical number of the axis.
+        axis: u32,
+    },
+    /// The name is too long, no CP1252, of another kind or there twice.
+    #[error("{0:?} cannot be the name of a parameter")]
+    Name(String),
+}
+
+impl Cnc {
+    /// Puts the axis with a logical number at a place, from 1, of a channel (ADR-13): where it
+    /// was, none is now; which was there, is nowhere now. 0 leaves the place without an axis.
+    ///
+    /// Over ADS the same is done by writing an object or an element that is an axis-number.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`], [`ControlError::Exchange`]; nothing is changed.
+    pub fn exchange_axis(&self, channel: u8, place: u8, axis: u32) -> Result<(), ControlError> {
+        let at = self.place_of(channel)?;
+        let before = usize::from(place).checked_sub(1);
+        let done = before.map(|before| self.state().exchange(self.model(), at, before, axis));
+        done.and_then(Result::ok).ok_or(ControlError::Exchange { channel, place, axis })
+    }
+
+    /// The logical number of the axis at a place, from 1, of a channel; 0 if there is none.
+    ///
+    /// ```
+    /// use ads_cnc_conformance::simulator::Cnc;
+    ///
+    /// let cnc = Cnc::with_default_model()?;
+    /// assert_eq!((cnc.axis_at(1, 2), cnc.axis_at(1, 9)), (2, 0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn axis_at(&self, channel: u8, place: u8) -> u32 {
+        let axis = || {
+            let place = usize::from(place).checked_sub(1)?;
+            let axis = self.state().axis_at(self.place_of(channel).ok()?, place)?;
+            self.model().axes.get(axis).map(|axis| axis.number)
+        };
+        axis().unwrap_or_default()
+    }
+
+    /// Activates or deactivates a channel: the ranks of those behind it change (ADR-11).
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn set_active(&self, channel: u8, active: bool) -> Result<(), ControlError> {
+        self.of_channel(channel, |channel| channel.active = active)
+    }
+
+    /// Replaces the dynamic parameters of a kind, as an NC program does that makes and deletes
+    /// them: names and values in the order of their indices (DYN-4).
+    ///
+    /// ```
+    /// use ads_cnc::dynamic::DynamicKind;
+    /// use ads_cnc_conformance::simulator::Cnc;
+    ///
+    /// let cnc = Cnc::with_default_model()?;
+    /// cnc.set_parameters(1, DynamicKind::P, &[("P7", 1.0), ("P1", 4711.0)])?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`], [`ControlError::Name`]; nothing is changed.
+    pub fn set_parameters(
+        &self,
+        channel: u8,
+        kind: DynamicKind,
+        parameters: &[(&str, f64)],
+    ) -> Result<(), ControlError> {
+        let mut new: Vec<Parameter> = Vec::new();
+        for &(name, value) in parameters {
+            let invalid = || ControlError::Name(name.to_owned());
+            let text: CncString = name.parse().map_err(|_| invalid())?;
+            if parameter_kind(&text) != Ok(kind) || new.iter().any(|one| one.name == text) {
+                return Err(invalid());
+            }
+            let value = DynamicValue::from(value);
+            new.push(Parameter { kind, name: text, value, needs: None, times: Times::default() });
+        }
+        self.of_channel(channel, |channel| channel.parameters.replace(kind, new))
+    }
+
+    /// The Service Interface of a channel, as the NC program has it. It is locked meanwhile: no
+    /// request is answered.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn with_service<T>(
+        &self,
+        channel: u8,
+        then: impl FnOnce(&mut ServiceInterface) -> T,
+    ) -> Result<T, ControlError> {
+        self.of_channel(channel, |channel| then(&mut channel.service))
+    }
+
+    /// Sets up the streaming of a channel anew, as when it is switched on: what was in the
+    /// interface and what was run is gone.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn set_program(&self, channel: u8, config: ProgramConfig) -> Result<(), ControlError> {
+        let (now, policy) = (self.now(), self.policy());
+        self.of_channel(channel, |channel| {
+            channel.program = Program::with_policy(config, policy);
+            channel.program.advance(now);
+        })
+    }
+
+    /// The streaming program of a channel: its state, and what it has run. It is locked meanwhile:
+    /// no request is answered.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn with_program<T>(
+        &self,
+        channel: u8,
+        then: impl FnOnce(&mut Program) -> T,
+    ) -> Result<T, ControlError> {
+        self.of_channel(channel, |channel| then(&mut channel.program))
+    }
+
+    /// Has an NC program of a channel ask services, from now on; none ends it.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn set_script(&self, channel: u8, script: Option<Script>) -> Result<(), ControlError> {
+        let script = script.map(|script| self.as_run(script));
+        self.of_channel(channel, |channel| channel.script = script)
+    }
+
+    /// The NC program of a channel that asks services, and the interface it asks through.
+    ///
+    /// # Errors
+    /// [`ControlError::Channel`]
+    pub fn with_script<T>(
+        &self,
+        channel: u8,
+        then: impl FnOnce(Option<&mut Script>) -> T,
+    ) -> Result<T, ControlError> {
+        self.of_channel(channel, |channel| then(channel.script.as_mut()))
+    }
+
+    /// A program that asks services, as it is run here.
+    pub(crate) fn as_run(&self, script: Script) -> Script {
+        script.with_policy(self.policy())
+    }
+
+    fn of_channel<T>(
+        &self,
+        number: u8,
+        then: impl FnOnce(&mut ChannelState) -> T,
+    ) -> Result<T, ControlError> {
+        let place = self.place_of(number)?;
+        let mut state = self.state();
+        let channel = state.channels.get_mut(place).ok_or(ControlError::Channel(number))?;
+        Ok(then(channel))
+    }
+
+    fn place_of(&self, number: u8) -> Result<usize, ControlError> {
+        let place = self.model().channels().position(|channel| channel == number);
+        place.ok_or(ControlError::Channel(number))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ads_cnc::address::{IndexGroup, IndexOffset};
+    use ads_cnc::ads::{AdsError, AmsPort};
+    use ads_cnc::operation::{Call, Service};
+    use ads_cnc::service::ServiceVariable;
+
+    use super::*;
+
+    fn cnc() -> Cnc {
+        Cnc::with_default_model().unwrap()
+    }
+
+    fn ask(cnc: &Cnc, group: u32, offset: u32, data: &[u8]) -> Result<Vec<u8>, AdsError> {
+        cnc.answer(&Call {
+            port: AmsPort::SDA,
+            service: Service::ReadWrite,
+            index_group: IndexGroup::new(group),
+            index_offset: IndexOffset::new(offset),
+            read_length: 2048,
+            data,
+        })
+    }
+
+    #[test]
+    fn ranks_follow_activation() {
+        let cnc = cnc();
+        let of_rank = |rank: u32| ask(&cnc, 0x02_2300 + rank, 0x48, b"V.E.channel\0");
+        assert_eq!((of_rank(1), of_rank(2)), (Ok(vec![1, 0, 0, 0]), Ok(vec![2, 0, 0, 0])));
+        cnc.set_active(1, false).unwrap();
+        assert_eq!((of_rank(1), of_rank(2)), (Ok(vec![2, 0, 0, 0]), Ok(vec![6, 0, 0, 0])));
+        assert_eq!(of_rank(3), Err(AdsError::INVALID_GROUP));
+        cnc.set_active(1, true).unwrap();
+        assert_eq!(of_rank(3), Ok(vec![6, 0, 0, 0]));
+        assert_eq!(cnc.set_active(5, true), Err(ControlError::Channel(5)));
+    }
+
+    #[test]
+    fn an_axis_is_at_one_place() {
+        let cnc = cnc();
+        let wcs = |place: u32| ask(&cnc, 0x12_2301, place * 0x1_0000 + 5, b"V.A.WCS\0").unwrap();
+        let (y, z) = (wcs(2), wcs(3));
+        cnc.exchange_axis(1, 2, 3).unwrap();
+        assert_eq!((wcs(2), wcs(3)), (z.clone(), vec![0; 8]));
+        cnc.exchange_axis(1, 3, 2).unwrap();
+        assert_eq!((wcs(2), wcs(3)), (z.clone(), y));
+        // To where it is already, and out.
+        cnc.exchange_axis(1, 2, 3).unwrap();
+        assert_eq!(wcs(2), z);
+        cnc.exchange_axis(1, 2, 0).unwrap();
+        assert_eq!(wcs(2), [0; 8]);
+        for (place, axis) in [(0, 1), (4, 1), (1, 6), (2, 4)] {
+            let error = ControlError::Exchange { channel: 1, place, axis };
+            assert_eq!(cnc.exchange_axis(1, place, axis), Err(error));
+        }
+        assert_eq!(cnc.exchange_axis(3, 1, 1), Err(ControlError::Channel(3)));
+    }
+
+    #[test]
+    fn parameters_are_replaced() {
+        let cnc = cnc();
+        let name = |index: u8| ask(&cnc, 0x12_2301, 0x1B, &[index, 0, 0, 0]);
+        cnc.set_parameters(1, DynamicKind::P, &[("P7", 1.0), ("P1", f64::NAN)]).unwrap();
+        assert_eq!((name(1), name(2)), (Ok(b"P7\0".to_vec()), Ok(b"P1\0".to_vec())));
+        // Other kinds stay.
+        let depth = ask(&cnc, 0x12_2301, 0x1F, b"V.L.depth\0");
+        assert_eq!(depth, Ok(2.5_f64.to_le_bytes().to_vec()));
+        cnc.set_parameters(1, DynamicKind::P, &[]).unwrap();
+        assert_eq!(name(1), Err(AdsError::INVALID_DATA));
+        let long = format!("P{}", "1".repeat(95));
+        for names in [&["V.L.x"][..], &["P"], &["P1", "P1"], &["P\u{3A9}"], &[&long]] {
+            let named: Vec<(&str, f64)> = names.iter().map(|&name| (name, 0.0)).collect();
+            let error = cnc.set_parameters(1, DynamicKind::P, &named).unwrap_err();
+            assert_eq!(error, ControlError::Name((*names.last().unwrap()).to_owned()));
+        }
+    }
+
+    /// The program asks within, the service over ADS sees it.
+    #[test]
+    fn a_program_has_the_service_interface() {
+        let cnc = cnc();
+        let asked = cnc.with_service(2, |service| {
+            service.write(ServiceVariable::Request, b"3\0")?;
+            service.write(ServiceVariable::RequestState, &[7, 0, 0, 0])
+        });
+        asked.unwrap().unwrap();
+        let state = ask(&cnc, 0x12_2302, 0x48, b"V.G.SERVICE.REQUEST_STATE\0");
+        assert_eq!(state, Ok(vec![7, 0, 0, 0]));
+    }
+
+    /// Whoever panics with the lock in hand, the CNC answers on.
+    #[test]
+    fn a_panic_under_the_lock_stops_nobody() {
+        let cnc = cnc();
+        let panicked = std::thread::scope(|scope| {
+            scope.spawn(|| cnc.with_service(1, |_| panic!("on purpose"))).join()
+        });
+        assert!(panicked.is_err());
+        assert_eq!(ask(&cnc, 0x12_2301, 0x44, b"V.E\0"), Ok(vec![123, 0, 0, 0]));
+    }
+}

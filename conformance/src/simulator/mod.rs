@@ -1,0 +1,81 @@
+//! The simulated CNC: a data model, the answers it gives, and an AMS/TCP server around them.
+//!
+//! [`Cnc::answer`] takes an ADS request and gives data or an error number, [`Cnc::respond`] does
+//! the same with whole frames, [`Server`] with TCP connections: of a [`Cnc`] or of any other
+//! [`Responder`]. What is unknown or does not fit is refused with an error number: never with
+//! silence, never with a panic.
+//!
+//! ```
+//! use ads_cnc::address::{IndexGroup, IndexOffset};
+//! use ads_cnc::ads::AmsPort;
+//! use ads_cnc::operation::{Call, Service};
+//! use ads_cnc_conformance::simulator::Cnc;
+//!
+//! let cnc = Cnc::with_default_model()?;
+//! let count = Call {
+//!     port: AmsPort::SDA,
+//!     service: Service::ReadWrite,
+//!     index_group: IndexGroup::new(0x12_2301),
+//!     index_offset: IndexOffset::new(0x44),
+//!     read_length: 4,
+//!     data: b"V.E\0",
+//! };
+//! assert_eq!(cnc.answer(&count), Ok(vec![123, 0, 0, 0]));
+//! # Ok::<(), ads_cnc_conformance::simulator::ModelError>(())
+//! ```
+
+mod answer;
+mod clock;
+mod content;
+mod control;
+mod in_process;
+mod inspect;
+mod model;
+mod parameters;
+pub mod program;
+mod respond;
+mod responder;
+mod server;
+mod state;
+
+pub use answer::Cnc;
+pub use control::ControlError;
+pub(crate) use in_process::InProcess;
+pub(crate) use inspect::{Held, Holder};
+pub(crate) use model::Configured;
+pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
+pub use respond::{DATA_MAX, NET_ID};
+pub(crate) use respond::{FRAME_MAX, INFO, respond};
+pub use responder::Responder;
+pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
+
+use crate::edition::Edition;
+
+/// The edition of the manual with this name: `en-1.05` or `de-1.051`.
+///
+/// # Errors
+/// The names that there are.
+pub fn edition(name: &str) -> Result<Edition, String> {
+    let all = Edition::ALL;
+    all.into_iter().find(|edition| edition_name(*edition) == name).ok_or_else(|| {
+        format!("{name:?} is no edition; there are {}", all.map(edition_name).join(" and "))
+    })
+}
+
+/// The name of an edition, as [`edition`] takes it.
+pub fn edition_name(edition: Edition) -> String {
+    let document = edition.document();
+    let language = document.strip_prefix("ads-").unwrap_or(document);
+    format!("{language}-{}", edition.number())
+}
+
+/// The most bytes of a content: what a frame has room for beside a result and a length.
+const CONTENT_MAX: usize = 0xFFF8;
+
+fn to_u32(len: usize) -> u32 {
+    u32::try_from(len).unwrap_or(u32::MAX)
+}
+
+fn to_len(number: u32) -> usize {
+    usize::try_from(number).unwrap_or(usize::MAX)
+}

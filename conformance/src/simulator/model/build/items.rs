@@ -1,0 +1,244 @@
+//! Objects and elements.
+
+use ads_cnc::address::Class;
+use ads_cnc::limits::TEXT_MAX;
+use ads_cnc::{CncString, Descriptor};
+use toml::{Spanned, Value};
+
+use super::super::document::{ClassesTable, ElementRow, ElementTable, ObjectRow};
+use super::super::error::Source;
+use super::super::item::{ClassModel, Elements, Initial, Item, Meaning, Objects, Values};
+use super::super::types::{self, Named, Scalar};
+use super::super::{ModelError, class_place};
+use super::text;
+use crate::simulator::{CONTENT_MAX, to_len};
+
+/// Bytes of a STRING whose size is not said (VAR-25).
+pub(super) const STRING_DEFAULT: u32 = 21;
+
+/// Offsets from here on are those of axes.
+const OFFSET_OF_AXES: u32 = 0x1_0000;
+/// Elements from here on would be those of the next axis.
+const HLD_AXIS_STRIDE: usize = 0x1000;
+
+/// A value as it is declared, whatever it is of.
+pub(super) struct Declared<'a> {
+    pub(super) source: Source<'a>,
+    pub(super) types: &'static [Named],
+    pub(super) of_type: &'a Spanned<String>,
+    pub(super) size: Option<&'a Spanned<u32>>,
+    /// Elements of an array, multiplied.
+    pub(super) count: Option<usize>,
+    pub(super) value: Option<&'a Spanned<Value>>,
+    pub(super) values: Option<&'a Spanned<Vec<Value>>>,
+    pub(super) max: usize,
+}
+
+impl Declared<'_> {
+    /// The type's name, and the values at the start.
+    pub(super) fn read(&self) -> Result<(&'static str, Initial), ModelError> {
+        let of_type = self.of_type;
+        let error = |why: String| self.source.error(&of_type.span(), why);
+        let Named { name, scalar } = types::find(self.types, of_type.get_ref()).map_err(error)?;
+        let each = match (scalar.size(), self.size) {
+            (Some(size), None) => size,
+            (Some(_), Some(size)) => {
+                let why = format!("size is for a STRING; {name} has its own");
+                return Err(self.source.error(&size.span(), why));
+            }
+            (None, None) => to_len(STRING_DEFAULT),
+            (None, Some(size)) if *size.get_ref() == 0 => {
+                return Err(self.source.error(&size.span(), "a STRING has a NUL at least"));
+            }
+            (None, Some(size)) => to_len(*size.get_ref()),
+        };
+        let size = each.saturating_mul(self.count.unwrap_or(1));
+        if size > self.max {
+            return Err(error(format!("{size} bytes of value, at most {} fit", self.max)));
+        }
+        let values = match (self.value, self.values) {
+            (Some(_), Some(values)) => {
+                return Err(self.source.error(&values.span(), "either value or values"));
+            }
+            (None, None) => Values::Same(vec![0; size]),
+            (Some(value), None) => {
+                Values::Same(self.bytes(*scalar, each, value.get_ref(), &value.span())?)
+            }
+            (None, Some(values)) => {
+                let span = values.span();
+                let bytes = |value| self.bytes(*scalar, each, value, &span);
+                Values::Each(values.get_ref().iter().map(bytes).collect::<Result<_, _>>()?)
+            }
+        };
+        Ok((name, Initial { size, values }))
+    }
+
+    fn bytes(
+        &self,
+        scalar: Scalar,
+        each: usize,
+        value: &Value,
+        span: &std::ops::Range<usize>,
+    ) -> Result<Vec<u8>, ModelError> {
+        types::bytes(scalar, each, self.count, value).map_err(|why| self.source.error(span, why))
+    }
+}
+
+/// What `is` says; `of` is what it may be here.
+fn meaning(
+    source: Source<'_>,
+    is: Option<&Spanned<String>>,
+    writable: bool,
+    of: Option<&'static str>,
+) -> Result<Meaning, ModelError> {
+    let Some(is) = is else { return Ok(Meaning::Value) };
+    let error = |why: &str| Err(source.error(&is.span(), why));
+    match (is.get_ref().as_str(), of) {
+        ("axis-number", None) => error("axis-number is for what each axis has"),
+        ("axis-number", Some("number")) if writable => {
+            error("axes are exchanged between places of channels, not on the platform")
+        }
+        ("axis-number", Some(_)) => Ok(Meaning::AxisNumber),
+        _ => error("the one thing that a content can be is axis-number"),
+    }
+}
+
+/// Numbers have to be held by what is to have them.
+fn holds_numbers(
+    source: Source<'_>,
+    item: &Item,
+    span: &Spanned<String>,
+) -> Result<(), ModelError> {
+    let whole = !matches!(item.type_name, "STRING" | "REAL" | "LREAL" | "REAL32" | "REAL64");
+    if item.meaning == Meaning::Value || whole && item.initial.size >= 2 {
+        return Ok(());
+    }
+    Err(source.error(&span.span(), "an axis-number has an integer type of two bytes or more"))
+}
+
+/// Objects of a list; `of` is what an axis-number may be here.
+pub(super) fn objects(
+    source: Source<'_>,
+    rows: &[ObjectRow],
+    of: Option<&'static str>,
+) -> Result<Objects, ModelError> {
+    let mut objects = Objects::default();
+    for row in rows {
+        let name = text(source, &row.name)?;
+        let (type_name, initial) = Declared {
+            source,
+            types: types::OBJECT,
+            of_type: &row.r#type,
+            size: row.size.as_ref(),
+            count: None,
+            value: row.value.as_ref(),
+            values: row.values.as_ref(),
+            max: CONTENT_MAX,
+        }
+        .read()?;
+        // The codec knows how long names are.
+        Descriptor::new(row.name.get_ref(), type_name)
+            .map_err(|error| source.error(&row.name.span(), error))?;
+        let meaning = meaning(source, row.is.as_ref(), row.writable, of)?;
+        let unit = CncString::default();
+        let item = Item { name, type_name, unit, writable: row.writable, meaning, initial };
+        holds_numbers(source, &item, &row.r#type)?;
+        let (element, span) = (*row.offset.get_ref(), row.offset.span());
+        if element >= OFFSET_OF_AXES {
+            return Err(source.error(&span, "offsets from 0x10000 on are those of axes"));
+        }
+        if let (Some(id), Some(_)) = (&row.id, of) {
+            return Err(source.error(&id.span(), "what each axis has has an ID on each"));
+        }
+        if objects.by_element.insert(element, objects.items.len()).is_some() {
+            return Err(source.error(&span, format!("two objects are at offset {element:#x}")));
+        }
+        objects.items.push(item);
+        objects.elements.push(element);
+    }
+    Ok(objects)
+}
+
+pub(super) fn classes(
+    source: Source<'_>,
+    tables: &ClassesTable,
+) -> Result<[ClassModel; 6], ModelError> {
+    let mut classes: [ClassModel; 6] = Default::default();
+    let none = ElementTable::default();
+    let parts = [
+        (Class::PositionController, &none, &tables.position_controller.axis),
+        (Class::Interpolator, &tables.interpolator.channel, &tables.interpolator.axis),
+        (Class::Decoder, &tables.decoder.channel, &tables.decoder.axis),
+        (Class::Hld, &tables.hld.channel, &tables.hld.axis),
+        (Class::PathPreparation, &tables.path_preparation.channel, &tables.path_preparation.axis),
+        (Class::Spindle, &tables.spindle.each, &none),
+    ];
+    for (class, channel, axis) in parts {
+        // Platform axes have one place only, so that nothing is exchanged there.
+        let on_platform = matches!(class, Class::PositionController | Class::Hld);
+        let of = Some(if on_platform { "number" } else { "place" });
+        let max = if class == Class::Hld { HLD_AXIS_STRIDE } else { 0x1_0000 };
+        let channel = elements(source, channel, None, 0x1_0000)?;
+        let axis = elements(source, axis, of, max)?;
+        if let Some(part) = classes.get_mut(class_place(class)) {
+            *part = ClassModel { channel, axis };
+        }
+    }
+    Ok(classes)
+}
+
+fn elements(
+    source: Source<'_>,
+    table: &ElementTable,
+    of: Option<&'static str>,
+    max: usize,
+) -> Result<Elements, ModelError> {
+    let mut elements = Elements::default();
+    if let Some(name) = &table.name {
+        text(source, name)?;
+        // With room for a number.
+        if name.get_ref().chars().count() > 200 {
+            return Err(source.error(&name.span(), "an instance's name has at most 200 characters"));
+        }
+        elements.name.clone_from(name.get_ref());
+    }
+    for row in &table.elements {
+        if elements.items.len() >= max.saturating_sub(1) {
+            return Err(
+                source.error(&row.name.span(), "an element further would be another axis's")
+            );
+        }
+        elements.items.push(element(source, row, of)?);
+    }
+    Ok(elements)
+}
+
+fn element(
+    source: Source<'_>,
+    row: &ElementRow,
+    of: Option<&'static str>,
+) -> Result<Item, ModelError> {
+    let (name, unit) = (text(source, &row.name)?, row.unit.as_ref());
+    let unit = unit.map(|unit| Ok((text(source, unit)?, unit.span()))).transpose()?;
+    let (unit, unit_span) = unit.unwrap_or_default();
+    for (text, span) in [(&name, row.name.span()), (&unit, unit_span)] {
+        if text.as_bytes().len() >= TEXT_MAX {
+            return Err(source.error(&span, "at most 255 characters and a NUL"));
+        }
+    }
+    let (type_name, initial) = Declared {
+        source,
+        types: types::ELEMENT,
+        of_type: &row.r#type,
+        size: row.size.as_ref(),
+        count: None,
+        value: row.value.as_ref(),
+        values: row.values.as_ref(),
+        max: CONTENT_MAX,
+    }
+    .read()?;
+    let meaning = meaning(source, row.is.as_ref(), row.writable, of)?;
+    let item = Item { name, type_name, unit, writable: row.writable, meaning, initial };
+    holds_numbers(source, &item, &row.r#type)?;
+    Ok(item)
+}

@@ -1,0 +1,124 @@
+//! From the file to the model: every part is checked where it is read.
+
+mod channels;
+mod items;
+mod lists;
+mod parameters;
+mod programs;
+mod variables;
+
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+use ads_cnc::CncString;
+use toml::Spanned;
+
+use self::channels::Channels;
+pub(in crate::simulator) use self::parameters::kind as parameter_kind;
+use super::document::{AxisTable, Document};
+use super::error::Source;
+use super::{AxisModel, Model, ModelError, Settings};
+use crate::duration::duration;
+use crate::edition::{CncVersion, Edition};
+use crate::simulator::{edition, to_len};
+
+/// Platform axes, spindles and places of a channel: what index groups and handles have room for.
+const INSTANCES_MAX: usize = 255;
+
+pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, ModelError> {
+    let document: Document = toml::from_str(source.text).map_err(|error| {
+        // What is missing altogether has no place of its own.
+        source.error(&error.span().unwrap_or_default(), error.message())
+    })?;
+    let edition = match &document.edition {
+        Some(name) => edition(name.get_ref()).map_err(|why| source.error(&name.span(), why))?,
+        None => Edition::English,
+    };
+    let version = match &document.cnc_version {
+        Some(text) => {
+            let parsed = CncVersion::new(text.get_ref());
+            Some(parsed.map_err(|why| source.error(&text.span(), why))?)
+        }
+        None => None,
+    };
+    let spindles = match &document.spindles {
+        Some(count) if to_len(*count.get_ref()) > INSTANCES_MAX => {
+            return Err(source.error(&count.span(), "there are at most 255 spindles"));
+        }
+        Some(count) => to_len(*count.get_ref()),
+        None => 0,
+    };
+    let axes = axes(source, &document.axis)?;
+    let platform = items::objects(source, &document.platform.objects, None)?;
+    let platform_axis = items::objects(source, &document.platform_axis.objects, Some("number"))?;
+    let channel_axis = items::objects(source, &document.channel_axis.objects, Some("place"))?;
+    let axis_variables = variables::of_axes(source, &document.channel_axis.variables)?;
+    let classes = items::classes(source, &document.class)?;
+    let (edition, version) = (settings.edition.unwrap_or(edition), settings.version.or(version));
+    let channels = Channels {
+        source,
+        axes: &axes,
+        platform: &platform,
+        axis_variables: &axis_variables,
+        version,
+    }
+    .build(&document.channel)?;
+    let mut model = Model {
+        edition,
+        version,
+        channels,
+        axes,
+        spindles,
+        platform,
+        platform_axis,
+        channel_axis,
+        axis_variables,
+        classes,
+        platform_list: Default::default(),
+        axis_lists: Vec::new(),
+    };
+    lists::fill(source, &document, &mut model)?;
+    Ok(model)
+}
+
+fn axes(source: Source<'_>, tables: &[AxisTable]) -> Result<Vec<AxisModel>, ModelError> {
+    let (mut axes, mut numbers) = (Vec::new(), BTreeSet::new());
+    for (place, table) in (1_u32..).zip(tables) {
+        let span = table.name.span();
+        if axes.len() >= INSTANCES_MAX {
+            return Err(source.error(&span, "there are at most 255 platform axes"));
+        }
+        let name = text(source, &table.name)?;
+        let apart = |byte: &u8| b".[]".contains(byte);
+        if name.as_bytes().is_empty() || name.as_bytes().iter().any(apart) {
+            return Err(source.error(&span, "an axis's name has a character, and none of . [ ]"));
+        }
+        let (number, span) = match &table.number {
+            Some(number) => (*number.get_ref(), number.span()),
+            None => (place, span),
+        };
+        if number == 0 {
+            return Err(source.error(&span, "the logical axis number 0 is that of no axis"));
+        }
+        if !numbers.insert(number) {
+            return Err(source.error(&span, format!("two axes have the logical number {number}")));
+        }
+        axes.push(AxisModel { name, number });
+    }
+    Ok(axes)
+}
+
+/// CP1252.
+fn text(source: Source<'_>, text: &Spanned<String>) -> Result<CncString, ModelError> {
+    text.get_ref().parse().map_err(|error| source.error(&text.span(), error))
+}
+
+/// A number and its unit.
+fn time(source: Source<'_>, said: &Spanned<String>) -> Result<Duration, ModelError> {
+    duration(said.get_ref()).map_err(|why| source.error(&said.span(), why))
+}
+
+/// Whether it encodes, whatever it is.
+fn encodes(what: &impl ads_cnc::Encode) -> Result<(), String> {
+    what.encode_to_vec().map(drop).map_err(|error| error.to_string())
+}

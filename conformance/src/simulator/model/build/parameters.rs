@@ -1,0 +1,73 @@
+//! Dynamic parameters.
+
+use std::collections::BTreeSet;
+
+use ads_cnc::dynamic::{DynamicKind, DynamicValue};
+use ads_cnc::limits::DYNAMIC_NAME_MAX;
+use ads_cnc::{CncString, VariablePath};
+use toml::Spanned;
+
+use super::super::document::ParameterRow;
+use super::super::error::Source;
+use super::super::item::Objects;
+use super::super::{ModelError, Parameter, Times};
+
+/// The parameters of a channel that has these objects.
+pub(super) fn of_channel(
+    source: Source<'_>,
+    rows: &[ParameterRow],
+    objects: &Objects,
+) -> Result<Vec<Parameter>, ModelError> {
+    let (mut parameters, mut names) = (Vec::new(), BTreeSet::new());
+    for row in rows {
+        let span = row.name.span();
+        let name = super::text(source, &row.name)?;
+        let kind = kind(&name).map_err(|why| source.error(&span, why))?;
+        let needs = row.r#while.as_ref().map(|object| {
+            let named = |item: &&super::super::Item| item.name.to_string() == *object.get_ref();
+            let place = objects.items.iter().position(|item| named(&item));
+            place.ok_or_else(|| {
+                let why = format!("the channel has no object {:?} of its own", object.get_ref());
+                source.error(&object.span(), why)
+            })
+        });
+        if !names.insert(name.clone()) {
+            return Err(source.error(&span, format!("{name} is there twice")));
+        }
+        let (value, needs) = (DynamicValue::from(row.value), needs.transpose()?);
+        let times = times(source, row)?;
+        parameters.push(Parameter { kind, name, value, needs, times });
+    }
+    Ok(parameters)
+}
+
+fn times(source: Source<'_>, row: &ParameterRow) -> Result<Times, ModelError> {
+    let time = |said: &Option<Spanned<String>>| {
+        said.as_ref().map(|said| super::time(source, said)).transpose()
+    };
+    let (comes, goes, period) = (time(&row.comes)?, time(&row.goes)?, time(&row.period)?);
+    let times = Times::new(comes.unwrap_or_default(), goes, period);
+    times.map_err(|why| {
+        let last = row.period.as_ref().or(row.goes.as_ref()).or(row.comes.as_ref());
+        source.error(&last.map_or_else(|| row.name.span(), Spanned::span), why)
+    })
+}
+
+/// The kind of parameter that has this name.
+pub(in crate::simulator) fn kind(name: &CncString) -> Result<DynamicKind, String> {
+    if name.as_bytes().len() >= DYNAMIC_NAME_MAX {
+        return Err(format!(
+            "a parameter's name has at most {DYNAMIC_NAME_MAX} bytes with its NUL"
+        ));
+    }
+    if let Some(rest) = name.as_bytes().strip_prefix(b"P")
+        && !rest.is_empty()
+    {
+        return Ok(DynamicKind::P);
+    }
+    let kind = [DynamicKind::VL, DynamicKind::VP, DynamicKind::VS].into_iter().find(|kind| {
+        let path = VariablePath::from_text(name.as_cnc_str());
+        path.is_ok_and(|path| path.kind().text().to_string() == kind.to_string())
+    });
+    kind.ok_or_else(|| "a parameter's name begins with P, V.L., V.P. or V.S.".to_owned())
+}

@@ -1,0 +1,108 @@
+//! NC programs of a channel: the streaming program, and the one that asks services.
+
+use std::time::Duration;
+
+use ads_cnc::service::ServiceId;
+use toml::{Spanned, Value};
+
+use super::super::ModelError;
+use super::super::document::{RequestRow, ServiceTable, StreamingTable};
+use super::super::error::Source;
+use crate::duration::some_time;
+use crate::simulator::program::{
+    Pace, ParsePaceError, ProgramConfig, Repeat, Request, Script, ScriptConfig, Start, Wait,
+};
+
+/// The streaming program; one that starts again and again if nothing is said, as nobody can start
+/// it over ADS.
+pub(super) fn streaming(
+    source: Source<'_>,
+    table: &StreamingTable,
+) -> Result<ProgramConfig, ModelError> {
+    let mut config = ProgramConfig { start: Start::Again, ..ProgramConfig::default() };
+    if let Some(file) = &table.file {
+        config.name.clone_from(file);
+    }
+    if let Some(start) = &table.start {
+        config.start = match start.get_ref().as_str() {
+            "again" => Start::Again,
+            "once" => Start::Once,
+            "by-hand" => Start::ByHand,
+            other => {
+                let why = format!("{other:?} is none of again, once and by-hand");
+                return Err(source.error(&start.span(), why));
+            }
+        };
+    }
+    if let Some(said) = &table.pace {
+        config.pace = pace(said.get_ref()).map_err(|why| source.error(&said.span(), why))?;
+    }
+    Ok(config)
+}
+
+fn pace(said: &Value) -> Result<Pace, ParsePaceError> {
+    match said {
+        Value::Integer(lines) => lines.to_string().parse(),
+        Value::String(text) => text.parse(),
+        _ => Err(ParsePaceError),
+    }
+}
+
+/// The program that asks services.
+pub(super) fn service(
+    source: Source<'_>,
+    table: &ServiceTable,
+) -> Result<ScriptConfig, ModelError> {
+    let rows = table.requests.get_ref();
+    if rows.is_empty() {
+        return Err(source.error(&table.requests.span(), "there is no request to be made"));
+    }
+    let repeat = match &table.times {
+        Some(times) if *times.get_ref() == 0 => {
+            return Err(source.error(&times.span(), "requests are made once at least"));
+        }
+        Some(times) => Repeat::Times(*times.get_ref()),
+        None => Repeat::Endless,
+    };
+    let pause = table.pause.as_ref().map(|said| super::time(source, said)).transpose()?;
+    let cycle = table
+        .cycle
+        .as_ref()
+        .map(|said| some_time(said.get_ref()).map_err(|why| source.error(&said.span(), why)));
+    Ok(ScriptConfig {
+        requests: rows.iter().map(|row| request(source, row)).collect::<Result<_, _>>()?,
+        repeat,
+        pause: pause.unwrap_or(Duration::from_secs(1)),
+        cycle: cycle.transpose()?.unwrap_or(Duration::from_millis(1)),
+    })
+}
+
+fn request(source: Source<'_>, row: &RequestRow) -> Result<Request, ModelError> {
+    let uuid = ServiceId::new(row.uuid.get_ref());
+    let uuid = uuid.map_err(|error| source.error(&row.uuid.span(), error))?;
+    let text = super::text(source, &row.request)?;
+    let wait = row.wait.as_ref().map(Spanned::get_ref);
+    let request = Request {
+        uuid,
+        text,
+        state: row.state.as_ref().map_or(1, |state| *state.get_ref()),
+        wait: wait.map_or(Wait::Loop, |wait| Wait::Cycle { p1: wait.p1, p2: wait.p2, p3: wait.p3 }),
+    };
+    let alone = ScriptConfig {
+        requests: vec![request.clone()],
+        repeat: Repeat::Times(1),
+        pause: Duration::ZERO,
+        cycle: Duration::ZERO,
+    };
+    if let Err(invalid) = Script::new(alone) {
+        // Whichever of them it is about.
+        let timer = wait.is_some_and(|wait| wait.p2.is_some() && wait.p3.is_none());
+        let span = match (&row.state, &row.wait) {
+            (Some(state), _) if *state.get_ref() == 0 => state.span(),
+            (_, Some(wait)) if timer => wait.span(),
+            _ => row.request.span(),
+        };
+        return Err(source.error(&span, invalid.error));
+    }
+    Ok(request)
+}

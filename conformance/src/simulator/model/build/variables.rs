@@ -1,0 +1,240 @@
+//! Variables.
+
+use std::collections::HashMap;
+
+use ads_cnc::limits::{HANDLE_VALUE_MAX, NAME_MAX, NAME_VALUE_MAX, VARIABLE_MAX};
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::{
+    CncString, DescriptionRef, ExtendedDescription, Handle, Kind, Synchronisation, TextRef,
+    Validity, VariableAccess, VariablePath, VariableType,
+};
+use toml::Spanned;
+
+use super::super::ModelError;
+use super::super::document::VariableRow;
+use super::super::error::Source;
+use super::super::item::{Initial, Values};
+use super::super::types;
+use super::super::variable::{Variable, Variables};
+use super::encodes;
+use super::items::Declared;
+use crate::simulator::{to_len, to_u32};
+
+/// Room for the axis's name behind that of its variable.
+const AXIS_NAME_MAX: usize = 64;
+
+/// A variable and where it is declared.
+fn variable(source: Source<'_>, row: &VariableRow) -> Result<Variable, ModelError> {
+    let span = row.name.span();
+    let name: CncString = super::text(source, &row.name)?;
+    let path = VariablePath::from_text(name.as_cnc_str());
+    let path = path.map_err(|error| source.error(&span, error))?;
+    if !path.elements().is_empty() {
+        return Err(source.error(&span, "an index at the end is an element's, not the variable's"));
+    }
+    let dimensions = row.dimensions.as_ref().map(|of| of.get_ref().clone()).unwrap_or_default();
+    let mut count = dimensions.iter().map(|&elements| to_len(elements));
+    let count = count.try_fold(1_usize, |count, elements| count.checked_mul(elements));
+    let Some(count) = count.filter(|&count| count > 0) else {
+        let of = row.dimensions.as_ref().map(Spanned::span).unwrap_or(span);
+        return Err(source.error(&of, "every dimension has an element, and they can be counted"));
+    };
+    let (type_name, initial) = Declared {
+        source,
+        types: types::VARIABLE,
+        of_type: &row.r#type,
+        size: row.size.as_ref(),
+        count: Some(count).filter(|_| !dimensions.is_empty()),
+        value: row.value.as_ref(),
+        values: row.values.as_ref(),
+        max: VARIABLE_MAX,
+    }
+    .read()?;
+    let access = if row.writable { VariableAccess::READ_WRITE } else { VariableAccess::READ_ONLY };
+    let extended = extended(source, row, path.kind() == Kind::V_E)?;
+    let variable = Variable {
+        handle: row.handle.as_ref().map(|handle| Handle(*handle.get_ref())),
+        var_type: types::code(type_name),
+        access,
+        dimensions,
+        initial,
+        extended,
+        service: None,
+        name,
+    };
+    // Name and dimensions have limits of their own, which the codec knows.
+    encodes(&description(&variable)).map_err(|why| source.error(&span, why))?;
+    Ok(variable)
+}
+
+fn description(variable: &Variable) -> DescriptionRef<'_> {
+    DescriptionRef {
+        handle: Handle(0),
+        var_type: variable.var_type,
+        access: variable.access,
+        size: to_u32(variable.initial.size),
+        dimensions: variable.dimensions.as_slice().into(),
+        name: TextRef::from(variable.name.as_cnc_str()),
+    }
+}
+
+/// What only V.E has; as the example prints it, if nothing is said.
+fn extended(
+    source: Source<'_>,
+    row: &VariableRow,
+    external: bool,
+) -> Result<Option<ExtendedDescription>, ModelError> {
+    if !external {
+        return match row.synchronisation.as_ref().or(row.validity.as_ref()) {
+            Some(said) => Err(source.error(&said.span(), "only V.E has an extended description")),
+            None => Ok(None),
+        };
+    }
+    let unknown = |said: &Spanned<String>, names: &str| {
+        source.error(&said.span(), format!("{:?} is none of {names}", said.get_ref()))
+    };
+    let synchronisation = match &row.synchronisation {
+        None => Synchronisation::SYNCHRONIZED,
+        Some(said) => match said.get_ref().as_str() {
+            "NO_SYNC" => Synchronisation::NO_SYNC,
+            "SYNCHRONIZED" => Synchronisation::SYNCHRONIZED,
+            _ => return Err(unknown(said, "NO_SYNC and SYNCHRONIZED")),
+        },
+    };
+    let validity = match &row.validity {
+        None => Validity::GLOBAL,
+        Some(said) => match said.get_ref().as_str() {
+            "CHANNEL" => Validity::CHANNEL,
+            "GLOBAL" => Validity::GLOBAL,
+            _ => return Err(unknown(said, "CHANNEL and GLOBAL")),
+        },
+    };
+    Ok(Some(ExtendedDescription { synchronisation, validity }))
+}
+
+/// V.A, which every axis has.
+pub(super) fn of_axes(source: Source<'_>, rows: &[VariableRow]) -> Result<Variables, ModelError> {
+    let mut variables = Variables::default();
+    for (number, row) in (0_u32..).zip(rows) {
+        let span = row.name.span();
+        let mut variable = variable(source, row)?;
+        if !starts_with(&variable.name, "V.A.") {
+            return Err(source.error(&span, "what each axis has is V.A"));
+        }
+        if variable.name.as_bytes().len() > NAME_MAX.saturating_sub(AXIS_NAME_MAX) {
+            let why = format!("its name and that of an axis exceed {NAME_MAX} characters");
+            return Err(source.error(&span, why));
+        }
+        let handle = variable.handle.unwrap_or(Handle(0xC000_0000 | number));
+        if handle.0 & 0x00FF_FF00 != 0 {
+            let why = "the bits 8 to 23 of an axis variable's handle are place and channel";
+            return Err(source.error(&handle_span(row), why));
+        }
+        variable.handle = Some(handle);
+        add(source, row, &mut variables, variable)?;
+    }
+    Ok(variables)
+}
+
+/// V.E, V.G and V.CYC of a channel, and the five of its Service Interface.
+pub(super) fn of_channel(
+    source: Source<'_>,
+    number: u8,
+    rows: &[VariableRow],
+    service: bool,
+) -> Result<Variables, ModelError> {
+    let mut variables = Variables::default();
+    let mut of_kinds = HashMap::new();
+    for row in rows {
+        let span = row.name.span();
+        let mut variable = variable(source, row)?;
+        let named = |kind| starts_with(&variable.name, kind);
+        let (external, global, cyclic) = (named("V.E."), named("V.G."), named("V.CYC."));
+        if !(external || global || cyclic) {
+            let why = "a channel's variables are V.E, V.G and V.CYC; V.A are what each axis has, \
+                       V.P, V.L and V.S parameters";
+            return Err(source.error(&span, why));
+        }
+        if cyclic {
+            if let Some(handle) = &row.handle {
+                return Err(source.error(&handle.span(), "V.CYC is by name only"));
+            }
+        } else {
+            let index = of_kinds.entry(global).or_insert(0_u32);
+            variable.handle.get_or_insert(handle(number, global, *index));
+            *index = index.saturating_add(1);
+        }
+        if let Some(values) = &row.values {
+            return Err(
+                source.error(&values.span(), "values are for what there is more than one of")
+            );
+        }
+        if service
+            && ServiceVariable::ALL
+                .iter()
+                .any(|one| variable.name.as_bytes() == one.name().as_bytes())
+        {
+            return Err(source.error(&span, "the Service Interface has its variables of itself"));
+        }
+        add(source, row, &mut variables, variable)?;
+    }
+    let index = of_kinds.get(&true).copied().unwrap_or(0);
+    for (index, one) in (index..).zip(ServiceVariable::ALL).filter(|_| service) {
+        let place = variables.list.len();
+        variables.by_name.insert(one.name().as_bytes().to_vec(), place);
+        variables.list.push(service_variable(one, handle(number, true, index)));
+    }
+    Ok(variables)
+}
+
+/// A handle that no other variable has, unless one is declared with it.
+fn handle(channel: u8, global: bool, index: u32) -> Handle {
+    let kind: u32 = if global { 0x8000_0000 } else { 0x4000_0000 };
+    Handle(kind | u32::from(channel) << 22 | index)
+}
+
+fn service_variable(one: ServiceVariable, handle: Handle) -> Variable {
+    let size = match one.var_type() {
+        VariableType::STRING => ads_cnc::limits::SERVICE_TEXT_MAX,
+        _ => 4,
+    };
+    Variable {
+        name: one.name().parse().unwrap_or_default(),
+        handle: Some(handle),
+        var_type: one.var_type(),
+        access: VariableAccess::READ_WRITE,
+        dimensions: Vec::new(),
+        initial: Initial { size, values: Values::Same(vec![0; size]) },
+        extended: None,
+        service: Some(one),
+    }
+}
+
+fn add(
+    source: Source<'_>,
+    row: &VariableRow,
+    variables: &mut Variables,
+    variable: Variable,
+) -> Result<(), ModelError> {
+    let size = variable.initial.size;
+    // As long as it can be read it could not be written, whole.
+    let most = NAME_VALUE_MAX.saturating_sub(variable.name.as_bytes().len()).min(HANDLE_VALUE_MAX);
+    if row.writable && variable.dimensions.is_empty() && size > most {
+        let why = format!("{size} bytes of value, at most {most} can be written");
+        return Err(source.error(&row.name.span(), why));
+    }
+    let place = variables.list.len();
+    if variables.by_name.insert(variable.name.as_bytes().to_vec(), place).is_some() {
+        return Err(source.error(&row.name.span(), format!("{} is there twice", variable.name)));
+    }
+    variables.list.push(variable);
+    Ok(())
+}
+
+pub(super) fn handle_span(row: &VariableRow) -> std::ops::Range<usize> {
+    row.handle.as_ref().map_or_else(|| row.name.span(), Spanned::span)
+}
+
+fn starts_with(name: &CncString, kind: &str) -> bool {
+    name.as_bytes().starts_with(kind.as_bytes())
+}

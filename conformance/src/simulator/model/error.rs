@@ -1,0 +1,63 @@
+//! An error of a data model, and where it is.
+
+use std::ops::Range;
+
+/// A data model that cannot be served: where it says what cannot be, and why not.
+///
+/// ```
+/// use ads_cnc_conformance::simulator::Model;
+///
+/// let error = Model::from_toml("[[channel]]\nnumber = 0\n", "mine.toml").unwrap_err();
+/// assert_eq!(error.to_string(), "mine.toml:2: channel numbers are 1 to 255, not 0");
+/// assert_eq!(error.line(), Some(2));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{file}{}: {reason}", line.map(|line| format!(":{line}")).unwrap_or_default())]
+pub struct ModelError {
+    file: String,
+    line: Option<usize>,
+    reason: String,
+}
+
+impl ModelError {
+    /// The line, from 1; none if the file cannot be read at all.
+    pub const fn line(&self) -> Option<usize> {
+        self.line
+    }
+
+    /// The error.
+    pub fn reason(&self) -> &str {
+        &self.reason
+    }
+
+    pub(super) fn of_file(file: &str, reason: impl ToString) -> Self {
+        Self { file: file.to_owned(), line: None, reason: reason.to_string() }
+    }
+}
+
+/// A file under reading: makes errors of places in it.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    pub(super) file: &'a str,
+    pub(super) text: &'a str,
+}
+
+impl Source<'_> {
+    pub(super) fn error(self, span: &Range<usize>, reason: impl ToString) -> ModelError {
+        let line = Some(line(self.text.as_bytes(), span.start));
+        ModelError { file: self.file.to_owned(), line, reason: reason.to_string() }
+    }
+
+    /// A file that is no text from there on.
+    pub(super) fn not_text(bytes: &[u8], at: usize, file: &str) -> ModelError {
+        let byte = bytes.get(at).copied().unwrap_or_default();
+        let reason = format!("text in UTF-8 is needed, and byte {byte:#04X} is none");
+        ModelError { file: file.to_owned(), line: Some(line(bytes, at)), reason }
+    }
+}
+
+/// The line of a place, from 1.
+fn line(bytes: &[u8], at: usize) -> usize {
+    let before = bytes.get(..at).unwrap_or(bytes);
+    before.iter().filter(|&&byte| byte == b'\n').count().saturating_add(1)
+}

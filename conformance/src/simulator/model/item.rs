@@ -1,0 +1,101 @@
+//! What objects and elements have in common: a content of a type.
+
+use std::collections::HashMap;
+
+use ads_cnc::CncString;
+
+/// An object or element.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::simulator) struct Item {
+    pub(in crate::simulator) name: CncString,
+    pub(in crate::simulator) type_name: &'static str,
+    pub(in crate::simulator) unit: CncString,
+    pub(in crate::simulator) writable: bool,
+    pub(in crate::simulator) meaning: Meaning,
+    pub(in crate::simulator) initial: Initial,
+}
+
+impl Item {
+    /// Whether a write may be shorter than the content.
+    pub(in crate::simulator) fn is_text(&self) -> bool {
+        self.type_name == "STRING"
+    }
+}
+
+/// Where a content is from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::simulator) enum Meaning {
+    /// It is what was written last.
+    Value,
+    /// The logical number of the axis at the place, 0 for none. Writing it exchanges axes.
+    AxisNumber,
+}
+
+/// Values at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::simulator) struct Initial {
+    /// Bytes of each.
+    pub(in crate::simulator) size: usize,
+    pub(super) values: Values,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Values {
+    /// One for all instances.
+    Same(Vec<u8>),
+    /// One for each; zeros for those behind.
+    Each(Vec<Vec<u8>>),
+}
+
+impl Initial {
+    /// The value of an instance, from 0.
+    pub(in crate::simulator) fn of(&self, instance: usize) -> Vec<u8> {
+        match &self.values {
+            Values::Same(value) => value.clone(),
+            Values::Each(values) => {
+                values.get(instance).cloned().unwrap_or_else(|| vec![0; self.size])
+            }
+        }
+    }
+}
+
+/// COM objects of a channel, of the platform, or of each axis.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::simulator) struct Objects {
+    pub(in crate::simulator) items: Vec<Item>,
+    /// Low part of the offset of each.
+    pub(in crate::simulator) elements: Vec<u32>,
+    pub(super) by_element: HashMap<u32, usize>,
+}
+
+impl Objects {
+    /// The object at this element.
+    pub(in crate::simulator) fn at(&self, element: u32) -> Option<usize> {
+        self.by_element.get(&element).copied()
+    }
+}
+
+/// The elements of each instance of a class.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::simulator) struct Elements {
+    /// Name of an instance; `{}` in it stands for its number.
+    pub(super) name: String,
+    /// From element 1 on.
+    pub(in crate::simulator) items: Vec<Item>,
+}
+
+impl Elements {
+    /// The name of the instance with this number.
+    pub(in crate::simulator) fn name(&self, number: impl ToString) -> String {
+        self.name.replace("{}", &number.to_string())
+    }
+}
+
+/// A class of SDA and GEO.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::simulator) struct ClassModel {
+    /// Of each channel; of the spindles, of each spindle.
+    pub(in crate::simulator) channel: Elements,
+    /// Of each axis.
+    pub(in crate::simulator) axis: Elements,
+}

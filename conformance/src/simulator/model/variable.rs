@@ -1,0 +1,130 @@
+//! Variables, and parts of their values.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::{CncString, ExtendedDescription, Handle, U32List, VariableAccess, VariableType};
+
+use super::item::Initial;
+use crate::simulator::to_len;
+
+/// A variable, or that of every axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::simulator) struct Variable {
+    /// With its kind in front; without the axis's name behind.
+    pub(in crate::simulator) name: CncString,
+    /// None by name only. Of axes, place 0's: each place's is 0x10000 further.
+    pub(in crate::simulator) handle: Option<Handle>,
+    pub(in crate::simulator) var_type: VariableType,
+    pub(in crate::simulator) access: VariableAccess,
+    /// Elements in each dimension; none for an elementary variable.
+    pub(in crate::simulator) dimensions: Vec<u32>,
+    /// All elements, the last index running fastest.
+    pub(in crate::simulator) initial: Initial,
+    /// What only V.E has.
+    pub(in crate::simulator) extended: Option<ExtendedDescription>,
+    /// The variable of the Service Interface that it is.
+    pub(in crate::simulator) service: Option<ServiceVariable>,
+}
+
+impl Variable {
+    pub(in crate::simulator) fn is_writable(&self) -> bool {
+        self.access == VariableAccess::READ_WRITE
+    }
+
+    /// Where in the value: all of it without indices, one element with one index for each
+    /// dimension. None for another number of indices, and for an index out of bounds.
+    pub(in crate::simulator) fn part(&self, indices: U32List<'_>) -> Option<Range<usize>> {
+        if indices.is_empty() {
+            return Some(0..self.initial.size);
+        }
+        if indices.len() != self.dimensions.len() {
+            return None;
+        }
+        let (mut place, mut count) = (0_usize, 1_usize);
+        for (index, &elements) in indices.iter().zip(&self.dimensions) {
+            if index >= elements {
+                return None;
+            }
+            place = place.checked_mul(to_len(elements))?.checked_add(to_len(index))?;
+            count = count.checked_mul(to_len(elements))?;
+        }
+        let size = self.initial.size.checked_div(count)?;
+        let start = place.checked_mul(size)?;
+        Some(start..start.checked_add(size)?)
+    }
+
+    /// Whether indices select one STRING, which may be written shorter than it is declared.
+    pub(in crate::simulator) fn is_text(&self, indices: U32List<'_>) -> bool {
+        self.var_type == VariableType::STRING && indices.len() == self.dimensions.len()
+    }
+}
+
+/// Variables with their names.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::simulator) struct Variables {
+    pub(in crate::simulator) list: Vec<Variable>,
+    pub(super) by_name: HashMap<Vec<u8>, usize>,
+}
+
+impl Variables {
+    /// The variable with just this name.
+    pub(in crate::simulator) fn named(&self, name: &[u8]) -> Option<usize> {
+        self.by_name.get(name).copied()
+    }
+}
+
+/// What a handle stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::simulator) enum At {
+    /// A variable of the channel.
+    Own(usize),
+    /// The variable of whatever axis is at a place of the channel, from 0 (VAR-10).
+    Place { place: usize, variable: usize },
+}
+
+/// The handle of an axis variable at a place, from 1, of a channel: printed is 0x0102001B, of the
+/// second place of channel 1.
+pub(in crate::simulator) fn handle_at(of_axis: Handle, channel: u8, place: u8) -> Handle {
+    let channel = u32::from(channel).saturating_sub(1);
+    Handle(of_axis.0 | u32::from(place) << 16 | channel << 8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::item::Values;
+    use super::*;
+
+    fn cube() -> Variable {
+        Variable {
+            name: "V.E.cube".parse().unwrap(),
+            handle: None,
+            var_type: VariableType::SGN16,
+            access: VariableAccess::READ_ONLY,
+            dimensions: vec![2, 3, 4],
+            initial: Initial { size: 48, values: Values::Same(vec![0; 48]) },
+            extended: None,
+            service: None,
+        }
+    }
+
+    #[test]
+    fn the_last_index_runs_fastest() {
+        let cube = cube();
+        assert_eq!(cube.part(U32List::from(&[0, 0, 1])), Some(2..4));
+        assert_eq!(cube.part(U32List::from(&[0, 1, 0])), Some(8..10));
+        assert_eq!(cube.part(U32List::from(&[1, 2, 3])), Some(46..48));
+        assert_eq!(cube.part(U32List::EMPTY), Some(0..48));
+    }
+
+    #[test]
+    fn indices_out_of_bounds_or_of_another_number_address_nothing() {
+        let cube = cube();
+        for indices in [&[2, 0, 0][..], &[0, 3, 0], &[0, 0, 4], &[u32::MAX; 3], &[0], &[0; 4]] {
+            assert_eq!(cube.part(U32List::from(indices)), None, "{indices:?}");
+        }
+        let elementary = Variable { dimensions: vec![], ..cube };
+        assert_eq!(elementary.part(U32List::from(&[0])), None);
+    }
+}

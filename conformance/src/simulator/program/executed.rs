@@ -1,0 +1,113 @@
+//! What was run.
+
+/// The lines that a program has run, in their order: all of them as numbers, the latest as text.
+///
+/// ```
+/// use std::time::Duration;
+///
+/// use ads_cnc_conformance::simulator::program::{Pace, Program, ProgramConfig, digest};
+///
+/// let config = ProgramConfig { pace: Pace::Fast, kept: 20, ..ProgramConfig::default() };
+/// let mut program = Program::new(config);
+/// let text = b"N10 X1\r\nN20 X2\r\nN30 X3\r\nN40 X4\r\nN50 X5\r\nN60 X6\r\n";
+/// program.write(text, Duration::ZERO);
+/// let executed = program.executed();
+/// assert_eq!((executed.line_count(), executed.byte_count()), (6, 48));
+/// assert_eq!(executed.digest(), digest(text));
+/// assert!(executed.lines().eq([&b"N40 X4"[..], b"N50 X5", b"N60 X6"]));
+/// assert_eq!(executed.first_kept(), 4);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Executed {
+    lines: u64,
+    bytes: u64,
+    digest: u64,
+    /// The latest lines, whole.
+    kept: Vec<u8>,
+    kept_lines: u64,
+    /// So many bytes of them at least, if there are so many. Twice as many at most, and a line.
+    room: usize,
+}
+
+impl Executed {
+    pub(super) fn new(room: usize) -> Self {
+        Self { lines: 0, bytes: 0, digest: BASIS, kept: Vec::new(), kept_lines: 0, room }
+    }
+
+    /// How many lines.
+    pub fn line_count(&self) -> u64 {
+        self.lines
+    }
+
+    /// How many bytes, line ends included.
+    pub fn byte_count(&self) -> u64 {
+        self.bytes
+    }
+
+    /// [`digest`] of all bytes, line ends included.
+    pub fn digest(&self) -> u64 {
+        self.digest
+    }
+
+    /// The latest lines, as they came: each with its line end.
+    pub fn kept(&self) -> &[u8] {
+        &self.kept
+    }
+
+    /// Number of the first line that is kept, from 1; one past the last if none is.
+    pub fn first_kept(&self) -> u64 {
+        self.lines.saturating_sub(self.kept_lines).saturating_add(1)
+    }
+
+    /// The latest lines without their ends.
+    pub fn lines(&self) -> impl Iterator<Item = &[u8]> {
+        lines(&self.kept).map(|line| line.strip_suffix(b"\r\n").unwrap_or(line))
+    }
+
+    pub(super) fn push(&mut self, line: &[u8]) {
+        self.lines = self.lines.saturating_add(1);
+        self.bytes = self.bytes.saturating_add(u64::try_from(line.len()).unwrap_or(u64::MAX));
+        self.digest = fnv(self.digest, line);
+        if self.kept.len().saturating_add(line.len()) > self.room.saturating_mul(2) {
+            self.forget();
+        }
+        self.kept.extend_from_slice(line);
+        self.kept_lines = self.kept_lines.saturating_add(1);
+    }
+
+    /// Keeps what there is room for.
+    fn forget(&mut self) {
+        let mut surplus = 0_usize;
+        while self.kept.len().saturating_sub(surplus) > self.room {
+            let rest = self.kept.get(surplus..).unwrap_or_default();
+            let Some(line) = lines(rest).next() else { break };
+            surplus = surplus.saturating_add(line.len());
+            self.kept_lines = self.kept_lines.saturating_sub(1);
+        }
+        self.kept.drain(..surplus);
+    }
+}
+
+/// The lines of bytes that came through the streaming interface, with their ends.
+pub(crate) fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+    bytes.split_inclusive(|&byte| byte == b'\n')
+}
+
+const BASIS: u64 = 0xCBF2_9CE4_8422_2325;
+
+/// FNV-1a, 64 bits: not against malice.
+///
+/// ```
+/// use ads_cnc_conformance::simulator::program::digest;
+///
+/// assert_eq!(digest(b"foobar"), 0x85944171f73967e8);
+/// ```
+pub fn digest(bytes: &[u8]) -> u64 {
+    fnv(BASIS, bytes)
+}
+
+fn fnv(digest: u64, bytes: &[u8]) -> u64 {
+    bytes
+        .iter()
+        .fold(digest, |digest, &byte| (digest ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3))
+}

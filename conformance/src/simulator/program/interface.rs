@@ -1,0 +1,114 @@
+//! The CNC's end of data streaming.
+
+use std::fmt;
+
+use ads_cnc::limits::{STREAM_MAX, STREAM_PACKET_MAX};
+use ads_cnc::streaming::{Ack, LineError, check_line_ends};
+
+/// The interface through which a CNC gets its stream: what was written and not read yet, at most
+/// 4094 bytes.
+///
+/// Manual: `stream-en`, sections 2.2, 3.1, 4.1 and 4.2 (STM-3, STM-5, STM-6, STM-11, STM-12,
+/// STM-15).
+///
+/// ```
+/// use ads_cnc::streaming::Ack;
+/// use ads_cnc_conformance::simulator::program::StreamingInterface;
+///
+/// let mut interface = StreamingInterface::new();
+/// assert_eq!(interface.write(b"N10 G0 X0\r\n"), Ack::Accepted);
+/// assert_eq!(interface.write(b"N20 M30\r\n"), Ack::Accepted);
+/// assert_eq!(interface.read()?, b"N10 G0 X0\r\nN20 M30\r\n");
+/// assert!(interface.is_empty());
+///
+/// // A line end that is missing shows when the CNC reads: error 21476.
+/// assert_eq!(interface.write(b"N30 G0 X0\n"), Ack::Accepted);
+/// assert_eq!(
+///     interface.read().unwrap_err().to_string(),
+///     "line 1, column 10: CR LF expected, LF alone found (STM-5)"
+/// );
+/// # Ok::<(), ads_cnc::streaming::LineError>(())
+/// ```
+#[derive(Clone)]
+pub struct StreamingInterface {
+    bytes: [u8; STREAM_MAX],
+    len: usize,
+}
+
+impl StreamingInterface {
+    /// An empty interface.
+    pub const fn new() -> Self {
+        Self { bytes: [0; STREAM_MAX], len: 0 }
+    }
+
+    /// Takes all of a write or nothing of it (STM-15: behind what is there).
+    ///
+    /// [`Ack::Rejected`] above 992 bytes, and of none, which hold no line (STM-4); [`Ack::Busy`],
+    /// which goes with warning 11012, if it does not fit now (STM-6; that these are the causes is
+    /// assumed). What the bytes are does not matter here.
+    pub fn write(&mut self, data: &[u8]) -> Ack {
+        if data.is_empty() || data.len() > STREAM_PACKET_MAX {
+            return Ack::Rejected;
+        }
+        let free = self.bytes.get_mut(self.len..).unwrap_or_default();
+        let Some((place, _)) = free.split_at_mut_checked(data.len()) else {
+            return Ack::Busy;
+        };
+        place.copy_from_slice(data);
+        self.len = self.len.saturating_add(data.len());
+        Ack::Accepted
+    }
+
+    /// Takes out everything at once, in the order of the writes; where one ended does not show
+    /// (STM-12). Nothing if nothing is there: motion stops until more is written (STM-16).
+    ///
+    /// # Errors
+    /// The first line, counted in what was there, that does not end in CR LF: CNC error 21476
+    /// (STM-5). The interface is empty all the same (assumed).
+    pub fn read(&mut self) -> Result<&[u8], LineError> {
+        let bytes = self.bytes.get(..self.len).unwrap_or_default();
+        self.len = 0;
+        check_line_ends(bytes).map(|()| bytes)
+    }
+
+    /// What an NC reset does: nothing is left (STM-11).
+    pub const fn reset(&mut self) {
+        self.len = 0;
+    }
+
+    /// Bytes held.
+    pub const fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether nothing is held. After a program end, the next program has to wait for this
+    /// (STM-17).
+    pub const fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+}
+
+impl Default for StreamingInterface {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl fmt::Debug for StreamingInterface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "StreamingInterface({} of {STREAM_MAX} bytes)", self.len)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_text_is_not_shown() {
+        let mut interface = StreamingInterface::default();
+        assert_eq!(format!("{interface:?}"), "StreamingInterface(0 of 4094 bytes)");
+        assert_eq!(interface.write(b"N10\r\n"), Ack::Accepted);
+        assert_eq!(format!("{interface:?}"), "StreamingInterface(5 of 4094 bytes)");
+    }
+}

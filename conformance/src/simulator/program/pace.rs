@@ -1,0 +1,138 @@
+//! How fast lines are run.
+
+use std::num::NonZeroU32;
+use std::time::Duration;
+
+/// How fast a decoder runs the lines of a stream. No manual says how fast a CNC is.
+///
+/// ```
+/// use ads_cnc_conformance::simulator::program::Pace;
+///
+/// assert_eq!(Pace::lines_per_second(0), None);
+/// assert_eq!(Pace::lines_per_second(500).unwrap().to_string(), "500 lines/s");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// As fast as it can: a line takes no time.
+    Fast,
+    /// So many lines a second.
+    Lines(NonZeroU32),
+    /// So many bytes a second, line ends included.
+    Bytes(NonZeroU32),
+    /// Not at all: nothing is read, nothing is run.
+    Hold,
+}
+
+impl Pace {
+    /// So many lines a second; none for 0.
+    pub fn lines_per_second(lines: u32) -> Option<Self> {
+        NonZeroU32::new(lines).map(Self::Lines)
+    }
+
+    /// So many bytes a second; none for 0.
+    pub fn bytes_per_second(bytes: u32) -> Option<Self> {
+        NonZeroU32::new(bytes).map(Self::Bytes)
+    }
+}
+
+/// What is no [`Pace`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a number of lines a second from 1 on, `4000 bytes/s`, `fast` or `hold`")]
+pub struct ParsePaceError;
+
+/// A number of lines with or without `lines/s`, one of bytes with `bytes/s`, `fast` or `hold`.
+///
+/// ```
+/// use ads_cnc_conformance::simulator::program::Pace;
+///
+/// assert_eq!("500".parse::<Pace>()?, Pace::lines_per_second(500).unwrap());
+/// assert_eq!("4000 bytes/s".parse::<Pace>()?, Pace::bytes_per_second(4000).unwrap());
+/// assert!("0".parse::<Pace>().is_err());
+/// # Ok::<(), ads_cnc_conformance::simulator::program::ParsePaceError>(())
+/// ```
+impl std::str::FromStr for Pace {
+    type Err = ParsePaceError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let (number, unit) = text.split_once(' ').unwrap_or((text, "lines/s"));
+        // The number's own parser takes a sign too.
+        let number = Some(number).filter(|number| !number.starts_with('+'));
+        let number = number.and_then(|number| number.parse().ok());
+        let pace = match (text, unit) {
+            ("fast", _) => Some(Self::Fast),
+            ("hold", _) => Some(Self::Hold),
+            (_, "lines/s") => number.and_then(Self::lines_per_second),
+            (_, "bytes/s") => number.and_then(Self::bytes_per_second),
+            _ => None,
+        };
+        pace.ok_or(ParsePaceError)
+    }
+}
+
+impl std::fmt::Display for Pace {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Fast => f.write_str("as fast as it can"),
+            Self::Lines(lines) => write!(f, "{lines} lines/s"),
+            Self::Bytes(bytes) => write!(f, "{bytes} bytes/s"),
+            Self::Hold => f.write_str("on hold"),
+        }
+    }
+}
+
+/// When a line is done. Counts from a start, so that no rounding adds up.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Clock {
+    since: Duration,
+    /// Lines or bytes since then.
+    units: u64,
+}
+
+impl Clock {
+    /// Begins with a line now.
+    pub(super) fn begin(now: Duration) -> Self {
+        Self { since: now, units: 0 }
+    }
+
+    /// Passes a line if it is done by now.
+    pub(super) fn pass(&mut self, pace: Pace, line: &[u8], now: Duration) -> bool {
+        let (rate, cost) = match pace {
+            Pace::Fast => return true,
+            Pace::Hold => return false,
+            Pace::Lines(rate) => (rate, 1),
+            Pace::Bytes(rate) => (rate, u64::try_from(line.len()).unwrap_or(u64::MAX)),
+        };
+        let units = self.units.saturating_add(cost);
+        let whole = Duration::from_secs(units.checked_div(rate.get().into()).unwrap_or(0));
+        let part = units.checked_rem(rate.get().into()).unwrap_or(0).saturating_mul(1_000_000_000);
+        let part = Duration::from_nanos(part.div_ceil(rate.get().into()));
+        let due = self.since.saturating_add(whole).saturating_add(part);
+        if due <= now {
+            self.units = units;
+        }
+        due <= now
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pace_is_read_as_it_is_written() {
+        for (text, pace) in [
+            ("1", Pace::lines_per_second(1)),
+            ("500 lines/s", Pace::lines_per_second(500)),
+            ("4294967295 bytes/s", Pace::bytes_per_second(u32::MAX)),
+            ("fast", Some(Pace::Fast)),
+            ("hold", Some(Pace::Hold)),
+        ] {
+            assert_eq!(text.parse().ok(), pace, "{text}");
+        }
+        let bad =
+            ["", "0", "-1", "+1", "1.5", " 1", "1 ", "4294967296", "0 bytes/s", "1 lines", "Fast"];
+        for text in bad {
+            assert_eq!(text.parse::<Pace>(), Err(ParsePaceError), "{text}");
+        }
+    }
+}

@@ -1,0 +1,338 @@
+//! The NC program that asks services.
+
+use std::time::Duration;
+
+use ads_cnc::service::ServiceId;
+use ads_cnc::service::ServiceVariable::{RequestState, ResponseState, Uuid};
+use ads_cnc::{CncStr, CncString, Error};
+
+use super::answer::{Answer, Answers, Outcome};
+use super::policy::Policy;
+use super::service::{CallError, CallStep, ServiceCall, ServiceInterface, SysServiceWait};
+
+/// What an NC program asks services, and how often.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScriptConfig {
+    /// The requests, in their order; a program without any has nothing to do.
+    pub requests: Vec<Request>,
+    /// How often all of them are made.
+    pub repeat: Repeat,
+    /// How long the program waits between two requests.
+    pub pause: Duration,
+    /// How long it takes for each variable that it writes or reads; a microsecond at least.
+    pub cycle: Duration,
+}
+
+/// A request to a service: `V.G.SERVICE.UUID`, `.REQUEST` and `.REQUEST_STATE`, and the wait.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Request {
+    /// The service.
+    pub uuid: ServiceId,
+    /// What it is asked.
+    pub text: CncString,
+    /// The request state; not 0.
+    pub state: u32,
+    /// How the program waits for the response.
+    pub wait: Wait,
+}
+
+/// How a program waits for a response.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wait {
+    /// Without the cycle: it looks at RESPONSE_STATE until that is not 0 (SVC-6).
+    #[default]
+    Loop,
+    /// By the cycle SysServiceWait with these parameters (SVC-8).
+    Cycle {
+        /// @P1: the response state that means: keep waiting.
+        p1: Option<u32>,
+        /// @P2: the longest wait in milliseconds.
+        p2: Option<u32>,
+        /// @P3: ID of the timer; needed with @P2.
+        p3: Option<u32>,
+    },
+}
+
+/// How often the requests of a script are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Repeat {
+    /// Over and over.
+    Endless,
+    /// So many times all of them.
+    Times(u32),
+}
+
+impl ScriptConfig {
+    /// The manual's example: the square root of 3, and then that of a negative number, each from
+    /// the service with this UUID, every second.
+    ///
+    /// Manual: `service-en` and `service-de` 1.03, section 2 (SVC-9). That it is asked for both,
+    /// and how often, is not printed.
+    ///
+    /// # Errors
+    /// None: text and UUID fit.
+    pub fn square_root() -> Result<Self, Error> {
+        let uuid = ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?;
+        let request = |text| {
+            let text = CncString::from(CncStr::new(text)?);
+            Ok(Request { uuid, text, state: 1, wait: Wait::Loop })
+        };
+        Ok(Self {
+            requests: vec![request("3")?, request("-3")?],
+            repeat: Repeat::Endless,
+            pause: Duration::from_secs(1),
+            cycle: Duration::from_millis(1),
+        })
+    }
+}
+
+/// Why a script cannot be run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("request {} of the script: {error}", request.saturating_add(1))]
+pub struct ScriptError {
+    /// The place of the request, from 0.
+    pub request: usize,
+    /// Its error.
+    pub error: CallError,
+}
+
+/// Where a script stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ScriptState {
+    /// It writes this request, by its place from 0.
+    Asking(usize),
+    /// It waits for the response to this request, or reads it.
+    Waiting(usize),
+    /// It has the answer, and waits before the next request.
+    Pausing,
+    /// It has made all its requests.
+    Finished,
+}
+
+/// An NC program that asks services through the Service Interface of its channel.
+///
+/// It does a step a cycle, so that the service sees what lies between: first UUID is written, then
+/// REQUEST, then REQUEST_STATE; then RESPONSE_STATE is read each cycle until there is a response,
+/// and then RESPONSE.
+///
+/// It has to be [advanced](Self::advance) before each access of others to the interface: then all
+/// goes as if it had run all the time. After a long time, though, a script that had a great deal to
+/// do meanwhile lets the rest of it go.
+///
+/// ```
+/// use std::time::Duration;
+///
+/// use ads_cnc::CncStr;
+/// use ads_cnc::service::{Host, HostStep};
+/// use ads_cnc_conformance::simulator::program::service::ServiceInterface;
+/// use ads_cnc_conformance::simulator::program::{Outcome, Script, ScriptConfig};
+///
+/// let config = ScriptConfig::square_root()?;
+/// let ids = [config.requests[0].uuid];
+/// let (mut script, mut interface, mut host) = (Script::new(config)?, ServiceInterface::new(), Host::new(&ids));
+/// for milliseconds in 0..2000 {
+///     script.advance(Duration::from_millis(milliseconds), &mut interface);
+///     match host.step() {
+///         HostStep::Read(variable) => host.read(interface.read(variable))?,
+///         HostStep::Write(variable, value) => {
+///             interface.write(variable, value)?;
+///             host.written();
+///         }
+///         HostStep::Serve { request, .. } if request == "3" => host.answer(CncStr::new("1.732051")?, 1)?,
+///         HostStep::Serve { .. } => host.answer(CncStr::new("ERROR")?, 99)?,
+///         HostStep::Wait => host.poll(),
+///     }
+/// }
+/// let states: Vec<u32> = script
+///     .answers()
+///     .filter_map(|answer| match &answer.outcome {
+///         Outcome::Response { state, .. } => Some(*state),
+///         Outcome::TimedOut => None,
+///     })
+///     .collect();
+/// assert_eq!(states, [1, 99]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Manual: `service-en` and `service-de` 1.03, section 2; `service-en`, section 3.
+#[derive(Clone, Debug)]
+pub struct Script {
+    /// Each before its first step.
+    requests: Vec<ServiceCall>,
+    pause: Duration,
+    cycle: Duration,
+    repeat: Repeat,
+    passes: u32,
+    /// The present request, by its place; none if all were made.
+    present: Option<(usize, ServiceCall)>,
+    /// When the next step is done; at once before the first.
+    due: Option<Duration>,
+    pausing: bool,
+    answers: Answers,
+    policy: Policy,
+}
+
+impl Script {
+    /// So many answers are kept.
+    pub const ANSWERS_KEPT: usize = Answers::KEPT;
+
+    /// So many steps are made up for at a time. Looking for a response in vain is not counted.
+    const STEPS: u32 = 100_000;
+
+    /// A program that begins when it is first [advanced](Self::advance).
+    ///
+    /// # Errors
+    /// [`ScriptError`]: a request of more than 128 bytes with its NUL, a request state of 0, @P2
+    /// without @P3.
+    pub fn new(config: ScriptConfig) -> Result<Self, ScriptError> {
+        let calls = config.requests.iter().enumerate();
+        let calls = calls.map(|(at, request)| {
+            request.call().map_err(|error| ScriptError { request: at, error })
+        });
+        let mut script = Self {
+            requests: calls.collect::<Result<_, _>>()?,
+            pause: config.pause,
+            cycle: config.cycle.max(Duration::from_micros(1)),
+            repeat: config.repeat,
+            passes: 0,
+            present: None,
+            due: None,
+            pausing: false,
+            answers: Answers::default(),
+            policy: Policy::DEFAULT,
+        };
+        script.restart();
+        Ok(script)
+    }
+
+    /// The same by another policy.
+    pub(crate) fn with_policy(self, policy: Policy) -> Self {
+        Self { policy, ..self }
+    }
+
+    /// Begins with the first request again, as after an NC reset and a start. The answers stay.
+    pub fn restart(&mut self) {
+        (self.passes, self.due, self.pausing) = (0, None, false);
+        let any = self.repeat != Repeat::Times(0);
+        self.present = self.requests.first().filter(|_| any).map(|call| (0, call.clone()));
+    }
+
+    /// Makes up for the time that has passed.
+    pub fn advance(&mut self, now: Duration, interface: &mut ServiceInterface) {
+        for _ in 0..Self::STEPS {
+            let due = *self.due.get_or_insert(now);
+            if due > now || self.present.is_none() {
+                return;
+            }
+            self.step(due, interface);
+            if let Some(CallStep::Wait { until }) = self.next_step() {
+                // Nobody writes until now: it would look in vain, until its time is over.
+                let next = until.filter(|until| *until <= now);
+                let next = next.unwrap_or(now.saturating_add(NANOSECOND));
+                self.due = Some(self.cycle_at(due, next));
+            }
+        }
+        self.due = self.due.map(|due| due.max(now));
+    }
+
+    /// Does one step now, whether it is time or not.
+    pub fn step(&mut self, now: Duration, interface: &mut ServiceInterface) {
+        self.pausing = false;
+        self.due = Some(now.saturating_add(self.cycle));
+        let Some((at, call)) = &mut self.present else { return };
+        call.poll();
+        let time = if self.policy.times_out { now } else { Duration::ZERO };
+        // The interface takes what a call writes and has what it reads; else it is tried again.
+        match call.step() {
+            CallStep::Write(variable, value) => {
+                let first = self.policy.state_first && variable == Uuid;
+                if first && interface.write(RequestState, &[1, 0, 0, 0]).is_err() {
+                    return;
+                }
+                if interface.write(variable, value).is_ok() {
+                    call.written(time);
+                }
+            }
+            CallStep::Read(ResponseState) if !self.policy.awaits_response => {
+                let _ = call.read(&[1, 0, 0, 0], time);
+            }
+            CallStep::Read(variable) => {
+                let _ = call.read(interface.read(variable), time);
+            }
+            CallStep::Wait { .. } | CallStep::Done { .. } | CallStep::TimedOut => {}
+        }
+        let outcome = match call.step() {
+            CallStep::Done { state, response } => {
+                Outcome::Response { state, text: CncString::from(response) }
+            }
+            CallStep::TimedOut => Outcome::TimedOut,
+            _ => return,
+        };
+        let at = *at;
+        self.answers.push(at, now, outcome);
+        self.go_on(at, now);
+    }
+
+    /// What the program does next; nothing if it has made all its requests.
+    pub fn next_step(&self) -> Option<CallStep<'_>> {
+        self.present.as_ref().map(|(_, call)| call.step())
+    }
+
+    /// Where it stands, as of the last time it was advanced.
+    pub fn state(&self) -> ScriptState {
+        match (&self.present, self.next_step()) {
+            (Some(_), _) if self.pausing => ScriptState::Pausing,
+            (Some((at, _)), Some(CallStep::Write(..))) => ScriptState::Asking(*at),
+            (Some((at, _)), _) => ScriptState::Waiting(*at),
+            (None, _) => ScriptState::Finished,
+        }
+    }
+
+    /// The latest answers, in their order.
+    pub fn answers(&self) -> impl DoubleEndedIterator<Item = &Answer> {
+        self.answers.kept.iter()
+    }
+
+    /// How many answers there were, those that timed out among them.
+    pub fn answer_count(&self) -> u64 {
+        self.answers.count
+    }
+
+    /// How many requests got no answer in time.
+    pub fn timed_out(&self) -> u64 {
+        self.answers.timed_out
+    }
+
+    /// Takes the request behind this one.
+    fn go_on(&mut self, at: usize, now: Duration) {
+        let mut next = at.saturating_add(1);
+        if next >= self.requests.len() {
+            next = 0;
+            self.passes = self.passes.saturating_add(1);
+        }
+        let over = matches!(self.repeat, Repeat::Times(times) if self.passes >= times);
+        self.present = self.requests.get(next).filter(|_| !over).map(|call| (next, call.clone()));
+        self.pausing = self.present.is_some();
+        self.due = Some(now.saturating_add(self.pause.max(self.cycle)));
+    }
+
+    /// The first of the cycles behind `due` that is not before `time`.
+    fn cycle_at(&self, due: Duration, time: Duration) -> Duration {
+        let cycle = self.cycle.as_nanos();
+        let cycles = time.saturating_sub(due).as_nanos().div_ceil(cycle).max(1);
+        let behind = u64::try_from(cycles.saturating_mul(cycle)).unwrap_or(u64::MAX);
+        due.saturating_add(Duration::from_nanos(behind))
+    }
+}
+
+const NANOSECOND: Duration = Duration::from_nanos(1);
+
+impl Request {
+    fn call(&self) -> Result<ServiceCall, CallError> {
+        let wait = match self.wait {
+            Wait::Loop => SysServiceWait::default(),
+            Wait::Cycle { p1, p2, p3 } => SysServiceWait::from_parameters(p1, p2, p3)?,
+        };
+        ServiceCall::with_state(self.uuid, self.text.as_cnc_str(), self.state, wait)
+    }
+}

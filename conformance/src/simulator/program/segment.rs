@@ -1,0 +1,83 @@
+//! What a decoder has read at once and runs line by line.
+
+use ads_cnc::streaming::{CheckEvent, Checker, Diagnostic, ProgramEnd};
+
+use super::executed::lines;
+
+/// Lines that were read together, and where they stop being run.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Segment {
+    lines: Vec<u8>,
+    at: usize,
+    /// Number of the next line in the program, from 1.
+    number: u32,
+    stop: Option<Stop>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Stop {
+    /// Behind its line: what else was read with it is not run.
+    End { end: ProgramEnd, line: u32 },
+    /// In place of its line.
+    Fault(Diagnostic),
+}
+
+/// What comes next in a segment.
+pub(super) enum Next<'a> {
+    Line(&'a [u8]),
+    End(ProgramEnd),
+    Fault(Diagnostic),
+    Nothing,
+}
+
+impl Segment {
+    /// Lines that this checker has not seen yet.
+    pub(crate) fn new(checker: &mut Checker, read: &[u8]) -> Self {
+        let number = checker.lines().saturating_add(1);
+        Self::with_findings(read, number, checker.check(read))
+    }
+
+    /// Lines from this number on, and what was found in them in their order.
+    pub(crate) fn with_findings(
+        read: &[u8],
+        number: u32,
+        found: impl IntoIterator<Item = CheckEvent>,
+    ) -> Self {
+        let (mut end, mut fault) = (None, None);
+        for found in found {
+            match found {
+                // Not run.
+                _ if end.is_some_and(|(_, line)| line < found.line()) => break,
+                CheckEvent::Diagnostic(finding) if finding.kind.ends_streaming() => {
+                    fault = Some(Stop::Fault(finding));
+                    break;
+                }
+                CheckEvent::ProgramEnd { end: word, line, .. } => {
+                    end.get_or_insert((word, line));
+                }
+                CheckEvent::Diagnostic(_) => {}
+            }
+        }
+        let stop = fault.or(end.map(|(end, line)| Stop::End { end, line }));
+        Self { lines: read.to_vec(), at: 0, number, stop }
+    }
+
+    pub(super) fn next(&self) -> Next<'_> {
+        match self.stop {
+            Some(Stop::End { end, line }) if line < self.number => Next::End(end),
+            Some(Stop::Fault(finding)) if finding.line <= self.number => Next::Fault(finding),
+            _ => match lines(self.lines.get(self.at..).unwrap_or_default()).next() {
+                Some(line) => Next::Line(line),
+                None => Next::Nothing,
+            },
+        }
+    }
+
+    /// The line that comes next was run.
+    pub(super) fn pass(&mut self) {
+        if let Next::Line(line) = self.next() {
+            self.at = self.at.saturating_add(line.len());
+            self.number = self.number.saturating_add(1);
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! The side of the CNC program.
+
+use std::fmt;
+use std::time::Duration;
+
+use ads_cnc::service::{ServiceId, ServiceVariable};
+use ads_cnc::{CncStr, Error, ErrorKind};
+
+use super::{NoTimer, SysServiceWait, WaitStep, Waiting, text_value, value_of};
+
+/// A CNC program's request to a service: it writes UUID, REQUEST and, last, REQUEST_STATE, waits
+/// for RESPONSE_STATE (SVC-6, E-20), and reads RESPONSE.
+///
+/// A step stays the same until the caller says that it is done: what failed can be tried again.
+/// But a REQUEST_STATE written twice asks twice, and takes an answer away that is there (SVC-3).
+///
+/// Manual: `service-en` and `service-de` 1.03, section 2.
+///
+/// ```
+/// use std::time::Duration;
+///
+/// use ads_cnc::CncStr;
+/// use ads_cnc::service::{ServiceId, ServiceVariable};
+/// use ads_cnc_conformance::simulator::program::service::{CallStep, ServiceCall, SysServiceWait};
+///
+/// let id = ServiceId::new("19719079-BA06-4740-BC02-DE5215211751")?;
+/// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
+/// let mut call = ServiceCall::new(id, CncStr::new("some-command")?, wait)?;
+///
+/// let uuid = &b"19719079-BA06-4740-BC02-DE5215211751\0"[..];
+/// assert_eq!(call.step(), CallStep::Write(ServiceVariable::Uuid, uuid));
+/// call.written(Duration::ZERO);
+/// assert_eq!(call.step(), CallStep::Write(ServiceVariable::Request, b"some-command\0"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ServiceCall {
+    uuid: Vec<u8>,
+    request: Vec<u8>,
+    state: [u8; 4],
+    wait: SysServiceWait,
+    response: Vec<u8>,
+    phase: Phase,
+}
+
+#[derive(Clone, Debug)]
+enum Phase {
+    Uuid,
+    Request,
+    State,
+    Waiting(Waiting),
+    Response(u32),
+    Done(u32),
+}
+
+/// What a call needs next; shown at [`ServiceCall`].
+///
+/// Manual: `service-en` and `service-de` 1.03, section 2.
+///
+/// ```
+/// use ads_cnc::CncStr;
+/// use ads_cnc::service::{ServiceId, ServiceVariable};
+/// use ads_cnc_conformance::simulator::program::service::{CallStep, ServiceCall, SysServiceWait};
+///
+/// let id = ServiceId::new("19719079-BA06-4740-BC02-DE5215211751")?;
+/// let call = ServiceCall::new(id, CncStr::new("some-command")?, SysServiceWait::default())?;
+/// assert!(matches!(call.step(), CallStep::Write(ServiceVariable::Uuid, _)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CallStep<'a> {
+    /// Read this variable and pass its value to [`ServiceCall::read`].
+    Read(ServiceVariable),
+    /// Write this value to this variable, then call [`ServiceCall::written`].
+    Write(ServiceVariable, &'a [u8]),
+    /// Let some time pass, then call [`ServiceCall::poll`].
+    Wait {
+        /// When the longest wait ends, if there is one: no need to poll later than that.
+        until: Option<Duration>,
+    },
+    /// The service has answered.
+    Done {
+        /// The response state.
+        state: u32,
+        /// The response.
+        response: CncStr<'a>,
+    },
+    /// There was no response within the longest wait. The request stands until the next one.
+    TimedOut,
+}
+
+/// Why a program cannot ask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CallError {
+    /// The request is too long.
+    Text(Error),
+    /// The request state is 0.
+    State,
+    /// The cycle SysServiceWait has @P2 without @P3.
+    Timer(NoTimer),
+}
+
+impl CallError {
+    /// The class of the error.
+    pub const fn kind(&self) -> ErrorKind {
+        match self {
+            Self::Text(error) => error.kind(),
+            Self::State => ErrorKind::OutOfRange,
+            Self::Timer(_) => ErrorKind::Missing,
+        }
+    }
+}
+
+impl From<Error> for CallError {
+    fn from(error: Error) -> Self {
+        Self::Text(error)
+    }
+}
+
+impl From<NoTimer> for CallError {
+    fn from(error: NoTimer) -> Self {
+        Self::Timer(error)
+    }
+}
+
+impl fmt::Display for CallError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(error) => error.fmt(f),
+            Self::State => {
+                f.write_str("service: request_state at offset 0: expected at least 1, found 0")
+            }
+            Self::Timer(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for CallError {}
+
+impl ServiceCall {
+    /// A request to a service, with the request state 1 of the examples.
+    ///
+    /// # Errors
+    /// [`CallError::Text`] for a request of more than 128 bytes with its NUL.
+    pub fn new(
+        id: ServiceId,
+        request: CncStr<'_>,
+        wait: SysServiceWait,
+    ) -> Result<Self, CallError> {
+        Self::with_state(id, request, 1, wait)
+    }
+
+    /// A request with a state of its own, which the service is told.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), [`CallError::State`] for a state of 0.
+    pub fn with_state(
+        id: ServiceId,
+        request: CncStr<'_>,
+        state: u32,
+        wait: SysServiceWait,
+    ) -> Result<Self, CallError> {
+        if state == 0 {
+            return Err(CallError::State);
+        }
+        Ok(Self {
+            uuid: value_of(id.text()),
+            request: text_value(&value_of(request), ServiceVariable::Request)?,
+            state: state.to_le_bytes(),
+            wait,
+            response: Vec::new(),
+            phase: Phase::Uuid,
+        })
+    }
+
+    /// What to do next; the same until it is done.
+    pub fn step(&self) -> CallStep<'_> {
+        match &self.phase {
+            Phase::Uuid => CallStep::Write(ServiceVariable::Uuid, &self.uuid),
+            Phase::Request => CallStep::Write(ServiceVariable::Request, &self.request),
+            Phase::State => CallStep::Write(ServiceVariable::RequestState, &self.state),
+            Phase::Waiting(waiting) => match waiting.step() {
+                WaitStep::Read(variable) => CallStep::Read(variable),
+                WaitStep::Wait { until } => CallStep::Wait { until },
+                // With a response it goes on to read that.
+                WaitStep::TimedOut | WaitStep::Done { .. } => CallStep::TimedOut,
+            },
+            Phase::Response(_) => CallStep::Read(ServiceVariable::Response),
+            Phase::Done(state) => CallStep::Done { state: *state, response: self.response() },
+        }
+    }
+
+    fn response(&self) -> CncStr<'_> {
+        // Checked when it was read.
+        ServiceVariable::Response.text(&self.response).unwrap_or(CncStr::EMPTY)
+    }
+
+    /// The variable was written, and when: the wait begins when the last was. Does nothing if none
+    /// was to be.
+    pub fn written(&mut self, now: Duration) {
+        match self.phase {
+            Phase::Uuid => self.phase = Phase::Request,
+            Phase::Request => self.phase = Phase::State,
+            Phase::State => self.phase = Phase::Waiting(self.wait.start(now)),
+            Phase::Waiting(_) | Phase::Response(_) | Phase::Done(_) => {}
+        }
+    }
+
+    /// The value that was read, and when; does nothing if none was to be.
+    ///
+    /// # Errors
+    /// A state that does not have exactly four bytes, a response of more than 128 bytes with its NUL; it is to be
+    /// read again.
+    pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
+        match &mut self.phase {
+            Phase::Waiting(waiting) => {
+                waiting.read(value, now)?;
+                if let WaitStep::Done { state } = waiting.step() {
+                    self.phase = Phase::Response(state);
+                }
+            }
+            Phase::Response(state) => {
+                self.response = text_value(value, ServiceVariable::Response)?;
+                self.phase = Phase::Done(*state);
+            }
+            Phase::Uuid | Phase::Request | Phase::State | Phase::Done(_) => {}
+        }
+        Ok(())
+    }
+
+    /// Ends a [`CallStep::Wait`]: reads again.
+    pub fn poll(&mut self) {
+        if let Phase::Waiting(waiting) = &mut self.phase {
+            waiting.poll();
+        }
+    }
+}

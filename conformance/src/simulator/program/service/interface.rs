@@ -1,0 +1,132 @@
+//! The interface itself, as a CNC has it.
+
+use ads_cnc::Error;
+use ads_cnc::service::ServiceVariable;
+
+use super::text_value;
+
+/// The Service Interface of one channel: what a CNC does with its five variables.
+///
+/// - Whoever writes REQUEST_STATE, to whatever value, sets RESPONSE_STATE to 0 (SVC-3). The
+///   manuals say so of the CNC program; that it holds of other writers and of 0 is assumed.
+/// - When the service has finished, REQUEST_STATE becomes 0 (SVC-4). What tells the interface is
+///   assumed: see [`Clears`].
+/// - All five are empty or 0 at the start, which is assumed. UUID has 128 bytes like the other
+///   texts, which is assumed too.
+///
+/// Manual: `service-en` and `service-de` 1.03, section 2.
+///
+/// ```
+/// use ads_cnc::service::ServiceVariable::*;
+/// use ads_cnc_conformance::simulator::program::service::ServiceInterface;
+///
+/// let mut interface = ServiceInterface::new();
+/// interface.write(Request, b"3\0")?;
+/// interface.write(RequestState, &[1, 0, 0, 0])?;
+/// assert_eq!(interface.read(Request), b"3\0");
+///
+/// interface.write(ResponseState, &[99, 0, 0, 0])?;
+/// assert_eq!(interface.read(RequestState), [0; 4]);
+/// interface.write(RequestState, &[1, 0, 0, 0])?;
+/// assert_eq!(interface.read(ResponseState), [0; 4]);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ServiceInterface {
+    uuid: Vec<u8>,
+    request: Vec<u8>,
+    request_state: [u8; 4],
+    response_state: [u8; 4],
+    response: Vec<u8>,
+    clears: Clears,
+}
+
+/// When an interface sets REQUEST_STATE to 0 of itself (SVC-4). Nobody documents it; a [`Host`]
+/// works with either.
+///
+/// [`Host`]: ads_cnc::service::Host
+///
+/// ```
+/// use ads_cnc::service::ServiceVariable::*;
+/// use ads_cnc_conformance::simulator::program::service::{Clears, ServiceInterface};
+///
+/// let mut interface = ServiceInterface::with(Clears::Never);
+/// interface.write(RequestState, &[1, 0, 0, 0])?;
+/// interface.write(ResponseState, &[1, 0, 0, 0])?;
+/// assert_eq!(interface.read(RequestState), [1, 0, 0, 0]);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Clears {
+    /// When RESPONSE_STATE is written: with that the service has finished.
+    #[default]
+    OnResponseState,
+    /// Not at all: it leaves that to the service.
+    Never,
+}
+
+impl ServiceInterface {
+    /// An interface that nobody has used yet.
+    pub fn new() -> Self {
+        Self::with(Clears::OnResponseState)
+    }
+
+    /// An interface that sets REQUEST_STATE to 0 when `clears` says.
+    pub fn with(clears: Clears) -> Self {
+        Self {
+            uuid: vec![0],
+            request: vec![0],
+            request_state: [0; 4],
+            response_state: [0; 4],
+            response: vec![0],
+            clears,
+        }
+    }
+
+    /// The value of a variable: a text with its NUL, or the four bytes of a state.
+    pub fn read(&self, variable: ServiceVariable) -> &[u8] {
+        match variable {
+            ServiceVariable::Uuid => &self.uuid,
+            ServiceVariable::Request => &self.request,
+            ServiceVariable::RequestState => &self.request_state,
+            ServiceVariable::ResponseState => &self.response_state,
+            ServiceVariable::Response => &self.response,
+        }
+    }
+
+    /// Writes a variable, with what that does to the others.
+    ///
+    /// # Errors
+    /// [`TooLong`](ads_cnc::ErrorKind::TooLong) for a text of more than 128 bytes with its NUL,
+    /// [`Truncated`](ads_cnc::ErrorKind::Truncated) and [`Trailing`](ads_cnc::ErrorKind::Trailing)
+    /// for a state that does not have exactly four bytes; nothing is written.
+    pub fn write(&mut self, variable: ServiceVariable, value: &[u8]) -> Result<(), Error> {
+        match variable {
+            ServiceVariable::Uuid => self.uuid = text_value(value, variable)?,
+            ServiceVariable::Request => self.request = text_value(value, variable)?,
+            ServiceVariable::Response => self.response = text_value(value, variable)?,
+            ServiceVariable::RequestState => {
+                self.request_state = variable.state(value)?.to_le_bytes();
+                self.response_state = [0; 4];
+            }
+            ServiceVariable::ResponseState => {
+                self.response_state = variable.state(value)?.to_le_bytes();
+                if self.clears == Clears::OnResponseState {
+                    self.request_state = [0; 4];
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Everything as at the start: the CNC was reset.
+    pub fn reset(&mut self) {
+        *self = Self::with(self.clears);
+    }
+}
+
+impl Default for ServiceInterface {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,77 @@
+//! The CNC's side of the Service Interface: the interface in the CNC, and the NC program that asks.
+//!
+//! | | |
+//! |---|---|
+//! | the five variables of a channel | [`ServiceInterface`] |
+//! | the NC program that asks a service | [`ServiceCall`] |
+//! | its wait for a response, as the cycle SysServiceWait has it | [`SysServiceWait`] |
+//!
+//! The service's side is [`Host`](ads_cnc::service::Host). All are state machines without I/O and
+//! clock. The codec's tests of that host include this module by its path, so it uses only
+//! [`ads_cnc`] and `std`.
+//!
+//! ```
+//! use std::time::Duration;
+//!
+//! use ads_cnc::CncStr;
+//! use ads_cnc::service::{Host, HostStep, ServiceId};
+//! use ads_cnc_conformance::simulator::program::service::{
+//!     CallStep, ServiceCall, ServiceInterface, SysServiceWait,
+//! };
+//!
+//! let ids = [ServiceId::new("560AACBF-6335-44a9-895A-8B27F3ED5E47")?];
+//! let mut host = Host::new(&ids);
+//! let mut interface = ServiceInterface::new();
+//! let now = Duration::ZERO;
+//! let mut program = ServiceCall::new(ids[0], CncStr::new("ping")?, SysServiceWait::default())?;
+//!
+//! let answer = loop {
+//!     // The CNC's side …
+//!     match program.step() {
+//!         CallStep::Read(variable) => program.read(interface.read(variable), now)?,
+//!         CallStep::Write(variable, bytes) => {
+//!             interface.write(variable, bytes)?;
+//!             program.written(now);
+//!         }
+//!         CallStep::Wait { .. } => program.poll(),
+//!         CallStep::Done { response, .. } => break response.to_string(),
+//!         CallStep::TimedOut => unreachable!("it has no longest wait"),
+//!     }
+//!     // … and the service's.
+//!     match host.step() {
+//!         HostStep::Read(variable) => host.read(interface.read(variable))?,
+//!         HostStep::Write(variable, bytes) => {
+//!             interface.write(variable, bytes)?;
+//!             host.written();
+//!         }
+//!         HostStep::Serve { request, .. } => {
+//!             assert_eq!(request, "ping");
+//!             host.answer(CncStr::new("pong")?, 1)?;
+//!         }
+//!         HostStep::Wait => host.poll(),
+//!     }
+//! };
+//! assert_eq!(answer, "pong");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod call;
+mod interface;
+mod wait;
+
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::{CncStr, Error};
+
+pub use call::{CallError, CallStep, ServiceCall};
+pub use interface::{Clears, ServiceInterface};
+pub use wait::{LongestWait, NoTimer, SysServiceWait, WaitStep, Waiting};
+
+/// The value of a variable: the text and one NUL.
+fn value_of(text: CncStr<'_>) -> Vec<u8> {
+    text.bytes().chain([0]).collect()
+}
+
+/// The value of a variable, of a value that was written to it.
+fn text_value(value: &[u8], variable: ServiceVariable) -> Result<Vec<u8>, Error> {
+    variable.text(value).map(value_of)
+}

@@ -1,0 +1,211 @@
+//! The cycle SysServiceWait.
+
+use std::fmt;
+use std::time::Duration;
+
+use ads_cnc::Error;
+use ads_cnc::service::ServiceVariable;
+
+/// The parameters of the cycle SysServiceWait: how a CNC program waits for a response (SVC-8).
+///
+/// | parameter | | here |
+/// |---|---|---|
+/// | @P1 | response state that means: keep waiting; 0 if it is not given | `keep_waiting` |
+/// | @P2 | longest wait in milliseconds; for ever if it is not given | [`LongestWait::time`] |
+/// | @P3 | ID of the timer; must be given with @P2 | [`LongestWait::timer`] |
+///
+/// A request sets RESPONSE_STATE to 0 (SVC-3). So a @P1 other than 0 ends the wait at once, unless
+/// a service has set that state by then.
+///
+/// Assumed: all three are UNS32; a @P2 of 0 looks once and gives up; @P3 without @P2 means nothing.
+///
+/// Manual: `service-en`, section 3; `service-de` 1.03 does not have the cycle.
+///
+/// ```
+/// use ads_cnc_conformance::simulator::program::service::SysServiceWait;
+///
+/// // L CYCLE [NAME = "SysServiceWait.cyc", @P2 = 5000, @P3 = 1]
+/// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
+/// assert_eq!(wait.keep_waiting, 0);
+/// assert_eq!(wait.longest.unwrap().time.as_secs(), 5);
+/// assert_eq!(
+///     SysServiceWait::from_parameters(None, Some(5000), None).unwrap_err().to_string(),
+///     "sys-service-wait: @P3 at offset 8: missing"
+/// );
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct SysServiceWait {
+    /// The response state that means: keep waiting.
+    pub keep_waiting: u32,
+    /// How long to wait; for ever if there is none.
+    pub longest: Option<LongestWait>,
+}
+
+/// The longest wait of the cycle SysServiceWait: its @P2 and @P3; shown at [`SysServiceWait`].
+///
+/// ```
+/// use ads_cnc_conformance::simulator::program::service::SysServiceWait;
+///
+/// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
+/// let longest = wait.longest.unwrap();
+/// assert_eq!((longest.time.as_millis(), longest.timer), (5000, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct LongestWait {
+    /// How long.
+    pub time: Duration,
+    /// ID of the timer in the CNC that measures it; the machines here are told the time.
+    pub timer: u32,
+}
+
+/// The cycle SysServiceWait has @P2 without @P3.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoTimer;
+
+impl fmt::Display for NoTimer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("sys-service-wait: @P3 at offset 8: missing")
+    }
+}
+
+impl std::error::Error for NoTimer {}
+
+impl SysServiceWait {
+    /// The cycle with these values of @P1, @P2 and @P3.
+    ///
+    /// # Errors
+    /// [`NoTimer`] for @P2 without @P3.
+    pub fn from_parameters(
+        p1: Option<u32>,
+        p2: Option<u32>,
+        p3: Option<u32>,
+    ) -> Result<Self, NoTimer> {
+        let longest = match (p2, p3) {
+            (None, _) => None,
+            (Some(millis), Some(timer)) => {
+                Some(LongestWait { time: Duration::from_millis(millis.into()), timer })
+            }
+            (Some(_), None) => return Err(NoTimer),
+        };
+        Ok(Self { keep_waiting: p1.unwrap_or(0), longest })
+    }
+
+    /// Begins to wait. `now` is a time that never goes back, from any start.
+    pub fn start(self, now: Duration) -> Waiting {
+        let deadline = self.longest.map(|longest| now.saturating_add(longest.time));
+        Waiting { keep_waiting: self.keep_waiting, deadline, phase: Phase::Read }
+    }
+}
+
+/// A wait that has begun.
+///
+/// Manual: `service-en`, section 3 (SVC-6, SVC-8).
+///
+/// ```
+/// use std::time::Duration;
+///
+/// use ads_cnc::service::ServiceVariable;
+/// use ads_cnc_conformance::simulator::program::service::{SysServiceWait, WaitStep};
+///
+/// let at = Duration::from_millis;
+/// let wait = SysServiceWait::from_parameters(None, Some(5000), Some(1))?;
+/// let mut waiting = wait.start(at(100));
+///
+/// assert_eq!(waiting.step(), WaitStep::Read(ServiceVariable::ResponseState));
+/// waiting.read(&[0, 0, 0, 0], at(120))?;
+/// assert_eq!(waiting.step(), WaitStep::Wait { until: Some(at(5100)) });
+/// waiting.poll();
+/// waiting.read(&[99, 0, 0, 0], at(5200))?;
+/// assert_eq!(waiting.step(), WaitStep::Done { state: 99 });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Waiting {
+    keep_waiting: u32,
+    deadline: Option<Duration>,
+    phase: Phase,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Phase {
+    Read,
+    Idle,
+    Done(u32),
+    TimedOut,
+}
+
+/// What a wait needs next; shown at [`Waiting`].
+///
+/// Manual: `service-en`, section 3.
+///
+/// ```
+/// use std::time::Duration;
+///
+/// use ads_cnc_conformance::simulator::program::service::{SysServiceWait, WaitStep};
+///
+/// // For ever, if there is no @P2.
+/// let mut waiting = SysServiceWait::default().start(Duration::ZERO);
+/// waiting.read(&[0, 0, 0, 0], Duration::ZERO)?;
+/// assert_eq!(waiting.step(), WaitStep::Wait { until: None });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WaitStep {
+    /// Read this variable and pass its value to [`Waiting::read`].
+    Read(ServiceVariable),
+    /// Let some time pass, then call [`Waiting::poll`].
+    Wait {
+        /// When the longest wait ends, if there is one: no need to poll later than that.
+        until: Option<Duration>,
+    },
+    /// There is a response, of this state.
+    Done {
+        /// The response state.
+        state: u32,
+    },
+    /// There was none within the longest wait.
+    TimedOut,
+}
+
+impl Waiting {
+    /// What to do next; the same until it is done.
+    pub const fn step(&self) -> WaitStep {
+        match self.phase {
+            Phase::Read => WaitStep::Read(ServiceVariable::ResponseState),
+            Phase::Idle => WaitStep::Wait { until: self.deadline },
+            Phase::Done(state) => WaitStep::Done { state },
+            Phase::TimedOut => WaitStep::TimedOut,
+        }
+    }
+
+    /// The value that was read, and when; does nothing if none was to be.
+    ///
+    /// The time is over only when a value read by then says to keep waiting: a response that is
+    /// there counts.
+    ///
+    /// # Errors
+    /// [`Truncated`](ads_cnc::ErrorKind::Truncated) and [`Trailing`](ads_cnc::ErrorKind::Trailing)
+    /// for a state that does not have exactly four bytes; read it again.
+    pub fn read(&mut self, value: &[u8], now: Duration) -> Result<(), Error> {
+        if let Phase::Read = self.phase {
+            let state = ServiceVariable::ResponseState.state(value)?;
+            self.phase = if state != self.keep_waiting {
+                Phase::Done(state)
+            } else if self.deadline.is_some_and(|deadline| now >= deadline) {
+                Phase::TimedOut
+            } else {
+                Phase::Idle
+            };
+        }
+        Ok(())
+    }
+
+    /// Ends a [`WaitStep::Wait`]: reads again.
+    pub fn poll(&mut self) {
+        if let Phase::Idle = self.phase {
+            self.phase = Phase::Read;
+        }
+    }
+}

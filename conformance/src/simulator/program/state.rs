@@ -1,0 +1,83 @@
+//! Where a program stands.
+
+use std::fmt;
+
+use ads_cnc::streaming::{Diagnostic, LineError, ProgramEnd};
+
+/// Where a streaming program stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum State {
+    /// Not started yet, or ended by an NC reset (STM-11, STM-14).
+    Stopped,
+    /// It has lines to run.
+    Running,
+    /// It has run all there was. Motion stands still until more is written (STM-16).
+    Dry,
+    /// The program came to its end, and streaming mode with it (STM-10).
+    Ended(ProgramEnd),
+    /// Streaming mode was aborted by an error (STM-5, STM-8). Nothing goes on before an NC reset.
+    Aborted(Message),
+}
+
+/// An error that the CNC reports: `streaming.nc:4:5: error 21476: …`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// Number of the error; none for loops and jumps back, whose numbers are not documented.
+    pub number: Option<u32>,
+    /// Name of the program.
+    pub file: String,
+    /// The line since the start of the program, from 1.
+    pub line: u32,
+    /// The column, from 1.
+    pub column: u32,
+    /// The error.
+    pub text: String,
+}
+
+impl Message {
+    /// A line without CR LF in what was read behind so many lines.
+    pub(super) fn of_line_end(file: &str, number: u32, before: u32, error: &LineError) -> Self {
+        Self {
+            number: Some(number),
+            file: file.to_owned(),
+            line: before.saturating_add(error.line()),
+            column: error.column(),
+            text: format!("streaming data without a correct line end: {}", error.kind()),
+        }
+    }
+
+    pub(super) fn of_finding(file: &str, finding: &Diagnostic) -> Self {
+        Self {
+            number: None,
+            file: file.to_owned(),
+            line: finding.line,
+            column: finding.column,
+            text: finding.kind.to_string(),
+        }
+    }
+}
+
+impl fmt::Display for Message {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { number, file, line, column, text } = self;
+        write!(f, "{file}:{line}:{column}: ")?;
+        if let Some(number) = number {
+            write!(f, "error {number}: ")?;
+        }
+        f.write_str(text)
+    }
+}
+
+/// Why a streaming program does not start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StartError {
+    /// Without a name there is no streaming (STM-13).
+    #[error("P-CHAN-00158 streaming_prog_file is empty: name of the streaming program expected")]
+    NoName,
+    /// It is running.
+    #[error("the streaming program is running")]
+    Running,
+    /// It was aborted; an NC reset has to come first (assumed).
+    #[error("the streaming program was aborted: NC reset expected")]
+    Aborted,
+}

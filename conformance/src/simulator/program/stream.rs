@@ -1,0 +1,296 @@
+//! The streaming program of a channel.
+
+use std::time::Duration;
+
+use ads_cnc::ads::AdsError;
+use ads_cnc::streaming::{Ack, Checker};
+
+use super::executed::Executed;
+use super::pace::{Clock, Pace};
+use super::policy::{Buffer, Event, Policy};
+use super::segment::{Next, Segment};
+use super::state::{Message, StartError, State};
+
+/// How a channel is set up for streaming.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProgramConfig {
+    /// Name of the streaming program, P-CHAN-00158 `streaming_prog_file`. If it is empty, there
+    /// is no streaming (STM-13): that is a CNC's default, and not the one here.
+    pub name: String,
+    /// Whether the program is started.
+    pub start: Start,
+    /// How fast lines are run; 1000 lines/s by default (assumed).
+    pub pace: Pace,
+    /// So many bytes of the lines that were run can be read back, and not many more; 1 MiB by
+    /// default.
+    pub kept: usize,
+}
+
+/// When a streaming program is started (STM-14). Nothing that starts one is documented for ADS.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Start {
+    /// By [`Program::start`].
+    ByHand,
+    /// At the beginning, once.
+    #[default]
+    Once,
+    /// At the beginning, and again when it has come to its end.
+    Again,
+}
+
+impl Default for ProgramConfig {
+    /// Set up and started.
+    fn default() -> Self {
+        let pace = Pace::lines_per_second(1000).unwrap_or(Pace::Fast);
+        Self { name: "streaming.nc".to_owned(), start: Start::Once, pace, kept: 1 << 20 }
+    }
+}
+
+/// The program that gets its lines through the streaming interface of a channel.
+///
+/// - Writes go to the [`StreamingInterface`](super::StreamingInterface); what it cannot take now is refused, with warning 11012
+///   (STM-3, STM-6).
+/// - The decoder, when it has run all lines it has, reads everything that is there at once
+///   (STM-12), and runs it line by line. A line counts as run when its time at the [`Pace`] is
+///   over. Before the decoder was started, and behind an end or an error, nothing is read: writes
+///   fill the interface (assumed).
+/// - If there is nothing to read, motion stands still until the next write (STM-16).
+/// - A line without CR LF aborts when it is read; nothing of what was read with it is run
+///   (assumed). A word of a loop and a jump back abort in place of their line; the lines above are
+///   run (STM-8; the moment is assumed). See [`Checker`] for what those are.
+/// - Behind a program end, what was read with it is discarded; what is still in the interface
+///   stays for the next start (STM-10).
+/// - An NC reset ends streaming mode and empties the interface (STM-11).
+///
+/// The lines are not interpreted: branches are not taken and jumps not followed, each line is run
+/// once, in its order. `L` calls a subroutine, which is a file with its own M17 or M29: the call
+/// returns at once and the stream goes on (STM-18).
+///
+/// Memory: the interface, as much again for what was read, the labels that a [`Checker`] knows and
+/// the lines that are kept.
+///
+/// Manual: `stream-en`, sections 2.2, 2.3, 3 and 4.
+#[derive(Debug)]
+pub struct Program {
+    config: ProgramConfig,
+    policy: Policy,
+    interface: Box<dyn Buffer>,
+    checker: Checker,
+    phase: Phase,
+    clock: Clock,
+    now: Duration,
+    executed: Executed,
+    refusals: u64,
+}
+
+#[derive(Debug)]
+enum Phase {
+    Started(Segment),
+    /// As the state says.
+    Over(State),
+}
+
+impl Program {
+    /// A channel that was switched on.
+    pub fn new(config: ProgramConfig) -> Self {
+        Self::with_policy(config, Policy::DEFAULT)
+    }
+
+    /// A channel that was switched on, by another policy.
+    pub(crate) fn with_policy(config: ProgramConfig, policy: Policy) -> Self {
+        let mut program = Self {
+            policy,
+            interface: (policy.buffer)(),
+            checker: Checker::new(),
+            phase: Phase::Over(State::Stopped),
+            clock: Clock::default(),
+            now: Duration::ZERO,
+            executed: Executed::new(config.kept),
+            refusals: 0,
+            config,
+        };
+        let starts = policy.starts.contains(&Event::PowerOn);
+        if (starts || program.config.start != Start::ByHand) && !program.config.name.is_empty() {
+            program.begin();
+        }
+        program
+    }
+
+    /// Writes to `mc_program_stream_w`; [`result`] is what ADS answers.
+    pub fn write(&mut self, data: &[u8], now: Duration) -> Ack {
+        self.advance(now);
+        let was_dry = self.is_dry();
+        let ack = self.interface.write(data);
+        match ack {
+            Ack::Accepted if was_dry => {
+                self.clock = Clock::begin(self.now);
+                self.run();
+            }
+            Ack::Busy => self.refusals = self.refusals.saturating_add(1),
+            Ack::Accepted | Ack::Rejected => {}
+        }
+        ack
+    }
+
+    /// Makes up for the time that has passed.
+    pub fn advance(&mut self, now: Duration) {
+        self.now = self.now.max(now);
+        self.run();
+    }
+
+    /// Starts the streaming program, as main program or as global subroutine (STM-14). Its lines
+    /// are counted from 1 again.
+    ///
+    /// # Errors
+    /// [`StartError`]: it has no name, it runs, or it was aborted.
+    pub fn start(&mut self, now: Duration) -> Result<(), StartError> {
+        self.advance(now);
+        if self.config.name.is_empty() {
+            return Err(StartError::NoName);
+        }
+        match &self.phase {
+            Phase::Started(_) => return Err(StartError::Running),
+            Phase::Over(State::Aborted(_)) => return Err(StartError::Aborted),
+            Phase::Over(_) => {}
+        }
+        self.clear_at(Event::Start);
+        self.begin();
+        self.clock = Clock::begin(self.now);
+        self.run();
+        Ok(())
+    }
+
+    /// NC reset: ends streaming mode and empties the interface (STM-11). What was run by then can
+    /// still be read back.
+    pub fn reset(&mut self, now: Duration) {
+        self.advance(now);
+        self.clear_at(Event::Reset);
+        if self.policy.ends.contains(&Event::Reset) {
+            self.phase = Phase::Over(State::Stopped);
+        }
+        if self.policy.starts.contains(&Event::Reset) {
+            self.begin();
+        }
+    }
+
+    fn clear_at(&mut self, event: Event) {
+        if self.policy.clears.contains(&event) {
+            self.interface.clear();
+        }
+    }
+
+    /// Changes how fast lines are run from now on; the line that is being run begins anew.
+    pub fn set_pace(&mut self, pace: Pace, now: Duration) {
+        self.advance(now);
+        self.config.pace = pace;
+        self.clock = Clock::begin(self.now);
+        self.run();
+    }
+
+    /// Where it stands, as of the last access.
+    pub fn state(&self) -> State {
+        match &self.phase {
+            Phase::Over(state) => state.clone(),
+            Phase::Started(_) if self.is_dry() => State::Dry,
+            Phase::Started(_) => State::Running,
+        }
+    }
+
+    fn is_dry(&self) -> bool {
+        let Phase::Started(segment) = &self.phase else { return false };
+        self.interface.len() == 0 && matches!(segment.next(), Next::Nothing)
+    }
+
+    /// What was run, as of the last access, over all starts and resets.
+    pub fn executed(&self) -> &Executed {
+        &self.executed
+    }
+
+    /// Forgets what was run.
+    pub fn forget_executed(&mut self) {
+        self.executed = Executed::new(self.config.kept);
+    }
+
+    /// Bytes that the interface holds, as of the last access.
+    pub fn held(&self) -> usize {
+        self.interface.len()
+    }
+
+    /// How often a write was refused for now: so many times warning
+    /// [11012](ads_cnc::streaming::BUSY_WARNING) was issued (STM-6).
+    pub fn refusals(&self) -> u64 {
+        self.refusals
+    }
+
+    /// How it is set up.
+    pub fn config(&self) -> &ProgramConfig {
+        &self.config
+    }
+
+    fn begin(&mut self) {
+        self.checker = Checker::new();
+        self.phase = Phase::Started(Segment::default());
+    }
+
+    fn run(&mut self) {
+        while let Phase::Started(segment) = &mut self.phase {
+            match segment.next() {
+                _ if self.config.pace == Pace::Hold => break,
+                Next::Line(line) => {
+                    if !self.clock.pass(self.config.pace, line, self.now) {
+                        break;
+                    }
+                    self.executed.push(line);
+                    segment.pass();
+                }
+                Next::Fault(finding) => {
+                    let message = Message::of_finding(&self.config.name, &finding);
+                    self.phase = Phase::Over(State::Aborted(message));
+                }
+                Next::End(end) => {
+                    self.clear_at(Event::End);
+                    match self.config.start {
+                        Start::Again => self.begin(),
+                        _ => self.phase = Phase::Over(State::Ended(end)),
+                    }
+                }
+                Next::Nothing if self.interface.len() == 0 => {
+                    if self.policy.ends.contains(&Event::Dry) && self.checker.lines() > 0 {
+                        self.phase = Phase::Over(State::Stopped);
+                    }
+                    break;
+                }
+                Next::Nothing => self.read(),
+            }
+        }
+    }
+
+    fn read(&mut self) {
+        self.phase = match self.interface.read() {
+            Ok(lines) => Phase::Started((self.policy.segment)(&mut self.checker, &lines)),
+            Err(error) => {
+                let (number, before) = (self.policy.line_end_error, self.checker.lines());
+                let message = Message::of_line_end(&self.config.name, number, before, &error);
+                Phase::Over(State::Aborted(message))
+            }
+        };
+    }
+}
+
+/// What ADS answers to a write: 0, 0x706 for now, 0x705 for good (STM-6; the numbers are assumed).
+///
+/// ```
+/// use ads_cnc::streaming::Ack;
+/// use ads_cnc_conformance::simulator::program::result;
+///
+/// for ack in [Ack::Accepted, Ack::Busy, Ack::Rejected] {
+///     assert_eq!(Ack::from_result(result(ack)), ack);
+/// }
+/// ```
+pub fn result(ack: Ack) -> AdsError {
+    match ack {
+        Ack::Accepted => AdsError::NO_ERROR,
+        Ack::Busy => AdsError::INVALID_DATA,
+        Ack::Rejected => AdsError::INVALID_SIZE,
+    }
+}

@@ -1,0 +1,164 @@
+//! From a frame to the frame that answers it.
+
+use ads_cnc::ads::{
+    AdsError, AdsState, AmsHeader, AmsNetId, AmsTcpHeader, Command, DeviceInfoReply,
+    DeviceStateReply, FrameRef, ReadReplyRef, ReadWriteReplyRef, StateFlags, WriteReply,
+};
+use ads_cnc::limits::{AMS_HEADER_LEN, AMS_TCP_HEADER_LEN};
+use ads_cnc::operation::{Call, Service, Task};
+use ads_cnc::{Encode, Error};
+
+use super::{to_len, to_u32};
+use crate::services::service_of;
+
+/// The most bytes behind the AMS header of a frame that is taken or sent: more ends a connection,
+/// and is refused as the answer to a request.
+pub const DATA_MAX: u32 = 0x1_0000;
+
+/// Bytes of the longest frame.
+pub(crate) const FRAME_MAX: usize = FrameRef::HEADERS_LEN + 0x1_0000;
+
+const _: () = assert!(DATA_MAX == 0x1_0000);
+
+/// The AMS NetId of the simulated CNC, unless it is given another.
+pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
+
+/// The bit that a response has and a request has not.
+const RESPONSE_BIT: u16 = StateFlags::REQUEST.0 ^ StateFlags::RESPONSE.0;
+
+/// Answers requests with data or an error number.
+type Asked<'a> = &'a dyn Fn(&Call<'_>) -> Result<Vec<u8>, AdsError>;
+
+/// Appends the frame to answer with; see [`Responder::respond`](super::Responder::respond).
+pub(crate) fn respond(
+    cnc: Asked<'_>,
+    net_id: AmsNetId,
+    frame: &FrameRef<'_>,
+    answers: &mut Vec<u8>,
+) {
+    let header = frame.header();
+    if header.state_flags.0 & RESPONSE_BIT != 0 {
+        let flags = header.state_flags.0;
+        tracing::warn!("ignored, no request: state_flags {flags:#06x} from {}", header.source);
+        return;
+    }
+    let start = answers.len();
+    // The headers come when the length of what they stand before is known.
+    answers.resize(start.saturating_add(FrameRef::HEADERS_LEN), 0);
+    let behind = answers.len();
+    let error = if header.target.net_id != net_id {
+        Ok(AdsError::TARGET_MACHINE_NOT_FOUND)
+    } else if Task::from_port(header.target.port).is_none() {
+        Ok(AdsError::TARGET_PORT_NOT_FOUND)
+    } else {
+        serve(cnc, frame, answers).map(|()| AdsError::NO_ERROR)
+    };
+    let data_length = to_u32(answers.len().saturating_sub(behind));
+    let done = error.and_then(|error| {
+        let answer = AmsHeader { error, data_length, ..header.response() };
+        write_headers(answer, answers, start)
+    });
+    if let Err(error) = done {
+        tracing::error!("no answer, it does not encode: {error}");
+        answers.truncate(start);
+    }
+}
+
+fn write_headers(header: AmsHeader, answers: &mut [u8], start: usize) -> Result<(), Error> {
+    let middle = start.saturating_add(AMS_TCP_HEADER_LEN);
+    let end = start.saturating_add(FrameRef::HEADERS_LEN);
+    let length = header.data_length.saturating_add(to_u32(AMS_HEADER_LEN));
+    let tcp = AmsTcpHeader { reserved: 0, length };
+    tcp.encode(answers.get_mut(start..middle).unwrap_or_default())?;
+    header.encode(answers.get_mut(middle..end).unwrap_or_default())?;
+    Ok(())
+}
+
+/// Appends the data of the response to a command for a port that a task has.
+fn serve(cnc: Asked<'_>, frame: &FrameRef<'_>, answers: &mut Vec<u8>) -> Result<(), Error> {
+    let (command, data) = (frame.header().command, frame.data());
+    if let Some(service) = service_of(command) {
+        let reply = ask(cnc, frame);
+        // An error has its length, 0, too: not all clients take a reply that stops before it.
+        let (result, data) = match &reply {
+            Ok(data) => (AdsError::NO_ERROR, Some(data.as_slice())),
+            Err(result) => (*result, Some(&[][..])),
+        };
+        return match service {
+            Service::Read => append(&ReadReplyRef { result, data }, answers),
+            Service::Write => append(&WriteReply { result }, answers),
+            Service::ReadWrite => append(&ReadWriteReplyRef { result, data }, answers),
+        };
+    }
+    match command {
+        Command::READ_DEVICE_INFO => {
+            append(&DeviceInfoReply { result: without_data(data), ..INFO }, answers)
+        }
+        Command::READ_STATE => {
+            let (result, ads_state) = (without_data(data), AdsState::RUN);
+            append(&DeviceStateReply { result, ads_state, device_state: 0 }, answers)
+        }
+        _ => {
+            tracing::debug!("refused: command {}", command.0);
+            let result = AdsError::SERVICE_NOT_SUPPORTED;
+            match command {
+                // A result and the notification's handle, 0: as an empty Read has a result and
+                // length 0.
+                Command::ADD_NOTIFICATION => {
+                    append(&ReadReplyRef { result, data: Some(&[]) }, answers)
+                }
+                _ => append(&WriteReply { result }, answers),
+            }
+        }
+    }
+}
+
+/// Asks the CNC; what no frame has room for is too much to ask.
+fn ask(cnc: Asked<'_>, frame: &FrameRef<'_>) -> Result<Vec<u8>, AdsError> {
+    let call = Call::from_frame(frame).map_err(|error| {
+        // A service's header that does not hold together is a request of the wrong size.
+        tracing::debug!("refused: {error}");
+        AdsError::INVALID_SIZE
+    })?;
+    let answer = cnc(&call.ok_or(AdsError::SERVICE_NOT_SUPPORTED)?)?;
+    let room = to_len(DATA_MAX).saturating_sub(SERVICE_LEN);
+    if answer.len() > room { Err(AdsError::INVALID_SIZE) } else { Ok(answer) }
+}
+
+/// Result and length before the data of a reply.
+const SERVICE_LEN: usize = 8;
+
+/// What the simulated CNC says of itself: a name, and the version of this program.
+pub(crate) const INFO: DeviceInfoReply = DeviceInfoReply {
+    result: AdsError::NO_ERROR,
+    major: number(env!("CARGO_PKG_VERSION_MAJOR")),
+    minor: number(env!("CARGO_PKG_VERSION_MINOR")),
+    build: match u16::from_str_radix(env!("CARGO_PKG_VERSION_PATCH"), 10) {
+        Ok(number) => number,
+        Err(_) => u16::MAX,
+    },
+    name: *b"ads-cnc serve\0\0\0",
+};
+
+/// The number of a version, or 255 if it is more.
+const fn number(text: &str) -> u8 {
+    match u8::from_str_radix(text, 10) {
+        Ok(number) => number,
+        Err(_) => u8::MAX,
+    }
+}
+
+/// A command that takes none.
+const fn without_data(data: &[u8]) -> AdsError {
+    if data.is_empty() { AdsError::NO_ERROR } else { AdsError::INVALID_SIZE }
+}
+
+fn append(reply: &impl Encode, answers: &mut Vec<u8>) -> Result<(), Error> {
+    let start = answers.len();
+    answers.resize(start.saturating_add(reply.encoded_len()), 0);
+    reply.encode(answers.get_mut(start..).unwrap_or_default())?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,209 @@
+//! The AMS/TCP server: a thread for each connection, a bounded number of them.
+
+mod connection;
+
+use std::collections::BTreeMap;
+use std::io;
+use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+use ads_cnc::ads::AmsNetId;
+
+use super::{NET_ID, Responder};
+use crate::net;
+
+pub use connection::Received;
+
+/// The most connections at a time; one more is closed at once.
+pub const CONNECTIONS_MAX: usize = 64;
+
+/// The most bytes that a connection holds of what it received and of what it is about to send; an
+/// answer being made comes on top, which is no longer than a frame. They are taken as they are
+/// needed.
+pub const CONNECTION_BYTES_MAX: usize = connection::HELD_MAX;
+
+/// Bytes of the stack of a connection's thread.
+const STACK: usize = 1024 * 1024;
+
+/// How a server serves.
+#[derive(Clone, Copy, Debug)]
+pub struct ServerOptions {
+    /// The AMS NetId it answers for.
+    pub net_id: AmsNetId,
+    /// How long a connection may be without a whole request before it is ended; for ever if none.
+    /// Clients that are gone without a word would take the places of others.
+    pub idle: Option<Duration>,
+    /// How long a new connection may be without its first whole request, and any connection with a
+    /// part of one; for ever if none. Clients that open connections only, or leave requests half
+    /// sent, lock others out no longer than that. Clients that have sent a request may, for `idle`,
+    /// and those that read slowly, for as long as they read.
+    pub frame: Option<Duration>,
+}
+
+impl ServerOptions {
+    /// Ten minutes without a request: people who wait for the next have come back by then.
+    pub const IDLE: Duration = Duration::from_secs(600);
+
+    /// Ten seconds for a frame, and for the first: a frame is one write of its client.
+    pub const FRAME: Duration = Duration::from_secs(10);
+}
+
+impl Default for ServerOptions {
+    fn default() -> Self {
+        Self { net_id: NET_ID, idle: Some(Self::IDLE), frame: Some(Self::FRAME) }
+    }
+}
+
+/// How long a client may leave an answer lying before its connection ends.
+const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
+
+/// How long the server waits for its own thread to take notice of its end.
+const WAKE_TIMEOUT: Duration = Duration::from_secs(1);
+
+/// A running server; dropping it ends every connection and waits for their threads.
+#[derive(Debug)]
+pub struct Server {
+    addr: SocketAddr,
+    shared: Arc<Shared>,
+    acceptor: Option<JoinHandle<Vec<JoinHandle<()>>>>,
+}
+
+#[derive(Debug)]
+struct Shared {
+    cnc: Box<dyn Responder>,
+    options: ServerOptions,
+    stopped: AtomicBool,
+    /// The open connections, to end them from outside.
+    connections: Mutex<BTreeMap<u64, TcpStream>>,
+}
+
+impl Server {
+    /// Serves the connections of a listener until dropped.
+    ///
+    /// # Errors
+    /// If the listener has no address or the system no thread.
+    pub fn start(listener: TcpListener, cnc: impl Responder + 'static) -> io::Result<Self> {
+        Self::with_options(listener, cnc, ServerOptions::default())
+    }
+
+    /// Serves the connections of a listener until dropped, as the options say.
+    ///
+    /// # Errors
+    /// If the listener has no address or the system no thread.
+    pub fn with_options(
+        listener: TcpListener,
+        cnc: impl Responder + 'static,
+        options: ServerOptions,
+    ) -> io::Result<Self> {
+        let addr = listener.local_addr()?;
+        let stopped = AtomicBool::new(false);
+        let connections = Mutex::new(BTreeMap::new());
+        let shared = Arc::new(Shared { cnc: Box::new(cnc), options, stopped, connections });
+        let accepting = Arc::clone(&shared);
+        let acceptor = thread::Builder::new()
+            .name("cnc-accept".to_owned())
+            .spawn(move || accepting.accept(&listener))?;
+        Ok(Self { addr, shared, acceptor: Some(acceptor) })
+    }
+
+    /// Where it listens.
+    pub const fn addr(&self) -> SocketAddr {
+        self.addr
+    }
+
+    /// The AMS NetId it answers for.
+    pub fn net_id(&self) -> AmsNetId {
+        self.shared.options.net_id
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.shared.stopped.store(true, Ordering::SeqCst);
+        // The acceptor waits for a connection: it gets one. Without, it is left behind.
+        let woken = net::knock(self.addr, WAKE_TIMEOUT).is_ok();
+        let acceptor = self.acceptor.take().filter(|acceptor| woken || acceptor.is_finished());
+        let threads = acceptor.and_then(|acceptor| acceptor.join().ok()).unwrap_or_default();
+        for stream in self.shared.connections().values() {
+            // Closed by the client already, if this fails.
+            let _closed = stream.shutdown(Shutdown::Both);
+        }
+        for thread in threads {
+            let _panicked = thread.join();
+        }
+    }
+}
+
+impl Shared {
+    fn accept(self: Arc<Self>, listener: &TcpListener) -> Vec<JoinHandle<()>> {
+        let mut threads: Vec<JoinHandle<()>> = Vec::new();
+        for id in 0_u64.. {
+            let accepted = listener.accept();
+            if self.stopped.load(Ordering::SeqCst) {
+                break;
+            }
+            threads.retain(|thread| !thread.is_finished());
+            match accepted {
+                Ok((stream, peer)) => match Arc::clone(&self).connection(id, stream, peer) {
+                    Ok(thread) => threads.push(thread),
+                    Err(error) => tracing::warn!(%peer, "connection not taken: {error}"),
+                },
+                Err(error) => {
+                    // Out of file descriptors, most likely: wait for connections to end.
+                    tracing::warn!("no connection: {error}");
+                    thread::sleep(Duration::from_millis(50));
+                }
+            }
+        }
+        threads
+    }
+
+    fn connection(
+        self: Arc<Self>,
+        id: u64,
+        stream: TcpStream,
+        peer: SocketAddr,
+    ) -> io::Result<JoinHandle<()>> {
+        stream.set_nodelay(true)?;
+        stream.set_write_timeout(Some(WRITE_TIMEOUT))?;
+        let options = self.options;
+        let mut connections = self.connections();
+        if connections.len() >= CONNECTIONS_MAX {
+            return Err(io::Error::other("there are as many as there may be"));
+        }
+        connections.insert(id, stream.try_clone()?);
+        drop(connections);
+        // Taken off the list when dropped: at the thread's end, or here if there is no thread.
+        let open = Open { shared: Arc::clone(&self), id };
+        let thread = thread::Builder::new().name(format!("cnc-{id}")).stack_size(STACK);
+        thread.spawn(move || {
+            tracing::info!(%peer, "connected");
+            match connection::serve(&*open.shared.cnc, &options, &stream) {
+                Ok(()) => tracing::info!(%peer, "closed"),
+                Err(error) => tracing::warn!(%peer, "connection ended: {error}"),
+            }
+        })
+    }
+
+    fn connections(&self) -> MutexGuard<'_, BTreeMap<u64, TcpStream>> {
+        // The map is whole whatever panicked meanwhile.
+        self.connections.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+struct Open {
+    shared: Arc<Shared>,
+    id: u64,
+}
+
+impl Drop for Open {
+    fn drop(&mut self) {
+        self.shared.connections().remove(&self.id);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,278 @@
+//! What the CNC holds at the moment: everything that requests and the machine change.
+
+use std::time::Duration;
+
+use ads_cnc::address::{Addressing, Class};
+use ads_cnc::ads::AdsError;
+use ads_cnc::dynamic::DynamicKind;
+
+use super::content::Owner;
+use super::model::{AxisModel, ChannelModel, Item, Model, Variables, class_place};
+use super::parameters::{ParameterState, Parameters};
+use super::program::service::ServiceInterface;
+use super::program::{Policy, Program, Script};
+
+/// Contents, in the order of what they belong to.
+pub(super) type Values = Vec<Vec<u8>>;
+
+/// The state of a CNC.
+#[derive(Debug)]
+pub(super) struct State {
+    /// In the model's order.
+    pub(super) channels: Vec<ChannelState>,
+    axes: Vec<AxisState>,
+    spindles: Vec<Values>,
+    platform: Values,
+}
+
+/// Of a channel.
+#[derive(Debug)]
+pub(super) struct ChannelState {
+    pub(super) active: bool,
+    /// Which axis is at which place now.
+    pub(super) places: Vec<Option<usize>>,
+    objects: Values,
+    variables: Values,
+    elements: [Values; 6],
+    pub(super) parameters: Parameters,
+    pub(super) service: ServiceInterface,
+    /// Its streaming program, with what is in the interface.
+    pub(super) program: Program,
+    /// Its NC program that asks services, if it has one.
+    pub(super) script: Option<Script>,
+}
+
+/// Of an axis: it takes all of it along to another place.
+#[derive(Clone, Debug)]
+struct AxisState {
+    /// Of the COM task, on the platform and at a place.
+    objects: Values,
+    of_place: Values,
+    variables: Values,
+    elements: [Values; 6],
+}
+
+fn items(items: &[Item], instance: usize) -> Values {
+    items.iter().map(|item| item.initial.of(instance)).collect()
+}
+
+fn variables(variables: &Variables, instance: usize) -> Values {
+    variables.list.iter().map(|variable| variable.initial.of(instance)).collect()
+}
+
+impl State {
+    /// As at the start.
+    pub(super) fn new(model: &Model, policy: Policy) -> Self {
+        let channel = |(place, channel): (usize, &ChannelModel)| ChannelState {
+            active: channel.active,
+            places: channel.places.clone(),
+            objects: items(&channel.objects.items, place),
+            variables: variables(&channel.variables, place),
+            elements: Class::ALL.map(|class| {
+                model
+                    .class(class)
+                    .map(|class| items(&class.channel.items, place))
+                    .unwrap_or_default()
+            }),
+            parameters: Parameters::new(&channel.parameters),
+            service: ServiceInterface::new(),
+            program: Program::with_policy(channel.program.clone(), policy),
+            // The model was checked: it is one.
+            script: channel
+                .script
+                .clone()
+                .and_then(|script| Some(Script::new(script).ok()?.with_policy(policy))),
+        };
+        let axis = |(place, _): (usize, &AxisModel)| AxisState {
+            objects: items(&model.platform_axis.items, place),
+            of_place: items(&model.channel_axis.items, place),
+            variables: variables(&model.axis_variables, place),
+            elements: Class::ALL.map(|class| {
+                model.class(class).map(|class| items(&class.axis.items, place)).unwrap_or_default()
+            }),
+        };
+        let spindles = model.class(Class::Spindle).map(|class| class.channel.items.as_slice());
+        Self {
+            channels: model.channels.iter().enumerate().map(channel).collect(),
+            axes: model.axes.iter().enumerate().map(axis).collect(),
+            spindles: (0..model.spindles)
+                .map(|index| items(spindles.unwrap_or_default(), index))
+                .collect(),
+            platform: items(&model.platform.items, 0),
+        }
+    }
+
+    /// Lets the parameters and programs of all channels make up for the time that has passed.
+    pub(super) fn advance(&mut self, now: Duration) {
+        for channel in &mut self.channels {
+            channel.parameters.advance(now);
+            channel.program.advance(now);
+            if let Some(script) = &mut channel.script {
+                script.advance(now, &mut channel.service);
+            }
+        }
+    }
+
+    /// The channel an address means: by its number, or by its rank among the active (ADR-11).
+    pub(super) fn channel(
+        &self,
+        model: &Model,
+        addressing: Addressing,
+        number: u8,
+    ) -> Result<usize, AdsError> {
+        let mut active = self.channels.iter().enumerate().filter(|(_, channel)| channel.active);
+        let found = match addressing {
+            Addressing::Logical => active.find(|(place, _)| {
+                model.channels.get(*place).is_some_and(|channel| channel.number == number)
+            }),
+            Addressing::Index => {
+                let before = usize::from(number).checked_sub(1);
+                before.and_then(|before| active.nth(before))
+            }
+        };
+        found.map(|(place, _)| place).ok_or(AdsError::INVALID_GROUP)
+    }
+
+    /// Whether it is the first channel, which drives the platform.
+    pub(super) fn is_first(&self, channel: usize) -> bool {
+        self.channels.iter().position(|one| one.active) == Some(channel)
+    }
+
+    /// The axis at a place of a channel.
+    pub(super) fn axis_at(&self, channel: usize, place: usize) -> Option<usize> {
+        *self.channels.get(channel)?.places.get(place)?
+    }
+
+    /// Contents of objects and elements; none where no axis is.
+    pub(super) fn values(&self, owner: Owner) -> Option<&Values> {
+        match owner {
+            Owner::Platform => Some(&self.platform),
+            Owner::Channel(channel) => self.channels.get(channel).map(|channel| &channel.objects),
+            Owner::Axis(axis) => self.axes.get(axis).map(|axis| &axis.objects),
+            Owner::Place { channel, place } => {
+                self.axes.get(self.axis_at(channel, place)?).map(|axis| &axis.of_place)
+            }
+            Owner::ClassChannel(class, channel) => {
+                self.channels.get(channel)?.elements.get(class_place(class))
+            }
+            Owner::ClassAxis(class, axis) => self.axes.get(axis)?.elements.get(class_place(class)),
+            Owner::ClassPlace { class, channel, place } => {
+                let axis = self.axes.get(self.axis_at(channel, place)?)?;
+                axis.elements.get(class_place(class))
+            }
+            Owner::Spindle(spindle) => self.spindles.get(spindle),
+        }
+    }
+
+    /// The same, to be written.
+    pub(super) fn values_mut(&mut self, owner: Owner) -> Option<&mut Values> {
+        match owner {
+            Owner::Platform => Some(&mut self.platform),
+            Owner::Channel(channel) => {
+                self.channels.get_mut(channel).map(|channel| &mut channel.objects)
+            }
+            Owner::Axis(axis) => self.axes.get_mut(axis).map(|axis| &mut axis.objects),
+            Owner::Place { channel, place } => {
+                let axis = self.axis_at(channel, place)?;
+                self.axes.get_mut(axis).map(|axis| &mut axis.of_place)
+            }
+            Owner::ClassChannel(class, channel) => {
+                self.channels.get_mut(channel)?.elements.get_mut(class_place(class))
+            }
+            Owner::ClassAxis(class, axis) => {
+                self.axes.get_mut(axis)?.elements.get_mut(class_place(class))
+            }
+            Owner::ClassPlace { class, channel, place } => {
+                let axis = self.axis_at(channel, place)?;
+                self.axes.get_mut(axis)?.elements.get_mut(class_place(class))
+            }
+            Owner::Spindle(spindle) => self.spindles.get_mut(spindle),
+        }
+    }
+
+    /// Values of the variables of a channel.
+    pub(super) fn variables(&self, channel: usize) -> Option<&Values> {
+        self.channels.get(channel).map(|channel| &channel.variables)
+    }
+
+    /// The same, to be written.
+    pub(super) fn variables_mut(&mut self, channel: usize) -> Option<&mut Values> {
+        self.channels.get_mut(channel).map(|channel| &mut channel.variables)
+    }
+
+    /// Values of V.A of the axis at a place; none where no axis is.
+    pub(super) fn axis_variables(&self, channel: usize, place: usize) -> Option<&Values> {
+        self.axes.get(self.axis_at(channel, place)?).map(|axis| &axis.variables)
+    }
+
+    /// The same, to be written.
+    pub(super) fn axis_variables_mut(
+        &mut self,
+        channel: usize,
+        place: usize,
+    ) -> Option<&mut Values> {
+        let axis = self.axis_at(channel, place)?;
+        self.axes.get_mut(axis).map(|axis| &mut axis.variables)
+    }
+
+    /// The parameters of a kind that are there now, in the order of their indices.
+    pub(super) fn parameters(
+        &self,
+        channel: usize,
+        kind: DynamicKind,
+    ) -> impl Iterator<Item = &ParameterState> {
+        let channel = self.channels.get(channel);
+        let parameters = channel.into_iter().flat_map(ChannelState::present);
+        parameters.filter(move |parameter| parameter.is.kind == kind)
+    }
+
+    /// Puts the axis with this logical number at a place of a channel: where it was, none is now;
+    /// which was there, is nowhere now. The number 0 leaves the place without an axis.
+    ///
+    /// Nothing happens if there is no such axis, or another of the same name in the channel, whose
+    /// variables could not be told apart.
+    pub(super) fn exchange(
+        &mut self,
+        model: &Model,
+        channel: usize,
+        place: usize,
+        number: u32,
+    ) -> Result<(), AdsError> {
+        let refused = AdsError::INVALID_DATA;
+        let axis = match number {
+            0 => None,
+            _ => {
+                let found = model.axes.iter().position(|axis| axis.number == number);
+                Some(found.ok_or(refused)?)
+            }
+        };
+        let places = &self.channels.get(channel).ok_or(refused)?.places;
+        if place >= places.len() {
+            return Err(refused);
+        }
+        let name = |axis: usize| model.axes.get(axis).map(|axis| &axis.name);
+        let mut others = places.iter().enumerate().filter(|(other, _)| *other != place);
+        let same_name = |other: usize| Some(other) != axis && axis.and_then(name) == name(other);
+        if axis.is_some() && others.any(|(_, other)| other.is_some_and(same_name)) {
+            return Err(refused);
+        }
+        for left in self.channels.iter_mut().flat_map(|channel| &mut channel.places) {
+            *left = left.filter(|left| Some(*left) != axis);
+        }
+        if let Some(at) = self.channels.get_mut(channel).and_then(|one| one.places.get_mut(place)) {
+            *at = axis;
+        }
+        Ok(())
+    }
+}
+
+impl ChannelState {
+    fn present(&self) -> impl Iterator<Item = &ParameterState> {
+        let is_zero = |object: usize| {
+            let content = self.objects.get(object);
+            content.is_none_or(|content| content.iter().all(|&byte| byte == 0))
+        };
+        let parameters = self.parameters.at_their_time();
+        parameters.filter(move |parameter| !parameter.is.needs.is_some_and(is_zero))
+    }
+}
