@@ -69,6 +69,8 @@ const fn least(mut fields: &[FieldSpec]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::declare::Declared;
+    use crate::layout::Type;
     use crate::{DescriptionRef, HandleWriteRef, NameWriteRef};
 
     fn layout(rows: &[(&'static str, u32, u32, Size)]) -> Layout {
@@ -148,17 +150,5 @@ mod tests {
     #[should_panic = "no field of this name"]
     fn a_name_of_no_field_has_no_maximum() {
         layout(&[]).most("value");
-    }
-
-    #[test]
-    fn fields_are_found_by_name() {
-        let field = Field::of::<DescriptionRef<'_>>("dimensions");
-        assert_eq!((field.name(), field.before().name()), ("dimensions", "dimension_count"));
-    }
-
-    #[test]
-    #[should_panic = "no field of this name"]
-    fn a_name_of_no_field_is_no_field() {
-        Field::of::<DescriptionRef<'_>>("dimension");
     }
 }

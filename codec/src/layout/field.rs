@@ -128,3 +128,21 @@ impl fmt::Display for Stream {
         f.write_str(self.layout().name)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::DescriptionRef;
+
+    #[test]
+    fn fields_are_found_by_name() {
+        let field = Field::of::<DescriptionRef<'_>>("dimensions");
+        assert_eq!((field.name(), field.before().name()), ("dimensions", "dimension_count"));
+    }
+
+    #[test]
+    #[should_panic = "no field of this name"]
+    fn a_name_of_no_field_is_no_field() {
+        Field::of::<DescriptionRef<'_>>("dimension");
+    }
+}

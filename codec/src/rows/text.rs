@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use super::Row;
-use crate::bytes::{Reader, Writer, to_u32, to_usize};
+use crate::bytes::{Reader, Writer, to_u32};
 use crate::error::Error;
 use crate::layout::{Field, Size, Type};
 use crate::text::{CncStr, TextRef};
@@ -192,6 +192,8 @@ mod owned {
     use super::super::any::{Any, ended, min, nothing, open, text};
 
     use super::*;
+    #[cfg(feature = "arbitrary")]
+    use crate::bytes::to_usize;
     #[cfg(feature = "binrw")]
     use crate::io::Pull;
     use crate::text::{CncString, Text};
