@@ -13,7 +13,6 @@ use process_wrap::std::{ChildWrapper, CommandWrap};
 #[cfg(windows)]
 use process_wrap::std::{CreationFlags, JobObject};
 
-pub(crate) use spoken::front;
 pub use spoken::{LINE_MAX, Spoken, Stderr, Unheard, cut, read_line, text};
 
 /// How long a command has at least for its first word: some languages take longer for starting than

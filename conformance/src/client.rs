@@ -16,9 +16,10 @@ use ads_cnc::operation::{Call, Service};
 use crate::capture::Capture;
 use crate::cnc::{Cnc, InProcess};
 use crate::exchange::{Answer, Exchange, Fault, Violation};
-use crate::gate::{Gate, Moment, Permit};
+use crate::gate::{Gate, Permit};
 use crate::net::Wire;
 use crate::services::{decode_reply, service_of};
+use crate::text::Moment;
 
 pub use inquiry::{Inquired, Inquiry, Said};
 pub(crate) use judge::violations;

@@ -28,9 +28,9 @@ use serde::de::{Deserializer, Error as _};
 use toml::Spanned;
 use toml::value::{Date, Datetime};
 
-use crate::gate::Moment;
 use crate::report::{LeftOut, WaiverReport, WaiverState};
 use crate::suite::Outcome;
+use crate::text::Moment;
 use crate::verdict::Verdict;
 
 /// Known failures.

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use super::Running;
 use crate::interrupt;
-use crate::report::tame_lines;
+use crate::text::escape_lines;
 
 /// The longest line that is taken. The longest right answer has some thousand bytes.
 pub const LINE_MAX: usize = 1 << 18;
@@ -30,7 +30,7 @@ impl Stderr {
     /// It as text that can be shown.
     pub fn text(&self) -> String {
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        tame_lines(&String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()))
+        escape_lines(&String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()))
     }
 
     fn keep(&self, mut from: impl Read) {
@@ -253,10 +253,4 @@ fn wait(child: &Running, limit: Duration, mut meanwhile: impl FnMut()) -> Option
 pub fn cut(line: &str) -> String {
     let shown: String = line.chars().take(120).collect();
     if shown.len() < line.len() { format!("{shown:?}…") } else { format!("{shown:?}") }
-}
-
-/// A text, or so many characters of it and a sign that there are more.
-pub(crate) fn front(text: &str, most: usize) -> String {
-    let shown: String = text.chars().take(most).collect();
-    if shown.len() < text.len() { shown + "…" } else { shown }
 }

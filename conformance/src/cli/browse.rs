@@ -14,8 +14,8 @@ use crate::objects::{
     Found, NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern,
     REQUESTS_MAX, columns, csv, table, walk,
 };
-use crate::report::{hex, json};
 use crate::session::{Session, Trouble};
+use crate::text::{hex, json};
 use crate::values::plain;
 use crate::verdict::Exit;
 
@@ -242,7 +242,7 @@ fn read_all(
 
 fn cell(object: &Object, content: &Content, format: Format) -> String {
     let text = match content {
-        Ok(bytes) => plain(&object.ty, bytes).unwrap_or_else(|| hex::plain(bytes)),
+        Ok(bytes) => plain(&object.ty, bytes).unwrap_or_else(|| hex::spaced(bytes)),
         Err(_) if format == Format::Csv => return String::new(),
         Err(why) => format!("({why})"),
     };

@@ -10,9 +10,9 @@ use super::forms::Reports;
 use crate::capture::{self, AMS_TCP_PORT, Checked, Collector, Options, Ports};
 use crate::cnc;
 use crate::edition::Edition;
-use crate::gate::Moment;
 use crate::report::{self, About, Report, TargetReport};
 use crate::suite::{Case, Selection};
+use crate::text::Moment;
 use crate::verdict::Exit;
 
 /// Under which these options stand in the help.

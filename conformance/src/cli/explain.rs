@@ -137,7 +137,7 @@ impl Explain {
         let explanation = explain(&question, &given.unwrap_or_default());
         let mut out = BufWriter::new(io::stdout().lock());
         let shown = match self.json {
-            true => crate::report::json::write(&explanation, &mut out),
+            true => crate::text::json::write(&explanation, &mut out),
             false => print(&explanation, self.paint(), &mut out),
         };
         written(shown.and_then(|()| out.flush()))?;

@@ -13,12 +13,12 @@ use super::{complain, find_defect, run_testee};
 use crate::cnc::{self, Model};
 use crate::defect::Seed;
 use crate::edition::Edition;
-use crate::gate::Moment;
 use crate::interrupt::Interrupt;
 use crate::profile::{self, Profile};
 use crate::report::{self, About, Report, TargetReport};
 use crate::session::Trouble;
 use crate::suite::{self, Case, Changes, Needs, Plan, Selection, Subject, Unmatched};
+use crate::text::Moment;
 use crate::verdict::Exit;
 use crate::waivers::Waivers;
 

@@ -152,7 +152,7 @@ impl Set {
         new: Option<&[u8]>,
     ) -> Result<(), Trouble> {
         let text = |bytes: Option<&[u8]>| match bytes {
-            Some(bytes) => plain(ty, bytes).unwrap_or_else(|| crate::report::hex::plain(bytes)),
+            Some(bytes) => plain(ty, bytes).unwrap_or_else(|| crate::text::hex::spaced(bytes)),
             None => "(not readable)".to_owned(),
         };
         let (name, old, new) = (object.name.to_string(), text(old), text(new));

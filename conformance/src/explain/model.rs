@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::typed::Values;
 use crate::codec::class;
-use crate::report::hex::plain;
+use crate::text::hex::spaced;
 use crate::verdict::Exit;
 
 /// What the bytes are.
@@ -278,7 +278,7 @@ impl Part {
         self.unread = (!rest.is_empty()).then(|| Unread {
             offset: end,
             length: rest.len(),
-            hex: plain(rest),
+            hex: spaced(rest),
         });
     }
 }
@@ -288,7 +288,7 @@ impl Row {
         Self {
             offset,
             length: bytes.len(),
-            hex: plain(bytes),
+            hex: spaced(bytes),
             field: field.to_owned(),
             record: 0,
             item: 0,

@@ -26,12 +26,11 @@
 mod allowed;
 mod file;
 mod learnt;
-mod moment;
 mod refusal;
 
+pub use crate::text::Moment;
 pub use allowed::{Allowed, Entry, List};
 pub use file::AllowFileError;
-pub use moment::Moment;
 pub use refusal::{Doubt, Reason, Refusal};
 
 use std::net::{IpAddr, SocketAddr};

@@ -2,19 +2,19 @@
 
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
+use super::BytesReport;
 use super::model::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, LeftChanged, ProfileReport,
     Report, RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
 };
-use super::{BytesReport, hex};
 use crate::clients::CLIENT;
 use crate::cnc;
 use crate::edition::Edition;
 use crate::explain;
-use crate::gate::Moment;
 use crate::profile::Profile;
 use crate::suite::{Body, Evidence, Judgement, Outcome, Subject, gravest, names};
 use crate::testee::TESTEE;
+use crate::text::{Moment, hex};
 use crate::verdict::{Tally, Verdict};
 use crate::waivers::Waivers;
 
@@ -100,7 +100,7 @@ impl Report {
             subjects,
             cases,
         }
-        .tamed()
+        .escaped()
     }
 }
 
@@ -257,8 +257,8 @@ impl From<&Evidence> for EvidenceReport {
             sent: (!sent.is_empty()).then(|| BytesReport::new(*request_stream, sent, None, values)),
             received: received.map(|bytes| reply(bytes, expected)),
             expected: expected.map(|bytes| reply(bytes, received)),
-            frame_sent: hex::plain(&evidence.frame_sent),
-            frame_received: hex::plain(&evidence.frame_received),
+            frame_sent: hex::spaced(&evidence.frame_sent),
+            frame_received: hex::spaced(&evidence.frame_received),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use super::BytesReport;
-use super::hex::{lines, marked};
+use super::lines::{lines, marked};
 use super::model::{
     CaseReport, EvidenceReport, FailureReport, Report, TargetReport, Totals, WaiverReport,
 };

@@ -5,15 +5,16 @@ mod build;
 mod bytes;
 mod console;
 mod device;
-pub(crate) mod hex;
+mod escape;
 mod html;
-pub(crate) mod json;
 mod junit;
+pub(crate) mod lines;
 mod markdown;
 mod model;
-mod tame;
 
 use std::io::{self, Write};
+
+use crate::text::json;
 
 pub use badge::to_badge;
 pub use build::{About, LeftOut};
@@ -27,7 +28,6 @@ pub use model::{
     AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, LeftChanged, ProfileReport,
     Report, RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
 };
-pub(crate) use tame::{tame, tame_lines};
 
 /// Writes the report as JSON.
 ///

@@ -328,7 +328,7 @@ impl Report {
             return Err(format!("a report of format {format}; this version reads {FORMAT}"));
         }
         let report: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
-        Ok(report.tamed())
+        Ok(report.escaped())
     }
 }
 

@@ -23,7 +23,7 @@ use crate::exchange::{Exchange, Fault};
 use crate::gate::Gate;
 use crate::net;
 use crate::profile::{Claim, Profile};
-use crate::report::hex;
+use crate::report::lines;
 
 pub use trouble::Trouble;
 
@@ -382,7 +382,7 @@ impl fmt::Display for Shown<'_> {
             writeln!(f, "  at most {} bytes back", call.read_length)?;
         }
         let stream = spec.and_then(|spec| spec.request).map(|stream: Stream| stream.layout().name);
-        hex::annotated(stream, call.data).iter().try_for_each(|line| writeln!(f, "  {line}"))
+        lines::annotated(stream, call.data).iter().try_for_each(|line| writeln!(f, "  {line}"))
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use super::case::{Evidence, Judgement, Rule};
-use crate::child::front;
+use crate::text::shorten;
 use crate::verdict::Verdict;
 
 /// The most failed checks a case keeps of one requirement; of the others it keeps the number.
@@ -70,7 +70,7 @@ impl Record {
         let evidence = if passed { None } else { evidence() };
         let (requirement, level) = (rule.id, rule.level);
         let (expected, found) =
-            (front(&expected.to_string(), TEXT_MAX), front(&found.to_string(), TEXT_MAX));
+            (shorten(&expected.to_string(), TEXT_MAX), shorten(&found.to_string(), TEXT_MAX));
         let judgement =
             Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
         self.judgements.push(judgement);

@@ -4,9 +4,10 @@ use std::time::Duration;
 
 use super::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use super::{Reaction, Testee};
-use crate::child::{self, START, Spoken, Stderr, Unheard, cut, front};
+use crate::child::{self, START, Spoken, Stderr, Unheard, cut};
 use crate::deadline::Deadline;
 use crate::interrupt;
+use crate::text::shorten;
 
 /// How long it has for ending after `bye`.
 const GRACE: Duration = Duration::from_secs(2);
@@ -80,14 +81,14 @@ impl Process {
     fn exchange(&mut self, command: &Command, timeout: Duration) -> Result<String, Reaction> {
         let line = serde_json::to_vec(command)
             .map_err(|error| Reaction::Broken(format!("the question: {error}")))?;
-        (self.sent, self.received) = (Some(front(&String::from_utf8_lossy(&line), SHOWN)), None);
+        (self.sent, self.received) = (Some(shorten(&String::from_utf8_lossy(&line), SHOWN)), None);
         let Some(running) = &self.running else {
             return Err(Reaction::Broken("it is not running".to_owned()));
         };
         running.say(line);
         match running.hear(self.limit(timeout)) {
             Ok(line) => {
-                self.received = Some(front(&line, SHOWN));
+                self.received = Some(shorten(&line, SHOWN));
                 Ok(line)
             }
             Err(Unheard::NoText(why)) => Err(Reaction::Garbled(why)),

@@ -1,13 +1,13 @@
 //! What a testee was asked and did, for people.
 
 use super::Reaction;
-use super::message::{Answer, Output, Question, compact};
-use crate::child::front;
+use super::message::{Answer, Output, Question};
 use crate::show::show;
 use crate::suite::{self, Evidence, TEXT_MAX};
+use crate::text::{hex::compact, shorten};
 
 pub(super) fn describe(reaction: &Reaction) -> String {
-    front(&described(reaction), TEXT_MAX)
+    shorten(&described(reaction), TEXT_MAX)
 }
 
 fn described(reaction: &Reaction) -> String {

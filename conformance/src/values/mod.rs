@@ -8,7 +8,7 @@ mod show;
 pub use json::value_of;
 pub use parse::{Unfit, parse};
 pub(crate) use show::number;
-pub use show::{hex_lines, lines, plain, printable};
+pub use show::{lines, plain, printable};
 
 use std::fmt;
 

@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use crate::report::bytes::Shown;
 use crate::report::console::worded;
-use crate::report::hex::character;
 use crate::report::model::{EvidenceReport, FailureReport};
 use crate::report::{BytesReport, FieldReport};
+use crate::text::hex::character;
 use crate::verdict::Verdict;
 
 #[derive(Serialize)]

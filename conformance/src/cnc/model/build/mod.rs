@@ -19,8 +19,8 @@ use super::document::{AxisTable, Document};
 use super::error::Source;
 use super::{AxisModel, Model, ModelError, Settings};
 use crate::cnc::{edition, to_len};
-use crate::duration::duration;
 use crate::edition::{CncVersion, Edition};
+use crate::text::duration;
 
 /// Platform axes, spindles and places of a channel: what index groups and handles have room for.
 const INSTANCES_MAX: usize = 255;

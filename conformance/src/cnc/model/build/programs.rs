@@ -11,7 +11,7 @@ use super::super::error::Source;
 use crate::cnc::program::{
     Pace, ParsePaceError, ProgramConfig, Repeat, Request, Script, ScriptConfig, Start, Wait,
 };
-use crate::duration::some_time;
+use crate::text::some_time;
 
 /// The streaming program; one that starts again and again if nothing is said, as nobody can start
 /// it over ADS.
