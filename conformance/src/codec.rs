@@ -6,6 +6,7 @@ mod encode;
 mod fields;
 mod frame;
 mod given;
+pub mod message;
 mod path;
 
 pub use encode::encode;

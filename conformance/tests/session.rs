@@ -17,9 +17,9 @@ use ads_cnc::{Descriptors, Numbers};
 use ads_cnc_conformance::client::Target;
 use ads_cnc_conformance::cnc::{Cnc, NET_ID};
 use ads_cnc_conformance::gate::{Allowed, Gate};
+use ads_cnc_conformance::judge::Exit;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::session::{Session, Trouble};
-use ads_cnc_conformance::verdict::Exit;
 use common::Serve;
 
 fn channel() -> Channel {

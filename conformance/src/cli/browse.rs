@@ -10,6 +10,7 @@ use super::model::ModelArgs;
 use super::name::written;
 use super::progress::Progress;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
+use crate::judge::Exit;
 use crate::objects::{
     Found, NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern,
     REQUESTS_MAX, columns, csv, table, walk,
@@ -17,7 +18,6 @@ use crate::objects::{
 use crate::session::{Session, Trouble};
 use crate::text::{hex, json};
 use crate::values::plain;
-use crate::verdict::Exit;
 
 /// Characters of a value in a table; CSV and JSON have all of it.
 const VALUE_MAX: usize = 48;

@@ -16,7 +16,7 @@ use crate::explain::{
     Paint, Place, Question, Subject, Values, candidates, explain, looks_like_frame, parse_hex,
     print, type_by_name,
 };
-use crate::verdict::Exit;
+use crate::judge::Exit;
 
 /// The most bytes taken: several of the longest frames.
 const INPUT_MAX: u64 = 0x100_0000;

@@ -8,12 +8,12 @@ use super::complain;
 use super::model::ModelArgs;
 use super::name::{NameArgs, headline, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
+use crate::judge::Exit;
 use crate::named::find;
 use crate::objects::{Object, ObjectReport, ObjectsReport};
 use crate::session::Trouble;
 use crate::text::{hex, json};
 use crate::values::{lines, plain};
-use crate::verdict::Exit;
 
 /// Reads a variable, a parameter, an object or an element by its name.
 ///

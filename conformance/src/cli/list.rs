@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::suite::{Case, Needs, Plan, Subject};
+use crate::judge::{Case, Needs, Plan, Subject};
 use crate::text::json;
 
 /// A case.

@@ -33,7 +33,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::defect::{self, Seed};
-use crate::verdict::Exit;
+use crate::judge::Exit;
 
 /// Reads, judges and simulates the ADS interface of ISG and TwinCAT CNCs.
 #[derive(Debug, Parser)]

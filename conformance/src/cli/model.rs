@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::target::TargetArgs;
-use crate::cnc::{self, Cnc, DEFAULT_MODEL, Model, ModelError, Settings};
+use crate::cnc::{Cnc, DEFAULT_MODEL, Model, ModelError, Settings};
 use crate::edition::{CncVersion, Edition};
 use crate::session::{Session, Trouble};
 
@@ -18,7 +18,7 @@ pub(super) struct ModelArgs {
     model: Option<PathBuf>,
 
     /// Edition of the manual that the CNC follows, whatever the model says: en-1.05 or de-1.051.
-    #[arg(long, help_heading = MODEL, value_name = "EDITION", value_parser = cnc::edition)]
+    #[arg(long, help_heading = MODEL, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
     /// Version that the CNC claims to be, whatever the model says: V4.29.0 for one.

@@ -9,9 +9,9 @@ use super::complain;
 use super::serve::check_address;
 use crate::clients::{self, Judged, Process, Scenario, Stage};
 use crate::deadline::Deadline;
-use crate::interrupt::Interrupt;
+use crate::judge::{Case, Outcome, Plan};
+use crate::process::interrupt::Interrupt;
 use crate::report::TargetReport;
-use crate::suite::{Case, Outcome, Plan};
 use crate::text::shorten;
 
 /// Under which these options stand in the help.

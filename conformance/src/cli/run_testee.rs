@@ -4,12 +4,11 @@ use std::io::{self, Write};
 use std::time::Duration;
 
 use crate::deadline::Deadline;
-use crate::interrupt;
+use crate::judge::{Case, Exit, Outcome, Subject};
+use crate::process::interrupt;
 use crate::report::TargetReport;
-use crate::suite::{Case, Outcome, Subject};
 use crate::testee::{Finding, Hello, Judged, Process, Terms, check_protocol, judge};
 use crate::text::shorten;
-use crate::verdict::Exit;
 
 /// The last of stderr that a report keeps.
 const STDERR_SHOWN: usize = 4000;

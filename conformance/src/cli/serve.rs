@@ -16,10 +16,10 @@ use crate::cnc::{
     CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
 };
 use crate::defect;
-use crate::interrupt::Interrupt;
+use crate::judge::Exit;
 use crate::net;
+use crate::process::interrupt::Interrupt;
 use crate::session::Trouble;
-use crate::verdict::Exit;
 
 /// For the end of the help.
 const MORE: &str = "\

@@ -9,11 +9,11 @@ use super::complain;
 use super::model::ModelArgs;
 use super::name::{NameArgs, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, embedded_gate};
+use crate::judge::Exit;
 use crate::named::{by_name_alone, find};
 use crate::objects::{Access, Object, Place};
 use crate::session::{Session, Trouble};
 use crate::values::{Type, parse, plain};
-use crate::verdict::Exit;
 
 /// Writes a variable, an object or an element by its name, reads it back and shows both.
 ///

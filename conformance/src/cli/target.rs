@@ -18,8 +18,8 @@ use crate::client::Target;
 use crate::cnc::{Cnc, NET_ID};
 use crate::deadline::Deadline;
 use crate::gate::{Allowed, Entry, Gate, Moment};
+use crate::judge::Exit;
 use crate::session::{Session, TIMEOUT, Trouble};
-use crate::verdict::Exit;
 
 /// Under which these options stand in the help.
 const TARGET: &str = "Target";

@@ -30,6 +30,7 @@ mod typed;
 mod value;
 
 pub use crate::text::hex::{HexError, parse_hex};
+pub use crate::values::{UnknownType, Values, type_by_name};
 pub use address::describe;
 pub(crate) use codes::class_name;
 pub use frame::looks_like_frame;
@@ -39,7 +40,6 @@ pub use model::{
     Unread,
 };
 pub use show::{Paint, print};
-pub use typed::{UnknownType, Values, type_by_name};
 
 use ads_cnc::layout::Stream;
 

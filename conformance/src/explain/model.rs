@@ -8,10 +8,10 @@ use ads_cnc::{Error, ErrorKind};
 use ads_cnc_vectors::requirement;
 use serde::Serialize;
 
-use super::typed::Values;
 use crate::codec::class;
+use crate::judge::Exit;
 use crate::text::hex::spaced;
-use crate::verdict::Exit;
+use crate::values::Values;
 
 /// What the bytes are.
 #[derive(Clone, Debug)]

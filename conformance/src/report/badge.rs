@@ -4,9 +4,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::model::{LeftChanged, Report};
+use super::model::Report;
+use crate::judge::{Exit, LeftChanged, Verdict};
 use crate::text::{json, shorten};
-use crate::verdict::{Exit, Verdict};
 
 /// As shields.io reads it from an endpoint; it takes no other keys.
 #[derive(Debug, Serialize)]

@@ -4,10 +4,11 @@
 use serde_json::Value;
 
 use super::model::{
-    AreaReport, CaseReport, EvidenceReport, FailureReport, LeftChanged, ProfileReport, Report,
-    RequirementReport, SubjectReport, TargetReport, WaiverReport,
+    AreaReport, CaseReport, EvidenceReport, FailureReport, ProfileReport, Report,
+    RequirementReport, SubjectReport, TargetReport,
 };
 use super::{BytesReport, DeviceReport, FieldReport};
+use crate::judge::{LeftChanged, WaiverReport};
 use crate::text::{escape, escape_lines, is_escaped};
 
 impl Report {

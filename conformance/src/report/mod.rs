@@ -17,7 +17,7 @@ use std::io::{self, Write};
 use crate::text::json;
 
 pub use badge::to_badge;
-pub use build::{About, LeftOut};
+pub use build::About;
 pub use bytes::{BytesReport, FieldReport};
 pub use console::print;
 pub use device::DeviceReport;
@@ -25,8 +25,8 @@ pub use html::to_html;
 pub use junit::to_junit;
 pub use markdown::to_markdown;
 pub use model::{
-    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, LeftChanged, ProfileReport,
-    Report, RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
+    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
+    RequirementReport, SubjectReport, TargetReport, Totals,
 };
 
 /// Writes the report as JSON.

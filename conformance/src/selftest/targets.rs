@@ -6,9 +6,10 @@ use super::{Candidate, Group, Outcomes};
 use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::{self, Kind, Seed};
 use crate::edition::Edition;
+use crate::judge::{Case, Needs, Outcome};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
-use crate::suite::{self, Case, Needs, Outcome, Session};
+use crate::suite::{self, Session};
 
 /// A version that has 0x4C and all kinds.
 const NEWEST: &str = "V4.29.0";

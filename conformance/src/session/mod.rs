@@ -15,8 +15,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Kind, address::Channel};
 
-use crate::capture::Capture;
-use crate::client::{Client, Inquiry, Said, Target};
+use crate::client::{Client, Inquiry, Said, Tap, Target};
 use crate::cnc::{Cnc, NET_ID, Server};
 use crate::deadline::Deadline;
 use crate::exchange::{Exchange, Fault};
@@ -162,7 +161,7 @@ impl Session {
 
     /// With a capture of all that is sent and received from now on.
     #[must_use]
-    pub fn with_capture(self, capture: Capture) -> Self {
+    pub fn with_capture(self, capture: impl Into<Box<dyn Tap>>) -> Self {
         Self { client: self.client.with_capture(capture), ..self }
     }
 

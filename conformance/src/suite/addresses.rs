@@ -5,11 +5,11 @@ use ads_cnc::address::{
     ElementAddress, IndexGroup, IndexOffset,
 };
 
-use super::case::{Rule, Step, Stop, assumed};
 use super::inventory::{Instance, Object};
 use super::place::Place;
 use super::probe::{Probe, harness};
 use crate::cnc::{Held, Holder};
+use crate::judge::{Rule, Step, Stop, assumed};
 
 /// What a target says itself of where things are, where no manual does.
 pub(super) struct Addresses {

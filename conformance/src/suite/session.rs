@@ -7,11 +7,11 @@ use ads_cnc::Description;
 use ads_cnc::operation::Service;
 
 use super::inventory::Inventory;
-use super::record::Record;
 use super::undo::Changes;
 use crate::client::Client;
 use crate::cnc::Cnc;
 use crate::deadline::Deadline;
+use crate::judge::Record;
 use crate::profile::Profile;
 
 /// The connection, and what has been learnt of the target so far.

@@ -8,13 +8,12 @@ use ads_cnc::operation::{CountObjects, DescribeByName, HandleByName, ReadDescrip
 use ads_cnc::{Decode as _, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Step, Stop};
 use super::inventory::OBJECTS_MAX;
 use super::place::{Place, Trial, same};
 use super::probe::Probe;
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Entry;
-use crate::report::LeftChanged;
+use crate::judge::{LeftChanged, Step, Stop};
 use crate::text::{Moment, escape};
 
 /// How often a value is written back.

@@ -2,10 +2,10 @@
 
 use ads_cnc_vectors::{Expect, Vector, vector};
 
-use super::message::{Answer, Capabilities, Output, Question};
 use super::plan::{forms, of_vector};
 use super::tell::describe;
 use super::{Process, Reaction, Testee, compare};
+use crate::codec::message::{Answer, Capabilities, Output, Question};
 use crate::text::{escape, hex::compact};
 
 /// What a step of the protocol came to.

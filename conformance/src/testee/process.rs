@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use super::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use super::{Reaction, Testee};
-use crate::child::{self, START, Spoken, Stderr, Unheard, cut};
+use crate::codec::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use crate::deadline::Deadline;
-use crate::interrupt;
+use crate::process::interrupt;
+use crate::process::{START, Spoken, Stderr, Unheard, cut, shell};
 use crate::text::shorten;
 
 /// How long it has for ending after `bye`.
@@ -71,7 +71,7 @@ impl Process {
             return Err(Reaction::Broken("interrupted".to_owned()));
         }
         self.starts = self.starts.saturating_add(1);
-        let started = Spoken::start(child::shell(&self.line), &self.stderr);
+        let started = Spoken::start(shell(&self.line), &self.stderr);
         let running =
             started.map_err(|error| Reaction::Broken(format!("it cannot be started: {error}")))?;
         self.running = Some(running);

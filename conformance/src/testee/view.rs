@@ -5,14 +5,13 @@ use std::collections::HashMap;
 use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector, sequence, vector};
 
 use super::judge::Terms;
-use super::message::{Answer, Hello, Output, Question};
 use super::plan::{forms, questions};
 use super::tell::{describe, evidence};
 use super::{Reaction, compare};
+use crate::codec::message::{Answer, Hello, Output, Question};
+use crate::judge::{Body, Case, Evidence, Judgement, Outcome, Stop, TEXT_MAX, Verdict};
 use crate::show::show;
-use crate::suite::{Body, Case, Evidence, Judgement, Outcome, Stop, TEXT_MAX};
 use crate::text::{hex::compact, shorten};
-use crate::verdict::Verdict;
 
 /// The answers to the questions of a case, by op.
 pub(super) type Reactions = HashMap<(usize, String), Reaction>;

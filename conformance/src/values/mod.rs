@@ -1,10 +1,12 @@
 //! Values as people read and write them: typed by a description, a descriptor or an element's
 //! attributes.
 
+mod given;
 mod json;
 mod parse;
 mod show;
 
+pub use given::{UnknownType, Values, type_by_name};
 pub use json::value_of;
 pub use parse::{Unfit, parse};
 pub(crate) use show::number;

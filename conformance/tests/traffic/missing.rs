@@ -3,7 +3,7 @@
 
 use ads_cnc_conformance::capture::Checked;
 use ads_cnc_conformance::defect::Defect;
-use ads_cnc_conformance::verdict::Verdict;
+use ads_cnc_conformance::judge::Verdict;
 
 use crate::defects::written;
 use crate::maker::{Link, Message, Segment, Side, checked, checked_anywhere};

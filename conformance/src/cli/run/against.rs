@@ -9,13 +9,12 @@ use crate::cli::forms::show;
 use crate::cli::{complain, run_dry};
 use crate::cnc::{Cnc, DEFAULT_MODEL, Model, Settings};
 use crate::defect::Seed;
+use crate::judge::{Needs, Outcome, Plan, RequirementVerdict, Verdict, Waivers};
 use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
-use crate::suite::{self, Changes, Needs, Outcome, Plan, RequirementVerdict, Session};
+use crate::suite::{self, Changes, Session};
 use crate::text::Moment;
-use crate::verdict::Verdict;
-use crate::waivers::Waivers;
 
 impl Run {
     pub(super) fn device(

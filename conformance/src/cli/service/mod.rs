@@ -17,10 +17,10 @@ use super::complain;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
 use crate::cnc::program::{Repeat, Script, ScriptConfig};
 use crate::gate::Entry;
-use crate::interrupt::Interrupt;
+use crate::judge::Exit;
+use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 use crate::text::some_time;
-use crate::verdict::Exit;
 use command::Command;
 use response::Answer;
 

@@ -1,6 +1,7 @@
 use ads_cnc::ads::{AmsAddr, AmsPort};
 
 use super::*;
+use crate::cnc::NET_ID;
 
 const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };
 

@@ -7,10 +7,10 @@ use ads_cnc::operation::{DynamicNameByIndex, DynamicValueByIndex, DynamicValueBy
 
 use ads_cnc_vectors::Hex;
 
-use super::super::case::Step;
 use super::super::probe::{Probe, harness};
 use super::{number, prefix};
 use crate::cnc::Cnc;
+use crate::judge::Step;
 
 /// More than a byte has numbers.
 const MANY: u32 = 300;

@@ -14,7 +14,7 @@ use super::{Done, Fault, differs, lacks, within};
 use crate::cnc::Cnc;
 use crate::cnc::program::service::{CallError, CallStep, ServiceInterface};
 use crate::cnc::program::{Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait};
-use crate::suite::case::{Step, Stop};
+use crate::judge::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
 use crate::suite::stream::heard;
 

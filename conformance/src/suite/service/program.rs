@@ -9,7 +9,7 @@ use ads_cnc_vectors::Hex;
 
 use super::{NONE, get, put, within};
 use crate::cnc::program::{Outcome, Repeat, Script, ScriptConfig, ScriptState};
-use crate::suite::case::{Step, Stop};
+use crate::judge::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
 use crate::values::until_nul;
 

@@ -9,7 +9,7 @@ use ads_cnc::streaming::Ack;
 use super::{Sent, comment, send, send_until_taken};
 use crate::cnc::Cnc;
 use crate::cnc::program::{Pace, Program, ProgramConfig, Start, State};
-use crate::suite::case::{Step, Stop, assumed};
+use crate::judge::{Step, Stop, assumed};
 use crate::suite::probe::{Probe, harness};
 
 /// The most bytes that the interface holds.

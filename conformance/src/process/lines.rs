@@ -8,8 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::Running;
-use crate::interrupt;
+use super::{Running, interrupt};
 use crate::text::escape_lines;
 
 /// The longest line that is taken. The longest right answer has some thousand bytes.
@@ -192,7 +191,7 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
 /// The next line without its end; none at the end of the stream.
 ///
 /// ```
-/// use ads_cnc_conformance::child::read_line;
+/// use ads_cnc_conformance::process::read_line;
 ///
 /// let mut said = &b"{}\r\nthe last"[..];
 /// assert_eq!(read_line(&mut said, 8), Some(Ok(b"{}".to_vec())));

@@ -7,7 +7,6 @@ use serde_json::Value;
 /// Version of the protocol.
 pub const PROTOCOL: u32 = 1;
 
-pub use crate::child::LINE_MAX;
 use crate::text::{hex::compact, shorten};
 
 /// A line to the testee.
@@ -100,7 +99,7 @@ impl From<&Context> for Known {
 
 impl Known {
     /// As a context of the vectors; none if an address is none.
-    pub(super) fn context(&self) -> Option<Context> {
+    pub(crate) fn context(&self) -> Option<Context> {
         let address = |text: &Option<String>| match text.as_deref() {
             None => Some(None),
             Some(text) => {
@@ -242,7 +241,7 @@ impl Rejection {
 
 impl Output {
     /// About how many bytes of memory it takes.
-    pub(super) fn weight(&self) -> usize {
+    pub(crate) fn weight(&self) -> usize {
         let packets = self.packets.iter().flatten().map(|packet| packet.len().saturating_add(NODE));
         let parts = [self.value.as_ref().map(weight), self.hex.as_ref().map(Vec::len)];
         parts.into_iter().flatten().chain(packets).fold(NODE, usize::saturating_add)
