@@ -2,6 +2,7 @@
 
 mod inquiry;
 mod judge;
+mod tap;
 mod target;
 
 use std::io;
@@ -13,15 +14,16 @@ use ads_cnc::Encode;
 use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsNetId, AmsPort, Command, FrameRef};
 use ads_cnc::operation::{Call, Service};
 
-use crate::capture::Capture;
 use crate::exchange::{Answer, Exchange, Fault, Violation};
-use crate::gate::{Gate, Moment, Permit};
+use crate::gate::{Gate, Permit};
 use crate::net::Wire;
 use crate::services::{decode_reply, service_of};
-use crate::simulator::{InProcess, Responder};
+use crate::simulator::{InProcess, Responder, Server};
+use crate::text::Moment;
 
 pub use inquiry::{Inquired, Inquiry, Said};
 pub(crate) use judge::violations;
+pub use tap::Tap;
 pub use target::Target;
 pub(crate) use target::net_id_of;
 
@@ -36,7 +38,7 @@ pub struct Client {
     gate: Gate,
     wire: Option<Wire>,
     dial: Dial,
-    capture: Option<Capture>,
+    capture: Option<Box<dyn Tap>>,
     dry: bool,
     last: Option<Instant>,
     invoke_id: u32,
@@ -60,6 +62,14 @@ const STRAYS_TOLD: u64 = 3;
 
 /// Before the first: no byte of it is 0 or like another, as a response has to have all four.
 const FIRST_INVOKE_ID: u32 = 0x5403_0201;
+
+impl Gate {
+    /// Anything but what is never sent: for the CNC that this server of this process has, which
+    /// moves nothing. [`Client`] takes no other address with it.
+    pub fn of_embedded(server: &Server) -> Self {
+        Self::of_address(server.addr())
+    }
+}
 
 impl Client {
     /// Connects. What no client should send goes to this machine only.
@@ -137,7 +147,8 @@ impl Client {
 
     /// With a capture of all that is sent and received from now on.
     #[must_use]
-    pub fn with_capture(mut self, mut capture: Capture) -> Self {
+    pub fn with_capture(mut self, capture: impl Into<Box<dyn Tap>>) -> Self {
+        let mut capture = capture.into();
         if let Some(wire) = &self.wire {
             capture.opened(wire.local(), self.target.addr);
         }
@@ -146,7 +157,7 @@ impl Client {
     }
 
     /// The capture, for another connection; on this one nothing more is kept.
-    pub(crate) fn take_capture(&mut self) -> Option<Capture> {
+    pub(crate) fn take_capture(&mut self) -> Option<Box<dyn Tap>> {
         let mut capture = self.capture.take()?;
         capture.closed();
         Some(capture)
@@ -157,7 +168,7 @@ impl Client {
     /// # Errors
     /// What of it could not be written.
     pub fn end_capture(&mut self) -> io::Result<()> {
-        self.capture.take().map_or(Ok(()), Capture::finish)
+        self.capture.take().map_or(Ok(()), Tap::finish)
     }
 
     /// Sends frames in pieces of so many bytes from now on, or whole again.

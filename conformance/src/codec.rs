@@ -5,6 +5,7 @@ mod elements;
 mod fields;
 mod frame;
 mod given;
+pub mod message;
 mod path;
 mod stream;
 

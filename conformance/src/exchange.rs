@@ -10,6 +10,7 @@ use ads_cnc::ads::{AdsError, AmsHeader, AmsPort};
 use ads_cnc::operation::{Call, Service};
 
 use crate::gate::Refusal;
+use crate::judge::Evidence;
 
 /// One request and what came of it.
 #[derive(Debug)]
@@ -174,5 +175,24 @@ impl fmt::Display for Exchange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { port, service, index_group, index_offset, .. } = self;
         write!(f, "{service} {index_group}, {index_offset} at port {port}")
+    }
+}
+
+impl From<&Exchange> for Evidence {
+    fn from(exchange: &Exchange) -> Self {
+        let function = exchange.call().dispatch().ok().map(|request| request.function().spec());
+        let data = exchange.answer().and_then(|answer| answer.data.as_deref());
+        let evidence = Self {
+            call: exchange.to_string(),
+            request_stream: function
+                .and_then(|spec| spec.request)
+                .map(|stream| stream.layout().name),
+            reply_stream: function.and_then(|spec| spec.reply).map(|stream| stream.layout().name),
+            sent: Evidence::start(&exchange.data).to_vec(),
+            received: data.map(|data| Self::start(data).to_vec()),
+            result: exchange.result(),
+            ..Self::default()
+        };
+        evidence.cut(&exchange.sent, &exchange.received)
     }
 }

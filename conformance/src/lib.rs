@@ -1,31 +1,35 @@
 //! The conformance suite, the simulated CNC and the tools around the codec [`ads_cnc`]: all that
 //! opens a socket or a file.
 //!
+//! A module imports only modules below it; `tests/floors.rs` has their order.
+//!
 //! | module | what it has |
 //! |---|---|
-//! | [`cnc`] | the simulated CNC: data model, answers, AMS/TCP server |
-//! | [`defect`] | seeded defects: what a codec or a CNC can get wrong |
-//! | [`suite`] | what is tried, and what comes of it |
-//! | [`selftest`] | the suite tried on itself |
-//! | [`testee`] | codecs of others, asked over stdin and stdout |
-//! | [`clients`] | clients of others, which talk to a CNC that can do wrong |
-//! | [`capture`] | captured traffic, judged, and written as Wireshark reads it |
-//! | [`child`] | commands that a user names |
-//! | [`client`], [`exchange`] | an AMS/TCP client that keeps every byte |
-//! | [`services`] | what the three ADS services have on the wire |
-//! | [`gate`] | what may be sent to a target |
-//! | [`deadline`] | when a tool stops asking |
-//! | [`session`] | a CNC to ask, typed: what tools work with |
-//! | [`objects`], [`named`] | what a CNC has, all of it or one thing by its name |
-//! | [`values`] | values as people read and write them |
-//! | [`profile`] | what a target claims |
-//! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
-//! | [`explain`] | bytes of any stream, field by field |
-//! | [`verdict`], [`report`] | what a judgement can be, and how it is shown |
-//! | [`matrix`] | what covers each requirement |
-//! | [`waivers`] | failures that are known |
-//! | [`net`] | the one place where sockets are opened |
 //! | [`cli`] | the command line of `ads-cnc` |
+//! | [`selftest`] | the suite tried on itself |
+//! | [`matrix`] | what covers each requirement |
+//! | [`capture`] | captured traffic, judged, and written as Wireshark reads it |
+//! | [`clients`] | clients of others, which talk to a CNC that can do wrong |
+//! | [`suite`] | the cases that a CNC is tried with |
+//! | [`testee`] | codecs of others, asked over stdin and stdout |
+//! | [`named`], [`objects`] | what a CNC has, one thing by its name or all of it |
+//! | [`session`] | a CNC to ask, typed: what tools work with |
+//! | [`report`] | how judgements are shown |
+//! | [`client`] | an AMS/TCP client that keeps every byte |
+//! | [`defect`] | seeded defects: what a codec or a CNC can get wrong |
+//! | [`cnc`] | the simulated CNC: data model, answers, AMS/TCP server |
+//! | [`net`] | the one place where sockets are opened |
+//! | [`exchange`] | a request and what came of it |
+//! | [`gate`] | what may be sent to a target |
+//! | [`process`] | commands that a user names, and signals |
+//! | [`explain`] | bytes of any stream, field by field |
+//! | [`codec`], [`show`] | the codec as the vectors see it, and their values as people do |
+//! | [`judge`] | case, check, evidence, outcome, verdict, plan, waiver |
+//! | [`values`] | values as people read and write them |
+//! | [`profile`], [`edition`] | what a target claims, and what an edition or a version has |
+//! | [`services`] | what the three ADS services have on the wire |
+//! | [`deadline`] | when a tool stops asking |
+//! | [`text`] | hex, escapes, times, JSON |
 //!
 //! Every byte the simulated CNC sends is encoded by [`ads_cnc`]; there is no second encoder.
 //!
@@ -51,23 +55,22 @@
 )]
 
 pub mod capture;
-pub mod child;
 pub mod cli;
 pub mod client;
 pub mod clients;
 pub mod codec;
 pub mod deadline;
-mod duration;
 pub mod edition;
 pub mod exchange;
 pub mod explain;
 pub mod faults;
 pub mod gate;
-mod interrupt;
+pub mod judge;
 pub mod matrix;
 pub mod named;
 pub mod net;
 pub mod objects;
+pub mod process;
 pub mod profile;
 pub mod report;
 pub mod selftest;
@@ -77,6 +80,5 @@ pub mod show;
 pub mod simulator;
 pub mod suite;
 pub mod testee;
+pub mod text;
 pub mod values;
-pub mod verdict;
-pub mod waivers;

@@ -23,7 +23,8 @@ use ads_cnc_vectors::{Requirement, requirements, sequences, vectors};
 use serde::Serialize;
 
 use crate::clients;
-use crate::suite::{self, Needs};
+use crate::judge::Needs;
+use crate::suite;
 
 pub use sections::to_sections;
 
@@ -64,7 +65,7 @@ pub fn matrix() -> Vec<Row> {
     requirements().iter().map(|requirement| row(requirement, &cases)).collect()
 }
 
-fn row(requirement: &Requirement, cases: &[suite::Case]) -> Row {
+fn row(requirement: &Requirement, cases: &[crate::judge::Case]) -> Row {
     let id = requirement.id.as_str();
     let (mut accepted, mut rejected) = (Vec::new(), Vec::new());
     let (mut streams, mut names) = (BTreeSet::new(), BTreeSet::new());

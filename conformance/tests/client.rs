@@ -5,10 +5,10 @@ use std::net::SocketAddr;
 use std::thread;
 
 use ads_cnc_conformance::clients::{
-    CLIENT, Defect, Flaw, Judged, Own, Scenario, Stage, VOCABULARY, defects, find_defect, habits,
-    judge, scenarios, trial,
+    Defect, Flaw, Judged, Own, Scenario, Stage, VOCABULARY, defects, find_defect, habits, judge,
+    scenarios, trial,
 };
-use ads_cnc_conformance::verdict::Verdict;
+use ads_cnc_conformance::judge::{CLIENT, Verdict};
 use ads_cnc_vectors::{Level, clause, requirement};
 
 fn stage() -> Stage {

@@ -8,11 +8,11 @@ use ads_cnc_conformance::client::{Client, Target};
 use ads_cnc_conformance::edition::Edition;
 use ads_cnc_conformance::faults::{Change, Defect, Faulty, Seed};
 use ads_cnc_conformance::gate::Gate;
+use ads_cnc_conformance::judge::{Case, Judgement, Needs, Outcome, Verdict};
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, Model, Server, Settings};
-use ads_cnc_conformance::suite::{self, Case, Judgement, Needs, Outcome, Session};
-use ads_cnc_conformance::verdict::Verdict;
+use ads_cnc_conformance::suite::{self, Session};
 
 /// Runs the suite against an embedded CNC with this defect, or its vectors against the codec.
 fn run(defect: Option<&Defect>, wanted: impl Fn(&Case) -> bool) -> Vec<Outcome> {

@@ -15,6 +15,7 @@ use ads_cnc::Encode as _;
 use ads_cnc::ads::{AdsError, AmsHeader, Command as AdsCommand, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Request};
 use ads_cnc_conformance::capture::Capture;
+use ads_cnc_conformance::client::Tap as _;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::simulator::{Cnc, NET_ID};
 use common::connect;

@@ -1,10 +1,10 @@
 //! Codecs that do otherwise what no manual says: each is minimal but right, and fails nothing.
 
-use ads_cnc_conformance::suite::{self, Body, Case, Needs, Subject};
+use ads_cnc_conformance::judge::{Body, Case, Exit, Needs, Subject, Verdict};
+use ads_cnc_conformance::suite;
 use ads_cnc_conformance::testee::{
     Answer, Hello, Output, Own, Question, Reaction, Rejection, Terms, Testee, judge, questions,
 };
-use ads_cnc_conformance::verdict::{Exit, Verdict};
 use ads_cnc_vectors::{Level, sequence, vector};
 
 /// The project's own codec, with other answers to some questions.

@@ -10,6 +10,8 @@ mod common;
 mod dependencies;
 #[path = "readme/documents.rs"]
 mod documents;
+#[path = "readme/floors.rs"]
+mod floors;
 #[path = "readme/links.rs"]
 mod links;
 #[path = "readme/sections.rs"]

@@ -16,10 +16,10 @@ use ads_cnc::operation::{
 use ads_cnc::{Descriptors, U32List};
 use ads_cnc_conformance::client::Target;
 use ads_cnc_conformance::gate::{Allowed, Gate};
+use ads_cnc_conformance::judge::Exit;
 use ads_cnc_conformance::net;
 use ads_cnc_conformance::session::{Session, Trouble};
 use ads_cnc_conformance::simulator::{Cnc, NET_ID};
-use ads_cnc_conformance::verdict::Exit;
 use common::Serve;
 
 fn channel() -> Channel {

@@ -4,9 +4,9 @@
 use std::time::Duration;
 
 use ads_cnc_conformance::faults;
-use ads_cnc_conformance::suite::{self, Case, Needs, Outcome, Subject};
-use ads_cnc_conformance::testee::{Judged, Miniature, Own, Process, TESTEE, Terms, Testee, judge};
-use ads_cnc_conformance::verdict::{Exit, Verdict};
+use ads_cnc_conformance::judge::{Case, Exit, Needs, Outcome, Subject, TESTEE, Verdict};
+use ads_cnc_conformance::suite;
+use ads_cnc_conformance::testee::{Judged, Miniature, Own, Process, Terms, Testee, judge};
 
 const OF_A_TESTEE: Terms<'static> =
     Terms { seed: 7, subject: Subject::Testee, edition: None, strict: false };

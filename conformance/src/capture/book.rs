@@ -11,8 +11,9 @@ use ads_cnc_vectors::requirements;
 use super::frames::Span;
 use super::time::Time;
 use crate::exchange::Exchange;
-use crate::suite::{Body, Case, Checks, Evidence, Needs, Outcome, Record, Rule, Stop, Subject};
-use crate::verdict::Verdict;
+use crate::judge::{
+    Body, Case, Checks, Evidence, Needs, Outcome, Record, Rule, Stop, Subject, Verdict,
+};
 
 /// Declares [`Topic`].
 macro_rules! topics {

@@ -52,7 +52,7 @@ use self::link::Content;
 use self::table::{Event, Table};
 use self::tally::{count, count_of};
 use self::tcp::Mark;
-use crate::suite::Outcome;
+use crate::judge::Outcome;
 
 /// The TCP port of AMS.
 pub const AMS_TCP_PORT: u16 = 48898;

@@ -18,8 +18,8 @@ use serde_json::json;
 use super::judge::Target;
 use crate::client::frame;
 use crate::codec::decode_stream;
-use crate::report::json as json_text;
 use crate::services;
+use crate::text::json as json_text;
 
 /// Vectors of one capture; more are left out.
 pub const VECTORS_MAX: usize = 10_000;

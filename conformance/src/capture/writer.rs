@@ -9,6 +9,7 @@
 //! use std::net::SocketAddr;
 //!
 //! use ads_cnc_conformance::capture::Capture;
+//! use ads_cnc_conformance::client::Tap as _;
 //!
 //! let (local, remote) = (SocketAddr::from(([192, 0, 2, 20], 50000)), SocketAddr::from(([192, 0, 2, 10], 48898)));
 //! let file = std::env::temp_dir().join(format!("ads-cnc-doc-{}.pcapng", std::process::id()));
@@ -31,6 +32,7 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::frame::{ACK, FIN, Flow, PSH, SYN};
+use crate::client::Tap;
 
 /// The most bytes of a TCP segment, as on Ethernet.
 const SEGMENT_MAX: usize = 1440;
@@ -78,34 +80,6 @@ impl Capture {
         capture
     }
 
-    /// A connection was made.
-    pub fn opened(&mut self, local: SocketAddr, remote: SocketAddr) {
-        self.flow = Some(Flow::new(local, remote));
-        self.packet(true, SYN, &[]);
-        self.packet(false, SYN | ACK, &[]);
-        self.packet(true, ACK, &[]);
-    }
-
-    /// Bytes were sent.
-    pub fn sent(&mut self, bytes: &[u8]) {
-        self.bytes(true, bytes);
-    }
-
-    /// Bytes came.
-    pub fn received(&mut self, bytes: &[u8]) {
-        self.bytes(false, bytes);
-    }
-
-    /// The connection is over.
-    pub fn closed(&mut self) {
-        if self.flow.is_some() {
-            self.packet(true, FIN | ACK, &[]);
-            self.packet(false, FIN | ACK, &[]);
-            self.packet(true, ACK, &[]);
-            self.flow = None;
-        }
-    }
-
     /// Ends the capture.
     ///
     /// # Errors
@@ -135,6 +109,42 @@ impl Capture {
         if let Err(error) = self.out.write_all(&block) {
             self.error.get_or_insert(error);
         }
+    }
+}
+
+impl Tap for Capture {
+    fn opened(&mut self, local: SocketAddr, remote: SocketAddr) {
+        self.flow = Some(Flow::new(local, remote));
+        self.packet(true, SYN, &[]);
+        self.packet(false, SYN | ACK, &[]);
+        self.packet(true, ACK, &[]);
+    }
+
+    fn sent(&mut self, bytes: &[u8]) {
+        self.bytes(true, bytes);
+    }
+
+    fn received(&mut self, bytes: &[u8]) {
+        self.bytes(false, bytes);
+    }
+
+    fn closed(&mut self) {
+        if self.flow.is_some() {
+            self.packet(true, FIN | ACK, &[]);
+            self.packet(false, FIN | ACK, &[]);
+            self.packet(true, ACK, &[]);
+            self.flow = None;
+        }
+    }
+
+    fn finish(self: Box<Self>) -> io::Result<()> {
+        Capture::finish(*self)
+    }
+}
+
+impl From<Capture> for Box<dyn Tap> {
+    fn from(capture: Capture) -> Self {
+        Box::new(capture)
     }
 }
 

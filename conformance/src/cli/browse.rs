@@ -10,14 +10,14 @@ use super::model::ModelArgs;
 use super::name::written;
 use super::progress::Progress;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, channel};
+use crate::judge::Exit;
 use crate::objects::{
     Found, NAMES_MAX, OBJECTS_MAX, Object, ObjectReport, ObjectsReport, Options, Pattern,
     REQUESTS_MAX, columns, csv, table, walk,
 };
-use crate::report::{hex, json};
 use crate::session::{Session, Trouble};
+use crate::text::{hex, json};
 use crate::values::plain;
-use crate::verdict::Exit;
 
 /// Characters of a value in a table; CSV and JSON have all of it.
 const VALUE_MAX: usize = 48;
@@ -242,7 +242,7 @@ fn read_all(
 
 fn cell(object: &Object, content: &Content, format: Format) -> String {
     let text = match content {
-        Ok(bytes) => plain(&object.ty, bytes).unwrap_or_else(|| hex::plain(bytes)),
+        Ok(bytes) => plain(&object.ty, bytes).unwrap_or_else(|| hex::spaced(bytes)),
         Err(_) if format == Format::Csv => return String::new(),
         Err(why) => format!("({why})"),
     };

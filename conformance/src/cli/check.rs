@@ -9,11 +9,9 @@ use super::complain;
 use super::forms::Reports;
 use crate::capture::{self, AMS_TCP_PORT, Checked, Collector, Options, Ports};
 use crate::edition::Edition;
-use crate::gate::Moment;
+use crate::judge::{Case, Exit, Selection};
 use crate::report::{self, About, Report, TargetReport};
-use crate::simulator;
-use crate::suite::{Case, Selection};
-use crate::verdict::Exit;
+use crate::text::Moment;
 
 /// Under which these options stand in the help.
 const TRAFFIC: &str = "Traffic";
@@ -51,7 +49,7 @@ pub(super) struct Check {
     only: Vec<String>,
 
     /// Judge by this edition alone, en-1.05 or de-1.051 [default: both]
-    #[arg(long, value_name = "EDITION", value_parser = simulator::edition)]
+    #[arg(long, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
     #[command(flatten)]

@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use super::complain;
 use crate::clients::{self, Action, Answer, Hello, Own, Place, Reaction};
-use crate::verdict::Exit;
+use crate::judge::Exit;
 
 /// Answers the protocol of `run --client` with this project's client, on stdin and stdout.
 ///

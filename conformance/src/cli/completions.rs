@@ -6,7 +6,7 @@ use clap::{Args, CommandFactory as _};
 use clap_complete::Shell;
 
 use super::{Cli, complain};
-use crate::verdict::Exit;
+use crate::judge::Exit;
 
 /// Writes a script that lets a shell complete what is typed.
 #[derive(Args, Debug)]

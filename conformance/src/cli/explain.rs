@@ -16,7 +16,7 @@ use crate::explain::{
     Paint, Place, Question, Subject, Values, candidates, explain, looks_like_frame, parse_hex,
     print, type_by_name,
 };
-use crate::verdict::Exit;
+use crate::judge::Exit;
 
 /// The most bytes taken: several of the longest frames.
 const INPUT_MAX: u64 = 0x100_0000;
@@ -137,7 +137,7 @@ impl Explain {
         let explanation = explain(&question, &given.unwrap_or_default());
         let mut out = BufWriter::new(io::stdout().lock());
         let shown = match self.json {
-            true => crate::report::json::write(&explanation, &mut out),
+            true => crate::text::json::write(&explanation, &mut out),
             false => print(&explanation, self.paint(), &mut out),
         };
         written(shown.and_then(|()| out.flush()))?;

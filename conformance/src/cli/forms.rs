@@ -1,15 +1,14 @@
 //! The forms of a report: options of `run` and `report`, and how they are written.
 
-use std::fs::{File, OpenOptions};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::complain;
+use crate::judge::{Exit, Waivers};
 use crate::report::{self, Report};
-use crate::verdict::Exit;
-use crate::waivers::Waivers;
 
 /// Under which these options stand in the help.
 pub(super) const HEADING: &str = "Reports";
@@ -101,8 +100,7 @@ impl Reports {
 
     /// The known failures, if the options do, and there is a place for what they ask for.
     pub(super) fn waivers(&self) -> Result<Waivers, String> {
-        let waivers = self.waivers.as_deref().map(Waivers::from_file).transpose();
-        let waivers = waivers.map_err(|error| error.to_string())?;
+        let waivers = self.waivers.as_deref().map(waivers).transpose()?;
         self.forms.check(self.json())?;
         self.json().into_iter().chain(self.forms.files()).try_for_each(writable)?;
         Ok(waivers.unwrap_or_default())
@@ -135,7 +133,7 @@ fn writable(file: &Path) -> Result<(), String> {
     opened.map_err(|error| format!("{}: {error}", file.display()))?;
     if !was_there {
         // The run may never come to its end.
-        let _gone = std::fs::remove_file(file);
+        let _gone = fs::remove_file(file);
     }
     Ok(())
 }
@@ -173,4 +171,9 @@ pub(super) fn show(make: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::R
 pub(super) fn lost(error: io::Error) -> Exit {
     complain(format_args!("the report could not be written: {error}"));
     Exit::Internal
+}
+
+fn waivers(file: &Path) -> Result<Waivers, String> {
+    let text = fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+    Waivers::from_toml(&text).map_err(|error| error.in_file(file).to_string())
 }

@@ -8,11 +8,12 @@ use super::complain;
 use super::model::ModelArgs;
 use super::name::{NameArgs, headline, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
+use crate::judge::Exit;
 use crate::named::find;
 use crate::objects::{Object, ObjectReport, ObjectsReport};
 use crate::session::Trouble;
-use crate::values::{hex_lines, lines, plain};
-use crate::verdict::Exit;
+use crate::text::{hex, json};
+use crate::values::{lines, plain};
 
 /// Reads a variable, a parameter, an object or an element by its name.
 ///
@@ -77,14 +78,14 @@ impl Get {
         let shown = if self.json {
             let one = ObjectReport::read(&object, &Ok(bytes.clone()));
             let report = ObjectsReport::new(session.target(), vec![one], Vec::new());
-            crate::report::json::write(&report, &mut out)
+            json::write(&report, &mut out)
         } else if self.hex {
-            show(&hex_lines(&bytes), "", &mut out)
+            show(&hex::dump(&bytes), "", &mut out)
         } else if self.plain {
             let value = plain(&object.ty, &bytes);
             value.map_or(Ok(()), |value| writeln!(out, "{value}"))
         } else {
-            let shown = lines(&object.ty, &bytes).unwrap_or_else(|| hex_lines(&bytes));
+            let shown = lines(&object.ty, &bytes).unwrap_or_else(|| hex::dump(&bytes));
             writeln!(out, "{}", headline(&object)).and_then(|()| show(&shown, "  ", &mut out))
         };
         written(shown.and_then(|()| out.flush()))?;

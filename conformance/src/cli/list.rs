@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::report;
-use crate::suite::{Case, Needs, Plan, Subject};
+use crate::judge::{Case, Needs, Plan, Subject};
+use crate::text::json;
 
 /// A case.
 #[derive(Debug, Serialize)]
@@ -51,5 +51,5 @@ pub(super) fn to_text(listed: &[Listed], out: &mut dyn Write) -> io::Result<()> 
 }
 
 pub(super) fn to_json(listed: &[Listed], out: &mut dyn Write) -> io::Result<()> {
-    report::json::write(&listed, out)
+    json::write(&listed, out)
 }

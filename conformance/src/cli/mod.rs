@@ -33,7 +33,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::faults::{self, Seed};
-use crate::verdict::Exit;
+use crate::judge::Exit;
 
 /// Reads, judges and simulates the ADS interface of ISG and TwinCAT CNCs.
 #[derive(Debug, Parser)]
@@ -122,7 +122,7 @@ impl Cli {
 /// Says what is wrong on stderr; if nobody listens there, that is no more to be helped.
 fn complain(why: impl std::fmt::Display) {
     // Devices, files and testees are quoted in it.
-    let why = crate::report::tame_lines(&why.to_string());
+    let why = crate::text::escape_lines(&why.to_string());
     let _unprinted = writeln!(std::io::stderr(), "ads-cnc: {why}");
 }
 

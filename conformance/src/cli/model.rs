@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::target::TargetArgs;
 use crate::edition::{CncVersion, Edition};
 use crate::session::{Session, Trouble};
-use crate::simulator::{self, Cnc, DEFAULT_MODEL, Model, ModelError, Settings};
+use crate::simulator::{Cnc, DEFAULT_MODEL, Model, ModelError, Settings};
 
 /// Under which these options stand in the help.
 const MODEL: &str = "Simulated CNC";
@@ -18,7 +18,7 @@ pub(super) struct ModelArgs {
     model: Option<PathBuf>,
 
     /// Edition of the manual that the CNC follows, whatever the model says: en-1.05 or de-1.051.
-    #[arg(long, help_heading = MODEL, value_name = "EDITION", value_parser = simulator::edition)]
+    #[arg(long, help_heading = MODEL, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
     /// Version that the CNC claims to be, whatever the model says: V4.29.0 for one.

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use super::complain;
 use super::forms::{Forms, is_stdout, lost, show};
+use crate::judge::Exit;
 use crate::report::{self, Report};
-use crate::verdict::Exit;
 
 /// Make other forms of a report that `run --json` wrote; without any, show it
 #[derive(Debug, clap::Args)]

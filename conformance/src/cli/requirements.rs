@@ -3,9 +3,8 @@
 use std::io::{self, Write as _};
 
 use super::complain;
+use crate::judge::{Exit, names};
 use crate::matrix::{self, Row};
-use crate::suite::names;
-use crate::verdict::Exit;
 
 /// Print the traceability matrix: from each requirement to its sources, errata, vectors, cases of
 /// the suite and fuzz targets

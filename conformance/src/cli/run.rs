@@ -12,15 +12,14 @@ use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect, run_testee};
 use crate::edition::Edition;
 use crate::faults::Seed;
-use crate::gate::Moment;
-use crate::interrupt::Interrupt;
+use crate::judge::{Case, Exit, Needs, Plan, Selection, Subject, Unmatched, Waivers, any_seed};
+use crate::process::interrupt::Interrupt;
 use crate::profile::{self, Profile};
 use crate::report::{self, About, Report, TargetReport};
 use crate::session::Trouble;
-use crate::simulator::{self, Model};
-use crate::suite::{self, Case, Changes, Needs, Plan, Selection, Subject, Unmatched};
-use crate::verdict::Exit;
-use crate::waivers::Waivers;
+use crate::simulator::Model;
+use crate::suite::{self, Changes};
+use crate::text::Moment;
 
 mod against;
 
@@ -76,7 +75,7 @@ pub(super) struct Run {
     only: Vec<String>,
 
     /// Judge by this edition alone, en-1.05 or de-1.051; the embedded CNC follows it [default: both]
-    #[arg(long, help_heading = SELECTION, value_name = "EDITION", value_parser = simulator::edition)]
+    #[arg(long, help_heading = SELECTION, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
     /// The order of the cases [default: a new one each time, which the report names]
@@ -203,7 +202,7 @@ impl Run {
             });
             return checked.map_or_else(super::forms::lost, |()| exit);
         }
-        let seed = self.seed.unwrap_or_else(suite::any_seed);
+        let seed = self.seed.unwrap_or_else(any_seed);
         if self.list {
             return self.list(seed, &profile);
         }
@@ -309,7 +308,7 @@ impl Run {
 
     fn testee(&self, command: &str, seed: u32, waivers: Waivers) -> Result<Report, Stopped> {
         let plan = self.plan(seed)?;
-        let edition = self.edition.map(simulator::edition_name);
+        let edition = self.edition.map(Edition::name);
         let timeout = self.target.timeout();
         let cases = plan.cases.clone();
         let judged = run_testee::run(

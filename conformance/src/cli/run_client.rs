@@ -7,12 +7,12 @@ use clap::Args;
 
 use super::complain;
 use super::serve::check_address;
-use crate::child::front;
 use crate::clients::{self, Judged, Process, Scenario, Stage};
 use crate::deadline::Deadline;
-use crate::interrupt::Interrupt;
+use crate::judge::{Case, Outcome, Plan};
+use crate::process::interrupt::Interrupt;
 use crate::report::TargetReport;
-use crate::suite::{Case, Outcome, Plan};
+use crate::text::shorten;
 
 /// Under which these options stand in the help.
 const CLIENT: &str = "Client under test";
@@ -104,7 +104,7 @@ impl ClientArgs {
         let stderr = clients::Actor::stderr(&process);
         let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
         let stderr: String = stderr.chars().skip(skipped).collect();
-        let said = |text: &str| Some(front(text, SAID_MAX)).filter(|text| !text.is_empty());
+        let said = |text: &str| Some(shorten(text, SAID_MAX)).filter(|text| !text.is_empty());
         let identity = hello.map(|hello| hello.client).unwrap_or_default();
         let target = TargetReport {
             name: said(&identity.name).unwrap_or_else(|| "client".to_owned()),

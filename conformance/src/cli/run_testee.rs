@@ -3,13 +3,12 @@
 use std::io::{self, Write};
 use std::time::Duration;
 
-use crate::child::front;
 use crate::deadline::Deadline;
-use crate::interrupt;
+use crate::judge::{Case, Exit, Outcome, Subject};
+use crate::process::interrupt;
 use crate::report::TargetReport;
-use crate::suite::{Case, Outcome, Subject};
 use crate::testee::{Finding, Hello, Judged, Process, Terms, check_protocol, judge};
-use crate::verdict::Exit;
+use crate::text::shorten;
 
 /// The last of stderr that a report keeps.
 const STDERR_SHOWN: usize = 4000;
@@ -39,7 +38,7 @@ pub(super) fn run(
 }
 
 fn target(command: &str, hello: Option<Hello>, stderr: &str) -> TargetReport {
-    let said = |text: &str| Some(front(text, SAID_MAX)).filter(|text| !text.is_empty());
+    let said = |text: &str| Some(shorten(text, SAID_MAX)).filter(|text| !text.is_empty());
     let identity = hello.map(|hello| hello.testee);
     let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
     let last: String = stderr.chars().skip(skipped).collect();

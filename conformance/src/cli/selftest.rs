@@ -8,10 +8,9 @@ use clap::Args;
 
 use super::complain;
 use super::forms::{is_stdout, lost, show, write};
+use crate::judge::{Exit, any_seed};
 use crate::selftest;
 use crate::selftest::detection::Scope;
-use crate::suite::any_seed;
-use crate::verdict::Exit;
 
 /// Tries the suite on itself: every seeded defect has to be caught, everybody right left in peace.
 ///

@@ -12,14 +12,14 @@ use super::executed::{self, ExecutedTo};
 use super::model::ModelArgs;
 use super::{complain, find_defect, refuse};
 use crate::faults::{self, Faulty};
-use crate::interrupt::Interrupt;
+use crate::judge::Exit;
 use crate::net;
+use crate::process::interrupt::Interrupt;
 use crate::session::Trouble;
 use crate::simulator::program::{Pace, ProgramConfig, Repeat, Script, ScriptConfig};
 use crate::simulator::{
     CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Cnc, DEFAULT_MODEL, NET_ID, Server, ServerOptions,
 };
-use crate::verdict::Exit;
 
 /// For the end of the help.
 const MORE: &str = "\

@@ -9,11 +9,11 @@ use super::complain;
 use super::model::ModelArgs;
 use super::name::{NameArgs, written};
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, embedded_gate};
+use crate::judge::Exit;
 use crate::named::{by_name_alone, find};
 use crate::objects::{Access, Object, Place};
 use crate::session::{Session, Trouble};
 use crate::values::{Type, parse, plain};
-use crate::verdict::Exit;
 
 /// Writes a variable, an object or an element by its name, reads it back and shows both.
 ///
@@ -152,7 +152,7 @@ impl Set {
         new: Option<&[u8]>,
     ) -> Result<(), Trouble> {
         let text = |bytes: Option<&[u8]>| match bytes {
-            Some(bytes) => plain(ty, bytes).unwrap_or_else(|| crate::report::hex::plain(bytes)),
+            Some(bytes) => plain(ty, bytes).unwrap_or_else(|| crate::text::hex::spaced(bytes)),
             None => "(not readable)".to_owned(),
         };
         let (name, old, new) = (object.name.to_string(), text(old), text(new));

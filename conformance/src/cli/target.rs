@@ -17,9 +17,9 @@ use crate::capture::{AMS_TCP_PORT, Capture};
 use crate::client::Target;
 use crate::deadline::Deadline;
 use crate::gate::{Allowed, Entry, Gate, Moment};
+use crate::judge::Exit;
 use crate::session::{Session, TIMEOUT, Trouble};
 use crate::simulator::{Cnc, NET_ID};
-use crate::verdict::Exit;
 
 /// Under which these options stand in the help.
 const TARGET: &str = "Target";

@@ -5,8 +5,8 @@ use std::io::{self, BufRead as _, Write as _};
 use clap::Args;
 
 use super::{complain, find_defect};
+use crate::judge::Exit;
 use crate::testee::{Act, Answer, Command, Miniature, Own, Reply};
-use crate::verdict::Exit;
 
 /// Answers the protocol of `run --testee` with this project's codec, on stdin and stdout.
 ///

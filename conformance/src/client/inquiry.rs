@@ -9,6 +9,7 @@ use ads_cnc::ads::{
 
 use super::{Client, violations};
 use crate::exchange::{Fault, Violation};
+use crate::judge::Evidence;
 
 /// A command without data, by its reply.
 pub trait Inquiry: for<'a> Decode<'a> {
@@ -134,5 +135,19 @@ fn said<R: Inquiry>(header: &AmsHeader, received: &[u8]) -> Result<Said<R>, Faul
             Ok(short) if !short.result.is_ok() => Ok(Said::Refused(short.result)),
             _ => Err(Fault::Malformed(error)),
         },
+    }
+}
+
+impl<R: Inquiry> From<&Inquired<R>> for Evidence {
+    fn from(inquired: &Inquired<R>) -> Self {
+        let received = inquired.received.get(FrameRef::HEADERS_LEN..);
+        let evidence = Self {
+            call: inquired.to_string(),
+            reply_stream: Some(R::STREAM.layout().name),
+            received: received.map(|data| Self::start(data).to_vec()),
+            result: inquired.result(),
+            ..Self::default()
+        };
+        evidence.cut(&inquired.sent, &inquired.received)
     }
 }

@@ -7,7 +7,7 @@ use super::findings::Findings;
 use super::requests::writes;
 use super::scenario::{Ask, Length};
 use super::stage::Turn;
-use crate::suite::assumed;
+use crate::judge::assumed;
 
 /// A request as its bytes say it: nothing of it is read by the codec but where its frame ends.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -14,11 +14,10 @@ use super::result::same;
 use super::scenario::{Expect, Scenario};
 use super::script::Script;
 use super::stage::{Stage, Turn};
-use super::{Actor, CLIENT, Defect, Own, asked, requests, scenarios, watch};
-use crate::interrupt;
+use super::{Actor, Defect, Own, asked, requests, scenarios, watch};
+use crate::judge::{Body, CLIENT, Case, Needs, Outcome, Record, Rule, Stop, Subject, Verdict};
+use crate::process::interrupt;
 use crate::simulator::Cnc;
-use crate::suite::{Body, Case, Needs, Outcome, Record, Rule, Stop, Subject};
-use crate::verdict::Verdict;
 
 /// Deaths and silences in a row after which no more is tried.
 const LOST_MAX: usize = 12;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::Action;
-use crate::child::front;
+use crate::text::shorten;
 
 /// Version of the protocol.
 pub const PROTOCOL: u32 = 1;
@@ -116,11 +116,11 @@ impl std::fmt::Display for Reaction {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Answer(Answer::Result(value)) => {
-                write!(f, "the result {}", front(&value.to_string(), SHOWN))
+                write!(f, "the result {}", shorten(&value.to_string(), SHOWN))
             }
-            Self::Answer(Answer::Error(why)) => write!(f, "the error {:?}", front(why, SHOWN)),
+            Self::Answer(Answer::Error(why)) => write!(f, "the error {:?}", shorten(why, SHOWN)),
             Self::Answer(Answer::Unsupported(what)) => {
-                write!(f, "unsupported: {}", front(what, SHOWN))
+                write!(f, "unsupported: {}", shorten(what, SHOWN))
             }
             Self::Garbled(what) => write!(f, "no answer of the protocol: {what}"),
             Self::Died(how) => write!(f, "it died: {how}"),

@@ -32,10 +32,6 @@ pub use scenario::Scenario;
 pub use scenarios::scenarios;
 pub use stage::Stage;
 
-/// What the protocol asks of a client, beside the requirements of the catalogue: an answer, in time
-/// and without dying.
-pub const CLIENT: &str = "CLIENT";
-
 /// Who is put through scenarios.
 pub trait Actor {
     /// Asks who it is and what it knows.

@@ -3,11 +3,11 @@
 use ads_cnc::operation::Function;
 
 use super::findings::Findings;
+use super::requests;
 use super::script::Script;
 use super::stage::{Stage, Turn};
-use super::{CLIENT, requests};
+use crate::judge::{Body, CLIENT, Case, Needs, Outcome, Stop, Subject};
 use crate::simulator::{Cnc, ModelError};
-use crate::suite::{Body, Case, Needs, Outcome, Stop, Subject};
 
 /// The case that all requests are judged in: by whatever requirement each of them touches.
 pub fn requests_case() -> Case {

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use super::message::{Answer, Hello, PROTOCOL, Place, Reaction, environment, told};
 use super::{Action, Actor};
-use crate::child::{self, START, Spoken, Stderr, Unheard, cut};
 use crate::deadline::Deadline;
+use crate::process::{START, Spoken, Stderr, Unheard, cut, shell};
 
 /// How long it has for ending when all is said.
 const GRACE: Duration = Duration::from_secs(2);
@@ -46,7 +46,7 @@ impl Process {
     }
 
     fn start(&self, place: &Place, scenario: &str, action: &str) -> Result<Spoken, Reaction> {
-        let mut command = child::shell(&self.line);
+        let mut command = shell(&self.line);
         command.envs(environment(place, scenario, action));
         Spoken::start(command, &self.stderr)
             .map_err(|error| Reaction::Broken(format!("it cannot be started: {error}")))

@@ -4,12 +4,11 @@ use ads_cnc::Error;
 use ads_cnc::ads::{AdsError, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, DispatchError, Effect, Function, Request, Task};
 
-use super::CLIENT;
 use super::findings::Findings;
 use super::stage::Turn;
+use crate::judge::{CLIENT, assumed};
 use crate::services::{self, service_of};
 use crate::simulator::{DATA_MAX, NET_ID};
-use crate::suite::assumed;
 
 /// What is known of the request before: its connection and its invoke ID.
 pub(super) type Before = Option<(usize, Option<Vec<u8>>)>;

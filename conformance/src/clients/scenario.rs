@@ -4,12 +4,12 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
 use serde_json::Value;
 
+use super::Action;
 use super::knob::Knob;
 use super::literal::Literal;
 use super::script::Script;
 use super::watch::Watch;
-use super::{Action, CLIENT};
-use crate::suite::{Body, Case, Needs, Rule, Subject};
+use crate::judge::{Body, CLIENT, Case, Needs, Rule, Subject};
 
 /// A request that has to be among those a client sends, as bytes, not as the codec has them.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -12,9 +12,9 @@ use ads_cnc::ads::AmsNetId;
 
 use super::knob::Deed;
 use super::script::Script;
+use crate::judge::Stop;
 use crate::net;
 use crate::simulator::{FRAME_MAX, NET_ID};
-use crate::suite::Stop;
 
 /// The most connections of one scenario; of more the number is kept.
 pub(super) const CONNECTIONS_MAX: usize = 64;

@@ -9,7 +9,7 @@ use super::requests::with_request;
 use super::scenario::Scenario;
 use super::script::Script;
 use super::stage::Turn;
-use crate::suite::assumed;
+use crate::judge::assumed;
 use crate::values::until_nul;
 
 /// What is looked at.

@@ -86,6 +86,24 @@ impl Edition {
         }
     }
 
+    /// The name: `en-1.05`, `de-1.051`.
+    pub fn name(self) -> String {
+        let document = self.document();
+        let language = document.strip_prefix("ads-").unwrap_or(document);
+        format!("{language}-{}", self.number())
+    }
+
+    /// The edition with this [`name`](Self::name).
+    ///
+    /// # Errors
+    /// The names that there are.
+    pub fn by_name(name: &str) -> Result<Self, String> {
+        Self::ALL.into_iter().find(|edition| edition.name() == name).ok_or_else(|| {
+            let names = Self::ALL.map(Self::name).join(" and ");
+            format!("{name:?} is no edition; there are {names}")
+        })
+    }
+
     /// The kinds that are by name only: 0x46, 0x47 and 0x49 are not available for them (VAR-18).
     pub const fn by_name_only(self) -> &'static [Kind<'static>] {
         match self {

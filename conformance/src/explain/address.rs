@@ -13,8 +13,8 @@ use ads_cnc::operation::{
 use super::codes;
 use super::model::{Address, FunctionReport, Part, Place};
 use super::part;
-use super::typed::Values;
 use crate::edition::Feature;
+use crate::values::Values;
 
 /// Data of a service at a place.
 pub(super) fn of_place(place: &Place, bytes: &[u8], values: &Values) -> Part {

@@ -13,9 +13,9 @@ use super::address;
 use super::codes;
 use super::model::{Fault, Part, Place};
 use super::part;
-use super::typed::Values;
 use super::value::bytes as in_words;
 use crate::services::{reply_stream, request_stream, service_of};
+use crate::values::Values;
 
 /// Requests by who asked whom under which ID.
 type Asked = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;

@@ -22,7 +22,6 @@
 mod address;
 mod codes;
 mod frame;
-mod input;
 mod model;
 mod nc;
 mod part;
@@ -30,17 +29,17 @@ mod show;
 mod typed;
 mod value;
 
+pub use crate::text::hex::{HexError, parse_hex};
+pub use crate::values::{UnknownType, Values, type_by_name};
 pub use address::describe;
 pub(crate) use codes::class_name;
 pub use frame::looks_like_frame;
-pub use input::{HexError, parse_hex};
 pub(crate) use model::sources;
 pub use model::{
     Address, Explanation, Fault, FunctionReport, Outcome, Part, Place, Question, Row, Subject,
     Unread,
 };
 pub use show::{Paint, print};
-pub use typed::{UnknownType, Values, type_by_name};
 
 use ads_cnc::layout::Stream;
 

@@ -8,10 +8,10 @@ use ads_cnc::{Error, ErrorKind};
 use ads_cnc_vectors::requirement;
 use serde::Serialize;
 
-use super::typed::Values;
 use crate::codec::class;
-use crate::report::hex::plain;
-use crate::verdict::Exit;
+use crate::judge::Exit;
+use crate::text::hex::spaced;
+use crate::values::Values;
 
 /// What the bytes are.
 #[derive(Clone, Debug)]
@@ -278,7 +278,7 @@ impl Part {
         self.unread = (!rest.is_empty()).then(|| Unread {
             offset: end,
             length: rest.len(),
-            hex: plain(rest),
+            hex: spaced(rest),
         });
     }
 }
@@ -288,7 +288,7 @@ impl Row {
         Self {
             offset,
             length: bytes.len(),
-            hex: plain(bytes),
+            hex: spaced(bytes),
             field: field.to_owned(),
             record: 0,
             item: 0,

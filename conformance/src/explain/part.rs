@@ -5,8 +5,8 @@ use ads_cnc::layout::{Segment, Stream};
 
 use super::model::{Fault, Part, size};
 use super::nc;
-use super::typed::Values;
 use super::value;
+use crate::values::Values;
 
 /// A stream that begins at `at` of the bytes given.
 pub(super) fn of_stream(stream: Stream, at: usize, bytes: &[u8], values: &Values) -> Part {

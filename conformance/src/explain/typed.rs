@@ -1,35 +1,9 @@
 //! Values and contents, typed by what their description or descriptor says.
 
 use ads_cnc::value::{DataType, Element, Elements};
-use ads_cnc::{CncStr, Error, U32List};
+use ads_cnc::{Error, U32List};
 
 use super::codes::text_of;
-
-/// How values and contents are to be read.
-#[derive(Clone, Debug, Default)]
-pub struct Values {
-    /// The type; without it a value is bytes.
-    pub ty: Option<DataType>,
-    /// Elements in each dimension; none for a single element.
-    pub dimensions: Vec<u32>,
-}
-
-/// A name that no type has.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "no type is called {0}; there are BOOLEAN, SGN08 … UNS32, REAL32, REAL64, STRING, and those of objects, BOOL, SINT … LREAL"
-)]
-pub struct UnknownType(String);
-
-/// The type of this name, as variables, elements or objects have it; case does not matter.
-///
-/// # Errors
-/// No type has this name.
-pub fn type_by_name(name: &str) -> Result<DataType, UnknownType> {
-    let upper = name.to_ascii_uppercase();
-    let known = CncStr::new(&upper).ok().and_then(DataType::by_name);
-    known.ok_or_else(|| UnknownType(name.to_owned()))
-}
 
 /// An element of a value.
 pub(super) struct Typed {
@@ -75,6 +49,7 @@ fn place(item: u32, dimensions: &[u32]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::values::type_by_name;
 
     #[test]
     fn the_last_index_runs_fastest() {

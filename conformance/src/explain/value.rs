@@ -8,7 +8,8 @@ use ads_cnc::{Synchronisation, Validity, VariableAccess, VariableType};
 
 use super::codes::{self, number, quoted, text};
 use super::model::{Fault, Part, Row, size};
-use super::typed::{self, Values};
+use super::typed;
+use crate::values::Values;
 
 /// Bytes of a value that are tried as every type of their size.
 const GUESSED: usize = 8;

@@ -9,8 +9,7 @@ use ads_cnc::operation::{ObjectList, Operation as _, Request};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString};
 
-use super::{Doubt, Learnt, Moment, Reason};
-use crate::simulator::NET_ID;
+use super::{Doubt, Learnt, Moment, NET_ID, Reason};
 
 /// What may be written, to whom and until when.
 ///

@@ -26,12 +26,11 @@
 mod allowed;
 mod file;
 mod learnt;
-mod moment;
 mod refusal;
 
+pub use crate::text::Moment;
 pub use allowed::{Allowed, Entry, List};
 pub use file::AllowFileError;
-pub use moment::Moment;
 pub use refusal::{Doubt, Reason, Refusal};
 
 use std::net::{IpAddr, SocketAddr};
@@ -43,8 +42,10 @@ use ads_cnc::ads::{AmsNetId, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Effect, Function, Request, Service, Task};
 use ads_cnc::streaming;
 
-use crate::simulator::Server;
 use learnt::Learnt;
+
+/// The AMS NetId of the simulated CNC, unless it is given another.
+pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
 
 /// Decides over every frame before a byte of it is sent.
 #[derive(Clone, Debug, Default)]
@@ -93,10 +94,10 @@ impl Gate {
         Self::default()
     }
 
-    /// Anything but what is never sent: for the CNC that this server of this process has, which
-    /// moves nothing. [`Client`](crate::client::Client) takes no other address with it.
-    pub fn of_embedded(server: &Server) -> Self {
-        Self { embedded: Some(server.addr()), ..Self::default() }
+    /// Anything but what is never sent, to this address only: that of a
+    /// [`Server`](crate::simulator::Server) of this process, see [`Gate::of_embedded`].
+    pub(crate) fn of_address(embedded: SocketAddr) -> Self {
+        Self { embedded: Some(embedded), ..Self::default() }
     }
 
     /// The only address that it may stand in front of, if there is but one.

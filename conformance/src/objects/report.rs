@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::Object;
 use crate::client::Target;
-use crate::report::hex;
+use crate::text::hex;
 use crate::values::value_of;
 
 /// Objects of a target, as they are written as JSON; see `schema/objects.schema.json`.
@@ -96,7 +96,7 @@ impl ObjectReport {
         let report = Self::from(object);
         match content {
             Ok(bytes) => {
-                let (hex, value) = (Some(hex::plain(bytes)), value_of(&object.ty, bytes));
+                let (hex, value) = (Some(hex::spaced(bytes)), value_of(&object.ty, bytes));
                 Self { hex, value, ..report }
             }
             Err(error) => Self { error: Some(error.clone()), ..report },

@@ -145,7 +145,7 @@ where
 }
 
 fn edition<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Edition>, D::Error> {
-    checked(value, |name: String| crate::simulator::edition(&name))
+    checked(value, |name: String| Edition::by_name(&name))
 }
 
 fn version<'de, D: Deserializer<'de>>(value: D) -> Result<Option<CncVersion>, D::Error> {

@@ -203,7 +203,7 @@ impl Profile {
 
 /// As `--edition` has it.
 fn edition<S: Serializer>(edition: &Edition, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(&crate::simulator::edition_name(*edition))
+    serializer.serialize_str(&edition.name())
 }
 
 fn version<S: Serializer>(version: &Option<CncVersion>, serializer: S) -> Result<S::Ok, S::Error> {

@@ -4,9 +4,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::model::{LeftChanged, Report};
-use crate::child::front;
-use crate::verdict::{Exit, Verdict};
+use super::model::Report;
+use crate::judge::{Exit, LeftChanged, Verdict};
+use crate::text::{json, shorten};
 
 /// As shields.io reads it from an endpoint; it takes no other keys.
 #[derive(Debug, Serialize)]
@@ -55,12 +55,12 @@ pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
         color,
         is_error: report.exit() == Exit::Internal,
     };
-    super::json::write(&badge, out)
+    json::write(&badge, out)
 }
 
 /// The name and the values, each cut to what a badge has room for.
 fn shown(left: &LeftChanged) -> String {
-    let cut = |text: &str| front(text, 40);
+    let cut = |text: &str| shorten(text, 40);
     let is = left.is.as_deref().map_or_else(|| "not known".to_owned(), cut);
     format!("{}, was {}, is {is}", cut(&left.name), cut(&left.was))
 }

@@ -2,21 +2,20 @@
 
 use ads_cnc_vectors::{Level, Requirement, requirement, requirements};
 
+use super::BytesReport;
 use super::model::{
-    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, LeftChanged, ProfileReport,
-    Report, RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
+    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
+    RequirementReport, SubjectReport, TargetReport, Totals,
 };
-use super::{BytesReport, hex};
-use crate::clients::CLIENT;
+
 use crate::edition::Edition;
 use crate::explain;
-use crate::gate::Moment;
+use crate::judge::{
+    Body, CLIENT, Evidence, Judgement, LeftChanged, LeftOut, Outcome, Subject, TESTEE, Tally,
+    Verdict, WaiverReport, WaiverState, Waivers, gravest, names,
+};
 use crate::profile::Profile;
-use crate::simulator;
-use crate::suite::{Body, Evidence, Judgement, Outcome, Subject, gravest, names};
-use crate::testee::TESTEE;
-use crate::verdict::{Tally, Verdict};
-use crate::waivers::Waivers;
+use crate::text::{Moment, hex};
 
 /// What a run was, apart from what came of it.
 #[derive(Clone, Debug)]
@@ -39,17 +38,6 @@ pub struct About {
     pub frames: usize,
     /// Values that were changed and could not be restored.
     pub left_changed: Vec<LeftChanged>,
-}
-
-/// What was left out of a run because something else was selected.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LeftOut {
-    /// The case.
-    pub id: String,
-    /// Whom it would have judged.
-    pub subject: Subject,
-    /// And by what.
-    pub requirements: Vec<&'static str>,
 }
 
 impl Report {
@@ -85,9 +73,8 @@ impl Report {
             suite: env!("CARGO_PKG_VERSION").to_owned(),
             vectors: ads_cnc_vectors::VERSION.to_owned(),
             time: time.to_string(),
-            editions: edition.map_or(Edition::ALL.map(simulator::edition_name).to_vec(), |one| {
-                vec![simulator::edition_name(one)]
-            }),
+            editions: edition
+                .map_or(Edition::ALL.map(Edition::name).to_vec(), |one| vec![one.name()]),
             seed,
             only,
             target,
@@ -100,7 +87,7 @@ impl Report {
             subjects,
             cases,
         }
-        .tamed()
+        .escaped()
     }
 }
 
@@ -257,8 +244,8 @@ impl From<&Evidence> for EvidenceReport {
             sent: (!sent.is_empty()).then(|| BytesReport::new(*request_stream, sent, None, values)),
             received: received.map(|bytes| reply(bytes, expected)),
             expected: expected.map(|bytes| reply(bytes, received)),
-            frame_sent: hex::plain(&evidence.frame_sent),
-            frame_received: hex::plain(&evidence.frame_received),
+            frame_sent: hex::spaced(&evidence.frame_sent),
+            frame_received: hex::spaced(&evidence.frame_received),
         }
     }
 }
@@ -281,7 +268,7 @@ fn sources(requirement: &Requirement, level: Option<Level>) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::suite::RequirementVerdict;
+    use crate::judge::RequirementVerdict;
 
     /// Whoever claims nothing, and keeps to the protocol in that, has not passed.
     #[test]

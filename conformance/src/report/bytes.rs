@@ -3,8 +3,8 @@
 use ads_cnc::layout::Stream;
 use serde::{Deserialize, Serialize};
 
-use super::hex::plain;
 use crate::explain::{Question, Subject, Values, explain};
+use crate::text::hex::spaced;
 
 /// Bytes field by field.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -64,7 +64,7 @@ impl BytesReport {
             );
             faults.extend(part.faults.into_iter().map(|fault| fault.text));
         } else if !bytes.is_empty() {
-            fields.push(FieldReport::bare(0, plain(bytes), ""));
+            fields.push(FieldReport::bare(0, spaced(bytes), ""));
         }
         let mut report = Self {
             stream: known.map(|stream| stream.layout().name.to_owned()),

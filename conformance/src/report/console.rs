@@ -4,12 +4,9 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use super::BytesReport;
-use super::hex::{lines, marked};
-use super::model::{
-    CaseReport, EvidenceReport, FailureReport, Report, TargetReport, Totals, WaiverReport,
-};
-use crate::suite::Subject;
-use crate::verdict::{Exit, Verdict};
+use super::lines::{lines, marked};
+use super::model::{CaseReport, EvidenceReport, FailureReport, Report, TargetReport, Totals};
+use crate::judge::{Exit, Subject, Verdict, WaiverReport};
 
 /// Writes the report. `verbose` shows the cases made of vectors one by one too.
 ///

@@ -5,7 +5,7 @@ use std::fmt;
 use ads_cnc::ads::{AdsState, DeviceInfoReply};
 use serde::{Deserialize, Serialize};
 
-use super::tame;
+use crate::text::escape;
 
 /// What a device says of itself.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,7 +39,7 @@ impl DeviceReport {
 impl fmt::Display for DeviceReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // A device may say anything: nothing of it moves the cursor.
-        write!(f, "\"{}\" {}", tame(&self.name), self.version)?;
+        write!(f, "\"{}\" {}", escape(&self.name), self.version)?;
         self.state.iter().try_for_each(|state| write!(f, ", state {state}"))
     }
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::console::describe;
 use super::model::{ProfileReport, Report};
-use crate::verdict::{Exit, Verdict};
+use crate::judge::{Exit, Verdict};
 use subject::{SubjectView, areas, subject};
 
 mod finding;

@@ -6,8 +6,8 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
 use super::console::{describe, finding};
-use super::model::{CaseReport, Report, WaiverReport};
-use crate::verdict::Verdict;
+use super::model::{CaseReport, Report};
+use crate::judge::{Verdict, WaiverReport};
 
 /// Writes the report as JUnit XML.
 ///

@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use super::console::{counts, describe, finding, worded};
-use super::model::{Report, WaiverReport};
-use crate::verdict::{Exit, Verdict};
+use super::model::Report;
+use crate::judge::{Exit, Verdict, WaiverReport};
 
 /// The most characters of failures: a comment at GitHub has at most 65 536.
 const FAILURES_MAX: usize = 48_000;

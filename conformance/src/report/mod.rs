@@ -5,18 +5,19 @@ mod build;
 mod bytes;
 mod console;
 mod device;
-pub(crate) mod hex;
+mod escape;
 mod html;
-pub(crate) mod json;
 mod junit;
+pub(crate) mod lines;
 mod markdown;
 mod model;
-mod tame;
 
 use std::io::{self, Write};
 
+use crate::text::json;
+
 pub use badge::to_badge;
-pub use build::{About, LeftOut};
+pub use build::About;
 pub use bytes::{BytesReport, FieldReport};
 pub use console::print;
 pub use device::DeviceReport;
@@ -24,10 +25,9 @@ pub use html::to_html;
 pub use junit::to_junit;
 pub use markdown::to_markdown;
 pub use model::{
-    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, LeftChanged, ProfileReport,
-    Report, RequirementReport, SubjectReport, TargetReport, Totals, WaiverReport, WaiverState,
+    AreaReport, CaseReport, EvidenceReport, FORMAT, FailureReport, ProfileReport, Report,
+    RequirementReport, SubjectReport, TargetReport, Totals,
 };
-pub(crate) use tame::{tame, tame_lines};
 
 /// Writes the report as JSON.
 ///

@@ -2,15 +2,13 @@
 //! is made from it alone.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use ads_cnc_vectors::Level;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{BytesReport, DeviceReport};
-use crate::suite::Subject;
-use crate::verdict::{Exit, Verdict};
+use crate::judge::{Exit, LeftChanged, Subject, Verdict, WaiverReport};
 
 /// Number of this structure.
 pub const FORMAT: u32 = 1;
@@ -60,35 +58,6 @@ pub struct Report {
     pub cases: Vec<CaseReport>,
 }
 
-/// A value that was changed and could not be restored.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LeftChanged {
-    /// What it is the value of.
-    pub name: String,
-    /// What it was, in hex.
-    pub was: String,
-    /// What it is, in hex, as it was read or written last; none if that is not known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub is: Option<String>,
-    /// Why the suite sent no write that restores it, if it sent none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub refused: Option<String>,
-}
-
-/// As every form of a report says it.
-impl fmt::Display for LeftChanged {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, was, is, refused } = self;
-        let is = is.as_deref().unwrap_or("not known");
-        write!(f, "LEFT CHANGED: {name}, was {was}, is {is}")?;
-        match refused {
-            Some(why) => write!(f, " (not restored: {why})"),
-            None => Ok(()),
-        }
-    }
-}
-
 /// Who was judged.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -129,61 +98,6 @@ pub struct ProfileReport {
     pub name: String,
     /// Each claim under its name.
     pub claims: BTreeMap<String, Value>,
-}
-
-/// A known failure, and what became of it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct WaiverReport {
-    /// The case.
-    pub test: String,
-    /// The requirement.
-    pub requirement: String,
-    /// The verdict that is expected.
-    pub verdict: Verdict,
-    /// Why it is put up with.
-    pub reason: String,
-    /// The first day on which it holds no longer.
-    pub expires: String,
-    /// What became of it.
-    pub state: WaiverState,
-    /// The verdict in this run, if there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub found: Option<Verdict>,
-}
-
-/// What became of a waiver.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum WaiverState {
-    /// The verdict is the expected one.
-    Used,
-    /// What it is about was not run: nothing is known.
-    NotRun,
-    /// Its time is over. Stale.
-    Expired,
-    /// Nothing that ran is called that. Stale.
-    Unmatched,
-    /// The verdict is another one. Stale.
-    Otherwise,
-}
-
-impl WaiverState {
-    /// Whether the file has to be mended.
-    pub const fn is_stale(self) -> bool {
-        matches!(self, Self::Expired | Self::Unmatched | Self::Otherwise)
-    }
-
-    /// For people.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Used => "used",
-            Self::NotRun => "not run",
-            Self::Expired => "stale: expired",
-            Self::Unmatched => "stale: nothing that ran is called that",
-            Self::Otherwise => "stale: the verdict is another one",
-        }
-    }
 }
 
 /// What is said of one who was judged.
@@ -328,7 +242,7 @@ impl Report {
             return Err(format!("a report of format {format}; this version reads {FORMAT}"));
         }
         let report: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
-        Ok(report.tamed())
+        Ok(report.escaped())
     }
 }
 

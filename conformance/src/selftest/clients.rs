@@ -4,8 +4,8 @@ use std::net::SocketAddr;
 
 use super::{Candidate, Group};
 use crate::clients::{Defect, Stage, defects, habits, trial};
+use crate::judge::Outcome;
 use crate::session::Trouble;
-use crate::suite::Outcome;
 
 pub(super) fn candidates() -> Vec<Candidate> {
     let one = |defect: &'static Defect, group| Candidate {

@@ -6,9 +6,10 @@ use ads_cnc::layout::Stream;
 
 use super::{Candidate, Group};
 use crate::faults::{self, Seed};
+use crate::judge::{Body, Case, Needs, Outcome, Subject, TESTEE};
 use crate::session::Trouble;
-use crate::suite::{self, Body, Case, Needs, Outcome, Subject};
-use crate::testee::{Miniature, Own, Process, TESTEE, Terms, judge};
+use crate::suite;
+use crate::testee::{Miniature, Own, Process, Terms, judge};
 
 /// How long a miniature may take. Those that say nothing cost this much a case.
 const TIMEOUT: Duration = Duration::from_millis(1000);

@@ -20,9 +20,8 @@ use std::thread;
 use serde::Serialize;
 
 use crate::faults::{self, Kind};
+use crate::judge::{Exit, Outcome, Verdict};
 use crate::session::Trouble;
-use crate::suite::Outcome;
-use crate::verdict::{Exit, Verdict};
 use detection::{Checked, Scope};
 
 pub use show::print;
@@ -161,7 +160,7 @@ pub fn run(only: &[String], scope: Scope, tell: impl Fn(usize, usize) + Sync) ->
             || only.iter().any(|word| {
                 id.starts_with(word.as_str())
                     || group.name() == word
-                    || targets.iter().any(|target| crate::suite::names(word, target))
+                    || targets.iter().any(|target| crate::judge::names(word, target))
             })
     };
     let mut candidates = codecs::candidates();

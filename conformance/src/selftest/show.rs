@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::detection::{Checked, Figures, Mode};
 use super::{Group, Outcomes, SelfTest, Tried};
-use crate::verdict::Exit;
+use crate::judge::Exit;
 
 /// The most targets on a line.
 const TARGETS_SHOWN: usize = 6;

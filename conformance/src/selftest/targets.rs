@@ -6,10 +6,11 @@ use std::time::Duration;
 use super::{Candidate, Group, Outcomes};
 use crate::edition::Edition;
 use crate::faults::{self, Faulty, Kind, Seed};
+use crate::judge::{Case, Needs, Outcome};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::suite::{self, Case, Needs, Outcome, Session};
+use crate::suite::{self, Session};
 
 /// A version that has 0x4C and all kinds.
 const NEWEST: &str = "V4.29.0";

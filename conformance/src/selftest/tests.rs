@@ -2,7 +2,8 @@
 
 use super::detection::{Found, Mode, Table};
 use super::*;
-use crate::suite::{self, RequirementVerdict};
+use crate::judge::RequirementVerdict;
+use crate::suite;
 
 /// Outcomes in which these requirements got these verdicts.
 fn outcomes(verdicts: &[(&'static str, Verdict)]) -> Vec<Outcome> {

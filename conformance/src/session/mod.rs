@@ -15,14 +15,13 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Kind, address::Channel};
 
-use crate::capture::Capture;
-use crate::client::{Client, Inquiry, Said, Target};
+use crate::client::{Client, Inquiry, Said, Tap, Target};
 use crate::deadline::Deadline;
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Gate;
 use crate::net;
 use crate::profile::{Claim, Profile};
-use crate::report::hex;
+use crate::report::lines;
 use crate::simulator::{NET_ID, Responder, Server};
 
 pub use trouble::Trouble;
@@ -162,7 +161,7 @@ impl Session {
 
     /// With a capture of all that is sent and received from now on.
     #[must_use]
-    pub fn with_capture(self, capture: Capture) -> Self {
+    pub fn with_capture(self, capture: impl Into<Box<dyn Tap>>) -> Self {
         Self { client: self.client.with_capture(capture), ..self }
     }
 
@@ -382,7 +381,7 @@ impl fmt::Display for Shown<'_> {
             writeln!(f, "  at most {} bytes back", call.read_length)?;
         }
         let stream = spec.and_then(|spec| spec.request).map(|stream: Stream| stream.layout().name);
-        hex::annotated(stream, call.data).iter().try_for_each(|line| writeln!(f, "  {line}"))
+        lines::annotated(stream, call.data).iter().try_for_each(|line| writeln!(f, "  {line}"))
     }
 }
 

@@ -10,7 +10,7 @@ use ads_cnc::operation::Function;
 use crate::client::{Client, Target};
 use crate::exchange::Fault;
 use crate::gate::Refusal;
-use crate::verdict::Exit;
+use crate::judge::Exit;
 
 /// Why a tool does not get what it asked for. Its text says what to do next.
 #[derive(Debug)]

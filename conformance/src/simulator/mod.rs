@@ -38,36 +38,17 @@ mod responder;
 mod server;
 mod state;
 
+pub use crate::gate::NET_ID;
 pub use answer::Cnc;
 pub use control::ControlError;
 pub(crate) use in_process::InProcess;
 pub(crate) use inspect::{Held, Holder};
 pub(crate) use model::Configured;
 pub use model::{DEFAULT_MODEL, Model, ModelError, Settings};
-pub use respond::{DATA_MAX, NET_ID};
+pub use respond::DATA_MAX;
 pub(crate) use respond::{FRAME_MAX, INFO, respond};
 pub use responder::Responder;
 pub use server::{CONNECTION_BYTES_MAX, CONNECTIONS_MAX, Received, Server, ServerOptions};
-
-use crate::edition::Edition;
-
-/// The edition of the manual with this name: `en-1.05` or `de-1.051`.
-///
-/// # Errors
-/// The names that there are.
-pub fn edition(name: &str) -> Result<Edition, String> {
-    let all = Edition::ALL;
-    all.into_iter().find(|edition| edition_name(*edition) == name).ok_or_else(|| {
-        format!("{name:?} is no edition; there are {}", all.map(edition_name).join(" and "))
-    })
-}
-
-/// The name of an edition, as [`edition`] takes it.
-pub fn edition_name(edition: Edition) -> String {
-    let document = edition.document();
-    let language = document.strip_prefix("ads-").unwrap_or(document);
-    format!("{language}-{}", edition.number())
-}
 
 /// The most bytes of a content: what a frame has room for beside a result and a length.
 const CONTENT_MAX: usize = 0xFFF8;

@@ -20,9 +20,6 @@ pub(crate) const FRAME_MAX: usize = FrameRef::HEADERS_LEN + 0x1_0000;
 
 const _: () = assert!(DATA_MAX == 0x1_0000);
 
-/// The AMS NetId of the simulated CNC, unless it is given another.
-pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
-
 /// The bit that a response has and a request has not.
 const RESPONSE_BIT: u16 = StateFlags::REQUEST.0 ^ StateFlags::RESPONSE.0;
 

@@ -8,13 +8,12 @@ use ads_cnc::operation::{
 use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop, assumed, online};
-use super::declare;
 use super::probe::{Probe, harness};
-use super::record::Record;
 use super::survey::KINDS;
+use super::{Declared, declare};
+use crate::judge::{Record, Rule, Step, Stop, assumed, online};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "adr-com-object-access",
@@ -68,7 +67,7 @@ pub(super) fn cases() -> Vec<Case> {
     ]
 }
 
-pub(super) fn frame_cases() -> Vec<Case> {
+pub(super) fn frame_cases() -> Vec<Declared> {
     vec![
         declare!(
             "ads-every-frame",

@@ -5,10 +5,10 @@ use ads_cnc::address::{
     ElementAddress, IndexGroup, IndexOffset,
 };
 
-use super::case::{Rule, Step, Stop, assumed};
 use super::inventory::{Instance, Object};
 use super::place::Place;
 use super::probe::{Probe, harness};
+use crate::judge::{Rule, Step, Stop, assumed};
 use crate::simulator::{Held, Holder};
 
 /// What a target says itself of where things are, where no manual does.

@@ -3,13 +3,13 @@
 use ads_cnc::Description;
 use ads_cnc::operation::{ReadByHandle, ReadByName};
 
-use super::case::{Case, Step, assumed};
-use super::declare;
 use super::layout::{brackets, element_name};
 use super::probe::Probe;
 use super::values::{each, each_array};
+use super::{Declared, declare};
+use crate::judge::{Step, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "val-array-has-elements",

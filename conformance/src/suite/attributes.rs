@@ -9,12 +9,12 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementLength, ElementText};
 
 use super::addresses::Addresses;
-use super::case::{Case, Rule, Step, Stop};
-use super::declare;
 use super::probe::Probe;
 use super::still::Still;
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "adr-attributes",

@@ -10,13 +10,13 @@ use ads_cnc::{CncString, Decode as _, Description, Handle, Kind, TextRef, U32Lis
 use ads_cnc_vectors::Hex;
 
 use super::axis_interface::{self, PLACES_MAX, answering};
-use super::case::{Case, Step, Stop, assumed};
-use super::declare;
 use super::probe::{Probe, harness};
 use super::still::Still;
 use super::variable::name_of;
+use super::{Declared, declare};
+use crate::judge::{Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "axis-handles",

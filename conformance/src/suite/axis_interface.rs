@@ -5,9 +5,9 @@ use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::AxisHandleByName;
 use ads_cnc::{CncString, Decode as _, Description, Handle, VariablePath};
 
-use super::case::Step;
 use super::place::Place;
 use super::probe::{Probe, harness};
+use crate::judge::Step;
 
 /// The most places of a channel that are looked at.
 pub(super) const PLACES_MAX: u32 = 64;

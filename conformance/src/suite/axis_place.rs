@@ -11,12 +11,12 @@ use ads_cnc_vectors::Hex;
 
 use super::axis::{described, names};
 use super::axis_interface::{At, answering};
-use super::case::{Case, Step, Stop, assumed};
-use super::declare;
 use super::probe::{Probe, harness};
 use super::variable::name_of;
+use super::{Declared, declare};
+use crate::judge::{Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "axis-places",

@@ -6,13 +6,12 @@ use ads_cnc::address::{Access, ComGroup, ComTable, Group};
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
 use ads_cnc::{Decode, DescriptorRef, Descriptors, DescriptorsRef, ObjectCount};
 
-use super::case::{Case, Step, Stop, assumed, online};
-use super::declare;
 use super::inventory::OBJECTS_MAX;
 use super::probe::{Probe, harness};
-use super::record::Checks;
+use super::{Declared, declare};
+use crate::judge::{Checks, Step, Stop, assumed, online};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "com-count",

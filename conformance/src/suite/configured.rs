@@ -7,13 +7,13 @@ use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeExtended, Read
 use ads_cnc::{Decode as _, Description, ExtendedReply, Kind, VariableAccess, VariableCount};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Step};
-use super::declare;
 use super::probe::Probe;
 use super::survey::VARIABLES_MAX;
+use super::{Declared, declare};
+use crate::judge::Step;
 use crate::simulator::Configured;
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![declare!(
         "var-as-configured",
         "V.E and V.G are described, and what is READ_ONLY is read, as they are configured",

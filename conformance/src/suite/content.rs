@@ -7,13 +7,13 @@ use ads_cnc::operation::{CountObjects, ReadDescriptors, ReadElementName, ReadObj
 use ads_cnc::{Descriptors, ErrorKind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop, assumed};
-use super::declare;
 use super::inventory::{OBJECTS_MAX, Object};
 use super::probe::{Probe, harness};
 use super::still::Still;
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "com-content",

@@ -7,15 +7,15 @@ use ads_cnc::{
     Validity, VariableCount,
 };
 
-use super::case::{Case, Rule, Step, Stop, assumed, online};
-use super::declare;
 use super::probe::{Probe, harness};
 use super::survey::{KINDS, VARIABLES_MAX};
 use super::variable::name_of;
+use super::{Declared, declare};
 use crate::edition::Feature;
+use crate::judge::{Rule, Step, Stop, assumed, online};
 use crate::profile::Claim;
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "var-extended-descriptions",

@@ -3,14 +3,14 @@
 use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;
 
-use super::case::{Case, Evidence, Step};
-use super::declare;
 use super::probe::Probe;
+use super::{Declared, declare};
 use crate::client::{Inquired, Inquiry, Said};
+use crate::judge::{Evidence, Step};
 use crate::simulator;
 use crate::values::until_nul;
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "ads-device-info",

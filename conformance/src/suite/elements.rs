@@ -10,14 +10,14 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag};
 use ads_cnc::{Decode, ErrorKind};
 
-use super::case::{Case, Rule, Step, Stop, assumed};
-use super::declare;
 use super::inventory::{Instance, OF_PLACES, number_of};
 use super::probe::{Probe, harness};
 use super::sda::{length_of, type_and_length};
 use super::still::Still;
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "sda-elements",

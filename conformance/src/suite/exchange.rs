@@ -3,14 +3,14 @@
 use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class, PlatformAxis};
 use ads_cnc::operation::{AxisHandleByName, ObjectList, ReadElement, Request};
 
-use super::case::{Case, Step, Stop};
 use super::content::read_of;
-use super::declare;
 use super::inventory::OF_PLACES;
 use super::probe::{Probe, harness};
 use super::sda::length_of;
+use super::{Declared, declare};
+use crate::judge::{Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![declare!(
         "axis-exchange",
         "An axis takes its values along to another place; the platform's place stays",

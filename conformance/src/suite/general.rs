@@ -12,12 +12,12 @@ use ads_cnc::{CncString, Decode as _, Kind, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::addresses::Addresses;
-use super::case::{Case, Rule, Step, Stop, assumed, online};
-use super::declare;
 use super::probe::{Probe, harness};
 use super::variable::name_of;
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop, assumed, online};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "gen-ports-answer",

@@ -7,13 +7,13 @@ use ads_cnc::operation::{HandleByName, ReadByHandle, ReadByName};
 use ads_cnc::{Decode as _, Description, Handle, Kind, TextRef, U32List, VariablePath};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop, assumed};
-use super::declare;
 use super::probe::{Probe, harness};
 use super::still::Still;
 use super::variable::name_of;
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         // The first that asks for values: no handle has been asked for by name before.
         declare!(

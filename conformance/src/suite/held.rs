@@ -5,15 +5,15 @@ use ads_cnc::address::{ComGroup, ComTable};
 use ads_cnc_vectors::Hex;
 
 use super::addresses::{Addresses, At};
-use super::case::{Case, Rule, Step, Stop};
-use super::declare;
 use super::inventory::Object;
 use super::numbers::is_permuted;
 use super::place::{self, Place};
 use super::probe::Probe;
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop};
 use crate::simulator::{Held, Holder};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "held-is-read",

@@ -9,9 +9,9 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementCount, ElementLength, ObjectAddress};
 use ads_cnc::{CncString, Decode, DescriptorsRef, ObjectCount};
 
-use super::case::{Step, Stop};
 use super::probe::{Probe, harness};
 use crate::explain::class_name;
+use crate::judge::{Step, Stop};
 use crate::profile::Claim;
 
 /// The most objects of a list that are looked at, and elements of an instance.

@@ -8,12 +8,12 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString, Description, TextRef};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Step, Stop};
-use super::declare;
 use super::probe::{Probe, harness};
 use super::variable::name_of;
+use super::{Declared, declare};
+use crate::judge::{Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "var-unknown-name",

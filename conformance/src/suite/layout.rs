@@ -4,8 +4,8 @@ use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::{CncString, Description, VariableType};
 use ads_cnc_vectors::Level;
 
-use super::case::{Rule, Step, assumed};
 use super::probe::harness;
+use crate::judge::{Rule, Step, assumed};
 
 /// How many elements an array has; of what is none, one.
 pub(super) fn element_count(dimensions: &[u32]) -> u32 {

@@ -11,11 +11,11 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Kind, TextRef, U32List};
 
-use super::case::{Case, Rule, Step, Stop, assumed};
-use super::declare;
 use super::probe::{Probe, harness};
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "bad-kind",

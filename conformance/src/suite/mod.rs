@@ -7,7 +7,6 @@ mod attributes;
 mod axis;
 mod axis_interface;
 mod axis_place;
-mod case;
 mod com;
 mod configured;
 mod content;
@@ -24,18 +23,16 @@ mod known;
 mod layout;
 mod malformed;
 mod names;
+mod needs;
 mod numbers;
-mod outcome;
 mod packed;
 mod place;
 mod platform;
 mod printed;
 mod probe;
-mod record;
 mod replay;
 mod run;
 mod sda;
-mod select;
 mod service;
 mod services;
 mod session;
@@ -46,7 +43,6 @@ mod texts;
 mod undo;
 mod values;
 mod variable;
-mod vectors;
 mod write;
 mod write_after;
 mod write_all;
@@ -57,42 +53,52 @@ mod write_sizes;
 mod write_texts;
 mod write_ways;
 
-pub use case::{
-    Body, Case, Evidence, Judgement, Needs, Rule, Step, Stop, Subject, assumed, online,
-};
 pub(crate) use com::descriptor_holds_together;
-pub use outcome::{Outcome, RequirementVerdict, gravest};
-pub(crate) use printed::typed;
 pub use probe::Probe;
-pub(crate) use record::{Checks, Record, TEXT_MAX};
 pub use run::run;
-pub use select::{Plan, Selection, Unmatched, any_seed};
-pub(crate) use select::{names, order};
 pub use session::Session;
 pub use undo::Changes;
 pub(crate) use variable::holds_together;
-pub use vectors::siblings_of;
+
+use crate::judge::{Case, Step, codec_cases};
+
+/// The function that tries a case.
+type Try = fn(&mut Probe<'_>) -> Step;
+
+/// A case and the function that tries it.
+type Declared = (Case, Try);
 
 /// Declares a case.
 macro_rules! declare {
     ($id:literal, $title:literal, [$($requirement:literal),+], $needs:ident, $body:path) => {
-        $crate::suite::Case {
-            id: $id.to_owned(),
-            title: $title.to_owned(),
-            subject: $crate::suite::Subject::Target,
-            requirements: vec![$($requirement),+],
-            needs: $crate::suite::Needs::$needs,
-            body: $crate::suite::Body::Probe($body),
-        }
+        (
+            $crate::judge::Case {
+                id: $id.to_owned(),
+                title: $title.to_owned(),
+                subject: $crate::judge::Subject::Target,
+                requirements: vec![$($requirement),+],
+                needs: $crate::judge::Needs::$needs,
+                body: $crate::judge::Body::Probe,
+            },
+            $body as $crate::suite::Try,
+        )
     };
 }
 
 pub(crate) use declare;
 
-/// Every case. [`Selection::plan`] puts them in order.
+/// Every case. [`Selection::plan`](crate::judge::Selection::plan) puts them in order.
 pub fn cases() -> Vec<Case> {
-    let mut cases = vectors::cases();
-    cases.extend(address::cases());
+    let mut cases = codec_cases();
+    cases.extend(declared().into_iter().map(|(case, _)| case));
+    cases.extend(replay::cases());
+    cases.extend(printed::cases());
+    cases
+}
+
+/// Every case that a function tries.
+fn declared() -> Vec<Declared> {
+    let mut cases = address::cases();
     cases.extend(services::cases());
     cases.extend(attributes::cases());
     cases.extend(general::cases());
@@ -129,9 +135,7 @@ pub fn cases() -> Vec<Case> {
     cases.extend(texts::cases());
     cases.extend(stream::cases());
     cases.extend(service::cases());
-    cases.extend(replay::cases());
     cases.extend(malformed::cases());
-    cases.extend(printed::cases());
     // Judges what all the others exchanged, so it comes last.
     cases.extend(address::frame_cases());
     cases

@@ -7,16 +7,16 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{CncString, Decode as _, TextRef, VariablePath, VariableType};
 
-use super::case::{Case, Step, Stop, assumed};
-use super::declare;
 use super::probe::{Probe, harness};
 use super::still::Still;
 use super::variable::name_of;
+use super::{Declared, declare};
 use crate::edition::{Edition, Feature};
+use crate::judge::{Step, Stop, assumed};
 use crate::profile::Claim;
 use crate::values::until_nul;
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "var-names-are-paths",

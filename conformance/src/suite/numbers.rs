@@ -11,14 +11,14 @@ use ads_cnc::sda::ElementCount;
 use ads_cnc::{Decode, Handle, Kind, ObjectCount, VariableCount};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Step, Stop};
-use super::declare;
 use super::described::kinds;
 use super::inventory::Instance;
 use super::probe::{Probe, harness};
 use super::variable::name_of;
+use super::{Declared, declare};
+use crate::judge::{Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "gen-number-order",

@@ -3,15 +3,15 @@
 use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
 use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
 
-use super::case::{Case, Step, Stop};
-use super::declare;
 use super::described::kinds;
 use super::inventory::OBJECTS_MAX;
 use super::numbers::Counted;
 use super::probe::{Probe, harness};
 use super::survey::VARIABLES_MAX;
+use super::{Declared, declare};
+use crate::judge::{Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![declare!(
         "gen-packed",
         "In descriptors and descriptions nothing stands between the fields",

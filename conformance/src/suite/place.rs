@@ -8,8 +8,8 @@ use ads_cnc::operation::{
 use ads_cnc::{CncString, Error, Handle};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Rule, Step, Stop};
 use super::probe::Probe;
+use crate::judge::{Rule, Step, Stop};
 use crate::values::until_nul;
 
 /// A value by one way to it.

@@ -8,15 +8,15 @@ use ads_cnc::address::{
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject};
 use ads_cnc::{Decode as _, Descriptors, ObjectCount};
 
-use super::case::{Case, Step, Stop, assumed};
 use super::com::{known_number, number, one_by_one};
 use super::content::read_of;
-use super::declare;
 use super::inventory::{OBJECTS_MAX, Object};
 use super::probe::{Probe, harness};
 use super::still::Still;
+use super::{Declared, declare};
+use crate::judge::{Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "com-platform-objects",

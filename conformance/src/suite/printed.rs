@@ -3,11 +3,10 @@
 use ads_cnc::address::{Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Service, Task};
-use ads_cnc_vectors::{Context, Direction, Hex, ProvenanceKind, Vector, vector, vectors};
+use ads_cnc_vectors::{Direction, Hex, ProvenanceKind, Vector, vector, vectors};
 
-use super::case::{Body, Case, Evidence, Needs, Rule, Step, Stop, Subject};
 use super::probe::{Probe, harness};
-use crate::explain::{Values, type_by_name};
+use crate::judge::{Body, Case, Evidence, Needs, Rule, Step, Stop, case_of, typed};
 
 /// One example contradicts another of the same variable (E-27): no CNC answers both.
 const CONTRADICTED: &str = "value-printed-name-element";
@@ -23,18 +22,6 @@ pub(super) fn cases() -> Vec<Case> {
         })
         .map(|vector| case_of(vector, "printed", Needs::PrintedExamples, Body::Printed(vector)))
         .collect()
-}
-
-/// A case that stands for a vector.
-pub(super) fn case_of(vector: &Vector, prefix: &str, needs: Needs, body: Body) -> Case {
-    Case {
-        id: format!("{prefix}-{}", vector.id),
-        title: vector.title.clone(),
-        subject: if needs == Needs::Codec { Subject::Codec } else { Subject::Target },
-        requirements: vector.cited().into_iter().map(|one| one.id.as_str()).collect(),
-        needs,
-        body,
-    }
 }
 
 /// Sends a printed request and holds the reply against the printed one.
@@ -83,12 +70,6 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
         probe.check_reply(rule, kept, &expected, printed, &found);
     }
     Ok(())
-}
-
-/// How a report reads the value of a vector.
-pub(crate) fn typed(context: &Context) -> Values {
-    let ty = context.kind.and_then(|kind| type_by_name(kind.name()).ok());
-    Values { ty, dimensions: context.dimensions.clone().unwrap_or_default() }
 }
 
 /// Requirements that are printed examples: whichever field of one differs, it is another.

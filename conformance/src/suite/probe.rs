@@ -11,16 +11,14 @@ use ads_cnc::address::Channel;
 use ads_cnc::operation::{Call, Function, Request};
 use ads_cnc_vectors::Level;
 
-use super::case::{Evidence, Judgement, Rule, Step, Stop};
-use super::record::{Checks, Record};
 use super::session::Session;
 use crate::deadline::Deadline;
 use crate::exchange::{Exchange, Fault, Violation};
 use crate::gate::Reason;
-use crate::interrupt;
+use crate::judge::{Checks, Evidence, Judgement, Record, Rule, Step, Stop, Verdict};
+use crate::process::interrupt;
 use crate::profile::Claim;
 use crate::simulator::Cnc;
-use crate::verdict::Verdict;
 
 /// Requests in a row without an answer after which no more are sent.
 const SILENCES_MAX: usize = 8;

@@ -1,17 +1,21 @@
 //! Running cases.
 
+use std::collections::HashMap;
 use std::panic::{self, AssertUnwindSafe};
+use std::sync::LazyLock;
 
-use super::case::{Body, Case, Needs, Step, Stop, Subject};
-use super::outcome::Outcome;
 use super::probe::Probe;
 use super::session::Session;
-use super::{printed, replay};
+use super::{Try, declared, printed, replay};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
-use crate::interrupt;
+use crate::judge::{Body, Case, Needs, Outcome, Step, Stop, Subject, Verdict};
+use crate::process::interrupt;
 use crate::testee::{self, Terms};
-use crate::verdict::Verdict;
+
+/// The function of each case that one tries.
+static TRIES: LazyLock<HashMap<String, Try>> =
+    LazyLock::new(|| declared().into_iter().map(|(case, run)| (case.id, run)).collect());
 
 /// Runs the cases: those of the codec against the codec, all others against a session.
 ///
@@ -36,7 +40,10 @@ pub fn run(
             .outcomes
         }
     };
-    outcomes.extend(target.into_iter().map(|case| one(case, session.as_deref_mut())));
+    outcomes.extend(target.into_iter().map(|case| {
+        let run = TRIES.get(&case.id).copied();
+        one(case, run, session.as_deref_mut())
+    }));
     if let Some(session) = session {
         // What a panic here leaves changed is reported as such.
         let _panic = caught(|| Probe::new(session).put_back_rest());
@@ -44,7 +51,7 @@ pub fn run(
     outcomes
 }
 
-fn one(case: Case, session: Option<&mut Session>) -> Outcome {
+fn one(case: Case, run: Option<Try>, session: Option<&mut Session>) -> Outcome {
     let Some(session) = session else {
         return Outcome::untried(case, Verdict::NotRun, "no target");
     };
@@ -70,11 +77,12 @@ fn one(case: Case, session: Option<&mut Session>) -> Outcome {
     }
     // What a case has changed is restored after the deadline too.
     let mut probe = Probe::new(session).with_deadline(late);
-    let begun = caught(|| match case.body {
-        Body::Probe(body) => body(&mut probe),
-        Body::Printed(vector) => printed::ask(&mut probe, vector),
-        Body::Sequence(sequence) => replay::run(&mut probe, sequence),
-        Body::Vector(_) | Body::Manners | Body::Client | Body::Traffic => {
+    let begun = caught(|| match (case.body, run) {
+        (Body::Probe, Some(run)) => run(&mut probe),
+        (Body::Probe, None) => Err(Stop::Harness(format!("no function tries {}", case.id))),
+        (Body::Printed(vector), _) => printed::ask(&mut probe, vector),
+        (Body::Sequence(sequence), _) => replay::run(&mut probe, sequence),
+        (Body::Vector(_) | Body::Manners | Body::Client | Body::Traffic, _) => {
             Err(Stop::Harness("this case needs no target".to_owned()))
         }
     });
@@ -108,10 +116,10 @@ mod tests {
     use super::*;
     use crate::client::{Client, Target};
     use crate::gate::{Allowed, Gate};
+    use crate::judge::Step;
     use crate::net;
     use crate::profile::Profile;
     use crate::simulator::{Cnc, NET_ID, Server};
-    use crate::suite::case::Step;
     use crate::suite::place::{Place, Trial};
 
     const NAME: &str = "V.E.vartest";
@@ -144,17 +152,17 @@ mod tests {
         let client = Client::connect(Target::local(server.addr(), NET_ID), gate).unwrap();
         let mut session = Session::new(client, Profile::DEVICE);
         let before = Probe::new(&mut session).value_at(&place()).unwrap();
-        let case = |body: fn(&mut Probe<'_>) -> Step| Case {
+        let case = || Case {
             id: "write-and-panic".to_owned(),
             title: String::new(),
             subject: Subject::Target,
             requirements: vec!["VAR-13"],
             needs: Needs::Writes,
-            body: Body::Probe(body),
+            body: Body::Probe,
         };
-        let cases = vec![case(panics), case(|probe| probe.value_at(&place()).map(drop))];
-        let outcomes = run(cases, Some(&mut session), None, 1);
-        let verdicts: Vec<Verdict> = outcomes.iter().map(Outcome::verdict).collect();
+        let reads: Try = |probe| probe.value_at(&place()).map(drop);
+        let verdicts =
+            [panics, reads].map(|run| one(case(), Some(run), Some(&mut session)).verdict());
         assert_eq!(verdicts, [Verdict::HarnessError, Verdict::NotObserved]);
         assert_eq!(Probe::new(&mut session).value_at(&place()).unwrap(), before);
         assert!(session.changes().left().is_empty());

@@ -7,10 +7,10 @@ use ads_cnc::Description;
 use ads_cnc::operation::Service;
 
 use super::inventory::Inventory;
-use super::record::Record;
 use super::undo::Changes;
 use crate::client::Client;
 use crate::deadline::Deadline;
+use crate::judge::Record;
 use crate::profile::Profile;
 use crate::simulator::Cnc;
 

@@ -3,8 +3,8 @@
 use ads_cnc::operation::Request;
 use ads_cnc_vectors::Hex;
 
-use super::case::{Rule, Step, Stop};
 use super::probe::Probe;
+use crate::judge::{Rule, Step, Stop};
 
 /// How often a value that does not stand still is read again.
 const TRIES: usize = 3;

@@ -5,8 +5,8 @@ use ads_cnc::limits::{TEXT_MAX, VARIABLE_MAX};
 use ads_cnc::operation::{CountVariables, DescribeByIndex, Request};
 use ads_cnc::{Decode, Description, Kind, VariableCount};
 
-use super::case::{Step, Stop};
 use super::probe::Probe;
+use crate::judge::{Step, Stop};
 
 /// The most variables of a kind that are looked at.
 pub(super) const VARIABLES_MAX: u32 = 10_000;

@@ -3,12 +3,12 @@
 use ads_cnc::VariableType;
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop, assumed};
-use super::declare;
 use super::place::{Place, Trial, same};
 use super::probe::Probe;
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![declare!(
         "gen-characters-written",
         "Every character of CP1252 that is written to a text is read again",

@@ -8,13 +8,13 @@ use ads_cnc::operation::{CountObjects, DescribeByName, HandleByName, ReadDescrip
 use ads_cnc::{Decode as _, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Step, Stop};
 use super::inventory::OBJECTS_MAX;
 use super::place::{Place, Trial, same};
 use super::probe::Probe;
 use crate::exchange::{Exchange, Fault};
-use crate::gate::{Entry, Moment};
-use crate::report::{LeftChanged, tame};
+use crate::gate::Entry;
+use crate::judge::{LeftChanged, Step, Stop};
+use crate::text::{Moment, escape};
 
 /// How often a value is written back.
 const WRITES_MAX: u32 = 5;
@@ -58,10 +58,10 @@ impl Changes {
     pub fn left(&self) -> Vec<LeftChanged> {
         let all = self.all();
         let left = all.iter().map(|change| LeftChanged {
-            name: tame(&change.what),
+            name: escape(&change.what),
             was: Hex(change.was.clone()).to_string(),
             is: change.is.as_ref().map(|is| Hex(is.clone()).to_string()),
-            refused: change.refused.as_deref().map(tame),
+            refused: change.refused.as_deref().map(escape),
         });
         left.collect()
     }

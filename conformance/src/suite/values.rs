@@ -5,17 +5,17 @@ use ads_cnc::operation::{ReadByHandle, ReadByName, Request};
 use ads_cnc::{Description, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Evidence, Rule, Step, Stop};
-use super::declare;
 use super::layout::{
     brackets, element_count, element_name, element_size, order, part, places_tried,
 };
 use super::place::same;
 use super::probe::Probe;
 use super::variable::name_of;
+use super::{Declared, declare};
 use crate::explain::{Values, type_by_name};
+use crate::judge::{Evidence, Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "val-whole-by-handle",

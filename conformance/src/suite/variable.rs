@@ -12,14 +12,13 @@ use ads_cnc::{
     VariableType,
 };
 
-use super::case::{Case, Rule, Step, Stop, assumed};
-use super::declare;
 use super::described::kinds;
 use super::probe::{Probe, harness};
-use super::record::Checks;
 use super::survey::{KINDS, VARIABLES_MAX};
+use super::{Declared, declare};
+use crate::judge::{Checks, Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "var-count",

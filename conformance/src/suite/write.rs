@@ -7,14 +7,14 @@ use ads_cnc::{CncString, Decode as _, Description, Handle, VariableAccess, Varia
 use ads_cnc_vectors::Hex;
 
 use super::axis_interface::place_of;
-use super::case::{Case, Rule, Step, Stop, assumed};
-use super::declare;
 use super::names::dynamic_among_variables;
 use super::place::{Place, Trial, same};
 use super::probe::{Probe, harness};
 use super::variable::name_of;
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "write-by-handle",

@@ -6,16 +6,16 @@ use ads_cnc::operation::{ReadElementType, WriteByName};
 use ads_cnc::sda::ElementText;
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop};
-use super::declare;
 use super::inventory::OF_PLACES;
 use super::place::{Place, another, is_sendable};
 use super::probe::{Probe, harness};
 use super::sda::length_of;
 use super::write_content::{is_blank, nothing, place_of};
 use super::write_refused::{Known, writable};
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "write-after-refusal",

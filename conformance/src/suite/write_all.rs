@@ -6,14 +6,14 @@ use ads_cnc::{Description, VariableAccess};
 use ads_cnc_vectors::Hex;
 
 use super::axis_interface::place_of;
-use super::case::{Case, Evidence, Rule, Step, Stop};
-use super::declare;
 use super::layout::element_count;
 use super::place::{Place, is_sendable};
 use super::probe::Probe;
 use super::write::is_of_service;
+use super::{Declared, declare};
+use crate::judge::{Evidence, Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "write-nothing-else-by-name",

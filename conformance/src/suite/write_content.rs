@@ -8,14 +8,14 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementText, ElementWriteFlag};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop, assumed};
-use super::declare;
 use super::inventory::{Instance, Object};
 use super::place::{Place, Trial};
 use super::probe::{Probe, harness};
 use super::sda::length_of;
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "write-objects",

@@ -4,13 +4,13 @@ use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, assumed};
-use super::declare;
 use super::place::{Place, same};
 use super::probe::Probe;
 use super::write::{each, handle_of, trial};
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, assumed};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "write-elements-by-handle",

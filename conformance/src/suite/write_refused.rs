@@ -6,13 +6,13 @@ use ads_cnc::operation::{Call, Request, WriteByHandle, WriteByName};
 use ads_cnc::{CncStr, CncString, Description, Handle, U32List, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop};
-use super::declare;
 use super::place::{Place, Trial, another, is_sendable};
 use super::probe::{Probe, harness};
 use super::write::{each, handle_of, is_of_service, trial};
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "write-read-only",

@@ -5,14 +5,14 @@ use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::axis_interface::place_of;
-use super::case::{Case, Rule, Step, assumed, online};
-use super::declare;
 use super::place::{Place, another, is_sendable};
 use super::probe::{Probe, harness};
 use super::write::{each, is_of_service};
 use super::write_refused::{taken, taken_first};
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, assumed, online};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![declare!(
         "write-wrong-size",
         "A value of another size than the variable's is answered by an error, or is there as it was sent",

@@ -3,15 +3,15 @@
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Step, online};
-use super::declare;
 use super::place::{Place, Trial};
 use super::probe::Probe;
 use super::write::each;
 use super::write_all::write;
+use super::{Declared, declare};
+use crate::judge::{Step, online};
 use crate::values::until_nul;
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![declare!(
         "write-texts",
         "A text as long as is described is read as written, and a shorter one behind it too",

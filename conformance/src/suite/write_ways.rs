@@ -4,14 +4,14 @@
 use ads_cnc::address::{Class, ComTable, IndexGroup};
 use ads_cnc_vectors::Hex;
 
-use super::case::{Case, Rule, Step, Stop};
-use super::declare;
 use super::inventory::Object;
 use super::place::{Place, Trial};
 use super::probe::{Probe, harness};
 use super::write_content::{Named, flagged, is_blank, nothing, place_of};
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "write-objects-by-index",

@@ -2,11 +2,11 @@
 
 use ads_cnc_vectors::{Expect, Vector, vector};
 
-use super::message::{Answer, Capabilities, Output, Question};
 use super::plan::{forms, of_vector};
 use super::tell::describe;
 use super::{Process, Reaction, Testee, compare};
-use crate::report::tame;
+use crate::codec::message::{Answer, Capabilities, Output, Question};
+use crate::text::{escape, hex::compact};
 
 /// What a step of the protocol came to.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,7 +84,7 @@ impl Steps<'_> {
     fn note(&mut self, what: impl Into<String>, fault: Option<String>) {
         let (sent, received) = self.process.last();
         let [sent, received, fault] =
-            [sent, received, fault].map(|said| said.map(|said| tame(&said)));
+            [sent, received, fault].map(|said| said.map(|said| escape(&said)));
         self.findings.push(Finding { what: what.into(), sent, received, fault });
     }
 
@@ -143,9 +143,7 @@ impl Steps<'_> {
         let fault = match self.ask(&question) {
             Ok(Output { hex: Some(hex), .. }) => {
                 let right = forms(vector, accept).contains(&hex);
-                (!right).then(|| {
-                    format!("{} is expected", super::message::compact::show(&vector.bytes()))
-                })
+                (!right).then(|| format!("{} is expected", compact::show(&vector.bytes())))
             }
             Ok(_) => Some("ok without hex".to_owned()),
             Err(reaction) => Some(describe(&reaction)),

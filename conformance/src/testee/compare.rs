@@ -3,7 +3,7 @@
 use ads_cnc_vectors::{Fields, Tagged, Type, Value};
 use serde_json::Value as Json;
 
-use super::message::compact;
+use crate::text::hex::compact;
 
 /// How a value differs.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,17 +1,13 @@
 //! Asking a testee everything, and what comes of it.
 
 use super::manners::Manners;
-use super::message::{Answer, Hello};
 use super::plan::{Asked, Purpose, plan};
 use super::tell::describe;
 use super::view::{Reactions, View};
 use super::{Reaction, Testee};
-use crate::interrupt;
-use crate::suite::{self, Case, Outcome, Stop, Subject};
-use crate::verdict::Verdict;
-
-/// What the protocol asks of a testee, beside the requirements of the catalogue.
-pub const TESTEE: &str = "TESTEE";
+use crate::codec::message::{Answer, Hello};
+use crate::judge::{Case, Outcome, Stop, Subject, Verdict};
+use crate::process::interrupt;
 
 /// Questions in a row that end with a crash or in silence, after which no more are asked.
 const LOST_MAX: usize = 12;
@@ -78,7 +74,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     }
     // Siblings decide, so they are asked even if nobody wants to know of them.
     let wanted = cases.len();
-    let missing = suite::siblings_of(&cases);
+    let missing = crate::judge::siblings_of(&cases);
     cases.extend(missing);
     let mut reactions = Reactions::new();
     let (mut lost, mut restarts, mut asked, mut gone) = (0_usize, 0_usize, 0_usize, None);

@@ -3,12 +3,10 @@
 use ads_cnc_vectors::Level;
 
 use super::Reaction;
-use super::judge::TESTEE;
-use super::message::{Answer, Question};
 use super::tell::{describe, evidence};
 use super::view::Reactions;
-use crate::suite::{Body, Case, Evidence, Judgement, Needs, Outcome, Subject};
-use crate::verdict::Verdict;
+use crate::codec::message::{Answer, Question};
+use crate::judge::{Body, Case, Evidence, Judgement, Needs, Outcome, Subject, TESTEE, Verdict};
 
 /// How a testee keeps to the protocol.
 #[derive(Default)]

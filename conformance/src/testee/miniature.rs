@@ -1,7 +1,9 @@
 //! Testees that misbehave as a whole: whoever judges codecs has to see through each of them.
 
 use super::Own;
-use super::message::{Answer, Capabilities, Command, Hello, Output, Question, Rejection, Reply};
+use crate::codec::message::{
+    Answer, Capabilities, Command, Hello, Output, Question, Rejection, Reply,
+};
 
 /// A testee that misbehaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

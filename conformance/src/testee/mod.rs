@@ -7,7 +7,6 @@ mod check;
 mod compare;
 mod judge;
 mod manners;
-mod message;
 mod miniature;
 mod own;
 mod plan;
@@ -17,12 +16,13 @@ mod view;
 
 use std::time::Duration;
 
-pub use check::{Finding, check_protocol};
-pub use judge::{Judged, TESTEE, Terms, judge};
-pub use message::{
-    Answer, Capabilities, Command, Hello, Identity, Known, LINE_MAX, Output, PROTOCOL, Question,
-    Rejection, Reply,
+pub use crate::codec::message::{
+    Answer, Capabilities, Command, Hello, Identity, Known, Output, PROTOCOL, Question, Rejection,
+    Reply,
 };
+pub use crate::process::LINE_MAX;
+pub use check::{Finding, check_protocol};
+pub use judge::{Judged, Terms, judge};
 pub use miniature::{Act, Miniature};
 pub use own::Own;
 pub use plan::questions;

@@ -4,7 +4,7 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::{CheckEvent, Checker, LineErrorKind, NcText};
 use ads_cnc_vectors::vectors;
 
-use super::message::{
+use crate::codec::message::{
     Answer, Capabilities, Hello, Identity, Output, PROTOCOL, Question, Rejection,
 };
 use crate::codec::{self, Refused};

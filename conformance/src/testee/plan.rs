@@ -2,8 +2,8 @@
 
 use ads_cnc_vectors::{Accept, Expect, Given, Pieces, Vector};
 
-use super::message::{Capabilities, Known, Question};
-use crate::suite::{Body, Case, order};
+use crate::codec::message::{Capabilities, Known, Question};
+use crate::judge::{Body, Case, order};
 
 /// What a question is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

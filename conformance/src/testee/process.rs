@@ -2,11 +2,12 @@
 
 use std::time::Duration;
 
-use super::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use super::{Reaction, Testee};
-use crate::child::{self, START, Spoken, Stderr, Unheard, cut, front};
+use crate::codec::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use crate::deadline::Deadline;
-use crate::interrupt;
+use crate::process::interrupt;
+use crate::process::{START, Spoken, Stderr, Unheard, cut, shell};
+use crate::text::shorten;
 
 /// How long it has for ending after `bye`.
 const GRACE: Duration = Duration::from_secs(2);
@@ -70,7 +71,7 @@ impl Process {
             return Err(Reaction::Broken("interrupted".to_owned()));
         }
         self.starts = self.starts.saturating_add(1);
-        let started = Spoken::start(child::shell(&self.line), &self.stderr);
+        let started = Spoken::start(shell(&self.line), &self.stderr);
         let running =
             started.map_err(|error| Reaction::Broken(format!("it cannot be started: {error}")))?;
         self.running = Some(running);
@@ -80,14 +81,14 @@ impl Process {
     fn exchange(&mut self, command: &Command, timeout: Duration) -> Result<String, Reaction> {
         let line = serde_json::to_vec(command)
             .map_err(|error| Reaction::Broken(format!("the question: {error}")))?;
-        (self.sent, self.received) = (Some(front(&String::from_utf8_lossy(&line), SHOWN)), None);
+        (self.sent, self.received) = (Some(shorten(&String::from_utf8_lossy(&line), SHOWN)), None);
         let Some(running) = &self.running else {
             return Err(Reaction::Broken("it is not running".to_owned()));
         };
         running.say(line);
         match running.hear(self.limit(timeout)) {
             Ok(line) => {
-                self.received = Some(front(&line, SHOWN));
+                self.received = Some(shorten(&line, SHOWN));
                 Ok(line)
             }
             Err(Unheard::NoText(why)) => Err(Reaction::Garbled(why)),

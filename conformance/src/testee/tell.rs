@@ -1,13 +1,13 @@
 //! What a testee was asked and did, for people.
 
 use super::Reaction;
-use super::message::{Answer, Output, Question, compact};
-use crate::child::front;
+use crate::codec::message::{Answer, Output, Question};
+use crate::judge::{Evidence, TEXT_MAX};
 use crate::show::show;
-use crate::suite::{self, Evidence, TEXT_MAX};
+use crate::text::{hex::compact, shorten};
 
 pub(super) fn describe(reaction: &Reaction) -> String {
-    front(&described(reaction), TEXT_MAX)
+    shorten(&described(reaction), TEXT_MAX)
 }
 
 fn described(reaction: &Reaction) -> String {
@@ -73,7 +73,7 @@ pub(super) fn evidence(
         sent,
         expected: expected.filter(|_| received.is_some()),
         received,
-        values: question.context.context().as_ref().map(suite::typed).unwrap_or_default(),
+        values: question.context.context().as_ref().map(crate::judge::typed).unwrap_or_default(),
         result: describe(reaction),
         ..Evidence::default()
     }

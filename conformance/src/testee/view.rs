@@ -5,14 +5,13 @@ use std::collections::HashMap;
 use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector, sequence, vector};
 
 use super::judge::Terms;
-use super::message::{Answer, Hello, Output, Question, compact};
 use super::plan::{forms, questions};
 use super::tell::{describe, evidence};
 use super::{Reaction, compare};
-use crate::child::front;
+use crate::codec::message::{Answer, Hello, Output, Question};
+use crate::judge::{Body, Case, Evidence, Judgement, Outcome, Stop, TEXT_MAX, Verdict};
 use crate::show::show;
-use crate::suite::{Body, Case, Evidence, Judgement, Outcome, Stop, TEXT_MAX};
-use crate::verdict::Verdict;
+use crate::text::{hex::compact, shorten};
 
 /// The answers to the questions of a case, by op.
 pub(super) type Reactions = HashMap<(usize, String), Reaction>;
@@ -102,7 +101,7 @@ impl View<'_> {
             _ => None,
         };
         let evidence = evidence(question, reaction, &case.id, canonical);
-        let (expected, found) = (front(&expected, TEXT_MAX), front(&found, TEXT_MAX));
+        let (expected, found) = (shorten(&expected, TEXT_MAX), shorten(&found, TEXT_MAX));
         // Only an answer can differ: a crash is one whatever was asked.
         let answered = matches!(reaction, Reaction::Answer(Answer::Ok(_) | Answer::Reject(_)));
         let lenient = answered && !self.terms.strict;

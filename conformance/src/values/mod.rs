@@ -1,14 +1,16 @@
 //! Values as people read and write them: typed by a description, a descriptor or an element's
 //! attributes.
 
+mod given;
 mod json;
 mod parse;
 mod show;
 
+pub use given::{UnknownType, Values, type_by_name};
 pub use json::value_of;
 pub use parse::{Unfit, parse};
 pub(crate) use show::number;
-pub use show::{hex_lines, lines, plain, printable};
+pub use show::{lines, plain, printable};
 
 use std::fmt;
 

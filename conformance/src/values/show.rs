@@ -4,7 +4,7 @@ use ads_cnc::Element;
 use ads_cnc::text::cp1252_to_char;
 
 use super::Type;
-use crate::report::{self, hex};
+use crate::text::escape;
 
 /// The most columns of a line.
 const WIDTH: usize = 72;
@@ -13,7 +13,7 @@ const PER_LINE: usize = 10;
 
 /// Text of which a terminal acts on nothing.
 pub fn printable(text: &str) -> String {
-    report::tame(text)
+    escape(text)
 }
 
 /// The whole value on one line, as it can be given again; none if its type is not known or the
@@ -123,11 +123,6 @@ fn indices(at: usize, dimensions: &[u32]) -> String {
         left = left.checked_div(len).unwrap_or(0);
     }
     all.iter().rev().map(|index| format!("[{index}]")).collect()
-}
-
-/// The bytes in hex, 16 a line, with the offset of the first.
-pub fn hex_lines(bytes: &[u8]) -> Vec<String> {
-    hex::annotated(None, bytes)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use ads_cnc::ads::FrameRef;
 use ads_cnc::layout::Stream;
 use ads_cnc::operation::Call;
 use ads_cnc_conformance::faults::Defect;
-use ads_cnc_conformance::verdict::Verdict;
+use ads_cnc_conformance::judge::Verdict;
 
 use crate::maker::{Link, Message, Side, checked, passes, pcap, segments, with};
 use crate::talk::{a_little, conversation, everything, recorded};

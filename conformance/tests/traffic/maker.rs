@@ -1,7 +1,7 @@
 //! Captures made anew: other files, other links, other segments.
 
 use ads_cnc_conformance::capture::{Checked, Options, Ports, check};
-use ads_cnc_conformance::verdict::Verdict;
+use ads_cnc_conformance::judge::Verdict;
 use etherparse::{PacketBuilder, PacketHeaders, TransportHeader};
 use pcap_parser::pcapng::Block;
 use pcap_parser::traits::PcapNGPacketBlock as _;

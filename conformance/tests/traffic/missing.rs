@@ -3,11 +3,13 @@
 
 use ads_cnc_conformance::capture::Checked;
 use ads_cnc_conformance::faults::Defect;
-use ads_cnc_conformance::verdict::Verdict;
+use ads_cnc_conformance::judge::Verdict;
 
 use crate::defects::written;
-use crate::maker::{Link, Message, Segment, Side, checked, checked_anywhere};
-use crate::maker::{passes, pcap, pcap_every, segments, with};
+use crate::maker::{
+    Link, Message, Segment, Side, checked, checked_anywhere, passes, pcap, pcap_every, segments,
+    with,
+};
 use crate::talk::{a_little, conversation, everything};
 
 /// Segments of a handshake.

@@ -1,7 +1,7 @@
 //! However a conversation comes over the wire, the same comes of it; and what is missing is told.
 
 use ads_cnc_conformance::capture::{Checked, Collector, End, FileError, Options, Ports, check};
-use ads_cnc_conformance::verdict::Verdict;
+use ads_cnc_conformance::judge::Verdict;
 
 use crate::maker::{
     Link, Message, Segment, Side, checked, checked_anywhere, passes, pcap, segments, with,

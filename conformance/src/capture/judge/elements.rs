@@ -10,7 +10,7 @@ use ads_cnc::value::DataType;
 
 use super::super::book::{Scene, Topic};
 use super::Bench;
-use crate::suite::{Checks as _, Rule, assumed, online};
+use crate::judge::{Checks as _, Rule, assumed, online};
 
 /// What is known of the elements of a CNC.
 #[derive(Debug, Default)]

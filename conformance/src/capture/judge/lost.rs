@@ -12,7 +12,7 @@ use super::super::tally::count;
 use super::super::tcp::Mark;
 use super::pair::REORDERED_MAX;
 use super::{Judge, Lost, PATIENCE, Seen, is_cnc, is_reply, service_clause, spot};
-use crate::suite::Checks as _;
+use crate::judge::Checks as _;
 
 impl Judge {
     pub(super) fn broken(&mut self, error: Error, bytes: &[u8], way: &Way, span: Span) {

@@ -29,8 +29,8 @@ use super::time::Time;
 use super::vectors::Collector;
 use crate::client::{answer, violations};
 use crate::exchange::{Exchange, Fault};
+use crate::judge::{Checks as _, Outcome, assumed};
 use crate::services;
-use crate::suite::{Checks as _, Outcome, assumed};
 
 /// CNCs that are told apart.
 const CNCS_MAX: usize = 64;

@@ -8,7 +8,8 @@ use ads_cnc::{Descriptor, DescriptorsRef};
 
 use super::super::book::{Scene, Topic};
 use super::Bench;
-use crate::suite::{Checks as _, Rule, assumed, descriptor_holds_together};
+use crate::judge::{Checks as _, Rule, assumed};
+use crate::suite::descriptor_holds_together;
 
 /// What is known of the objects of a CNC.
 #[derive(Debug, Default)]

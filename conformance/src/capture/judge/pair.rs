@@ -6,7 +6,7 @@ use super::super::book::{Scene, Topic};
 use super::super::table::{Table, Way};
 use super::super::tally::{count, count_of};
 use super::{Judge, Seen, is_cnc, service_clause, spot};
-use crate::suite::Checks as _;
+use crate::judge::Checks as _;
 
 /// Requests of a connection that wait for their answers, and bytes of those of all connections; of
 /// more the oldest of the connection are forgotten.

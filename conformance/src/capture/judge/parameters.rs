@@ -6,7 +6,7 @@ use ads_cnc::operation::{Call, Reply, Request};
 
 use super::super::book::{Scene, Topic};
 use super::{Bench, Room};
-use crate::suite::Checks as _;
+use crate::judge::Checks as _;
 
 /// What is known of the dynamic parameters of a CNC.
 #[derive(Debug, Default)]

@@ -8,8 +8,8 @@ use ads_cnc_vectors::requirement;
 use super::super::book::{Book, Scene, Topic};
 use super::Bench;
 use crate::exchange::{Answer, Exchange, Violation};
+use crate::judge::{Checks as _, Rule, assumed};
 use crate::services;
-use crate::suite::{Checks as _, Rule, assumed};
 
 /// What every reply has in its headers.
 pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, violations: &[Violation]) {

@@ -7,8 +7,8 @@ use ads_cnc::{CncStr, ErrorKind, VariablePath};
 use ads_cnc_vectors::requirement;
 
 use super::super::book::{Book, Scene, Topic};
+use crate::judge::{Checks as _, Rule, assumed, online};
 use crate::services;
-use crate::suite::{Checks as _, Rule, assumed, online};
 
 /// What every request has in its headers.
 pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, header: &AmsHeader, again: Option<bool>) {

@@ -9,7 +9,7 @@ use ads_cnc::service::ServiceVariable;
 use super::super::book::{Page, Scene, Topic};
 use super::Bench;
 use super::requests::name_of;
-use crate::suite::{Checks as _, assumed};
+use crate::judge::{Checks as _, assumed};
 
 /// What is known of the Service Interface of each channel, by its index group.
 #[derive(Debug, Default)]

@@ -10,7 +10,7 @@ use ads_cnc::streaming::{CheckEvent, Checker, DiagnosticKind, LineErrorKind, NcT
 
 use super::super::book::{Scene, Topic};
 use super::Bench;
-use crate::suite::{Checks as _, assumed};
+use crate::judge::{Checks as _, assumed};
 
 /// Who has been refused and writes nothing for as long has given up.
 const GIVEN_UP: Duration = Duration::from_secs(30);

@@ -6,7 +6,7 @@ use ads_cnc::{VariableAccess, VariableType};
 use super::super::book::{Scene, Topic};
 use super::Bench;
 use super::variables::Target;
-use crate::suite::{Checks as _, assumed};
+use crate::judge::{Checks as _, assumed};
 
 /// Bytes of the longest text that can be declared.
 const TEXT_MAX: usize = 800;

@@ -7,7 +7,8 @@ use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, Var
 
 use super::super::book::{Scene, Topic};
 use super::{Bench, Room};
-use crate::suite::{Checks as _, assumed, holds_together};
+use crate::judge::{Checks as _, assumed};
+use crate::suite::holds_together;
 
 /// Channels that are told apart.
 const CHANNELS_MAX: usize = 512;

@@ -9,14 +9,13 @@ use super::{Run, Stopped};
 use crate::cli::forms::show;
 use crate::cli::{complain, run_dry};
 use crate::faults::{Faulty, Seed};
-use crate::gate::Moment;
+use crate::judge::{Needs, Outcome, Plan, RequirementVerdict, Verdict, Waivers};
 use crate::profile::Profile;
 use crate::report::{About, DeviceReport, Report, TargetReport};
 use crate::session::{self, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, Settings};
-use crate::suite::{self, Changes, Needs, Outcome, Plan, RequirementVerdict, Session};
-use crate::verdict::Verdict;
-use crate::waivers::Waivers;
+use crate::suite::{self, Changes, Session};
+use crate::text::Moment;
 
 impl Run {
     pub(super) fn device(

@@ -13,8 +13,8 @@ use ads_cnc::service::ServiceId;
 
 use super::response::{Answer, Ended, KEPT, answer};
 use super::utf8;
-use crate::child::Running;
-use crate::interrupt::Interrupt;
+use crate::process::Running;
+use crate::process::interrupt::Interrupt;
 
 /// How long stdout may stay open when the command has ended: what it has started may hold it.
 const GRACE: Duration = Duration::from_millis(500);

@@ -15,12 +15,12 @@ use clap::Args;
 
 use super::complain;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
-use crate::duration::some_time;
 use crate::gate::Entry;
-use crate::interrupt::Interrupt;
+use crate::judge::Exit;
+use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 use crate::simulator::program::{Repeat, Script, ScriptConfig};
-use crate::verdict::Exit;
+use crate::text::some_time;
 use command::Command;
 use response::Answer;
 

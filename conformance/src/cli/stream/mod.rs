@@ -16,11 +16,11 @@ use clap::Args;
 
 use super::complain;
 use super::target::{ChannelArgs, REACHING_A_DEVICE, TargetArgs, default_cnc};
-use crate::duration::duration;
 use crate::gate::Entry;
-use crate::interrupt::Interrupt;
+use crate::judge::Exit;
+use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
-use crate::verdict::Exit;
+use crate::text::duration;
 use check::Checked;
 use progress::Progress;
 use send::{End, Retry, Sending};
@@ -197,7 +197,7 @@ impl Stream {
     fn name(&self) -> String {
         match self.file == Path::new("-") {
             true => "stdin".to_owned(),
-            false => crate::report::tame_lines(&self.file.display().to_string()),
+            false => crate::text::escape_lines(&self.file.display().to_string()),
         }
     }
 

@@ -9,7 +9,7 @@ use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::{Ack, Sender};
 
 use super::progress::{Progress, Rate, Size};
-use crate::interrupt::Interrupt;
+use crate::process::interrupt::Interrupt;
 use crate::session::{Session, Trouble};
 
 /// What happens when a packet is refused for now.

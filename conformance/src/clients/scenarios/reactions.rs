@@ -4,10 +4,10 @@
 use ads_cnc::operation::Function;
 use serde_json::{Value, json};
 
+use crate::clients::Scenario;
 use crate::clients::knob::{Knob, Lie, Place};
 use crate::clients::scenario::Expect;
-use crate::clients::{CLIENT, Scenario};
-use crate::suite::{Rule, assumed};
+use crate::judge::{CLIENT, Rule, assumed};
 
 /// What a client is told while its replies are tampered with.
 struct Told {

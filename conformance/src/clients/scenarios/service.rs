@@ -5,7 +5,7 @@ use ads_cnc::service::ServiceVariable;
 use crate::clients::Scenario;
 use crate::clients::script::Script;
 use crate::clients::watch::{REQUEST, Watch};
-use crate::suite::assumed;
+use crate::judge::assumed;
 
 /// The printed one.
 const UUID: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";

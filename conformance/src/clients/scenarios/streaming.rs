@@ -21,7 +21,7 @@ fn refused(id: &str, title: &str, text: &[u8], rule: &'static str) -> Scenario {
         .expect(Expect::Error)
         .watched(Watch::NoStream(rule), &[rule]);
     scenario = match rule {
-        "STM-8" => scenario.by(crate::suite::assumed(rule)),
+        "STM-8" => scenario.by(crate::judge::assumed(rule)),
         _ => scenario.by(rule),
     };
     scenario.program = Some(text.to_vec());
@@ -62,7 +62,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
         program("longest", "It streams a line of 990 characters", longest),
         later("later", "It writes again what could not be taken", &[1]),
         later("later-first", "It writes the first packet again, and again", &[0, 1, 2]),
-        for_good.expect(Expect::Error).by(crate::suite::assumed("STM-6")),
+        for_good.expect(Expect::Error).by(crate::judge::assumed("STM-6")),
         refused("too-long", "It refuses a line of 991 characters", &too_long, "STM-20"),
         refused("no-ascii", "It refuses what is not ASCII", b"N10 (L\xE4nge)\r\nM30\r\n", "STM-7"),
         refused(

@@ -155,7 +155,7 @@ fn by_name() -> Vec<Scenario> {
             "STRING",
             21,
         )
-        .by(crate::suite::assumed("VAR-22"))
+        .by(crate::judge::assumed("VAR-22"))
         .gives("Länge 5€"),
         value(
             "matrix",
@@ -165,7 +165,7 @@ fn by_name() -> Vec<Scenario> {
             "SGN16[2,3]",
             12,
         )
-        .by(crate::suite::assumed("VAR-21"))
+        .by(crate::judge::assumed("VAR-21"))
         .gives(json!([[11, 12, 13], [21, 22, 23]])),
         value(
             "structure",

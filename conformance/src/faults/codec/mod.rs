@@ -16,7 +16,7 @@ use serde_json::Value as Json;
 
 use super::{How, Kind, Seed};
 use crate::codec;
-use crate::testee::{Answer, Output, Question, Rejection};
+use crate::codec::message::{Answer, Output, Question, Rejection};
 
 /// The right answers.
 pub(super) type Right<'a> = &'a dyn Fn(&Question) -> Answer;

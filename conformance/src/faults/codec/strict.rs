@@ -1,7 +1,7 @@
 //! What is refused though it is right.
 
 use super::{Right, Row, Twist, refused, row};
-use crate::testee::{Answer, Question};
+use crate::codec::message::{Answer, Question};
 
 /// The first question's bytes at a place, as UNS32.
 fn at(question: &Question, place: usize) -> Option<u32> {

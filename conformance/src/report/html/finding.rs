@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
+use crate::judge::Verdict;
 use crate::report::bytes::Shown;
 use crate::report::console::worded;
-use crate::report::hex::character;
 use crate::report::model::{EvidenceReport, FailureReport};
 use crate::report::{BytesReport, FieldReport};
-use crate::verdict::Verdict;
+use crate::text::hex::character;
 
 #[derive(Serialize)]
 pub(super) struct FindingView {

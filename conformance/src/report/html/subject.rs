@@ -5,10 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::Serialize;
 
 use super::finding::{FindingView, finding};
+use crate::judge::{Subject, Verdict};
 use crate::report::console::{counts, heading, worded};
 use crate::report::model::{CaseReport, Report};
-use crate::suite::Subject;
-use crate::verdict::Verdict;
 
 #[derive(Serialize)]
 pub(super) struct SubjectView {

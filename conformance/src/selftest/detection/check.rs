@@ -4,8 +4,8 @@ use serde::{Serialize, Serializer};
 
 use super::{Detection, Figures, Found, Mode, Row, Table, hash, inputs, measure};
 use crate::faults::Seed;
+use crate::judge::order;
 use crate::selftest::parallel;
-use crate::suite::order;
 
 /// How much is measured again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

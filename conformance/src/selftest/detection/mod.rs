@@ -20,12 +20,12 @@ use ads_cnc::address::{Channel, ChannelAxis};
 use crate::edition::Edition;
 use crate::faults::{Faulty, Seed};
 use crate::gate::{Allowed, Entry, Gate, Moment};
+use crate::judge::{Needs, Outcome, Selection, Verdict};
 use crate::objects::{self, Access, Options};
 use crate::profile::Profile;
 use crate::session::{self, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
-use crate::suite::{self, Needs, Outcome, Selection};
-use crate::verdict::Verdict;
+use crate::suite;
 
 use super::Outcomes;
 pub use check::{Checked, SAMPLE, Scope};

@@ -1,6 +1,7 @@
 use ads_cnc::ads::{AmsAddr, AmsPort};
 
 use super::*;
+use crate::gate::NET_ID;
 use crate::simulator::Cnc;
 
 const CLIENT: AmsAddr = AmsAddr { net_id: AmsNetId([192, 0, 2, 1, 1, 1]), port: AmsPort(0x8001) };

@@ -7,9 +7,9 @@ use ads_cnc::operation::{DynamicNameByIndex, DynamicValueByIndex, DynamicValueBy
 
 use ads_cnc_vectors::Hex;
 
-use super::super::case::Step;
 use super::super::probe::{Probe, harness};
 use super::{number, prefix};
+use crate::judge::Step;
 use crate::simulator::Cnc;
 
 /// More than a byte has numbers.

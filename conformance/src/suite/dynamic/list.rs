@@ -11,11 +11,11 @@ use ads_cnc::operation::{
 };
 use ads_cnc_vectors::Hex;
 
-use super::super::case::{Evidence, Rule, Step, Stop, assumed};
 use super::super::probe::{Probe, harness};
 use super::super::survey::KINDS;
 use super::steady::{Checked, steadily};
 use super::{PARAMETERS_MAX, each, nothing, number, prefix};
+use crate::judge::{Evidence, Rule, Step, Stop, assumed};
 use crate::profile::Claim;
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {

@@ -6,9 +6,9 @@ use ads_cnc::operation::{
     Call, CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, Request,
 };
 
-use super::super::case::{Step, assumed};
 use super::super::probe::{Probe, harness};
 use super::{each, first, refused_still, told};
+use crate::judge::{Step, assumed};
 
 pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, count| {

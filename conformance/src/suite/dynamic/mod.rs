@@ -12,12 +12,12 @@ use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::operation::{Call, CountDynamic, DynamicNameByIndex, Request};
 use ads_cnc::{CncString, Decode as _};
 
-use super::case::{Case, Rule, Step, Stop};
-use super::declare;
 use super::probe::{Probe, harness};
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop};
 use steady::Checked;
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "dyn-count",

@@ -4,8 +4,8 @@ use std::fmt::Display;
 
 use ads_cnc::operation::Request;
 
-use super::super::case::{Evidence, Rule, Step};
 use super::super::probe::Probe;
+use crate::judge::{Evidence, Rule, Step};
 
 /// How often something is tried.
 const TRIES: usize = 5;

@@ -9,10 +9,10 @@ use ads_cnc::operation::{
 use ads_cnc::{CncString, Decode as _, TextRef};
 use ads_cnc_vectors::Hex;
 
-use super::super::case::{Step, Stop, assumed};
 use super::super::probe::{Probe, harness};
 use super::steady::{Checked, steadily};
 use super::{PARAMETERS_MAX, each, first, number, prefix, refuses_still, told};
+use crate::judge::{Step, Stop, assumed};
 
 /// Names from this length on are judged by how long a name may be, too.
 const LONG: usize = 20;

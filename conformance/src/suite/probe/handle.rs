@@ -3,10 +3,10 @@
 use ads_cnc::CncString;
 use ads_cnc::operation::{DescribeByName, Function, HandleByName, Request};
 
-use super::super::case::Step;
 use super::{Probe, harness};
 use crate::exchange::Fault;
 use crate::gate::{Doubt, Reason, Refusal};
+use crate::judge::Step;
 use crate::profile::Claim;
 
 impl Probe<'_> {

@@ -3,9 +3,8 @@
 use ads_cnc::operation::{Call, Request};
 use ads_cnc_vectors::Level;
 
-use super::super::case::{Rule, Step, Stop};
 use super::{Probe, harness};
-use crate::verdict::Verdict;
+use crate::judge::{Rule, Step, Stop, Verdict};
 
 impl Probe<'_> {
     /// Sends a call that must be refused; `sibling` differs by the fault only and must not be.

@@ -6,7 +6,7 @@ mod streaming;
 
 use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 
-use crate::suite::case::{Body, Case, Needs, Step, Stop, Subject};
+use crate::judge::{Body, Case, Needs, Step, Stop, Subject};
 use crate::suite::probe::{Probe, harness};
 
 /// What a client or a service does, which the suite itself is here.

@@ -11,12 +11,12 @@ use ads_cnc::{CncStr, CncString, ErrorKind, VariableType};
 use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
 use super::{Done, Fault, differs, lacks, within};
+use crate::judge::{Step, Stop};
 use crate::simulator::Cnc;
 use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
 use crate::simulator::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
 };
-use crate::suite::case::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
 use crate::suite::stream::heard;
 

@@ -10,9 +10,9 @@ use ads_cnc_vectors::{
 };
 
 use super::{Done, Fault, differs, lacks, within};
+use crate::judge::{Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Message, Pace, Program, ProgramConfig, Start, State};
-use crate::suite::case::{Stop, assumed};
 use crate::suite::probe::{Probe, harness};
 use crate::suite::stream::{HELD_MAX, Sent, send, send_until_taken};
 

@@ -9,11 +9,11 @@ use ads_cnc::address::{
 use ads_cnc::operation::{Call, FindInstance, Request};
 use ads_cnc::sda::ObjectAddress;
 
-use super::super::case::{Rule, Step, Stop, assumed};
 use super::super::inventory::OF_PLACES;
 use super::super::probe::{Probe, harness};
 use super::super::still::Still;
 use crate::explain::class_name;
+use crate::judge::{Rule, Step, Stop, assumed};
 
 pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
     let mut seen = HashSet::new();

@@ -6,11 +6,11 @@ use ads_cnc::address::{AxisStride, Class, ElementAddress, Group, IndexOffset};
 use ads_cnc::operation::{CountElements, ObjectList, ReadElement};
 use ads_cnc_vectors::Hex;
 
-use super::super::case::{Step, Stop, assumed};
 use super::super::content::read_of;
 use super::super::inventory::{Instance, OBJECTS_MAX, OF_PLACES};
 use super::super::probe::{Probe, harness};
 use super::length_of;
+use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
 
 pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {

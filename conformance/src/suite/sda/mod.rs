@@ -11,13 +11,13 @@ use ads_cnc::address::ElementAddress;
 use ads_cnc::operation::ReadElementLength;
 use ads_cnc::sda::ElementLength;
 
-use super::case::{Case, Step};
-use super::declare;
 use super::probe::Probe;
+use super::{Declared, declare};
+use crate::judge::Step;
 
 pub(super) use types::type_and_length;
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "sda-object-address",

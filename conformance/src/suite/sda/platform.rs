@@ -3,10 +3,10 @@
 use ads_cnc::address::Class;
 use ads_cnc::operation::ReadElement;
 
-use super::super::case::{Step, Stop};
 use super::super::probe::Probe;
 use super::super::still::Still;
 use super::length_of;
+use crate::judge::{Step, Stop};
 
 pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());

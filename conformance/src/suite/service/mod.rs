@@ -11,15 +11,15 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::Hex;
 
 use crate::edition::Feature;
+use crate::judge::{Rule, Step, Stop, assumed};
 use crate::profile::{Claim, Section};
-use crate::suite::case::{Case, Rule, Step, Stop, assumed};
-use crate::suite::declare;
 use crate::suite::place::{Place, Trial};
 use crate::suite::probe::{Probe, harness};
 use crate::suite::stream::heard;
+use crate::suite::{Declared, declare};
 use crate::values::until_nul;
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "service-variables",

@@ -8,8 +8,8 @@ use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc_vectors::Hex;
 
 use super::{NONE, get, put, within};
+use crate::judge::{Step, Stop};
 use crate::simulator::program::{Outcome, Repeat, Script, ScriptConfig, ScriptState};
-use crate::suite::case::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
 use crate::values::until_nul;
 

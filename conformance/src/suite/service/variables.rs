@@ -6,7 +6,7 @@ use ads_cnc::{Decode as _, Handle, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::{NONE, WIDE, get, put, within};
-use crate::suite::case::Step;
+use crate::judge::Step;
 use crate::suite::probe::{Probe, harness};
 use crate::values::until_nul;
 

@@ -7,7 +7,7 @@ use ads_cnc::{Decode as _, Handle, U32List};
 use ads_cnc_vectors::Hex;
 
 use super::{NONE, ONE, WIDE, channels, get, put, within, within_at};
-use crate::suite::case::{Step, Stop};
+use crate::judge::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
 use crate::values::until_nul;
 

@@ -8,9 +8,9 @@ use ads_cnc::operation::{
 use ads_cnc::{Kind, VariableType};
 
 use super::maybe;
+use crate::judge::{Step, Stop};
 use crate::profile::Claim;
 use crate::services::clause;
-use crate::suite::case::{Step, Stop};
 use crate::suite::described::kinds;
 use crate::suite::probe::{Probe, harness};
 use crate::suite::variable::name_of;

@@ -14,17 +14,17 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
 
-use super::case::{Case, Rule, Step, Stop};
-use super::declare;
 use super::described::kinds;
 use super::inventory::number_of;
 use super::probe::{Probe, harness};
 use super::sda::length_of;
 use super::still::Still;
 use super::variable::name_of;
+use super::{Declared, declare};
+use crate::judge::{Rule, Step, Stop};
 use crate::profile::Claim;
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "ads-read-addresses",

@@ -4,7 +4,7 @@ use ads_cnc::Kind;
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{Call, CountObjects, CountVariables, Request, WriteByName};
 
-use crate::suite::case::Step;
+use crate::judge::Step;
 use crate::suite::probe::{Probe, harness};
 
 /// Which number it is nobody says, so any other is right too: but not the same one with its bytes

@@ -3,7 +3,7 @@
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use crate::suite::case::{Rule, Step, Stop};
+use crate::judge::{Rule, Step, Stop};
 use crate::suite::place::{Place, Trial};
 use crate::suite::probe::Probe;
 use crate::suite::write::is_of_service;

@@ -2,8 +2,8 @@
 
 use super::stage::{HELD_MAX, expect, set_up, set_up_at, taken};
 use super::{comment, send};
+use crate::judge::{Step, Stop};
 use crate::simulator::program::{Pace, Start};
-use crate::suite::case::{Step, Stop};
 use crate::suite::probe::Probe;
 
 /// Packets that fill an interface.

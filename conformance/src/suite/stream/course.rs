@@ -3,8 +3,8 @@
 use ads_cnc::address::Channel;
 
 use super::stage::{expect, set_up, set_up_at, taken};
+use crate::judge::Step;
 use crate::simulator::program::{Pace, Start, State};
-use crate::suite::case::Step;
 use crate::suite::probe::{Probe, harness};
 
 /// Each channel by its number, and by its rank.

@@ -16,11 +16,11 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
 
-use super::case::{Case, Step, Stop};
-use super::declare;
 use super::probe::{Probe, harness};
+use super::{Declared, declare};
+use crate::judge::{Step, Stop};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vec![
         declare!(
             "stream-object",

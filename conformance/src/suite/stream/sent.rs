@@ -9,7 +9,7 @@ use ads_cnc::operation::{Call, Request, WriteProgramStream};
 use ads_cnc::streaming::Ack;
 
 use crate::exchange::{Exchange, Fault};
-use crate::suite::case::{Step, Stop};
+use crate::judge::{Step, Stop};
 use crate::suite::probe::{Probe, harness};
 
 /// How a write was answered. Which error number means that it is refused for now, and which that it

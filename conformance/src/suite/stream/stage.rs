@@ -7,9 +7,9 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::Ack;
 
 use super::{Sent, comment, send, send_until_taken};
+use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Pace, Program, ProgramConfig, Start, State};
-use crate::suite::case::{Step, Stop, assumed};
 use crate::suite::probe::{Probe, harness};
 
 /// The most bytes that the interface holds.

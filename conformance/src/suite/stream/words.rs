@@ -2,8 +2,8 @@
 
 use super::send_until_taken;
 use super::stage::{expect, set_up, taken};
+use crate::judge::{Rule, Step};
 use crate::simulator::program::{Pace, Start, State};
-use crate::suite::case::{Rule, Step};
 use crate::suite::probe::Probe;
 
 pub(super) fn forbidden_words(probe: &mut Probe<'_>) -> Step {

@@ -2,7 +2,7 @@
 
 use std::io::BufReader;
 
-use ads_cnc_conformance::child::{read_line, text};
+use ads_cnc_conformance::process::{read_line, text};
 use ads_cnc_conformance::testee::{Answer, Reaction, Reply, answered, greeted};
 use serde_json::Value;
 

@@ -4,8 +4,8 @@ use std::fmt::Debug;
 
 use ads_cnc::operation::Function;
 use ads_cnc_conformance::gate::Allowed;
+use ads_cnc_conformance::judge::Waivers;
 use ads_cnc_conformance::profile::{Claim, Profile, Section};
-use ads_cnc_conformance::waivers::Waivers;
 use serde_json::Value;
 
 use crate::{Defect, Outcome};

@@ -18,9 +18,9 @@ pub(in crate::simulator) use self::parameters::kind as parameter_kind;
 use super::document::{AxisTable, Document};
 use super::error::Source;
 use super::{AxisModel, Model, ModelError, Settings};
-use crate::duration::duration;
 use crate::edition::{CncVersion, Edition};
-use crate::simulator::{edition, to_len};
+use crate::simulator::to_len;
+use crate::text::duration;
 
 /// Platform axes, spindles and places of a channel: what index groups and handles have room for.
 const INSTANCES_MAX: usize = 255;
@@ -31,7 +31,9 @@ pub(super) fn build(source: Source<'_>, settings: Settings) -> Result<Model, Mod
         source.error(&error.span().unwrap_or_default(), error.message())
     })?;
     let edition = match &document.edition {
-        Some(name) => edition(name.get_ref()).map_err(|why| source.error(&name.span(), why))?,
+        Some(name) => {
+            Edition::by_name(name.get_ref()).map_err(|why| source.error(&name.span(), why))?
+        }
         None => Edition::English,
     };
     let version = match &document.cnc_version {

@@ -8,10 +8,10 @@ use toml::{Spanned, Value};
 use super::super::ModelError;
 use super::super::document::{RequestRow, ServiceTable, StreamingTable};
 use super::super::error::Source;
-use crate::duration::some_time;
 use crate::simulator::program::{
     Pace, ParsePaceError, ProgramConfig, Repeat, Request, Script, ScriptConfig, Start, Wait,
 };
+use crate::text::some_time;
 
 /// The streaming program; one that starts again and again if nothing is said, as nobody can start
 /// it over ADS.

@@ -2,13 +2,13 @@
 
 use std::collections::HashSet;
 
-use ads_cnc_vectors::{Given, Sequence, sequence, sequences, vector, vectors};
+use ads_cnc_vectors::{Context, Given, Sequence, Vector, sequence, sequences, vector, vectors};
 
-use super::case::{Body, Case, Needs, Subject};
-use super::printed::case_of;
+use super::{Body, Case, Needs, Subject};
+use crate::values::{Values, type_by_name};
 
 /// One case for each vector, and for each text that is put into packets or looked through.
-pub(super) fn cases() -> Vec<Case> {
+pub(crate) fn codec_cases() -> Vec<Case> {
     let vectors = vectors().iter().map(|one| case_of(one, "vec", Needs::Codec, Body::Vector(one)));
     let texts = sequences().iter().filter(|one| is_text(one)).map(of_text);
     vectors.chain(texts).collect()
@@ -50,4 +50,22 @@ pub fn siblings_of(cases: &[Case]) -> Vec<Case> {
         }
     }
     missing
+}
+
+/// A case that stands for a vector.
+pub(crate) fn case_of(vector: &Vector, prefix: &str, needs: Needs, body: Body) -> Case {
+    Case {
+        id: format!("{prefix}-{}", vector.id),
+        title: vector.title.clone(),
+        subject: if needs == Needs::Codec { Subject::Codec } else { Subject::Target },
+        requirements: vector.cited().into_iter().map(|one| one.id.as_str()).collect(),
+        needs,
+        body,
+    }
+}
+
+/// How a report reads the value of a vector.
+pub(crate) fn typed(context: &Context) -> Values {
+    let ty = context.kind.and_then(|kind| type_by_name(kind.name()).ok());
+    Values { ty, dimensions: context.dimensions.clone().unwrap_or_default() }
 }

@@ -1,7 +1,6 @@
 //! What came of a case.
 
-use super::case::{Case, Judgement, Stop};
-use crate::verdict::Verdict;
+use super::{Case, Judgement, Stop, Verdict};
 
 /// What came of a case.
 #[derive(Clone, Debug)]

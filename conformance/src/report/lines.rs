@@ -1,29 +1,9 @@
-//! Bytes as people read them.
-
-use std::fmt::Write as _;
+//! Bytes as lines: one for each field.
 
 use super::bytes::Shown;
 use super::{BytesReport, FieldReport};
 use crate::explain::Values;
-
-/// Bytes of a field shown on one line.
-const LINE: usize = 16;
-
-/// Bytes in hex with a space between two.
-pub(crate) fn plain(bytes: &[u8]) -> String {
-    let mut text = String::with_capacity(bytes.len().saturating_mul(3));
-    for (place, byte) in bytes.iter().enumerate() {
-        let gap = if place == 0 { "" } else { " " };
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{gap}{byte:02x}");
-    }
-    text
-}
-
-/// A byte as a character, if it is one.
-pub(super) fn character(byte: u8) -> char {
-    if byte.is_ascii_graphic() { char::from(byte) } else { '·' }
-}
+use crate::text::hex;
 
 /// All lines of bytes that are held against nothing.
 pub(crate) fn annotated(stream: Option<&str>, bytes: &[u8]) -> Vec<String> {
@@ -57,8 +37,8 @@ pub(super) fn marked(bytes: &BytesReport) -> Vec<String> {
 fn of_field(field: &FieldReport, fold: bool) -> Vec<String> {
     let bytes: Vec<u8> = field.bytes().collect();
     let (mut all, mut zeros) = (Vec::new(), 0_usize);
-    for (begin, chunk) in (0_usize..).step_by(LINE).zip(bytes.chunks(LINE)) {
-        let end = begin.saturating_add(LINE);
+    for (begin, chunk) in (0_usize..).step_by(hex::LINE).zip(bytes.chunks(hex::LINE)) {
+        let end = begin.saturating_add(hex::LINE);
         let differs = field.differs.iter().any(|place| (begin..end).contains(place));
         // What a text is filled up with would hide the rest.
         if fold && begin > 0 && !differs && chunk.iter().all(|&byte| byte == 0) {
@@ -68,10 +48,8 @@ fn of_field(field: &FieldReport, fold: bool) -> Vec<String> {
         fill(&mut all, &mut zeros);
         let mark = if differs { '!' } else { ' ' };
         let at = field.offset.saturating_add(begin);
-        let text: String = chunk.iter().copied().map(character).collect();
         let name = if begin == 0 { field.field.as_str() } else { "" };
-        let line = format!("{mark}{at:5}  {:<47}  {text:<16}  {name}", plain(chunk));
-        all.push(line.trim_end().to_owned());
+        all.push(hex::line(mark, at, chunk, name));
     }
     fill(&mut all, &mut zeros);
     all

@@ -8,9 +8,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::Running;
-use crate::interrupt;
-use crate::report::tame_lines;
+use super::{Running, interrupt};
+use crate::text::escape_lines;
 
 /// The longest line that is taken. The longest right answer has some thousand bytes.
 pub const LINE_MAX: usize = 1 << 18;
@@ -30,7 +29,7 @@ impl Stderr {
     /// It as text that can be shown.
     pub fn text(&self) -> String {
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        tame_lines(&String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()))
+        escape_lines(&String::from_utf8_lossy(&kept.iter().copied().collect::<Vec<u8>>()))
     }
 
     fn keep(&self, mut from: impl Read) {
@@ -192,7 +191,7 @@ fn write(mut stdin: ChildStdin, lines: &Receiver<Vec<u8>>) {
 /// The next line without its end; none at the end of the stream.
 ///
 /// ```
-/// use ads_cnc_conformance::child::read_line;
+/// use ads_cnc_conformance::process::read_line;
 ///
 /// let mut said = &b"{}\r\nthe last"[..];
 /// assert_eq!(read_line(&mut said, 8), Some(Ok(b"{}".to_vec())));
@@ -253,10 +252,4 @@ fn wait(child: &Running, limit: Duration, mut meanwhile: impl FnMut()) -> Option
 pub fn cut(line: &str) -> String {
     let shown: String = line.chars().take(120).collect();
     if shown.len() < line.len() { format!("{shown:?}…") } else { format!("{shown:?}") }
-}
-
-/// A text, or so many characters of it and a sign that there are more.
-pub(crate) fn front(text: &str, most: usize) -> String {
-    let shown: String = text.chars().take(most).collect();
-    if shown.len() < text.len() { shown + "…" } else { shown }
 }

@@ -7,8 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::time::Duration;
 
-use crate::child;
-use crate::verdict::Exit;
+use crate::judge::Exit;
 
 static CAME: AtomicBool = AtomicBool::new(false);
 
@@ -95,7 +94,7 @@ impl Interrupt {
         let handler = move || {
             if CAME.swap(true, Ordering::SeqCst) {
                 let code = last_words().map_or(INTERRUPTED, |exit| exit.code().into());
-                child::end_all();
+                super::end_all();
                 process::exit(code);
             }
             // Who does not wait looks.

@@ -5,16 +5,14 @@ use std::hash::{BuildHasher as _, RandomState};
 
 use ads_cnc_vectors::{Source, requirement};
 
-use super::case::{Body, Case, Needs, Subject};
-use super::outcome::Outcome;
+use super::{Body, Case, Needs, Outcome, Subject, Verdict};
 use crate::edition::Edition;
-use crate::report::LeftOut;
-use crate::verdict::Verdict;
 
 /// What is to be run.
 ///
 /// ```
-/// use ads_cnc_conformance::suite::{self, Selection};
+/// use ads_cnc_conformance::judge::{Selection, Unmatched};
+/// use ads_cnc_conformance::suite;
 ///
 /// let only = vec!["VAR-11".to_owned(), "com-count".to_owned()];
 /// let plan = Selection { edition: None, only }.plan(suite::cases(), 1)?;
@@ -25,7 +23,7 @@ use crate::verdict::Verdict;
 /// let only = vec!["VRA".to_owned()];
 /// let nothing = Selection { edition: None, only }.plan(suite::cases(), 1).unwrap_err();
 /// assert_eq!(nothing.to_string(), "no case is called VRA or judges it");
-/// # Ok::<(), suite::Unmatched>(())
+/// # Ok::<(), Unmatched>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Selection {
@@ -52,6 +50,17 @@ pub struct Plan {
     left_out: Vec<Case>,
     /// What is judged of a case that is not judged whole.
     judged: HashMap<String, Vec<&'static str>>,
+}
+
+/// What was left out of a run because something else was selected.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// The case.
+    pub id: String,
+    /// Whom it would have judged.
+    pub subject: Subject,
+    /// And by what.
+    pub requirements: Vec<&'static str>,
 }
 
 /// A seed that nobody chose.
@@ -190,7 +199,7 @@ fn foreign(case: &Case, edition: Edition) -> Option<String> {
     let provenance = match case.body {
         Body::Vector(vector) | Body::Printed(vector) => Some(&vector.provenance),
         Body::Sequence(sequence) => Some(&sequence.provenance),
-        Body::Probe(_) | Body::Manners | Body::Client | Body::Traffic => None,
+        Body::Probe | Body::Manners | Body::Client | Body::Traffic => None,
     };
     let printed = provenance.is_none_or(|provenance| has(edition, &provenance.sources));
     let required = case

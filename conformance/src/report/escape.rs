@@ -1,44 +1,19 @@
-//! Text of others as it may be shown: whoever was judged may say anything, and nothing of it moves
-//! the cursor of a terminal or begins a line.
+//! The texts of a report, escaped: a target may send any text, and none may move the cursor of a
+//! terminal or begin a line.
 
 use serde_json::Value;
 
 use super::model::{
-    AreaReport, CaseReport, EvidenceReport, FailureReport, LeftChanged, ProfileReport, Report,
-    RequirementReport, SubjectReport, TargetReport, WaiverReport,
+    AreaReport, CaseReport, EvidenceReport, FailureReport, ProfileReport, Report,
+    RequirementReport, SubjectReport, TargetReport,
 };
 use super::{BytesReport, DeviceReport, FieldReport};
-
-/// Text with what a terminal or a reader's eye would act on as escapes.
-pub(crate) fn tame(text: &str) -> String {
-    escape(text, |_| false)
-}
-
-/// The same of text that has lines: their ends are kept, and tabs.
-pub(crate) fn tame_lines(text: &str) -> String {
-    escape(&text.replace("\r\n", "\n"), |one| matches!(one, '\n' | '\t'))
-}
-
-/// Whether a terminal or a reader's eye acts on a character: controls, line and paragraph
-/// separators, and those that turn the direction of what follows.
-pub(super) fn acts(one: char) -> bool {
-    one.is_control() || matches!(one, '\u{2028}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
-}
-
-fn escape(text: &str, is_kept: impl Fn(char) -> bool) -> String {
-    let mut tamed = String::with_capacity(text.len());
-    for one in text.chars() {
-        match acts(one) && !is_kept(one) {
-            true => tamed.extend(one.escape_debug()),
-            false => tamed.push(one),
-        }
-    }
-    tamed
-}
+use crate::judge::{LeftChanged, WaiverReport};
+use crate::text::{escape, escape_lines, is_escaped};
 
 impl Report {
     /// With nothing in any text that acts on who reads it, whoever wrote the report.
-    pub(super) fn tamed(mut self) -> Self {
+    pub(super) fn escaped(mut self) -> Self {
         // Each structure is taken apart whole: a field that is new has to be looked at here.
         let Self {
             format: _,
@@ -61,11 +36,11 @@ impl Report {
         } = &mut self;
         all([suite, vectors, time]);
         all(editions.iter_mut().chain(only));
-        tame_target(target);
+        escape_target(target);
         if let Some(ProfileReport { name, claims }) = profile {
             all([name]);
-            let tamed = std::mem::take(claims).into_iter();
-            *claims = tamed.map(|(key, claim)| (tame(&key), tame_value(claim))).collect();
+            let escaped = std::mem::take(claims).into_iter();
+            *claims = escaped.map(|(key, claim)| (escape(&key), escape_value(claim))).collect();
         }
         for WaiverReport { test, requirement, verdict: _, reason, expires, state: _, found: _ } in
             waivers
@@ -79,54 +54,54 @@ impl Report {
         for SubjectReport { subject: _, totals: _, waived: _, areas } in subjects {
             for AreaReport { area, totals: _, requirements } in areas {
                 all([area]);
-                tame_requirements(requirements);
+                escape_requirements(requirements);
             }
         }
-        cases.iter_mut().for_each(tame_case);
+        cases.iter_mut().for_each(escape_case);
         self
     }
 }
 
 fn all<'t>(texts: impl IntoIterator<Item = &'t mut String>) {
     for text in texts {
-        if text.chars().any(acts) {
-            *text = tame(text);
+        if text.chars().any(is_escaped) {
+            *text = escape(text);
         }
     }
 }
 
-fn tame_value(value: Value) -> Value {
+fn escape_value(value: Value) -> Value {
     match value {
-        Value::String(text) => Value::String(tame(&text)),
-        Value::Array(items) => Value::Array(items.into_iter().map(tame_value).collect()),
+        Value::String(text) => Value::String(escape(&text)),
+        Value::Array(items) => Value::Array(items.into_iter().map(escape_value).collect()),
         Value::Object(fields) => {
             let fields = fields.into_iter();
-            Value::Object(fields.map(|(key, value)| (tame(&key), tame_value(value))).collect())
+            Value::Object(fields.map(|(key, value)| (escape(&key), escape_value(value))).collect())
         }
         value @ (Value::Null | Value::Bool(_) | Value::Number(_)) => value,
     }
 }
 
-fn tame_target(target: &mut TargetReport) {
+fn escape_target(target: &mut TargetReport) {
     let TargetReport { name, version, language, command, address, net_id, device, stderr, file } =
         target;
     all([name]);
     all([version, language, command, address, net_id, file].into_iter().flatten());
     if let Some(said) = stderr {
-        *said = tame_lines(said);
+        *said = escape_lines(said);
     }
     if let Some(DeviceReport { name, version, state }) = device {
         all([name, version].into_iter().chain(state));
     }
 }
 
-fn tame_requirements(requirements: &mut [RequirementReport]) {
+fn escape_requirements(requirements: &mut [RequirementReport]) {
     for RequirementReport { requirement, verdict: _, waived: _ } in requirements {
         all([requirement]);
     }
 }
 
-fn tame_case(case: &mut CaseReport) {
+fn escape_case(case: &mut CaseReport) {
     let CaseReport {
         id,
         title,
@@ -140,7 +115,7 @@ fn tame_case(case: &mut CaseReport) {
         failures,
     } = case;
     all([id, title].into_iter().chain(stream).chain(note));
-    tame_requirements(requirements);
+    escape_requirements(requirements);
     for failure in failures {
         let FailureReport {
             requirement,
@@ -156,16 +131,16 @@ fn tame_case(case: &mut CaseReport) {
         } = failure;
         all([requirement, clause, expected, found].into_iter().chain(sources));
         if let Some(evidence) = evidence {
-            tame_evidence(evidence);
+            escape_evidence(evidence);
         }
     }
 }
 
-fn tame_evidence(evidence: &mut EvidenceReport) {
+fn escape_evidence(evidence: &mut EvidenceReport) {
     let EvidenceReport { call, result, sent, received, expected, frame_sent, frame_received } =
         evidence;
     // Of a capture, its packets are below.
-    *call = tame_lines(call);
+    *call = escape_lines(call);
     all([result, frame_sent, frame_received]);
     for BytesReport { stream, length: _, fields, faults } in
         [sent, received, expected].into_iter().flatten()
@@ -174,18 +149,5 @@ fn tame_evidence(evidence: &mut EvidenceReport) {
         for FieldReport { offset: _, hex, field, value, meaning, differs: _ } in fields {
             all([hex, field, value, meaning]);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn nothing_acts() {
-        let text = "a\0\u{1b}[31m\u{9b}2J\u{7f}\n\n# H\r\u{202e}é\\\"|`";
-        let shown = r##"a\0\u{1b}[31m\u{9b}2J\u{7f}\n\n# H\r\u{202e}é\"|`"##;
-        assert_eq!(tame(text), shown);
-        assert_eq!(tame_lines("a\r\n\tb\rc\u{1b}"), "a\n\tb\\rc\\u{1b}");
     }
 }

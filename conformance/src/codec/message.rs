@@ -7,8 +7,7 @@ use serde_json::Value;
 /// Version of the protocol.
 pub const PROTOCOL: u32 = 1;
 
-pub use crate::child::LINE_MAX;
-use crate::child::front;
+use crate::text::{hex::compact, shorten};
 
 /// A line to the testee.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -100,7 +99,7 @@ impl From<&Context> for Known {
 
 impl Known {
     /// As a context of the vectors; none if an address is none.
-    pub(super) fn context(&self) -> Option<Context> {
+    pub(crate) fn context(&self) -> Option<Context> {
         let address = |text: &Option<String>| match text.as_deref() {
             None => Some(None),
             Some(text) => {
@@ -230,7 +229,7 @@ pub struct Reply {
 const TEXT_MAX: usize = 400;
 
 fn short(text: &str) -> String {
-    front(text, TEXT_MAX)
+    shorten(text, TEXT_MAX)
 }
 
 impl Rejection {
@@ -242,7 +241,7 @@ impl Rejection {
 
 impl Output {
     /// About how many bytes of memory it takes.
-    pub(super) fn weight(&self) -> usize {
+    pub(crate) fn weight(&self) -> usize {
         let packets = self.packets.iter().flatten().map(|packet| packet.len().saturating_add(NODE));
         let parts = [self.value.as_ref().map(weight), self.hex.as_ref().map(Vec::len)];
         parts.into_iter().flatten().chain(packets).fold(NODE, usize::saturating_add)
@@ -316,78 +315,6 @@ impl TryFrom<Keys> for Reply {
         match given.next() {
             None => Ok(Self { seq, answer }),
             Some((second, _)) => Err(format!("both {first} and {second} are there")),
-        }
-    }
-}
-
-/// Bytes as hex without spaces; spaces are read.
-pub(super) mod compact {
-    use crate::child::front;
-
-    pub(crate) fn show(bytes: &[u8]) -> String {
-        bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-    }
-
-    pub(crate) fn parse(text: &str) -> Result<Vec<u8>, String> {
-        let digits: Option<Vec<u8>> = text
-            .chars()
-            .filter(|character| !character.is_ascii_whitespace())
-            .map(|character| character.to_digit(16).and_then(|digit| u8::try_from(digit).ok()))
-            .collect();
-        let digits = digits.ok_or_else(|| format!("{} is no hex", cut(text)))?;
-        let pairs = digits.chunks(2).map(|pair| match pair {
-            [high, low] => Ok(high << 4 | low),
-            _ => Err(format!("{} has an odd number of digits", cut(text))),
-        });
-        pairs.collect()
-    }
-
-    fn cut(text: &str) -> String {
-        format!("{:?}", front(text, 40))
-    }
-
-    pub(crate) mod option {
-        use serde::{Deserialize, Deserializer, Serializer, de::Error as _};
-
-        pub(crate) fn serialize<S: Serializer>(
-            bytes: &Option<Vec<u8>>,
-            to: S,
-        ) -> Result<S::Ok, S::Error> {
-            match bytes {
-                Some(bytes) => to.serialize_str(&super::show(bytes)),
-                None => to.serialize_none(),
-            }
-        }
-
-        pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
-            from: D,
-        ) -> Result<Option<Vec<u8>>, D::Error> {
-            let text = Option::<String>::deserialize(from)?;
-            text.map(|text| super::parse(&text).map_err(D::Error::custom)).transpose()
-        }
-    }
-
-    pub(crate) mod list {
-        use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
-
-        pub(crate) fn serialize<S: Serializer>(
-            list: &Option<Vec<Vec<u8>>>,
-            to: S,
-        ) -> Result<S::Ok, S::Error> {
-            let list = list
-                .as_ref()
-                .map(|list| list.iter().map(|bytes| super::show(bytes)).collect::<Vec<String>>());
-            list.serialize(to)
-        }
-
-        pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
-            from: D,
-        ) -> Result<Option<Vec<Vec<u8>>>, D::Error> {
-            let list = Option::<Vec<String>>::deserialize(from)?;
-            let parse = |list: Vec<String>| {
-                list.iter().map(|text| super::parse(text)).collect::<Result<_, _>>()
-            };
-            list.map(|list| parse(list).map_err(D::Error::custom)).transpose()
         }
     }
 }

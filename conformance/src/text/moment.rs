@@ -8,7 +8,7 @@ use toml::value::{Date, Datetime, Offset, Time};
 /// Seconds since 1970-01-01T00:00:00Z.
 ///
 /// ```
-/// use ads_cnc_conformance::gate::Moment;
+/// use ads_cnc_conformance::text::Moment;
 ///
 /// let moment = Moment::from_rfc3339("2026-03-01T00:30:00+01:00").unwrap();
 /// assert_eq!(moment.to_string(), "2026-02-28T23:30:00Z");
@@ -50,7 +50,7 @@ impl Moment {
     }
 
     /// Fractions of a second are dropped: it is over a little early.
-    pub(super) fn from_datetime(datetime: Datetime) -> Option<Self> {
+    pub(crate) fn from_datetime(datetime: Datetime) -> Option<Self> {
         let Date { year, month, day } = datetime.date?;
         let Time { hour, minute, second, .. } = datetime.time?;
         let offset = match datetime.offset? {

@@ -1,7 +1,7 @@
 //! Known failures that a run puts up with: the file of `--waivers`.
 //!
 //! ```
-//! use ads_cnc_conformance::waivers::Waivers;
+//! use ads_cnc_conformance::judge::Waivers;
 //!
 //! let waivers = Waivers::from_toml(r#"
 //!     [[waiver]]
@@ -12,26 +12,23 @@
 //!     expires = 2027-01-31
 //! "#)?;
 //! assert_eq!(waivers.len(), 1);
-//! # Ok::<(), ads_cnc_conformance::waivers::WaiverError>(())
+//! # Ok::<(), ads_cnc_conformance::judge::WaiverError>(())
 //! ```
 //!
 //! One that no longer holds makes the run end with the exit code 5: its day is over, nothing that
 //! ran is called that, or the verdict is another one by now. Of what was not run nothing is known.
 
 use std::collections::HashSet;
-use std::fs;
 use std::path::Path;
 
 use ads_cnc_vectors::requirement;
-use serde::Deserialize;
 use serde::de::{Deserializer, Error as _};
+use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::value::{Date, Datetime};
 
-use crate::gate::Moment;
-use crate::report::{LeftOut, WaiverReport, WaiverState};
-use crate::suite::Outcome;
-use crate::verdict::Verdict;
+use super::{LeftOut, Outcome, Verdict};
+use crate::text::Moment;
 
 /// Known failures.
 #[derive(Clone, Debug, Default)]
@@ -43,6 +40,61 @@ pub struct Waivers(Vec<Waiver>);
 pub struct WaiverError {
     file: Option<String>,
     why: String,
+}
+
+/// A known failure, and what became of it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WaiverReport {
+    /// The case.
+    pub test: String,
+    /// The requirement.
+    pub requirement: String,
+    /// The verdict that is expected.
+    pub verdict: Verdict,
+    /// Why it is put up with.
+    pub reason: String,
+    /// The first day on which it holds no longer.
+    pub expires: String,
+    /// What became of it.
+    pub state: WaiverState,
+    /// The verdict in this run, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub found: Option<Verdict>,
+}
+
+/// What became of a waiver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WaiverState {
+    /// The verdict is the expected one.
+    Used,
+    /// What it is about was not run: nothing is known.
+    NotRun,
+    /// Its time is over. Stale.
+    Expired,
+    /// Nothing that ran is called that. Stale.
+    Unmatched,
+    /// The verdict is another one. Stale.
+    Otherwise,
+}
+
+impl WaiverState {
+    /// Whether the file has to be mended.
+    pub const fn is_stale(self) -> bool {
+        matches!(self, Self::Expired | Self::Unmatched | Self::Otherwise)
+    }
+
+    /// For people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Used => "used",
+            Self::NotRun => "not run",
+            Self::Expired => "stale: expired",
+            Self::Unmatched => "stale: nothing that ran is called that",
+            Self::Otherwise => "stale: the verdict is another one",
+        }
+    }
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -67,18 +119,15 @@ struct File {
     waiver: Vec<Spanned<Waiver>>,
 }
 
-impl Waivers {
-    /// Reads a file.
-    ///
-    /// # Errors
-    /// A file that cannot be read, and those of [`from_toml`](Self::from_toml).
-    pub fn from_file(file: &Path) -> Result<Self, WaiverError> {
-        let name = Some(file.display().to_string());
-        let text = fs::read_to_string(file)
-            .map_err(|error| WaiverError { file: name.clone(), why: error.to_string() })?;
-        Self::from_toml(&text).map_err(|error| WaiverError { file: name, ..error })
+impl WaiverError {
+    /// Names the file that the text is of.
+    #[must_use]
+    pub fn in_file(self, file: &Path) -> Self {
+        Self { file: Some(file.display().to_string()), ..self }
     }
+}
 
+impl Waivers {
     /// Reads the text of a file.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! JSON of which a terminal acts on nothing: beside what JSON has to escape, DEL, C1 and what turns
+//! JSON that no terminal acts on: beside what JSON has to escape, DEL, C1 and what turns
 //! the direction of text are escapes too, which read back as the same characters.
 
 use std::io::{self, Write};
@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::{Formatter, PrettyFormatter};
 
-use super::tame::acts;
+use super::is_escaped;
 
 /// Writes a value as indented JSON and ends the line.
 ///
@@ -28,10 +28,10 @@ impl Formatter for Escaping<'_> {
         out: &mut W,
         fragment: &str,
     ) -> io::Result<()> {
-        for part in fragment.split_inclusive(acts) {
+        for part in fragment.split_inclusive(is_escaped) {
             // All that act are of one UTF-16 code unit.
             match part.char_indices().next_back() {
-                Some((at, last)) if acts(last) => {
+                Some((at, last)) if is_escaped(last) => {
                     let before = part.get(..at).unwrap_or_default();
                     write!(out, "{before}\\u{:04x}", u32::from(last))?;
                 }
@@ -92,7 +92,7 @@ mod tests {
         let text = String::from_utf8(out).unwrap();
         assert!(text.contains(r#""a\u001bb\u007f\u0090\u009d\u202e""#), "{text}");
         assert!(text.contains("\"é\u{1f600}\\\"\\\\\\n\""), "{text}");
-        assert!(!text.chars().any(|one| one != '\n' && acts(one)), "{text:?}");
+        assert!(!text.chars().any(|one| one != '\n' && is_escaped(one)), "{text:?}");
         assert_eq!(serde_json::from_str::<serde_json::Value>(&text).unwrap(), value);
         // Laid out as without escapes.
         let plain = serde_json::json!([{"a": [1, 2], "b": {}}, "c"]);

@@ -1,10 +1,77 @@
-//! What a case has found so far.
+//! Checks: the rule of each, and what came of it.
 
 use std::fmt::Display;
 
-use super::case::{Evidence, Judgement, Rule};
-use crate::child::front;
-use crate::verdict::Verdict;
+use ads_cnc_vectors::{Level, clause};
+
+use super::{Evidence, Verdict};
+use crate::text::shorten;
+
+/// How a step of a case goes on.
+pub type Step<T = ()> = Result<T, Stop>;
+
+/// Why a case ends before its end.
+#[derive(Clone, Debug)]
+pub enum Stop {
+    /// A judgement has been made that leaves nothing to go on with.
+    Judged,
+    /// The target has nothing to try this on.
+    NotApplicable(String),
+    /// What came back does not tell.
+    Inconclusive(String),
+    /// The gate refused.
+    Refused(String),
+    /// The run is to end.
+    Interrupted,
+    /// The suite itself is wrong.
+    Harness(String),
+}
+
+/// A requirement at a level: that of the catalogue, or of an assumed part.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// The requirement.
+    pub id: &'static str,
+    /// The level it is judged at.
+    pub level: Option<Level>,
+}
+
+impl From<&'static str> for Rule {
+    fn from(id: &'static str) -> Self {
+        let clause = clause(id);
+        let id = clause.map_or(id, |clause| clause.requirement.id.as_str());
+        Self { id, level: clause.map(|clause| clause.level()) }
+    }
+}
+
+/// A part of a requirement that is assumed, whatever its rest is.
+pub const fn assumed(id: &'static str) -> Rule {
+    Rule { id, level: Some(Level::Info) }
+}
+
+/// A part of a requirement that is known from help pages only, whatever its rest is.
+pub const fn online(id: &'static str) -> Rule {
+    Rule { id, level: Some(Level::Should) }
+}
+
+/// One check of one requirement.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// The requirement.
+    pub requirement: &'static str,
+    /// The level it was judged at; that of an assumed part may be lower.
+    pub level: Option<Level>,
+    /// What came of it.
+    pub verdict: Verdict,
+    /// What was expected; empty for a pass.
+    pub expected: String,
+    /// What was there; empty for a pass.
+    pub found: String,
+    /// The request and the answer in question.
+    pub evidence: Option<Evidence>,
+    /// Checks with the same verdict that are not kept.
+    pub more: usize,
+}
 
 /// The most failed checks a case keeps of one requirement; of the others it keeps the number.
 const KEPT: usize = 3;
@@ -70,7 +137,7 @@ impl Record {
         let evidence = if passed { None } else { evidence() };
         let (requirement, level) = (rule.id, rule.level);
         let (expected, found) =
-            (front(&expected.to_string(), TEXT_MAX), front(&found.to_string(), TEXT_MAX));
+            (shorten(&expected.to_string(), TEXT_MAX), shorten(&found.to_string(), TEXT_MAX));
         let judgement =
             Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
         self.judgements.push(judgement);

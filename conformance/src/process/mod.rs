@@ -1,6 +1,7 @@
 //! Commands that a user names: started apart from this process, and ended with all they started.
 
-mod spoken;
+pub(crate) mod interrupt;
+mod lines;
 
 use std::io;
 use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus};
@@ -13,8 +14,7 @@ use process_wrap::std::{ChildWrapper, CommandWrap};
 #[cfg(windows)]
 use process_wrap::std::{CreationFlags, JobObject};
 
-pub(crate) use spoken::front;
-pub use spoken::{LINE_MAX, Spoken, Stderr, Unheard, cut, read_line, text};
+pub use lines::{LINE_MAX, Spoken, Stderr, Unheard, cut, read_line, text};
 
 /// How long a command has at least for its first word: some languages take longer for starting than
 /// for any answer.

@@ -1,0 +1,111 @@
+//! What a case is.
+
+use std::fmt;
+
+use ads_cnc_vectors::{Sequence, Vector};
+use serde::{Deserialize, Serialize};
+
+/// One thing the suite tries.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// A slug that keeps its meaning.
+    pub id: String,
+    /// What is tried, in a sentence.
+    pub title: String,
+    /// Who is judged.
+    pub subject: Subject,
+    /// The requirements it can judge.
+    pub requirements: Vec<&'static str>,
+    /// What it asks of the target beyond a first channel.
+    pub needs: Needs,
+    /// How it is done.
+    pub body: Body,
+}
+
+/// Who is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Subject {
+    /// This project's codec.
+    Codec,
+    /// A codec behind a pipe.
+    Testee,
+    /// A CNC.
+    Target,
+    /// What asks a CNC.
+    Client,
+    /// Clients in traffic that was captured.
+    CapturedClient,
+    /// CNCs in traffic that was captured.
+    CapturedCnc,
+}
+
+impl Subject {
+    /// All of them, in the order of reports.
+    pub const ALL: [Self; 6] = [
+        Self::Codec,
+        Self::Testee,
+        Self::Target,
+        Self::Client,
+        Self::CapturedClient,
+        Self::CapturedCnc,
+    ];
+
+    /// Its name in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Codec => "codec",
+            Self::Testee => "testee",
+            Self::Target => "target",
+            Self::Client => "client",
+            Self::CapturedClient => "captured-client",
+            Self::CapturedCnc => "captured-cnc",
+        }
+    }
+}
+
+impl fmt::Display for Subject {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// What a case asks of the target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// Well-formed queries.
+    Queries,
+    /// Requests that no client should send: only for a target that cannot move.
+    Malformed,
+    /// Writes, which are undone: only what may be written.
+    Writes,
+    /// Writes that no client should send: only to a target that cannot move.
+    MalformedWrites,
+    /// A CNC in this process, to which something is done from within.
+    Embedded,
+    /// A target that claims to answer the manuals' examples.
+    PrintedExamples,
+    /// The frames that all other cases, or others altogether, exchanged.
+    Frames,
+    /// No target: the codec itself is judged.
+    Codec,
+}
+
+/// How a case is done.
+#[derive(Clone, Copy, Debug)]
+pub enum Body {
+    /// By a function of the suite, which knows it by the case's ID.
+    Probe,
+    /// By sending a printed request and comparing the reply with the printed one.
+    Printed(&'static Vector),
+    /// By decoding and encoding a vector.
+    Vector(&'static Vector),
+    /// By putting an NC text into packets, or looking through one.
+    Sequence(&'static Sequence),
+    /// By watching how a testee answers all the others.
+    Manners,
+    /// By watching what a client sends and says.
+    Client,
+    /// By looking through traffic of others.
+    Traffic,
+}

@@ -1,0 +1,31 @@
+//! The words of a judgement: case, check, evidence, outcome, verdict, plan, waiver. Nothing here
+//! opens a file or a socket.
+
+mod case;
+mod check;
+mod evidence;
+mod left_changed;
+mod outcome;
+mod plan;
+mod vectors;
+mod verdict;
+mod waivers;
+
+pub use case::{Body, Case, Needs, Subject};
+pub(crate) use check::{Checks, Record, TEXT_MAX};
+pub use check::{Judgement, Rule, Step, Stop, assumed, online};
+pub use evidence::Evidence;
+pub use left_changed::LeftChanged;
+pub use outcome::{Outcome, RequirementVerdict, gravest};
+pub use plan::{LeftOut, Plan, Selection, Unmatched, any_seed};
+pub(crate) use plan::{names, order};
+pub use vectors::siblings_of;
+pub(crate) use vectors::{case_of, codec_cases, typed};
+pub use verdict::{Exit, Tally, Verdict};
+pub use waivers::{WaiverError, WaiverReport, WaiverState, Waivers};
+
+/// What the protocol with a codec demands, beside the requirements of the catalogue.
+pub const TESTEE: &str = "TESTEE";
+
+/// What the protocol with a client demands, beside the requirements of the catalogue.
+pub const CLIENT: &str = "CLIENT";

@@ -1,0 +1,37 @@
+//! Which cases a target is not asked.
+
+use crate::gate::Gate;
+use crate::judge::{Needs, Verdict};
+use crate::profile::Profile;
+
+impl Needs {
+    /// Why a case that needs this is not run: with which verdict, and the reason. `inside` is
+    /// whether the CNC is in this process, open to be changed from within.
+    pub fn unmet(
+        self,
+        gate: &Gate,
+        profile: &Profile,
+        inside: bool,
+    ) -> Option<(Verdict, &'static str)> {
+        let not_run = |why| Some((Verdict::NotRun, why));
+        match self {
+            Self::Malformed if !gate.lets_malformed_pass() => {
+                not_run("sends what no client should: not sent to a device")
+            }
+            Self::Writes if !gate.may_let_writes_pass() => {
+                not_run("writes: only what a file for --allow-write names")
+            }
+            Self::MalformedWrites if gate.embedded().is_none() => {
+                not_run("writes what no client should: to the embedded CNC only")
+            }
+            Self::Embedded if !inside => not_run(
+                "takes something that is done to a CNC from within: to the embedded one only",
+            ),
+            Self::PrintedExamples if !profile.printed_examples => Some((
+                Verdict::NotApplicable,
+                "the target does not claim to answer the printed examples",
+            )),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! Escapes for what a terminal acts on.
+
+/// Text with what a terminal or a reader's eye would act on as escapes.
+pub(crate) fn escape(text: &str) -> String {
+    escape_unless(text, |_| false)
+}
+
+/// The same of text that has lines: their ends are kept, and tabs.
+pub(crate) fn escape_lines(text: &str) -> String {
+    escape_unless(&text.replace("\r\n", "\n"), |one| matches!(one, '\n' | '\t'))
+}
+
+/// Whether a terminal or a reader's eye acts on a character: controls, line and paragraph
+/// separators, and those that turn the direction of what follows.
+pub(crate) fn is_escaped(one: char) -> bool {
+    one.is_control() || matches!(one, '\u{2028}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
+}
+
+fn escape_unless(text: &str, is_kept: impl Fn(char) -> bool) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for one in text.chars() {
+        match is_escaped(one) && !is_kept(one) {
+            true => escaped.extend(one.escape_debug()),
+            false => escaped.push(one),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn controls_are_escaped() {
+        let text = "a\0\u{1b}[31m\u{9b}2J\u{7f}\n\n# H\r\u{202e}é\\\"|`";
+        let shown = r##"a\0\u{1b}[31m\u{9b}2J\u{7f}\n\n# H\r\u{202e}é\"|`"##;
+        assert_eq!(escape(text), shown);
+        assert_eq!(escape_lines("a\r\n\tb\rc\u{1b}"), "a\n\tb\\rc\\u{1b}");
+    }
+}

@@ -1,0 +1,17 @@
+//! Text: hex, escapes, times, JSON. It opens nothing and imports no other module of this crate.
+
+mod duration;
+mod escape;
+pub mod hex;
+pub(crate) mod json;
+mod moment;
+
+pub(crate) use duration::{duration, some_time};
+pub(crate) use escape::{escape, escape_lines, is_escaped};
+pub use moment::Moment;
+
+/// A text, or its first `most` characters and an ellipsis.
+pub(crate) fn shorten(text: &str, most: usize) -> String {
+    let shown: String = text.chars().take(most).collect();
+    if shown.len() < text.len() { shown + "…" } else { shown }
+}
