@@ -82,7 +82,10 @@ impl sealed::Wire for bool {
     }
 }
 
-/// A BOOLEAN: the byte as it is, of which any but 0 is TRUE.
+/// A BOOLEAN that keeps its byte, of which any but 0 is TRUE.
+///
+/// An [`Element`](super::Element) holds this instead of `bool`, so that a value encodes to the bytes it
+/// was read from: `bool` would turn a 2 into a 1.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2, where BOOLEAN\[2\] has two bytes. That
 /// any byte but 0 is TRUE is assumed.
