@@ -57,10 +57,10 @@ fn objects_are_addressed_by_their_descriptors() {
     let (group, offset) = (IndexGroup::new(0x12_0101), IndexOffset::new(3));
     let object = Descriptor::new("o", "BOOL").unwrap().with_size(1).with_content(group, offset);
     let wanted = ReadObject::new(group, offset, 1).unwrap();
-    assert_eq!(ReadObject::for_descriptor(&object).unwrap(), wanted);
-    assert_eq!(ReadObject::for_descriptor(object.as_ref()).unwrap(), wanted);
+    assert_eq!(ReadObject::of(&object).unwrap(), wanted);
+    assert_eq!(ReadObject::of(object.as_ref()).unwrap(), wanted);
     let items = [object.as_ref(), object.as_ref()];
-    assert!(items.iter().all(|item| ReadObject::for_descriptor(item).unwrap() == wanted));
+    assert!(items.iter().all(|item| ReadObject::of(item).unwrap() == wanted));
 }
 
 /// What sections 4.3.6, 4.3.7 and 4.3.11 print; SGN32 and REAL64 are assumed.

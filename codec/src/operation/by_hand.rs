@@ -172,7 +172,7 @@ impl ReadObject {
     /// # let data = object.encode(&mut data)?;
     /// let list = Channel::new(1)?;
     /// for object in ReadDescriptors::new(list, 1, n)?.decode_reply(data)?.iter() {
-    ///     let op = ReadObject::for_descriptor(&object)?;
+    ///     let op = ReadObject::of(&object)?;
     ///     assert_eq!((op.index_offset().get(), op.read_length()), (3, 1));
     /// }
     /// # Ok::<(), ads_cnc::Error>(())
@@ -180,7 +180,7 @@ impl ReadObject {
     ///
     /// # Errors
     /// Those of [`new`](Self::new).
-    pub fn for_descriptor<'d>(object: impl Into<DescriptorRef<'d>>) -> Result<Self, Error> {
+    pub fn of<'d>(object: impl Into<DescriptorRef<'d>>) -> Result<Self, Error> {
         let object = object.into();
         Self::new(object.index_group(), object.index_offset(), object.size())
     }
@@ -206,7 +206,7 @@ impl<'a> WriteObject<'a> {
     ///
     /// # Errors
     /// Those of [`new`](Self::new).
-    pub fn for_descriptor<'d>(
+    pub fn of<'d>(
         object: impl Into<DescriptorRef<'d>>,
         content: impl Into<WriteValue<'a>>,
     ) -> Result<Self, Error> {

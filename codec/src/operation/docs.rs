@@ -59,6 +59,33 @@ macro_rules! documented {
         /// assert_eq!(op.encode(&mut [0; 260])?, b"\x02\0\0\0V.E\0");
         /// # Ok::<(), ads_cnc::Error>(())
         /// ```
+        ///
+        /// A reply borrows from the bytes received; `to_owned` keeps it:
+        ///
+        /// ```
+        /// # #[cfg(feature = "alloc")] {
+        /// use ads_cnc::address::Channel;
+        /// use ads_cnc::operation::{DescribeByIndex, Operation};
+        /// use ads_cnc::{Description, Error, Kind};
+        ///
+        /// # let n = 3;
+        /// # let call = |op: &DescribeByIndex<'_>, buf: &mut Vec<u8>| -> Result<(), Error> {
+        /// #     *buf = format!("\x02\0\0\x02\x06\0\0\0\x01\0\0\0\x04\0\0\0\0\0\0\0V.E.v{}\0", op.index).into();
+        /// #     Ok(())
+        /// # };
+        /// let channel = Channel::new(1)?;
+        /// let mut buf = Vec::new();
+        /// let all: Vec<Description> = (0..n)
+        ///     .map(|index| {
+        ///         let op = DescribeByIndex::new(channel, index, Kind::V_E);
+        ///         call(&op, &mut buf)?;
+        ///         Ok(op.decode_reply(&buf)?.to_owned())
+        ///     })
+        ///     .collect::<Result<_, Error>>()?;
+        /// assert_eq!(all[2].name.text, "V.E.v2");
+        /// # }
+        /// # Ok::<(), ads_cnc::Error>(())
+        /// ```
         $($item)+
     };
     (HandleByName $($item:tt)+) => {
@@ -449,7 +476,7 @@ macro_rules! documented {
         /// let object = Descriptor::new("mc_active_single_block_r", "BOOL")?
         ///     .with_size(1)
         ///     .with_content(IndexGroup::new(0x12_0101), IndexOffset::new(3));
-        /// let op = ReadObject::for_descriptor(&object)?;
+        /// let op = ReadObject::of(&object)?;
         /// assert_eq!((op.index_group().get(), op.index_offset().get()), (0x12_0101, 3));
         /// assert_eq!(op.decode_reply(&[1])?.bytes, [1]);
         /// # Ok::<(), ads_cnc::Error>(())

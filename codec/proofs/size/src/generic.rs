@@ -67,9 +67,9 @@ pub(crate) mod operations {
         write_object(group: IndexGroup, offset: IndexOffset, content: &'a [u8])
             -> Result<operation::WriteObject<'a>, Error> = operation::WriteObject::new;
         read_object_of(object: DescriptorRef<'a>)
-            -> Result<operation::ReadObject, Error> = operation::ReadObject::for_descriptor;
+            -> Result<operation::ReadObject, Error> = operation::ReadObject::of;
         write_object_of(object: DescriptorRef<'a>, content: &'a [u8])
-            -> Result<operation::WriteObject<'a>, Error> = operation::WriteObject::for_descriptor;
+            -> Result<operation::WriteObject<'a>, Error> = operation::WriteObject::of;
     }
 }
 

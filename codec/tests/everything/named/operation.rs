@@ -74,10 +74,7 @@ pub(super) fn makers(bytes: &[u8]) -> Result<(), Error> {
         seen((operation::WriteObject::address(&op), operation::WriteObject::content(&op)));
     }
     if let Ok(object) = DescriptorRef::decode(bytes) {
-        seen((
-            operation::ReadObject::for_descriptor(object),
-            operation::WriteObject::for_descriptor(object, any(true)),
-        ));
+        seen((operation::ReadObject::of(object), operation::WriteObject::of(object, any(true))));
     }
     arguments(channel, handle, bytes)?;
     elements(ElementAddress::for_channel(channel, any(address::Class::Hld), any(1))?, bytes);
