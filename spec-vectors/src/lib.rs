@@ -41,8 +41,8 @@ pub use catalogue::{
 };
 pub use hex::Hex;
 pub use load::{
-    Catalogue, LoadError, VERSION, catalogue, clause, documents, errata, erratum, requirement,
-    requirements, sequence, sequences, vector, vectors,
+    Catalogue, LoadError, VERSION, catalogue, clause, documents, errata, erratum, is_requirement,
+    requirement, requirements, sequence, sequences, vector, vectors,
 };
 pub use sequence::{
     ExternalService, FillPiece, Given, HexPiece, Piece, Pieces, Sequence, SequenceAccept,

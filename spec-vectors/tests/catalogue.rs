@@ -1,7 +1,8 @@
 //! What requirements and errata say of their places and of their vectors is so.
 
 use ads_cnc_vectors::{
-    Basis, Observable, Requirement, documents, errata, requirement, requirements, vectors,
+    Basis, Observable, Requirement, documents, errata, is_requirement, requirement, requirements,
+    vectors,
 };
 use std::collections::BTreeSet;
 
@@ -16,6 +17,15 @@ fn every_area_is_there() {
     let areas: BTreeSet<&str> = requirements().iter().map(|r| r.area.as_str()).collect();
     let all = ["ADR", "ADS", "COM", "DYN", "GEN", "OBJ", "SDA", "STM", "SVC", "VAR"];
     assert_eq!(areas, BTreeSet::from(all));
+}
+
+/// What the build script reads line by line is what the JSON has.
+#[test]
+fn ids_known_to_the_compiler_are_those_of_the_requirements() {
+    assert!(requirements().iter().all(|one| is_requirement(&one.id)));
+    let parts = requirements().iter().flat_map(|one| &one.parts);
+    assert!(parts.map(|part| &part.id).all(|id| !is_requirement(id)));
+    assert!(["", "V", "VAR-", "VAR-0", "VAR-70"].iter().all(|id| !is_requirement(id)));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use ads_cnc_vectors::{Sequence, Vector};
+use ads_cnc_vectors::{Sequence, Vector, is_requirement};
 use serde::{Deserialize, Serialize};
 
 /// One thing the suite tries.
@@ -108,4 +108,15 @@ pub enum Body {
     Client,
     /// By looking through traffic of others.
     Traffic,
+}
+
+/// The IDs, each of which the catalogue has; a table with another does not compile.
+#[allow(clippy::panic, reason = "runs when a table is compiled")]
+pub(crate) const fn in_catalogue(ids: &'static [&'static str]) -> &'static [&'static str] {
+    let mut rest = ids;
+    while let [id, others @ ..] = rest {
+        assert!(is_requirement(id), "no requirement has this ID");
+        rest = others;
+    }
+    ids
 }

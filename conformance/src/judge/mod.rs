@@ -11,6 +11,7 @@ mod vectors;
 mod verdict;
 mod waivers;
 
+pub(crate) use case::in_catalogue;
 pub use case::{Body, Case, Needs, Subject};
 pub(crate) use check::{Checks, Record, TEXT_MAX};
 pub use check::{Judgement, Rule, Step, Stop, assumed, online};

@@ -10,81 +10,34 @@ use ads_cnc_vectors::Hex;
 
 use super::probe::{Probe, harness};
 use super::survey::KINDS;
-use super::{Declared, declare};
-use crate::judge::{Record, Rule, Step, Stop, assumed, online};
+use super::{Row, case};
+use crate::judge::{Needs, Record, Rule, Step, Stop, assumed, online};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "adr-com-object-access",
-            "Each channel's object list is at 0x130100 + channel, on the port of COM",
-            ["ADR-1", "ADR-3", "ADR-4", "GEN-4"],
-            Queries,
-            com_object_access
-        ),
-        declare!(
-            "adr-decoder-group",
-            "Each channel's variables are at 0x122300 + channel, on the port of SDA",
-            ["ADR-1", "ADR-5", "GEN-4", "GEN-6"],
-            Queries,
-            decoder_group
-        ),
-        declare!(
-            "adr-logical-and-by-index",
-            "A channel answers the same by its number and by its rank",
-            ["ADR-1", "ADR-12"],
-            Queries,
-            logical_and_by_index
-        ),
-        declare!(
-            "adr-rank-among-active",
-            "By index, channels are counted without gaps",
-            ["ADR-11"],
-            Queries,
-            rank_among_active
-        ),
-        declare!(
-            "adr-rank-after-deactivation",
-            "When a channel is deactivated, those behind it move up by index, and not logically",
-            ["ADR-11"],
-            Embedded,
-            rank_after_deactivation
-        ),
-        declare!(
-            "adr-geo-answers-too",
-            "GEO and SDA both answer for a class of the CNC",
-            ["ADR-10"],
-            Malformed,
-            geo_answers_too
-        ),
-        declare!(
-            "adr-absent-channel",
-            "A channel that is not configured is answered by an error",
-            ["ADS-4"],
-            Queries,
-            absent_channel
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("adr-com-object-access", &["ADR-1", "ADR-3", "ADR-4", "GEN-4"], Needs::Queries, com_object_access,
+        "Each channel's object list is at 0x130100 + channel, on the port of COM"),
+    case("adr-decoder-group", &["ADR-1", "ADR-5", "GEN-4", "GEN-6"], Needs::Queries, decoder_group,
+        "Each channel's variables are at 0x122300 + channel, on the port of SDA"),
+    case("adr-logical-and-by-index", &["ADR-1", "ADR-12"], Needs::Queries, logical_and_by_index,
+        "A channel answers the same by its number and by its rank"),
+    case("adr-rank-among-active", &["ADR-11"], Needs::Queries, rank_among_active,
+        "By index, channels are counted without gaps"),
+    case("adr-rank-after-deactivation", &["ADR-11"], Needs::Embedded, rank_after_deactivation,
+        "When a channel is deactivated, those behind it move up by index, and not logically"),
+    case("adr-geo-answers-too", &["ADR-10"], Needs::Malformed, geo_answers_too,
+        "GEO and SDA both answer for a class of the CNC"),
+    case("adr-absent-channel", &["ADS-4"], Needs::Queries, absent_channel,
+        "A channel that is not configured is answered by an error"),
+];
 
-pub(super) fn frame_cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "ads-every-frame",
-            "Every frame of this run has the header and the length its request asks for",
-            ["ADS-1", "ADS-2", "ADS-3", "ADS-4", "ADS-5"],
-            Frames,
-            every_frame
-        ),
-        declare!(
-            "ads-every-refusal",
-            "What was refused in this run was refused by an error number",
-            ["ADS-6", "ADS-7"],
-            Frames,
-            every_refusal
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const FRAME_CASES: &[Row] = &[
+    case("ads-every-frame", &["ADS-1", "ADS-2", "ADS-3", "ADS-4", "ADS-5"], Needs::Frames, every_frame,
+        "Every frame of this run has the header and the length its request asks for"),
+    case("ads-every-refusal", &["ADS-6", "ADS-7"], Needs::Frames, every_refusal,
+        "What was refused in this run was refused by an error number"),
+];
 
 fn com_object_access(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {

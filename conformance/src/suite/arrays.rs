@@ -6,34 +6,18 @@ use ads_cnc::operation::{ReadByHandle, ReadByName};
 use super::layout::{brackets, element_name};
 use super::probe::Probe;
 use super::values::{each, each_array};
-use super::{Declared, declare};
-use crate::judge::{Step, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Step, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "val-array-has-elements",
-            "An array has the elements that its dimensions say, up to the last of each",
-            ["VAR-4", "VAR-7"],
-            Queries,
-            array_has_elements
-        ),
-        declare!(
-            "val-index-out-of-bounds",
-            "An index that the array does not have is answered by an error",
-            ["VAR-11", "VAR-20"],
-            Queries,
-            index_out_of_bounds
-        ),
-        declare!(
-            "val-number-of-indices",
-            "Neither too few nor too many indices address anything",
-            ["VAR-11"],
-            Queries,
-            number_of_indices
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("val-array-has-elements", &["VAR-4", "VAR-7"], Needs::Queries, array_has_elements,
+        "An array has the elements that its dimensions say, up to the last of each"),
+    case("val-index-out-of-bounds", &["VAR-11", "VAR-20"], Needs::Queries, index_out_of_bounds,
+        "An index that the array does not have is answered by an error"),
+    case("val-number-of-indices", &["VAR-11"], Needs::Queries, number_of_indices,
+        "Neither too few nor too many indices address anything"),
+];
 
 /// A place with another index in one dimension.
 fn with(place: &[u32], axis: usize, index: u32) -> Vec<u32> {

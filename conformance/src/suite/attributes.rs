@@ -11,34 +11,18 @@ use ads_cnc::sda::{ElementLength, ElementText};
 use super::addresses::Addresses;
 use super::probe::Probe;
 use super::still::Still;
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "adr-attributes",
-            "Type and length of an element are what their groups say",
-            ["ADR-6"],
-            Queries,
-            attributes
-        ),
-        declare!(
-            "adr-attributes-by-index",
-            "By number and by rank of the channel, an element has the same attributes",
-            ["ADR-1", "ADR-12"],
-            Queries,
-            by_index
-        ),
-        declare!(
-            "adr-attributes-within",
-            "Each group has the attribute that the CNC has within",
-            ["ADR-6"],
-            Embedded,
-            within
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("adr-attributes", &["ADR-6"], Needs::Queries, attributes,
+        "Type and length of an element are what their groups say"),
+    case("adr-attributes-by-index", &["ADR-1", "ADR-12"], Needs::Queries, by_index,
+        "By number and by rank of the channel, an element has the same attributes"),
+    case("adr-attributes-within", &["ADR-6"], Needs::Embedded, within,
+        "Each group has the attribute that the CNC has within"),
+];
 
 /// The manual's names of types.
 fn is_type(name: &str) -> bool {

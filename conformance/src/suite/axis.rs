@@ -13,41 +13,20 @@ use super::axis_interface::{self, PLACES_MAX, answering};
 use super::probe::{Probe, harness};
 use super::still::Still;
 use super::variable::name_of;
-use super::{Declared, declare};
-use crate::judge::{Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "axis-handles",
-            "On the axis interface a name has the handle that its place is described with",
-            ["VAR-10", "VAR-26", "ADR-7", "GEN-6"],
-            Queries,
-            handles
-        ),
-        declare!(
-            "axis-values",
-            "On the axis interface a name reads what it reads with the axis behind it",
-            ["VAR-10", "VAR-26"],
-            Queries,
-            values
-        ),
-        declare!(
-            "axis-unknown",
-            "What no axis has is answered by an error on the axis interface",
-            ["VAR-26", "ADS-4"],
-            Queries,
-            unknown
-        ),
-        declare!(
-            "axis-zero",
-            "At axis 0 the offsets of the axis interface are other functions",
-            ["VAR-26"],
-            Malformed,
-            zero
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("axis-handles", &["VAR-10", "VAR-26", "ADR-7", "GEN-6"], Needs::Queries, handles,
+        "On the axis interface a name has the handle that its place is described with"),
+    case("axis-values", &["VAR-10", "VAR-26"], Needs::Queries, values,
+        "On the axis interface a name reads what it reads with the axis behind it"),
+    case("axis-unknown", &["VAR-26", "ADS-4"], Needs::Queries, unknown,
+        "What no axis has is answered by an error on the axis interface"),
+    case("axis-zero", &["VAR-26"], Needs::Malformed, zero,
+        "At axis 0 the offsets of the axis interface are other functions"),
+];
 
 /// The axis variables of a channel as described, with their names on the axis interface.
 pub(super) fn described(

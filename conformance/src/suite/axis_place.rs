@@ -13,41 +13,20 @@ use super::axis::{described, names};
 use super::axis_interface::{At, answering};
 use super::probe::{Probe, harness};
 use super::variable::name_of;
-use super::{Declared, declare};
-use crate::judge::{Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "axis-places",
-            "Every axis with variables is at a place, counted from 1, and at no other",
-            ["VAR-10", "VAR-26", "GEN-6"],
-            Queries,
-            places
-        ),
-        declare!(
-            "axis-place-too-far",
-            "The axis index takes 16 bits, and no place is another's",
-            ["VAR-26"],
-            Malformed,
-            too_far
-        ),
-        declare!(
-            "axis-reserved",
-            "The reserved offsets of the axis interface are no functions",
-            ["VAR-26"],
-            Malformed,
-            reserved
-        ),
-        declare!(
-            "axis-variables-exchanged",
-            "Name and handle of a place mean whichever axis is there",
-            ["VAR-10", "VAR-26"],
-            Embedded,
-            exchanged
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("axis-places", &["VAR-10", "VAR-26", "GEN-6"], Needs::Queries, places,
+        "Every axis with variables is at a place, counted from 1, and at no other"),
+    case("axis-place-too-far", &["VAR-26"], Needs::Malformed, too_far,
+        "The axis index takes 16 bits, and no place is another's"),
+    case("axis-reserved", &["VAR-26"], Needs::Malformed, reserved,
+        "The reserved offsets of the axis interface are no functions"),
+    case("axis-variables-exchanged", &["VAR-10", "VAR-26"], Needs::Embedded, exchanged,
+        "Name and handle of a place mean whichever axis is there"),
+];
 
 fn places(probe: &mut Probe<'_>) -> Step {
     let mut any = false;

@@ -8,48 +8,22 @@ use ads_cnc::{Decode, DescriptorRef, Descriptors, DescriptorsRef, ObjectCount};
 
 use super::inventory::OBJECTS_MAX;
 use super::probe::{Probe, harness};
-use super::{Declared, declare};
-use crate::judge::{Checks, Step, Stop, assumed, online};
+use super::{Row, case};
+use crate::judge::{Checks, Needs, Step, Stop, assumed, online};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "com-count",
-            "Offset 0 gives the number of objects, and the last of them is there",
-            ["COM-1", "COM-2"],
-            Queries,
-            count
-        ),
-        declare!(
-            "com-descriptors",
-            "Every object has a descriptor of 84 bytes that makes sense",
-            ["COM-2", "COM-5", "GEN-5"],
-            Queries,
-            descriptors
-        ),
-        declare!(
-            "com-descriptors-in-sequence",
-            "A read of k × 84 bytes gives k descriptors, the same as k reads",
-            ["COM-3"],
-            Queries,
-            in_sequence
-        ),
-        declare!(
-            "com-end-of-list",
-            "Reading beyond the last object gives what there is, or an error",
-            ["COM-2", "COM-3"],
-            Queries,
-            end_of_list
-        ),
-        declare!(
-            "com-odd-length",
-            "A read length that is no multiple of 84 gives one descriptor",
-            ["COM-3"],
-            Queries,
-            odd_length
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("com-count", &["COM-1", "COM-2"], Needs::Queries, count,
+        "Offset 0 gives the number of objects, and the last of them is there"),
+    case("com-descriptors", &["COM-2", "COM-5", "GEN-5"], Needs::Queries, descriptors,
+        "Every object has a descriptor of 84 bytes that makes sense"),
+    case("com-descriptors-in-sequence", &["COM-3"], Needs::Queries, in_sequence,
+        "A read of k × 84 bytes gives k descriptors, the same as k reads"),
+    case("com-end-of-list", &["COM-2", "COM-3"], Needs::Queries, end_of_list,
+        "Reading beyond the last object gives what there is, or an error"),
+    case("com-odd-length", &["COM-3"], Needs::Queries, odd_length,
+        "A read length that is no multiple of 84 gives one descriptor"),
+];
 
 /// Asks for descriptors and takes at most as many as were asked for.
 fn read(

@@ -9,22 +9,17 @@ use ads_cnc_vectors::Hex;
 
 use super::probe::Probe;
 use super::survey::VARIABLES_MAX;
-use super::{Declared, declare};
-use crate::judge::Step;
+use super::{Row, case};
+use crate::judge::{Needs, Step};
 use crate::simulator::Configured;
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![declare!(
-        "var-as-configured",
-        "V.E and V.G are described, and what is READ_ONLY is read, as they are configured",
-        [
-            "VAR-2", "VAR-3", "VAR-4", "VAR-5", "VAR-6", "VAR-7", "VAR-8", "VAR-14", "VAR-15",
-            "VAR-16"
-        ],
-        Embedded,
-        as_configured
-    )]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("var-as-configured",
+        &["VAR-2", "VAR-3", "VAR-4", "VAR-5", "VAR-6", "VAR-7", "VAR-8", "VAR-14", "VAR-15", "VAR-16"],
+        Needs::Embedded, as_configured,
+        "V.E and V.G are described, and what is READ_ONLY is read, as they are configured"),
+];
 
 fn as_configured(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;

@@ -10,55 +10,24 @@ use ads_cnc_vectors::Hex;
 use super::inventory::{OBJECTS_MAX, Object};
 use super::probe::{Probe, harness};
 use super::still::Still;
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "com-content",
-            "Every object is read where its descriptor says, in the size it says",
-            ["COM-2", "COM-5", "GEN-5"],
-            Queries,
-            content
-        ),
-        declare!(
-            "com-content-by-index",
-            "By number and by rank of the channel, an object has the same content",
-            ["ADR-1", "ADR-12"],
-            Queries,
-            content_by_index
-        ),
-        declare!(
-            "com-content-room",
-            "With more room than it needs a content has no more bytes than its descriptor says",
-            ["COM-2", "COM-5"],
-            Queries,
-            room
-        ),
-        declare!(
-            "com-places",
-            "No two objects of a list are at one place",
-            ["COM-2", "COM-5"],
-            Queries,
-            places
-        ),
-        declare!(
-            "com-read-lengths",
-            "A read length that does not hold a content is answered by an error",
-            ["ADS-1"],
-            Malformed,
-            read_lengths
-        ),
-        declare!(
-            "obj-everything",
-            "Everything that is counted can be listed, each thing once",
-            ["OBJ-1"],
-            Queries,
-            everything
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("com-content", &["COM-2", "COM-5", "GEN-5"], Needs::Queries, content,
+        "Every object is read where its descriptor says, in the size it says"),
+    case("com-content-by-index", &["ADR-1", "ADR-12"], Needs::Queries, content_by_index,
+        "By number and by rank of the channel, an object has the same content"),
+    case("com-content-room", &["COM-2", "COM-5"], Needs::Queries, room,
+        "With more room than it needs a content has no more bytes than its descriptor says"),
+    case("com-places", &["COM-2", "COM-5"], Needs::Queries, places,
+        "No two objects of a list are at one place"),
+    case("com-read-lengths", &["ADS-1"], Needs::Malformed, read_lengths,
+        "A read length that does not hold a content is answered by an error"),
+    case("obj-everything", &["OBJ-1"], Needs::Queries, everything,
+        "Everything that is counted can be listed, each thing once"),
+];
 
 /// The read of an object's content; none of the program stream, of which no read is documented.
 pub(super) fn read_of(object: &Object) -> Option<ReadObject> {

@@ -10,43 +10,22 @@ use ads_cnc::{
 use super::probe::{Probe, harness};
 use super::survey::{KINDS, VARIABLES_MAX};
 use super::variable::name_of;
-use super::{Declared, declare};
+use super::{Row, case};
 use crate::edition::Feature;
-use crate::judge::{Rule, Step, Stop, assumed, online};
+use crate::judge::{Needs, Rule, Step, Stop, assumed, online};
 use crate::profile::Claim;
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "var-extended-descriptions",
-            "Every V.E has an extended description; V.G and V.A are answered by nothing",
-            ["VAR-15", "VAR-16"],
-            Queries,
-            extended
-        ),
-        declare!(
-            "var-extended-beyond-last",
-            "The index behind the last has no extended description",
-            ["VAR-3"],
-            Queries,
-            extended_beyond
-        ),
-        declare!(
-            "var-described-by-name",
-            "By its name a variable is described as by its index",
-            ["VAR-28"],
-            Queries,
-            described_by_name
-        ),
-        declare!(
-            "var-unknown-described",
-            "A name nobody has is described by an error",
-            ["VAR-28"],
-            Queries,
-            unknown_described
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("var-extended-descriptions", &["VAR-15", "VAR-16"], Needs::Queries, extended,
+        "Every V.E has an extended description; V.G and V.A are answered by nothing"),
+    case("var-extended-beyond-last", &["VAR-3"], Needs::Queries, extended_beyond,
+        "The index behind the last has no extended description"),
+    case("var-described-by-name", &["VAR-28"], Needs::Queries, described_by_name,
+        "By its name a variable is described as by its index"),
+    case("var-unknown-described", &["VAR-28"], Needs::Queries, unknown_described,
+        "A name nobody has is described by an error"),
+];
 
 /// The kinds that the target lists.
 pub(super) fn kinds(probe: &Probe<'_>) -> Vec<(&'static str, Kind<'static>)> {

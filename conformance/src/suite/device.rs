@@ -4,37 +4,21 @@ use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;
 
 use super::probe::Probe;
-use super::{Declared, declare};
+use super::{Row, case};
 use crate::client::{Inquired, Inquiry, Said};
-use crate::judge::{Evidence, Step};
+use crate::judge::{Evidence, Needs, Step};
 use crate::simulator;
 use crate::values::until_nul;
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "ads-device-info",
-            "Each task says the name and version of its device",
-            ["ADS-8"],
-            Queries,
-            device_info
-        ),
-        declare!(
-            "ads-device-state",
-            "Each task says the state it is in",
-            ["ADS-9"],
-            Queries,
-            device_state
-        ),
-        declare!(
-            "ads-device-as-it-is",
-            "The embedded CNC's name, version and state are its own",
-            ["ADS-8", "ADS-9"],
-            Embedded,
-            as_it_is
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("ads-device-info", &["ADS-8"], Needs::Queries, device_info,
+        "Each task says the name and version of its device"),
+    case("ads-device-state", &["ADS-9"], Needs::Queries, device_state,
+        "Each task says the state it is in"),
+    case("ads-device-as-it-is", &["ADS-8", "ADS-9"], Needs::Embedded, as_it_is,
+        "The embedded CNC's name, version and state are its own"),
+];
 
 impl Probe<'_> {
     /// Asks a task what it says of itself, and keeps it as the evidence of the checks that follow.

@@ -14,55 +14,25 @@ use super::inventory::{Instance, OF_PLACES, number_of};
 use super::probe::{Probe, harness};
 use super::sda::{length_of, type_and_length};
 use super::still::Still;
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "sda-elements",
-            "The first element says how many follow, and whose they are; then the list ends",
-            ["SDA-4", "ADR-6"],
-            Queries,
-            elements
-        ),
-        declare!(
-            "sda-first-element",
-            "The first element has the attributes of an element, and its length is that of the number",
-            ["SDA-4", "SDA-8"],
-            Queries,
-            first_element
-        ),
-        declare!(
-            "sda-attributes",
-            "Every element has a name, a type, a length, a unit and a write flag that make sense",
-            ["SDA-4", "SDA-6", "SDA-7", "SDA-8", "SDA-9", "ADR-6", "GEN-3", "GEN-5"],
-            Queries,
-            attributes
-        ),
-        declare!(
-            "sda-content",
-            "The content of an element has the length it says, and a value its type has",
-            ["SDA-8", "ADR-6", "GEN-5"],
-            Queries,
-            content
-        ),
-        declare!(
-            "sda-content-by-index",
-            "By number and by rank of the channel, an element has the same content and attributes",
-            ["ADR-1", "ADR-12"],
-            Queries,
-            content_by_index
-        ),
-        declare!(
-            "sda-read-lengths",
-            "A read length that does not hold the answer is answered by an error",
-            ["ADS-1"],
-            Malformed,
-            read_lengths
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("sda-elements", &["SDA-4", "ADR-6"], Needs::Queries, elements,
+        "The first element says how many follow, and whose they are; then the list ends"),
+    case("sda-first-element", &["SDA-4", "SDA-8"], Needs::Queries, first_element,
+        "The first element has the attributes of an element, and its length is that of the number"),
+    case("sda-attributes", &["SDA-4", "SDA-6", "SDA-7", "SDA-8", "SDA-9", "ADR-6", "GEN-3", "GEN-5"],
+        Needs::Queries, attributes,
+        "Every element has a name, a type, a length, a unit and a write flag that make sense"),
+    case("sda-content", &["SDA-8", "ADR-6", "GEN-5"], Needs::Queries, content,
+        "The content of an element has the length it says, and a value its type has"),
+    case("sda-content-by-index", &["ADR-1", "ADR-12"], Needs::Queries, content_by_index,
+        "By number and by rank of the channel, an element has the same content and attributes"),
+    case("sda-read-lengths", &["ADS-1"], Needs::Malformed, read_lengths,
+        "A read length that does not hold the answer is answered by an error"),
+];
 
 /// Reads an attribute: an answer speaks for its stream, and for its group.
 fn attribute<T>(

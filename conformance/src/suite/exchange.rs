@@ -7,18 +7,14 @@ use super::content::read_of;
 use super::inventory::OF_PLACES;
 use super::probe::{Probe, harness};
 use super::sda::length_of;
-use super::{Declared, declare};
-use crate::judge::{Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![declare!(
-        "axis-exchange",
-        "An axis takes its values along to another place; the platform's place stays",
-        ["ADR-13", "SDA-13", "VAR-10"],
-        Embedded,
-        exchange
-    )]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("axis-exchange", &["ADR-13", "SDA-13", "VAR-10"], Needs::Embedded, exchange,
+        "An axis takes its values along to another place; the platform's place stays"),
+];
 
 /// A content, if it stands still: an axis may move where it is, from one place to another or not.
 type Content = Option<Vec<u8>>;

@@ -14,62 +14,26 @@ use ads_cnc_vectors::Hex;
 use super::addresses::Addresses;
 use super::probe::{Probe, harness};
 use super::variable::name_of;
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop, assumed, online};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop, assumed, online};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "gen-ports-answer",
-            "At each port that is claimed a task is",
-            ["GEN-4"],
-            Queries,
-            ports_answer
-        ),
-        declare!(
-            "gen-tasks-apart",
-            "A task answers at its own port, and not at another's",
-            ["GEN-4"],
-            Malformed,
-            tasks_apart
-        ),
-        declare!(
-            "gen-type-sizes",
-            "A variable takes the bytes of its type for each of its elements",
-            ["GEN-5"],
-            Queries,
-            type_sizes
-        ),
-        declare!(
-            "gen-numbering",
-            "Channels are counted from 1, spindles from 0",
-            ["GEN-6", "ADR-2"],
-            Queries,
-            numbering
-        ),
-        declare!(
-            "gen-no-channel-0",
-            "No channel has the number 0, and none the rank 0; no place of a channel is place 0",
-            ["GEN-6"],
-            Malformed,
-            no_channel_0
-        ),
-        declare!(
-            "gen-names-found",
-            "A name is found by the characters it is described with, those beyond ASCII too",
-            ["GEN-3"],
-            Queries,
-            names_found
-        ),
-        declare!(
-            "gen-names-within",
-            "Names and units are CP1252, as the CNC has them within",
-            ["GEN-3"],
-            Embedded,
-            names_within
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("gen-ports-answer", &["GEN-4"], Needs::Queries, ports_answer,
+        "At each port that is claimed a task is"),
+    case("gen-tasks-apart", &["GEN-4"], Needs::Malformed, tasks_apart,
+        "A task answers at its own port, and not at another's"),
+    case("gen-type-sizes", &["GEN-5"], Needs::Queries, type_sizes,
+        "A variable takes the bytes of its type for each of its elements"),
+    case("gen-numbering", &["GEN-6", "ADR-2"], Needs::Queries, numbering,
+        "Channels are counted from 1, spindles from 0"),
+    case("gen-no-channel-0", &["GEN-6"], Needs::Malformed, no_channel_0,
+        "No channel has the number 0, and none the rank 0; no place of a channel is place 0"),
+    case("gen-names-found", &["GEN-3"], Needs::Queries, names_found,
+        "A name is found by the characters it is described with, those beyond ASCII too"),
+    case("gen-names-within", &["GEN-3"], Needs::Embedded, names_within,
+        "Names and units are CP1252, as the CNC has them within"),
+];
 
 /// That nobody is at a port that is claimed; what its task answers is judged elsewhere.
 fn ports_answer(probe: &mut Probe<'_>) -> Step {

@@ -10,42 +10,21 @@ use ads_cnc_vectors::Hex;
 use super::probe::{Probe, harness};
 use super::still::Still;
 use super::variable::name_of;
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        // The first that asks for values: no handle has been asked for by name before.
-        declare!(
-            "var-described-handle",
-            "A description has the name and the handle that the variable is read by",
-            ["VAR-4", "VAR-9", "VAR-10"],
-            Queries,
-            described
-        ),
-        declare!(
-            "var-handle-by-name",
-            "A name's handle is the one in its description, and no other's",
-            ["VAR-9", "VAR-10"],
-            Queries,
-            by_name
-        ),
-        declare!(
-            "var-handle-stays",
-            "A handle keeps its variable, whatever else is asked, read or refused meanwhile",
-            ["VAR-10"],
-            Queries,
-            stays
-        ),
-        declare!(
-            "val-unknown-handle",
-            "A handle nobody has is answered by an error",
-            ["ADS-4", "VAR-11"],
-            Malformed,
-            unknown
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    // The first that asks for values: no handle has been asked for by name before.
+    case("var-described-handle", &["VAR-4", "VAR-9", "VAR-10"], Needs::Queries, described,
+        "A description has the name and the handle that the variable is read by"),
+    case("var-handle-by-name", &["VAR-9", "VAR-10"], Needs::Queries, by_name,
+        "A name's handle is the one in its description, and no other's"),
+    case("var-handle-stays", &["VAR-10"], Needs::Queries, stays,
+        "A handle keeps its variable, whatever else is asked, read or refused meanwhile"),
+    case("val-unknown-handle", &["ADS-4", "VAR-11"], Needs::Malformed, unknown,
+        "A handle nobody has is answered by an error"),
+];
 
 pub(super) fn whole(channel: Channel, handle: Handle) -> ReadByHandle<'static> {
     ReadByHandle::new(channel, handle, U32List::EMPTY)

@@ -9,41 +9,25 @@ use super::inventory::Object;
 use super::numbers::is_permuted;
 use super::place::{self, Place};
 use super::probe::Probe;
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop};
 use crate::simulator::{Held, Holder};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "held-is-read",
-            "What the CNC holds is read at the address of what holds it, the lowest byte first",
-            [
-                "ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-4",
-                "COM-5", "GEN-1", "GEN-6"
-            ],
-            Embedded,
-            is_read
-        ),
-        declare!(
-            "written-is-held",
-            "What is written is held by what has the address, and by nothing else",
-            [
-                "ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-5",
-                "GEN-1", "GEN-6"
-            ],
-            Embedded,
-            is_held
-        ),
-        declare!(
-            "held-is-described",
-            "All that the CNC holds is in its list, an object with its own name and size",
-            ["COM-2", "OBJ-1"],
-            Embedded,
-            is_described
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("held-is-read",
+        &["ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-4", "COM-5",
+            "GEN-1", "GEN-6"],
+        Needs::Embedded, is_read,
+        "What the CNC holds is read at the address of what holds it, the lowest byte first"),
+    case("written-is-held",
+        &["ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-5", "GEN-1",
+            "GEN-6"],
+        Needs::Embedded, is_held,
+        "What is written is held by what has the address, and by nothing else"),
+    case("held-is-described", &["COM-2", "OBJ-1"], Needs::Embedded, is_described,
+        "All that the CNC holds is in its list, an object with its own name and size"),
+];
 
 /// Rounds of values: enough to give each content of one bit another sequence of them.
 const ROUNDS: u32 = 6;

@@ -10,34 +10,18 @@ use ads_cnc_vectors::Hex;
 
 use super::probe::{Probe, harness};
 use super::variable::name_of;
-use super::{Declared, declare};
-use crate::judge::{Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "var-unknown-name",
-            "A name nobody has is answered by an error",
-            ["ADS-4", "VAR-9", "VAR-10"],
-            Queries,
-            unknown_name
-        ),
-        declare!(
-            "var-similar-name",
-            "A name with another character or index is not the variable's",
-            ["VAR-9", "VAR-20"],
-            Queries,
-            similar_name
-        ),
-        declare!(
-            "var-known-types",
-            "Variables whose type is documented have its number",
-            ["VAR-5"],
-            Queries,
-            known_types
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("var-unknown-name", &["ADS-4", "VAR-9", "VAR-10"], Needs::Queries, unknown_name,
+        "A name nobody has is answered by an error"),
+    case("var-similar-name", &["VAR-9", "VAR-20"], Needs::Queries, similar_name,
+        "A name with another character or index is not the variable's"),
+    case("var-known-types", &["VAR-5"], Needs::Queries, known_types,
+        "Variables whose type is documented have its number"),
+];
 
 fn unknown_name(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;

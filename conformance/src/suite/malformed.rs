@@ -12,62 +12,26 @@ use ads_cnc::operation::{
 use ads_cnc::{Kind, TextRef, U32List};
 
 use super::probe::{Probe, harness};
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "bad-kind",
-            "A kind with a final dot, without NUL, unknown or too long is answered by an error",
-            ["VAR-1"],
-            Malformed,
-            bad_kind
-        ),
-        declare!(
-            "bad-index-kind",
-            "A request by index that is cut anywhere is answered by an error",
-            ["VAR-3"],
-            Malformed,
-            bad_index_kind
-        ),
-        declare!(
-            "bad-name",
-            "A name without NUL, with bytes behind it or too long is answered by an error",
-            ["VAR-9"],
-            Malformed,
-            bad_name
-        ),
-        declare!(
-            "bad-handle-header",
-            "A handle header that is cut, or whose count lies, is answered by an error",
-            ["VAR-11", "VAR-24"],
-            Malformed,
-            bad_handle_header
-        ),
-        declare!(
-            "bad-address",
-            "An index group, index offset or port that nobody has is answered by an error",
-            ["ADS-4"],
-            Malformed,
-            bad_address
-        ),
-        declare!(
-            "bad-service",
-            "A function is not answered to another service than its own",
-            ["ADS-4"],
-            Malformed,
-            bad_service
-        ),
-        declare!(
-            "bad-read-length",
-            "A read length that does not hold the answer is answered by an error",
-            ["COM-3", "ADS-3"],
-            Malformed,
-            bad_read_length
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("bad-kind", &["VAR-1"], Needs::Malformed, bad_kind,
+        "A kind with a final dot, without NUL, unknown or too long is answered by an error"),
+    case("bad-index-kind", &["VAR-3"], Needs::Malformed, bad_index_kind,
+        "A request by index that is cut anywhere is answered by an error"),
+    case("bad-name", &["VAR-9"], Needs::Malformed, bad_name,
+        "A name without NUL, with bytes behind it or too long is answered by an error"),
+    case("bad-handle-header", &["VAR-11", "VAR-24"], Needs::Malformed, bad_handle_header,
+        "A handle header that is cut, or whose count lies, is answered by an error"),
+    case("bad-address", &["ADS-4"], Needs::Malformed, bad_address,
+        "An index group, index offset or port that nobody has is answered by an error"),
+    case("bad-service", &["ADS-4"], Needs::Malformed, bad_service,
+        "A function is not answered to another service than its own"),
+    case("bad-read-length", &["COM-3", "ADS-3"], Needs::Malformed, bad_read_length,
+        "A read length that does not hold the answer is answered by an error"),
+];
 
 /// A good request, and how it is spoilt.
 struct Spoilt<'p, 's> {

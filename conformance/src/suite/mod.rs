@@ -60,83 +60,90 @@ pub use session::Session;
 pub use undo::Changes;
 pub(crate) use variable::holds_together;
 
-use crate::judge::{Case, Step, codec_cases};
+use crate::judge::{Body, Case, Needs, Step, Subject, codec_cases, in_catalogue};
 
 /// The function that tries a case.
 type Try = fn(&mut Probe<'_>) -> Step;
 
-/// A case and the function that tries it.
-type Declared = (Case, Try);
-
-/// Declares a case.
-macro_rules! declare {
-    ($id:literal, $title:literal, [$($requirement:literal),+], $needs:ident, $body:path) => {
-        (
-            $crate::judge::Case {
-                id: $id.to_owned(),
-                title: $title.to_owned(),
-                subject: $crate::judge::Subject::Target,
-                requirements: vec![$($requirement),+],
-                needs: $crate::judge::Needs::$needs,
-                body: $crate::judge::Body::Probe,
-            },
-            $body as $crate::suite::Try,
-        )
-    };
+/// A case that a function tries.
+struct Row {
+    id: &'static str,
+    clauses: &'static [&'static str],
+    needs: Needs,
+    run: Try,
+    title: &'static str,
 }
 
-pub(crate) use declare;
+/// A row of a table of cases.
+const fn case(
+    id: &'static str,
+    clauses: &'static [&'static str],
+    needs: Needs,
+    run: Try,
+    title: &'static str,
+) -> Row {
+    Row { id, clauses: in_catalogue(clauses), needs, run, title }
+}
+
+/// The cases that a function tries.
+const TABLES: &[&[Row]] = &[
+    address::CASES,
+    services::CASES,
+    attributes::CASES,
+    general::CASES,
+    numbers::CASES,
+    packed::CASES,
+    device::CASES,
+    com::CASES,
+    content::CASES,
+    platform::CASES,
+    held::CASES,
+    sda::CASES,
+    elements::CASES,
+    dynamic::CASES,
+    variable::CASES,
+    handles::CASES,
+    known::CASES,
+    described::CASES,
+    names::CASES,
+    values::CASES,
+    arrays::CASES,
+    configured::CASES,
+    axis::CASES,
+    axis_place::CASES,
+    exchange::CASES,
+    write::CASES,
+    write_elements::CASES,
+    write_refused::CASES,
+    write_sizes::CASES,
+    write_all::CASES,
+    write_texts::CASES,
+    write_content::CASES,
+    write_after::CASES,
+    write_ways::CASES,
+    texts::CASES,
+    stream::CASES,
+    service::CASES,
+    malformed::CASES,
+    address::FRAME_CASES,
+];
+
+fn rows() -> impl Iterator<Item = &'static Row> {
+    TABLES.iter().copied().flatten()
+}
 
 /// Every case. [`Selection::plan`](crate::judge::Selection::plan) puts them in order.
 pub fn cases() -> Vec<Case> {
     let mut cases = codec_cases();
-    cases.extend(declared().into_iter().map(|(case, _)| case));
+    cases.extend(rows().map(|row| Case {
+        id: row.id.to_owned(),
+        title: row.title.to_owned(),
+        subject: Subject::Target,
+        requirements: row.clauses.to_vec(),
+        needs: row.needs,
+        body: Body::Probe,
+    }));
     cases.extend(replay::cases());
     cases.extend(printed::cases());
-    cases
-}
-
-/// Every case that a function tries.
-fn declared() -> Vec<Declared> {
-    let mut cases = address::cases();
-    cases.extend(services::cases());
-    cases.extend(attributes::cases());
-    cases.extend(general::cases());
-    cases.extend(numbers::cases());
-    cases.extend(packed::cases());
-    cases.extend(device::cases());
-    cases.extend(com::cases());
-    cases.extend(content::cases());
-    cases.extend(platform::cases());
-    cases.extend(held::cases());
-    cases.extend(sda::cases());
-    cases.extend(elements::cases());
-    cases.extend(dynamic::cases());
-    cases.extend(variable::cases());
-    cases.extend(handles::cases());
-    cases.extend(known::cases());
-    cases.extend(described::cases());
-    cases.extend(names::cases());
-    cases.extend(values::cases());
-    cases.extend(arrays::cases());
-    cases.extend(configured::cases());
-    cases.extend(axis::cases());
-    cases.extend(axis_place::cases());
-    cases.extend(exchange::cases());
-    cases.extend(write::cases());
-    cases.extend(write_elements::cases());
-    cases.extend(write_refused::cases());
-    cases.extend(write_sizes::cases());
-    cases.extend(write_all::cases());
-    cases.extend(write_texts::cases());
-    cases.extend(write_content::cases());
-    cases.extend(write_after::cases());
-    cases.extend(write_ways::cases());
-    cases.extend(texts::cases());
-    cases.extend(stream::cases());
-    cases.extend(service::cases());
-    cases.extend(malformed::cases());
-    // Judges what all the others exchanged, so it comes last.
-    cases.extend(address::frame_cases());
     cases
 }

@@ -10,44 +10,23 @@ use ads_cnc::{CncString, Decode as _, TextRef, VariablePath, VariableType};
 use super::probe::{Probe, harness};
 use super::still::Still;
 use super::variable::name_of;
-use super::{Declared, declare};
+use super::{Row, case};
 use crate::edition::{Edition, Feature};
-use crate::judge::{Step, Stop, assumed};
+use crate::judge::{Needs, Step, Stop, assumed};
 use crate::profile::Claim;
 use crate::values::until_nul;
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "var-names-are-paths",
-            "Each name is one of structures, indices and the variable in them",
-            ["VAR-20"],
-            Queries,
-            paths
-        ),
-        declare!(
-            "var-by-name-only",
-            "A variable that is by name only is read by its name and has no handle",
-            ["VAR-18"],
-            Queries,
-            by_name_only
-        ),
-        declare!(
-            "var-dynamic-by-name",
-            "V.P, V.L and V.S read the same among the variables as among the parameters",
-            ["VAR-18", "VAR-19"],
-            Queries,
-            dynamic_by_name
-        ),
-        declare!(
-            "var-texts",
-            "A text ends at its first NUL, or with what there is of it",
-            ["VAR-22"],
-            Queries,
-            texts
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("var-names-are-paths", &["VAR-20"], Needs::Queries, paths,
+        "Each name is one of structures, indices and the variable in them"),
+    case("var-by-name-only", &["VAR-18"], Needs::Queries, by_name_only,
+        "A variable that is by name only is read by its name and has no handle"),
+    case("var-dynamic-by-name", &["VAR-18", "VAR-19"], Needs::Queries, dynamic_by_name,
+        "V.P, V.L and V.S read the same among the variables as among the parameters"),
+    case("var-texts", &["VAR-22"], Needs::Queries, texts,
+        "A text ends at its first NUL, or with what there is of it"),
+];
 
 fn paths(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {

@@ -15,34 +15,18 @@ use super::described::kinds;
 use super::inventory::Instance;
 use super::probe::{Probe, harness};
 use super::variable::name_of;
-use super::{Declared, declare};
-use crate::judge::{Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "gen-number-order",
-            "Counts and handles come with their lowest byte first",
-            ["GEN-1"],
-            Queries,
-            number_order
-        ),
-        declare!(
-            "gen-field-order",
-            "Numbers in descriptors, descriptions and addresses come with their lowest byte first",
-            ["GEN-1"],
-            Queries,
-            field_order
-        ),
-        declare!(
-            "gen-value-order",
-            "Values of variables and parameters come with their lowest byte first",
-            ["GEN-1"],
-            Embedded,
-            value_order
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("gen-number-order", &["GEN-1"], Needs::Queries, number_order,
+        "Counts and handles come with their lowest byte first"),
+    case("gen-field-order", &["GEN-1"], Needs::Queries, field_order,
+        "Numbers in descriptors, descriptions and addresses come with their lowest byte first"),
+    case("gen-value-order", &["GEN-1"], Needs::Embedded, value_order,
+        "Values of variables and parameters come with their lowest byte first"),
+];
 
 /// Something that is counted, and can be asked for by its number from 1.
 #[derive(Clone, Debug)]

@@ -8,18 +8,14 @@ use super::inventory::OBJECTS_MAX;
 use super::numbers::Counted;
 use super::probe::{Probe, harness};
 use super::survey::VARIABLES_MAX;
-use super::{Declared, declare};
-use crate::judge::{Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![declare!(
-        "gen-packed",
-        "In descriptors and descriptions nothing stands between the fields",
-        ["GEN-2"],
-        Queries,
-        packed
-    )]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("gen-packed", &["GEN-2"], Needs::Queries, packed,
+        "In descriptors and descriptions nothing stands between the fields"),
+];
 
 /// Whether the type that a descriptor names is one of the manual's.
 fn has_type(object: DescriptorRef<'_>) -> bool {

@@ -13,41 +13,20 @@ use super::content::read_of;
 use super::inventory::{OBJECTS_MAX, Object};
 use super::probe::{Probe, harness};
 use super::still::Still;
-use super::{Declared, declare};
-use crate::judge::{Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "com-platform-objects",
-            "The platform's objects are in its own list and in that of the first channel",
-            ["COM-1", "COM-4", "ADR-3"],
-            Queries,
-            platform_objects
-        ),
-        declare!(
-            "com-platform-content",
-            "The platform's objects hold the same, whichever list named them",
-            ["COM-4", "ADR-3"],
-            Queries,
-            platform_content
-        ),
-        declare!(
-            "com-platform-axes",
-            "Platform axes have object lists of their own",
-            ["COM-7", "ADR-3"],
-            Queries,
-            platform_axes
-        ),
-        declare!(
-            "com-printed-content-address",
-            "Content is where the manuals print it",
-            ["COM-6"],
-            PrintedExamples,
-            printed_content_address
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("com-platform-objects", &["COM-1", "COM-4", "ADR-3"], Needs::Queries, platform_objects,
+        "The platform's objects are in its own list and in that of the first channel"),
+    case("com-platform-content", &["COM-4", "ADR-3"], Needs::Queries, platform_content,
+        "The platform's objects hold the same, whichever list named them"),
+    case("com-platform-axes", &["COM-7", "ADR-3"], Needs::Queries, platform_axes,
+        "Platform axes have object lists of their own"),
+    case("com-printed-content-address", &["COM-6"], Needs::PrintedExamples, printed_content_address,
+        "Content is where the manuals print it"),
+];
 
 fn platform_objects(probe: &mut Probe<'_>) -> Step {
     let platform = number(probe, ObjectList::PLATFORM).map_err(|stop| match stop {

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use super::probe::Probe;
 use super::session::Session;
-use super::{Try, declared, printed, replay};
+use super::{Try, printed, replay, rows};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
 use crate::judge::{Body, Case, Needs, Outcome, Step, Stop, Subject, Verdict};
@@ -14,8 +14,8 @@ use crate::process::interrupt;
 use crate::testee::{self, Terms};
 
 /// The function of each case that one tries.
-static TRIES: LazyLock<HashMap<String, Try>> =
-    LazyLock::new(|| declared().into_iter().map(|(case, run)| (case.id, run)).collect());
+static TRIES: LazyLock<HashMap<&str, Try>> =
+    LazyLock::new(|| rows().map(|row| (row.id, row.run)).collect());
 
 /// Runs the cases: those of the codec against the codec, all others against a session.
 ///
@@ -41,7 +41,7 @@ pub fn run(
         }
     };
     outcomes.extend(target.into_iter().map(|case| {
-        let run = TRIES.get(&case.id).copied();
+        let run = TRIES.get(case.id.as_str()).copied();
         one(case, run, session.as_deref_mut())
     }));
     if let Some(session) = session {

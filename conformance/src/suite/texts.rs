@@ -5,18 +5,14 @@ use ads_cnc_vectors::Hex;
 
 use super::place::{Place, Trial, same};
 use super::probe::Probe;
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![declare!(
-        "gen-characters-written",
-        "Every character of CP1252 that is written to a text is read again",
-        ["GEN-3"],
-        Writes,
-        written
-    )]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("gen-characters-written", &["GEN-3"], Needs::Writes, written,
+        "Every character of CP1252 that is written to a text is read again"),
+];
 
 /// Bytes that have no character in CP1252.
 const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];

@@ -11,49 +11,23 @@ use super::layout::{
 use super::place::same;
 use super::probe::Probe;
 use super::variable::name_of;
-use super::{Declared, declare};
+use super::{Row, case};
 use crate::explain::{Values, type_by_name};
-use crate::judge::{Evidence, Rule, Step, Stop};
+use crate::judge::{Evidence, Needs, Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "val-whole-by-handle",
-            "Without an index, a handle gives the whole variable, in its described size",
-            ["VAR-8", "VAR-11", "VAR-14"],
-            Queries,
-            whole_by_handle
-        ),
-        declare!(
-            "val-whole-by-name",
-            "A name gives the same bytes as its handle",
-            ["VAR-9", "VAR-14", "GEN-2"],
-            Queries,
-            whole_by_name
-        ),
-        declare!(
-            "val-elements-by-handle",
-            "An index gives the element of that place in the whole array",
-            ["VAR-11", "VAR-14", "VAR-21"],
-            Queries,
-            elements_by_handle
-        ),
-        declare!(
-            "val-elements-by-name",
-            "A name with [index] gives the same element as the handle",
-            ["VAR-14", "VAR-20"],
-            Queries,
-            elements_by_name
-        ),
-        declare!(
-            "val-string-size",
-            "A text is no longer than one can be declared",
-            ["VAR-25"],
-            Queries,
-            string_size
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("val-whole-by-handle", &["VAR-8", "VAR-11", "VAR-14"], Needs::Queries, whole_by_handle,
+        "Without an index, a handle gives the whole variable, in its described size"),
+    case("val-whole-by-name", &["VAR-9", "VAR-14", "GEN-2"], Needs::Queries, whole_by_name,
+        "A name gives the same bytes as its handle"),
+    case("val-elements-by-handle", &["VAR-11", "VAR-14", "VAR-21"], Needs::Queries, elements_by_handle,
+        "An index gives the element of that place in the whole array"),
+    case("val-elements-by-name", &["VAR-14", "VAR-20"], Needs::Queries, elements_by_name,
+        "A name with [index] gives the same element as the handle"),
+    case("val-string-size", &["VAR-25"], Needs::Queries, string_size,
+        "A text is no longer than one can be declared"),
+];
 
 /// How often a value that does not stand still is read again.
 const TRIES: usize = 3;

@@ -15,58 +15,26 @@ use ads_cnc::{
 use super::described::kinds;
 use super::probe::{Probe, harness};
 use super::survey::{KINDS, VARIABLES_MAX};
-use super::{Declared, declare};
-use crate::judge::{Checks, Rule, Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Checks, Needs, Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "var-count",
-            "Each kind has a number, and no kind at all asks for their sum",
-            ["VAR-1", "VAR-2"],
-            Queries,
-            count
-        ),
-        declare!(
-            "var-descriptions",
-            "Every index from 0 on has a description that holds together",
-            [
-                "VAR-1", "VAR-2", "VAR-3", "VAR-4", "VAR-5", "VAR-6", "VAR-7", "VAR-8", "VAR-9",
-                "GEN-1", "GEN-3"
-            ],
-            Queries,
-            descriptions
-        ),
-        declare!(
-            "var-index-beyond-last",
-            "The index behind the last is answered by an error",
-            ["VAR-1", "VAR-2"],
-            Queries,
-            index_beyond_last
-        ),
-        declare!(
-            "var-other-channel",
-            "In a channel that is not there, there is no variable either",
-            ["VAR-2", "VAR-3", "VAR-14"],
-            Queries,
-            other_channel
-        ),
-        declare!(
-            "var-structures-are-resolved",
-            "A structure's own name addresses nothing",
-            ["VAR-20"],
-            Queries,
-            structures_are_resolved
-        ),
-        declare!(
-            "var-padded-name",
-            "NULs may pad a name or a kind up to 256 bytes",
-            ["VAR-1", "VAR-9"],
-            Malformed,
-            padded_name
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("var-count", &["VAR-1", "VAR-2"], Needs::Queries, count,
+        "Each kind has a number, and no kind at all asks for their sum"),
+    case("var-descriptions",
+        &["VAR-1", "VAR-2", "VAR-3", "VAR-4", "VAR-5", "VAR-6", "VAR-7", "VAR-8", "VAR-9", "GEN-1", "GEN-3"],
+        Needs::Queries, descriptions,
+        "Every index from 0 on has a description that holds together"),
+    case("var-index-beyond-last", &["VAR-1", "VAR-2"], Needs::Queries, index_beyond_last,
+        "The index behind the last is answered by an error"),
+    case("var-other-channel", &["VAR-2", "VAR-3", "VAR-14"], Needs::Queries, other_channel,
+        "In a channel that is not there, there is no variable either"),
+    case("var-structures-are-resolved", &["VAR-20"], Needs::Queries, structures_are_resolved,
+        "A structure's own name addresses nothing"),
+    case("var-padded-name", &["VAR-1", "VAR-9"], Needs::Malformed, padded_name,
+        "NULs may pad a name or a kind up to 256 bytes"),
+];
 
 /// How many variables of a kind there are, which has to be said.
 fn number(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {

@@ -11,55 +11,24 @@ use super::names::dynamic_among_variables;
 use super::place::{Place, Trial, same};
 use super::probe::{Probe, harness};
 use super::variable::name_of;
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "write-by-handle",
-            "What is written by a handle is read back, and the old value after it",
-            ["VAR-6", "VAR-10", "VAR-12", "VAR-17"],
-            Writes,
-            by_handle
-        ),
-        declare!(
-            "write-by-name",
-            "What is written by a name is read back by name and by handle",
-            ["VAR-6", "VAR-13", "VAR-14", "VAR-17"],
-            Writes,
-            by_name
-        ),
-        declare!(
-            "write-axis-variable",
-            "What is written on the axis interface is read with the axis behind the name",
-            ["VAR-17", "VAR-26"],
-            Writes,
-            axis_variables
-        ),
-        declare!(
-            "write-axis-read-only",
-            "An axis variable that is READ_ONLY takes no value on the axis interface either",
-            ["VAR-6", "VAR-26"],
-            Writes,
-            axis_read_only
-        ),
-        declare!(
-            "write-by-name-only",
-            "What is by name only is written by its name",
-            ["VAR-18"],
-            Writes,
-            by_name_only
-        ),
-        declare!(
-            "write-dynamic-by-name",
-            "V.P, V.L and V.S are written among the variables, by name",
-            ["VAR-19"],
-            Writes,
-            dynamic_by_name
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("write-by-handle", &["VAR-6", "VAR-10", "VAR-12", "VAR-17"], Needs::Writes, by_handle,
+        "What is written by a handle is read back, and the old value after it"),
+    case("write-by-name", &["VAR-6", "VAR-13", "VAR-14", "VAR-17"], Needs::Writes, by_name,
+        "What is written by a name is read back by name and by handle"),
+    case("write-axis-variable", &["VAR-17", "VAR-26"], Needs::Writes, axis_variables,
+        "What is written on the axis interface is read with the axis behind the name"),
+    case("write-axis-read-only", &["VAR-6", "VAR-26"], Needs::Writes, axis_read_only,
+        "An axis variable that is READ_ONLY takes no value on the axis interface either"),
+    case("write-by-name-only", &["VAR-18"], Needs::Writes, by_name_only,
+        "What is by name only is written by its name"),
+    case("write-dynamic-by-name", &["VAR-19"], Needs::Writes, dynamic_by_name,
+        "V.P, V.L and V.S are written among the variables, by name"),
+];
 
 /// What writing a variable of the Service Interface leads to has cases of its own.
 pub(super) fn is_of_service(variable: &Description) -> bool {

@@ -12,34 +12,19 @@ use super::probe::{Probe, harness};
 use super::sda::length_of;
 use super::write_content::{is_blank, nothing, place_of};
 use super::write_refused::{Known, writable};
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "write-after-refusal",
-            "Behind a write that was refused the next one is done, and its result is its own",
-            ["ADS-2", "ADS-4", "VAR-12", "VAR-13"],
-            MalformedWrites,
-            after_refusal
-        ),
-        declare!(
-            "write-objects-of-wrong-size",
-            "Of a write of another size that is refused nothing is in the object",
-            ["COM-5"],
-            MalformedWrites,
-            objects_of_wrong_size
-        ),
-        declare!(
-            "write-empty-places",
-            "A place without an axis reads as blank, whatever was written there",
-            ["SDA-11"],
-            MalformedWrites,
-            empty_places
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("write-after-refusal", &["ADS-2", "ADS-4", "VAR-12", "VAR-13"],
+        Needs::MalformedWrites, after_refusal,
+        "Behind a write that was refused the next one is done, and its result is its own"),
+    case("write-objects-of-wrong-size", &["COM-5"], Needs::MalformedWrites, objects_of_wrong_size,
+        "Of a write of another size that is refused nothing is in the object"),
+    case("write-empty-places", &["SDA-11"], Needs::MalformedWrites, empty_places,
+        "A place without an axis reads as blank, whatever was written there"),
+];
 
 fn after_refusal(probe: &mut Probe<'_>) -> Step {
     for known in writable(probe)? {

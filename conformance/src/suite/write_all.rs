@@ -10,34 +10,18 @@ use super::layout::element_count;
 use super::place::{Place, is_sendable};
 use super::probe::Probe;
 use super::write::is_of_service;
-use super::{Declared, declare};
-use crate::judge::{Evidence, Rule, Step, Stop};
+use super::{Row, case};
+use crate::judge::{Evidence, Needs, Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "write-nothing-else-by-name",
-            "A write by name changes what it names, and nothing else in any channel",
-            ["VAR-13"],
-            MalformedWrites,
-            by_name
-        ),
-        declare!(
-            "write-nothing-else-by-handle",
-            "A write by handle changes what the handle stands for, and nothing else in any channel",
-            ["VAR-12"],
-            MalformedWrites,
-            by_handle
-        ),
-        declare!(
-            "write-nothing-else-of-axes",
-            "A write on the axis interface changes the variable of that place, and nothing else",
-            ["VAR-26"],
-            MalformedWrites,
-            of_axes
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("write-nothing-else-by-name", &["VAR-13"], Needs::MalformedWrites, by_name,
+        "A write by name changes what it names, and nothing else in any channel"),
+    case("write-nothing-else-by-handle", &["VAR-12"], Needs::MalformedWrites, by_handle,
+        "A write by handle changes what the handle stands for, and nothing else in any channel"),
+    case("write-nothing-else-of-axes", &["VAR-26"], Needs::MalformedWrites, of_axes,
+        "A write on the axis interface changes the variable of that place, and nothing else"),
+];
 
 /// A variable, the value of it at the start, and the one it should have.
 struct One {

@@ -12,55 +12,24 @@ use super::inventory::{Instance, Object};
 use super::place::{Place, Trial};
 use super::probe::{Probe, harness};
 use super::sda::length_of;
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "write-objects",
-            "What is written to an object with write access is read back",
-            ["COM-2", "COM-5"],
-            Writes,
-            objects
-        ),
-        declare!(
-            "write-read-only-objects",
-            "An object without write access takes no value",
-            ["COM-2"],
-            Writes,
-            read_only_objects
-        ),
-        declare!(
-            "write-elements",
-            "What is written to an element with its write flag set is read back, and nowhere else",
-            ["SDA-1", "SDA-9"],
-            Writes,
-            elements
-        ),
-        declare!(
-            "write-read-only-elements",
-            "An element without its write flag set takes no value",
-            ["SDA-9"],
-            Writes,
-            read_only_elements
-        ),
-        declare!(
-            "write-elements-of-wrong-size",
-            "A value of another length than the element's is answered by an error",
-            ["SDA-8"],
-            MalformedWrites,
-            wrong_size
-        ),
-        declare!(
-            "write-number-of-elements",
-            "The number of elements of an instance takes no value",
-            ["SDA-4"],
-            MalformedWrites,
-            number_of_elements
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("write-objects", &["COM-2", "COM-5"], Needs::Writes, objects,
+        "What is written to an object with write access is read back"),
+    case("write-read-only-objects", &["COM-2"], Needs::Writes, read_only_objects,
+        "An object without write access takes no value"),
+    case("write-elements", &["SDA-1", "SDA-9"], Needs::Writes, elements,
+        "What is written to an element with its write flag set is read back, and nowhere else"),
+    case("write-read-only-elements", &["SDA-9"], Needs::Writes, read_only_elements,
+        "An element without its write flag set takes no value"),
+    case("write-elements-of-wrong-size", &["SDA-8"], Needs::MalformedWrites, wrong_size,
+        "A value of another length than the element's is answered by an error"),
+    case("write-number-of-elements", &["SDA-4"], Needs::MalformedWrites, number_of_elements,
+        "The number of elements of an instance takes no value"),
+];
 
 pub(super) fn nothing(any: bool) -> Step {
     match any {

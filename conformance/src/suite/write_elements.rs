@@ -7,27 +7,16 @@ use ads_cnc_vectors::Hex;
 use super::place::{Place, same};
 use super::probe::Probe;
 use super::write::{each, handle_of, trial};
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, assumed};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, assumed};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "write-elements-by-handle",
-            "An index writes the element of that place, and no other",
-            ["VAR-12"],
-            Writes,
-            by_handle
-        ),
-        declare!(
-            "write-elements-by-name",
-            "A name with [index] writes the element of that place, and no other",
-            ["VAR-13", "VAR-20"],
-            Writes,
-            by_name
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("write-elements-by-handle", &["VAR-12"], Needs::Writes, by_handle,
+        "An index writes the element of that place, and no other"),
+    case("write-elements-by-name", &["VAR-13", "VAR-20"], Needs::Writes, by_name,
+        "A name with [index] writes the element of that place, and no other"),
+];
 
 /// The first and the last place of an array; of more dimensions those at one edge too, whose
 /// indices cannot be mistaken for each other.

@@ -9,48 +9,22 @@ use ads_cnc_vectors::Hex;
 use super::place::{Place, Trial, another, is_sendable};
 use super::probe::{Probe, harness};
 use super::write::{each, handle_of, is_of_service, trial};
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "write-read-only",
-            "A variable that is READ_ONLY takes no value",
-            ["VAR-6"],
-            Writes,
-            read_only
-        ),
-        declare!(
-            "write-read-only-changed",
-            "A variable that is READ_ONLY takes no other value, whatever is answered",
-            ["VAR-6"],
-            MalformedWrites,
-            read_only_changed
-        ),
-        declare!(
-            "write-unknown",
-            "What is not there takes no value",
-            ["VAR-12", "VAR-13", "ADS-4"],
-            MalformedWrites,
-            unknown
-        ),
-        declare!(
-            "write-index-out-of-bounds",
-            "An element that the array does not have takes no value, and no other one takes it",
-            ["VAR-12", "VAR-13"],
-            MalformedWrites,
-            out_of_bounds
-        ),
-        declare!(
-            "write-bad-requests",
-            "A write whose name has no end, or whose count of indices lies, writes nothing",
-            ["VAR-12", "VAR-13", "VAR-24"],
-            MalformedWrites,
-            bad_requests
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("write-read-only", &["VAR-6"], Needs::Writes, read_only,
+        "A variable that is READ_ONLY takes no value"),
+    case("write-read-only-changed", &["VAR-6"], Needs::MalformedWrites, read_only_changed,
+        "A variable that is READ_ONLY takes no other value, whatever is answered"),
+    case("write-unknown", &["VAR-12", "VAR-13", "ADS-4"], Needs::MalformedWrites, unknown,
+        "What is not there takes no value"),
+    case("write-index-out-of-bounds", &["VAR-12", "VAR-13"], Needs::MalformedWrites, out_of_bounds,
+        "An element that the array does not have takes no value, and no other one takes it"),
+    case("write-bad-requests", &["VAR-12", "VAR-13", "VAR-24"], Needs::MalformedWrites, bad_requests,
+        "A write whose name has no end, or whose count of indices lies, writes nothing"),
+];
 
 /// A variable with the value it has, to hold a refusal against.
 pub(super) struct Known {

@@ -9,18 +9,14 @@ use super::place::{Place, another, is_sendable};
 use super::probe::{Probe, harness};
 use super::write::{each, is_of_service};
 use super::write_refused::{taken, taken_first};
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, assumed, online};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, assumed, online};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![declare!(
-        "write-wrong-size",
-        "A value of another size than the variable's is answered by an error, or is there as it was sent",
-        ["VAR-12", "VAR-13", "VAR-25", "VAR-26"],
-        MalformedWrites,
-        wrong_size
-    )]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("write-wrong-size", &["VAR-12", "VAR-13", "VAR-25", "VAR-26"], Needs::MalformedWrites, wrong_size,
+        "A value of another size than the variable's is answered by an error, or is there as it was sent"),
+];
 
 /// A way to a value, and the clause that says what a write by it has.
 struct Way {

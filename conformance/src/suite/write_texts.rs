@@ -7,19 +7,15 @@ use super::place::{Place, Trial};
 use super::probe::Probe;
 use super::write::each;
 use super::write_all::write;
-use super::{Declared, declare};
-use crate::judge::{Step, online};
+use super::{Row, case};
+use crate::judge::{Needs, Step, online};
 use crate::values::until_nul;
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![declare!(
-        "write-texts",
-        "A text as long as is described is read as written, and a shorter one behind it too",
-        ["VAR-12", "VAR-13", "VAR-25"],
-        Writes,
-        texts
-    )]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("write-texts", &["VAR-12", "VAR-13", "VAR-25"], Needs::Writes, texts,
+        "A text as long as is described is read as written, and a shorter one behind it too"),
+];
 
 fn texts(probe: &mut Probe<'_>) -> Step {
     each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {

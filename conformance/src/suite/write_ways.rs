@@ -8,34 +8,18 @@ use super::inventory::Object;
 use super::place::{Place, Trial};
 use super::probe::{Probe, harness};
 use super::write_content::{Named, flagged, is_blank, nothing, place_of};
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "write-objects-by-index",
-            "What an object takes by its channel's number it takes by its rank, and has it then",
-            ["ADR-12"],
-            Writes,
-            objects_by_index
-        ),
-        declare!(
-            "write-platform-axes-of-hld",
-            "A platform axis of the first channel's HLD is the one without a channel",
-            ["SDA-13"],
-            Writes,
-            axes_of_hld
-        ),
-        declare!(
-            "written-by-name-only",
-            "V.CYC that can be written within is written by its name",
-            ["VAR-18"],
-            Embedded,
-            by_name_only
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("write-objects-by-index", &["ADR-12"], Needs::Writes, objects_by_index,
+        "What an object takes by its channel's number it takes by its rank, and has it then"),
+    case("write-platform-axes-of-hld", &["SDA-13"], Needs::Writes, axes_of_hld,
+        "A platform axis of the first channel's HLD is the one without a channel"),
+    case("written-by-name-only", &["VAR-18"], Needs::Embedded, by_name_only,
+        "V.CYC that can be written within is written by its name"),
+];
 
 /// The group of an object without the bit of logical addressing: channels are counted there.
 fn by_index(probe: &Probe<'_>, object: &Object) -> Step<Option<IndexGroup>> {

@@ -53,6 +53,7 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
 
 use crate::edition::Edition;
+use crate::judge::in_catalogue;
 use crate::simulator::program::Policy;
 
 /// Data, or the error number.
@@ -115,7 +116,7 @@ pub(super) const fn twisted(
     what: &'static str,
     twist: Twist,
 ) -> Row {
-    Row { id, breaks, what, twist, edition: None, printed: true }
+    Row { id, breaks: in_catalogue(breaks), what, twist, edition: None, printed: true }
 }
 
 /// A row about the NC program.

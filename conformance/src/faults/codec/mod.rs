@@ -17,6 +17,7 @@ use serde_json::Value as Json;
 use super::{How, Kind, Seed};
 use crate::codec;
 use crate::codec::message::{Answer, Output, Question, Rejection};
+use crate::judge::in_catalogue;
 
 /// The right answers.
 pub(super) type Right<'a> = &'a dyn Fn(&Question) -> Answer;
@@ -183,7 +184,7 @@ pub(super) const fn row(
     what: &'static str,
     twist: Twist,
 ) -> Row {
-    Row { id, breaks, what, twist }
+    Row { id, breaks: in_catalogue(breaks), what, twist }
 }
 
 fn seed(id: String, requirements: Vec<&'static str>, what: String, twist: Twist) -> Seed {

@@ -58,7 +58,9 @@ pub struct Figures {
 /// The hash of what all rows rest on.
 pub fn inputs() -> String {
     let mut text = DEFAULT_MODEL.to_owned();
-    for case in suite::cases() {
+    let mut cases = suite::cases();
+    cases.sort_by(|one, other| one.id.cmp(&other.id));
+    for case in cases {
         // Writing to a string does not fail.
         let _ = write!(text, "\n{} {:?} {:?}", case.id, case.requirements, case.needs);
     }

@@ -11,88 +11,38 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::Hex;
 
 use crate::edition::Feature;
-use crate::judge::{Rule, Step, Stop, assumed};
+use crate::judge::{Needs, Rule, Step, Stop, assumed};
 use crate::profile::{Claim, Section};
 use crate::suite::place::{Place, Trial};
 use crate::suite::probe::{Probe, harness};
 use crate::suite::stream::heard;
-use crate::suite::{Declared, declare};
+use crate::suite::{Row, case};
 use crate::values::until_nul;
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "service-variables",
-            "A channel with the interface has its five variables, and in them what they hold",
-            ["SVC-1", "SVC-11"],
-            Queries,
-            variables
-        ),
-        declare!(
-            "service-response",
-            "A service writes its response and its state, and a request's state takes it back",
-            ["SVC-1", "SVC-3", "SVC-4"],
-            Writes,
-            response
-        ),
-        declare!(
-            "service-longest",
-            "REQUEST and RESPONSE hold 128 bytes, and no more",
-            ["SVC-1"],
-            Embedded,
-            variables::longest
-        ),
-        declare!(
-            "service-texts",
-            "A text of any length and of any characters is read as it was written",
-            ["SVC-1"],
-            Embedded,
-            variables::texts
-        ),
-        declare!(
-            "service-variables-apart",
-            "Each of the variables is its own, by name and by handle",
-            ["SVC-1", "SVC-3"],
-            Embedded,
-            variables::apart
-        ),
-        declare!(
-            "service-texts-by-handle",
-            "A text of any length is written and read by its handle as by its name",
-            ["SVC-1"],
-            Embedded,
-            ways::by_handle
-        ),
-        declare!(
-            "service-channels-apart",
-            "What is answered in one channel changes nothing that is asked in another",
-            ["SVC-1", "SVC-4"],
-            Embedded,
-            ways::channels_apart
-        ),
-        declare!(
-            "service-asked-by-a-program",
-            "When a program writes REQUEST_STATE, the interface takes the last answer back",
-            ["SVC-3", "SVC-4"],
-            Embedded,
-            asked
-        ),
-        declare!(
-            "service-asks-last",
-            "A program writes REQUEST_STATE when UUID and REQUEST are there, and not before",
-            ["SVC-12"],
-            Embedded,
-            program::asks_last
-        ),
-        declare!(
-            "service-square-root",
-            "A program asks for square roots, waits, and has the answers of the service",
-            ["SVC-4", "SVC-6", "SVC-8", "SVC-9", "SVC-12"],
-            Embedded,
-            program::square_root
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("service-variables", &["SVC-1", "SVC-11"], Needs::Queries, variables,
+        "A channel with the interface has its five variables, and in them what they hold"),
+    case("service-response", &["SVC-1", "SVC-3", "SVC-4"], Needs::Writes, response,
+        "A service writes its response and its state, and a request's state takes it back"),
+    case("service-longest", &["SVC-1"], Needs::Embedded, variables::longest,
+        "REQUEST and RESPONSE hold 128 bytes, and no more"),
+    case("service-texts", &["SVC-1"], Needs::Embedded, variables::texts,
+        "A text of any length and of any characters is read as it was written"),
+    case("service-variables-apart", &["SVC-1", "SVC-3"], Needs::Embedded, variables::apart,
+        "Each of the variables is its own, by name and by handle"),
+    case("service-texts-by-handle", &["SVC-1"], Needs::Embedded, ways::by_handle,
+        "A text of any length is written and read by its handle as by its name"),
+    case("service-channels-apart", &["SVC-1", "SVC-4"], Needs::Embedded, ways::channels_apart,
+        "What is answered in one channel changes nothing that is asked in another"),
+    case("service-asked-by-a-program", &["SVC-3", "SVC-4"], Needs::Embedded, asked,
+        "When a program writes REQUEST_STATE, the interface takes the last answer back"),
+    case("service-asks-last", &["SVC-12"], Needs::Embedded, program::asks_last,
+        "A program writes REQUEST_STATE when UUID and REQUEST are there, and not before"),
+    case("service-square-root", &["SVC-4", "SVC-6", "SVC-8", "SVC-9", "SVC-12"],
+        Needs::Embedded, program::square_root,
+        "A program asks for square roots, waits, and has the answers of the service"),
+];
 
 /// The channels that have the interface: all, if it is claimed; else those that describe it, or
 /// answer.

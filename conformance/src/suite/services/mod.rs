@@ -20,63 +20,28 @@ use super::probe::{Probe, harness};
 use super::sda::length_of;
 use super::still::Still;
 use super::variable::name_of;
-use super::{Declared, declare};
-use crate::judge::{Rule, Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Rule, Step, Stop};
 use crate::profile::Claim;
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "ads-read-addresses",
-            "A Read answers for its own group and offset, with so many bytes as it asks for",
-            ["ADS-1"],
-            Queries,
-            read_addresses
-        ),
-        declare!(
-            "ads-read-write-addresses",
-            "A ReadWrite answers for its own group and offset, and for the data it writes",
-            ["ADS-3"],
-            Queries,
-            read_write_addresses
-        ),
-        declare!(
-            "ads-services-agree",
-            "What a Read gives the number of, a ReadWrite gives so many of",
-            ["ADS-1", "ADS-3"],
-            Queries,
-            services_agree
-        ),
-        declare!(
-            "ads-read-lengths",
-            "A reply has no more bytes than are asked for, and no more than there are",
-            ["ADS-1", "ADS-3", "ADS-4", "DYN-1", "VAR-2", "VAR-14"],
-            Queries,
-            lengths::asked_for
-        ),
-        declare!(
-            "ads-in-pieces",
-            "A request is answered the same in whatever pieces it comes",
-            ["ADS-5"],
-            Queries,
-            lengths::in_pieces
-        ),
-        declare!(
-            "ads-numbers-of-errors",
-            "The embedded CNC's errors have the numbers on the wire that it gives them",
-            ["ADS-4", "ADS-5"],
-            Embedded,
-            numbers::of_errors
-        ),
-        declare!(
-            "ads-write",
-            "What a Write is acknowledged for is there by another service, and nothing else is",
-            ["ADS-2"],
-            Writes,
-            write::arrives
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("ads-read-addresses", &["ADS-1"], Needs::Queries, read_addresses,
+        "A Read answers for its own group and offset, with so many bytes as it asks for"),
+    case("ads-read-write-addresses", &["ADS-3"], Needs::Queries, read_write_addresses,
+        "A ReadWrite answers for its own group and offset, and for the data it writes"),
+    case("ads-services-agree", &["ADS-1", "ADS-3"], Needs::Queries, services_agree,
+        "What a Read gives the number of, a ReadWrite gives so many of"),
+    case("ads-read-lengths", &["ADS-1", "ADS-3", "ADS-4", "DYN-1", "VAR-2", "VAR-14"],
+        Needs::Queries, lengths::asked_for,
+        "A reply has no more bytes than are asked for, and no more than there are"),
+    case("ads-in-pieces", &["ADS-5"], Needs::Queries, lengths::in_pieces,
+        "A request is answered the same in whatever pieces it comes"),
+    case("ads-numbers-of-errors", &["ADS-4", "ADS-5"], Needs::Embedded, numbers::of_errors,
+        "The embedded CNC's errors have the numbers on the wire that it gives them"),
+    case("ads-write", &["ADS-2"], Needs::Writes, write::arrives,
+        "What a Write is acknowledged for is there by another service, and nothing else is"),
+];
 
 /// The most of a kind that is looked at.
 const SOME: u32 = 8;

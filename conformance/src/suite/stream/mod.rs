@@ -17,153 +17,52 @@ use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
 
 use super::probe::{Probe, harness};
-use super::{Declared, declare};
-use crate::judge::{Step, Stop};
+use super::{Row, case};
+use crate::judge::{Needs, Step, Stop};
 
-pub(super) fn cases() -> Vec<Declared> {
-    vec![
-        declare!(
-            "stream-object",
-            "The object of the stream is listed by its name and at its address, and takes writes",
-            ["STM-1"],
-            Queries,
-            object
-        ),
-        declare!(
-            "stream-whole-lines",
-            "A packet of whole lines is taken, by the number of the channel and by its rank",
-            ["STM-1", "STM-4", "STM-7"],
-            Writes,
-            whole_lines
-        ),
-        declare!(
-            "stream-longest",
-            "A packet of 992 bytes is taken, and a line of 990 characters in it",
-            ["STM-2", "STM-20"],
-            Writes,
-            longest
-        ),
-        declare!(
-            "stream-refused-for-now",
-            "What is refused for now is taken later, the same bytes again",
-            ["STM-6"],
-            Writes,
-            refused_for_now
-        ),
-        declare!(
-            "stream-too-long",
-            "A packet of 993 bytes is refused, and nothing of it is taken",
-            ["STM-2"],
-            Embedded,
-            stage::too_long
-        ),
-        declare!(
-            "stream-full",
-            "The interface holds 4094 bytes; then a write is refused until they were read",
-            ["STM-3", "STM-6", "STM-12", "STM-15"],
-            Embedded,
-            stage::full
-        ),
-        declare!(
-            "stream-channels",
-            "What is written to the stream of a channel is run there, and nowhere else",
-            ["STM-1", "ADR-12"],
-            Embedded,
-            course::channels
-        ),
-        declare!(
-            "stream-as-written",
-            "Every character is run as it was written, and every line as a line",
-            ["STM-4", "STM-7"],
-            Embedded,
-            course::as_written
-        ),
-        declare!(
-            "stream-read-at-once",
-            "All that is there is read at once, before any of it is run",
-            ["STM-12"],
-            Embedded,
-            course::at_once
-        ),
-        declare!(
-            "stream-behind-the-end",
-            "What comes behind a program end that was read stays for the next start",
-            ["STM-10", "STM-14"],
-            Embedded,
-            course::behind_end
-        ),
-        declare!(
-            "stream-dry",
-            "Where nothing more is written motion stops, and the next write resumes it",
-            ["STM-7", "STM-14", "STM-16"],
-            Embedded,
-            stage::dry
-        ),
-        declare!(
-            "stream-reset",
-            "A reset empties the interface, and the next program is another",
-            ["STM-11", "STM-14"],
-            Embedded,
-            stage::reset
-        ),
-        declare!(
-            "stream-many-packets",
-            "The interface holds packets of one line as long as they fit, however many",
-            ["STM-3", "STM-6", "STM-15"],
-            Embedded,
-            stage::many
-        ),
-        declare!(
-            "stream-room-of-channels",
-            "The interface of each channel has all its room, however full another's is",
-            ["STM-3", "STM-12"],
-            Embedded,
-            apart::channels
-        ),
-        declare!(
-            "stream-refused-whole",
-            "Of a packet that is refused no line is taken, though some would fit",
-            ["STM-3", "STM-6"],
-            Embedded,
-            apart::in_part
-        ),
-        declare!(
-            "stream-lengths",
-            "A packet is run whole, whatever its length up to 992 bytes",
-            ["STM-2", "STM-4"],
-            Embedded,
-            apart::lengths
-        ),
-        declare!(
-            "stream-comments",
-            "A comment ends where it ends: behind it the same word ends streaming",
-            ["STM-8", "STM-9"],
-            Embedded,
-            words::comments
-        ),
-        declare!(
-            "stream-ends",
-            "M2, M30, M17 and M29 end a program anywhere in a line, and no other word does",
-            ["STM-9", "STM-10"],
-            Embedded,
-            words::ends
-        ),
-        declare!(
-            "stream-forbidden-words",
-            "Each word of a loop ends streaming where it stands, unless it is in a comment",
-            ["STM-8", "STM-9"],
-            Embedded,
-            words::forbidden_words
-        ),
-        declare!(
-            "stream-permitted-words",
-            "Branches and jumps forward may span packets",
-            ["STM-8", "STM-19"],
-            Embedded,
-            words::permitted_words
-        ),
-    ]
-}
+#[rustfmt::skip]
+pub(super) const CASES: &[Row] = &[
+    case("stream-object", &["STM-1"], Needs::Queries, object,
+        "The object of the stream is listed by its name and at its address, and takes writes"),
+    case("stream-whole-lines", &["STM-1", "STM-4", "STM-7"], Needs::Writes, whole_lines,
+        "A packet of whole lines is taken, by the number of the channel and by its rank"),
+    case("stream-longest", &["STM-2", "STM-20"], Needs::Writes, longest,
+        "A packet of 992 bytes is taken, and a line of 990 characters in it"),
+    case("stream-refused-for-now", &["STM-6"], Needs::Writes, refused_for_now,
+        "What is refused for now is taken later, the same bytes again"),
+    case("stream-too-long", &["STM-2"], Needs::Embedded, stage::too_long,
+        "A packet of 993 bytes is refused, and nothing of it is taken"),
+    case("stream-full", &["STM-3", "STM-6", "STM-12", "STM-15"], Needs::Embedded, stage::full,
+        "The interface holds 4094 bytes; then a write is refused until they were read"),
+    case("stream-channels", &["STM-1", "ADR-12"], Needs::Embedded, course::channels,
+        "What is written to the stream of a channel is run there, and nowhere else"),
+    case("stream-as-written", &["STM-4", "STM-7"], Needs::Embedded, course::as_written,
+        "Every character is run as it was written, and every line as a line"),
+    case("stream-read-at-once", &["STM-12"], Needs::Embedded, course::at_once,
+        "All that is there is read at once, before any of it is run"),
+    case("stream-behind-the-end", &["STM-10", "STM-14"], Needs::Embedded, course::behind_end,
+        "What comes behind a program end that was read stays for the next start"),
+    case("stream-dry", &["STM-7", "STM-14", "STM-16"], Needs::Embedded, stage::dry,
+        "Where nothing more is written motion stops, and the next write resumes it"),
+    case("stream-reset", &["STM-11", "STM-14"], Needs::Embedded, stage::reset,
+        "A reset empties the interface, and the next program is another"),
+    case("stream-many-packets", &["STM-3", "STM-6", "STM-15"], Needs::Embedded, stage::many,
+        "The interface holds packets of one line as long as they fit, however many"),
+    case("stream-room-of-channels", &["STM-3", "STM-12"], Needs::Embedded, apart::channels,
+        "The interface of each channel has all its room, however full another's is"),
+    case("stream-refused-whole", &["STM-3", "STM-6"], Needs::Embedded, apart::in_part,
+        "Of a packet that is refused no line is taken, though some would fit"),
+    case("stream-lengths", &["STM-2", "STM-4"], Needs::Embedded, apart::lengths,
+        "A packet is run whole, whatever its length up to 992 bytes"),
+    case("stream-comments", &["STM-8", "STM-9"], Needs::Embedded, words::comments,
+        "A comment ends where it ends: behind it the same word ends streaming"),
+    case("stream-ends", &["STM-9", "STM-10"], Needs::Embedded, words::ends,
+        "M2, M30, M17 and M29 end a program anywhere in a line, and no other word does"),
+    case("stream-forbidden-words", &["STM-8", "STM-9"], Needs::Embedded, words::forbidden_words,
+        "Each word of a loop ends streaming where it stands, unless it is in a comment"),
+    case("stream-permitted-words", &["STM-8", "STM-19"], Needs::Embedded, words::permitted_words,
+        "Branches and jumps forward may span packets"),
+];
 
 /// Where the object is in the group of a channel.
 const OFFSET: u32 = 0x90;
