@@ -1,7 +1,7 @@
 //! The conformance suite, the simulated CNC and the tools around the codec [`ads_cnc`]: all that
 //! opens a socket or a file.
 //!
-//! A module imports only modules below it; `tests/floors.rs` has their order.
+//! A module imports only modules below it; `tests/readme/floors.rs` verifies it.
 //!
 //! | module | what it has |
 //! |---|---|
@@ -16,8 +16,8 @@
 //! | [`session`] | a CNC to ask, typed: what tools work with |
 //! | [`report`] | how judgements are shown |
 //! | [`client`] | an AMS/TCP client that keeps every byte |
-//! | [`defect`] | seeded defects: what a codec or a CNC can get wrong |
-//! | [`cnc`] | the simulated CNC: data model, answers, AMS/TCP server |
+//! | [`faults`] | seeded defects: what a codec or a CNC can get wrong |
+//! | [`simulator`] | the simulated CNC: data model, answers, AMS/TCP server |
 //! | [`net`] | the one place where sockets are opened |
 //! | [`exchange`] | a request and what came of it |
 //! | [`gate`] | what may be sent to a target |

@@ -65,8 +65,8 @@ use crate::judge::{Case, Step, codec_cases};
 /// The function that tries a case.
 type Try = fn(&mut Probe<'_>) -> Step;
 
-/// A case and the function that tries it.
-type Declared = (Case, Try);
+/// A case and the function that tries it, if one does.
+type Declared = (Case, Option<Try>);
 
 /// Declares a case.
 macro_rules! declare {
@@ -80,7 +80,7 @@ macro_rules! declare {
                 needs: $crate::judge::Needs::$needs,
                 body: $crate::judge::Body::Probe,
             },
-            $body as $crate::suite::Try,
+            Some($body as $crate::suite::Try),
         )
     };
 }
@@ -91,12 +91,10 @@ pub(crate) use declare;
 pub fn cases() -> Vec<Case> {
     let mut cases = codec_cases();
     cases.extend(declared().into_iter().map(|(case, _)| case));
-    cases.extend(replay::cases());
-    cases.extend(printed::cases());
     cases
 }
 
-/// Every case that a function tries.
+/// Every case for a target.
 fn declared() -> Vec<Declared> {
     let mut cases = address::cases();
     cases.extend(services::cases());
@@ -135,7 +133,9 @@ fn declared() -> Vec<Declared> {
     cases.extend(texts::cases());
     cases.extend(stream::cases());
     cases.extend(service::cases());
+    cases.extend(replay::cases());
     cases.extend(malformed::cases());
+    cases.extend(printed::cases());
     // Judges what all the others exchanged, so it comes last.
     cases.extend(address::frame_cases());
     cases

@@ -5,14 +5,15 @@ use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Call, Service, Task};
 use ads_cnc_vectors::{Direction, Hex, ProvenanceKind, Vector, vector, vectors};
 
+use super::Declared;
 use super::probe::{Probe, harness};
-use crate::judge::{Body, Case, Evidence, Needs, Rule, Step, Stop, case_of, typed};
+use crate::judge::{Body, Evidence, Needs, Rule, Step, Stop, case_of, typed};
 
 /// One example contradicts another of the same variable (E-27): no CNC answers both.
 const CONTRADICTED: &str = "value-printed-name-element";
 
 /// One case for each printed reply.
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     vectors()
         .iter()
         .filter(|vector| {
@@ -20,7 +21,9 @@ pub(super) fn cases() -> Vec<Case> {
                 && vector.direction == Direction::Reply
                 && vector.context.request.is_some()
         })
-        .map(|vector| case_of(vector, "printed", Needs::PrintedExamples, Body::Printed(vector)))
+        .map(|vector| {
+            (case_of(vector, "printed", Needs::PrintedExamples, Body::Printed(vector)), None)
+        })
         .collect()
 }
 

@@ -14,8 +14,9 @@ use crate::process::interrupt;
 use crate::testee::{self, Terms};
 
 /// The function of each case that one tries.
-static TRIES: LazyLock<HashMap<String, Try>> =
-    LazyLock::new(|| declared().into_iter().map(|(case, run)| (case.id, run)).collect());
+static TRIES: LazyLock<HashMap<String, Try>> = LazyLock::new(|| {
+    declared().into_iter().filter_map(|(case, run)| Some((case.id, run?))).collect()
+});
 
 /// Runs the cases: those of the codec against the codec, all others against a session.
 ///

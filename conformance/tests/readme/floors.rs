@@ -6,12 +6,6 @@ use std::path::Path;
 
 use super::bench::root;
 
-/// Imports of a module above that are left, each with the reason. One that is gone is deleted here.
-const LEFT: [(&str, &str); 1] = [
-    // The simulated CNC applies a seeded defect to its own answers.
-    ("cnc", "defect"),
-];
-
 /// An import of a module by a line of another module.
 struct Arrow {
     from: String,
@@ -72,13 +66,7 @@ fn modules_import_what_is_below_them() {
     // A name that no module has is above all modules.
     let floor = |module: &str| floors.iter().position(|floor| *floor == module);
     all.retain(|arrow| floor(&arrow.to) < floor(&arrow.from));
-    let is_left = |arrow: &Arrow| LEFT.contains(&(arrow.from.as_str(), arrow.to.as_str()));
-    let upward = all.iter().filter(|arrow| !is_left(arrow));
-    let upward = upward.map(|Arrow { from, to, at }| format!("{at}: {from} -> {to}"));
+    let upward = all.iter().map(|Arrow { from, to, at }| format!("{at}: {from} -> {to}"));
     let upward: Vec<String> = upward.collect();
     assert!(upward.is_empty(), "imports of a module above:\n{}", upward.join("\n"));
-    for left in LEFT {
-        let is_used = all.iter().any(|arrow| (arrow.from.as_str(), arrow.to.as_str()) == left);
-        assert!(is_used, "{} -> {} is gone: delete it from LEFT", left.0, left.1);
-    }
 }

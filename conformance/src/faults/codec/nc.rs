@@ -1,7 +1,7 @@
 //! What streaming does not permit in NC text (STM).
 
 use super::{Right, Row, Twist, accepted, refused, row};
-use crate::testee::{Answer, Output, Question, Rejection};
+use crate::codec::message::{Answer, Output, Question, Rejection};
 
 /// What the text is with every line made another.
 pub(super) fn lines(text: &[u8], other: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {

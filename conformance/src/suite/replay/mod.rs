@@ -7,13 +7,14 @@ mod streaming;
 use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 
 use crate::judge::{Body, Case, Needs, Step, Stop, Subject};
+use crate::suite::Declared;
 use crate::suite::probe::{Probe, harness};
 
 /// What a client or a service does, which the suite itself is here.
 const NOT_THE_TARGETS: [&str; 5] = ["STM-17", "SVC-2", "SVC-5", "SVC-7", "SVC-13"];
 
 /// One case for each sequence that says something of the CNC.
-pub(super) fn cases() -> Vec<Case> {
+pub(super) fn cases() -> Vec<Declared> {
     let all = sequences().iter();
     let steps = all.filter(|one| matches!(one.given, Given::Streaming(_) | Given::Service(_)));
     let cases = steps.map(|sequence| {
@@ -27,7 +28,7 @@ pub(super) fn cases() -> Vec<Case> {
             body: Body::Sequence(sequence),
         }
     });
-    cases.filter(|case| !case.requirements.is_empty()).collect()
+    cases.filter(|case| !case.requirements.is_empty()).map(|case| (case, None)).collect()
 }
 
 /// What is at fault: its class, and the step.
