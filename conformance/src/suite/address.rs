@@ -8,8 +8,8 @@ use ads_cnc::operation::{
 use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
+use super::inventory::KINDS;
 use super::probe::{Probe, harness};
-use super::survey::KINDS;
 use super::{Declared, declare};
 use crate::judge::{Record, Rule, Step, Stop, assumed, online};
 

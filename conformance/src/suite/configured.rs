@@ -7,8 +7,8 @@ use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeExtended, Read
 use ads_cnc::{Decode as _, Description, ExtendedReply, Kind, VariableAccess, VariableCount};
 use ads_cnc_vectors::Hex;
 
+use super::inventory::VARIABLES_MAX;
 use super::probe::Probe;
-use super::survey::VARIABLES_MAX;
 use super::{Declared, declare};
 use crate::judge::Step;
 use crate::simulator::Configured;

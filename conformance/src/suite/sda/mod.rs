@@ -1,7 +1,7 @@
 //! Cases of SDA and GEO: which instances there are, and where.
 
 mod address;
-mod blank;
+mod empty_places;
 mod platform;
 mod range;
 mod types;
@@ -80,14 +80,14 @@ pub(super) fn cases() -> Vec<Declared> {
             "A place without an axis reads as blank",
             ["SDA-11"],
             Queries,
-            blank::empty_place
+            empty_places::empty_place
         ),
         declare!(
             "sda-axis-number",
             "The logical axis number of a place is that of its axis, and 0 without one",
             ["SDA-11"],
             Embedded,
-            blank::axis_number
+            empty_places::axis_number
         ),
     ]
 }

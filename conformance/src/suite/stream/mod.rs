@@ -1,13 +1,13 @@
 //! Cases of data streaming. What goes to a device are comments alone: they move nothing.
 
-mod apart;
-mod course;
-mod sent;
-mod stage;
+mod buffer;
+mod execution;
+mod isolation;
 mod words;
+mod write;
 
-pub(super) use sent::{Sent, heard, send, send_until_taken};
-pub(super) use stage::HELD_MAX;
+pub(super) use buffer::HELD_MAX;
+pub(super) use write::{Sent, heard, send, send_until_taken};
 
 use std::time::{Duration, Instant};
 
@@ -55,84 +55,84 @@ pub(super) fn cases() -> Vec<Declared> {
             "A packet of 993 bytes is refused, and nothing of it is taken",
             ["STM-2"],
             Embedded,
-            stage::too_long
+            buffer::too_long
         ),
         declare!(
             "stream-full",
             "The interface holds 4094 bytes; then a write is refused until they were read",
             ["STM-3", "STM-6", "STM-12", "STM-15"],
             Embedded,
-            stage::full
+            buffer::full
         ),
         declare!(
             "stream-channels",
             "What is written to the stream of a channel is run there, and nowhere else",
             ["STM-1", "ADR-12"],
             Embedded,
-            course::channels
+            execution::channels
         ),
         declare!(
             "stream-as-written",
             "Every character is run as it was written, and every line as a line",
             ["STM-4", "STM-7"],
             Embedded,
-            course::as_written
+            execution::as_written
         ),
         declare!(
             "stream-read-at-once",
             "All that is there is read at once, before any of it is run",
             ["STM-12"],
             Embedded,
-            course::at_once
+            execution::at_once
         ),
         declare!(
             "stream-behind-the-end",
             "What comes behind a program end that was read stays for the next start",
             ["STM-10", "STM-14"],
             Embedded,
-            course::behind_end
+            execution::behind_end
         ),
         declare!(
             "stream-dry",
             "Where nothing more is written motion stops, and the next write resumes it",
             ["STM-7", "STM-14", "STM-16"],
             Embedded,
-            stage::dry
+            buffer::dry
         ),
         declare!(
             "stream-reset",
             "A reset empties the interface, and the next program is another",
             ["STM-11", "STM-14"],
             Embedded,
-            stage::reset
+            buffer::reset
         ),
         declare!(
             "stream-many-packets",
             "The interface holds packets of one line as long as they fit, however many",
             ["STM-3", "STM-6", "STM-15"],
             Embedded,
-            stage::many
+            buffer::many
         ),
         declare!(
             "stream-room-of-channels",
             "The interface of each channel has all its room, however full another's is",
             ["STM-3", "STM-12"],
             Embedded,
-            apart::channels
+            isolation::channels
         ),
         declare!(
             "stream-refused-whole",
             "Of a packet that is refused no line is taken, though some would fit",
             ["STM-3", "STM-6"],
             Embedded,
-            apart::in_part
+            isolation::in_part
         ),
         declare!(
             "stream-lengths",
             "A packet is run whole, whatever its length up to 992 bytes",
             ["STM-2", "STM-4"],
             Embedded,
-            apart::lengths
+            isolation::lengths
         ),
         declare!(
             "stream-comments",

@@ -11,7 +11,7 @@ use super::maybe;
 use crate::judge::{Step, Stop};
 use crate::profile::Claim;
 use crate::services::clause;
-use crate::suite::described::kinds;
+use crate::suite::describe_by_name::kinds;
 use crate::suite::probe::{Probe, harness};
 use crate::suite::variable::name_of;
 

@@ -1,8 +1,8 @@
 //! Cases of the Service Interface: its variables, and what writing them leads to.
 
+mod aliases;
 mod program;
 mod variables;
-mod ways;
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
@@ -61,14 +61,14 @@ pub(super) fn cases() -> Vec<Declared> {
             "A text of any length is written and read by its handle as by its name",
             ["SVC-1"],
             Embedded,
-            ways::by_handle
+            aliases::by_handle
         ),
         declare!(
             "service-channels-apart",
             "What is answered in one channel changes nothing that is asked in another",
             ["SVC-1", "SVC-4"],
             Embedded,
-            ways::channels_apart
+            aliases::channels_apart
         ),
         declare!(
             "service-asked-by-a-program",
