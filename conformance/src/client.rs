@@ -17,9 +17,9 @@ use ads_cnc::operation::{Call, Service};
 use crate::exchange::{Answer, Exchange, Fault, Violation};
 use crate::gate::{Gate, Permit};
 use crate::net::Wire;
-use crate::services::{decode_reply, service_of};
 use crate::simulator::{InProcess, Responder, Server};
 use crate::text::Moment;
+use crate::wire_service::{decode_reply, service_of};
 
 pub use inquiry::{Inquired, Inquiry, Said};
 pub(crate) use judge::violations;

@@ -27,7 +27,7 @@
 //! | [`judge`] | case, check, evidence, outcome, verdict, plan, waiver |
 //! | [`values`] | values as people read and write them |
 //! | [`profile`], [`edition`] | what a target claims, and what an edition or a version has |
-//! | [`services`] | what the three ADS services have on the wire |
+//! | [`wire_service`] | what the three ADS services have on the wire |
 //! | [`deadline`] | when a tool stops asking |
 //! | [`text`] | hex, escapes, times, JSON |
 //!
@@ -74,7 +74,6 @@ pub mod process;
 pub mod profile;
 pub mod report;
 pub mod selftest;
-pub mod services;
 pub mod session;
 pub mod show;
 pub mod simulator;
@@ -82,3 +81,4 @@ pub mod suite;
 pub mod testee;
 pub mod text;
 pub mod values;
+pub mod wire_service;

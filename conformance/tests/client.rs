@@ -5,14 +5,14 @@ use std::net::SocketAddr;
 use std::thread;
 
 use ads_cnc_conformance::clients::{
-    Defect, Flaw, Judged, Own, Scenario, Stage, VOCABULARY, defects, find_defect, habits, judge,
-    scenarios, trial,
+    Defect, Flaw, Judged, ReferenceClient, Scenario, TestServer, VOCABULARY, defects, find_defect,
+    habits, judge, scenarios, trial,
 };
 use ads_cnc_conformance::judge::{CLIENT, Verdict};
 use ads_cnc_vectors::{Level, clause, requirement};
 
-fn stage() -> Stage {
-    Stage::new(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap()
+fn stage() -> TestServer {
+    TestServer::new(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap()
 }
 
 #[test]
@@ -32,7 +32,7 @@ fn habits_raise_nothing() {
 }
 
 fn raises_nothing(flaw: Option<Flaw>) -> Judged {
-    let judged = judge(&mut Own { flaw }, &stage(), &scenarios());
+    let judged = judge(&mut ReferenceClient { flaw }, &stage(), &scenarios());
     let mut raised = Vec::new();
     for outcome in &judged.outcomes {
         for one in outcome.verdicts.iter().filter(|one| one.verdict != Verdict::Pass) {

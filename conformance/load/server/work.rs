@@ -8,8 +8,8 @@ use ads_cnc::operation::{
     Call, Operation as _, ReadByHandle, ReadByName, ReadDescriptors, ReadObject, Request, Service,
 };
 use ads_cnc::{Encode as _, Handle, U32List};
-use ads_cnc_conformance::services::{decode_reply, encode_reply};
 use ads_cnc_conformance::simulator::{Cnc, DATA_MAX, NET_ID};
+use ads_cnc_conformance::wire_service::{decode_reply, encode_reply};
 
 pub(crate) type Result<T> = std::result::Result<T, Box<dyn Error + Send + Sync>>;
 

@@ -23,8 +23,8 @@
 //! # Ok::<(), ads_cnc_conformance::capture::FileError>(())
 //! ```
 
-mod book;
 mod file;
+mod findings;
 mod frame;
 mod frames;
 mod judge;

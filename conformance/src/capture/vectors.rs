@@ -18,8 +18,8 @@ use serde_json::json;
 use super::judge::Target;
 use crate::client::frame;
 use crate::codec::decode_stream;
-use crate::services;
 use crate::text::json as json_text;
+use crate::wire_service;
 
 /// Vectors of one capture; more are left out.
 pub const VECTORS_MAX: usize = 10_000;
@@ -102,7 +102,7 @@ impl Collector {
         if received.is_none() {
             return;
         }
-        let reply = services::encode_reply(call.service, AdsError::NO_ERROR, received);
+        let reply = wire_service::encode_reply(call.service, AdsError::NO_ERROR, received);
         let Ok(reply) = reply else { return };
         let frame =
             FrameRef::new(header.response(), &reply).and_then(|frame| frame.encode_to_vec());
@@ -116,8 +116,8 @@ impl Collector {
         let (tcp, rest) = bytes.split_at(bytes.len().min(6));
         let (ams, data) = rest.split_at(rest.len().min(32));
         let inside = match way {
-            Direction::Request => services::request_stream(service),
-            _ => services::reply_stream(service),
+            Direction::Request => wire_service::request_stream(service),
+            _ => wire_service::reply_stream(service),
         };
         for (stream, bytes) in
             [(Stream::AmsTcpHeader, tcp), (Stream::AmsHeader, ams), (inside, data)]
@@ -131,7 +131,7 @@ impl Collector {
             Context::default(),
             bytes,
             segments,
-            &["ADS-5", services::clause(service)],
+            &["ADS-5", wire_service::clause(service)],
         );
     }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::complain;
-use super::forms::Reports;
+use super::report_output::Reports;
 use crate::capture::{self, AMS_TCP_PORT, Checked, Collector, Options, Ports};
 use crate::edition::Edition;
 use crate::judge::{Case, Exit, Selection};

@@ -9,7 +9,7 @@ use clap::Args;
 use serde::Deserialize;
 
 use super::complain;
-use crate::clients::{self, Action, Answer, Hello, Own, Place, Reaction};
+use crate::clients::{self, Action, Answer, Hello, Place, Reaction, ReferenceClient};
 use crate::judge::Exit;
 
 /// Answers the protocol of `run --client` with this project's client, on stdin and stdout.
@@ -88,7 +88,7 @@ fn answer(flaw: Option<clients::Flaw>) -> io::Result<()> {
         out.write_all(b"\n")?;
         out.flush()
     };
-    say(serde_json::to_string(&Own::hello())?)?;
+    say(serde_json::to_string(&ReferenceClient::hello())?)?;
     for line in io::stdin().lock().lines() {
         let (place, action) = match serde_json::from_str::<Told>(&line?) {
             Ok(Told::Bye) => return Ok(()),
@@ -124,7 +124,7 @@ fn once(flaw: Option<clients::Flaw>) -> io::Result<()> {
         |name| std::env::var(name).map_err(|_| io::Error::other(format!("{name} is not set")));
     let line = told("ADS_CNC_DO")?;
     let line = match line.as_str() {
-        "hello" => serde_json::to_string(&Hello { stays: false, ..Own::hello() })?,
+        "hello" => serde_json::to_string(&Hello { stays: false, ..ReferenceClient::hello() })?,
         line => {
             let wrong = || io::Error::other("what it is told makes no sense");
             let place = Place {

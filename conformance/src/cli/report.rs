@@ -4,7 +4,7 @@ use std::io::{self, Read as _};
 use std::path::PathBuf;
 
 use super::complain;
-use super::forms::{Forms, is_stdout, lost, show};
+use super::report_output::{Forms, is_stdout, lost, show};
 use crate::judge::Exit;
 use crate::report::{self, Report};
 

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::forms::{Reports, show, write};
 use super::list;
+use super::report_output::{Reports, show, write};
 use super::run_client::ClientArgs;
 use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs};
 use super::{complain, find_defect, run_testee};
@@ -21,7 +21,7 @@ use crate::simulator::Model;
 use crate::suite::{self, Changes};
 use crate::text::Moment;
 
-mod against;
+mod target;
 
 /// Under which these options stand in the help.
 const SELECTION: &str = "Selection";
@@ -176,7 +176,7 @@ impl Run {
     pub(super) fn execute(&self) -> Exit {
         if self.print_profile {
             let printed = show(|out| out.write_all(profile::EXAMPLE.as_bytes()));
-            return printed.map_or_else(super::forms::lost, |()| Exit::Success);
+            return printed.map_or_else(super::report_output::lost, |()| Exit::Success);
         }
         let checked = find_defect(self.defect.as_deref()).and_then(|defect| {
             // A file that is wrong is wrong without a target too.
@@ -200,7 +200,7 @@ impl Run {
                 exit = run_testee::check(command, self.target.timeout(), out)?;
                 Ok(())
             });
-            return checked.map_or_else(super::forms::lost, |()| exit);
+            return checked.map_or_else(super::report_output::lost, |()| exit);
         }
         let seed = self.seed.unwrap_or_else(any_seed);
         if self.list {
@@ -353,7 +353,7 @@ impl Run {
             Some(file) => write(file, |out| list::to_json(&listed, out)),
             None => show(|out| list::to_text(&listed, out)),
         };
-        written.map_or_else(super::forms::lost, |()| Exit::Success)
+        written.map_or_else(super::report_output::lost, |()| Exit::Success)
     }
 
     fn of_client(

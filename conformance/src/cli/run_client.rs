@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::complain;
 use super::serve::check_address;
-use crate::clients::{self, Judged, Process, Scenario, Stage};
+use crate::clients::{self, Judged, Process, Scenario, TestServer};
 use crate::deadline::Deadline;
 use crate::judge::{Case, Outcome, Plan};
 use crate::process::interrupt::Interrupt;
@@ -83,14 +83,20 @@ impl ClientArgs {
     ) -> Result<OfClient, String> {
         let addr = self.client_listen.unwrap_or(SocketAddr::from(([127, 0, 0, 1], 0)));
         check_address(addr, self.allow_remote)?;
-        let stage = Stage::new(addr).map_err(|error| format!("{addr}: {error}"))?;
+        let server = TestServer::new(addr).map_err(|error| format!("{addr}: {error}"))?;
         match &self.client {
-            Some(command) => Ok(self.told(command, &stage, plan, deadline)),
-            None => waited(&stage, deadline, interrupt),
+            Some(command) => Ok(self.told(command, &server, plan, deadline)),
+            None => waited(&server, deadline, interrupt),
         }
     }
 
-    fn told(&self, command: &str, stage: &Stage, plan: &Plan, deadline: Deadline) -> OfClient {
+    fn told(
+        &self,
+        command: &str,
+        server: &TestServer,
+        plan: &Plan,
+        deadline: Deadline,
+    ) -> OfClient {
         let mut all = clients::scenarios();
         let mut wanted = Vec::new();
         for case in &plan.cases {
@@ -100,7 +106,7 @@ impl ClientArgs {
         }
         let timeout = Duration::from_millis(self.client_timeout);
         let mut process = Process::new(command, timeout).with_deadline(deadline);
-        let Judged { hello, outcomes, requests } = clients::judge(&mut process, stage, &wanted);
+        let Judged { hello, outcomes, requests } = clients::judge(&mut process, server, &wanted);
         let stderr = clients::Actor::stderr(&process);
         let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
         let stderr: String = stderr.chars().skip(skipped).collect();
@@ -119,8 +125,12 @@ impl ClientArgs {
 }
 
 /// Serves who comes of itself.
-fn waited(stage: &Stage, deadline: Deadline, interrupt: &Interrupt) -> Result<OfClient, String> {
-    let (addr, net_id) = (stage.addr(), stage.net_id());
+fn waited(
+    server: &TestServer,
+    deadline: Deadline,
+    interrupt: &Interrupt,
+) -> Result<OfClient, String> {
+    let (addr, net_id) = (server.addr(), server.net_id());
     let mut told = false;
     // Asked for the first time when somebody can come.
     let go_on = || {
@@ -132,7 +142,7 @@ fn waited(stage: &Stage, deadline: Deadline, interrupt: &Interrupt) -> Result<Of
         }
         !(interrupt.came() || deadline.is_over())
     };
-    let (outcome, frames) = clients::listen(stage, go_on).map_err(|error| error.to_string())?;
+    let (outcome, frames) = clients::listen(server, go_on).map_err(|error| error.to_string())?;
     if deadline.is_over() {
         complain(deadline);
     }

@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use clap::Args;
 
 use super::complain;
-use super::forms::{is_stdout, lost, show, write};
+use super::report_output::{is_stdout, lost, show, write};
 use crate::judge::{Exit, any_seed};
 use crate::selftest;
 use crate::selftest::detection::Scope;

@@ -4,7 +4,7 @@ use ads_cnc::ads::{AmsHeader, FrameRef, StateFlags};
 
 use super::Client;
 use crate::exchange::{Exchange, Fault, Violation};
-use crate::services::{clause, reply_stream};
+use crate::wire_service::{clause, reply_stream};
 
 impl Client {
     /// What is wrong with the frames themselves.

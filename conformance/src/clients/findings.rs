@@ -6,9 +6,9 @@ use ads_cnc::ads::FrameRef;
 use ads_cnc::operation::Call;
 use ads_cnc_vectors::Level;
 
-use super::stage::Turn;
+use super::test_server::Turn;
 use crate::judge::{CLIENT, Evidence, Record, Rule};
-use crate::services::{decode_reply, service_of};
+use crate::wire_service::{decode_reply, service_of};
 
 /// Checks made, and what came of them.
 #[derive(Debug, Default)]

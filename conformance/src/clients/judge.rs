@@ -13,8 +13,8 @@ use super::message::{Answer, Hello, Place, Reaction};
 use super::result::same;
 use super::scenario::{Expect, Scenario};
 use super::script::Script;
-use super::stage::{Stage, Turn};
-use super::{Actor, Defect, Own, asked, requests, scenarios, watch};
+use super::test_server::{TestServer, Turn};
+use super::{Actor, Defect, ReferenceClient, ordering, request_match, requests, scenarios};
 use crate::judge::{Body, CLIENT, Case, Needs, Outcome, Record, Rule, Stop, Subject, Verdict};
 use crate::process::interrupt;
 use crate::simulator::Cnc;
@@ -34,10 +34,10 @@ pub struct Judged {
 }
 
 /// Puts a client through scenarios, in their order.
-pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Judged {
+pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario]) -> Judged {
     let mut manners = Findings::default();
     let mut requests = 0_usize;
-    let place = |port| Place { addr: stage.addr(), net_id: stage.net_id(), port };
+    let place = |port| Place { addr: server.addr(), net_id: server.net_id(), port };
     let hello = match actor.hello(&place(552)) {
         Ok(hello) => hello,
         Err(_) if interrupt::came() => {
@@ -90,7 +90,7 @@ pub fn judge(actor: &mut dyn Actor, stage: &Stage, scenarios: &[Scenario]) -> Ju
             None if word.ends_with("-objects") || word == "stream" => 553,
             None => 552,
         };
-        let played = play(actor, stage, scenario, &place(port));
+        let played = play(actor, server, scenario, &place(port));
         if interrupt::came() {
             // Whether it would have answered is not known.
             outcomes.push(Outcome::interrupted(case));
@@ -136,8 +136,8 @@ fn one_line(actor: &mut dyn Actor, manners: &mut Findings) {
 
 /// Puts this project's client with a defect through the scenarios that can judge what it is about,
 /// until that fails; with a habit through all of them.
-pub fn trial(defect: &Defect, stage: &Stage) -> Vec<Outcome> {
-    let mut own = Own { flaw: Some(defect.flaw) };
+pub fn trial(defect: &Defect, server: &TestServer) -> Vec<Outcome> {
+    let mut own = ReferenceClient { flaw: Some(defect.flaw) };
     let wanted = Rule::from(defect.requirement).id;
     let judges = |scenario: &Scenario| {
         let whole = wanted.is_empty() || wanted == CLIENT;
@@ -145,7 +145,7 @@ pub fn trial(defect: &Defect, stage: &Stage) -> Vec<Outcome> {
     };
     let mut outcomes: Vec<Outcome> = Vec::new();
     for scenario in scenarios().into_iter().filter(judges) {
-        outcomes.extend(judge(&mut own, stage, std::slice::from_ref(&scenario)).outcomes);
+        outcomes.extend(judge(&mut own, server, std::slice::from_ref(&scenario)).outcomes);
         let mut verdicts = outcomes.iter().flat_map(|outcome| &outcome.verdicts);
         if verdicts.any(|one| one.requirement == wanted && one.verdict == Verdict::Fail) {
             break;
@@ -157,7 +157,7 @@ pub fn trial(defect: &Defect, stage: &Stage) -> Vec<Outcome> {
 /// What comes of one scenario, whether the client was lost, and how many requests it sent.
 fn play(
     actor: &mut dyn Actor,
-    stage: &Stage,
+    server: &TestServer,
     scenario: &Scenario,
     place: &Place,
 ) -> Result<(Outcome, bool, usize), String> {
@@ -167,23 +167,23 @@ fn play(
     let action = scenario.told(name).ok_or("no word of the vocabulary")?;
     let cnc = Cnc::with_default_model().map_err(|error| error.to_string())?;
     let mut script = Script::new(cnc);
-    script.knob = scenario.knob;
+    script.tamper = scenario.tamper;
     script.refused.clone_from(&scenario.refused);
     script.literal.clone_from(&scenario.literal);
     script.response = scenario.response;
     if let Some(prepare) = scenario.prepare {
         prepare(&script);
     }
-    stage.begin(script);
+    server.begin(script);
     let reaction = actor.act(place, &scenario.id, &action);
-    let (turns, beyond, script) = stage.end();
+    let (turns, beyond, script) = server.end();
     let script = script.ok_or("the CNC of the scenario is still in use")?;
     let mut findings = Findings::default();
     requests::judge(&turns, &mut None, &mut findings);
     // Who sees a loop word or a lie need not ask at all.
-    asked::judge(&scenario.asks, &turns, may_write(scenario), &mut findings);
+    request_match::judge(&scenario.asks, &turns, may_write(scenario), &mut findings);
     if let Some(watch) = scenario.watch {
-        watch::judge(watch, scenario, &script, &turns, &mut findings);
+        ordering::judge(watch, scenario, &script, &turns, &mut findings);
     }
     let stop = said(scenario, &script, &reaction, turns.last(), &mut findings);
     let stop = stop.or(beyond.stop());
@@ -258,7 +258,9 @@ fn said(
 fn logical(place: &Value) -> Value {
     let parts = place.as_array().map(Vec::as_slice).unwrap_or_default();
     match (parts, parts.first().and_then(Value::as_u64).and_then(|group| group.try_into().ok())) {
-        ([_, offset], Some(group)) => vec![asked::logical(group).into(), offset.clone()].into(),
+        ([_, offset], Some(group)) => {
+            vec![request_match::logical(group).into(), offset.clone()].into()
+        }
         _ => place.clone(),
     }
 }

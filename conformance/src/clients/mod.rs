@@ -2,35 +2,35 @@
 //! and sees what it makes of replies that are not what they should be.
 //!
 //! The protocol is described in `adapters/CLIENTS.md`. [`Process`] is a client that is started by a
-//! command, [`Own`] this project's, which can be told to be wrong: [`defects`].
+//! command, [`ReferenceClient`] this project's, which can be told to be wrong: [`defects`].
 
 mod action;
-mod asked;
 mod findings;
 mod judge;
-mod knob;
 mod literal;
 mod message;
-mod own;
+mod ordering;
 mod passive;
 mod process;
+mod reference_client;
+mod request_match;
 mod requests;
 mod result;
 mod scenario;
 mod scenarios;
 mod script;
-mod stage;
-mod watch;
+mod tamper;
+mod test_server;
 
 pub use action::{Action, VOCABULARY, Word};
 pub use judge::{Judged, judge, trial};
 pub use message::{Answer, Hello, Identity, PROTOCOL, Place, Reaction};
-pub use own::{Defect, Flaw, Own, answer, defects, find_defect, habits};
 pub use passive::{listen, requests_case};
 pub use process::Process;
+pub use reference_client::{Defect, Flaw, ReferenceClient, answer, defects, find_defect, habits};
 pub use scenario::Scenario;
 pub use scenarios::scenarios;
-pub use stage::Stage;
+pub use test_server::TestServer;
 
 /// Who is put through scenarios.
 pub trait Actor {

@@ -5,7 +5,7 @@ use ads_cnc::operation::Function;
 use super::findings::Findings;
 use super::requests;
 use super::script::Script;
-use super::stage::{Stage, Turn};
+use super::test_server::{TestServer, Turn};
 use crate::judge::{Body, CLIENT, Case, Needs, Outcome, Stop, Subject};
 use crate::simulator::{Cnc, ModelError};
 
@@ -32,20 +32,20 @@ pub fn requests_case() -> Case {
 /// # Errors
 /// None: a test builds the model.
 pub fn listen(
-    stage: &Stage,
+    server: &TestServer,
     mut go_on: impl FnMut() -> bool,
 ) -> Result<(Outcome, usize), ModelError> {
-    stage.begin(Script::new(Cnc::with_default_model()?));
+    server.begin(Script::new(Cnc::with_default_model()?));
     let (mut findings, mut before, mut count) = (Findings::default(), None, 0_usize);
     let mut judge = |turns: &[Turn]| {
         count = count.saturating_add(turns.len());
         requests::judge(turns, &mut before, &mut findings);
     };
-    stage.watch(|| {
-        judge(&stage.turns());
+    server.watch(|| {
+        judge(&server.turns());
         go_on()
     });
-    let (turns, beyond, _) = stage.end();
+    let (turns, beyond, _) = server.end();
     judge(&turns);
     let mut requirements = Vec::new();
     for judgement in &findings.record.judgements {

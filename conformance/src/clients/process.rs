@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::message::{Answer, Hello, PROTOCOL, Place, Reaction, environment, told};
 use super::{Action, Actor};
 use crate::deadline::Deadline;
-use crate::process::{START, Spoken, Stderr, Unheard, cut, shell};
+use crate::process::{LineProcess, RecvError, START, Stderr, cut, shell};
 
 /// How long it has for ending when all is said.
 const GRACE: Duration = Duration::from_secs(2);
@@ -19,7 +19,7 @@ pub struct Process {
     line: String,
     timeout: Duration,
     /// One that stays.
-    running: Option<Spoken>,
+    running: Option<LineProcess>,
     stays: bool,
     stderr: Stderr,
     /// What it has said without being asked.
@@ -45,21 +45,25 @@ impl Process {
         self.deadline.map_or(time, |deadline| deadline.limit(time))
     }
 
-    fn start(&self, place: &Place, scenario: &str, action: &str) -> Result<Spoken, Reaction> {
+    fn start(&self, place: &Place, scenario: &str, action: &str) -> Result<LineProcess, Reaction> {
         let mut command = shell(&self.line);
         command.envs(environment(place, scenario, action));
-        Spoken::start(command, &self.stderr)
+        LineProcess::start(command, &self.stderr)
             .map_err(|error| Reaction::Broken(format!("it cannot be started: {error}")))
     }
 
     /// The line it answers with; ended if there is none.
-    fn hear(&self, running: Spoken, timeout: Duration) -> Result<(String, Spoken), Reaction> {
-        match running.hear(self.limit(timeout)) {
+    fn recv(
+        &self,
+        running: LineProcess,
+        timeout: Duration,
+    ) -> Result<(String, LineProcess), Reaction> {
+        match running.recv(self.limit(timeout)) {
             Ok(line) => Ok((line, running)),
-            Err(Unheard::Garbled(why) | Unheard::NoText(why)) => Err(Reaction::Garbled(why)),
-            Err(Unheard::Silence) => Err(Reaction::Hung(timeout)),
-            Err(Unheard::Interrupted) => Err(Reaction::Broken("interrupted".to_owned())),
-            Err(Unheard::Closed) => Err(Reaction::Died(match running.ended(GRACE) {
+            Err(RecvError::Garbled(why) | RecvError::NoText(why)) => Err(Reaction::Garbled(why)),
+            Err(RecvError::Silence) => Err(Reaction::Hung(timeout)),
+            Err(RecvError::Interrupted) => Err(Reaction::Broken("interrupted".to_owned())),
+            Err(RecvError::Closed) => Err(Reaction::Died(match running.ended(GRACE) {
                 Some(status) => status.to_string(),
                 None => "it closed its stdout".to_owned(),
             })),
@@ -74,7 +78,7 @@ impl Actor for Process {
 
     fn hello(&mut self, place: &Place) -> Result<Hello, Reaction> {
         let running = self.start(place, HELLO, HELLO)?;
-        let (line, running) = self.hear(running, START.max(self.timeout))?;
+        let (line, running) = self.recv(running, START.max(self.timeout))?;
         let hello: Hello = serde_json::from_str(&line)
             .map_err(|error| Reaction::Garbled(format!("{error} in the hello {}", cut(&line))))?;
         if hello.protocol != PROTOCOL {
@@ -92,7 +96,7 @@ impl Actor for Process {
 
     fn act(&mut self, place: &Place, scenario: &str, action: &Action) -> Reaction {
         // Of one that has said too much, what comes next cannot be told from an answer.
-        let unasked = self.running.as_ref().and_then(Spoken::unasked);
+        let unasked = self.running.as_ref().and_then(LineProcess::unasked);
         if unasked.is_some() {
             self.running = None;
             self.unasked.extend(unasked);
@@ -110,9 +114,9 @@ impl Actor for Process {
         };
         let heard = started.and_then(|running| {
             if self.stays {
-                running.say(told(place, scenario, action).to_string().into_bytes());
+                running.send(told(place, scenario, action).to_string().into_bytes());
             }
-            self.hear(running, self.timeout)
+            self.recv(running, self.timeout)
         });
         let (line, running) = match heard {
             Ok(heard) => heard,
@@ -135,7 +139,7 @@ impl Actor for Process {
 
     fn bye(&mut self) -> Result<(), String> {
         let Some(running) = self.running.take() else { return Ok(()) };
-        running.say(b"{\"cmd\":\"bye\"}".to_vec());
+        running.send(b"{\"cmd\":\"bye\"}".to_vec());
         let (status, unasked) = running.finish(self.limit(GRACE.max(self.timeout)));
         self.unasked.extend(unasked);
         match status {

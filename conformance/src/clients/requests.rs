@@ -5,10 +5,10 @@ use ads_cnc::ads::{AdsError, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, DispatchError, Effect, Function, Request, Task};
 
 use super::findings::Findings;
-use super::stage::Turn;
+use super::test_server::Turn;
 use crate::judge::{CLIENT, assumed};
-use crate::services::{self, service_of};
 use crate::simulator::{DATA_MAX, NET_ID};
+use crate::wire_service::{self, service_of};
 
 /// What is known of the request before: its connection and its invoke ID.
 pub(super) type Before = Option<(usize, Option<Vec<u8>>)>;
@@ -62,7 +62,7 @@ fn one(turn: &Turn, findings: &mut Findings) {
     let port = header.target.port;
     let has_task = Task::from_port(port).is_some();
     findings.check("GEN-4", has_task, Some(turn), "port 551, 552 or 553", port);
-    let service = service_of(header.command).map(services::clause);
+    let service = service_of(header.command).map(wire_service::clause);
     match Call::from_frame(&frame) {
         Err(error) => {
             let expected = format!("a request of {}", name(header.command));

@@ -5,10 +5,10 @@ use ads_cnc::operation::Function;
 use serde_json::Value;
 
 use super::Action;
-use super::knob::Knob;
 use super::literal::Literal;
+use super::ordering::Order;
 use super::script::Script;
-use super::watch::Watch;
+use super::tamper::Tamper;
 use crate::judge::{Body, CLIENT, Case, Needs, Rule, Subject};
 
 /// A request that has to be among those a client sends, as bytes, not as the codec has them.
@@ -143,12 +143,12 @@ pub struct Scenario {
     pub(super) rules: Vec<Rule>,
     /// What it may be judged by beside that.
     pub(super) more: Vec<&'static str>,
-    pub(super) knob: Option<(Function, Knob)>,
+    pub(super) tamper: Option<(Function, Tamper)>,
     pub(super) refused: Vec<(usize, AdsError)>,
     pub(super) literal: Option<Literal>,
     pub(super) response: Option<&'static str>,
     pub(super) prepare: Option<fn(&Script)>,
-    pub(super) watch: Option<Watch>,
+    pub(super) watch: Option<Order>,
     pub(super) program: Option<Vec<u8>>,
 }
 
@@ -166,7 +166,7 @@ impl Scenario {
             expect: Expect::Done,
             rules: Vec::new(),
             more: Vec::new(),
-            knob: None,
+            tamper: None,
             refused: Vec::new(),
             literal: None,
             response: None,
@@ -195,12 +195,12 @@ impl Scenario {
         self
     }
 
-    pub(super) fn with(mut self, at: Function, knob: Knob) -> Self {
-        self.knob = Some((at, knob));
+    pub(super) fn with(mut self, at: Function, tamper: Tamper) -> Self {
+        self.tamper = Some((at, tamper));
         self
     }
 
-    pub(super) fn watched(mut self, watch: Watch, more: &[&'static str]) -> Self {
+    pub(super) fn ordered(mut self, watch: Order, more: &[&'static str]) -> Self {
         self.watch = Some(watch);
         self.more.extend(more);
         self
@@ -218,7 +218,7 @@ impl Scenario {
     /// It as a case of the suite.
     pub fn case(&self) -> Case {
         // Of what is not to be sent there is nothing to see.
-        let silent = matches!(self.watch, Some(Watch::NoStream(_)));
+        let silent = matches!(self.watch, Some(Order::NoStream(_)));
         let mut requirements = if silent { Vec::new() } else { vec!["ADS-5", "GEN-4"] };
         requirements.extend(self.rules().iter().map(|rule| rule.id));
         for ask in &self.asks {

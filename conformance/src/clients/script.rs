@@ -8,8 +8,8 @@ use ads_cnc::operation::{Call, Function, HandleByName, Request, WriteByName};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Decode as _, Encode as _, Handle};
 
-use super::knob::{Deed, Knob};
 use super::literal::Literal;
+use super::tamper::{SendStep, Tamper};
 use crate::simulator::{Cnc, DATA_MAX, NET_ID};
 
 /// How often a host of the Service Interface lets the client look before it has the response.
@@ -21,7 +21,7 @@ pub(super) struct Script {
     /// The CNC behind it.
     pub(super) cnc: Cnc,
     /// What is done to the replies of a function.
-    pub(super) knob: Option<(Function, Knob)>,
+    pub(super) tamper: Option<(Function, Tamper)>,
     /// Writes to the streaming object that are refused, by their number from 0, and how.
     pub(super) refused: Vec<(usize, AdsError)>,
     /// Answers that no codec has made.
@@ -38,7 +38,7 @@ impl Script {
     pub(super) const fn new(cnc: Cnc) -> Self {
         Self {
             cnc,
-            knob: None,
+            tamper: None,
             refused: Vec::new(),
             literal: None,
             response: None,
@@ -52,11 +52,15 @@ impl Script {
     ///
     /// # Errors
     /// Why it is none.
-    pub(super) fn answer(&mut self, connection: usize, frame: &[u8]) -> Result<Vec<Deed>, String> {
+    pub(super) fn answer(
+        &mut self,
+        connection: usize,
+        frame: &[u8],
+    ) -> Result<Vec<SendStep>, String> {
         if let Some(literal) = &self.literal
             && let Some(reply) = literal.reply(frame)
         {
-            return Ok(vec![Deed::Send(reply)]);
+            return Ok(vec![SendStep::Send(reply)]);
         }
         let split = FrameRef::split(frame, DATA_MAX).map_err(|error| error.to_string())?;
         let (request, _) = split.ok_or("cut")?;
@@ -72,9 +76,9 @@ impl Script {
         }
         let before = self.last.insert(connection, reply.clone());
         let function = asked.map(|asked| asked.function());
-        Ok(match self.knob {
-            Some((at, knob)) if function == Some(at) => knob.deeds(&reply, before.as_deref()),
-            _ => vec![Deed::Send(reply)],
+        Ok(match self.tamper {
+            Some((at, tamper)) if function == Some(at) => tamper.steps(&reply, before.as_deref()),
+            _ => vec![SendStep::Send(reply)],
         })
     }
 

@@ -14,8 +14,8 @@ use super::codes;
 use super::model::{Fault, Part, Place};
 use super::part;
 use super::value::bytes as in_words;
-use crate::services::{reply_stream, request_stream, service_of};
 use crate::values::Values;
+use crate::wire_service::{reply_stream, request_stream, service_of};
 
 /// Requests by who asked whom under which ID.
 type Asked = HashMap<(AmsAddr, AmsAddr, u32), (Command, IndexGroup, IndexOffset)>;

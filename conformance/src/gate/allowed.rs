@@ -9,7 +9,7 @@ use ads_cnc::operation::{ObjectList, Operation as _, Request};
 use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString};
 
-use super::{Doubt, Learnt, Moment, NET_ID, Reason};
+use super::{Doubt, Moment, NET_ID, Observed, Reason};
 
 /// What may be written, to whom and until when.
 ///
@@ -176,14 +176,14 @@ impl Entry {
     ///
     /// # Errors
     /// Why what it names may not be what is written.
-    pub(super) fn allows(&self, request: &Request<'_>, learnt: &Learnt) -> Result<bool, Doubt> {
+    pub(super) fn allows(&self, request: &Request<'_>, observed: &Observed) -> Result<bool, Doubt> {
         match (self, request) {
             (Self::Object { list, name }, Request::WriteObject(op)) => {
-                learnt.is_object(list.list(), name, (op.index_group(), op.index_offset()))
+                observed.is_object(list.list(), name, (op.index_group(), op.index_offset()))
             }
             // Each name of the handle is looked at there, whichever entry allows it.
             (Self::Variable { .. } | Self::Service(_), Request::WriteByHandle(op)) => {
-                learnt.is_variable(op.channel, op.handle)
+                observed.is_variable(op.channel, op.handle)
             }
             (_, Request::WriteByName(op)) => Ok(self.allows_variable(op.channel, None, op.name)),
             (_, Request::AxisWriteByName(op)) => {
@@ -191,7 +191,7 @@ impl Entry {
             }
             (Self::Content { group, offset }, Request::WriteObject(op)) => {
                 match (op.index_group(), op.index_offset()) == (*group, *offset) {
-                    true => learnt.has_one_name((*group, *offset)).map(|()| true),
+                    true => observed.has_one_name((*group, *offset)).map(|()| true),
                     false => Ok(false),
                 }
             }

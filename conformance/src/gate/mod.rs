@@ -25,7 +25,7 @@
 
 mod allowed;
 mod file;
-mod learnt;
+mod observed;
 mod refusal;
 
 pub use crate::text::Moment;
@@ -42,7 +42,7 @@ use ads_cnc::ads::{AmsNetId, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Effect, Function, Request, Service, Task};
 use ads_cnc::streaming;
 
-use learnt::Learnt;
+use observed::Observed;
 
 /// The AMS NetId of the simulated CNC, unless it is given another.
 pub const NET_ID: AmsNetId = AmsNetId([127, 0, 0, 1, 1, 1]);
@@ -57,7 +57,7 @@ pub struct Gate {
     /// Where the frames go, if that is known.
     peer: Option<IpAddr>,
     allowed: Option<Allowed>,
-    learnt: Learnt,
+    observed: Observed,
 }
 
 /// Leave for one frame to go to a target. Only a gate gives it.
@@ -209,19 +209,19 @@ impl Gate {
     /// what the file names.
     pub fn learn(&mut self, call: &Call<'_>, reply: &[u8]) {
         if let Some(allowed) = &self.allowed {
-            self.learnt.learn(allowed, call, reply);
+            self.observed.learn(allowed, call, reply);
         }
     }
 
     /// Whether a reply on this connection gave this handle to any name.
     pub fn knows_handle(&self, channel: Channel, handle: Handle) -> bool {
-        self.learnt.knows_handle(channel, handle)
+        self.observed.knows_handle(channel, handle)
     }
 
     /// Forgets what would let writes pass, as the next answers may come from another device. What
     /// keeps writes from passing stays.
     pub fn forget(&mut self) {
-        self.learnt.forget();
+        self.observed.forget();
     }
 
     /// Whether it can be repeated.
@@ -263,7 +263,7 @@ impl Gate {
         let mut doubt = None;
         let mut named = false;
         for entry in &allowed.entries {
-            match entry.allows(request, &self.learnt) {
+            match entry.allows(request, &self.observed) {
                 Ok(allows) => named |= allows,
                 Err(why) => doubt = Some(why),
             }

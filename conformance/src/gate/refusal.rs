@@ -8,7 +8,7 @@ use ads_cnc::ads::{AmsNetId, AmsPort, Command, StateFlags};
 use ads_cnc::operation::{self, Function};
 use ads_cnc::{CncString, Error};
 
-use super::learnt::LEARNT_MAX;
+use super::observed::LEARNT_MAX;
 use super::{Entry, Moment};
 
 /// A frame the gate did not let through.

@@ -367,7 +367,7 @@ fn a_handle_of_several_names_is_not_written_by() {
     assert_eq!(doubt(&axis, &by_handle(7)), shared("V.A.q"));
 }
 
-/// What does not fit any more closes the gate; nothing that was learnt makes room for it.
+/// What does not fit any more closes the gate; nothing that was observed makes room for it.
 #[test]
 fn what_is_learnt_is_bounded() {
     let table = "[[variable]]\nchannel = 1\nname = \"V.E.a\"\n\
@@ -375,7 +375,7 @@ fn what_is_learnt_is_bounded() {
     let mut gate = gate(table);
     give_handle(&mut gate, "V.E.a", 7);
     describe(&mut gate, "V.E.a", 7);
-    let kept = u32::try_from(learnt::LEARNT_MAX).unwrap();
+    let kept = u32::try_from(observed::LEARNT_MAX).unwrap();
     for handle in 100..98 + kept {
         give_handle(&mut gate, "V.E.other", handle);
     }

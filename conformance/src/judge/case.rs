@@ -103,7 +103,7 @@ pub enum Body {
     /// By putting an NC text into packets, or looking through one.
     Sequence(&'static Sequence),
     /// By watching how a testee answers all the others.
-    Manners,
+    Protocol,
     /// By watching what a client sends and says.
     Client,
     /// By looking through traffic of others.

@@ -199,7 +199,7 @@ fn foreign(case: &Case, edition: Edition) -> Option<String> {
     let provenance = match case.body {
         Body::Vector(vector) | Body::Printed(vector) => Some(&vector.provenance),
         Body::Sequence(sequence) => Some(&sequence.provenance),
-        Body::Probe | Body::Manners | Body::Client | Body::Traffic => None,
+        Body::Probe | Body::Protocol | Body::Client | Body::Traffic => None,
     };
     let printed = provenance.is_none_or(|provenance| has(edition, &provenance.sources));
     let required = case

@@ -45,7 +45,7 @@ impl Stderr {
 
 /// Why there is no line.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Unheard {
+pub enum RecvError {
     /// None came in time.
     Silence,
     /// This process is to end.
@@ -60,13 +60,13 @@ pub enum Unheard {
 
 /// A command that runs; ended with all that it has started when it is dropped.
 #[derive(Debug)]
-pub struct Spoken {
+pub struct LineProcess {
     child: Running,
     to: Sender<Vec<u8>>,
     from: Receiver<Result<Vec<u8>, String>>,
 }
 
-impl Spoken {
+impl LineProcess {
     /// Starts a command, apart from this process.
     ///
     /// # Errors
@@ -99,7 +99,7 @@ impl Spoken {
     }
 
     /// Says a line. Who has ended reads nothing: its end is seen when the answer is waited for.
-    pub fn say(&self, mut line: Vec<u8>) {
+    pub fn send(&self, mut line: Vec<u8>) {
         line.push(b'\n');
         let _gone = self.to.send(line);
     }
@@ -108,18 +108,18 @@ impl Spoken {
     ///
     /// # Errors
     /// What came instead.
-    pub fn hear(&self, timeout: Duration) -> Result<String, Unheard> {
+    pub fn recv(&self, timeout: Duration) -> Result<String, RecvError> {
         let begun = Instant::now();
         loop {
             let left = timeout.saturating_sub(begun.elapsed());
             match self.from.recv_timeout(left.min(interrupt::LOOK)) {
                 Ok(Ok(line)) => return text(line),
-                Ok(Err(why)) => return Err(Unheard::Garbled(why)),
-                Err(RecvTimeoutError::Disconnected) => return Err(Unheard::Closed),
+                Ok(Err(why)) => return Err(RecvError::Garbled(why)),
+                Err(RecvTimeoutError::Disconnected) => return Err(RecvError::Closed),
                 Err(RecvTimeoutError::Timeout) if interrupt::came() => {
-                    return Err(Unheard::Interrupted);
+                    return Err(RecvError::Interrupted);
                 }
-                Err(RecvTimeoutError::Timeout) if left.is_zero() => return Err(Unheard::Silence),
+                Err(RecvTimeoutError::Timeout) if left.is_zero() => return Err(RecvError::Silence),
                 Err(RecvTimeoutError::Timeout) => {}
             }
         }
@@ -226,14 +226,14 @@ pub fn read_line(from: &mut impl BufRead, most: usize) -> Option<Result<Vec<u8>,
 ///
 /// # Errors
 /// What is said of one that has too many values, or is not UTF-8.
-pub fn text(line: Vec<u8>) -> Result<String, Unheard> {
+pub fn text(line: Vec<u8>) -> Result<String, RecvError> {
     if line.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count() > VALUES_MAX {
-        return Err(Unheard::NoText(format!("a line with more than {VALUES_MAX} values")));
+        return Err(RecvError::NoText(format!("a line with more than {VALUES_MAX} values")));
     }
     String::from_utf8(line).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let shown = cut(&String::from_utf8_lossy(error.as_bytes()));
-        Unheard::NoText(format!("a line that is not UTF-8 at byte {at}: {shown}"))
+        RecvError::NoText(format!("a line that is not UTF-8 at byte {at}: {shown}"))
     })
 }
 

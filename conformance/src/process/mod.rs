@@ -14,7 +14,7 @@ use process_wrap::std::{ChildWrapper, CommandWrap};
 #[cfg(windows)]
 use process_wrap::std::{CreationFlags, JobObject};
 
-pub use lines::{LINE_MAX, Spoken, Stderr, Unheard, cut, read_line, text};
+pub use lines::{LINE_MAX, LineProcess, RecvError, Stderr, cut, read_line, text};
 
 /// How long a command has at least for its first word: some languages take longer for starting than
 /// for any answer.

@@ -3,7 +3,7 @@
 use std::net::SocketAddr;
 
 use super::{Candidate, Group};
-use crate::clients::{Defect, Stage, defects, habits, trial};
+use crate::clients::{Defect, TestServer, defects, habits, trial};
 use crate::judge::Outcome;
 use crate::session::Trouble;
 
@@ -20,7 +20,7 @@ pub(super) fn candidates() -> Vec<Candidate> {
 }
 
 fn run(defect: &Defect) -> Result<Vec<Outcome>, Trouble> {
-    let stage = Stage::new(SocketAddr::from(([127, 0, 0, 1], 0)))
+    let server = TestServer::new(SocketAddr::from(([127, 0, 0, 1], 0)))
         .map_err(|error| Trouble::Internal(format!("nobody can be waited for: {error}")))?;
-    Ok(trial(defect, &stage))
+    Ok(trial(defect, &server))
 }

@@ -9,7 +9,7 @@ use ads_cnc::operation::{Call, Service, Task};
 use ads_cnc::{Encode, Error};
 
 use super::{to_len, to_u32};
-use crate::services::service_of;
+use crate::wire_service::service_of;
 
 /// The most bytes behind the AMS header of a frame that is taken or sent: more ends a connection,
 /// and is refused as the answer to a request.

@@ -8,8 +8,8 @@ use ads_cnc::operation::{
 use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
+use super::inventory::KINDS;
 use super::probe::{Probe, harness};
-use super::survey::KINDS;
 use super::{Row, case};
 use crate::judge::{Needs, Record, Rule, Step, Stop, assumed, online};
 

@@ -10,7 +10,7 @@ use ads_cnc::sda::{ElementLength, ElementText};
 
 use super::addresses::Addresses;
 use super::probe::Probe;
-use super::still::Still;
+use super::steady::Steady;
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
 
@@ -75,7 +75,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
 
 fn by_index(probe: &mut Probe<'_>) -> Step {
     let ranks: Vec<(u8, Channel)> = (1_u8..).zip(probe.channels()?).collect();
-    let mut still = Still::default();
+    let mut steady = Steady::default();
     for instance in probe.instances()? {
         let mut ranks = ranks.iter();
         let rank = ranks.find(|(_, channel)| u32::from(channel.number()) == instance.channel);
@@ -96,11 +96,11 @@ fn by_index(probe: &mut Probe<'_>) -> Step {
             for (one, other) in requests(element).into_iter().zip(requests(other)) {
                 let what = one.function().spec().name;
                 let what = format!("{what} {} of {instance}", element.index_offset());
-                still.same(probe, &["ADR-1", "ADR-12"].map(Rule::from), &what, one, other)?;
+                steady.same(probe, &["ADR-1", "ADR-12"].map(Rule::from), &what, one, other)?;
             }
         }
     }
-    still.finish()
+    steady.finish()
 }
 
 fn within(probe: &mut Probe<'_>) -> Step {

@@ -11,7 +11,7 @@ use ads_cnc_vectors::Hex;
 
 use super::axis_interface::{self, PLACES_MAX, answering};
 use super::probe::{Probe, harness};
-use super::still::Still;
+use super::steady::Steady;
 use super::variable::name_of;
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop, assumed};
@@ -158,7 +158,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
 }
 
 fn values(probe: &mut Probe<'_>) -> Step {
-    let mut still = Still::default();
+    let mut steady = Steady::default();
     each(probe, |probe, at, variable| {
         let At { channel, axis, name, .. } = at;
         let request = AxisReadByName { channel, axis, name: name.as_cnc_str().into() };
@@ -170,7 +170,7 @@ fn values(probe: &mut Probe<'_>) -> Step {
         }
         let what = at.to_string();
         let by_name = ReadByName { channel, name: name_of(variable) };
-        still.same_part(
+        steady.same_part(
             probe,
             &["VAR-26".into()],
             &what,
@@ -181,9 +181,9 @@ fn values(probe: &mut Probe<'_>) -> Step {
         // That handles of this interface are used there is assumed.
         let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
         let rules = [assumed("VAR-10")];
-        still.same_part(probe, &rules, &what, by_handle.into(), request.into(), <[u8]>::to_vec)
+        steady.same_part(probe, &rules, &what, by_handle.into(), request.into(), <[u8]>::to_vec)
     })?;
-    still.finish()
+    steady.finish()
 }
 
 fn unknown(probe: &mut Probe<'_>) -> Step {

@@ -9,7 +9,7 @@ use ads_cnc_vectors::Hex;
 
 use super::inventory::{OBJECTS_MAX, Object};
 use super::probe::{Probe, harness};
-use super::still::Still;
+use super::steady::Steady;
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop, assumed};
 
@@ -103,7 +103,7 @@ fn by_index(probe: &Probe<'_>, object: &Object) -> Option<ReadObject> {
 }
 
 fn content_by_index(probe: &mut Probe<'_>) -> Step {
-    let mut still = Still::default();
+    let mut steady = Steady::default();
     let mut any = false;
     for object in probe.objects()? {
         let (Some(one), Some(other)) = (read_of(&object), by_index(probe, &object)) else {
@@ -111,10 +111,10 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
         };
         any = true;
         let rules = ["ADR-1", "ADR-12"].map(Rule::from);
-        still.same(probe, &rules, &object.name.to_string(), one, other.into())?;
+        steady.same(probe, &rules, &object.name.to_string(), one, other.into())?;
     }
     match any {
-        true => still.finish(),
+        true => steady.finish(),
         false => Err(Stop::NotApplicable("no object is in the group of a channel".to_owned())),
     }
 }

@@ -13,7 +13,7 @@ use ads_cnc::{Decode, ErrorKind};
 use super::inventory::{Instance, OF_PLACES, number_of};
 use super::probe::{Probe, harness};
 use super::sda::{length_of, type_and_length};
-use super::still::Still;
+use super::steady::Steady;
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop, assumed};
 
@@ -248,7 +248,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
 
 fn content_by_index(probe: &mut Probe<'_>) -> Step {
     let ranks: Vec<(u8, Channel)> = (1_u8..).zip(probe.channels()?).collect();
-    let mut still = Still::default();
+    let mut steady = Steady::default();
     each(probe, |probe, instance, element| {
         let rank =
             ranks.iter().find(|(_, channel)| u32::from(channel.number()) == instance.channel);
@@ -272,14 +272,14 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
         };
         for (one, other) in attributes(element).into_iter().zip(attributes(by_index)) {
             let what = format!("{} of {what}", one.function().spec().name);
-            still.same(probe, &rules, &what, one, other)?;
+            steady.same(probe, &rules, &what, one, other)?;
         }
         match (ReadElement::new(element, length), ReadElement::new(by_index, length)) {
-            (Ok(one), Ok(other)) => still.same(probe, &rules, &what, one, other.into()),
+            (Ok(one), Ok(other)) => steady.same(probe, &rules, &what, one, other.into()),
             _ => Ok(()),
         }
     })?;
-    still.finish()
+    steady.finish()
 }
 
 fn read_lengths(probe: &mut Probe<'_>) -> Step {

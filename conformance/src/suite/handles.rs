@@ -8,7 +8,7 @@ use ads_cnc::{Decode as _, Description, Handle, Kind, TextRef, U32List, Variable
 use ads_cnc_vectors::Hex;
 
 use super::probe::{Probe, harness};
-use super::still::Still;
+use super::steady::Steady;
 use super::variable::name_of;
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop, assumed};
@@ -31,7 +31,7 @@ pub(super) fn whole(channel: Channel, handle: Handle) -> ReadByHandle<'static> {
 }
 
 fn described(probe: &mut Probe<'_>) -> Step {
-    let mut still = Still::default();
+    let mut steady = Steady::default();
     for channel in probe.channels()? {
         for variable in probe.readable(channel)? {
             let what = variable.name.text.to_string();
@@ -50,11 +50,11 @@ fn described(probe: &mut Probe<'_>) -> Step {
             }
             if answered && named {
                 let rules = ["VAR-4", "VAR-10"].map(Rule::from);
-                still.same(probe, &rules, &what, by_handle, by_name.into())?;
+                steady.same(probe, &rules, &what, by_handle, by_name.into())?;
             }
         }
     }
-    still.finish()
+    steady.finish()
 }
 
 /// The handle of a name, which has to have one.
@@ -104,7 +104,7 @@ fn stays(probe: &mut Probe<'_>) -> Step {
     if all.is_empty() {
         return Err(Stop::Inconclusive("no name has a handle".to_owned()));
     }
-    let mut still = Still::default();
+    let mut steady = Steady::default();
     for (channel, variable, handle) in &all {
         let (channel, by_handle) = (*channel, whole(*channel, *handle));
         // Twice each, as one that is used up by the first read is none.
@@ -115,9 +115,9 @@ fn stays(probe: &mut Probe<'_>) -> Step {
         }
         let by_name = ReadByName { channel, name: name_of(variable) };
         let what = variable.name.text.to_string();
-        still.same(probe, &["VAR-10".into()], &what, by_handle, by_name.into())?;
+        steady.same(probe, &["VAR-10".into()], &what, by_handle, by_name.into())?;
     }
-    still.finish()
+    steady.finish()
 }
 
 fn unknown(probe: &mut Probe<'_>) -> Step {

@@ -1,5 +1,7 @@
 //! What a target has, listed once: objects of the COM task, instances of SDA and GEO.
 
+mod variables;
+
 use ads_cnc::address::{Channel, Class, ElementAddress, PlatformAxis};
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{
@@ -8,6 +10,8 @@ use ads_cnc::operation::{
 };
 use ads_cnc::sda::{ElementCount, ElementLength, ObjectAddress};
 use ads_cnc::{CncString, Decode, DescriptorsRef, ObjectCount};
+
+pub(super) use variables::{KINDS, VARIABLES_MAX};
 
 use super::probe::{Probe, harness};
 use crate::explain::class_name;

@@ -2,30 +2,29 @@
 
 mod address;
 mod addresses;
+mod ads_services;
 mod arrays;
 mod attributes;
 mod axis;
+mod axis_exchange;
 mod axis_interface;
 mod axis_place;
+mod byte_order;
 mod com;
 mod configured;
 mod content;
-mod described;
+mod describe_by_name;
 mod device;
 mod dynamic;
 mod elements;
-mod exchange;
 mod general;
 mod handles;
-mod held;
 mod inventory;
-mod known;
 mod layout;
 mod malformed;
 mod names;
 mod needs;
-mod numbers;
-mod packed;
+mod no_padding;
 mod place;
 mod platform;
 mod printed;
@@ -33,25 +32,25 @@ mod probe;
 mod replay;
 mod run;
 mod sda;
-mod service;
-mod services;
+mod service_interface;
 mod session;
-mod still;
+mod simulator_state;
+mod steady;
 mod stream;
-mod survey;
 mod texts;
 mod undo;
 mod values;
 mod variable;
+mod variable_lookup;
 mod write;
-mod write_after;
-mod write_all;
+mod write_after_error;
+mod write_aliases;
 mod write_content;
 mod write_elements;
+mod write_isolation;
 mod write_refused;
 mod write_sizes;
 mod write_texts;
-mod write_ways;
 
 pub(crate) use com::descriptor_holds_together;
 pub use probe::Probe;
@@ -88,42 +87,42 @@ const fn case(
 /// The cases that a function tries.
 const TABLES: &[&[Row]] = &[
     address::CASES,
-    services::CASES,
+    ads_services::CASES,
     attributes::CASES,
     general::CASES,
-    numbers::CASES,
-    packed::CASES,
+    byte_order::CASES,
+    no_padding::CASES,
     device::CASES,
     com::CASES,
     content::CASES,
     platform::CASES,
-    held::CASES,
+    simulator_state::CASES,
     sda::CASES,
     elements::CASES,
     dynamic::CASES,
     variable::CASES,
     handles::CASES,
-    known::CASES,
-    described::CASES,
+    variable_lookup::CASES,
+    describe_by_name::CASES,
     names::CASES,
     values::CASES,
     arrays::CASES,
     configured::CASES,
     axis::CASES,
     axis_place::CASES,
-    exchange::CASES,
+    axis_exchange::CASES,
     write::CASES,
     write_elements::CASES,
     write_refused::CASES,
     write_sizes::CASES,
-    write_all::CASES,
+    write_isolation::CASES,
     write_texts::CASES,
     write_content::CASES,
-    write_after::CASES,
-    write_ways::CASES,
+    write_after_error::CASES,
+    write_aliases::CASES,
     texts::CASES,
     stream::CASES,
-    service::CASES,
+    service_interface::CASES,
     malformed::CASES,
     address::FRAME_CASES,
 ];

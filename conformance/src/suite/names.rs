@@ -8,7 +8,7 @@ use ads_cnc::operation::{
 use ads_cnc::{CncString, Decode as _, TextRef, VariablePath, VariableType};
 
 use super::probe::{Probe, harness};
-use super::still::Still;
+use super::steady::Steady;
 use super::variable::name_of;
 use super::{Row, case};
 use crate::edition::{Edition, Feature};
@@ -118,13 +118,13 @@ pub(super) fn dynamic_among_variables(
 fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
     let all = dynamic_among_variables(probe)?;
     let (channel, known) = (probe.channel()?, known(probe)?);
-    let mut still = Still::default();
+    let mut steady = Steady::default();
     for (kind, name) in &all {
         let name = TextRef::from(name.as_cnc_str());
         let by_name = ReadByName { channel, name };
         let one = DynamicValueByName { channel, kind: *kind, name };
         let what = name.text().to_string();
-        still.same_part(
+        steady.same_part(
             probe,
             &["VAR-19".into()],
             &what,
@@ -136,7 +136,7 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
         let what = format!("the handle of {}", name.text());
         probe.refuses("VAR-18", &what, HandleByName { channel, name }, good)?;
     }
-    still.finish()
+    steady.finish()
 }
 
 fn texts(probe: &mut Probe<'_>) -> Step {

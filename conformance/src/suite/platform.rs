@@ -12,7 +12,7 @@ use super::com::{known_number, number, one_by_one};
 use super::content::read_of;
 use super::inventory::{OBJECTS_MAX, Object};
 use super::probe::{Probe, harness};
-use super::still::Still;
+use super::steady::Steady;
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop, assumed};
 
@@ -95,7 +95,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
     let first = ObjectList::from(probe.channel_of(1)?);
     let of = |list| all.iter().filter(move |one| one.list == list);
-    let mut still = Still::default();
+    let mut steady = Steady::default();
     let mut any = false;
     for object in of(ObjectList::PLATFORM) {
         let Some(one) = read_of(object) else { continue };
@@ -103,7 +103,7 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
         let what = object.name.to_string();
         let same = |one: &&Object| one.name == object.name && one.size == object.size;
         if let Some(other) = of(first).find(same).and_then(read_of) {
-            still.same(probe, &["COM-4".into()], &what, one, other.into())?;
+            steady.same(probe, &["COM-4".into()], &what, one, other.into())?;
         }
         // And at its own offset in the groups of both.
         for list in [ObjectList::PLATFORM, first] {
@@ -114,11 +114,11 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
                 let expected = format!("{what} in group {group}");
                 probe.check(rule, answered, expected, "an error");
             }
-            still.same(probe, &["COM-4".into()], &what, one, there.into())?;
+            steady.same(probe, &["COM-4".into()], &what, one, there.into())?;
         }
     }
     match any {
-        true => still.finish(),
+        true => steady.finish(),
         false => Err(Stop::NotApplicable("the platform has no object".to_owned())),
     }
 }

@@ -82,7 +82,7 @@ fn one(case: Case, run: Option<Try>, session: Option<&mut Session>) -> Outcome {
         (Body::Probe, None) => Err(Stop::Harness(format!("no function tries {}", case.id))),
         (Body::Printed(vector), _) => printed::ask(&mut probe, vector),
         (Body::Sequence(sequence), _) => replay::run(&mut probe, sequence),
-        (Body::Vector(_) | Body::Manners | Body::Client | Body::Traffic, _) => {
+        (Body::Vector(_) | Body::Protocol | Body::Client | Body::Traffic, _) => {
             Err(Stop::Harness("this case needs no target".to_owned()))
         }
     });

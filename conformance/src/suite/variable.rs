@@ -12,9 +12,9 @@ use ads_cnc::{
     VariableType,
 };
 
-use super::described::kinds;
+use super::describe_by_name::kinds;
+use super::inventory::{KINDS, VARIABLES_MAX};
 use super::probe::{Probe, harness};
-use super::survey::{KINDS, VARIABLES_MAX};
 use super::{Row, case};
 use crate::judge::{Checks, Needs, Rule, Step, Stop, assumed};
 

@@ -6,7 +6,7 @@ use ads_cnc_vectors::Hex;
 use super::place::{Place, Trial};
 use super::probe::Probe;
 use super::write::each;
-use super::write_all::write;
+use super::write_isolation::write;
 use super::{Row, case};
 use crate::judge::{Needs, Step, online};
 use crate::values::until_nul;

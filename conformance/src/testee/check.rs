@@ -2,8 +2,8 @@
 
 use ads_cnc_vectors::{Expect, Vector, vector};
 
+use super::describe::describe;
 use super::plan::{forms, of_vector};
-use super::tell::describe;
 use super::{Process, Reaction, Testee, compare};
 use crate::codec::message::{Answer, Capabilities, Output, Question};
 use crate::text::{escape, hex::compact};

@@ -1,9 +1,9 @@
 //! Asking a testee everything, and what comes of it.
 
-use super::manners::Manners;
+use super::describe::describe;
 use super::plan::{Asked, Purpose, plan};
-use super::tell::describe;
-use super::view::{Reactions, View};
+use super::protocol_rules::ProtocolRules;
+use super::verdicts::{Reactions, Verdicts};
 use super::{Reaction, Testee};
 use crate::codec::message::{Answer, Hello};
 use crate::judge::{Case, Outcome, Stop, Subject, Verdict};
@@ -60,7 +60,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     let capabilities = &hello.capabilities;
     let claimed = capabilities.editions.first().map(String::as_str);
     let edition = terms.edition.or(claimed).unwrap_or("en-1.05").to_owned();
-    let mut manners = Manners::default();
+    let mut protocol = ProtocolRules::default();
     if let Some(asked) = terms.edition
         && !capabilities.editions.is_empty()
         && !capabilities.editions.iter().any(|one| one == asked)
@@ -112,8 +112,8 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             Purpose::Case(case) => {
                 reactions.insert((case, question.op), reaction);
             }
-            Purpose::Sanity { case, first } => manners.sanity(case, first, question, reaction),
-            Purpose::MadeUp => manners.made_up(&question, &reaction),
+            Purpose::Sanity { case, first } => protocol.sanity(case, first, question, reaction),
+            Purpose::MadeUp => protocol.made_up(&question, &reaction),
         }
         if lost >= LOST_MAX {
             let why = format!("{LOST_MAX} questions in a row without an answer");
@@ -125,16 +125,17 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
         && testee.over().is_none()
         && let Err(why) = testee.bye()
     {
-        manners.fault("it ends with exit code 0 after bye", why, None);
+        protocol.fault("it ends with exit code 0 after bye", why, None);
     }
-    let view = View { cases: &cases, reactions: &reactions, hello: &hello, edition, terms, gone };
+    let view =
+        Verdicts { cases: &cases, reactions: &reactions, hello: &hello, edition, terms, gone };
     let mut outcomes: Vec<Outcome> = (0..wanted).filter_map(|place| view.outcome(place)).collect();
     // Our own codec is asked without a protocol in between.
     if terms.subject != Subject::Codec {
-        let manners = manners.outcome(terms.subject);
+        let protocol = protocol.outcome(terms.subject);
         outcomes.push(match interrupt::came() {
-            true => Outcome::interrupted(manners.case),
-            false => manners,
+            true => Outcome::interrupted(protocol.case),
+            false => protocol,
         });
     }
     Judged { hello: Some(hello), outcomes, asked, restarts }
@@ -146,10 +147,10 @@ fn untried(cases: Vec<Case>, outcome: impl Fn(Case) -> Outcome) -> Judged {
 }
 
 fn without_hello(cases: Vec<Case>, reaction: &Reaction, subject: Subject) -> Judged {
-    let mut manners = Manners::default();
-    manners.fault("an answer to hello", describe(reaction), None);
+    let mut protocol = ProtocolRules::default();
+    protocol.fault("an answer to hello", describe(reaction), None);
     let untried = |case| Outcome::untried(case, Verdict::NotRun, "there was no answer to hello");
     let mut outcomes: Vec<Outcome> = cases.into_iter().map(untried).collect();
-    outcomes.push(manners.outcome(subject));
+    outcomes.push(protocol.outcome(subject));
     Judged { hello: None, outcomes, asked: 0, restarts: 0 }
 }

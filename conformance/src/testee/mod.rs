@@ -5,14 +5,14 @@
 
 mod check;
 mod compare;
+mod describe;
 mod judge;
-mod manners;
 mod miniature;
 mod own;
 mod plan;
 mod process;
-mod tell;
-mod view;
+mod protocol_rules;
+mod verdicts;
 
 use std::time::Duration;
 

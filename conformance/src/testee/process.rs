@@ -6,7 +6,7 @@ use super::{Reaction, Testee};
 use crate::codec::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use crate::deadline::Deadline;
 use crate::process::interrupt;
-use crate::process::{START, Spoken, Stderr, Unheard, cut, shell};
+use crate::process::{LineProcess, RecvError, START, Stderr, cut, shell};
 use crate::text::shorten;
 
 /// How long it has for ending after `bye`.
@@ -21,7 +21,7 @@ pub struct Process {
     line: String,
     timeout: Duration,
     seq: u64,
-    running: Option<Spoken>,
+    running: Option<LineProcess>,
     stderr: Stderr,
     sent: Option<String>,
     received: Option<String>,
@@ -71,7 +71,7 @@ impl Process {
             return Err(Reaction::Broken("interrupted".to_owned()));
         }
         self.starts = self.starts.saturating_add(1);
-        let started = Spoken::start(shell(&self.line), &self.stderr);
+        let started = LineProcess::start(shell(&self.line), &self.stderr);
         let running =
             started.map_err(|error| Reaction::Broken(format!("it cannot be started: {error}")))?;
         self.running = Some(running);
@@ -85,26 +85,26 @@ impl Process {
         let Some(running) = &self.running else {
             return Err(Reaction::Broken("it is not running".to_owned()));
         };
-        running.say(line);
-        match running.hear(self.limit(timeout)) {
+        running.send(line);
+        match running.recv(self.limit(timeout)) {
             Ok(line) => {
                 self.received = Some(shorten(&line, SHOWN));
                 Ok(line)
             }
-            Err(Unheard::NoText(why)) => Err(Reaction::Garbled(why)),
-            Err(Unheard::Garbled(why)) => {
+            Err(RecvError::NoText(why)) => Err(Reaction::Garbled(why)),
+            Err(RecvError::Garbled(why)) => {
                 self.running = None;
                 Err(Reaction::Garbled(why))
             }
-            Err(Unheard::Silence) => {
+            Err(RecvError::Silence) => {
                 self.running = None;
                 Err(Reaction::Silent(timeout))
             }
-            Err(Unheard::Interrupted) => {
+            Err(RecvError::Interrupted) => {
                 self.running = None;
                 Err(Reaction::Broken("interrupted".to_owned()))
             }
-            Err(Unheard::Closed) => Err(Reaction::Crashed(self.ended())),
+            Err(RecvError::Closed) => Err(Reaction::Crashed(self.ended())),
         }
     }
 
@@ -150,7 +150,7 @@ impl Testee for Process {
 
     fn bye(&mut self) -> Result<(), String> {
         let Some(running) = self.running.take() else { return Ok(()) };
-        running.say(serde_json::to_vec(&Command::Bye).unwrap_or_default());
+        running.send(serde_json::to_vec(&Command::Bye).unwrap_or_default());
         match running.finish(self.limit(GRACE.max(self.timeout))) {
             (_, Some(unasked)) => Err(format!("it said {unasked}, which nobody asked for")),
             (Some(status), _) if status.success() => Ok(()),

@@ -8,7 +8,7 @@ use ads_cnc::operation::{Call, FindInstance, Reply, Request};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc::value::DataType;
 
-use super::super::book::{Scene, Topic};
+use super::super::findings::{Observation, Topic};
 use super::Bench;
 use crate::judge::{Checks as _, Rule, assumed, online};
 
@@ -40,14 +40,14 @@ fn size_rule(data_type: DataType) -> Rule {
 impl Bench<'_> {
     pub(super) fn elements(
         &mut self,
-        scene: &Scene<'_>,
+        observation: &Observation<'_>,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         call: &Call<'_>,
     ) {
         if let (Request::FindInstance(find), Some(Reply::ObjectAddress(address))) = (request, reply)
         {
-            self.instance(scene, find, *address);
+            self.instance(observation, find, *address);
             return;
         }
         let Some(key) = key(call) else { return };
@@ -56,7 +56,7 @@ impl Bench<'_> {
             return;
         }
         let element = all.entry(key).or_default();
-        let mut page = self.book.on(Topic::CncSda, scene);
+        let mut page = self.records.on(Topic::CncSda, observation);
         match (request, reply) {
             (Request::ReadElementType(_), Some(Reply::ElementText(text))) => {
                 let name = text.text.text();
@@ -88,7 +88,7 @@ impl Bench<'_> {
                 let given = u32::try_from(write.content().bytes.len()).unwrap_or(u32::MAX);
                 if let Some(length) = element.length {
                     let expected = format!("the {length} bytes of the element");
-                    let mut page = self.book.on(Topic::ClientSda, scene);
+                    let mut page = self.records.on(Topic::ClientSda, observation);
                     page.check("SDA-8", given == length, expected, format!("{given} bytes"));
                 }
                 return;
@@ -104,8 +104,13 @@ impl Bench<'_> {
     }
 
     /// The address of an instance.
-    fn instance(&mut self, scene: &Scene<'_>, find: &FindInstance, address: ObjectAddress) {
-        let mut page = self.book.on(Topic::CncSda, scene);
+    fn instance(
+        &mut self,
+        observation: &Observation<'_>,
+        find: &FindInstance,
+        address: ObjectAddress,
+    ) {
+        let mut page = self.records.on(Topic::CncSda, observation);
         let class = find.class_group().class;
         let query = find.query();
         if address == ObjectAddress::NONE {

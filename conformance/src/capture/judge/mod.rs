@@ -1,7 +1,7 @@
 //! Requests paired with their replies, and judged.
 
 mod elements;
-mod lost;
+mod gaps;
 mod objects;
 mod pair;
 mod parameters;
@@ -21,7 +21,7 @@ use ads_cnc::ads::{AmsHeader, AmsNetId, AmsPort, Command, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Request, Task};
 
 use self::pair::Early;
-use super::book::{Book, Scene, Spot, Topic};
+use super::findings::{Location, Observation, Topic, TopicRecords};
 use super::frames::Span;
 use super::table::{Event, Table, Way};
 use super::tally::{Tally, count, count_of};
@@ -30,7 +30,7 @@ use super::vectors::Collector;
 use crate::client::{answer, violations};
 use crate::exchange::{Exchange, Fault};
 use crate::judge::{Checks as _, Outcome, assumed};
-use crate::services;
+use crate::wire_service;
 
 /// CNCs that are told apart.
 const CNCS_MAX: usize = 64;
@@ -85,7 +85,7 @@ impl Cnc {
 /// Judges traffic.
 #[derive(Debug)]
 pub(super) struct Judge {
-    book: Book,
+    records: TopicRecords,
     pub(super) tally: Tally,
     /// By connection and invoke ID.
     waiting: BTreeMap<(u64, u32), VecDeque<Seen>>,
@@ -135,7 +135,7 @@ impl Room {
 
 /// What a judgement of one exchange needs.
 struct Bench<'j> {
-    book: &'j mut Book,
+    records: &'j mut TopicRecords,
     cnc: &'j mut Cnc,
     room: &'j mut Room,
 }
@@ -156,19 +156,19 @@ fn is_reply(header: &AmsHeader) -> bool {
     }
 }
 
-fn spot(way: &Way, asked: Option<Span>, answered: Option<Span>) -> Spot {
-    Spot { from: way.from, to: way.to, asked, answered }
+fn location(way: &Way, asked: Option<Span>, answered: Option<Span>) -> Location {
+    Location { from: way.from, to: way.to, asked, answered }
 }
 
 /// The requirement of a command's service.
 fn service_clause(command: Command) -> &'static str {
-    services::service_of(command).map_or("ADS-5", services::clause)
+    wire_service::service_of(command).map_or("ADS-5", wire_service::clause)
 }
 
 impl Judge {
     pub(super) fn new(vectors: Option<Collector>) -> Self {
         Self {
-            book: Book::new(),
+            records: TopicRecords::new(),
             tally: Tally::default(),
             waiting: BTreeMap::new(),
             waiting_ids: BTreeSet::new(),
@@ -191,9 +191,9 @@ impl Judge {
     pub(super) fn finish(mut self) -> (Vec<Outcome>, Tally, Option<Collector>) {
         self.tally.unkept = self.room.missed;
         for line in self.tally.lines().into_iter().skip(1) {
-            self.book.note(Topic::CncFrames, line);
+            self.records.note(Topic::CncFrames, line);
         }
-        (self.book.finish(), self.tally, self.vectors)
+        (self.records.finish(), self.tally, self.vectors)
     }
 
     /// The moment up to which the capture has come.
@@ -249,17 +249,17 @@ impl Judge {
             outcome: Err(Fault::Unseen),
             ..Exchange::new(&call)
         });
-        let place = spot(&seen.way, Some(seen.span), None);
-        let scene = match &exchange {
-            Some(exchange) => Scene::Exchange(exchange, place),
-            None => Scene::Bytes(&seen.frame, place),
+        let place = location(&seen.way, Some(seen.span), None);
+        let observation = match &exchange {
+            Some(exchange) => Observation::Exchange(exchange, place),
+            None => Observation::Bytes(&seen.frame, place),
         };
         let again = self.is_repeated(&seen, table);
-        requests::headers(&mut self.book, &scene, &header, again);
+        requests::headers(&mut self.records, &observation, &header, again);
         match call {
             Err(error) => {
                 let rule = service_clause(header.command);
-                let mut page = self.book.on(Topic::ClientServices, &scene);
+                let mut page = self.records.on(Topic::ClientServices, &observation);
                 page.check(rule, false, "what the service takes", error);
             }
             Ok(None) => {
@@ -267,8 +267,10 @@ impl Judge {
                 return;
             }
             Ok(Some(call)) => {
-                self.book.on(Topic::ClientServices, &scene).pass(service_clause(header.command));
-                if let Some(unknown) = requests::judge(&mut self.book, &scene, &call) {
+                self.records
+                    .on(Topic::ClientServices, &observation)
+                    .pass(service_clause(header.command));
+                if let Some(unknown) = requests::judge(&mut self.records, &observation, &call) {
                     count_of(&mut self.tally.unknown, unknown);
                 }
             }
@@ -290,10 +292,16 @@ impl Judge {
                 .map(|answer| (answer, reply.header)),
             ..Exchange::new(&call)
         };
-        let place = spot(&asked.way, Some(asked.span), Some(reply.span));
-        let scene = Scene::Exchange(&exchange, place);
-        replies::headers(&mut self.book, &scene, &violations(&asked.header, &reply.header));
-        let Some(answer) = replies::service(&mut self.book, &scene, &exchange) else { return };
+        let place = location(&asked.way, Some(asked.span), Some(reply.span));
+        let observation = Observation::Exchange(&exchange, place);
+        replies::headers(
+            &mut self.records,
+            &observation,
+            &violations(&asked.header, &reply.header),
+        );
+        let Some(answer) = replies::service(&mut self.records, &observation, &exchange) else {
+            return;
+        };
         if answer.success().is_none() {
             count(&mut self.tally.refused);
         }
@@ -307,8 +315,8 @@ impl Judge {
             return;
         }
         let cnc = self.cncs.entry(net_id).or_insert_with(|| Cnc::new(self.is_lost));
-        let mut bench = Bench { book: &mut self.book, cnc, room: &mut self.room };
-        replies::judge(&mut bench, &scene, &call, answer);
+        let mut bench = Bench { records: &mut self.records, cnc, room: &mut self.room };
+        replies::judge(&mut bench, &observation, &call, answer);
         if let (Some(vectors), Ok(request)) = (&mut self.vectors, call.dispatch()) {
             let known = bench.cnc.variables.described(&request);
             vectors.add(&request, &call, answer.success(), known.as_ref());
@@ -320,12 +328,12 @@ impl Bench<'_> {
     /// A request that a reply shows to ask for what is not there: nobody forbids to ask.
     fn beyond(
         &mut self,
-        scene: &Scene<'_>,
+        observation: &Observation<'_>,
         request: &Request<'_>,
         rule: &'static str,
         (expected, found): (&str, &str),
     ) {
         let topic = Topic::of_request(request.function());
-        self.book.on(topic, scene).check(assumed(rule), false, expected, found);
+        self.records.on(topic, observation).check(assumed(rule), false, expected, found);
     }
 }

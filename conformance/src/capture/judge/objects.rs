@@ -6,7 +6,7 @@ use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{Call, ReadDescriptors, Reply, Request};
 use ads_cnc::{Descriptor, DescriptorsRef};
 
-use super::super::book::{Scene, Topic};
+use super::super::findings::{Observation, Topic};
 use super::Bench;
 use crate::judge::{Checks as _, Rule, assumed};
 use crate::suite::descriptor_holds_together;
@@ -41,21 +41,21 @@ struct Content {
 impl Bench<'_> {
     pub(super) fn objects(
         &mut self,
-        scene: &Scene<'_>,
+        observation: &Observation<'_>,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         call: &Call<'_>,
     ) {
         match (request, reply) {
             (Request::CountObjects(_), Some(Reply::ObjectCount(count))) => {
-                self.count(scene, call.index_group.get(), count.0);
+                self.count(observation, call.index_group.get(), count.0);
             }
             (Request::ReadDescriptors(read), reply) => {
                 let given = match reply {
                     Some(Reply::Descriptors(given)) => Some(*given),
                     _ => None,
                 };
-                self.descriptors(scene, request, read, given, call);
+                self.descriptors(observation, request, read, given, call);
             }
             (Request::ReadObject(_), Some(Reply::Content(content))) => {
                 let Some(known) = self.content(call) else { return };
@@ -65,7 +65,7 @@ impl Bench<'_> {
                     let sized = u32::try_from(given) == Ok(known.size);
                     let expected = format!("the {} bytes of its descriptor", known.size);
                     let found = format!("{given} bytes of {}", known.name);
-                    let mut page = self.book.on(Topic::CncCom, scene);
+                    let mut page = self.records.on(Topic::CncCom, observation);
                     for rule in ["COM-5", "COM-2"] {
                         page.check(rule, sized, &expected, &found);
                     }
@@ -78,11 +78,13 @@ impl Bench<'_> {
                     let sized = u32::try_from(given) == Ok(known.size);
                     let expected = format!("the {} bytes of {}", known.size, known.name);
                     let found = format!("{given} bytes");
-                    self.book.on(Topic::ClientCom, scene).check("COM-5", sized, expected, found);
+                    self.records
+                        .on(Topic::ClientCom, observation)
+                        .check("COM-5", sized, expected, found);
                 }
                 let kept = known.writable || reply.is_none();
                 let expected = format!("an error number: {} may not be written", known.name);
-                let mut page = self.book.on(Topic::CncCom, scene);
+                let mut page = self.records.on(Topic::CncCom, observation);
                 page.check(assumed("COM-2"), kept, expected, "a success");
             }
             _ => {}
@@ -94,7 +96,7 @@ impl Bench<'_> {
         self.cnc.objects.contents.get(&place).cloned()
     }
 
-    fn count(&mut self, scene: &Scene<'_>, group: u32, count: u32) {
+    fn count(&mut self, observation: &Observation<'_>, group: u32, count: u32) {
         let list = self.cnc.objects.lists.entry(group).or_default();
         if list.count.is_some_and(|known| known != count) {
             *list = List::default();
@@ -103,13 +105,13 @@ impl Bench<'_> {
         let beyond = list.known.last_key_value().map_or(0, |(&last, _)| last);
         let kept = beyond <= count;
         let found = format!("{count} objects, but a descriptor of object {beyond}");
-        let mut page = self.book.on(Topic::CncCom, scene);
+        let mut page = self.records.on(Topic::CncCom, observation);
         page.check("COM-1", kept, "the number of objects", found);
     }
 
     fn descriptors(
         &mut self,
-        scene: &Scene<'_>,
+        observation: &Observation<'_>,
         request: &Request<'_>,
         read: &ReadDescriptors,
         given: Option<DescriptorsRef<'_>>,
@@ -120,10 +122,15 @@ impl Bench<'_> {
         let count = self.cnc.objects.lists.get(&group).and_then(|list| list.count);
         if let Some(count) = count.filter(|count| first > *count) {
             let asked = format!("object {first}");
-            self.beyond(scene, request, "COM-2", (&format!("one of {count} objects"), &asked));
+            self.beyond(
+                observation,
+                request,
+                "COM-2",
+                (&format!("one of {count} objects"), &asked),
+            );
             let expected = format!("an error number: there are {count} objects");
             let found = format!("a descriptor of {asked}");
-            let mut page = self.book.on(Topic::CncCom, scene);
+            let mut page = self.records.on(Topic::CncCom, observation);
             page.check("COM-2", given.is_none_or(|given| given.is_empty()), expected, found);
             return;
         }
@@ -138,12 +145,12 @@ impl Bench<'_> {
             let rule: Rule = if exact && asked <= left { "COM-3".into() } else { assumed("COM-3") };
             let kept = u32::try_from(given.len()) == Ok(expected);
             let expected = format!("{expected} descriptors from object {first} on");
-            self.book.on(Topic::CncCom, scene).check(rule, kept, expected, given.len());
+            self.records.on(Topic::CncCom, observation).check(rule, kept, expected, given.len());
         }
         let alone = given.len() == 1;
         for (index, object) in (first..).zip(given.iter()) {
             let owned = object.to_owned();
-            descriptor_holds_together(&mut self.book.on(Topic::CncCom, scene), object);
+            descriptor_holds_together(&mut self.records.on(Topic::CncCom, observation), object);
             let list = self.cnc.objects.lists.entry(group).or_default();
             let other = list.ids.get(&object.id()).copied().filter(|other| *other != index);
             let found =
@@ -155,7 +162,7 @@ impl Bench<'_> {
             if known.is_some() || self.room.take(0) {
                 list.known.insert(index, (owned, alone));
             }
-            let mut page = self.book.on(Topic::CncCom, scene);
+            let mut page = self.records.on(Topic::CncCom, observation);
             page.check("COM-2", other.is_none(), "an ID no other object has", found);
             if let Some((known, was_alone)) = known {
                 // One by one or in sequence it is the same list.

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::super::book::{Scene, Topic};
+use super::super::findings::{Observation, Topic};
 use super::super::table::{Table, Way};
 use super::super::tally::{count, count_of};
-use super::{Judge, Seen, is_cnc, service_clause, spot};
+use super::{Judge, Seen, is_cnc, location, service_clause};
 use crate::judge::Checks as _;
 
 /// Requests of a connection that wait for their answers, and bytes of those of all connections; of
@@ -254,8 +254,9 @@ impl Judge {
 
     /// An answer to nothing, when all there is of its connection is known.
     pub(super) fn unasked(&mut self, reply: &Seen, is_open: bool) {
-        let scene = Scene::Bytes(&reply.frame, spot(&reply.way, None, Some(reply.span)));
-        let mut page = self.book.on(Topic::CncFrames, &scene);
+        let observation =
+            Observation::Bytes(&reply.frame, location(&reply.way, None, Some(reply.span)));
+        let mut page = self.records.on(Topic::CncFrames, &observation);
         let found = format!("an answer with the invoke ID {:#x}", reply.header.invoke_id);
         if is_open {
             page.open("ADS-5", format!("{found}, whose request may not have been captured"));

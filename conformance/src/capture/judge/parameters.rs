@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use ads_cnc::operation::{Call, Reply, Request};
 
-use super::super::book::{Scene, Topic};
+use super::super::findings::{Observation, Topic};
 use super::{Bench, Room};
 use crate::judge::Checks as _;
 
@@ -29,7 +29,7 @@ impl Parameters {
 impl Bench<'_> {
     pub(super) fn parameters(
         &mut self,
-        scene: &Scene<'_>,
+        observation: &Observation<'_>,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         call: &Call<'_>,
@@ -51,18 +51,18 @@ impl Bench<'_> {
         };
         if index > count {
             let asked = format!("index {index}");
-            self.beyond(scene, request, "DYN-5", (&format!("one of 1 to {count}"), &asked));
+            self.beyond(observation, request, "DYN-5", (&format!("one of 1 to {count}"), &asked));
         }
         let kept = index <= count || reply.is_none();
         let expected = format!("an error number for index {index} of {count}");
-        self.book.on(Topic::CncDyn, scene).check("DYN-5", kept, expected, "a success");
+        self.records.on(Topic::CncDyn, observation).check("DYN-5", kept, expected, "a success");
         let name = match reply {
             Some(Reply::DynamicName(name)) => name.name.text(),
             _ => return,
         };
         let prefix = kind.to_string();
         let of_kind = name.to_string().starts_with(&prefix);
-        let mut page = self.book.on(Topic::CncDyn, scene);
+        let mut page = self.records.on(Topic::CncDyn, observation);
         page.check("DYN-2", of_kind, format!("a name of {prefix}"), format!("{name:?}"));
     }
 }

@@ -5,15 +5,19 @@ use ads_cnc::ads::AmsHeader;
 use ads_cnc::operation::{Call, DispatchError, Reply, Request, Service};
 use ads_cnc_vectors::requirement;
 
-use super::super::book::{Book, Scene, Topic};
+use super::super::findings::{Observation, Topic, TopicRecords};
 use super::Bench;
 use crate::exchange::{Answer, Exchange, Violation};
 use crate::judge::{Checks as _, Rule, assumed};
-use crate::services;
+use crate::wire_service;
 
 /// What every reply has in its headers.
-pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, violations: &[Violation]) {
-    let mut page = book.on(Topic::CncFrames, scene);
+pub(super) fn headers(
+    records: &mut TopicRecords,
+    observation: &Observation<'_>,
+    violations: &[Violation],
+) {
+    let mut page = records.on(Topic::CncFrames, observation);
     for violation in violations {
         let expected = "the header of the answer to this request";
         page.check(violation.requirement, false, expected, &violation.what);
@@ -25,12 +29,12 @@ pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, violations: &[Violatio
 
 /// What the service of a request gives; the answer, if it is one.
 pub(super) fn service<'e>(
-    book: &mut Book,
-    scene: &Scene<'_>,
+    records: &mut TopicRecords,
+    observation: &Observation<'_>,
     exchange: &'e Exchange,
 ) -> Option<&'e Answer> {
-    let clause = services::clause(exchange.service);
-    let mut page = book.on(Topic::CncServices, scene);
+    let clause = wire_service::clause(exchange.service);
+    let mut page = records.on(Topic::CncServices, observation);
     match &exchange.outcome {
         Ok((answer, header)) => {
             page.pass(clause);
@@ -40,7 +44,7 @@ pub(super) fn service<'e>(
             let expected =
                 format!("at most the {} bytes that were asked for", exchange.read_length);
             page.check(clause, kept, expected, format!("{given} bytes of data"));
-            short_error(book, scene, answer, header);
+            short_error(records, observation, answer, header);
             Some(answer)
         }
         Err(fault) => {
@@ -51,15 +55,25 @@ pub(super) fn service<'e>(
 }
 
 /// An error may come without what would follow a success: if it does, it was seen.
-fn short_error(book: &mut Book, scene: &Scene<'_>, answer: &Answer, header: &AmsHeader) {
+fn short_error(
+    records: &mut TopicRecords,
+    observation: &Observation<'_>,
+    answer: &Answer,
+    header: &AmsHeader,
+) {
     let is_error = !answer.ams_error.is_ok() || !answer.result.is_ok();
     if is_error && (answer.data.is_none() || header.data_length == 0) {
-        book.on(Topic::CncFrames, scene).pass("ADS-6");
+        records.on(Topic::CncFrames, observation).pass("ADS-6");
     }
 }
 
 /// Judges the data of a reply.
-pub(super) fn judge(bench: &mut Bench<'_>, scene: &Scene<'_>, call: &Call<'_>, answer: &Answer) {
+pub(super) fn judge(
+    bench: &mut Bench<'_>,
+    observation: &Observation<'_>,
+    call: &Call<'_>,
+    answer: &Answer,
+) {
     let data = answer.success();
     let request = match call.dispatch() {
         Ok(request) => request,
@@ -77,7 +91,7 @@ pub(super) fn judge(bench: &mut Bench<'_>, scene: &Scene<'_>, call: &Call<'_>, a
                 _ => Topic::CncVar,
             };
             let given = data.is_some_and(|data| !data.is_empty() || call.service == Service::Write);
-            let mut page = bench.book.on(topic, scene);
+            let mut page = bench.records.on(topic, observation);
             if given && page.knows(clause) {
                 page.check(rule, false, format!("an error number for {error}"), "a success");
             }
@@ -90,7 +104,7 @@ pub(super) fn judge(bench: &mut Bench<'_>, scene: &Scene<'_>, call: &Call<'_>, a
         None => None,
         Some(Ok(reply)) => {
             let spec = request.function().spec();
-            let mut page = bench.book.on(Topic::of_reply(request.function()), scene);
+            let mut page = bench.records.on(Topic::of_reply(request.function()), observation);
             let clauses = [Some(spec.clause), spec.reply.map(|stream| stream.layout().clause)];
             for clause in clauses.into_iter().flatten() {
                 if page.knows(clause) {
@@ -104,19 +118,19 @@ pub(super) fn judge(bench: &mut Bench<'_>, scene: &Scene<'_>, call: &Call<'_>, a
             let field = error.field().spec().map(|spec| spec.clause);
             let field = if error.kind() == ErrorKind::TooMany { Some("VAR-24") } else { field };
             let clause = field.filter(|id| requirement(id).is_some()).unwrap_or(spec.clause);
-            let mut page = bench.book.on(Topic::of_reply(request.function()), scene);
+            let mut page = bench.records.on(Topic::of_reply(request.function()), observation);
             let clause = if page.knows(clause) { clause } else { spec.clause };
             page.check(clause, false, format!("what {} gives", spec.name), error);
             return;
         }
     };
-    together(bench, scene, &request, reply.as_ref(), call);
+    together(bench, observation, &request, reply.as_ref(), call);
 }
 
 /// What it says together with what came before.
 fn together(
     bench: &mut Bench<'_>,
-    scene: &Scene<'_>,
+    observation: &Observation<'_>,
     request: &Request<'_>,
     reply: Option<&Reply<'_>>,
     call: &Call<'_>,
@@ -125,8 +139,8 @@ fn together(
         Request::CountObjects(_)
         | Request::ReadDescriptors(_)
         | Request::ReadObject(_)
-        | Request::WriteObject(_) => bench.objects(scene, request, reply, call),
-        Request::WriteProgramStream(_) => bench.stream(scene, call, reply.is_some()),
+        | Request::WriteObject(_) => bench.objects(observation, request, reply, call),
+        Request::WriteProgramStream(_) => bench.stream(observation, call, reply.is_some()),
         Request::FindInstance(_)
         | Request::CountElements(_)
         | Request::ReadElement(_)
@@ -135,15 +149,15 @@ fn together(
         | Request::ReadElementType(_)
         | Request::ReadElementLength(_)
         | Request::ReadElementUnit(_)
-        | Request::ReadElementWriteFlag(_) => bench.elements(scene, request, reply, call),
+        | Request::ReadElementWriteFlag(_) => bench.elements(observation, request, reply, call),
         Request::CountDynamic(_)
         | Request::DynamicNameByIndex(_)
         | Request::DynamicValueByName(_)
-        | Request::DynamicValueByIndex(_) => bench.parameters(scene, request, reply, call),
+        | Request::DynamicValueByIndex(_) => bench.parameters(observation, request, reply, call),
         _ => {
-            bench.variables(scene, request, reply, call);
-            bench.values(scene, request, reply, call);
-            bench.service(scene, request, reply, call);
+            bench.variables(observation, request, reply, call);
+            bench.values(observation, request, reply, call);
+            bench.service(observation, request, reply, call);
         }
     }
 }

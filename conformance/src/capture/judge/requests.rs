@@ -6,13 +6,18 @@ use ads_cnc::operation::{Call, DispatchError, Function, Request, Service};
 use ads_cnc::{CncStr, ErrorKind, VariablePath};
 use ads_cnc_vectors::requirement;
 
-use super::super::book::{Book, Scene, Topic};
+use super::super::findings::{Observation, Topic, TopicRecords};
 use crate::judge::{Checks as _, Rule, assumed, online};
-use crate::services;
+use crate::wire_service;
 
 /// What every request has in its headers.
-pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, header: &AmsHeader, again: Option<bool>) {
-    let mut page = book.on(Topic::ClientFrames, scene);
+pub(super) fn headers(
+    records: &mut TopicRecords,
+    observation: &Observation<'_>,
+    header: &AmsHeader,
+    again: Option<bool>,
+) {
+    let mut page = records.on(Topic::ClientFrames, observation);
     let flags = header.state_flags;
     let found = format!("state flags {:#06x}", flags.0);
     page.check("ADS-5", flags == StateFlags::REQUEST, "state flags 0x0004", found);
@@ -26,11 +31,15 @@ pub(super) fn headers(book: &mut Book, scene: &Scene<'_>, header: &AmsHeader, ag
 }
 
 /// Judges what is asked, and returns what is asked if it is documented nowhere.
-pub(super) fn judge(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>) -> Option<String> {
+pub(super) fn judge(
+    records: &mut TopicRecords,
+    observation: &Observation<'_>,
+    call: &Call<'_>,
+) -> Option<String> {
     match call.dispatch() {
         Ok(request) => {
-            book.on(Topic::ClientPorts, scene).pass(port_rule(call.port));
-            documented(book, scene, call, &request);
+            records.on(Topic::ClientPorts, observation).pass(port_rule(call.port));
+            documented(records, observation, call, &request);
             None
         }
         Err(DispatchError::Stream(error)) => {
@@ -48,7 +57,9 @@ pub(super) fn judge(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>) -> Opti
                     _ => Rule::from(known.unwrap_or(spec.clause)),
                 };
                 let expected = format!("what {} takes", spec.name);
-                book.on(Topic::of_request(function), scene).check(rule, false, expected, error);
+                records
+                    .on(Topic::of_request(function), observation)
+                    .check(rule, false, expected, error);
             }
             None
         }
@@ -58,12 +69,12 @@ pub(super) fn judge(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>) -> Opti
             if let Ok(request) = elsewhere {
                 let spec = request.function().spec();
                 let expected = format!("port {} for {}", spec.task.port(), spec.name);
-                let mut page = book.on(Topic::ClientPorts, scene);
+                let mut page = records.on(Topic::ClientPorts, observation);
                 page.check(port_rule(other), false, expected, format!("port {}", call.port));
                 return None;
             }
             if matches!(refusal, DispatchError::Service { .. }) {
-                return wrong_service(book, scene, call, refusal);
+                return wrong_service(records, observation, call, refusal);
             }
             let Call { port, service, index_group, index_offset, .. } = call;
             Some(format!("{service} {index_group}, {index_offset} at {port}"))
@@ -92,8 +103,8 @@ fn function_at(call: &Call<'_>, fits: impl Fn(Service) -> bool) -> Option<Functi
 /// A function that is asked by another service than its own. On the decoder that may be a walk over
 /// elements, which meets functions there (SDA-12): it is counted.
 fn wrong_service(
-    book: &mut Book,
-    scene: &Scene<'_>,
+    records: &mut TopicRecords,
+    observation: &Observation<'_>,
     call: &Call<'_>,
     refusal: DispatchError,
 ) -> Option<String> {
@@ -104,17 +115,22 @@ fn wrong_service(
         let Call { port, service, index_group, index_offset, .. } = call;
         return Some(format!("{service} {index_group}, {index_offset} at {port}"));
     }
-    let mut page = book.on(Topic::of_request(function), scene);
+    let mut page = records.on(Topic::of_request(function), observation);
     page.check(spec.clause, false, format!("{} for {}", spec.service, spec.name), refusal);
     None
 }
 
 /// A request that the codec reads.
-fn documented(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>, request: &Request<'_>) {
+fn documented(
+    records: &mut TopicRecords,
+    observation: &Observation<'_>,
+    call: &Call<'_>,
+    request: &Request<'_>,
+) {
     let function = request.function();
     let spec = function.spec();
     let topic = Topic::of_request(function);
-    let mut page = book.on(topic, scene);
+    let mut page = records.on(topic, observation);
     page.pass(spec.clause);
     if let Some(clause) = spec.request.map(|stream| stream.layout().clause)
         && requirement(clause).is_some()
@@ -129,12 +145,12 @@ fn documented(book: &mut Book, scene: &Scene<'_>, call: &Call<'_>, request: &Req
         page.pass("VAR-24");
     }
     if let Some(least) = spec.reply.filter(|reply| reply.layout().is_fixed()).map(least) {
-        let rule = assumed(services::clause(call.service));
+        let rule = assumed(wire_service::clause(call.service));
         let asked = call.read_length;
-        let mut page = book.on(Topic::ClientServices, scene);
+        let mut page = records.on(Topic::ClientServices, observation);
         page.check(rule, asked >= least, format!("room for {least} bytes"), format!("for {asked}"));
     }
-    let mut page = book.on(topic, scene);
+    let mut page = records.on(topic, observation);
     if let Some(name) = name_of(request) {
         let path = VariablePath::from_text(name);
         let found = path.err().map(|error| format!("{name}: {error}")).unwrap_or_default();

@@ -6,7 +6,7 @@ use ads_cnc::limits::SERVICE_TEXT_MAX;
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::service::ServiceVariable;
 
-use super::super::book::{Page, Scene, Topic};
+use super::super::findings::{Observation, Topic, TopicRecord};
 use super::Bench;
 use super::requests::name_of;
 use crate::judge::{Checks as _, assumed};
@@ -47,7 +47,7 @@ struct Interface {
 impl Bench<'_> {
     pub(super) fn service(
         &mut self,
-        scene: &Scene<'_>,
+        observation: &Observation<'_>,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         call: &Call<'_>,
@@ -74,12 +74,12 @@ impl Bench<'_> {
         let interface = known.entry(group).or_insert_with(new);
         match (written, reply) {
             (Some(value), _) => {
-                let mut page = self.book.on(Topic::ClientService, scene);
+                let mut page = self.records.on(Topic::ClientService, observation);
                 form(&mut page, variable, value);
                 interface.write(&mut page, variable, value);
             }
             (None, Reply::Value(value)) => {
-                let mut page = self.book.on(Topic::CncService, scene);
+                let mut page = self.records.on(Topic::CncService, observation);
                 form(&mut page, variable, value.bytes);
                 interface.read(&mut page, variable, value.bytes);
             }
@@ -89,7 +89,7 @@ impl Bench<'_> {
 }
 
 /// Texts have room for 128 bytes, states are UNS32.
-fn form(page: &mut Page<'_>, variable: ServiceVariable, value: &[u8]) {
+fn form(page: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
     let length = value.len();
     let found = format!("{length} bytes of {}", variable.name());
     match variable {
@@ -109,7 +109,7 @@ fn is_set(value: &[u8]) -> bool {
 }
 
 impl Interface {
-    fn read(&mut self, page: &mut Page<'_>, variable: ServiceVariable, value: &[u8]) {
+    fn read(&mut self, page: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
         match variable {
             ServiceVariable::RequestState => {
                 if is_set(value) && self.answered {
@@ -127,7 +127,7 @@ impl Interface {
         }
     }
 
-    fn write(&mut self, page: &mut Page<'_>, variable: ServiceVariable, value: &[u8]) {
+    fn write(&mut self, page: &mut TopicRecord<'_>, variable: ServiceVariable, value: &[u8]) {
         match variable {
             ServiceVariable::Uuid => self.wrote_id = true,
             ServiceVariable::Request => self.wrote_request = true,

@@ -8,7 +8,7 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::Call;
 use ads_cnc::streaming::{CheckEvent, Checker, DiagnosticKind, LineErrorKind, NcText};
 
-use super::super::book::{Scene, Topic};
+use super::super::findings::{Observation, Topic};
 use super::Bench;
 use crate::judge::{Checks as _, assumed};
 
@@ -44,9 +44,14 @@ impl fmt::Debug for Stream {
 }
 
 impl Bench<'_> {
-    pub(super) fn stream(&mut self, scene: &Scene<'_>, call: &Call<'_>, accepted: bool) {
+    pub(super) fn stream(
+        &mut self,
+        observation: &Observation<'_>,
+        call: &Call<'_>,
+        accepted: bool,
+    ) {
         let data = call.data;
-        let mut page = self.book.on(Topic::ClientStream, scene);
+        let mut page = self.records.on(Topic::ClientStream, observation);
         let length = data.len();
         let kept = length <= STREAM_PACKET_MAX;
         page.check("STM-2", kept, "at most 992 bytes", format!("{length} bytes"));
@@ -70,7 +75,7 @@ impl Bench<'_> {
                 page.check(rule, false, expected, error);
             }
         }
-        let now = scene.time();
+        let now = observation.time();
         let is_lost = self.cnc.streams.is_lost;
         let stream = self.cnc.streams.known.entry(call.index_group.get()).or_default();
         if let Some((refused, then)) = stream.refused.take() {
@@ -109,7 +114,7 @@ impl Bench<'_> {
         } else if !accepted && kept && whole {
             stream.refused = Some((data.to_vec(), now));
         }
-        let mut page = self.book.on(Topic::CncStream, scene);
+        let mut page = self.records.on(Topic::CncStream, observation);
         let expected = "an error number for more than 992 bytes";
         page.check(assumed("STM-2"), kept || !accepted, expected, "a success");
     }

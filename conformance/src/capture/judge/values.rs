@@ -3,7 +3,7 @@
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{VariableAccess, VariableType};
 
-use super::super::book::{Scene, Topic};
+use super::super::findings::{Observation, Topic};
 use super::Bench;
 use super::variables::Target;
 use crate::judge::{Checks as _, assumed};
@@ -32,7 +32,7 @@ impl Target {
 impl Bench<'_> {
     pub(super) fn values(
         &mut self,
-        scene: &Scene<'_>,
+        observation: &Observation<'_>,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         _: &Call<'_>,
@@ -48,7 +48,7 @@ impl Bench<'_> {
         let dimensions = target.description.dimensions.len();
         let indices = target.indices.len();
         let fits = target.fits();
-        let mut page = self.book.on(Topic::ClientVar, scene);
+        let mut page = self.records.on(Topic::ClientVar, observation);
         let found = format!("{indices} indices of {name}");
         let rule = assumed(if by_handle { "VAR-11" } else { "VAR-20" });
         page.check(rule, fits, format!("none, or {dimensions} indices"), &found);
@@ -58,7 +58,7 @@ impl Bench<'_> {
             let expected = format!("the {size} bytes of {name}");
             page.check(clause, sized, expected, format!("{given} bytes"));
         }
-        let mut page = self.book.on(Topic::CncVar, scene);
+        let mut page = self.records.on(Topic::CncVar, observation);
         if !fits {
             let expected = format!("an error number: {name} has {dimensions} dimensions");
             page.check(rule, reply.is_none(), expected, "a success");

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
 
-use super::super::book::{Scene, Topic};
+use super::super::findings::{Observation, Topic};
 use super::{Bench, Room};
 use crate::judge::{Checks as _, assumed};
 use crate::suite::holds_together;
@@ -105,14 +105,14 @@ impl Variables {
 impl Bench<'_> {
     pub(super) fn variables(
         &mut self,
-        scene: &Scene<'_>,
+        observation: &Observation<'_>,
         request: &Request<'_>,
         reply: Option<&Reply<'_>>,
         call: &Call<'_>,
     ) {
         match (request, reply) {
             (Request::CountVariables(count), Some(Reply::VariableCount(number))) => {
-                self.number(scene, call, count.kind.text().to_string(), number.0);
+                self.number(observation, call, count.kind.text().to_string(), number.0);
             }
             (Request::DescribeByIndex(describe), reply) => {
                 let kind = describe.kind.text().to_string();
@@ -121,9 +121,9 @@ impl Bench<'_> {
                     let (index, none) = (describe.index, reply.is_none());
                     let asked = format!("index {index}");
                     let expected = format!("an index below {count}");
-                    self.beyond(scene, request, "VAR-2", (&expected, &asked));
+                    self.beyond(observation, request, "VAR-2", (&expected, &asked));
                     let expected = format!("an error number for index {index} of {count}");
-                    let mut page = self.book.on(Topic::CncVar, scene);
+                    let mut page = self.records.on(Topic::CncVar, observation);
                     page.check("VAR-2", none, expected, "a description");
                     return;
                 }
@@ -136,14 +136,14 @@ impl Bench<'_> {
                         dimensions: variable.dimensions.iter().collect(),
                         name: variable.name.into(),
                     };
-                    self.description(scene, call, variable, kind, describe.index);
+                    self.description(observation, call, variable, kind, describe.index);
                 }
             }
             (Request::HandleByName(handle), Some(Reply::Handle(given))) => {
-                self.handle(scene, call, handle.name.text(), given.0);
+                self.handle(observation, call, handle.name.text(), given.0);
             }
             (Request::DescribeExtended(describe), Some(Reply::Extended(given))) => {
-                self.extended(scene, &describe.kind.text().to_string(), *given);
+                self.extended(observation, &describe.kind.text().to_string(), *given);
             }
             (Request::DescribeByName(describe), Some(Reply::DescriptionByName(given))) => {
                 let name = describe.name.text().to_string();
@@ -155,7 +155,7 @@ impl Bench<'_> {
                         && given.size == known.size
                         && given.dimensions.iter().eq(known.dimensions.iter().copied());
                     let found = format!("{given:?}");
-                    let mut page = self.book.on(Topic::CncVar, scene);
+                    let mut page = self.records.on(Topic::CncVar, observation);
                     page.check("VAR-28", same, format!("as by index: {known:?}"), found);
                 }
             }
@@ -167,7 +167,13 @@ impl Bench<'_> {
         self.cnc.variables.channel(call)?.counts.get(kind).copied()
     }
 
-    fn number(&mut self, scene: &Scene<'_>, call: &Call<'_>, kind: String, number: u32) {
+    fn number(
+        &mut self,
+        observation: &Observation<'_>,
+        call: &Call<'_>,
+        kind: String,
+        number: u32,
+    ) {
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let changed = channel.counts.get(&kind).is_some_and(|known| *known != number);
         if changed {
@@ -182,19 +188,19 @@ impl Bench<'_> {
         if let (Some(all), Some(g), Some(e), Some(a)) = (of(""), of("V.G"), of("V.E"), of("V.A")) {
             let sum = g.saturating_add(e).saturating_add(a);
             let expected = format!("{sum} variables of all kinds");
-            self.book.on(Topic::CncVar, scene).check("VAR-1", all == sum, expected, all);
+            self.records.on(Topic::CncVar, observation).check("VAR-1", all == sum, expected, all);
         }
     }
 
     fn description(
         &mut self,
-        scene: &Scene<'_>,
+        observation: &Observation<'_>,
         call: &Call<'_>,
         variable: Description,
         kind: String,
         index: u32,
     ) {
-        let mut page = self.book.on(Topic::CncVar, scene);
+        let mut page = self.records.on(Topic::CncVar, observation);
         holds_together(&mut page, &variable, &kind);
         let Some(channel) = self.cnc.variables.channel(call) else { return };
         let name = variable.name.text.to_string();
@@ -216,9 +222,15 @@ impl Bench<'_> {
         }
     }
 
-    fn handle(&mut self, scene: &Scene<'_>, call: &Call<'_>, name: CncStr<'_>, handle: u32) {
+    fn handle(
+        &mut self,
+        observation: &Observation<'_>,
+        call: &Call<'_>,
+        name: CncStr<'_>,
+        handle: u32,
+    ) {
         let text = name.to_string();
-        let mut page = self.book.on(Topic::CncVar, scene);
+        let mut page = self.records.on(Topic::CncVar, observation);
         // In both editions; V.P, V.L and V.S in one of them.
         let barred = text.starts_with("V.CYC");
         page.check(
@@ -240,8 +252,8 @@ impl Bench<'_> {
         channel.handle(handle, &text, self.room);
     }
 
-    fn extended(&mut self, scene: &Scene<'_>, kind: &str, given: ExtendedReply) {
-        let mut page = self.book.on(Topic::CncVar, scene);
+    fn extended(&mut self, observation: &Observation<'_>, kind: &str, given: ExtendedReply) {
+        let mut page = self.records.on(Topic::CncVar, observation);
         match (kind, given.0) {
             ("V.E", Some(extended)) => {
                 let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];

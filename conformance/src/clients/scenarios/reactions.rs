@@ -5,8 +5,8 @@ use ads_cnc::operation::Function;
 use serde_json::{Value, json};
 
 use crate::clients::Scenario;
-use crate::clients::knob::{Knob, Lie, Place};
 use crate::clients::scenario::Expect;
+use crate::clients::tamper::{LengthField, Tamper, WrongLength};
 use crate::judge::{CLIENT, Rule, assumed};
 
 /// What a client is told while its replies are tampered with.
@@ -48,23 +48,23 @@ const WRITE: Told = Told {
 };
 
 impl Told {
-    fn scenario(&self, id: &str, what: &str, knob: Knob) -> Scenario {
+    fn scenario(&self, id: &str, what: &str, tamper: Tamper) -> Scenario {
         let title = format!("{}: {what}", self.action);
         Scenario::new(format!("client-{}-{id}", self.id), title, self.action)
-            .with(self.function, knob)
+            .with(self.function, tamper)
     }
 
     /// The reply is right, if not as usual.
-    fn right(&self, id: &str, what: &str, knob: Knob) -> Scenario {
-        let scenario = self.scenario(id, what, knob).by("ADS-5");
+    fn right(&self, id: &str, what: &str, tamper: Tamper) -> Scenario {
+        let scenario = self.scenario(id, what, tamper).by("ADS-5");
         match (self.result)() {
             Value::Null => scenario.expect(Expect::Done),
             result => scenario.gives(result),
         }
     }
 
-    fn wrong(&self, id: &str, what: &str, knob: Knob, rule: impl Into<Rule>) -> Scenario {
-        self.scenario(id, what, knob).expect(Expect::Error).by(rule)
+    fn wrong(&self, id: &str, what: &str, tamper: Tamper, rule: impl Into<Rule>) -> Scenario {
+        self.scenario(id, what, tamper).expect(Expect::Error).by(rule)
     }
 }
 
@@ -86,58 +86,63 @@ pub(super) fn scenarios() -> Vec<Scenario> {
 
 fn ways(told: &Told) -> Vec<Scenario> {
     vec![
-        told.right("bytewise", "one byte at a time", Knob::Bytewise),
-        told.right("pieces-header", "in two pieces, cut in the header", Knob::Pieces(20)),
-        told.right("pieces-data", "in two pieces, cut behind the headers", Knob::Pieces(39)),
+        told.right("bytewise", "one byte at a time", Tamper::Bytewise),
+        told.right("pieces-header", "in two pieces, cut in the header", Tamper::Pieces(20)),
+        told.right("pieces-data", "in two pieces, cut behind the headers", Tamper::Pieces(39)),
         // That a client goes on after a reply to nobody is not said; that it takes none is.
         Scenario {
             expect: match (told.result)() {
                 Value::Null => Expect::DoneOrError,
                 result => Expect::ResultOrError(result),
             },
-            ..told.right("foreign", "behind a reply to another invoke ID", Knob::Foreign)
+            ..told.right("foreign", "behind a reply to another invoke ID", Tamper::Foreign)
         },
-        told.right("twice", "twice in one piece", Knob::Twice),
-        told.wrong("other-id", "to another invoke ID only", Knob::OtherInvokeId, "ADS-5"),
+        told.right("twice", "twice in one piece", Tamper::Twice),
+        told.wrong("other-id", "to another invoke ID only", Tamper::OtherInvokeId, "ADS-5"),
         told.wrong(
             "other-command",
             "as the answer to another command",
-            Knob::OtherCommand,
+            Tamper::OtherCommand,
             "ADS-5",
         ),
-        told.wrong("request", "marked as a request", Knob::Request, "ADS-5"),
+        told.wrong("request", "marked as a request", Tamper::Request, "ADS-5"),
     ]
 }
 
 fn lies(told: &Told) -> Vec<Scenario> {
     let mut all = Vec::new();
     for (place, name, rule) in [
-        (Place::AmsTcp, "AMS/TCP length", "ADS-5"),
-        (Place::Ams, "AMS data length", "ADS-5"),
-        (Place::Data, "length before the data", told.service),
+        (LengthField::AmsTcp, "AMS/TCP length", "ADS-5"),
+        (LengthField::Ams, "AMS data length", "ADS-5"),
+        (LengthField::Data, "length before the data", told.service),
     ] {
-        if place == Place::Data && told.function == Function::WriteByName {
+        if place == LengthField::Data && told.function == Function::WriteByName {
             continue;
         }
         for (lie, how) in [
-            (Lie::Longer, "one more"),
-            (Lie::Shorter, "one less"),
-            (Lie::Zero, "0"),
-            (Lie::Huge, "0xFFFFFFFF"),
+            (WrongLength::Longer, "one more"),
+            (WrongLength::Shorter, "one less"),
+            (WrongLength::Zero, "0"),
+            (WrongLength::Huge, "0xFFFFFFFF"),
         ] {
             let field = match place {
-                Place::AmsTcp => "tcp-length",
-                Place::Ams => "ams-length",
-                Place::Data => "data-length",
+                LengthField::AmsTcp => "tcp-length",
+                LengthField::Ams => "ams-length",
+                LengthField::Data => "data-length",
             };
             let lies = match lie {
-                Lie::Longer => "longer",
-                Lie::Shorter => "shorter",
-                Lie::Zero => "zero",
-                Lie::Huge => "huge",
+                WrongLength::Longer => "longer",
+                WrongLength::Shorter => "shorter",
+                WrongLength::Zero => "zero",
+                WrongLength::Huge => "huge",
             };
             let what = format!("the {name} says {how}");
-            all.push(told.wrong(&format!("{field}-{lies}"), &what, Knob::Lie(place, lie), rule));
+            all.push(told.wrong(
+                &format!("{field}-{lies}"),
+                &what,
+                Tamper::Length(place, lie),
+                rule,
+            ));
         }
     }
     all
@@ -146,23 +151,28 @@ fn lies(told: &Told) -> Vec<Scenario> {
 fn errors(told: &Told) -> Vec<Scenario> {
     let mut all = vec![
         // What is no payload is known from help pages; that an error is one is not.
-        told.wrong("ams-error", "an AMS error without payload", Knob::AmsError, "ADS-5")
+        told.wrong("ams-error", "an AMS error without payload", Tamper::AmsError, "ADS-5")
             .by("ADS-6"),
         told.wrong(
             "bare-result",
             "an error as result, and nothing behind it",
-            Knob::BareResult,
+            Tamper::BareResult,
             "ADS-4",
         )
         .by("ADS-6"),
     ];
     if told.function != Function::WriteByName {
         all.extend([
-            told.wrong("empty-result", "an error as result, length 0", Knob::EmptyResult, "ADS-4"),
+            told.wrong(
+                "empty-result",
+                "an error as result, length 0",
+                Tamper::EmptyResult,
+                "ADS-4",
+            ),
             told.wrong(
                 "result-data",
                 "an error as result, with data",
-                Knob::ResultWithData,
+                Tamper::ResultWithData,
                 "ADS-4",
             ),
         ]);
@@ -172,33 +182,33 @@ fn errors(told: &Told) -> Vec<Scenario> {
 
 fn ends(told: &Told) -> Vec<Scenario> {
     let mut all = vec![
-        told.wrong("closed", "closed without a reply", Knob::CutAt(0), "ADS-5"),
-        told.wrong("closed-header", "closed within the headers", Knob::CutAt(20), "ADS-5"),
-        told.wrong("closed-data", "closed before the last byte", Knob::CutEnd, "ADS-5"),
+        told.wrong("closed", "closed without a reply", Tamper::CutAt(0), "ADS-5"),
+        told.wrong("closed-header", "closed within the headers", Tamper::CutAt(20), "ADS-5"),
+        told.wrong("closed-data", "closed before the last byte", Tamper::CutEnd, "ADS-5"),
     ];
     // Each takes as long as the client waits.
     if told.function == Function::ReadByName {
-        all.push(told.wrong("silence", "no reply at all", Knob::Silence, CLIENT));
+        all.push(told.wrong("silence", "no reply at all", Tamper::Silence, CLIENT));
     }
     all
 }
 
 fn amounts(told: &Told) -> Vec<Scenario> {
-    let wrong = |id: &str, what: &str, knob| told.wrong(id, what, knob, told.data);
+    let wrong = |id: &str, what: &str, tamper| told.wrong(id, what, tamper, told.data);
     vec![
-        wrong("more", "four bytes more than there should be", Knob::More(4)),
-        wrong("one-more", "one byte more", Knob::More(1)),
-        wrong("less", "one byte less", Knob::Less(1)),
-        wrong("none", "no data at all", Knob::Only(0)),
+        wrong("more", "four bytes more than there should be", Tamper::More(4)),
+        wrong("one-more", "one byte more", Tamper::More(1)),
+        wrong("less", "one byte less", Tamper::Less(1)),
+        wrong("none", "no data at all", Tamper::Only(0)),
     ]
 }
 
 /// Streams that are too short, too long, or say something new.
 fn streams() -> Vec<Scenario> {
-    let describe = |id: &str, what: &str, knob| {
+    let describe = |id: &str, what: &str, tamper| {
         let title = format!("describe 1 2 V.E: {what}");
         let scenario = Scenario::new(format!("client-describe-{id}"), title, "describe 1 2 V.E");
-        scenario.with(Function::DescribeByIndex, knob)
+        scenario.with(Function::DescribeByIndex, tamper)
     };
     let as_is = |ty: u32, access: u32| {
         json!({"name": "V.E.Variable_3", "handle": 0x200_0002, "type": ty, "access": access,
@@ -207,34 +217,34 @@ fn streams() -> Vec<Scenario> {
     let short = |id: &str, action: &str, function, rule: &'static str, len| {
         let title = format!("{action}: {len} bytes of data");
         Scenario::new(format!("client-{id}-short"), title, action)
-            .with(function, Knob::Only(len))
+            .with(function, Tamper::Only(len))
             .expect(Expect::Error)
             .by(rule)
     };
     vec![
-        describe("open", "the name ends with the reply", Knob::Open)
+        describe("open", "the name ends with the reply", Tamper::Open)
             .gives(as_is(1, 1))
             .by(assumed("VAR-4")),
-        describe("padded", "the name is padded to 256 bytes", Knob::Padded(24))
+        describe("padded", "the name is padded to 256 bytes", Tamper::Padded(24))
             .gives(as_is(1, 1))
             .by(assumed("VAR-4")),
-        describe("type", "a type that nobody knows", Knob::Patch(4, [77, 0, 0, 0]))
+        describe("type", "a type that nobody knows", Tamper::Patch(4, [77, 0, 0, 0]))
             .gives(as_is(77, 1))
             .by(assumed("VAR-23")),
-        describe("access", "an access that nobody knows", Knob::Patch(8, [9, 0, 0, 0]))
+        describe("access", "an access that nobody knows", Tamper::Patch(8, [9, 0, 0, 0]))
             .gives(as_is(1, 9))
             .by(assumed("VAR-23")),
         describe(
             "dimensions",
             "more dimensions than there is room for",
-            Knob::Patch(16, [0xFF; 4]),
+            Tamper::Patch(16, [0xFF; 4]),
         )
         .expect(Expect::Error)
         .by("VAR-24"),
-        describe("short", "it ends within the dimensions", Knob::Only(22))
+        describe("short", "it ends within the dimensions", Tamper::Only(22))
             .expect(Expect::Error)
             .by("VAR-4"),
-        describe("empty", "it is empty", Knob::Only(0)).expect(Expect::Error).by("VAR-4"),
+        describe("empty", "it is empty", Tamper::Only(0)).expect(Expect::Error).by("VAR-4"),
         short("handle", "handle 1 V.E.vartest", Function::HandleByName, "VAR-10", 3),
         short("count-variables", "count-variables 1 V.E", Function::CountVariables, "VAR-2", 2),
         short("parameters", "count-parameters 1 P", Function::CountDynamic, "DYN-1", 1),
@@ -247,24 +257,24 @@ fn streams() -> Vec<Scenario> {
 }
 
 fn lists() -> Vec<Scenario> {
-    let list = |id: &str, what: &str, knob| {
+    let list = |id: &str, what: &str, tamper| {
         let title = format!("list-objects 1: {what}");
         Scenario::new(format!("client-list-{id}"), title, "list-objects 1")
-            .with(Function::ReadDescriptors, knob)
+            .with(Function::ReadDescriptors, tamper)
     };
     let right = |scenario: Scenario| scenario.expect(Expect::Asked(super::objects::list));
     vec![
-        right(list("bytewise", "one byte at a time", Knob::Bytewise)).by("ADS-5"),
-        right(list("late", "behind the reply to the request before", Knob::Late))
+        right(list("bytewise", "one byte at a time", Tamper::Bytewise)).by("ADS-5"),
+        right(list("late", "behind the reply to the request before", Tamper::Late))
             .by(assumed("ADS-5")),
-        right(list("twice", "twice in one piece", Knob::Twice)).by(assumed("ADS-5")),
+        right(list("twice", "twice in one piece", Tamper::Twice)).by(assumed("ADS-5")),
         // It asks on, or says that it did not get them; it has not all of them.
-        list("fewer", "fewer descriptors than it asks for", Knob::Descriptors(5))
+        list("fewer", "fewer descriptors than it asks for", Tamper::Descriptors(5))
             .expect(Expect::AskedOrError(super::objects::list))
             .by(assumed("COM-3")),
-        list("torn", "the last descriptor is not whole", Knob::Less(1))
+        list("torn", "the last descriptor is not whole", Tamper::Less(1))
             .expect(Expect::Error)
             .by("COM-2"),
-        list("none", "no descriptors", Knob::Only(0)).expect(Expect::Error).by("COM-2"),
+        list("none", "no descriptors", Tamper::Only(0)).expect(Expect::Error).by("COM-2"),
     ]
 }

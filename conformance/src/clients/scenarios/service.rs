@@ -3,8 +3,8 @@
 use ads_cnc::service::ServiceVariable;
 
 use crate::clients::Scenario;
+use crate::clients::ordering::{Order, REQUEST};
 use crate::clients::script::Script;
-use crate::clients::watch::{REQUEST, Watch};
 use crate::judge::assumed;
 
 /// The printed one.
@@ -35,7 +35,7 @@ pub(super) fn scenarios() -> Vec<Scenario> {
     )
     .by("SVC-6")
     .gives("done")
-    .watched(Watch::Caller, &["SVC-12", "SVC-6", "ADS-3", "ADS-2"]);
+    .ordered(Order::Caller, &["SVC-12", "SVC-6", "ADS-3", "ADS-2"]);
     ask.response = Some("done");
     // Of a request before: who does not wait reads it.
     ask.prepare = Some(|script| script.put(ServiceVariable::Response, b"stale"));
@@ -45,13 +45,13 @@ pub(super) fn scenarios() -> Vec<Scenario> {
         })
         .by("SVC-2")
         .gives(1)
-        .watched(Watch::Host, HOST),
+        .ordered(Order::Host, HOST),
         host("state", "It answers whatever the request state is", 5.0, |script| {
             request(script, UUID, 77);
         })
         .by("SVC-2")
         .gives(1)
-        .watched(Watch::Host, HOST),
+        .ordered(Order::Host, HOST),
         host("case", "It knows its UUID in small letters", 5.0, |script| {
             request(script, &UUID.to_lowercase(), 1);
         })
@@ -62,11 +62,11 @@ pub(super) fn scenarios() -> Vec<Scenario> {
         })
         .by("SVC-2")
         .gives(0)
-        .watched(Watch::IdleHost, IDLE),
+        .ordered(Order::IdleHost, IDLE),
         host("idle", "It does nothing without a request", 0.4, |script| request(script, UUID, 0))
             .by("SVC-2")
             .gives(0)
-            .watched(Watch::IdleHost, IDLE),
+            .ordered(Order::IdleHost, IDLE),
         ask,
     ]
 }

@@ -3,15 +3,15 @@
 use ads_cnc::ads::AdsError;
 
 use crate::clients::Scenario;
+use crate::clients::ordering::Order;
 use crate::clients::scenario::Expect;
-use crate::clients::watch::Watch;
 
 const JUDGED: &[&str] = &["STM-1", "STM-2", "STM-4", "STM-7", "STM-15", "STM-20", "ADS-2"];
 
 fn program(id: &str, title: &str, text: Vec<u8>) -> Scenario {
     let mut scenario = Scenario::new(format!("client-stream-{id}"), title, "stream 1")
         .by("STM-1")
-        .watched(Watch::Stream, JUDGED);
+        .ordered(Order::Stream, JUDGED);
     scenario.program = Some(text);
     scenario
 }
@@ -19,7 +19,7 @@ fn program(id: &str, title: &str, text: Vec<u8>) -> Scenario {
 fn refused(id: &str, title: &str, text: &[u8], rule: &'static str) -> Scenario {
     let mut scenario = Scenario::new(format!("client-stream-{id}"), title, "stream 1")
         .expect(Expect::Error)
-        .watched(Watch::NoStream(rule), &[rule]);
+        .ordered(Order::NoStream(rule), &[rule]);
     scenario = match rule {
         "STM-8" => scenario.by(crate::judge::assumed(rule)),
         _ => scenario.by(rule),

@@ -11,8 +11,8 @@ use ads_cnc::operation::Call;
 
 use super::{Answer, Memory, Twist, Upstream, is};
 use crate::faults::{How, Seed};
-use crate::services::{reply_stream, request_stream, service_of};
 use crate::simulator::{Cnc, Model, Responder, respond};
+use crate::wire_service::{reply_stream, request_stream, service_of};
 
 /// A CNC, and a defect around it if there is one.
 ///

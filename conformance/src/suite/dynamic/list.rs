@@ -11,8 +11,8 @@ use ads_cnc::operation::{
 };
 use ads_cnc_vectors::Hex;
 
+use super::super::inventory::KINDS;
 use super::super::probe::{Probe, harness};
-use super::super::survey::KINDS;
 use super::steady::{Checked, steadily};
 use super::{PARAMETERS_MAX, each, nothing, number, prefix};
 use crate::judge::{Evidence, Rule, Step, Stop, assumed};

@@ -23,7 +23,7 @@ use crate::suite::stream::heard;
 /// Goes through the steps up to the first at fault, and leaves the interfaces as at the start.
 pub(super) fn run<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {
     let cnc = probe.cnc()?;
-    let channels = crate::suite::service::channels(probe)?;
+    let channels = crate::suite::service_interface::channels(probe)?;
     for step in &given.steps {
         channel_of(&channels, step)?;
     }

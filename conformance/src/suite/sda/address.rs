@@ -11,7 +11,7 @@ use ads_cnc::sda::ObjectAddress;
 
 use super::super::inventory::OF_PLACES;
 use super::super::probe::{Probe, harness};
-use super::super::still::Still;
+use super::super::steady::Steady;
 use crate::explain::class_name;
 use crate::judge::{Rule, Step, Stop, assumed};
 
@@ -100,13 +100,13 @@ pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
             let expected =
                 format!("{} or the address by number", by_index.group(Attribute::Content));
             probe.check(assumed("SDA-1"), same, expected, exchange.result());
-            let mut still = Still::default();
+            let mut steady = Steady::default();
             let rules = ["ADR-1", "ADR-12"].map(Rule::from);
             let what =
                 format!("the number of elements of the {} of channel {number}", class_name(class));
             let count = |address| ads_cnc::operation::CountElements::new(address).map_err(harness);
-            still.same(probe, &rules, &what, count(first)?, count(by_index)?.into())?;
-            still.finish()?;
+            steady.same(probe, &rules, &what, count(first)?, count(by_index)?.into())?;
+            steady.finish()?;
         }
     }
     match any {

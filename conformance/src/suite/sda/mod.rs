@@ -1,7 +1,7 @@
 //! Cases of SDA and GEO: which instances there are, and where.
 
 mod address;
-mod blank;
+mod empty_places;
 mod platform;
 mod range;
 mod types;
@@ -36,9 +36,9 @@ pub(super) const CASES: &[Row] = &[
         "By rank the address is that of the same channel, without the logical bit"),
     case("sda-platform-axes-of-hld", &["SDA-5", "SDA-13"], Needs::Queries, platform::platform_axes_of_hld,
         "The HLD of the first channel has the axes of the whole platform"),
-    case("sda-empty-place", &["SDA-11"], Needs::Queries, blank::empty_place,
+    case("sda-empty-place", &["SDA-11"], Needs::Queries, empty_places::empty_place,
         "A place without an axis reads as blank"),
-    case("sda-axis-number", &["SDA-11"], Needs::Embedded, blank::axis_number,
+    case("sda-axis-number", &["SDA-11"], Needs::Embedded, empty_places::axis_number,
         "The logical axis number of a place is that of its axis, and 0 without one"),
 ];
 

@@ -4,7 +4,7 @@ use ads_cnc::address::Class;
 use ads_cnc::operation::ReadElement;
 
 use super::super::probe::Probe;
-use super::super::still::Still;
+use super::super::steady::Steady;
 use super::length_of;
 use crate::judge::{Step, Stop};
 
@@ -21,7 +21,7 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
     if platform.is_empty() {
         return Err(Stop::NotApplicable("the HLD names no axis of the platform".to_owned()));
     }
-    let mut still = Still::default();
+    let mut steady = Steady::default();
     for axis in &platform {
         let mine = own.iter().find(|one| one.axis == axis.axis);
         let expected = format!("axis {} under channel {first} as under channel 0", axis.axis);
@@ -36,8 +36,8 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
             let read = |address| ReadElement::new(address, length);
             let (Ok(read_one), Ok(read_other)) = (read(one), read(other)) else { continue };
             let what = format!("element {} of {axis}", one.index_offset());
-            still.same(probe, &["SDA-13".into()], &what, read_one, read_other.into())?;
+            steady.same(probe, &["SDA-13".into()], &what, read_one, read_other.into())?;
         }
     }
-    still.finish()
+    steady.finish()
 }

@@ -1,13 +1,13 @@
 //! Cases of data streaming. What goes to a device are comments alone: they move nothing.
 
-mod apart;
-mod course;
-mod sent;
-mod stage;
+mod buffer;
+mod execution;
+mod isolation;
 mod words;
+mod write;
 
-pub(super) use sent::{Sent, heard, send, send_until_taken};
-pub(super) use stage::HELD_MAX;
+pub(super) use buffer::HELD_MAX;
+pub(super) use write::{Sent, heard, send, send_until_taken};
 
 use std::time::{Duration, Instant};
 
@@ -30,29 +30,29 @@ pub(super) const CASES: &[Row] = &[
         "A packet of 992 bytes is taken, and a line of 990 characters in it"),
     case("stream-refused-for-now", &["STM-6"], Needs::Writes, refused_for_now,
         "What is refused for now is taken later, the same bytes again"),
-    case("stream-too-long", &["STM-2"], Needs::Embedded, stage::too_long,
+    case("stream-too-long", &["STM-2"], Needs::Embedded, buffer::too_long,
         "A packet of 993 bytes is refused, and nothing of it is taken"),
-    case("stream-full", &["STM-3", "STM-6", "STM-12", "STM-15"], Needs::Embedded, stage::full,
+    case("stream-full", &["STM-3", "STM-6", "STM-12", "STM-15"], Needs::Embedded, buffer::full,
         "The interface holds 4094 bytes; then a write is refused until they were read"),
-    case("stream-channels", &["STM-1", "ADR-12"], Needs::Embedded, course::channels,
+    case("stream-channels", &["STM-1", "ADR-12"], Needs::Embedded, execution::channels,
         "What is written to the stream of a channel is run there, and nowhere else"),
-    case("stream-as-written", &["STM-4", "STM-7"], Needs::Embedded, course::as_written,
+    case("stream-as-written", &["STM-4", "STM-7"], Needs::Embedded, execution::as_written,
         "Every character is run as it was written, and every line as a line"),
-    case("stream-read-at-once", &["STM-12"], Needs::Embedded, course::at_once,
+    case("stream-read-at-once", &["STM-12"], Needs::Embedded, execution::at_once,
         "All that is there is read at once, before any of it is run"),
-    case("stream-behind-the-end", &["STM-10", "STM-14"], Needs::Embedded, course::behind_end,
+    case("stream-behind-the-end", &["STM-10", "STM-14"], Needs::Embedded, execution::behind_end,
         "What comes behind a program end that was read stays for the next start"),
-    case("stream-dry", &["STM-7", "STM-14", "STM-16"], Needs::Embedded, stage::dry,
+    case("stream-dry", &["STM-7", "STM-14", "STM-16"], Needs::Embedded, buffer::dry,
         "Where nothing more is written motion stops, and the next write resumes it"),
-    case("stream-reset", &["STM-11", "STM-14"], Needs::Embedded, stage::reset,
+    case("stream-reset", &["STM-11", "STM-14"], Needs::Embedded, buffer::reset,
         "A reset empties the interface, and the next program is another"),
-    case("stream-many-packets", &["STM-3", "STM-6", "STM-15"], Needs::Embedded, stage::many,
+    case("stream-many-packets", &["STM-3", "STM-6", "STM-15"], Needs::Embedded, buffer::many,
         "The interface holds packets of one line as long as they fit, however many"),
-    case("stream-room-of-channels", &["STM-3", "STM-12"], Needs::Embedded, apart::channels,
+    case("stream-room-of-channels", &["STM-3", "STM-12"], Needs::Embedded, isolation::channels,
         "The interface of each channel has all its room, however full another's is"),
-    case("stream-refused-whole", &["STM-3", "STM-6"], Needs::Embedded, apart::in_part,
+    case("stream-refused-whole", &["STM-3", "STM-6"], Needs::Embedded, isolation::in_part,
         "Of a packet that is refused no line is taken, though some would fit"),
-    case("stream-lengths", &["STM-2", "STM-4"], Needs::Embedded, apart::lengths,
+    case("stream-lengths", &["STM-2", "STM-4"], Needs::Embedded, isolation::lengths,
         "A packet is run whole, whatever its length up to 992 bytes"),
     case("stream-comments", &["STM-8", "STM-9"], Needs::Embedded, words::comments,
         "A comment ends where it ends: behind it the same word ends streaming"),

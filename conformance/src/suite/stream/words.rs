@@ -1,7 +1,7 @@
 //! Words that end streaming, and words that do not.
 
+use super::buffer::{expect, set_up, taken};
 use super::send_until_taken;
-use super::stage::{expect, set_up, taken};
 use crate::judge::{Rule, Step};
 use crate::simulator::program::{Pace, Start, State};
 use crate::suite::probe::Probe;

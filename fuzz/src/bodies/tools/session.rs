@@ -6,8 +6,8 @@ use std::time::Duration;
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::{AmsPort, FrameRef, StateFlags};
 use ads_cnc::operation::{Call, Request, Service};
-use ads_cnc_conformance::services::{decode_reply, service_of};
 use ads_cnc_conformance::simulator::{CONNECTION_BYTES_MAX, Cnc, Model, NET_ID, Received};
+use ads_cnc_conformance::wire_service::{decode_reply, service_of};
 
 use super::Input;
 use super::calls::{PORTS, call, frame};

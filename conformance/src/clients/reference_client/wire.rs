@@ -8,7 +8,7 @@ use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsPort, FrameRef, StateFlags};
 use ads_cnc::operation::{Operation, Service};
 
 use super::Flaw;
-use super::spoil::{Asked, believe, misread, spoil_frame};
+use super::faults::{Asked, believe, misread, spoil_frame};
 use crate::client::{SOURCE_PORT, answer, frame, net_id_of};
 use crate::clients::Place;
 use crate::net;

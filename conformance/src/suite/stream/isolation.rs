@@ -1,6 +1,6 @@
 //! Room: each channel has its own, and what is refused takes none of it.
 
-use super::stage::{HELD_MAX, expect, set_up, set_up_at, taken};
+use super::buffer::{HELD_MAX, expect, set_up, set_up_at, taken};
 use super::{comment, send};
 use crate::judge::{Step, Stop};
 use crate::simulator::program::{Pace, Start};

@@ -14,11 +14,11 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
 
-use super::described::kinds;
+use super::describe_by_name::kinds;
 use super::inventory::number_of;
 use super::probe::{Probe, harness};
 use super::sda::length_of;
-use super::still::Still;
+use super::steady::Steady;
 use super::variable::name_of;
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
@@ -116,7 +116,7 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
 /// Variables: one at each index, and by its handle what it is by its name.
 fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: &str = "ADS-3";
-    let mut still = Still::default();
+    let mut steady = Steady::default();
     for channel in probe.channels()? {
         for (name, kind) in kinds(probe) {
             let data = some(probe, RULE, CountVariables::new(channel, kind))?;
@@ -133,18 +133,18 @@ fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
                 probe.check(RULE, other, "another variable at each index", found);
                 // That those of axes are used there is assumed.
                 if let Some(one) = Description::decode(&one).ok().filter(|_| name != "V.A") {
-                    same_by_handle(probe, &mut still, channel, &one)?;
+                    same_by_handle(probe, &mut steady, channel, &one)?;
                 }
                 all.push(one);
             }
         }
     }
-    still.finish()
+    steady.finish()
 }
 
 fn same_by_handle(
     probe: &mut Probe<'_>,
-    still: &mut Still,
+    steady: &mut Steady,
     channel: Channel,
     variable: &Description,
 ) -> Step {
@@ -156,7 +156,7 @@ fn same_by_handle(
     let by_name = Request::from(ReadByName { channel, name: name_of(variable) });
     let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
     let what = variable.name.text.to_string();
-    still.same_part(probe, &["ADS-3".into()], &what, by_name, by_handle.into(), <[u8]>::to_vec)
+    steady.same_part(probe, &["ADS-3".into()], &what, by_name, by_handle.into(), <[u8]>::to_vec)
 }
 
 /// Numbers that a Read gives, and what is there by a ReadWrite.

@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector, sequence, vector};
 
+use super::describe::{describe, evidence};
 use super::judge::Terms;
 use super::plan::{forms, questions};
-use super::tell::{describe, evidence};
 use super::{Reaction, compare};
 use crate::codec::message::{Answer, Hello, Output, Question};
 use crate::judge::{Body, Case, Evidence, Judgement, Outcome, Stop, TEXT_MAX, Verdict};
@@ -17,7 +17,7 @@ use crate::text::{hex::compact, shorten};
 pub(super) type Reactions = HashMap<(usize, String), Reaction>;
 
 /// Everything that was asked and answered.
-pub(super) struct View<'v> {
+pub(super) struct Verdicts<'v> {
     pub(super) cases: &'v [Case],
     pub(super) reactions: &'v Reactions,
     pub(super) hello: &'v Hello,
@@ -37,7 +37,7 @@ struct Check {
     evidence: Evidence,
 }
 
-impl View<'_> {
+impl Verdicts<'_> {
     pub(super) fn outcome(&self, place: usize) -> Option<Outcome> {
         let case = self.cases.get(place)?;
         let questions = questions(case, &self.edition);

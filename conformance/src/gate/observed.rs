@@ -15,7 +15,7 @@ pub(super) const LEARNT_MAX: usize = 65_536;
 /// What the replies of one connection say. What contradicts a write is kept as well as what allows
 /// it.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Learnt {
+pub(super) struct Observed {
     /// By the channel as it was addressed: whether a rank and a number are one channel is not known.
     handles: BTreeMap<(Channel, u32), Named>,
     /// The handle of each variable that the file names; none if replies give it several.
@@ -59,7 +59,7 @@ struct Objects {
     addresses: BTreeMap<CncString, BTreeSet<(IndexGroup, IndexOffset)>>,
 }
 
-impl Learnt {
+impl Observed {
     /// Forgets what lets writes pass; names that the file does not have are kept.
     pub(super) fn forget(&mut self) {
         // A name with several handles keeps its variable from being written by any.

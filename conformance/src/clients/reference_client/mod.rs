@@ -1,16 +1,17 @@
 //! This project's client, as an example and to try the suite with: right, or wrong on purpose.
 
-mod acts;
-mod flaws;
-mod long;
-mod spoil;
+mod actions;
+mod defects;
+mod faults;
+mod service;
+mod streaming;
 mod wire;
 
 use std::time::Duration;
 
 use serde_json::Value;
 
-pub use flaws::{Defect, Flaw, defects, find_defect, habits};
+pub use defects::{Defect, Flaw, defects, find_defect, habits};
 
 use super::message::{Answer, Hello, Identity, PROTOCOL, Place, Reaction};
 use super::{Action, Actor, VOCABULARY};
@@ -18,12 +19,12 @@ use wire::{Fail, Wire};
 
 /// This project's client, in this process.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Own {
+pub struct ReferenceClient {
     /// What it does wrong.
     pub flaw: Option<Flaw>,
 }
 
-impl Own {
+impl ReferenceClient {
     /// What it says of itself.
     pub fn hello() -> Hello {
         Hello {
@@ -39,7 +40,7 @@ impl Own {
     }
 }
 
-impl Actor for Own {
+impl Actor for ReferenceClient {
     fn hello(&mut self, _: &Place) -> Result<Hello, Reaction> {
         Ok(Self::hello())
     }
@@ -59,7 +60,7 @@ pub fn answer(flaw: Option<Flaw>, place: &Place, action: &Action) -> Reaction {
     if flaw == Some(Flaw::Garbles) {
         return Reaction::Garbled("done!".to_owned());
     }
-    let done = Wire::connect(place, flaw).and_then(|mut wire| acts::act(&mut wire, action));
+    let done = Wire::connect(place, flaw).and_then(|mut wire| actions::act(&mut wire, action));
     match done {
         Ok(value) => Reaction::Answer(Answer::Result(value)),
         Err(Fail::Said(why)) => Reaction::Answer(Answer::Error(why)),

@@ -10,10 +10,10 @@ use ads_cnc::{Kind, VariableType};
 use super::maybe;
 use crate::judge::{Step, Stop};
 use crate::profile::Claim;
-use crate::services::clause;
-use crate::suite::described::kinds;
+use crate::suite::describe_by_name::kinds;
 use crate::suite::probe::{Probe, harness};
 use crate::suite::variable::name_of;
+use crate::wire_service::clause;
 
 /// TCP may cut a frame anywhere: its length says where it ends.
 pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {

@@ -1,8 +1,8 @@
 //! Cases of the Service Interface: its variables, and what writing them leads to.
 
+mod aliases;
 mod program;
 mod variables;
-mod ways;
 
 use ads_cnc::VariableType;
 use ads_cnc::address::Channel;
@@ -31,9 +31,9 @@ pub(super) const CASES: &[Row] = &[
         "A text of any length and of any characters is read as it was written"),
     case("service-variables-apart", &["SVC-1", "SVC-3"], Needs::Embedded, variables::apart,
         "Each of the variables is its own, by name and by handle"),
-    case("service-texts-by-handle", &["SVC-1"], Needs::Embedded, ways::by_handle,
+    case("service-texts-by-handle", &["SVC-1"], Needs::Embedded, aliases::by_handle,
         "A text of any length is written and read by its handle as by its name"),
-    case("service-channels-apart", &["SVC-1", "SVC-4"], Needs::Embedded, ways::channels_apart,
+    case("service-channels-apart", &["SVC-1", "SVC-4"], Needs::Embedded, aliases::channels_apart,
         "What is answered in one channel changes nothing that is asked in another"),
     case("service-asked-by-a-program", &["SVC-3", "SVC-4"], Needs::Embedded, asked,
         "When a program writes REQUEST_STATE, the interface takes the last answer back"),

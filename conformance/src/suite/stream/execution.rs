@@ -2,7 +2,7 @@
 
 use ads_cnc::address::Channel;
 
-use super::stage::{expect, set_up, set_up_at, taken};
+use super::buffer::{expect, set_up, set_up_at, taken};
 use crate::judge::Step;
 use crate::simulator::program::{Pace, Start, State};
 use crate::suite::probe::{Probe, harness};

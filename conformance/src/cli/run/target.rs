@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ads_cnc::operation::Task;
 
 use super::{Run, Stopped};
-use crate::cli::forms::show;
+use crate::cli::report_output::show;
 use crate::cli::{complain, run_dry};
 use crate::faults::{Faulty, Seed};
 use crate::judge::{Needs, Outcome, Plan, RequirementVerdict, Verdict, Waivers};

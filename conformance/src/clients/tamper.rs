@@ -7,11 +7,11 @@ use ads_cnc::ads::{AdsError, AmsHeader, Command, FrameRef, StateFlags};
 use ads_cnc::limits::{DESCRIPTOR_LEN, TEXT_MAX};
 use ads_cnc::operation::Service;
 
-use crate::services::{decode_reply, encode_reply, service_of};
+use crate::wire_service::{decode_reply, encode_reply, service_of};
 
 /// What is done to a reply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Knob {
+pub(super) enum Tamper {
     /// One byte at a time.
     Bytewise,
     /// In two pieces, the first of so many bytes, with some time between them.
@@ -26,7 +26,7 @@ pub(super) enum Knob {
     OtherInvokeId,
     /// With another number in a header or before the data, as it lies at this offset of the frame;
     /// the connection is closed some time later.
-    Lie(Place, Lie),
+    Length(LengthField, WrongLength),
     /// As the answer to another command.
     OtherCommand,
     /// Marked as a request.
@@ -63,7 +63,7 @@ pub(super) enum Knob {
 
 /// A number of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum LengthField {
     /// The length of the AMS/TCP header.
     AmsTcp,
     /// The data length of the AMS header.
@@ -74,7 +74,7 @@ pub(super) enum Place {
 
 /// Another number than the right one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lie {
+pub(super) enum WrongLength {
     /// One more.
     Longer,
     /// One less.
@@ -87,7 +87,7 @@ pub(super) enum Lie {
 
 /// What the sending side does.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Deed {
+pub(super) enum SendStep {
     Send(Vec<u8>),
     Pause(Duration),
     Close,
@@ -99,23 +99,28 @@ const MOMENT: Duration = Duration::from_millis(40);
 /// An error of the AMS header: what a router says of a port that nobody has.
 const AMS_ERROR: AdsError = AdsError::TARGET_PORT_NOT_FOUND;
 
-impl Knob {
+impl Tamper {
     /// What is done with a reply; `before` is the last one to another request.
-    pub(super) fn deeds(self, reply: &[u8], before: Option<&[u8]>) -> Vec<Deed> {
-        let send = |bytes: Vec<u8>| vec![Deed::Send(bytes)];
-        let then_close = |bytes: Vec<u8>| vec![Deed::Send(bytes), Deed::Pause(MOMENT), Deed::Close];
+    pub(super) fn steps(self, reply: &[u8], before: Option<&[u8]>) -> Vec<SendStep> {
+        let send = |bytes: Vec<u8>| vec![SendStep::Send(bytes)];
+        let then_close =
+            |bytes: Vec<u8>| vec![SendStep::Send(bytes), SendStep::Pause(MOMENT), SendStep::Close];
         let all = || reply.to_vec();
         match self {
-            Self::Bytewise => reply.iter().map(|&byte| Deed::Send(vec![byte])).collect(),
+            Self::Bytewise => reply.iter().map(|&byte| SendStep::Send(vec![byte])).collect(),
             Self::Pieces(at) => {
                 let (front, rest) = reply.split_at(at.min(reply.len()));
-                vec![Deed::Send(front.to_vec()), Deed::Pause(MOMENT), Deed::Send(rest.to_vec())]
+                vec![
+                    SendStep::Send(front.to_vec()),
+                    SendStep::Pause(MOMENT),
+                    SendStep::Send(rest.to_vec()),
+                ]
             }
             Self::Foreign => send([foreign(reply), all()].concat()),
             Self::Twice => send([all(), all()].concat()),
             Self::Late => send([before.unwrap_or_default().to_vec(), all()].concat()),
             Self::OtherInvokeId => then_close(foreign(reply)),
-            Self::Lie(place, lie) => then_close(lying(reply, place, lie)),
+            Self::Length(place, lie) => then_close(lying(reply, place, lie)),
             Self::OtherCommand => then_close(with_header(reply, |header| {
                 header.command = match header.command {
                     Command::READ => Command::READ_WRITE,
@@ -141,11 +146,11 @@ impl Knob {
                 }
             })),
             Self::CutAt(len) => {
-                vec![Deed::Send(reply.iter().take(len).copied().collect()), Deed::Close]
+                vec![SendStep::Send(reply.iter().take(len).copied().collect()), SendStep::Close]
             }
             Self::CutEnd => {
                 let len = reply.len().saturating_sub(1);
-                vec![Deed::Send(reply.iter().take(len).copied().collect()), Deed::Close]
+                vec![SendStep::Send(reply.iter().take(len).copied().collect()), SendStep::Close]
             }
             Self::Silence => Vec::new(),
             Self::More(count) => send(with_data(reply, |data| {
@@ -229,12 +234,12 @@ fn foreign(reply: &[u8]) -> Vec<u8> {
 }
 
 /// The reply with one number overwritten, whatever it makes of the rest.
-fn lying(reply: &[u8], place: Place, lie: Lie) -> Vec<u8> {
+fn lying(reply: &[u8], place: LengthField, lie: WrongLength) -> Vec<u8> {
     // Offsets of the frame: 6 bytes of AMS/TCP header, 32 of AMS header, 4 of result.
     let at = match place {
-        Place::AmsTcp => 2,
-        Place::Ams => 26,
-        Place::Data => 42,
+        LengthField::AmsTcp => 2,
+        LengthField::Ams => 26,
+        LengthField::Data => 42,
     };
     let mut bytes = reply.to_vec();
     if let Some(Ok(field)) = bytes.get_mut(at..).map(|rest| {
@@ -243,10 +248,10 @@ fn lying(reply: &[u8], place: Place, lie: Lie) -> Vec<u8> {
     }) {
         let number = u32::from_le_bytes(*field);
         let other = match lie {
-            Lie::Longer => number.wrapping_add(1),
-            Lie::Shorter => number.wrapping_sub(1),
-            Lie::Zero => 0,
-            Lie::Huge => u32::MAX,
+            WrongLength::Longer => number.wrapping_add(1),
+            WrongLength::Shorter => number.wrapping_sub(1),
+            WrongLength::Zero => 0,
+            WrongLength::Huge => u32::MAX,
         };
         *field = other.to_le_bytes();
     }
@@ -266,10 +271,10 @@ mod tests {
         bytes
     }
 
-    fn sent(knob: Knob) -> Vec<u8> {
-        let deeds = knob.deeds(&reply(), None);
-        let sent = deeds.into_iter().filter_map(|deed| match deed {
-            Deed::Send(bytes) => Some(bytes),
+    fn sent(tamper: Tamper) -> Vec<u8> {
+        let steps = tamper.steps(&reply(), None);
+        let sent = steps.into_iter().filter_map(|deed| match deed {
+            SendStep::Send(bytes) => Some(bytes),
             _ => None,
         });
         sent.flatten().collect()
@@ -277,13 +282,14 @@ mod tests {
 
     #[test]
     fn lengths_lie_where_they_should() {
-        let at = |knob, place: usize| sent(knob)[place..place + 4].to_vec();
-        assert_eq!(at(Knob::Lie(Place::AmsTcp, Lie::Longer), 2), [45, 0, 0, 0]);
-        assert_eq!(at(Knob::Lie(Place::Ams, Lie::Shorter), 26), [11, 0, 0, 0]);
-        assert_eq!(at(Knob::Lie(Place::Data, Lie::Huge), 42), [0xFF; 4]);
-        for lie in [Lie::Longer, Lie::Shorter, Lie::Zero, Lie::Huge] {
-            for place in [Place::AmsTcp, Place::Ams, Place::Data] {
-                let lying = sent(Knob::Lie(place, lie));
+        let at = |tamper, place: usize| sent(tamper)[place..place + 4].to_vec();
+        assert_eq!(at(Tamper::Length(LengthField::AmsTcp, WrongLength::Longer), 2), [45, 0, 0, 0]);
+        assert_eq!(at(Tamper::Length(LengthField::Ams, WrongLength::Shorter), 26), [11, 0, 0, 0]);
+        assert_eq!(at(Tamper::Length(LengthField::Data, WrongLength::Huge), 42), [0xFF; 4]);
+        for lie in [WrongLength::Longer, WrongLength::Shorter, WrongLength::Zero, WrongLength::Huge]
+        {
+            for place in [LengthField::AmsTcp, LengthField::Ams, LengthField::Data] {
+                let lying = sent(Tamper::Length(place, lie));
                 let differing = lying.iter().zip(reply()).filter(|(new, old)| **new != *old);
                 assert!(lying.len() == 50 && differing.count() >= 1);
             }
@@ -292,19 +298,19 @@ mod tests {
 
     #[test]
     fn what_is_put_together_again_is_right_but_for_what_was_meant() {
-        assert_eq!(sent(Knob::Bytewise), reply());
-        assert_eq!(sent(Knob::Pieces(7)), reply());
-        assert_eq!(sent(Knob::Less(1)).len(), 49);
-        assert_eq!(sent(Knob::Less(1))[2..6], [43, 0, 0, 0]);
-        assert_eq!(sent(Knob::More(1))[42..46], [5, 0, 0, 0]);
-        assert_eq!(sent(Knob::AmsError).len(), 38);
-        assert_eq!(sent(Knob::AmsError)[30..34], [6, 0, 0, 0]);
-        assert_eq!(sent(Knob::BareResult)[38..], [6, 7, 0, 0]);
-        assert_eq!(sent(Knob::EmptyResult)[38..], [6, 7, 0, 0, 0, 0, 0, 0]);
-        let with_data = sent(Knob::ResultWithData);
+        assert_eq!(sent(Tamper::Bytewise), reply());
+        assert_eq!(sent(Tamper::Pieces(7)), reply());
+        assert_eq!(sent(Tamper::Less(1)).len(), 49);
+        assert_eq!(sent(Tamper::Less(1))[2..6], [43, 0, 0, 0]);
+        assert_eq!(sent(Tamper::More(1))[42..46], [5, 0, 0, 0]);
+        assert_eq!(sent(Tamper::AmsError).len(), 38);
+        assert_eq!(sent(Tamper::AmsError)[30..34], [6, 0, 0, 0]);
+        assert_eq!(sent(Tamper::BareResult)[38..], [6, 7, 0, 0]);
+        assert_eq!(sent(Tamper::EmptyResult)[38..], [6, 7, 0, 0, 0, 0, 0, 0]);
+        let with_data = sent(Tamper::ResultWithData);
         assert_eq!(with_data[38..], [6, 7, 0, 0, 4, 0, 0, 0, 123, 0, 0, 0]);
-        assert_eq!(sent(Knob::Foreign)[50..], reply());
-        assert_eq!(sent(Knob::Foreign)[34..38], [7, 0, 0, 1]);
-        assert_eq!(sent(Knob::CutEnd), reply()[..49]);
+        assert_eq!(sent(Tamper::Foreign)[50..], reply());
+        assert_eq!(sent(Tamper::Foreign)[34..38], [7, 0, 0, 1]);
+        assert_eq!(sent(Tamper::CutEnd), reply()[..49]);
     }
 }

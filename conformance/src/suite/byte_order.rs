@@ -11,7 +11,7 @@ use ads_cnc::sda::ElementCount;
 use ads_cnc::{Decode, Handle, Kind, ObjectCount, VariableCount};
 use ads_cnc_vectors::Hex;
 
-use super::described::kinds;
+use super::describe_by_name::kinds;
 use super::inventory::Instance;
 use super::probe::{Probe, harness};
 use super::variable::name_of;

@@ -5,8 +5,8 @@ use ads_cnc::address::{ComGroup, ComTable};
 use ads_cnc_vectors::Hex;
 
 use super::addresses::{Addresses, At};
+use super::byte_order::is_permuted;
 use super::inventory::Object;
-use super::numbers::is_permuted;
 use super::place::{self, Place};
 use super::probe::Probe;
 use super::{Row, case};

@@ -5,22 +5,23 @@ use ads_cnc::limits::{TEXT_MAX, VARIABLE_MAX};
 use ads_cnc::operation::{CountVariables, DescribeByIndex, Request};
 use ads_cnc::{Decode, Description, Kind, VariableCount};
 
-use super::probe::Probe;
 use crate::judge::{Step, Stop};
+use crate::suite::describe_by_name;
+use crate::suite::probe::Probe;
 
 /// The most variables of a kind that are looked at.
-pub(super) const VARIABLES_MAX: u32 = 10_000;
+pub(in crate::suite) const VARIABLES_MAX: u32 = 10_000;
 
 /// The kinds that can be enumerated.
-pub(super) const KINDS: [(&str, Kind<'static>); 3] =
+pub(in crate::suite) const KINDS: [(&str, Kind<'static>); 3] =
     [("V.G", Kind::V_G), ("V.E", Kind::V_E), ("V.A", Kind::V_A)];
 
 impl Probe<'_> {
     /// Every description of a channel. A case that judges descriptions reads them itself; here
     /// one that cannot be read only means that nothing can be built on it.
-    pub(super) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
+    pub(in crate::suite) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = Vec::new();
-        for (name, kind) in super::described::kinds(self) {
+        for (name, kind) in describe_by_name::kinds(self) {
             let key = (u32::from(channel.number()), name);
             if !self.session.variables.contains_key(&key) {
                 let described = self.describe(channel, kind)?;
@@ -35,7 +36,7 @@ impl Probe<'_> {
     }
 
     /// Those whose whole value an answer has room for.
-    pub(super) fn readable(&mut self, channel: Channel) -> Step<Vec<Description>> {
+    pub(in crate::suite) fn readable(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = self.variables(channel)?;
         let fits = |size: u32| usize::try_from(size).is_ok_and(|size| size <= VARIABLE_MAX);
         all.retain(|variable| fits(variable.size));

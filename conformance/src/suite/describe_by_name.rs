@@ -7,8 +7,8 @@ use ads_cnc::{
     Validity, VariableCount,
 };
 
+use super::inventory::{KINDS, VARIABLES_MAX};
 use super::probe::{Probe, harness};
-use super::survey::{KINDS, VARIABLES_MAX};
 use super::variable::name_of;
 use super::{Row, case};
 use crate::edition::Feature;

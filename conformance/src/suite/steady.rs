@@ -11,12 +11,12 @@ const TRIES: usize = 3;
 
 /// What came of comparing.
 #[derive(Debug, Default)]
-pub(super) struct Still {
+pub(super) struct Steady {
     judged: bool,
     moved: Option<String>,
 }
 
-impl Still {
+impl Steady {
     /// Holds what `other` reads against what `one` reads before and after it.
     pub(super) fn same(
         &mut self,

@@ -3,18 +3,18 @@
 use ads_cnc::operation::Request;
 use ads_cnc::service::ServiceVariable;
 
-use super::asked::result_of;
 use super::findings::Findings;
+use super::request_match::result_of;
 use super::requests::with_request;
 use super::scenario::Scenario;
 use super::script::Script;
-use super::stage::Turn;
+use super::test_server::Turn;
 use crate::judge::assumed;
 use crate::values::until_nul;
 
 /// What is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Watch {
+pub(super) enum Order {
     /// All of a program in packets.
     Stream,
     /// That nothing of a program that cannot be streamed is.
@@ -32,29 +32,29 @@ const PACKET_MAX: usize = 992;
 
 /// Judges the order of what was sent.
 pub(super) fn judge(
-    watch: Watch,
+    watch: Order,
     scenario: &Scenario,
     script: &Script,
     turns: &[Turn],
     findings: &mut Findings,
 ) {
     match watch {
-        Watch::Stream => stream(scenario, turns, findings),
-        Watch::NoStream(rule) => {
+        Order::Stream => stream(scenario, turns, findings),
+        Order::NoStream(rule) => {
             let sent = packets(turns).into_iter().next();
             let expected = "nothing of a program that cannot be streamed";
             let turn = sent.as_ref().map(|(turn, _)| *turn);
             let rule = if rule == "STM-8" { assumed(rule) } else { rule.into() };
             findings.check(rule, sent.is_none(), turn, expected, "a packet of it");
         }
-        Watch::Host => host(script, turns, findings),
-        Watch::IdleHost => {
+        Order::Host => host(script, turns, findings),
+        Order::IdleHost => {
             let written = accesses(script, turns).into_iter().find(|access| access.value.is_some());
             let turn = written.as_ref().map(|access| access.turn);
             let expected = "no answer to what is not its own, or is no request";
             findings.check("SVC-2", written.is_none(), turn, expected, "a write");
         }
-        Watch::Caller => caller(script, turns, findings),
+        Order::Caller => caller(script, turns, findings),
     }
 }
 

@@ -3,20 +3,20 @@
 use ads_cnc_vectors::Level;
 
 use super::Reaction;
-use super::tell::{describe, evidence};
-use super::view::Reactions;
+use super::describe::{describe, evidence};
+use super::verdicts::Reactions;
 use crate::codec::message::{Answer, Question};
 use crate::judge::{Body, Case, Evidence, Judgement, Needs, Outcome, Subject, TESTEE, Verdict};
 
 /// How a testee keeps to the protocol.
 #[derive(Default)]
-pub(super) struct Manners {
+pub(super) struct ProtocolRules {
     faults: Vec<Judgement>,
     checks: usize,
     first: Reactions,
 }
 
-impl Manners {
+impl ProtocolRules {
     pub(super) fn sanity(
         &mut self,
         case: usize,
@@ -74,7 +74,7 @@ impl Manners {
             subject,
             requirements: vec![TESTEE],
             needs: Needs::Codec,
-            body: Body::Manners,
+            body: Body::Protocol,
         };
         let pass = Judgement {
             requirement: TESTEE,

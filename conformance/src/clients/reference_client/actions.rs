@@ -14,7 +14,7 @@ use ads_cnc::{CncStr, Descriptor, Handle, Kind, U32List};
 use serde_json::{Value, json};
 
 use super::wire::{Fail, Wire};
-use super::{DONE, Flaw, long};
+use super::{DONE, Flaw, service, streaming};
 use crate::clients::Action;
 use crate::values::{self, Type};
 
@@ -205,13 +205,13 @@ pub(super) fn act(wire: &mut Wire, action: &Action) -> Result<Value, Fail> {
             let is_none = (group, offset) == (0, 0) && !wire.has(Flaw::NoneIsZero);
             if is_none { Value::Null } else { json!([group, offset]) }
         }
-        "stream" => long::stream(wire, args.channel()?, args.text()?)?,
+        "stream" => streaming::stream(wire, args.channel()?, args.text()?)?,
         "serve-echo" => {
             let (channel, uuid) = (args.channel()?, args.text()?);
             let (requests, seconds) = (args.number()?, args.text()?.parse()?);
-            long::serve(wire, channel, uuid, requests, seconds)?
+            service::serve(wire, channel, uuid, requests, seconds)?
         }
-        "ask-service" => long::ask(wire, args.channel()?, args.text()?, args.text()?)?,
+        "ask-service" => service::ask(wire, args.channel()?, args.text()?, args.text()?)?,
         _ => return element(wire, action, args),
     })
 }

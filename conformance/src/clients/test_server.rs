@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 
 use ads_cnc::ads::AmsNetId;
 
-use super::knob::Deed;
 use super::script::Script;
+use super::tamper::SendStep;
 use crate::judge::Stop;
 use crate::net;
 use crate::simulator::{FRAME_MAX, NET_ID};
@@ -122,7 +122,7 @@ impl std::fmt::Display for Beyond {
 
 /// A listener with a scenario behind it, one after the other.
 #[derive(Debug)]
-pub struct Stage {
+pub struct TestServer {
     addr: SocketAddr,
     shared: Arc<Shared>,
     acceptor: Option<JoinHandle<()>>,
@@ -131,12 +131,12 @@ pub struct Stage {
 #[derive(Debug, Default)]
 struct Shared {
     stopped: AtomicBool,
-    scene: Mutex<Option<Arc<Scene>>>,
+    run: Mutex<Option<Arc<Run>>>,
 }
 
 /// What is going on.
 #[derive(Debug)]
-struct Scene {
+struct Run {
     script: Mutex<Script>,
     turns: Mutex<Turns>,
     /// Open connections, and how many there have been.
@@ -152,7 +152,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Stage {
+impl TestServer {
     /// Listens.
     ///
     /// # Errors
@@ -180,7 +180,7 @@ impl Stage {
 
     /// From now on this is played.
     pub(super) fn begin(&self, script: Script) {
-        *lock(&self.shared.scene) = Some(Arc::new(Scene {
+        *lock(&self.shared.run) = Some(Arc::new(Run {
             script: Mutex::new(script),
             turns: Mutex::default(),
             streams: Mutex::default(),
@@ -194,11 +194,11 @@ impl Stage {
     /// Waits until somebody has connected and all connections are closed again, or it is told not
     /// to wait any longer.
     pub(super) fn watch(&self, mut go_on: impl FnMut() -> bool) {
-        let Some(scene) = lock(&self.shared.scene).clone() else { return };
+        let Some(run) = lock(&self.shared.run).clone() else { return };
         let mut quiet: Option<Instant> = None;
         while go_on() {
-            let any = scene.count.load(Ordering::SeqCst) > 0;
-            let idle = any && *lock(&scene.open) == 0;
+            let any = run.count.load(Ordering::SeqCst) > 0;
+            let idle = any && *lock(&run.open) == 0;
             match (idle, quiet) {
                 (true, Some(since)) if since.elapsed() > LINGER => return,
                 (true, None) => quiet = Some(Instant::now()),
@@ -212,33 +212,33 @@ impl Stage {
     /// The requests that came since this was asked before, but for the last, whose answer may not
     /// be out.
     pub(super) fn turns(&self) -> Vec<Turn> {
-        let Some(scene) = lock(&self.shared.scene).clone() else { return Vec::new() };
-        lock(&scene.turns).take_answered()
+        let Some(run) = lock(&self.shared.run).clone() else { return Vec::new() };
+        lock(&run.turns).take_answered()
     }
 
     /// Ends what is played: every connection is closed.
     pub(super) fn end(&self) -> (Vec<Turn>, Beyond, Option<Script>) {
-        let Some(scene) = lock(&self.shared.scene).take() else {
+        let Some(run) = lock(&self.shared.run).take() else {
             return (Vec::new(), Beyond::default(), None);
         };
         // A client that has closed may have sent something just before.
-        drop(scene.closed.wait_timeout_while(lock(&scene.open), LINGER, |open| *open > 0));
-        for stream in lock(&scene.streams).iter() {
+        drop(run.closed.wait_timeout_while(lock(&run.open), LINGER, |open| *open > 0));
+        for stream in lock(&run.streams).iter() {
             let _closed = stream.shutdown(Shutdown::Both);
         }
-        for thread in lock(&scene.threads).drain(..) {
+        for thread in lock(&run.threads).drain(..) {
             let _panicked = thread.join();
         }
-        let turns = lock(&scene.turns).take();
-        let connections = scene.count.load(Ordering::SeqCst).saturating_sub(CONNECTIONS_MAX);
-        let beyond = Beyond { requests: lock(&scene.turns).beyond, connections };
-        let script = Arc::into_inner(scene)
-            .map(|scene| scene.script.into_inner().unwrap_or_else(PoisonError::into_inner));
+        let turns = lock(&run.turns).take();
+        let connections = run.count.load(Ordering::SeqCst).saturating_sub(CONNECTIONS_MAX);
+        let beyond = Beyond { requests: lock(&run.turns).beyond, connections };
+        let script = Arc::into_inner(run)
+            .map(|run| run.script.into_inner().unwrap_or_else(PoisonError::into_inner));
         (turns, beyond, script)
     }
 }
 
-impl Drop for Stage {
+impl Drop for TestServer {
     fn drop(&mut self) {
         self.shared.stopped.store(true, Ordering::SeqCst);
         self.end();
@@ -261,13 +261,13 @@ impl Shared {
             };
             // Between scenarios nobody is there. Held until all that is known of the connection is
             // with its scenario, which may end at any time.
-            let scene = lock(&self.scene);
-            let _gone = scene.clone().map(|scene| scene.connect(stream));
+            let run = lock(&self.run);
+            let _gone = run.clone().map(|run| run.connect(stream));
         }
     }
 }
 
-impl Scene {
+impl Run {
     fn connect(self: Arc<Self>, stream: TcpStream) -> io::Result<()> {
         let connection = self.count.fetch_add(1, Ordering::SeqCst);
         if connection >= CONNECTIONS_MAX {
@@ -277,14 +277,14 @@ impl Scene {
         stream.set_write_timeout(Some(Duration::from_secs(5)))?;
         lock(&self.streams).push(stream.try_clone()?);
         self.opened(1);
-        let scene = Arc::clone(&self);
+        let run = Arc::clone(&self);
         let thread = thread::Builder::new().name(format!("client-{connection}"));
         let spawned = thread.spawn(move || {
             // A client may go at any time.
-            let _gone = scene.serve(connection, &stream);
+            let _gone = run.serve(connection, &stream);
             let _closed = stream.shutdown(Shutdown::Both);
-            scene.opened(-1);
-            scene.closed.notify_all();
+            run.opened(-1);
+            run.closed.notify_all();
         });
         match spawned {
             Ok(thread) => lock(&self.threads).push(thread),
@@ -339,8 +339,8 @@ impl Scene {
     ) -> io::Result<bool> {
         // Kept before it is answered: who has the answer may be gone at once.
         let place = self.keep(Turn { connection, request: request.clone(), ..Turn::default() });
-        let deeds = match lock(&self.script).answer(connection, &request) {
-            Ok(deeds) => deeds,
+        let steps = match lock(&self.script).answer(connection, &request) {
+            Ok(steps) => steps,
             Err(fault) => {
                 let mut turns = lock(&self.turns);
                 if let Some(turn) = place.and_then(|place| turns.of_number(place)) {
@@ -349,9 +349,9 @@ impl Scene {
                 return Ok(false);
             }
         };
-        for deed in deeds {
+        for deed in steps {
             match deed {
-                Deed::Send(bytes) => {
+                SendStep::Send(bytes) => {
                     let mut turns = lock(&self.turns);
                     if let Some(turn) = place.and_then(|place| turns.of_number(place)) {
                         turn.sent.extend(&bytes);
@@ -360,8 +360,8 @@ impl Scene {
                     drop(turns);
                     stream.write_all(&bytes)?;
                 }
-                Deed::Pause(time) => thread::sleep(time),
-                Deed::Close => return Ok(false),
+                SendStep::Pause(time) => thread::sleep(time),
+                SendStep::Close => return Ok(false),
             }
         }
         Ok(true)

@@ -5,20 +5,20 @@ use ads_cnc::limits::AMS_HEADER_LEN;
 use ads_cnc::operation::Call;
 use ads_cnc::{Decode as _, Error};
 
-use super::super::book::{Scene, Topic};
+use super::super::findings::{Observation, Topic};
 use super::super::frames::Span;
 use super::super::table::{Ending, Way};
 use super::super::tally::count;
 use super::super::tcp::Mark;
 use super::pair::REORDERED_MAX;
-use super::{Judge, Lost, PATIENCE, Seen, is_cnc, is_reply, service_clause, spot};
+use super::{Judge, Lost, PATIENCE, Seen, is_cnc, is_reply, location, service_clause};
 use crate::judge::Checks as _;
 
 impl Judge {
     pub(super) fn broken(&mut self, error: Error, bytes: &[u8], way: &Way, span: Span) {
-        let scene = Scene::Bytes(bytes, spot(way, Some(span), None));
+        let observation = Observation::Bytes(bytes, location(way, Some(span), None));
         let topic = self.side(way);
-        self.book.on(topic, &scene).check("ADS-5", false, "the headers of a frame", error);
+        self.records.on(topic, &observation).check("ADS-5", false, "the headers of a frame", error);
         self.lost.entry(way.connection).or_default().gap = Some(span.last.packet);
     }
 
@@ -36,20 +36,26 @@ impl Judge {
 
     /// A frame whose rest was not captured.
     pub(super) fn cut(&mut self, bytes: &[u8], way: &Way, span: Span) {
-        let scene = Scene::Bytes(bytes, spot(way, Some(span), None));
+        let observation = Observation::Bytes(bytes, location(way, Some(span), None));
         let there = bytes.len();
         let found = format!("{there} bytes of a frame whose rest was not captured");
         let begin = FrameRef::HEADERS_LEN.saturating_sub(AMS_HEADER_LEN);
         let header = bytes.get(begin..FrameRef::HEADERS_LEN).map(AmsHeader::decode);
         let Some(Ok(header)) = header else {
             let topic = self.side(way);
-            self.book.on(topic, &scene).open("ADS-5", found);
+            self.records.on(topic, &observation).open("ADS-5", found);
             return;
         };
         if !is_reply(&header) {
             if is_cnc(header.target.port) {
                 let rule = service_clause(header.command);
-                self.open_service(Topic::ClientServices, Topic::ClientFrames, &scene, rule, found);
+                self.open_service(
+                    Topic::ClientServices,
+                    Topic::ClientFrames,
+                    &observation,
+                    rule,
+                    found,
+                );
             }
             return;
         }
@@ -57,31 +63,31 @@ impl Judge {
         let asked = asked.filter(|asked| is_cnc(asked.header.target.port));
         let Some(asked) = asked else { return };
         let rule = service_clause(asked.header.command);
-        self.open_service(Topic::CncServices, Topic::CncFrames, &scene, rule, &found);
-        self.open_function(&asked, &scene, &found);
+        self.open_service(Topic::CncServices, Topic::CncFrames, &observation, rule, &found);
+        self.open_function(&asked, &observation, &found);
     }
 
     fn open_service(
         &mut self,
         topic: Topic,
         frames: Topic,
-        scene: &Scene<'_>,
+        observation: &Observation<'_>,
         rule: &'static str,
         found: impl std::fmt::Display,
     ) {
         let topic = if rule == "ADS-5" { frames } else { topic };
-        self.book.on(topic, scene).open(rule, found);
+        self.records.on(topic, observation).open(rule, found);
     }
 
     /// What a lost answer leaves open: the requirement of the function that was asked.
-    fn open_function(&mut self, asked: &Seen, scene: &Scene<'_>, found: &str) {
+    fn open_function(&mut self, asked: &Seen, observation: &Observation<'_>, found: &str) {
         let Ok(Some((frame, _))) = FrameRef::split(&asked.frame, u32::MAX) else { return };
         let Ok(Some(call)) = Call::from_frame(&frame) else { return };
         let Ok(request) = call.dispatch() else { return };
         let spec = request.function().spec();
         if spec.reply.is_some() {
             let topic = Topic::of_reply(request.function());
-            self.book.on(topic, scene).open(spec.clause, found);
+            self.records.on(topic, observation).open(spec.clause, found);
         }
     }
 
@@ -91,10 +97,10 @@ impl Judge {
         self.gap = self.gap.max(Some(mark.packet));
         self.lose();
         let span = Span { first: mark, last: mark, end: 0 };
-        let scene = Scene::Bytes(&[], spot(way, Some(span), None));
+        let observation = Observation::Bytes(&[], location(way, Some(span), None));
         let found = format!("{length} bytes before this packet were not captured");
         let topic = self.side(way);
-        self.book.on(topic, &scene).open("ADS-5", found);
+        self.records.on(topic, &observation).open("ADS-5", found);
     }
 
     /// What was not captured may have changed whatever was known.
@@ -131,20 +137,21 @@ impl Judge {
 
     /// Nothing was captured of one direction, that of the CNC or that of the client.
     fn one_sided(&mut self, way: &Way, is_cnc: bool) {
-        let scene = Scene::Bytes(&[], spot(way, None, None));
+        let observation = Observation::Bytes(&[], location(way, None, None));
         let (topic, found) = match is_cnc {
             true => (Topic::CncFrames, "nothing of what the CNC sent was captured"),
             false => (Topic::ClientFrames, "nothing of what the client sent was captured"),
         };
-        self.book.on(topic, &scene).open("ADS-5", found);
+        self.records.on(topic, &observation).open("ADS-5", found);
     }
 
     fn unanswered(&mut self, asked: &Seen, lost: &Lost, ending: Ending) {
         count(&mut self.tally.unanswered);
-        let scene = Scene::Bytes(&asked.frame, spot(&asked.way, Some(asked.span), None));
+        let observation =
+            Observation::Bytes(&asked.frame, location(&asked.way, Some(asked.span), None));
         let packet = asked.span.last.packet;
         if lost.gap.is_some_and(|gap| gap.saturating_add(REORDERED_MAX) >= packet) {
-            self.open_function(asked, &scene, "the answer may be in a gap");
+            self.open_function(asked, &observation, "the answer may be in a gap");
             return;
         }
         let waited = match (self.now, asked.span.last.time) {
@@ -157,7 +164,7 @@ impl Judge {
             let rule = service_clause(asked.header.command);
             let found = format!("none within {} s", waited.as_secs());
             let topic = if rule == "ADS-5" { Topic::CncFrames } else { Topic::CncServices };
-            self.book.on(topic, &scene).check(rule, false, "an answer", found);
+            self.records.on(topic, &observation).check(rule, false, "an answer", found);
         }
     }
 }

@@ -140,14 +140,14 @@ fn clauses(stream: Stream) -> impl Iterator<Item = &'static str> {
 
 /// Where something was seen.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
+pub(super) struct Location {
     pub(super) from: SocketAddr,
     pub(super) to: SocketAddr,
     pub(super) asked: Option<Span>,
     pub(super) answered: Option<Span>,
 }
 
-impl Display for Spot {
+impl Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let packets = |f: &mut fmt::Formatter<'_>, span: Span| {
             match (span.first.packet, span.last.packet) {
@@ -170,28 +170,28 @@ impl Display for Spot {
 
 /// What a check is about.
 #[derive(Debug)]
-pub(super) enum Scene<'e> {
+pub(super) enum Observation<'e> {
     /// A request, and its answer if there is one.
-    Exchange(&'e Exchange, Spot),
+    Exchange(&'e Exchange, Location),
     /// Bytes that are no frame, or no whole one.
-    Bytes(&'e [u8], Spot),
+    Bytes(&'e [u8], Location),
 }
 
-impl Scene<'_> {
+impl Observation<'_> {
     /// When the request was sent.
     pub(super) fn time(&self) -> Option<Time> {
-        let (Self::Exchange(_, spot) | Self::Bytes(_, spot)) = self;
-        spot.asked?.last.time
+        let (Self::Exchange(_, location) | Self::Bytes(_, location)) = self;
+        location.asked?.last.time
     }
 
     fn evidence(&self) -> Evidence {
         match self {
-            Self::Exchange(exchange, spot) => {
+            Self::Exchange(exchange, location) => {
                 let evidence = Evidence::from(*exchange);
-                Evidence { call: format!("{}\n            {spot}", evidence.call), ..evidence }
+                Evidence { call: format!("{}\n            {location}", evidence.call), ..evidence }
             }
-            Self::Bytes(bytes, spot) => {
-                Evidence { call: spot.to_string(), sent: bytes.to_vec(), ..Evidence::default() }
+            Self::Bytes(bytes, location) => {
+                Evidence { call: location.to_string(), sent: bytes.to_vec(), ..Evidence::default() }
             }
         }
     }
@@ -199,33 +199,37 @@ impl Scene<'_> {
 
 /// All cases.
 #[derive(Debug)]
-pub(super) struct Book {
-    pages: Vec<(Case, Record, Vec<String>)>,
+pub(super) struct TopicRecords {
+    records: Vec<(Case, Record, Vec<String>)>,
 }
 
-impl Book {
+impl TopicRecords {
     pub(super) fn new() -> Self {
-        let pages = Topic::ALL.iter().map(|topic| (topic.case(), Record::default(), Vec::new()));
-        Self { pages: pages.collect() }
+        let records = Topic::ALL.iter().map(|topic| (topic.case(), Record::default(), Vec::new()));
+        Self { records: records.collect() }
     }
 
-    /// The page on which checks of a topic are noted.
-    pub(super) fn on<'b>(&'b mut self, topic: Topic, scene: &'b Scene<'b>) -> Page<'b> {
+    /// Where checks of a topic are noted.
+    pub(super) fn on<'b>(
+        &'b mut self,
+        topic: Topic,
+        observation: &'b Observation<'b>,
+    ) -> TopicRecord<'b> {
         let place = Topic::ALL.iter().position(|one| *one == topic).unwrap_or(0);
-        Page { page: self.pages.get_mut(place), scene }
+        TopicRecord { topic: self.records.get_mut(place), observation }
     }
 
     /// Something that a reader should know of a case.
     pub(super) fn note(&mut self, topic: Topic, note: impl Into<String>) {
         let place = Topic::ALL.iter().position(|one| *one == topic).unwrap_or(0);
-        if let Some((.., notes)) = self.pages.get_mut(place) {
+        if let Some((.., notes)) = self.records.get_mut(place) {
             notes.push(note.into());
         }
     }
 
     /// What came of each case.
     pub(super) fn finish(self) -> Vec<Outcome> {
-        let outcomes = self.pages.into_iter().map(|(case, record, notes)| {
+        let outcomes = self.records.into_iter().map(|(case, record, notes)| {
             let Record { judgements, checks } = record;
             let outcome = Outcome::tried(case, judgements, checks, None::<Stop>);
             let note = (!notes.is_empty()).then(|| notes.join("; "));
@@ -237,15 +241,15 @@ impl Book {
 
 /// One case, and what its next checks are about.
 #[derive(Debug)]
-pub(super) struct Page<'b> {
-    page: Option<&'b mut (Case, Record, Vec<String>)>,
-    scene: &'b Scene<'b>,
+pub(super) struct TopicRecord<'b> {
+    topic: Option<&'b mut (Case, Record, Vec<String>)>,
+    observation: &'b Observation<'b>,
 }
 
-impl Page<'_> {
+impl TopicRecord<'_> {
     fn add(&mut self, rule: Rule, verdict: Verdict, expected: impl Display, found: impl Display) {
-        if let Some((_, record, _)) = &mut self.page {
-            record.add(rule, verdict, expected, found, || Some(self.scene.evidence()));
+        if let Some((_, record, _)) = &mut self.topic {
+            record.add(rule, verdict, expected, found, || Some(self.observation.evidence()));
         }
     }
 
@@ -256,7 +260,7 @@ impl Page<'_> {
 
     /// Whether the case judges by this requirement.
     pub(super) fn knows(&self, requirement: &str) -> bool {
-        self.page.as_ref().is_some_and(|(case, ..)| case.requirements.contains(&requirement))
+        self.topic.as_ref().is_some_and(|(case, ..)| case.requirements.contains(&requirement))
     }
 
     /// A check that was passed.
@@ -265,7 +269,7 @@ impl Page<'_> {
     }
 }
 
-impl Checks for Page<'_> {
+impl Checks for TopicRecord<'_> {
     fn check(
         &mut self,
         rule: impl Into<Rule>,

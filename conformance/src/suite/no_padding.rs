@@ -3,11 +3,11 @@
 use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
 use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
 
-use super::described::kinds;
+use super::byte_order::Counted;
+use super::describe_by_name::kinds;
 use super::inventory::OBJECTS_MAX;
-use super::numbers::Counted;
+use super::inventory::VARIABLES_MAX;
 use super::probe::{Probe, harness};
-use super::survey::VARIABLES_MAX;
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop};
 

@@ -6,7 +6,7 @@ use ads_cnc_vectors::Hex;
 use super::findings::Findings;
 use super::requests::writes;
 use super::scenario::{Ask, Length};
-use super::stage::Turn;
+use super::test_server::Turn;
 use crate::judge::assumed;
 
 /// A request as its bytes say it: nothing of it is read by the codec but where its frame ends.
