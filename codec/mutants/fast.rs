@@ -7,6 +7,8 @@
 mod addresses;
 #[path = "../tests/arbitrary.rs"]
 mod arbitrary;
+#[path = "../tests/binrw.rs"]
+mod binrw;
 #[path = "../tests/containers.rs"]
 mod containers;
 #[path = "../tests/content.rs"]

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher, Hash};
 
+use ads_cnc::operation::WriteValue;
 use ads_cnc::service::ServiceId;
 use ads_cnc::value::Boolean;
 use ads_cnc::*;
@@ -76,6 +77,12 @@ fn numbers_are_equal_wherever_they_come_from() {
         assert_ne!(named, U32List::from(other));
         assert_ne!(wire, U32List::from(other));
     }
+}
+
+/// A value to write is its bytes, whatever it is made of.
+#[test]
+fn values_to_write_are_equal_by_their_bytes() {
+    check(&[WriteValue::from(&[1_u8, 0, 0, 0][..]), WriteValue::from(1_u32)], 2_u32.into());
 }
 
 /// Of the bytes that are TRUE, one is written.
