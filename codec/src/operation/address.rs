@@ -60,9 +60,7 @@ impl Address for (Channel, DynamicKind) {
     }
 
     fn from_call(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self> {
-        let OffsetRule::OfKind(offsets) = rule else {
-            return None;
-        };
+        let OffsetRule::OfKind(offsets) = rule else { return None };
         Some((Channel::from_group(group)?, DynamicKind::from_offset(offsets, offset)?))
     }
 }
@@ -73,9 +71,7 @@ impl Address for (ObjectList,) {
     }
 
     fn from_call(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Com(group) = group else {
-            return None;
-        };
+        let Group::Com(group) = group else { return None };
         Some((ObjectList(group),))
     }
 }
@@ -107,9 +103,7 @@ impl Address for ((ComGroup, IndexOffset),) {
     }
 
     fn from_call(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Com(group) = group else {
-            return None;
-        };
+        let Group::Com(group) = group else { return None };
         Some(((group, offset),))
     }
 }
@@ -121,9 +115,7 @@ impl Address for (ClassGroup,) {
     }
 
     fn from_call(group: Group, _: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Class(group) = group else {
-            return None;
-        };
+        let Group::Class(group) = group else { return None };
         Some((group,))
     }
 }
@@ -141,9 +133,7 @@ impl Address for (ElementAddress,) {
     }
 
     fn from_call(group: Group, offset: IndexOffset, _: OffsetRule) -> Option<Self> {
-        let Group::Class(group) = group else {
-            return None;
-        };
+        let Group::Class(group) = group else { return None };
         Some((ElementAddress::new(group, offset),))
     }
 }
