@@ -299,7 +299,7 @@ macro_rules! stream {
                 $( <$row as $crate::rows::Row>::check(
                     self.$member,
                     const { $crate::layout::Field::of::<Self>($crate::declare::stream!(@name $label)) },
-                    0,
+                    $at,
                 )?; )+
                 let mut head = [0; $max];
                 $( <$row as $crate::rows::Row>::write_head(self.$member, &mut head, $at); )+

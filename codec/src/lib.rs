@@ -91,7 +91,7 @@
 //!   value is a map of the fields in [`layout`], without counts; of a single number, that number. Codes
 //!   are numbers, a NetId and a text are strings. What follows the first NUL of a text makes it a map of
 //!   `text` and `tail`, so that every value is kept; that needs a format that describes itself, such as
-//!   JSON. What is deserialized is checked against the limits of its stream only when it is encoded.
+//!   JSON (for exact REAL64, `serde_json` with its feature `float_roundtrip`). What is deserialized is checked against the limits of its stream only when it is encoded.
 //!
 //! ```
 //! # #[cfg(all(feature = "binrw", feature = "std"))] {

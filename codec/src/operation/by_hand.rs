@@ -171,7 +171,7 @@ impl ReadObject {
     /// # let (mut data, n) = ([0; 84], 1);
     /// # let data = object.encode(&mut data)?;
     /// let list = Channel::new(1)?;
-    /// for object in ReadDescriptors::new(list, 1, n)?.decode_reply(data)?.iter() {
+    /// for object in ReadDescriptors::new(list, 1, n)?.decode_reply(data)? {
     ///     let op = ReadObject::of(&object)?;
     ///     assert_eq!((op.index_offset().get(), op.read_length()), (3, 1));
     /// }

@@ -308,7 +308,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// CStringPrefix zeros do not matter.
+    /// Leading zeros are ignored.
     fn number(&self, digits: &'a [u8]) -> Label<'a> {
         self.label(false, skip_while(digits, is_zero))
     }
