@@ -18,8 +18,8 @@ stream! {
     /// assert_eq!(ContentRef::decode(&[1])?.bytes, [1]);
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    Content "content", "Content of an object or element", "COM-5", max 0x40_0000;
+    Content "content", "Content of an object or element", "COM-5", max ADS_DATA;
     struct ContentRef<'a> / Content {
-        @0 bytes "content": REST(0, 0x40_0000), "COM-5", "as descriptor or attributes say";
+        @0 bytes "content": REST(0, ADS_DATA), "COM-5", "as descriptor or attributes say";
     }
 }

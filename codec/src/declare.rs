@@ -39,8 +39,8 @@ macro_rules! row {
     ($q:ident (UNS32_NON_ZERO) $a:lifetime) => { $crate::declare::row!(@$q [u32] [u32] [NonZero] "4 | `UNS32`, not 0") };
     ($q:ident (BOOLEAN) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Boolean<u8>] "1 | `BOOLEAN`") };
     ($q:ident (LIST $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::U32List<$a>] [alloc::vec::Vec<u32>] [List<$max>] "4 each, at most ", $max, " | `UNS32`") };
-    ($q:ident (DATA $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Data<$max>] "at most ", $max, " | `BYTE[]`") };
-    ($q:ident (REST $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Rest<$min, $max>] $min, " … ", $max, " | `BYTE[]`") };
+    ($q:ident (DATA) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Data] "at most ", $crate::declare::stream!(@shown ADS_DATA), " | `BYTE[]`") };
+    ($q:ident (REST $min:literal $max:tt) $a:lifetime) => { $crate::declare::row!(@$q [&$a [u8]] [alloc::vec::Vec<u8>] [Rest<$min, { $crate::declare::stream!(@max $max) }>] $min, " … ", $crate::declare::stream!(@shown $max), " | `BYTE[]`") };
     ($q:ident (TEXT_AND_TAIL $min:literal $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [TextAndTail<$min, $max>] $min, " … ", $max, " | `STRING`") };
     ($q:ident (CSTRING $max:literal) $a:lifetime) => { $crate::declare::row!(@$q [$crate::TextRef<$a>] [$crate::text::Text] [CString<$max, false>] "1 … ", $max, " with NUL | `STRING`") };
     ($q:ident (CSTRING $max:literal as Kind) $a:lifetime) => { $crate::declare::row!(@$q [$crate::Kind<$a>] [$crate::text::Text] [KindText<$crate::rows::CString<$max, false>>] "1 … ", $max, " with NUL | `STRING`") };
@@ -72,10 +72,10 @@ macro_rules! row {
 macro_rules! stream {
     (
         $(#[$doc:meta])*
-        $stream:ident $name:literal, $title:literal, $clause:literal, max $max:literal;
+        $stream:ident $name:literal, $title:literal, $clause:literal, max $max:tt;
         $what:ident $view:ident $(<$a:lifetime> / $owned:ident)? { $(
             $( count @$count_at:literal $(+ $count_per:tt)? $count:ident, $count_clause:literal, $count_meaning:literal; )?
-            @$at:literal $(+ $per:tt)? $field:ident $($label:literal)?: $kind:ident $(( $($arg:literal),+ ))? $(as $new:ident)?,
+            @$at:literal $(+ $per:tt)? $field:ident $($label:literal)?: $kind:ident $(( $($arg:tt),+ ))? $(as $new:ident)?,
                 $field_clause:literal, $meaning:literal;
         )+ }
     ) => {
@@ -97,7 +97,7 @@ macro_rules! stream {
                 name: $name,
                 title: $title,
                 clause: $clause,
-                max: $max,
+                max: $crate::declare::stream!(@max $max),
                 repeats: false,
                 fields: &[$(
                     $( $crate::layout::FieldSpec {
@@ -310,7 +310,7 @@ macro_rules! stream {
         #[cfg(feature = "arbitrary")]
         impl<'u> arbitrary::Arbitrary<'u> for $view {
             fn arbitrary(u: &mut arbitrary::Unstructured<'u>) -> arbitrary::Result<Self> {
-                $( let $field = $crate::declare::any::<$row>(u, 0)?; )+
+                $( let $field = <$row as $crate::rows::Owned>::any(u, 0)?; )+
                 Ok($view $built)
             }
         }
@@ -319,11 +319,11 @@ macro_rules! stream {
     (@documented
         [$(#[$doc:meta])*]
         [$( [$at:literal, $per:tt, $row_label:tt, $kind_doc:expr, $clause:literal, $row_meaning:literal] )+]
-        [$length:literal, $max:literal] $item:item
+        [$length:literal, $max:tt] $item:item
     ) => {
         $(#[$doc])*
         ///
-        #[doc = concat!($length, $max, " bytes:\n")]
+        #[doc = concat!($length, $crate::declare::stream!(@shown $max), " bytes:\n")]
         /// | offset | size | type | field | meaning | requirement |
         /// |---|---|---|---|---|---|
         $( #[doc = concat!(
@@ -368,7 +368,7 @@ macro_rules! stream {
 
     // A type that borrows, and one that owns its data.
     (@types struct $view:ident / $owned:ident
-        [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
+        [$(#[$doc:meta])*] $table:tt [$title:literal, $max:tt]
         [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
     ) => {
         $crate::declare::stream! { @documented [$(#[$doc])*] $table ["At most ", $max]
@@ -456,11 +456,9 @@ macro_rules! stream {
             #[cfg(feature = "arbitrary")]
             impl<'u> arbitrary::Arbitrary<'u> for $owned {
                 fn arbitrary(u: &mut arbitrary::Unstructured<'u>) -> arbitrary::Result<Self> {
-                    let room = $crate::declare::room::<$view<'_>>(
-                        &[$( <$row as $crate::rows::Owned>::LEAST ),+],
-                    );
+                    let room = <$view<'_> as $crate::declare::Declared>::LAYOUT.room();
                     $(
-                        let $field = $crate::declare::any::<$row>(u, room)?;
+                        let $field = <$row as $crate::rows::Owned>::any(u, room)?;
                         let room = room.saturating_sub($crate::declare::used::<$row>(&$field));
                     )+
                     let _left = room;
@@ -472,6 +470,12 @@ macro_rules! stream {
 
     (@name [$field:ident]) => { stringify!($field) };
     (@name [$field:ident $label:literal]) => { $label };
+    (@max ADS_DATA) => { $crate::limits::ADS_DATA };
+    (@max (ADS_DATA + $header:literal)) => { $crate::limits::ADS_DATA + $header };
+    (@max $max:literal) => { $max };
+    (@shown ADS_DATA) => { "[`ADS_DATA_MAX`](crate::limits::ADS_DATA_MAX)" };
+    (@shown (ADS_DATA + $header:literal)) => { concat!($crate::declare::stream!(@shown ADS_DATA), " + ", $header) };
+    (@shown $max:literal) => { $max };
     (@per 4m) => { 4 };
     (@per 4n) => { 4 };
     // The offset of a row after a NUL-terminated text counts only the NUL.
@@ -482,21 +486,6 @@ macro_rules! stream {
 }
 
 pub(crate) use {row, stream};
-
-/// Bytes that a stream may have beyond the fewest of its rows.
-#[cfg(feature = "arbitrary")]
-pub(crate) fn room<T: Declared>(fewest: &[usize]) -> usize {
-    let fewest = fewest.iter().fold(0_usize, |sum, least| sum.saturating_add(*least));
-    crate::bytes::to_usize(T::LAYOUT.max).saturating_sub(fewest)
-}
-
-#[cfg(feature = "arbitrary")]
-pub(crate) fn any<R: Owned>(
-    u: &mut arbitrary::Unstructured<'_>,
-    room: usize,
-) -> arbitrary::Result<R::Type> {
-    R::any(u, room)
-}
 
 /// Bytes of a value beyond the fewest of its row.
 #[cfg(feature = "arbitrary")]

@@ -1,7 +1,7 @@
-//! The named maxima that every length and count is checked against, as the declarations of the
-//! streams have them.
+//! The named maxima that every length and count is checked against. Most are taken from the
+//! declarations of the streams.
 
-use crate::ads::{AmsTcpHeader, HeaderLayout, WriteRequestRef};
+use crate::ads::{AmsTcpHeader, HeaderLayout};
 use crate::com::DescriptorLayout;
 use crate::declare::Declared;
 use crate::dynamic::DynamicNameRef;
@@ -12,7 +12,7 @@ use crate::{
 };
 
 #[allow(clippy::as_conversions, reason = "no other is const, and no target has 16 bits")]
-const fn to_usize(size: u32) -> usize {
+pub(crate) const fn to_usize(size: u32) -> usize {
     size as usize
 }
 
@@ -22,7 +22,7 @@ pub(crate) const fn length<T: Declared>() -> usize {
 }
 
 /// The most bytes of a field, or items of a list.
-const fn most<T: Declared>(field: &str) -> usize {
+pub(crate) const fn most<T: Declared>(field: &str) -> usize {
     to_usize(T::LAYOUT.most(field))
 }
 
@@ -52,8 +52,10 @@ pub const SERVICE_TEXT_MAX: usize = 128;
 pub const DESCRIPTOR_LEN: usize = length::<DescriptorLayout>();
 /// Bytes of the name and of the type in an object descriptor (COM-2).
 pub const DESCRIPTOR_TEXT_LEN: usize = most::<DescriptorLayout>("name");
-/// Data bytes of one ADS request or reply that this crate takes. Nobody documents a limit: assumed.
-pub const ADS_DATA_MAX: usize = most::<WriteRequestRef<'_>>("data");
+/// Data bytes of one ADS request or reply that this crate accepts. No limit is documented: assumed.
+pub const ADS_DATA_MAX: usize = to_usize(ADS_DATA);
+/// [`ADS_DATA_MAX`], as declarations use it.
+pub(crate) const ADS_DATA: u32 = 0x40_0000;
 /// Bytes of the AMS/TCP header (ADS-5).
 pub const AMS_TCP_HEADER_LEN: usize = length::<AmsTcpHeader>();
 /// Bytes of the AMS header (ADS-5).

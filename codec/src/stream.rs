@@ -87,10 +87,6 @@ fn prefix(stream: Stream, bytes: &[u8]) -> usize {
     at
 }
 
-/// Bytes of the longest stream there is: a frame with the most data of a service.
-#[cfg(feature = "alloc")]
-const FRAME_MAX: usize = crate::ads::FrameRef::HEADERS_LEN + 16 + crate::limits::ADS_DATA_MAX;
-
 /// Writes a stream. What was decoded encodes to the same bytes.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.
@@ -120,8 +116,9 @@ pub trait Encode {
     /// A value that no decoder would accept.
     #[cfg(feature = "alloc")]
     fn encode_to_vec(&self) -> Result<alloc::vec::Vec<u8>, Error> {
-        // Nothing longer than a frame is accepted: a length that is refused is not allocated.
-        let mut bytes = alloc::vec![0; self.encoded_len().min(FRAME_MAX)];
+        // `encode` rejects a longer stream, for which no memory is allocated.
+        let len = self.encoded_len().min(crate::ads::FrameRef::LEN_MAX);
+        let mut bytes = alloc::vec![0; len];
         self.encode(&mut bytes)?;
         Ok(bytes)
     }

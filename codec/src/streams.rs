@@ -3,8 +3,8 @@
 use crate::layout::Stream;
 use crate::stream::Decode;
 
-/// Calls a macro with all streams: for each its name in [`Stream`](crate::layout::Stream), the type that
-/// borrows and, if that is another, the type that owns its data, which needs the feature `alloc`.
+/// Calls a macro with all streams: for each its name in [`Stream`](crate::layout::Stream), the type
+/// that borrows and, if it has one, the type that owns its data, which needs the feature `alloc`.
 ///
 /// ```
 /// use ads_cnc::layout::Stream;
@@ -27,44 +27,91 @@ use crate::stream::Decode;
 #[macro_export]
 macro_rules! streams {
     ($then:ident) => {
-        $then! {
+        $crate::streams! { @each [$crate::streams] [@undocumented $then] }
+    };
+    (@undocumented $then:ident $( $(#[$doc:meta])* $stream:ident: $view:ty $( , $owned:ty )?; )+) => {
+        $then! { $( $stream: $view $( , $owned )?; )+ }
+    };
+    (@documented $then:ident) => {
+        $crate::streams! { @each [$then] [] }
+    };
+    (@each [$($then:tt)+] [$($first:tt)*]) => {
+        $($then)+! { $($first)*
+            /// AMS/TCP header.
             AmsTcpHeader: $crate::ads::AmsTcpHeader;
+            /// AMS header.
             AmsHeader: $crate::ads::AmsHeader;
+            /// ADS Read, request.
             ReadRequest: $crate::ads::ReadRequest;
+            /// ADS Read, reply.
             ReadReply: $crate::ads::ReadReplyRef<'_>, $crate::ads::ReadReply;
+            /// ADS Write, request.
             WriteRequest: $crate::ads::WriteRequestRef<'_>, $crate::ads::WriteRequest;
+            /// ADS Write, reply.
             WriteReply: $crate::ads::WriteReply;
+            /// ADS ReadWrite, request.
             ReadWriteRequest: $crate::ads::ReadWriteRequestRef<'_>, $crate::ads::ReadWriteRequest;
+            /// ADS ReadWrite, reply.
             ReadWriteReply: $crate::ads::ReadWriteReplyRef<'_>, $crate::ads::ReadWriteReply;
+            /// ADS ReadDeviceInfo, reply.
             DeviceInfoReply: $crate::ads::DeviceInfoReply;
+            /// ADS ReadState, reply.
             DeviceStateReply: $crate::ads::DeviceStateReply;
+            /// Number of objects of a COM list.
             ObjectCount: $crate::ObjectCount;
+            /// One object descriptor.
             ObjectDescriptor: $crate::DescriptorRef<'_>, $crate::Descriptor;
+            /// Object descriptors in sequence.
             ObjectDescriptors: $crate::DescriptorsRef<'_>, $crate::Descriptors;
+            /// Request of the number of variables.
             VariableKind: $crate::VariableKindRef<'_>, $crate::VariableKind;
+            /// Number of variables.
             VariableCount: $crate::VariableCount;
+            /// Request of a description.
             VariableIndexKind: $crate::VariableIndexKindRef<'_>, $crate::VariableIndexKind;
+            /// Description of a variable.
             VariableDescription: $crate::DescriptionRef<'_>, $crate::Description;
+            /// Request by a variable's name.
             VariableName: $crate::VariableNameRef<'_>, $crate::VariableName;
+            /// Handle of a variable.
             VariableHandle: $crate::Handle;
+            /// Request of a value by handle.
             VariableHandleRead: $crate::HandleReadRef<'_>, $crate::HandleRead;
+            /// Value of a variable.
             VariableValue: $crate::ValueRef<'_>, $crate::Value;
+            /// Request to write a value by handle.
             VariableHandleWrite: $crate::HandleWriteRef<'_>, $crate::HandleWrite;
+            /// Request to write a value by name.
             VariableNameWrite: $crate::NameWriteRef<'_>, $crate::NameWrite;
+            /// Extended description of a variable.
             VariableExtendedDescription: $crate::ExtendedReply;
+            /// Content of a COM object, or of an element of a class.
             Content: $crate::ContentRef<'_>, $crate::Content;
+            /// Query of the address of an instance of a class.
             ObjectAddressQuery: $crate::sda::ObjectAddressQuery;
+            /// Address of an instance of a class.
             ObjectAddress: $crate::sda::ObjectAddress;
+            /// Number of element types of an instance.
             ElementCount: $crate::sda::ElementCount;
+            /// Name, type or unit of an element.
             ElementText: $crate::sda::ElementTextRef<'_>, $crate::sda::ElementText;
+            /// Length of an element's content.
             ElementLength: $crate::sda::ElementLength;
+            /// Whether an element may be written.
             ElementWriteFlag: $crate::sda::ElementWriteFlag;
+            /// Number of dynamic parameters of a kind.
             DynamicCount: $crate::dynamic::DynamicCount;
+            /// Request of a dynamic parameter by its index.
             DynamicIndex: $crate::dynamic::DynamicIndex;
+            /// Name of a dynamic parameter.
             DynamicName: $crate::dynamic::DynamicNameRef<'_>, $crate::dynamic::DynamicName;
+            /// Request of a dynamic parameter by its name.
             DynamicNameRequest: $crate::dynamic::DynamicNameRequestRef<'_>, $crate::dynamic::DynamicNameRequest;
+            /// Value of a dynamic parameter.
             DynamicValue: $crate::dynamic::DynamicValue;
+            /// Description of a variable that was asked for by its name.
             VariableDescriptionByName: $crate::DescriptionByNameRef<'_>, $crate::DescriptionByName;
+            /// NC text in one write to the stream.
             ProgramStream: $crate::streaming::ProgramStreamRef<'_>, $crate::streaming::ProgramStream;
         }
     };

@@ -7,12 +7,13 @@ use crate::bytes::{Reader, Writer};
 use crate::declare::stream;
 use crate::error::Error;
 use crate::layout::Stream;
+use crate::limits::most;
 use crate::number::code;
 use crate::stream::{Decode, Encode};
 use crate::text::CncStr;
 
 /// Bytes of a device's name.
-const NAME_LEN: usize = 16;
+const NAME_LEN: usize = most::<InfoLayout>("name");
 
 #[doc = include_str!("../../doc/device-info-reply.md")]
 ///

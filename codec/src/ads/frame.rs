@@ -45,6 +45,10 @@ impl<'a> FrameRef<'a> {
     /// Bytes of the two headers before the data.
     pub const HEADERS_LEN: usize = AMS_TCP_HEADER_LEN + AMS_HEADER_LEN;
 
+    /// The most bytes of a frame.
+    #[cfg(feature = "alloc")]
+    pub(crate) const LEN_MAX: usize = Self::HEADERS_LEN + DATA_MAX;
+
     /// A frame with this data; the header's `data_length` is set to it.
     ///
     /// # Errors

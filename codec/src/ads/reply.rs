@@ -28,9 +28,11 @@ stream! {
     }
 }
 
-/// The fields of a reply with data, which has the same table for Read and for ReadWrite.
+/// The fields of a reply with data: the replies to Read and ReadWrite have the same rows.
 const fn fields(stream: Stream) -> [Field; 3] {
-    use crate::layout::fields::read_reply::{DATA, LENGTH, RESULT};
+    const RESULT: Field = Field::of::<ReadReplyRef<'_>>("result");
+    const LENGTH: Field = Field::of::<ReadReplyRef<'_>>("length");
+    const DATA: Field = Field::of::<ReadReplyRef<'_>>("data");
     [RESULT.in_stream(stream), LENGTH.in_stream(stream), DATA.in_stream(stream)]
 }
 

@@ -43,12 +43,12 @@ stream! {
     /// assert_eq!(request.data, [9]);
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    WriteRequest "write-request", "ADS Write, request", "ADS-2", max 0x40_000c;
+    WriteRequest "write-request", "ADS Write, request", "ADS-2", max (ADS_DATA + 12);
     struct WriteRequestRef<'a> / WriteRequest {
               @0  index_group: UNS32 as IndexGroup,   "ADS-2", "index group";
               @4  index_offset: UNS32 as IndexOffset, "ADS-2", "index offset";
         count @8  length,                             "ADS-2", "bytes of data";
-              @12 data: DATA(0x40_0000),              "ADS-2", "the data";
+              @12 data: DATA,                         "ADS-2", "the data";
     }
 }
 
@@ -69,12 +69,12 @@ stream! {
     /// assert_eq!(request.data, b"V.E\0");
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
-    ReadWriteRequest "read-write-request", "ADS ReadWrite, request", "ADS-3", max 0x40_0010;
+    ReadWriteRequest "read-write-request", "ADS ReadWrite, request", "ADS-3", max (ADS_DATA + 16);
     struct ReadWriteRequestRef<'a> / ReadWriteRequest {
               @0  index_group: UNS32 as IndexGroup,   "ADS-3", "index group";
               @4  index_offset: UNS32 as IndexOffset, "ADS-3", "index offset";
               @8  read_length: UNS32,                 "ADS-3", "bytes to read at most";
         count @12 write_length,                       "ADS-3", "bytes of data";
-              @16 data: DATA(0x40_0000),              "ADS-3", "the data";
+              @16 data: DATA,                         "ADS-3", "the data";
     }
 }

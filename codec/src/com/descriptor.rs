@@ -273,7 +273,7 @@ impl<'a> Decode<'a> for DescriptorRef<'a> {
     const STREAM: Stream = Stream::ObjectDescriptor;
 
     fn decode(bytes: &'a [u8]) -> Result<Self, Error> {
-        Reader::exact(Self::STREAM, bytes).map(Self)
+        Reader::exact(Stream::ObjectDescriptor, bytes).map(Self)
     }
 }
 
@@ -291,7 +291,7 @@ impl Encode for DescriptorRef<'_> {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        Writer::copy(Self::STREAM, self.0.as_bytes(), buf)
+        Writer::copy(Stream::ObjectDescriptor, self.0.as_bytes(), buf)
     }
 }
 

@@ -57,6 +57,14 @@ impl Layout {
     }
 }
 
+#[cfg(feature = "arbitrary")]
+impl Layout {
+    /// Bytes that a stream may have beyond the fewest of its rows.
+    pub(crate) fn room(&self) -> usize {
+        crate::bytes::to_usize(self.max.saturating_sub(least(self.fields)))
+    }
+}
+
 /// The fewest bytes of these rows.
 const fn least(mut fields: &[FieldSpec]) -> u32 {
     let mut least = 0_u32;

@@ -3,7 +3,6 @@
 use core::fmt;
 
 use super::spec::FieldSpec;
-use super::tables::TABLES;
 use super::{Stream, Subject};
 use crate::declare::Declared;
 
@@ -37,12 +36,12 @@ impl Field {
         Self::new(Subject::Stream(T::STREAM), index)
     }
 
-    /// The field before: the count of a list.
+    /// The previous field: of a list, its count.
     pub(crate) const fn before(self) -> Self {
         Self { index: self.index.saturating_sub(1), ..self }
     }
 
-    /// The same row of another stream, whose table is the same.
+    /// The field of the same name of another stream, whose rows are the same.
     pub(crate) const fn in_stream(self, stream: Stream) -> Self {
         Self { subject: Subject::Stream(stream), ..self }
     }
@@ -114,7 +113,7 @@ impl Stream {
 
     /// Every stream that has bytes: all but [`NoData`](Self::NoData).
     pub fn all() -> impl Iterator<Item = Self> {
-        TABLES.iter().copied().filter(|stream| *stream != Self::NoData)
+        Self::ALL.iter().copied()
     }
 
     /// The stream with this name.

@@ -1,17 +1,11 @@
-//! The fixed fields that a record begins with, as numbers: an error needs them without their texts.
+//! The fixed fields that a record begins with, as numbers: an error is built without their names.
 
 use super::spec::FieldSpec;
+use crate::limits::to_usize;
 
 /// Number of the fixed fields that a record begins with.
 pub(super) const fn count(fields: &[FieldSpec]) -> usize {
-    let (mut count, mut left) = (0_usize, fields);
-    while let [row, rest @ ..] = left {
-        if row.size.fixed() == 0 || row.per_item > 0 {
-            break;
-        }
-        (count, left) = (count.saturating_add(1), rest);
-    }
-    count
+    measure(fields).0
 }
 
 /// Their sizes, one after the other without a gap.
@@ -27,15 +21,19 @@ pub(super) const fn sizes<const COUNT: usize>(fields: &[FieldSpec]) -> [u8; COUN
 
 /// The bytes of the fixed fields that a record begins with.
 pub(super) const fn head(fields: &[FieldSpec]) -> usize {
-    let (mut head, mut left, mut more) = (0_usize, fields, count(fields));
-    while let ([row, rest @ ..], 1..) = (left, more) {
-        let mut size = row.size.fixed();
-        while size > 0 {
-            (head, size) = (head.saturating_add(1), size.saturating_sub(1));
+    measure(fields).1
+}
+
+const fn measure(mut fields: &[FieldSpec]) -> (usize, usize) {
+    let (mut count, mut bytes) = (0_usize, 0_usize);
+    while let [row, rest @ ..] = fields {
+        let size = to_usize(row.size.fixed());
+        if size == 0 || row.per_item > 0 {
+            break;
         }
-        (left, more) = (rest, more.saturating_sub(1));
+        (count, bytes, fields) = (count.saturating_add(1), bytes.saturating_add(size), rest);
     }
-    head
+    (count, bytes)
 }
 
 #[cfg(test)]

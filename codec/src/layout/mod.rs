@@ -32,5 +32,4 @@ pub(crate) use subject::{
     ams_net_id, index_group, index_offset, service, text, typed_value, variable_path,
 };
 pub use tables::Stream;
-pub(crate) use tables::fields;
 pub use walk::Segment;

@@ -205,7 +205,7 @@ impl Size {
 
     /// The fewest bytes of a field. An absent text counts as its NUL: it is absent only where
     /// nothing follows.
-    pub(super) const fn least(self) -> u32 {
+    pub(crate) const fn least(self) -> u32 {
         match self {
             Self::TextAndTail { min, .. } | Self::Rest { min, .. } => min,
             Self::CString { .. } | Self::CStringPrefix { .. } | Self::OptionalNul { .. } => 1,

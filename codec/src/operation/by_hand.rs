@@ -22,7 +22,7 @@ use crate::error::{Error, ErrorKind};
 use crate::layout::index_group::INSTANCE;
 use crate::layout::index_offset::ELEMENT;
 use crate::layout::{Field, Stream};
-use crate::limits::{ADS_DATA_MAX, DESCRIPTOR_LEN};
+use crate::limits::{ADS_DATA, DESCRIPTOR_LEN};
 use crate::sda::ObjectAddressQuery;
 
 /// Bytes of one descriptor.
@@ -124,9 +124,8 @@ fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
 }
 
 fn length(length: u32) -> Result<u32, Error> {
-    let max = to_u32(ADS_DATA_MAX);
-    match length > max {
-        true => Err(Error::new(ErrorKind::TooLong, CONTENT, 0, max, length)),
+    match length > ADS_DATA {
+        true => Err(Error::new(ErrorKind::TooLong, CONTENT, 0, ADS_DATA, length)),
         false => Ok(length),
     }
 }

@@ -40,17 +40,6 @@ pub(crate) fn open(u: Any<'_, '_>, max: usize, is_padded: bool) -> arbitrary::Re
     Ok(Text { tail: ended.tail.filter(|_| !is_open), ..ended })
 }
 
-/// The fewest bytes: 0 or 1.
-pub(super) const fn min(min: u32) -> usize {
-    assert!(min <= 1);
-    if min == 0 { 0 } else { 1 }
-}
-
 pub(crate) fn nothing() -> arbitrary::Result<Text> {
     Ok(Text { text: CncString::default(), tail: None })
-}
-
-#[test]
-fn the_fewest_bytes_are_none_or_one() {
-    assert_eq!([min(0), min(1)], [0, 1]);
 }

@@ -4,6 +4,7 @@ use super::{Row, count, put_count};
 use crate::bytes::{Reader, Writer, to_u32, to_usize};
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Size, Type};
+use crate::limits::ADS_DATA;
 use crate::variable::U32List;
 
 /// A count, which has a row of its own, and as many UNS32.
@@ -50,11 +51,11 @@ impl<const MAX: u32> Row for List<MAX> {
 }
 
 /// A length, which has a row of its own, and as many bytes.
-pub(crate) struct Data<const MAX: u32>;
+pub(crate) struct Data;
 
-impl<const MAX: u32> Row for Data<MAX> {
+impl Row for Data {
     type View<'a> = &'a [u8];
-    const SIZE: Size = Size::Items { each: 1, max: MAX };
+    const SIZE: Size = Size::Items { each: 1, max: ADS_DATA };
     const TYPE: Type = Type::Bytes;
 
     #[inline]
@@ -130,15 +131,13 @@ mod owned {
 
     use super::super::Owned;
     #[cfg(feature = "arbitrary")]
-    use super::super::any::{Any, min, up_to};
+    use super::super::any::{Any, up_to};
     use super::*;
     #[cfg(feature = "binrw")]
     use crate::io::Pull;
 
     impl<const MAX: u32> Owned for List<MAX> {
         type Type = Vec<u32>;
-        #[cfg(feature = "arbitrary")]
-        const LEAST: usize = 4;
 
         #[inline]
         fn own(view: U32List<'_>) -> Vec<u32> {
@@ -164,13 +163,11 @@ mod owned {
     /// Rows that are bytes.
     macro_rules! bytes {
         ($(
-            [$($generics:tt)*] $row:ty, least $least:expr, pull $from:ident => $pull:expr,
+            [$($generics:tt)*] $row:ty, pull $from:ident => $pull:expr,
             any $u:ident, $room:ident => $any:expr;
         )+) => { $(
             impl<$($generics)*> Owned for $row {
                 type Type = Vec<u8>;
-                #[cfg(feature = "arbitrary")]
-                const LEAST: usize = $least;
 
                 #[inline]
                 fn own(view: &[u8]) -> Vec<u8> {
@@ -196,9 +193,9 @@ mod owned {
     }
 
     bytes! {
-        [const MAX: u32] Data<MAX>, least 4, pull from => from.counted(1, MAX),
-            any u, room => up_to(u, room.min(to_usize(MAX)));
-        [const MIN: u32, const MAX: u32] Rest<MIN, MAX>, least min(MIN), pull from => from.rest(MAX),
+        [] Data, pull from => from.counted(1, ADS_DATA),
+            any u, room => up_to(u, room.min(to_usize(ADS_DATA)));
+        [const MIN: u32, const MAX: u32] Rest<MIN, MAX>, pull from => from.rest(MAX),
             any u, room => {
                 let mut bytes: Vec<u8> = up_to(u, room.saturating_add(Self::LEAST).min(to_usize(MAX)))?;
                 bytes.resize(bytes.len().max(Self::LEAST), 0);

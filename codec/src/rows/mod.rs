@@ -52,9 +52,12 @@ pub(crate) trait Row {
 #[cfg(feature = "alloc")]
 pub(crate) trait Owned: Row {
     type Type;
-    /// The fewest bytes that it is encoded to.
+    /// The fewest bytes that it is encoded to, a count included.
     #[cfg(feature = "arbitrary")]
-    const LEAST: usize;
+    const LEAST: usize = match Self::SIZE {
+        Size::Items { .. } => 4,
+        size => crate::limits::to_usize(size.least()),
+    };
 
     fn own(view: Self::View<'_>) -> Self::Type;
     fn lend(owned: &Self::Type) -> Self::View<'_>;

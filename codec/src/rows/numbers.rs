@@ -2,6 +2,8 @@
 
 use core::marker::PhantomData;
 
+#[cfg(feature = "arbitrary")]
+use super::any::Any;
 use super::{Row, part, put};
 use crate::bytes::{Reader, to_u32};
 use crate::error::{Error, ErrorKind};
@@ -14,6 +16,8 @@ pub(crate) trait Int: Copy {
 
     fn read(head: &[u8], at: usize) -> Self;
     fn write(self, head: &mut [u8], at: usize);
+    #[cfg(feature = "arbitrary")]
+    fn any(u: Any<'_, '_>) -> arbitrary::Result<Self>;
 }
 
 macro_rules! ints {
@@ -30,6 +34,11 @@ macro_rules! ints {
             #[inline(always)]
             fn write(self, head: &mut [u8], at: usize) {
                 put(head, at, self.to_le_bytes());
+            }
+
+            #[cfg(feature = "arbitrary")]
+            fn any(u: Any<'_, '_>) -> arbitrary::Result<Self> {
+                u.arbitrary()
             }
         }
     )+ };
@@ -125,8 +134,6 @@ impl Row for NonZero {
 #[cfg(feature = "alloc")]
 mod owned {
     use super::super::Owned;
-    #[cfg(feature = "arbitrary")]
-    use super::super::any::Any;
     use super::*;
     #[cfg(feature = "binrw")]
     use crate::io::Pull;
@@ -136,8 +143,6 @@ mod owned {
         ($( [$($generics:tt)*] $row:ty, $type:ty, [$($where:tt)*] $size:expr, any $u:ident => $any:expr; )+) => { $(
             impl<$($generics)*> Owned for $row where $($where)* {
                 type Type = $type;
-                #[cfg(feature = "arbitrary")]
-                const LEAST: usize = $size;
 
                 #[inline]
                 fn own(view: $type) -> $type {
@@ -162,20 +167,10 @@ mod owned {
         )+ };
     }
 
-    /// Numbers of which arbitrary ones can be made.
-    #[cfg(feature = "arbitrary")]
-    pub(crate) trait AnyInt: Int + for<'a> arbitrary::Arbitrary<'a> {}
-    #[cfg(feature = "arbitrary")]
-    impl<N: Int + for<'a> arbitrary::Arbitrary<'a>> AnyInt for N {}
-    #[cfg(not(feature = "arbitrary"))]
-    pub(crate) trait AnyInt: Int {}
-    #[cfg(not(feature = "arbitrary"))]
-    impl<N: Int> AnyInt for N {}
-
     numbers! {
-        [N: AnyInt + From<T>, T: Copy + From<N>] Number<N, T>, T, [] size_of::<N>(),
-            any u => u.arbitrary::<N>().map(T::from);
-        [T: Copy + From<u8>] Boolean<T>, T, [u8: From<T>] 1, any u => u.arbitrary::<u8>().map(T::from);
+        [N: Int + From<T>, T: Copy + From<N>] Number<N, T>, T, [] size_of::<N>(),
+            any u => N::any(u).map(T::from);
+        [T: Copy + From<u8>] Boolean<T>, T, [u8: From<T>] 1, any u => u8::any(u).map(T::from);
         [] NonZero, u32, [] 4, any u => Ok(u.arbitrary::<u32>()?.max(1));
     }
 }

@@ -189,7 +189,7 @@ impl<const MAX: u32> Row for CStringPrefix<MAX> {
 mod owned {
     use super::super::Owned;
     #[cfg(feature = "arbitrary")]
-    use super::super::any::{Any, ended, min, nothing, open, text};
+    use super::super::any::{Any, ended, nothing, open, text};
 
     use super::*;
     #[cfg(feature = "arbitrary")]
@@ -201,13 +201,11 @@ mod owned {
     /// Rows that are text with what follows its NUL.
     macro_rules! texts {
         ($(
-            [$($generics:tt)*] $row:ty, least $least:expr, at most $max:ident,
+            [$($generics:tt)*] $row:ty, at most $max:ident,
             any $u:ident, $len:ident => $any:expr;
         )+) => { $(
             impl<$($generics)*> Owned for $row {
                 type Type = Text;
-                #[cfg(feature = "arbitrary")]
-                const LEAST: usize = $least;
 
                 #[inline]
                 fn own(view: TextRef<'_>) -> Text {
@@ -234,11 +232,11 @@ mod owned {
     }
 
     texts! {
-        [const MIN: u32, const MAX: u32] TextAndTail<MIN, MAX>, least min(MIN), at most MAX,
+        [const MIN: u32, const MAX: u32] TextAndTail<MIN, MAX>, at most MAX,
             any u, len => if MIN == 0 && u.arbitrary()? { nothing() } else { open(u, len, false) };
-        [const MAX: u32, const IS_OPTIONAL: bool] CString<MAX, IS_OPTIONAL>, least 1, at most MAX,
+        [const MAX: u32, const IS_OPTIONAL: bool] CString<MAX, IS_OPTIONAL>, at most MAX,
             any u, len => if IS_OPTIONAL && u.arbitrary()? { nothing() } else { ended(u, len, true) };
-        [const MAX: u32] OptionalNul<MAX>, least 1, at most MAX,
+        [const MAX: u32] OptionalNul<MAX>, at most MAX,
             any u, len => open(u, len, true);
     }
 
@@ -247,8 +245,6 @@ mod owned {
         R: for<'a> Row<View<'a> = TextRef<'a>> + Owned<Type = Text>,
     {
         type Type = Text;
-        #[cfg(feature = "arbitrary")]
-        const LEAST: usize = R::LEAST;
 
         #[inline]
         fn own(view: Kind<'_>) -> Text {
@@ -273,8 +269,6 @@ mod owned {
 
     impl<const MAX: u32> Owned for CStringPrefix<MAX> {
         type Type = CncString;
-        #[cfg(feature = "arbitrary")]
-        const LEAST: usize = 1;
 
         #[inline]
         fn own(view: CncStr<'_>) -> CncString {

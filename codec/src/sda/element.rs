@@ -5,8 +5,7 @@ use core::fmt;
 use crate::bytes::{Reader, Writer};
 use crate::declare::stream;
 use crate::error::Error;
-use crate::layout::Stream;
-use crate::layout::fields::element_length;
+use crate::layout::{Field, Stream};
 use crate::stream::{Decode, Encode};
 
 stream! {
@@ -121,7 +120,10 @@ impl<'a> Decode<'a> for ElementLength {
         match *bytes {
             [a] => Ok(Self { length: a.into(), width: Width::One }),
             [a, b] => Ok(Self { length: u16::from_le_bytes([a, b]).into(), width: Width::Two }),
-            _ => Reader::number(Self::STREAM, element_length::LENGTH, bytes).map(Self::new),
+            _ => {
+                let field = const { Field::of::<Self>("length") };
+                Reader::number(Self::STREAM, field, bytes).map(Self::new)
+            }
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::bytes::{Writer, to_u32};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Subject;
 use crate::layout::typed_value::VALUE;
-use crate::limits::ADS_DATA_MAX;
+use crate::limits::ADS_DATA;
 use crate::text::{CncStr, TextRef};
 
 /// A value that is encoded to bytes: a number, a `bool` or [`Boolean`](super::Boolean), a slice or
@@ -69,8 +69,8 @@ pub(super) mod sealed {
 }
 
 fn check(len: usize) -> Result<(), Error> {
-    match (to_u32(len), to_u32(ADS_DATA_MAX)) {
-        (len, max) if len > max => Err(Error::new(ErrorKind::TooLong, VALUE, 0, max, len)),
+    match to_u32(len) {
+        len if len > ADS_DATA => Err(Error::new(ErrorKind::TooLong, VALUE, 0, ADS_DATA, len)),
         _ => Ok(()),
     }
 }
