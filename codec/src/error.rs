@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use crate::layout::{Field, Subject, index_group, index_offset, typed_value, variable_path};
+use crate::address::range;
+use crate::layout::{Field, Subject, typed_value, variable_path};
 use crate::sda::ObjectAddress;
 use crate::value::DataType;
 
@@ -30,7 +31,7 @@ pub struct Error {
     found: u32,
 }
 
-/// The class of an [`Error`]; says what its two numbers mean.
+/// The class of an [`Error`]; defines the meaning of its two numbers.
 ///
 /// ```
 /// use ads_cnc::{Decode, ErrorKind, Handle};
@@ -42,9 +43,9 @@ pub struct Error {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// The stream ends inside the field: bytes the field needs, bytes found.
+    /// The stream ends within the field: bytes that the field needs, bytes found.
     Truncated,
-    /// Bytes follow where nothing may: length of the stream proper, length given.
+    /// Bytes after the end of the stream: the length of the stream, the length given.
     Trailing,
     /// More bytes than the field or stream may have: the limit, the length.
     TooLong,
@@ -58,7 +59,7 @@ pub enum ErrorKind {
     NotCp1252,
     /// A character that is not a decimal digit: its code point (found); expected is 0.
     NotDecimal,
-    /// A number without digits or with too many: the most, how many.
+    /// A number without digits or with too many: the most digits, the digits found.
     Digits,
     /// A character where the syntax requires another: its code point (found); expected is 0.
     Unexpected,
@@ -68,7 +69,7 @@ pub enum ErrorKind {
     OutOfRange,
     /// A value that must equal another: the other value, this value.
     Mismatch,
-    /// An index offset of a function, where that of content is required: the offset (found);
+    /// An index offset of a function where one of content is required: the offset (found);
     /// expected is 0.
     Function,
     /// The buffer is too small for the encoded stream: bytes needed, bytes available.
@@ -97,25 +98,25 @@ impl Error {
         self.kind
     }
 
-    /// The field that is wrong; tells the stream too.
+    /// The field at fault, from which [`Field::stream`] gives the stream.
     pub const fn field(&self) -> Field {
         self.field
     }
 
     /// The offset of the field at fault, in bytes from the start of the stream.
     ///
-    /// For a [`Subject`] that is not a stream, the offset counts characters of a text or name, numbers
-    /// of a NetId, or indices, as the constructor documents.
+    /// For a [`Subject`] that is not a stream, the offset counts characters of a text or name, or
+    /// indices, as the constructor documents.
     pub const fn offset(&self) -> u32 {
         self.offset
     }
 
-    /// The expected number; [`ErrorKind`] tells its unit.
+    /// The expected number; its unit depends on the [`ErrorKind`].
     pub const fn expected(&self) -> u32 {
         self.expected
     }
 
-    /// The number that was found; [`ErrorKind`] tells its unit.
+    /// The number that was found; its unit depends on the [`ErrorKind`].
     pub const fn found(&self) -> u32 {
         self.found
     }
@@ -150,17 +151,6 @@ struct Bytes(u32);
 impl fmt::Display for Bytes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} byte{}", self.0, if self.0 == 1 { "" } else { "s" })
-    }
-}
-
-/// The name and the range of a number that a constructor takes.
-fn range(field: Field) -> Option<(&'static str, u32, u32)> {
-    match field {
-        index_group::CHANNEL => Some(("channel", 1, 255)),
-        index_group::PLATFORM_AXIS => Some(("platform axis", 1, 255)),
-        index_group::SPINDLE => Some(("spindle", 0, 255)),
-        index_offset::CHANNEL_AXIS => Some(("channel axis", 1, 65535)),
-        _ => None,
     }
 }
 

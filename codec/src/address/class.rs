@@ -5,7 +5,7 @@ use core::fmt;
 use super::group::{ELEMENT, low};
 use super::{Addressing, Channel, IndexGroup, Spindle};
 
-/// The parts of a group of the SDA and GEO tasks (ADR-5, ADR-6).
+/// The parts of an index group of the SDA and GEO tasks (ADR-5, ADR-6).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.1.
 ///
@@ -17,23 +17,23 @@ use super::{Addressing, Channel, IndexGroup, Spindle};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ClassGroup {
-    /// Logical or by index; [`Class::Spindle`] knows only the latter.
+    /// Logical or by index; [`Class::Spindle`] is only addressed by index.
     pub addressing: Addressing,
-    /// Which class of the CNC.
+    /// The class.
     pub class: Class,
-    /// Which attribute of its elements.
+    /// The attribute of its elements.
     pub attribute: Attribute,
-    /// Channel or spindle; 0 for the platform and for queries of an object address.
+    /// Channel or spindle; 0 for the platform and for the query of an object address.
     pub instance: u8,
 }
 
 impl ClassGroup {
-    /// The group in which the address of a class's instances is asked for; it does not name an instance itself.
+    /// The group that returns the addresses of a class's instances; its instance is 0.
     pub const fn object_address(class: Class) -> Self {
         Self { addressing: class.best(), class, attribute: Attribute::ObjectAddress, instance: 0 }
     }
 
-    /// The group these parts add up to. A spindle's is by index whatever `addressing` says.
+    /// The group that has these parts. That of a spindle is always by index: `addressing` is ignored.
     pub const fn index_group(self) -> IndexGroup {
         let addressing = match self.class {
             Class::Spindle => Addressing::Index,
@@ -44,175 +44,119 @@ impl ClassGroup {
     }
 }
 
-/// A class of the CNC (ADR-5).
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.1.
-///
-/// ```
-/// use ads_cnc::address::{Attribute, Channel, Class};
-///
-/// assert_eq!(Channel::new(1)?.class(Class::Decoder, Attribute::Content).get(), 0x12_2301);
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Class {
-    /// Position controller, once in a CNC, with the platform's axes.
-    PositionController,
-    /// Interpolator of a channel.
-    Interpolator,
-    /// Decoder of a channel.
-    Decoder,
-    /// High-level driver of a channel; that of the first has the platform's axes too.
-    Hld,
-    /// Path preparation of a channel.
-    PathPreparation,
-    /// Spindle.
-    Spindle,
+/// Declares an enum by its variants, each with its number in the index group and its name.
+macro_rules! numbered {
+    (
+        $(#[$doc:meta])*
+        $type:ident { $( $(#[$variant_doc:meta])* $variant:ident = $number:literal, $name:literal; )+ }
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum $type { $( $(#[$variant_doc])* $variant, )+ }
+
+        impl $type {
+            /// All of them, in the order of their numbers.
+            pub const ALL: [Self; [$( $number ),+].len()] = [$( Self::$variant ),+];
+
+            const fn number(self) -> u8 {
+                match self { $( Self::$variant => $number, )+ }
+            }
+
+            /// The variant with this number.
+            pub(super) const fn from_number(number: u8) -> Option<Self> {
+                Some(match number {
+                    $( $number => Self::$variant, )+
+                    _ => return None,
+                })
+            }
+
+            /// `==` for constant functions.
+            pub(crate) const fn is(self, other: Self) -> bool {
+                self.number() == other.number()
+            }
+        }
+
+        impl fmt::Display for $type {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(match self { $( Self::$variant => $name, )+ })
+            }
+        }
+    };
+}
+
+numbered! {
+    /// A class of the CNC (ADR-5).
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.1.
+    ///
+    /// ```
+    /// use ads_cnc::address::{Attribute, Channel, Class};
+    ///
+    /// assert_eq!(Channel::new(1)?.class(Class::Decoder, Attribute::Content).get(), 0x12_2301);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    Class {
+        /// Position controller, once in a CNC, with the platform's axes.
+        PositionController = 0, "position controller";
+        /// Interpolator of a channel.
+        Interpolator = 1, "interpolator";
+        /// Decoder of a channel.
+        Decoder = 2, "decoder";
+        /// High-level driver of a channel; that of the first channel has the platform's axes too.
+        Hld = 3, "HLD";
+        /// Path preparation of a channel.
+        PathPreparation = 4, "path preparation";
+        /// Spindle.
+        Spindle = 5, "spindle";
+    }
 }
 
 impl Class {
-    /// All of them, in the order of their bits.
-    pub const ALL: [Self; 6] = [
-        Self::PositionController,
-        Self::Interpolator,
-        Self::Decoder,
-        Self::Hld,
-        Self::PathPreparation,
-        Self::Spindle,
-    ];
-
     const fn bits(self) -> u32 {
-        match self {
-            Self::PositionController => 0x0000,
-            Self::Interpolator => 0x1000,
-            Self::Decoder => 0x2000,
-            Self::Hld => 0x3000,
-            Self::PathPreparation => 0x4000,
-            Self::Spindle => 0x5000,
-        }
+        low(self.number()) << 12
     }
 
+    /// The addressing that the manuals recommend.
     const fn best(self) -> Addressing {
         match self {
             Self::Spindle => Addressing::Index,
             _ => Addressing::Logical,
         }
     }
-
-    /// That with the bits `number`, which are known to be those of one.
-    pub(super) const fn from_number(number: u8) -> Self {
-        match number {
-            0 => Self::PositionController,
-            1 => Self::Interpolator,
-            2 => Self::Decoder,
-            3 => Self::Hld,
-            4 => Self::PathPreparation,
-            _ => Self::Spindle,
-        }
-    }
-
-    /// Equality that the compiler can see to.
-    pub(crate) const fn is(self, other: Self) -> bool {
-        self.bits() == other.bits()
-    }
 }
 
-impl fmt::Display for Class {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::PositionController => "position controller",
-            Self::Interpolator => "interpolator",
-            Self::Decoder => "decoder",
-            Self::Hld => "HLD",
-            Self::PathPreparation => "path preparation",
-            Self::Spindle => "spindle",
-        })
+numbered! {
+    /// An attribute of an element (ADR-6).
+    ///
+    /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
+    ///
+    /// ```
+    /// use ads_cnc::address::{Attribute, Channel, Class};
+    ///
+    /// assert_eq!(Channel::new(1)?.class(Class::Hld, Attribute::Name).get(), 0x12_3401);
+    /// # Ok::<(), ads_cnc::Error>(())
+    /// ```
+    Attribute {
+        /// The content, of the element's type.
+        Content = 3, "content";
+        /// The name, a string.
+        Name = 4, "name";
+        /// The type's name, a string.
+        Type = 5, "type";
+        /// The length of the content in bytes.
+        Length = 6, "length";
+        /// The unit, a string.
+        Unit = 7, "unit";
+        /// Whether write access is permitted, a BOOLEAN (E-11).
+        WriteFlag = 8, "write flag";
+        /// Channel and axis in, index group and index offset out.
+        ObjectAddress = 9, "object address";
     }
-}
-
-/// An attribute of an element (ADR-6).
-///
-/// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
-///
-/// ```
-/// use ads_cnc::address::{Attribute, Channel, Class};
-///
-/// assert_eq!(Channel::new(1)?.class(Class::Hld, Attribute::Name).get(), 0x12_3401);
-/// # Ok::<(), ads_cnc::Error>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Attribute {
-    /// The content, of the element's type.
-    Content,
-    /// The name, a string.
-    Name,
-    /// The type's name, a string.
-    Type,
-    /// The length of the content in bytes.
-    Length,
-    /// The unit, a string.
-    Unit,
-    /// Whether write access is permitted, a BOOLEAN (E-11).
-    WriteFlag,
-    /// Channel and axis in, index group and index offset out.
-    ObjectAddress,
 }
 
 impl Attribute {
-    /// All of them, in the order of their bits.
-    pub const ALL: [Self; 7] = [
-        Self::Content,
-        Self::Name,
-        Self::Type,
-        Self::Length,
-        Self::Unit,
-        Self::WriteFlag,
-        Self::ObjectAddress,
-    ];
-
-    /// The attribute's part of the sum, the base 0x300 included.
-    pub(super) const fn bits(self) -> u32 {
-        match self {
-            Self::Content => 0x300,
-            Self::Name => 0x400,
-            Self::Type => 0x500,
-            Self::Length => 0x600,
-            Self::Unit => 0x700,
-            Self::WriteFlag => 0x800,
-            Self::ObjectAddress => 0x900,
-        }
-    }
-
-    /// That with the bits `table`, which are known to be those of one.
-    pub(super) const fn from_table(table: u8) -> Self {
-        match table {
-            3 => Self::Content,
-            4 => Self::Name,
-            5 => Self::Type,
-            6 => Self::Length,
-            7 => Self::Unit,
-            8 => Self::WriteFlag,
-            _ => Self::ObjectAddress,
-        }
-    }
-
-    /// Equality that the compiler can see to.
-    pub(crate) const fn is(self, other: Self) -> bool {
-        self.bits() == other.bits()
-    }
-}
-
-impl fmt::Display for Attribute {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Content => "content",
-            Self::Name => "name",
-            Self::Type => "type",
-            Self::Length => "length",
-            Self::Unit => "unit",
-            Self::WriteFlag => "write flag",
-            Self::ObjectAddress => "object address",
-        })
+    const fn bits(self) -> u32 {
+        low(self.number()) << 8
     }
 }
 

@@ -1,17 +1,17 @@
 //! Elements of an instance of a class.
 
 use super::{
-    Addressing, Attribute, Channel, ChannelAxis, Class, ClassGroup, IndexGroup, IndexOffset,
-    Spindle,
+    Addressing, Attribute, AxisStride, Channel, ChannelAxis, Class, ClassGroup, IndexGroup,
+    IndexOffset, Spindle,
 };
 use crate::error::{Error, ErrorKind};
 use crate::layout::index_offset::ELEMENT;
 
-/// The most that 16 bits hold (ADR-9).
-const ELEMENT_MAX: u32 = 0xFFFF;
+/// The greatest element (ADR-9).
+const ELEMENT_MAX: u32 = AxisStride::X10000.element_max();
 
-/// An element of an instance of a class, whichever of its attributes is asked for: the attribute
-/// is in the index group, the element in the index offset.
+/// The address of an element of an instance of a class. The attribute is in the index group, the element
+/// in the index offset.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
 ///
@@ -34,10 +34,10 @@ pub struct ElementAddress {
 }
 
 impl ElementAddress {
-    /// The element at this offset, as a query of an object address gives it. Which attribute the
-    /// group has does not matter.
+    /// The element at this offset, as a query of an object address returns it. The attribute of the group
+    /// is ignored.
     pub const fn new(group: ClassGroup, offset: IndexOffset) -> Self {
-        // A spindle has no logical form.
+        // Spindles have no logical address.
         let addressing = match group.class {
             Class::Spindle => Addressing::Index,
             _ => group.addressing,
@@ -112,7 +112,7 @@ impl ElementAddress {
         ClassGroup { attribute, ..self.group }.index_group()
     }
 
-    /// The index offset, of all attributes.
+    /// The index offset, the same for all attributes.
     pub const fn index_offset(self) -> IndexOffset {
         self.offset
     }

@@ -45,7 +45,7 @@ impl IndexGroup {
         self.0
     }
 
-    /// The parts of the group, if the manuals describe it; [`Group::index_group`] undoes it.
+    /// The parts of the group; `None` if it is not documented. [`Group::index_group`] is the inverse.
     pub const fn parts(self) -> Option<Group> {
         let [instance, table, ..] = self.0.to_le_bytes();
         let addressing = match self.0 & LOGICAL {
@@ -64,12 +64,15 @@ impl IndexGroup {
                 };
                 Some(Group::Com(ComGroup { addressing, access, table, instance }))
             }
-            // Spindles have no logical form.
-            (ELEMENT, 5, 3..=9) if matches!(addressing, Addressing::Logical) => None,
-            (ELEMENT, class @ 0..=5, attribute @ 3..=9) => {
-                let class = Class::from_number(class);
-                let attribute = Attribute::from_table(attribute);
-                Some(Group::Class(ClassGroup { addressing, class, attribute, instance }))
+            (ELEMENT, class, attribute) => {
+                match (Class::from_number(class), Attribute::from_number(attribute), addressing) {
+                    // Spindles have no logical address.
+                    (Some(Class::Spindle), _, Addressing::Logical) => None,
+                    (Some(class), Some(attribute), _) => {
+                        Some(Group::Class(ClassGroup { addressing, class, attribute, instance }))
+                    }
+                    _ => None,
+                }
             }
             _ => None,
         }
@@ -103,13 +106,13 @@ impl fmt::Display for IndexGroup {
 pub enum Group {
     /// The COM task, AMS port 553.
     Com(ComGroup),
-    /// The SDA and GEO tasks, AMS ports 552 and 551. Which of the two serves a class is not
-    /// documented but for the decoder, which SDA serves (ADR-10).
+    /// The SDA and GEO tasks, AMS ports 552 and 551. SDA serves the decoder; for the other classes the
+    /// task is not documented (ADR-10).
     Class(ClassGroup),
 }
 
 impl Group {
-    /// The group these parts add up to.
+    /// The index group with these parts.
     pub const fn index_group(self) -> IndexGroup {
         match self {
             Self::Com(com) => com.index_group(),
@@ -135,7 +138,7 @@ impl Group {
 pub enum Addressing {
     /// By the configured number: bit 0x100000 is set.
     Logical,
-    /// By the rank among what is active.
+    /// By the rank among the active instances.
     Index,
 }
 
@@ -221,7 +224,7 @@ impl ComGroup {
         Self { addressing: Addressing::Logical, access, table: ComTable::Channel, instance: 0 }
     }
 
-    /// The group these parts add up to.
+    /// The index group with these parts.
     pub const fn index_group(self) -> IndexGroup {
         let access = match self.access {
             Access::Element => ELEMENT,

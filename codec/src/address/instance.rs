@@ -1,20 +1,34 @@
 //! The channel, platform axis or spindle in the low bits of an index group.
 
 use core::fmt;
-use core::num::{NonZeroU8, NonZeroU16};
 
+use super::offset::AXIS_MAX;
 use super::{Addressing, AxisStride, Group, IndexOffset};
 use crate::error::{Error, ErrorKind};
 use crate::layout::Field;
 use crate::layout::index_group::{CHANNEL, PLATFORM_AXIS, SPINDLE};
 use crate::layout::index_offset::CHANNEL_AXIS;
 
-/// Takes a number into the eight bits it has, never into the field above (ADR-9).
-fn instance(field: Field, number: u32, least: u8) -> Result<u8, Error> {
-    let bound = if number < u32::from(least) { least } else { u8::MAX };
-    match u8::try_from(number) {
-        Ok(fits) if fits >= least => Ok(fits),
-        _ => Err(Error::new(ErrorKind::OutOfRange, field, 0, bound.into(), number)),
+/// Checks a number against the bits it has in a group or offset (ADR-9).
+fn check<N: TryFrom<u32>>(field: Field, number: u32) -> Result<N, Error> {
+    let nearest = match range(field) {
+        Some((_, least, most)) => number.max(least).min(most),
+        None => number,
+    };
+    match N::try_from(number) {
+        Ok(fits) if nearest == number => Ok(fits),
+        _ => Err(Error::new(ErrorKind::OutOfRange, field, 0, nearest, number)),
+    }
+}
+
+/// The name and the range of a number that a constructor takes.
+pub(crate) fn range(field: Field) -> Option<(&'static str, u32, u32)> {
+    match field {
+        CHANNEL => Some(("channel", 1, 255)),
+        PLATFORM_AXIS => Some(("platform axis", 1, 255)),
+        SPINDLE => Some(("spindle", 0, 255)),
+        CHANNEL_AXIS => Some(("channel axis", 1, AXIS_MAX)),
+        _ => None,
     }
 }
 
@@ -35,7 +49,7 @@ fn instance(field: Field, number: u32, least: u8) -> Result<u8, Error> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Channel {
-    number: NonZeroU8,
+    number: u8,
     addressing: Addressing,
 }
 
@@ -43,7 +57,7 @@ impl Channel {
     /// The channel with this logical number.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for 0 and for what 8 bits do not hold.
+    /// [`ErrorKind::OutOfRange`] for 0 and for a number of more than 8 bits.
     pub fn new(number: u32) -> Result<Self, Error> {
         Self::with_addressing(number, Addressing::Logical)
     }
@@ -51,7 +65,7 @@ impl Channel {
     /// The channel of this rank among the active channels.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for 0 and for what 8 bits do not hold.
+    /// [`ErrorKind::OutOfRange`] for 0 and for a number of more than 8 bits.
     pub fn by_index(rank: u32) -> Result<Self, Error> {
         Self::with_addressing(rank, Addressing::Index)
     }
@@ -62,18 +76,16 @@ impl Channel {
             Group::Com(com) => (com.instance, com.addressing),
             Group::Class(class) => (class.instance, class.addressing),
         };
-        NonZeroU8::new(instance).map(|number| Self { number, addressing })
+        (instance > 0).then_some(Self { number: instance, addressing })
     }
 
     fn with_addressing(number: u32, addressing: Addressing) -> Result<Self, Error> {
-        let fits = NonZeroU8::new(instance(CHANNEL, number, 1)?);
-        let number = fits.ok_or(Error::new(ErrorKind::OutOfRange, CHANNEL, 0, 1, number))?;
-        Ok(Self { number, addressing })
+        Ok(Self { number: check(CHANNEL, number)?, addressing })
     }
 
     /// The number, or the rank.
     pub const fn number(self) -> u8 {
-        self.number.get()
+        self.number
     }
 
     /// Whether [`number`](Self::number) is a number or a rank.
@@ -93,21 +105,20 @@ impl Channel {
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct PlatformAxis(NonZeroU8);
+pub struct PlatformAxis(u8);
 
 impl PlatformAxis {
     /// The axis with this index.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for 0 and for what 8 bits do not hold.
+    /// [`ErrorKind::OutOfRange`] for 0 and for a number of more than 8 bits.
     pub fn new(index: u32) -> Result<Self, Error> {
-        let fits = NonZeroU8::new(instance(PLATFORM_AXIS, index, 1)?);
-        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, PLATFORM_AXIS, 0, 1, index))
+        check(PLATFORM_AXIS, index).map(Self)
     }
 
     /// The index, from 1.
     pub const fn index(self) -> u8 {
-        self.0.get()
+        self.0
     }
 }
 
@@ -125,28 +136,27 @@ impl PlatformAxis {
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ChannelAxis(NonZeroU16);
+pub struct ChannelAxis(u16);
 
 impl ChannelAxis {
     /// The axis with this index.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for 0 and for what 16 bits do not hold.
+    /// [`ErrorKind::OutOfRange`] for 0 and for a number of more than 16 bits.
     pub fn new(index: u32) -> Result<Self, Error> {
-        let bound = if index == 0 { 1 } else { u16::MAX.into() };
-        let fits = u16::try_from(index).ok().and_then(NonZeroU16::new);
-        fits.map(Self).ok_or(Error::new(ErrorKind::OutOfRange, CHANNEL_AXIS, 0, bound, index))
+        check(CHANNEL_AXIS, index).map(Self)
     }
 
     /// The axis in the high bits of an index offset.
     pub(crate) fn from_offset(offset: IndexOffset) -> Option<Self> {
         let [_, _, low, high] = offset.get().to_le_bytes();
-        NonZeroU16::new(u16::from_le_bytes([low, high])).map(Self)
+        let axis = u16::from_le_bytes([low, high]);
+        (axis > 0).then_some(Self(axis))
     }
 
     /// The number, from 1.
     pub const fn index(self) -> u16 {
-        self.0.get()
+        self.0
     }
 
     /// The offset of an element of the axis, 0x10000 from that of the next axis.
@@ -154,7 +164,7 @@ impl ChannelAxis {
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for an element of more than 16 bits.
     pub fn offset(self, element: u32) -> Result<IndexOffset, Error> {
-        IndexOffset::for_axis(AxisStride::X10000, self.0.get().into(), element)
+        IndexOffset::for_axis(AxisStride::X10000, self.0.into(), element)
     }
 }
 
@@ -176,9 +186,9 @@ impl Spindle {
     /// The spindle with this index.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for what 8 bits do not hold.
+    /// [`ErrorKind::OutOfRange`] for a number of more than 8 bits.
     pub fn new(index: u32) -> Result<Self, Error> {
-        instance(SPINDLE, index, 0).map(Self)
+        check(SPINDLE, index).map(Self)
     }
 
     /// The index, from 0.

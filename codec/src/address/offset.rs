@@ -8,8 +8,8 @@ use crate::layout::index_offset::{AXIS, ELEMENT};
 /// An index offset as ADS carries it: any number.
 ///
 /// The manuals print two strides between the axes of a channel (E-01), and an offset does not
-/// tell which was used: `0x10001` is element 1 of axis 1, or of axis 16. Of COM's axes a client
-/// computes nothing; it takes group and offset from the object's descriptor (ADR-8).
+/// tell which was used: `0x10001` is element 1 of axis 1, or of axis 16. For axes of COM a client takes
+/// group and offset from the object's descriptor instead of computing them (ADR-8).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1, 2.1.2, 2.2.2 and 4.2.2.
 ///
@@ -27,10 +27,10 @@ use crate::layout::index_offset::{AXIS, ELEMENT};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IndexOffset(u32);
 
-/// The most that 16 bits hold (ADR-9).
-const AXIS_MAX: u32 = 0xFFFF;
+/// The greatest axis: it has 16 bits (ADR-9).
+pub(super) const AXIS_MAX: u32 = 0xFFFF;
 
-/// How far an axis is from the next in an index offset.
+/// The distance between the axes of a channel in index offsets.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1, 2.1.2, 2.2.2 and 4.2.2.
 ///
@@ -58,11 +58,8 @@ impl AxisStride {
         }
     }
 
-    const fn element_max(self) -> u32 {
-        match self {
-            Self::X10000 => 0xFFFF,
-            Self::X1000 => 0xFFF,
-        }
+    pub(super) const fn element_max(self) -> u32 {
+        !(u32::MAX << self.element_bits())
     }
 }
 
@@ -80,8 +77,8 @@ impl IndexOffset {
     /// The offset of an axis's element; axis 0 is the channel itself.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] if the axis has more than 16 bits or the element more than the
-    /// stride leaves it; neither ever carries into the other (ADR-9).
+    /// [`ErrorKind::OutOfRange`] if the axis has more than 16 bits or the element is not less than the
+    /// stride (ADR-9).
     pub const fn for_axis(stride: AxisStride, axis: u32, element: u32) -> Result<Self, Error> {
         if axis > AXIS_MAX {
             return Err(Error::new(ErrorKind::OutOfRange, AXIS, 0, AXIS_MAX, axis));
@@ -96,8 +93,8 @@ impl IndexOffset {
     /// Axis and element, read with this stride.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfRange`] for an axis of more than 16 bits, which only the stride 0x1000
-    /// leaves room for.
+    /// [`ErrorKind::OutOfRange`] for an axis of more than 16 bits, which is possible with the stride
+    /// 0x1000.
     pub const fn axis_and_element(self, stride: AxisStride) -> Result<(u32, u32), Error> {
         let axis = self.0 >> stride.element_bits();
         if axis > AXIS_MAX {

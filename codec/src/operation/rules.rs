@@ -1,8 +1,8 @@
-//! Where a function is: its index groups and index offsets.
+//! The index groups and index offsets of a function.
 
 use crate::address::{
-    Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComTable, Group, IndexGroup,
-    IndexOffset,
+    Access, Addressing, Attribute, AxisStride, Class, ClassGroup, ComGroup, ComTable, Group,
+    IndexGroup, IndexOffset,
 };
 
 /// The index groups of a function.
@@ -45,7 +45,7 @@ impl GroupRule {
                 matches!(com.access, Access::Object)
                     && (matches!(com.table, ComTable::Channel) || com.instance > 0)
             }
-            // Of platform axes the axis may be in the offset instead (E-04).
+            // The axis may be in the offset instead of the group (E-04).
             (Self::ComContent, Group::Com(com)) => matches!(com.access, Access::Element),
             (Self::ComChannel, Group::Com(com)) => {
                 matches!((com.access, com.table), (Access::Element, ComTable::Channel))
@@ -64,11 +64,11 @@ impl GroupRule {
         }
     }
 
-    /// The group of the first channel, or of any, as the manuals print it.
+    /// An index group as the manuals print it, where possible that of the first channel.
     pub const fn example(self) -> IndexGroup {
         match self {
-            Self::ComObjects => IndexGroup::new(0x13_0101),
-            Self::ComContent | Self::ComChannel => IndexGroup::new(0x12_0101),
+            Self::ComObjects => com_group(Access::Object),
+            Self::ComContent | Self::ComChannel => com_group(Access::Element),
             Self::ChannelOf(class) => class_group(class, Attribute::Content, 1),
             Self::Elements(attribute) => class_group(Class::Hld, attribute, 1),
             Self::Instances => class_group(Class::Hld, Attribute::ObjectAddress, 0),
@@ -76,8 +76,12 @@ impl GroupRule {
     }
 }
 
+const fn com_group(access: Access) -> IndexGroup {
+    ComGroup { instance: 1, ..ComGroup::platform(access) }.index_group()
+}
+
 const fn class_group(class: Class, attribute: Attribute, instance: u8) -> IndexGroup {
-    // A spindle's group is by index whatever this says.
+    // `index_group` ignores this for a spindle.
     let addressing = Addressing::Logical;
     ClassGroup { addressing, class, attribute, instance }.index_group()
 }
@@ -99,11 +103,11 @@ const fn class_group(class: Class, attribute: Attribute, instance: u8) -> IndexG
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum OffsetRule {
-    /// This one.
+    /// This offset.
     At(u32),
     /// One for each kind of dynamic parameters.
     OfKind([u32; 4]),
-    /// Every one from here on.
+    /// This offset and all greater ones.
     AtLeast(u32),
     /// This element of every axis from 1 on, 0x10000 apart (VAR-26).
     OfAxis(u32),
@@ -112,7 +116,7 @@ pub enum OffsetRule {
 }
 
 impl OffsetRule {
-    /// The lowest of the offsets; of an axis's elements, the element.
+    /// The least of the offsets; for elements of axes, the element.
     pub(crate) const fn first(self) -> IndexOffset {
         IndexOffset::new(match self {
             Self::At(first) | Self::OfKind([first, ..]) | Self::AtLeast(first) => first,

@@ -5,7 +5,7 @@ use core::fmt;
 use crate::text::CncStr;
 use crate::variable::VariableType;
 
-/// The type of a value, whoever names it.
+/// The type of a value of a variable, an object or an element.
 ///
 /// | variables (code), elements | objects | bytes |
 /// |---|---|---|
@@ -95,7 +95,7 @@ impl DataType {
         })
     }
 
-    /// The type's name as that of a variable or an element; of an object if no other has it.
+    /// The type's name for variables and elements; for a type that only objects have, that for objects.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Boolean => "BOOLEAN",
@@ -111,7 +111,7 @@ impl DataType {
         }
     }
 
-    /// The type's name as that of an object.
+    /// The type's name for objects.
     pub const fn object_name(self) -> &'static str {
         match self {
             Self::Boolean => "BOOL",
@@ -129,28 +129,12 @@ impl DataType {
         }
     }
 
-    /// The type of this name, be it that of a variable, an object or an element.
+    /// The type with this name, of a variable, an object or an element.
     pub fn by_name(name: CncStr<'_>) -> Option<Self> {
         Self::ALL.into_iter().find(|known| name == known.name() || name == known.object_name())
     }
 
-    /// The code of a variable's type, if a variable can have this one.
-    pub const fn var_type(self) -> Option<VariableType> {
-        Some(match self {
-            Self::Boolean => VariableType::BOOLEAN,
-            Self::Sgn08 => VariableType::SGN08,
-            Self::Uns08 => VariableType::UNS08,
-            Self::Sgn16 => VariableType::SGN16,
-            Self::Uns16 => VariableType::UNS16,
-            Self::Sgn32 => VariableType::SGN32,
-            Self::Uns32 => VariableType::UNS32,
-            Self::Real64 => VariableType::REAL64,
-            Self::String => VariableType::STRING,
-            Self::Lint | Self::Lword | Self::Real32 => return None,
-        })
-    }
-
-    /// The type's number in errors: a variable's code, or one after the last of those.
+    /// The type's number in errors: a variable's code, or a number greater than those.
     pub(super) const fn number(self) -> u32 {
         match (self.var_type(), self) {
             (Some(VariableType(code)), _) => code,
@@ -173,20 +157,39 @@ impl fmt::Display for DataType {
     }
 }
 
-impl VariableType {
-    /// The type, if the manuals have the code.
-    pub const fn data_type(self) -> Option<DataType> {
-        Some(match self {
-            Self::BOOLEAN => DataType::Boolean,
-            Self::SGN08 => DataType::Sgn08,
-            Self::UNS08 => DataType::Uns08,
-            Self::SGN16 => DataType::Sgn16,
-            Self::UNS16 => DataType::Uns16,
-            Self::SGN32 => DataType::Sgn32,
-            Self::UNS32 => DataType::Uns32,
-            Self::REAL64 => DataType::Real64,
-            Self::STRING => DataType::String,
-            _ => return None,
-        })
-    }
+/// Declares the conversions between the codes of variables' types and the types.
+macro_rules! codes {
+    ($( $code:ident: $type:ident; )+) => {
+        impl DataType {
+            /// The code of this type of variables; `None` for a type that no variable has.
+            pub const fn var_type(self) -> Option<VariableType> {
+                Some(match self {
+                    $( Self::$type => VariableType::$code, )+
+                    _ => return None,
+                })
+            }
+        }
+
+        impl VariableType {
+            /// The type with this code; `None` for a code that is not documented.
+            pub const fn data_type(self) -> Option<DataType> {
+                Some(match self {
+                    $( Self::$code => DataType::$type, )+
+                    _ => return None,
+                })
+            }
+        }
+    };
+}
+
+codes! {
+    BOOLEAN: Boolean;
+    SGN08: Sgn08;
+    UNS08: Uns08;
+    SGN16: Sgn16;
+    UNS16: Uns16;
+    SGN32: Sgn32;
+    UNS32: Uns32;
+    REAL64: Real64;
+    STRING: String;
 }
