@@ -1,5 +1,5 @@
-//! The declaration of a stream: its table, as the manual prints it. Everything else that is known of
-//! the stream follows from the declaration.
+//! The declaration of a stream: its table, as the manual prints it. The types, their traits and the
+//! documentation of the stream are generated from it.
 
 use crate::layout::{Layout, Stream};
 #[cfg(feature = "arbitrary")]
@@ -11,8 +11,8 @@ pub(crate) trait Declared {
     const LAYOUT: Layout;
 }
 
-/// The kinds of rows, one line each: the type in a view, the type in what owns its data, the row, and
-/// its size and type in the documentation. A number may be followed by `as` and its own type.
+/// The kinds of rows, one line each: the type in a view, the type in an owned type, the row, and its
+/// size and type in the documentation. `as` gives a number a type of its own.
 macro_rules! row {
     (size (NETID)) => { $crate::layout::Size::Fixed(6) };
     (size (OPTIONAL_UNS32 as $t:ident)) => { $crate::layout::Size::OptionalFixed(4) };
@@ -28,7 +28,7 @@ macro_rules! row {
     (packed (UNS32) $a:lifetime) => { zerocopy::little_endian::U32 };
     (packed (NETID) $a:lifetime) => { [u8; 6] };
     (packed (PADDED $n:literal) $a:lifetime) => { [u8; $n] };
-    (serde (NETID) $a:lifetime) => { $crate::serial::NetId };
+    (serde (NETID) $a:lifetime) => { $crate::ads::AmsNetId };
     (serde (PADDED $n:literal) $a:lifetime) => { $crate::serial::Padded<$n> };
     ($q:ident (UNS08) $a:lifetime) => { $crate::declare::row!(@$q [u8] [u8] [Number<u8, u8>] "1 | `UNS08`") };
     ($q:ident (UNS16) $a:lifetime) => { $crate::declare::row!(@$q [u16] [u16] [Number<u16, u16>] "2 | `UNS16`") };
@@ -53,7 +53,7 @@ macro_rules! row {
     (@row $v:tt $o:tt [$($row:tt)*] $($doc:tt)*) => { $crate::rows::$($row)* };
     (@doc $v:tt $o:tt $r:tt $($doc:tt)*) => { concat!($($doc)*) };
     ($q:ident ($($row:tt)+) $a:lifetime) => {
-        compile_error!(concat!("`", stringify!($($row)+), "` is no kind of row: `row!` in src/declare.rs has them"))
+        compile_error!(concat!("`", stringify!($($row)+), "` is not a kind of row: see `row!` in src/declare.rs"))
     };
 }
 
@@ -61,14 +61,14 @@ macro_rules! row {
 ///
 /// | | declares |
 /// |---|---|
-/// | `struct XRef<'a> / X` | a type that borrows, and one that owns its data |
-/// | `struct X` | one type, of numbers with names |
-/// | `tuple X` | one type, of a single number |
+/// | `struct XRef<'a> / X` | a type that borrows its data, and one that owns it |
+/// | `struct X` | one type, with a field for each number |
+/// | `tuple X` | one type, a single number |
 /// | `packed XLayout` | the bytes of a fixed stream whose type is written by hand |
 ///
 /// A row: the offset that the manual prints (`@20 + 4m` after `m` counted items of 4 bytes), the
-/// field (and its name in errors and vectors if that is another), the kind of row, the requirement,
-/// the meaning. The count of a list has a row of its own before it: `count`.
+/// field (and its name in errors and vectors if that differs), the kind of row, the requirement,
+/// the meaning. The row before a list is its `count`.
 macro_rules! stream {
     (
         $(#[$doc:meta])*
@@ -130,17 +130,17 @@ macro_rules! stream {
             );
             assert!(
                 <Type as $crate::declare::Declared>::LAYOUT.is_filled(),
-                "the maximum of a row is not what the length of the stream leaves it",
+                "the maximum of a row does not fill the maximum length of the stream",
             );
             $(
                 $( assert!(
                     <Type as $crate::declare::Declared>::LAYOUT.is_at(stringify!($count)),
-                    concat!("`", stringify!($count), "` is not where the rows before it end"),
+                    concat!("`", stringify!($count), "` does not begin where the rows before it end"),
                 ); )?
                 assert!(
                     <Type as $crate::declare::Declared>::LAYOUT
                         .is_at($crate::declare::stream!(@name [$field $($label)?])),
-                    concat!("`", stringify!($field), "` is not where the rows before it end"),
+                    concat!("`", stringify!($field), "` does not begin where the rows before it end"),
                 );
             )+
         };
@@ -151,7 +151,7 @@ macro_rules! stream {
     (@static $view:ident / $owned:ident) => { $view<'static> };
     (@static $view:ident) => { $view };
 
-    // Numbers with names.
+    // A field for each number.
     (@types struct $view:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
         [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
@@ -203,7 +203,7 @@ macro_rules! stream {
         $crate::declare::stream! { @to_bytes $kind $view $max [[$at [$row] 0]] }
     };
 
-    // Numbers and texts of fixed length, as they are on the wire.
+    // Numbers and texts of fixed length, in the bytes of the wire.
     (@types packed $view:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:literal]
         [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
@@ -220,6 +220,7 @@ macro_rules! stream {
         #[cfg(feature = "serde")]
         const _: () = {
             #[derive(serde::Serialize, serde::Deserialize)]
+            #[serde(expecting = $title)]
             struct Rows { $(
                 #[serde $renamed]
                 $field: $crate::declare::row!(serde $kind 'static),
@@ -240,7 +241,7 @@ macro_rules! stream {
         };
     };
 
-    // A number that may be rejected is encoded with a result only.
+    // `encode` may reject this number, so there is no `to_bytes`.
     (@to_bytes (UNS32_NON_ZERO) $view:ident $max:literal $rows:tt) => {};
     (@to_bytes $kind:tt $view:ident $max:literal [$( [$at:literal [$row:ty] $member:tt] )+]) => {
         impl $view {
@@ -366,7 +367,7 @@ macro_rules! stream {
         }
     };
 
-    // A type that borrows, and one that owns its data.
+    // A type that borrows its data, and one that owns it.
     (@types struct $view:ident / $owned:ident
         [$(#[$doc:meta])*] $table:tt [$title:literal, $max:tt]
         [$( [$field:ident $label:tt $renamed:tt $at:literal $kind:tt [$row:ty] $meaning:literal] )+]
@@ -399,7 +400,7 @@ macro_rules! stream {
         $crate::declare::stream! { @encoded $view [$( [$label $at [$row] $field] )+] }
 
         #[cfg(feature = "alloc")]
-        #[doc = concat!("[`", stringify!($view), "`] with data of its own.")]
+        #[doc = concat!("[`", stringify!($view), "`], owned.")]
         #[derive(Clone, Debug, PartialEq, Eq, Hash)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "binrw", derive(binrw::BinRead, binrw::BinWrite), brw(little),

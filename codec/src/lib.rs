@@ -52,8 +52,8 @@
 //! # Client
 //! [`operation`] has a type for every function of the CNC, for example
 //! [`ReadByName`](operation::ReadByName): it has the address of the request, encodes it and decodes
-//! the reply. [`address`] has the channels, axes and spindles that operations name. An ADS error number becomes a Rust error by
-//! [`AdsError::into_result`](ads::AdsError::into_result).
+//! the reply. [`address`] has the channels, axes and spindles that operations name.
+//! [`AdsError::into_result`](ads::AdsError::into_result) turns an ADS error number into a Rust error.
 //!
 //! # Server
 //! [`Call::dispatch`](operation::Call::dispatch) turns a request received into a
@@ -78,20 +78,21 @@
 //! `alloc`, owns its data. Both accept the same bytes, reject the others with the same [`Error`], and
 //! encode to the bytes they were read from. A stream of numbers has one type. [`sections`] says where
 //! each section of the manuals is, [`layout`] has the field table of every stream. Where the manuals
-//! contradict each other, [`errata`] says which reading is taken.
+//! contradict each other, [`errata`] has the reading that this crate implements.
 //!
 //! # Features
-//! - `alloc` (default): the owned readings, and the checks of an NC program.
+//! - `alloc` (default): the owned types, and the checks of an NC program.
 //! - `binrw` (default): [`binrw`](https://docs.rs/binrw/0.15)'s `BinRead` and `BinWrite` for the owned
-//!   readings, so that structs of your own can contain them. `read` rejects the same bytes as
+//!   types, so that structs of your own can contain them. `read` rejects the same bytes as
 //!   `decode`; a stream without a length of its own is read to the end of the reader.
 //! - `std`: `std` in the dependencies. The crate itself never needs it.
-//! - `arbitrary`: `Arbitrary` for the owned readings.
-//! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the owned readings. A
-//!   value is a map of the fields in [`layout`], without counts; of a single number, that number. Codes
-//!   are numbers, a NetId and a text are strings. What follows the first NUL of a text makes it a map of
-//!   `text` and `tail`, so that every value is kept; that needs a format that describes itself, such as
-//!   JSON (for exact REAL64, `serde_json` with its feature `float_roundtrip`). What is deserialized is checked against the limits of its stream only when it is encoded.
+//! - `arbitrary`: `Arbitrary` for the owned types.
+//! - `serde`: [`serde`](https://docs.rs/serde/1)'s `Serialize` and `Deserialize` for the owned types. A
+//!   value is a map of the fields in [`layout`], without counts; a stream of a single number is that
+//!   number. Codes are numbers, a NetId is a string. A text that ends in one NUL is a string; any other
+//!   is a map of `text` and `tail`, the bytes after its NUL or null. This needs a self-describing format
+//!   such as JSON (for exact REAL64, `serde_json` with its feature `float_roundtrip`). The limits of a
+//!   stream are checked when the value is encoded, not when it is deserialized.
 //!
 //! ```
 //! # #[cfg(all(feature = "binrw", feature = "std"))] {
@@ -177,7 +178,9 @@ mod serial;
 
 #[cfg(feature = "alloc")]
 pub use com::Descriptors;
-pub use com::{Descriptor, DescriptorRef, DescriptorsRef, ObjectCount, WriteAccess};
+pub use com::{
+    Descriptor, DescriptorIter, DescriptorRef, DescriptorsRef, ObjectCount, WriteAccess,
+};
 #[cfg(feature = "alloc")]
 pub use content::Content;
 pub use content::ContentRef;
@@ -195,7 +198,7 @@ pub use variable::{
 pub use variable::{
     DescriptionByNameRef, DescriptionRef, ExtendedDescription, ExtendedReply, Handle,
     HandleReadRef, HandleWriteRef, Kind, NameWriteRef, PathPart, PathParts, Synchronisation,
-    U32List, Validity, ValueRef, VariableAccess, VariableCount, VariableIndexKindRef,
+    U32Iter, U32List, Validity, ValueRef, VariableAccess, VariableCount, VariableIndexKindRef,
     VariableKindRef, VariableNameRef, VariablePath, VariableType,
 };
 

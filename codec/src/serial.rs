@@ -1,4 +1,4 @@
-//! serde for what is neither a number nor a map of fields.
+//! serde for types that are neither a number nor a map of their fields.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -29,28 +29,21 @@ macro_rules! strings {
 
 strings! { AmsNetId CncString }
 
-/// The bytes of a NetId.
-#[derive(Serialize, Deserialize)]
-pub(crate) struct NetId(AmsNetId);
-
-impl From<[u8; 6]> for NetId {
-    fn from(bytes: [u8; 6]) -> Self {
-        Self(AmsNetId(bytes))
-    }
-}
-
-impl From<NetId> for [u8; 6] {
-    fn from(id: NetId) -> Self {
-        id.0.0
-    }
-}
-
 /// A [`Text`]: a string if one NUL ends it, else a map with the bytes after its NUL.
 #[derive(Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    deny_unknown_fields,
+    expecting = "expected CP1252 text: a string, or a map of `text` and `tail`"
+)]
 pub(crate) enum TextShape {
     OneNul(CncString),
-    Other { text: CncString, tail: Option<Vec<u8>> },
+    Other {
+        text: CncString,
+        // A missing `tail` is an error; without this it would be `None`.
+        #[serde(deserialize_with = "Option::deserialize")]
+        tail: Option<Vec<u8>>,
+    },
 }
 
 impl From<TextShape> for Text {
@@ -71,7 +64,7 @@ impl From<Text> for TextShape {
     }
 }
 
-/// A text in so many bytes. What only pads it is no tail.
+/// A text in a field of `N` bytes. NULs that only pad it are not a tail.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(try_from = "Text", into = "Text")]
 pub(crate) struct Padded<const N: usize>([u8; N]);
@@ -100,7 +93,7 @@ impl<const N: usize> TryFrom<Text> for Padded<N> {
     type Error = &'static str;
 
     fn try_from(Text { text, tail }: Text) -> Result<Self, &'static str> {
-        // Padding ends the text as well as one NUL does.
+        // A shorter text needs no NUL of its own: it is padded with NULs.
         let tail = tail.iter().filter(|tail| !tail.is_empty());
         let nul_and_tail = tail.flat_map(|tail| [0].iter().chain(tail));
         let mut all = text.as_bytes().iter().chain(nul_and_tail);
@@ -115,7 +108,7 @@ impl<const N: usize> TryFrom<Text> for Padded<N> {
 
 /// A REAL64: a number, or its bits if it is not finite.
 #[derive(Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, deny_unknown_fields, expecting = "expected REAL64: a number, or a map of `bits`")]
 pub(crate) enum Real {
     Finite(f64),
     Other { bits: u64 },

@@ -132,6 +132,32 @@ fn values_are_checked() {
     assert!(unsendable.encode_to_vec().is_err());
 }
 
+/// A text or a number in no known form is an error that says which forms there are.
+#[test]
+fn unknown_forms_are_rejected() {
+    let name = |name: Value| {
+        from_value::<VariableName>(json!({ "name": name })).map_err(|error| error.to_string())
+    };
+    assert!(name(json!({ "text": "a", "tail": null })).is_ok());
+    for wrong in [
+        json!({ "text": "a", "tial": [0] }),
+        json!({ "text": "a" }),
+        json!({ "text": "a", "tail": [0], "more": 1 }),
+        json!("Ω"),
+        json!(1),
+    ] {
+        let wanted = "expected CP1252 text: a string, or a map of `text` and `tail`";
+        assert_eq!(name(wrong.clone()).unwrap_err(), wanted, "{wrong}");
+    }
+    let wanted = "expected REAL64: a number, or a map of `bits`";
+    for wrong in [json!("1"), json!({ "bits": 1, "more": 1 }), json!({ "bit": 1 })] {
+        let error = from_value::<DynamicValue>(wrong.clone()).unwrap_err();
+        assert_eq!(error.to_string(), wanted, "{wrong}");
+    }
+    let error = from_value::<AmsHeader>(json!(1)).unwrap_err().to_string();
+    assert_eq!(error, "invalid type: integer `1`, expected AMS header");
+}
+
 /// Any value that a stream can have.
 #[cfg(feature = "arbitrary")]
 #[test]

@@ -74,12 +74,12 @@ fn errors_say_what_is_wrong() {
             error("1.2.3.4.5.x".parse::<AmsNetId>()),
             (
                 ErrorKind::NotDecimal,
-                "ams-net-id: number at offset 5: U+0078 is not a decimal digit",
+                "ams-net-id: number at offset 10: U+0078 is not a decimal digit",
             ),
         ),
         (
             error("1.2.3.4.5.0006".parse::<AmsNetId>()),
-            (ErrorKind::Digits, "ams-net-id: number at offset 5: expected 1 to 3 digits, found 4"),
+            (ErrorKind::Digits, "ams-net-id: number at offset 10: expected 1 to 3 digits, found 4"),
         ),
         (
             error(ValueRef { bytes: &[] }.get::<u8>(0)),
@@ -90,7 +90,7 @@ fn errors_say_what_is_wrong() {
             error("1.2.3.4.5.256".parse::<AmsNetId>()),
             (
                 ErrorKind::OutOfRange,
-                "ams-net-id: number at offset 5: out of range, expected at most 255, found 256",
+                "ams-net-id: number at offset 10: out of range, expected at most 255, found 256",
             ),
         ),
         (

@@ -21,7 +21,7 @@ use crate::layout::ams_net_id::{NUMBER, NUMBERS};
 /// }
 /// assert_eq!(
 ///     "192.0.2.7.1.256".parse::<AmsNetId>().unwrap_err().to_string(),
-///     "ams-net-id: number at offset 5: out of range, expected at most 255, found 256"
+///     "ams-net-id: number at offset 12: out of range, expected at most 255, found 256"
 /// );
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
@@ -44,23 +44,26 @@ impl fmt::Debug for AmsNetId {
 impl FromStr for AmsNetId {
     type Err = Error;
 
-    /// Reads six numbers of one byte with dots between; the offset in an error counts the numbers.
+    /// Reads six numbers of one byte with dots between them; the offset in an error is that of the number
+    /// in the text.
     fn from_str(text: &str) -> Result<Self, Error> {
         let mut id = [0; 6];
         let mut parts = parts(text);
-        for (at, byte) in (0_u32..).zip(&mut id) {
-            let part = parts.next().ok_or(Error::new(ErrorKind::Mismatch, NUMBERS, 0, 6, at))?;
-            // The number parser would take a sign and any number of zeros.
+        let mut at = 0_u32;
+        for (count, byte) in (0_u32..).zip(&mut id) {
+            let part = parts.next().ok_or(Error::new(ErrorKind::Mismatch, NUMBERS, 0, 6, count))?;
+            let len = crate::bytes::to_u32(part.len());
+            // `u32::parse` accepts a sign and any number of zeros.
             if let Some(odd) = part.chars().find(|character| !character.is_ascii_digit()) {
                 return Err(Error::new(ErrorKind::NotDecimal, NUMBER, at, 0, odd.into()));
             }
             if !(1..=3).contains(&part.len()) {
-                let len = crate::bytes::to_u32(part.len());
                 return Err(Error::new(ErrorKind::Digits, NUMBER, at, 3, len));
             }
             let number = part.parse::<u32>().unwrap_or(u32::MAX);
             let fits = u8::try_from(number);
             *byte = fits.map_err(|_| Error::new(ErrorKind::OutOfRange, NUMBER, at, 255, number))?;
+            at = at.saturating_add(len).saturating_add(1);
         }
         match crate::bytes::to_u32(parts.count()) {
             0 => Ok(Self(id)),
@@ -69,7 +72,7 @@ impl FromStr for AmsNetId {
     }
 }
 
-/// The text between the dots; `str::split` would compile to code with a panic.
+/// The parts of the text between its dots. `str::split` would leave a panic in the program.
 fn parts(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(text);
     core::iter::from_fn(move || {
@@ -79,6 +82,18 @@ fn parts(text: &str) -> impl Iterator<Item = &str> {
         rest = after.get(1..);
         Some(part)
     })
+}
+
+impl From<[u8; 6]> for AmsNetId {
+    fn from(bytes: [u8; 6]) -> Self {
+        Self(bytes)
+    }
+}
+
+impl From<AmsNetId> for [u8; 6] {
+    fn from(id: AmsNetId) -> Self {
+        id.0
+    }
 }
 
 /// An AMS port.
@@ -115,7 +130,7 @@ impl fmt::Debug for AmsPort {
     }
 }
 
-/// A NetId and a port: one end of a conversation.
+/// A NetId and a port: the address of a sender or receiver.
 ///
 /// Source: the vendors' public help pages; the manuals do not describe it.
 ///

@@ -6,7 +6,7 @@ stream! {
     /// The number of objects in a list.
     ///
     /// Read at offset 0 of a group with object access. Its width is not documented: assumed.
-    /// It counts the list that is addressed (E-36).
+    /// It is the number of objects in the addressed list (E-36).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
     ///

@@ -67,11 +67,11 @@ impl WriteAccess {
 
 #[doc = include_str!("../../doc/object-descriptor.md")]
 ///
-/// Texts end at their first NUL or fill their 32 bytes; what follows the NUL is kept.
+/// Texts end at their first NUL or fill their 32 bytes; the bytes after the NUL are kept.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
 ///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
@@ -89,7 +89,7 @@ impl WriteAccess {
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct DescriptorRef<'a>(pub(super) &'a DescriptorLayout);
 
-/// [`DescriptorRef`], owned: 84 bytes, without allocation.
+/// [`DescriptorRef`], owned: 84 bytes, without an allocation.
 ///
 /// ```
 /// use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -108,7 +108,7 @@ pub struct DescriptorRef<'a>(pub(super) &'a DescriptorLayout);
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Descriptor(pub(super) DescriptorLayout);
 
-/// Declares the accessors of both readings.
+/// Declares the accessors of both types.
 macro_rules! accessors {
     ($lifetime:lifetime) => {
         /// Unique internal number of the object.
@@ -162,7 +162,7 @@ macro_rules! accessors {
 impl<'a> DescriptorRef<'a> {
     accessors!('a);
 
-    /// A copy that lives on its own.
+    /// Copies the descriptor.
     pub const fn to_owned(self) -> Descriptor {
         Descriptor(*self.0)
     }
@@ -179,7 +179,7 @@ impl Descriptor {
         Self::from_text(CncStr::new(name)?, CncStr::new(type_name)?)
     }
 
-    /// As [`new`](Self::new), of texts that are at hand: those of another descriptor.
+    /// As [`new`](Self::new), from CP1252 texts, such as those of another descriptor.
     ///
     /// # Errors
     /// [`ErrorKind::TooLong`] over 32 characters.

@@ -15,13 +15,14 @@ use crate::stream::{Decode, Encode};
 
 #[doc = include_str!("../../doc/object-descriptors.md")]
 ///
-/// A record is that of [`DescriptorRef`].
+/// Each record is a [`DescriptorRef`].
 ///
-/// A read whose length is a multiple of 84 is answered with as many, fewer at the list's end.
+/// The read length is a multiple of 84; the reply has at most that many records, fewer at the end of
+/// the list.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.1.1.
 ///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`TooLong`](crate::ErrorKind::TooLong).
 ///
 /// ```
@@ -42,13 +43,13 @@ use crate::stream::{Decode, Encode};
 pub struct DescriptorsRef<'a>(&'a [DescriptorLayout]);
 
 impl<'a> DescriptorsRef<'a> {
-    /// How many.
+    /// The number of descriptors.
     #[inline]
     pub const fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Returns `true` if the list is empty. A decoded list never is.
+    /// Returns `true` if the list is empty. A decoded list is never empty.
     #[inline]
     pub const fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -56,24 +57,33 @@ impl<'a> DescriptorsRef<'a> {
 
     /// The descriptor at this index, from 0.
     #[inline]
-    pub fn get(&self, place: usize) -> Option<DescriptorRef<'a>> {
-        self.0.get(place).map(DescriptorRef)
+    pub fn get(&self, index: usize) -> Option<DescriptorRef<'a>> {
+        self.0.get(index).map(DescriptorRef)
     }
 
-    /// At most `count` of them from index `first` on; empty beyond the end.
+    /// At most `count` descriptors from index `first` on; empty after the end.
     pub fn slice(&self, first: usize, count: usize) -> Self {
         let from = self.0.get(first..).unwrap_or_default();
         Self(from.get(..count).unwrap_or(from))
     }
 
-    /// All in their order.
+    /// The descriptors in their order.
     #[inline]
     pub fn iter(&self) -> DescriptorIter<'a> {
         DescriptorIter(self.0.iter())
     }
 }
 
-/// [`DescriptorsRef`] in their order.
+/// The descriptors of a list in their order.
+///
+/// ```
+/// use ads_cnc::{Decode, DescriptorIter, DescriptorsRef};
+///
+/// let mut objects: DescriptorIter<'_> = DescriptorsRef::decode(&[0; 168])?.iter();
+/// assert_eq!(objects.next_back().unwrap().id(), 0);
+/// assert_eq!(objects.len(), 1);
+/// # Ok::<(), ads_cnc::Error>(())
+/// ```
 #[derive(Clone)]
 pub struct DescriptorIter<'a>(slice::Iter<'a, DescriptorLayout>);
 
@@ -122,7 +132,7 @@ impl<'a> Decode<'a> for DescriptorsRef<'a> {
         let count = bytes.len() / DESCRIPTOR_LEN;
         match <[DescriptorLayout]>::ref_from_bytes_with_elems(bytes, count) {
             Ok(layouts) if !layouts.is_empty() => Ok(Self(layouts)),
-            // After the whole descriptors comes one that is cut, or the first is missing.
+            // The last descriptor is cut, or there are no bytes.
             _ => {
                 let whole = count.saturating_mul(DESCRIPTOR_LEN);
                 Err(cut(Self::STREAM, to_u32(whole), bytes.len().saturating_sub(whole)))
@@ -138,7 +148,7 @@ impl Encode for DescriptorsRef<'_> {
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
         if self.is_empty() {
-            // An empty list is not a valid stream: no decoder accepts it.
+            // An empty list is not a valid stream: this returns the error of the decoder.
             Self::decode(&[])?;
         }
         Writer::copy(Self::STREAM, self.0.as_bytes(), buf)
@@ -206,7 +216,7 @@ mod owned {
             DescriptorsRef(&self.0)
         }
 
-        /// How many.
+        /// The number of descriptors.
         pub fn len(&self) -> usize {
             self.0.len()
         }
@@ -216,7 +226,7 @@ mod owned {
             self.0.is_empty()
         }
 
-        /// All in their order.
+        /// The descriptors in their order.
         pub fn iter(&self) -> DescriptorIter<'_> {
             self.as_ref().iter()
         }

@@ -1,4 +1,4 @@
-//! The COM task: how many objects there are, and the 84 bytes that describe each (COM-1 … COM-3).
+//! The COM task: the number of objects, and the descriptor of each (COM-1 … COM-3).
 
 mod count;
 mod descriptor;
@@ -9,4 +9,4 @@ pub(crate) use descriptor::DescriptorLayout;
 pub use descriptor::{Descriptor, DescriptorRef, WriteAccess};
 #[cfg(feature = "alloc")]
 pub use list::Descriptors;
-pub use list::DescriptorsRef;
+pub use list::{DescriptorIter, DescriptorsRef};

@@ -26,7 +26,7 @@ pub struct CncStr<'a>(Source<'a>);
 #[derive(Clone, Copy)]
 enum Source<'a> {
     Bytes(&'a [u8]),
-    /// Found to fit CP1252, with characters beyond ASCII.
+    /// Checked to be in CP1252, with characters beyond ASCII.
     Str(&'a str),
 }
 
@@ -34,7 +34,7 @@ impl<'a> CncStr<'a> {
     /// The text without characters.
     pub const EMPTY: CncStr<'static> = CncStr(Source::Bytes(&[]));
 
-    /// Takes a Rust string whose characters all are in CP1252.
+    /// Checks that all characters of a Rust string are in CP1252.
     ///
     /// # Errors
     /// [`ErrorKind::NotCp1252`], [`ErrorKind::InnerNul`]; the offset counts characters.
@@ -53,7 +53,7 @@ impl<'a> CncStr<'a> {
         Ok(Self(if ascii { Source::Bytes(text.as_bytes()) } else { Source::Str(text) }))
     }
 
-    /// Takes CP1252 bytes. Every byte but NUL is allowed, the five without a character too.
+    /// Checks CP1252 bytes. Every byte but NUL is allowed, including the five without a character.
     ///
     /// # Errors
     /// [`ErrorKind::InnerNul`]
@@ -66,19 +66,19 @@ impl<'a> CncStr<'a> {
         Ok(Self(Source::Bytes(bytes)))
     }
 
-    /// The part before the first NUL, or all.
+    /// The text before the first NUL, or all.
     #[inline]
     pub(crate) fn until_nul(bytes: &'a [u8]) -> Self {
         Self(Source::Bytes(bytes.get(..text_len(bytes)).unwrap_or(bytes)))
     }
 
-    /// Bytes already found to have no NUL.
+    /// Bytes that were checked to have no NUL.
     #[inline]
     pub(crate) const fn without_nul(bytes: &'a [u8]) -> Self {
         Self(Source::Bytes(bytes))
     }
 
-    /// Number of characters, which is that of CP1252 bytes.
+    /// The number of characters, and so of CP1252 bytes.
     #[inline]
     pub fn len(&self) -> usize {
         match self.0 {
@@ -106,21 +106,21 @@ impl<'a> CncStr<'a> {
 
     /// The CP1252 bytes.
     pub fn bytes(&self) -> impl Iterator<Item = u8> + use<'a> {
-        // Every character came from a byte or was found to have one.
+        // Every character has a CP1252 byte, so none is dropped.
         self.chars().filter_map(char_to_cp1252)
     }
 
-    /// The bytes the text is held in, of CP1252 or of UTF-8: both have the same ASCII.
+    /// The bytes in memory, CP1252 or UTF-8. ASCII characters are the same in both.
     #[inline]
-    pub(crate) const fn held(self) -> &'a [u8] {
+    pub(crate) const fn raw(self) -> &'a [u8] {
         match self.0 {
             Source::Bytes(bytes) => bytes,
             Source::Str(text) => text.as_bytes(),
         }
     }
 
-    /// The text before and from an offset in [`held`](Self::held); all and nothing if no character
-    /// begins there.
+    /// The text before and from an offset in [`raw`](Self::raw); the whole text and an empty one if no
+    /// character begins there.
     pub(crate) fn split_at(self, at: usize) -> (Self, Self) {
         match self.0 {
             Source::Bytes(bytes) => {
@@ -154,10 +154,10 @@ impl<'a> CncStr<'a> {
     }
 }
 
-/// Apart from the lengths of bytes, which is what there mostly is.
+/// The number of characters. Cold: most texts are stored as bytes.
 #[cold]
 fn count(text: &str) -> usize {
-    // One byte of each character is none that continues.
+    // Each character has one byte that is not a continuation byte.
     text.bytes().filter(|byte| byte & 0xC0 != 0x80).count()
 }
 

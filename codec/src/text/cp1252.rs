@@ -17,7 +17,7 @@ const HIGH: [char; 32] = [
 /// assert_eq!(ads_cnc::text::cp1252_to_char(0x80), '€');
 /// ```
 pub fn cp1252_to_char(byte: u8) -> char {
-    let high = byte.checked_sub(0x80).and_then(|place| HIGH.get(usize::from(place)));
+    let high = byte.checked_sub(0x80).and_then(|index| HIGH.get(usize::from(index)));
     high.copied().unwrap_or(char::from(byte))
 }
 

@@ -1,4 +1,4 @@
-//! Where texts end.
+//! The ends of texts.
 
 use super::{CncStr, TextRef};
 use crate::bytes::to_u32;
@@ -28,7 +28,7 @@ pub(crate) fn split_padded(bytes: &[u8], len: usize) -> Option<TextRef<'_>> {
     }
 }
 
-/// NULs before anything else. Mostly the one before them is the last byte.
+/// The number of NULs before another byte. Cold: most texts end in one NUL.
 #[cold]
 #[inline(never)]
 fn padding_len(tail: &[u8]) -> usize {

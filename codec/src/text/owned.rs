@@ -21,7 +21,7 @@ use crate::error::Error;
 pub struct CncString(Vec<u8>);
 
 impl CncString {
-    /// Bytes already found to have no NUL.
+    /// Bytes that were checked to have no NUL.
     #[cfg(feature = "arbitrary")]
     #[inline]
     pub(crate) const fn without_nul(bytes: Vec<u8>) -> Self {

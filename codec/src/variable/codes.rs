@@ -1,4 +1,4 @@
-//! Codes of a description; unknown ones stay what they are (VAR-23).
+//! Codes of a description; unknown codes are kept (VAR-23).
 
 use crate::number::code;
 

@@ -1,4 +1,4 @@
-//! Asking how many variables of a kind there are, and for one of them (VAR-1 … VAR-3).
+//! Requests of the number of variables of a kind and of one description (VAR-1 … VAR-3).
 
 use core::fmt;
 
@@ -44,7 +44,7 @@ impl<'a> Kind<'a> {
     pub const V_L: Kind<'static> = Kind::ascii(b"V.L");
     /// Variables of the kind V.S, on the channel interface by name only (VAR-18, VAR-19).
     pub const V_S: Kind<'static> = Kind::ascii(b"V.S");
-    /// V.E, V.G and V.A together; only their number can be asked for.
+    /// V.E, V.G and V.A together; only for the number of variables.
     pub const ALL: Kind<'static> = Kind::ascii(b"");
 
     const fn ascii(text: &'static [u8]) -> Kind<'static> {
@@ -101,7 +101,7 @@ stream! {
     /// use ads_cnc::{Decode, VariableKindRef};
     ///
     /// assert_eq!(VariableKindRef::decode(b"V.E\0")?.kind.text(), "V.E");
-    /// // No kind asks for the sum; it is written as one NUL.
+    /// // An empty kind requests the sum of all kinds; it is written as one NUL.
     /// assert!(VariableKindRef::decode(b"")?.kind.text().is_empty());
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
@@ -114,7 +114,7 @@ stream! {
 stream! {
     /// The number of variables of a kind.
     ///
-    /// Indices run from 0 to one less.
+    /// The indices of the variables are 0 to this number minus 1.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.1.
     ///

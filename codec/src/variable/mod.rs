@@ -17,7 +17,7 @@ pub use handle::{Handle, HandleReadRef, HandleWriteRef};
 pub use kind::{Kind, VariableCount, VariableIndexKindRef, VariableKindRef};
 pub use name::{NameWriteRef, VariableNameRef};
 pub use path::{PathPart, PathParts, VariablePath};
-pub use u32_list::U32List;
+pub use u32_list::{U32Iter, U32List};
 pub use value::ValueRef;
 
 #[cfg(feature = "alloc")]

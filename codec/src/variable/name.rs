@@ -31,7 +31,7 @@ stream! {
 stream! {
     /// Writes the value of a variable by its name.
     ///
-    /// The value begins after the name's NUL, so that nothing can pad the name.
+    /// The value begins after the name's NUL, so the name cannot be padded.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.7 and 4.3.11.
     ///

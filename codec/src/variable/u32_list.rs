@@ -1,4 +1,4 @@
-//! A list of UNS32, from a stream, from memory or from a name.
+//! A list of UNS32 in a stream, in memory or in a name.
 
 use core::fmt;
 
@@ -30,12 +30,12 @@ pub struct U32List<'a>(Source<'a>);
 enum Source<'a> {
     Wire(&'a [U32]),
     Memory(&'a [u32]),
-    /// `[3][4]`, found to be well-formed.
+    /// `[3][4]`, which was checked.
     Name(&'a [u8]),
 }
 
 impl<'a> U32List<'a> {
-    /// No number.
+    /// The empty list.
     pub const EMPTY: U32List<'static> = U32List(Source::Memory(&[]));
 
     #[inline]
@@ -48,7 +48,7 @@ impl<'a> U32List<'a> {
         Self(Source::Name(brackets))
     }
 
-    /// How many.
+    /// The number of elements.
     #[inline]
     pub const fn len(&self) -> usize {
         match self.0 {
@@ -66,21 +66,21 @@ impl<'a> U32List<'a> {
 
     /// The number at this index, from 0.
     #[inline]
-    pub fn get(&self, place: usize) -> Option<u32> {
+    pub fn get(&self, index: usize) -> Option<u32> {
         match self.0 {
-            Source::Wire(numbers) => numbers.get(place).map(|number| number.get()),
-            Source::Memory(numbers) => numbers.get(place).copied(),
-            Source::Name(_) => self.iter().nth(place),
+            Source::Wire(numbers) => numbers.get(index).map(|number| number.get()),
+            Source::Memory(numbers) => numbers.get(index).copied(),
+            Source::Name(_) => self.iter().nth(index),
         }
     }
 
-    /// All in their order.
+    /// The numbers in their order.
     #[inline]
-    pub fn iter(&self) -> NumberIter<'a> {
-        NumberIter(self.0)
+    pub fn iter(&self) -> U32Iter<'a> {
+        U32Iter(self.0)
     }
 
-    /// Copies the numbers, with no room to spare.
+    /// Copies the numbers into a vector of exactly their number.
     #[cfg(feature = "alloc")]
     pub(crate) fn to_vec(self) -> alloc::vec::Vec<u32> {
         match self.0 {
@@ -105,7 +105,7 @@ impl<'a> U32List<'a> {
             Source::Memory(numbers) => {
                 let slots = out.next(self.encoded_len()).chunks_exact_mut(4);
                 for (slot, number) in slots.zip(numbers) {
-                    // Each has four bytes, which what is optimised for size does not see.
+                    // Not `copy_from_slice`: optimised for size, it would keep its panic.
                     slot.iter_mut().zip(number.to_le_bytes()).for_each(|(to, from)| *to = from);
                 }
             }
@@ -114,7 +114,7 @@ impl<'a> U32List<'a> {
     }
 }
 
-/// How many brackets open.
+/// The number of opening brackets.
 #[cold]
 const fn count_opened(mut brackets: &[u8]) -> usize {
     let mut count = 0_usize;
@@ -127,11 +127,18 @@ const fn count_opened(mut brackets: &[u8]) -> usize {
     count
 }
 
-/// [`U32List`] in their order.
+/// The numbers of a [`U32List`] in their order.
+///
+/// ```
+/// use ads_cnc::{U32Iter, U32List};
+///
+/// let mut numbers: U32Iter<'_> = U32List::from(&[2, 3]).iter();
+/// assert_eq!((numbers.next(), numbers.len()), (Some(2), 1));
+/// ```
 #[derive(Clone)]
-pub struct NumberIter<'a>(Source<'a>);
+pub struct U32Iter<'a>(Source<'a>);
 
-impl Iterator for NumberIter<'_> {
+impl Iterator for U32Iter<'_> {
     type Item = u32;
 
     fn next(&mut self) -> Option<u32> {
@@ -161,19 +168,19 @@ impl Iterator for NumberIter<'_> {
     }
 }
 
-impl ExactSizeIterator for NumberIter<'_> {}
+impl ExactSizeIterator for U32Iter<'_> {}
 
 impl<'a> IntoIterator for U32List<'a> {
     type Item = u32;
-    type IntoIter = NumberIter<'a>;
+    type IntoIter = U32Iter<'a>;
 
     #[inline]
-    fn into_iter(self) -> NumberIter<'a> {
+    fn into_iter(self) -> U32Iter<'a> {
         self.iter()
     }
 }
 
-/// The number of these digits, or the largest there is.
+/// The number with these digits; `u32::MAX` if it is greater.
 pub(super) fn decimal(digits: &[u8]) -> u32 {
     digits.iter().fold(0_u32, |number, &digit| {
         number.saturating_mul(10).saturating_add(u32::from(digit & 0x0F))
@@ -248,7 +255,7 @@ mod tests {
         }
     }
 
-    /// Every source says at each step how many are left.
+    /// The iterators of all sources know at each step how many numbers are left.
     #[test]
     fn iterators_know_their_length() {
         let wire = [U32::new(3), U32::new(0), U32::MAX_VALUE];
@@ -259,8 +266,8 @@ mod tests {
         ];
         for numbers in sources {
             let mut left = numbers.iter();
-            for (place, number) in [3, 0, u32::MAX].into_iter().enumerate() {
-                assert_eq!((left.len(), numbers.get(place)), (3 - place, Some(number)));
+            for (index, number) in [3, 0, u32::MAX].into_iter().enumerate() {
+                assert_eq!((left.len(), numbers.get(index)), (3 - index, Some(number)));
                 assert_eq!(left.next(), Some(number));
             }
             assert_eq!((left.len(), left.next(), numbers.get(3)), (0, None, None));

@@ -1,4 +1,4 @@
-//! Values. The variable's description tells what their bytes mean.
+//! Values of variables, whose types are in the descriptions.
 
 use crate::declare::stream;
 

@@ -8,10 +8,10 @@ use crate::layout::Subject;
 use crate::layout::variable_path::{INDEX, KIND, PART};
 use crate::text::CncStr;
 
-/// Each of them writes a name that [`VariablePath::from_text`] takes apart into what it was made
-/// of. [`NAME_MAX`](crate::limits::NAME_MAX) bytes of buffer are always enough.
+/// Each writes a name that [`VariablePath::from_text`] parses into the same parts.
+/// [`NAME_MAX`](crate::limits::NAME_MAX) bytes of buffer are always enough.
 impl<'a> VariablePath<'a> {
-    /// Puts a name together from its parts.
+    /// Builds a name from its parts.
     ///
     /// ```
     /// use ads_cnc::{CncStr, Kind, U32List, PathPart, VariablePath};
@@ -25,7 +25,7 @@ impl<'a> VariablePath<'a> {
     /// ```
     ///
     /// # Errors
-    /// A kind, a part's name, an index or a length that [`new`](Self::new) would refuse, no part,
+    /// A kind, a part's name, an index or a length that [`new`](Self::new) would reject, no part,
     /// or a buffer that is too small; nothing is written.
     pub fn write<'p, P>(kind: Kind<'_>, parts: P, buf: &'a mut [u8]) -> Result<Self, Error>
     where
@@ -76,7 +76,7 @@ impl<'a> VariablePath<'a> {
         let parts = self
             .parts()
             .enumerate()
-            .map(|(place, part)| if place == last { PathPart { indices, ..part } } else { part });
+            .map(|(index, part)| if index == last { PathPart { indices, ..part } } else { part });
         VariablePath::write(self.kind(), parts, buf)
     }
 
@@ -125,7 +125,7 @@ impl<'a> VariablePath<'a> {
     /// without an axis, or a buffer that is too small.
     pub fn write_without_axis<'b>(&self, buf: &'b mut [u8]) -> Result<VariablePath<'b>, Error> {
         self.check_axis()?;
-        let axis = self.variable().text.held();
+        let axis = self.variable().text.raw();
         let dot = axis.iter().rposition(|&byte| byte == b'.').unwrap_or(0);
         if dot <= self.kind_end {
             let at = to_u32(self.variable().text.len());
@@ -138,7 +138,7 @@ impl<'a> VariablePath<'a> {
             before.write(out);
             elements.write(out);
         })?;
-        // Shorter than it was, and put together where it was.
+        // No error: the name without its last part is valid.
         VariablePath::from_text(CncStr::without_nul(bytes))
     }
 
@@ -147,7 +147,7 @@ impl<'a> VariablePath<'a> {
         if kind == Kind::V_A.text() {
             return Ok(());
         }
-        // The character that makes it another; there are three at least.
+        // The first character that differs; every kind has at least three.
         let mut wanted = Kind::V_A.text().chars();
         let other = (0_u32..).zip(kind.chars()).find(|&(_, there)| wanted.next() != Some(there));
         let (at, there) = other.map_or((0, 0), |(at, there)| (at, u32::from(there)));
@@ -200,7 +200,7 @@ mod owned {
     use crate::limits::NAME_MAX;
     use crate::text::CncString;
 
-    /// The same, owned.
+    /// Names in a string of their own.
     impl VariablePath<'_> {
         /// As [`write_element`](Self::write_element).
         ///

@@ -16,7 +16,7 @@ use crate::text::CncStr;
 /// The largest index: one less than the most elements that an UNS32 can count (VAR-2).
 const INDEX_MAX: u32 = u32::MAX - 1;
 
-// A name cannot hold more indices than a handle's header can.
+// A name cannot have more indices than the header of a handle.
 const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICES_MAX);
 
 /// A variable's name: its kind, the parts with their indices, the element it selects.
@@ -32,12 +32,12 @@ const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICE
 /// Indices before a dot belong to the path, those at the end select an element: derived from the
 /// examples. Assumed is
 /// - that more dimensions are written `[i][j]`,
-/// - that a kind is `V.` and one part, which may be one that no manual has,
+/// - that a kind is `V.` and one part, which need not be documented,
 /// - that a part is any CP1252 text without `.`, `[`, `]` and NUL, and has a character at least,
 /// - that an index is one or more decimal digits and nothing else.
 ///
-/// Two names are equal if their characters are. A name alone does not tell whether there is such a
-/// variable, nor whether it is an array: that is in its description.
+/// Two names are equal if their characters are. A name does not tell whether the variable exists, nor
+/// whether it is an array: its description does.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1 (VAR-20); the axis: 4.1 and 4.2.2.
 ///
@@ -59,7 +59,7 @@ const _: () = assert!((crate::limits::NAME_MAX - 5) / 3 <= crate::limits::INDICE
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 ///
-/// A range is prose, no name:
+/// A range is not a name:
 ///
 /// ```
 /// # use ads_cnc::VariablePath;
@@ -73,12 +73,12 @@ pub struct VariablePath<'a> {
     text: CncStr<'a>,
     /// The offset of the dot after the kind, in the bytes of the text.
     kind_end: usize,
-    /// Where the indices at the end begin, likewise.
+    /// The offset of the indices at the end, in the bytes of the text.
     variable_end: usize,
 }
 
 impl<'a> VariablePath<'a> {
-    /// Takes a name apart.
+    /// Parses a name.
     ///
     /// # Errors
     /// Offsets count characters.
@@ -140,7 +140,7 @@ impl<'a> VariablePath<'a> {
 
     /// The indices at the end, which select an element of an array; empty for the whole array.
     pub fn elements(&self) -> U32List<'a> {
-        U32List::from_name(self.text.split_at(self.variable_end).1.held())
+        U32List::from_name(self.text.split_at(self.variable_end).1.raw())
     }
 
     /// The name without the indices at its end: that of the whole array, if it is one.
@@ -151,8 +151,8 @@ impl<'a> VariablePath<'a> {
     /// The axis a name of the kind V.A is for on the channel interface, its instance identifier:
     /// the last part if there are two or more.
     ///
-    /// On the axis interface names have none; there the last part is what it is of any kind. A
-    /// name does not tell for which of the two it is.
+    /// Names on the axis interface have no axis: there the last part is the variable. The name itself does
+    /// not show for which interface it is.
     ///
     /// ```
     /// use ads_cnc::VariablePath;

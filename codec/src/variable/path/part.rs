@@ -46,7 +46,7 @@ impl fmt::Display for PathPart<'_> {
 pub struct PathParts<'a>(CncStr<'a>);
 
 impl<'a> PathParts<'a> {
-    /// Of what follows the kind in a name that was found to be well-formed.
+    /// The text after the kind of a name that was checked.
     pub(super) const fn new(rest: CncStr<'a>) -> Self {
         Self(rest)
     }
@@ -56,18 +56,18 @@ impl<'a> Iterator for PathParts<'a> {
     type Item = PathPart<'a>;
 
     fn next(&mut self) -> Option<PathPart<'a>> {
-        let place = |text: CncStr<'a>, wanted: u8| {
-            let held = text.held();
-            held.iter().position(|&byte| byte == wanted).unwrap_or(held.len())
+        let offset_of = |text: CncStr<'a>, wanted: u8| {
+            let raw = text.raw();
+            raw.iter().position(|&byte| byte == wanted).unwrap_or(raw.len())
         };
         // Skips the dot, which only the last part lacks.
         let (dot, rest) = self.0.split_at(1);
         if dot.is_empty() {
             return None;
         }
-        let (part, rest) = rest.split_at(place(rest, b'.'));
-        let (name, indices) = part.split_at(place(part, b'['));
+        let (part, rest) = rest.split_at(offset_of(rest, b'.'));
+        let (name, indices) = part.split_at(offset_of(part, b'['));
         self.0 = rest;
-        Some(PathPart { name, indices: U32List::from_name(indices.held()) })
+        Some(PathPart { name, indices: U32List::from_name(indices.raw()) })
     }
 }

@@ -9,7 +9,7 @@ use crate::layout::{Field, Subject};
 use crate::limits::NAME_MAX;
 use crate::text::CncStr;
 
-/// Where a name's kind ends and where its last indices begin, in what the text is held in.
+/// The end of a name's kind and the start of its last indices, as offsets in [`CncStr::raw`].
 pub(super) struct Ends {
     pub(super) kind: usize,
     pub(super) variable: usize,
@@ -72,13 +72,13 @@ struct Scan<'a> {
     text: CncStr<'a>,
     /// Characters before the text.
     before: usize,
-    /// In what the text is held in.
+    /// Offset in [`CncStr::raw`].
     at: usize,
 }
 
 impl Scan<'_> {
     fn next(&self) -> Option<u8> {
-        self.text.held().get(self.at).copied()
+        self.text.raw().get(self.at).copied()
     }
 
     fn skip_while(&mut self, wanted: impl Fn(u8) -> bool) {
@@ -87,7 +87,7 @@ impl Scan<'_> {
         }
     }
 
-    /// The next character is wrong, or missing.
+    /// The error for the next character, or for the end of the text.
     #[cold]
     fn fault(&self, field: Field) -> Error {
         let (before, after) = self.text.split_at(self.at);
@@ -138,7 +138,7 @@ impl Scan<'_> {
             if digits.is_empty() {
                 return Err(self.fault(INDEX));
             }
-            index(decimal(digits.held()), self.before.saturating_add(before.len()))?;
+            index(decimal(digits.raw()), self.before.saturating_add(before.len()))?;
             self.expect(b']', INDEX)?;
         }
         Ok(())
