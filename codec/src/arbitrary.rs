@@ -1,4 +1,4 @@
-//! `Arbitrary` for the owned readings: values that a stream can hold, so that each encodes.
+//! `Arbitrary` for the owned types: only values that can be encoded.
 
 use alloc::vec::Vec;
 

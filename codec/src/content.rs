@@ -5,7 +5,7 @@ use crate::declare::stream;
 stream! {
     /// The content of an object or of an element.
     ///
-    /// What the bytes mean, the object's descriptor or the element's attributes say.
+    /// The object's descriptor or the element's attributes give the type.
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.1.2 and 2.2.2.
     ///

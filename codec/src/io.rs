@@ -1,4 +1,5 @@
-//! binrw over the same rows: counts are checked before memory is taken, and errors give positions.
+//! `BinRead` and `BinWrite` by the rows of the streams. A count is checked before memory is allocated;
+//! errors have the position in the reader.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -17,7 +18,7 @@ use crate::sda::ElementLength;
 use crate::stream::{Decode, Encode};
 use crate::{Descriptor, Descriptors, ExtendedReply};
 
-/// Takes the bytes of one row from a reader: at most one more than the row may have.
+/// Pulls the bytes of one row from a reader: at most one more than the row may have.
 pub(crate) trait Pull {
     /// Takes `len` bytes: fewer only at the end of the reader.
     fn exact(&mut self, len: usize) -> io::Result<()>;
@@ -34,7 +35,8 @@ struct Source<'r, R> {
     bytes: Vec<u8>,
 }
 
-/// The bytes that are asked for at once: a wrong length takes no more memory.
+/// The bytes that are read at once. A wrong length allocates no more than this beyond the bytes that
+/// are there.
 const CHUNK: usize = 1024;
 
 impl<R: Read> Pull for Source<'_, R> {
@@ -94,7 +96,7 @@ pub(crate) fn parse<T: Owned, R: Read + Seek>(
     T::pull(&mut source)?;
     let mut input = Reader::without_limit(stream, &source.bytes);
     let read = read_row::<T>(&mut input, field).map(T::own);
-    // A byte that was taken and not read would be lost.
+    // A byte that was pulled and not decoded would be lost.
     let whole = read.and_then(|owned| input.finish().map(|()| owned));
     whole.map_err(|error| custom(error, pos))
 }
@@ -105,7 +107,7 @@ fn read_row<'a, T: Owned>(input: &mut Reader<'a>, field: Field) -> Result<T::Vie
     T::read(input, head, field, to_usize(at))
 }
 
-/// The fixed bytes of a row by itself, and the offset of what is not its count.
+/// The fixed bytes of a single row, its count included, and the offset after the count.
 const fn head<T: Owned>() -> (u32, u32) {
     match T::SIZE {
         Size::Items { .. } => (4, 4),
@@ -147,21 +149,21 @@ pub(crate) fn check(stream: &impl Encode) -> Result<(), Error> {
     }
 }
 
-/// Why a decoder would reject it.
+/// The error with which a decoder would reject it.
 pub(crate) fn error<'a, T: Encode + Decode<'a>>(stream: &T) -> Error {
     let len = to_u32(stream.encoded_len());
     let whole = Error::new(ErrorKind::Mismatch, Field::whole(T::STREAM), 0, len, len);
     check(stream).err().unwrap_or(whole)
 }
 
-/// `BinRead` and `BinWrite` of streams whose types are written by hand: the bytes are taken from the
-/// reader as far as they can be of the stream, and decoded.
+/// `BinRead` and `BinWrite` of streams whose types are written by hand: pulls at most the bytes of the
+/// longest stream from the reader, and decodes them.
 ///
 /// | stream | why its type is written by hand |
 /// |---|---|
 /// | `AmsHeader` | an address is two rows |
 /// | `DeviceInfoReply`, `Descriptor` | text of fixed length, with setters that check it |
-/// | `Descriptors` | as many records as there are |
+/// | `Descriptors` | a list of records without a count |
 /// | `ReadReply`, `ReadWriteReply` | rows after an error may be absent (ADS-6) |
 /// | `ExtendedReply` | a reply may have no bytes |
 /// | `ElementLength` | the width of the number is not documented, and kept |
@@ -182,7 +184,7 @@ macro_rules! by_hand {
                 let decoded = pulled.map_err(binrw::Error::from).and_then(|()| {
                     Self::decode(&$from.bytes).map_err(|error| custom(error, pos))
                 });
-                // As derived ones do.
+                // Derived implementations seek back too.
                 if decoded.is_err() {
                     reader.seek(SeekFrom::Start(pos))?;
                 }

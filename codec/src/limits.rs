@@ -11,7 +11,7 @@ use crate::{
     VariableIndexKindRef, VariableNameRef,
 };
 
-#[allow(clippy::as_conversions, reason = "no other is const, and no target has 16 bits")]
+#[allow(clippy::as_conversions, reason = "`try_from` is not const; usize has at least 32 bits")]
 pub(crate) const fn to_usize(size: u32) -> usize {
     size as usize
 }
@@ -62,7 +62,7 @@ pub const AMS_TCP_HEADER_LEN: usize = length::<AmsTcpHeader>();
 pub const AMS_HEADER_LEN: usize = length::<HeaderLayout>();
 /// Bytes of one write to the stream, MAX_PROGRAM_STREAM_INPUT_SIZE (STM-2).
 pub const STREAM_PACKET_MAX: usize = length::<ProgramStreamRef<'_>>();
-/// Bytes the stream's interface holds, MAX_PROGRAM_STREAM_SIZE (STM-3).
+/// Bytes of the stream's interface, MAX_PROGRAM_STREAM_SIZE (STM-3).
 pub const STREAM_MAX: usize = 4094;
 /// Characters of a line that is streamed: a packet without CR LF (STM-20).
 pub const NC_LINE_MAX: usize = STREAM_PACKET_MAX.saturating_sub(2);

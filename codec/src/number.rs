@@ -1,8 +1,8 @@
-//! Codes: numbers on the wire that have names.
+//! Codes: numbers with names.
 
-/// Declares codes: the names of the numbers that are documented. Any other number is kept.
+/// Declares a code: a number, with names for the documented numbers. Any other number is kept.
 ///
-/// `in hex` is how the number is shown.
+/// `in hex`: the number is shown in hexadecimal.
 macro_rules! code {
     (
         $(#[$doc:meta])*
@@ -97,7 +97,7 @@ macro_rules! from_number {
     )+ };
 }
 
-/// How a stream that is a single number is shown.
+/// `Display` and `Debug` of a stream that is a single number.
 macro_rules! shown {
     ($name:ident) => {
         impl core::fmt::Display for $name {

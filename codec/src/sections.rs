@@ -1,4 +1,4 @@
-//! Where each section of the manuals is in this crate. The module has no items.
+//! The sections of the manuals, with the modules and types that implement them. The module has no items.
 //!
 //! | manual (`ads-en` 1.05, `ads-de` 1.051) | here |
 //! |---|---|
@@ -32,7 +32,7 @@
 //! | 4.3.11, write by name, of an axis | [`operation::AxisWriteByName`](crate::operation::AxisWriteByName) |
 //! | 5, ADS services | [`ads`](crate::ads) |
 //!
-//! The sections have the same numbers in both. The other manuals:
+//! The sections have the same numbers in both editions. The other manuals:
 //!
 //! | manual | here |
 //! |---|---|

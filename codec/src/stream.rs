@@ -1,4 +1,4 @@
-//! The two traits every stream has.
+//! The traits of the streams: [`Decode`] and [`Encode`].
 
 use crate::bytes::{Reader, to_usize};
 use crate::error::Error;
@@ -7,7 +7,7 @@ use crate::layout::{Size, Stream};
 /// Reads a stream from all of its bytes.
 ///
 /// `XRef` types borrow from the bytes and never allocate; `X` types own what they read. Both
-/// accept the same bytes and refuse the others with the same [`Error`].
+/// accept the same bytes and reject others with the same [`Error`].
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.
 ///
@@ -26,10 +26,10 @@ pub trait Decode<'a>: Sized {
     /// The stream this reads, with its field table.
     const STREAM: Stream;
 
-    /// Reads the stream; nothing may be left over but what its clause keeps.
+    /// Reads the stream from all bytes.
     ///
     /// # Errors
-    /// The first fault, by field and offset.
+    /// The first fault, with its field and offset.
     fn decode(bytes: &'a [u8]) -> Result<Self, Error>;
 
     /// Reads the stream from the front of the bytes, and returns the bytes after it.
@@ -57,7 +57,7 @@ pub trait Decode<'a>: Sized {
     }
 }
 
-/// How many of these bytes belong to the stream that begins with them.
+/// The length of the stream at the front of these bytes.
 fn prefix(stream: Stream, bytes: &[u8]) -> usize {
     let layout = stream.layout();
     let (mut at, mut count) = (0_usize, 0);
@@ -101,7 +101,7 @@ fn prefix(stream: Stream, bytes: &[u8]) -> usize {
 /// # Ok::<(), ads_cnc::Error>(())
 /// ```
 pub trait Encode {
-    /// How many bytes [`encode`](Self::encode) writes.
+    /// The number of bytes that [`encode`](Self::encode) writes.
     fn encoded_len(&self) -> usize;
 
     /// Writes the stream to the front of `buf` and returns the bytes written.
@@ -128,7 +128,7 @@ pub trait Encode {
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6, 4.3.7 and 4.3.11.
 ///
-/// `decode` refuses with [`Trailing`](crate::ErrorKind::Trailing).
+/// `decode` rejects bytes with [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
 /// use ads_cnc::{Decode, NoData};
@@ -158,7 +158,7 @@ impl Encode for NoData {
     }
 }
 
-/// An owned reading encodes as its borrowed one: there is one encoder.
+/// Implements [`Encode`] of an owned type by its borrowed type.
 macro_rules! encode_as_ref {
     ($owned:ident) => {
         impl $crate::stream::Encode for $owned {

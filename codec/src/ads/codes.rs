@@ -1,9 +1,9 @@
-//! Numbers of the AMS header: what is asked, which way it goes, and what came of it (ADS-5).
+//! Codes of the AMS header: command, state flags and error (ADS-5).
 
 use crate::number::code;
 
 code! {
-    /// An AMS command; unknown numbers stay what they are.
+    /// An AMS command; unknown numbers are kept.
     ///
     /// Source: the vendors' public help pages; the manuals do not describe it.
     ///
@@ -23,7 +23,7 @@ code! {
         WRITE = 3;
         /// ReadState.
         READ_STATE = 4;
-        /// WriteControl. Nothing in this project sends it.
+        /// WriteControl. This project does not send it.
         WRITE_CONTROL = 5;
         /// AddDeviceNotification.
         ADD_NOTIFICATION = 6;
@@ -37,14 +37,14 @@ code! {
 }
 
 code! {
-    /// The state flags of an AMS header; unknown bits stay what they are.
+    /// The state flags of an AMS header; unknown bits are kept.
     ///
     /// Source: the vendors' public help pages; the manuals do not describe it.
     ///
     /// ```
     /// use ads_cnc::ads::StateFlags;
     ///
-    /// // A response has the bit that says so, and else the flags of its request.
+    /// // A response has the flags of its request and the response bit.
     /// assert_eq!(StateFlags::RESPONSE, StateFlags(StateFlags::REQUEST.0 | 1));
     /// ```
     StateFlags(u16) in hex {
@@ -58,8 +58,8 @@ code! {
 code! {
     /// An ADS or AMS error number; 0 is success (ADS-4).
     ///
-    /// Which number a CNC gives is not documented (ADS-7): those named here are assumed, and a
-    /// client should only tell 0 from not 0.
+    /// The numbers that a CNC returns are not documented (ADS-7): those named here are assumed. A client
+    /// should only distinguish 0 from other numbers.
     ///
     /// Source: the vendors' public help pages; the manuals do not describe it.
     ///
@@ -74,7 +74,7 @@ code! {
     /// # Ok::<(), ads_cnc::Error>(())
     /// ```
     ///
-    /// It is an error as Rust has them, so that `?` takes it out of a reply:
+    /// It implements `Error`, for use with `?`:
     ///
     /// ```
     /// # use ads_cnc::{Decode, ads::WriteReply};

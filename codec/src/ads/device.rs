@@ -22,7 +22,7 @@ const NAME_LEN: usize = most::<InfoLayout>("name");
 ///
 /// Source: the vendors' public help pages; the manuals do not describe it.
 ///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
@@ -116,7 +116,7 @@ impl From<DeviceInfoReply> for InfoLayout {
 }
 
 code! {
-    /// The state of an ADS device; unknown numbers stay what they are (ADS-9).
+    /// The state of an ADS device; unknown numbers are kept (ADS-9).
     ///
     /// Source: the vendors' public help pages; the manuals do not describe it.
     ///
@@ -127,7 +127,7 @@ code! {
     /// assert_ne!(AdsState(16), AdsState::CONFIG);
     /// ```
     AdsState(u16) {
-        /// It works.
+        /// It is running.
         RUN = 5;
         /// It has been stopped.
         STOP = 6;

@@ -29,7 +29,7 @@ use crate::stream::{Decode, Encode};
 /// let mut buf = [0; 64];
 /// let bytes = FrameRef::new(header, &[0; 4])?.encode(&mut buf)?;
 ///
-/// // Bytes come in pieces; a frame comes out when it is whole.
+/// // Bytes arrive in pieces; a frame is returned when it is complete.
 /// assert_eq!(FrameRef::split(&bytes[..40], 1024)?, None);
 /// let (frame, len) = FrameRef::split(bytes, 1024)?.unwrap();
 /// assert_eq!((frame.header(), frame.data(), len), (header, &[0; 4][..], 42));
@@ -73,9 +73,9 @@ impl<'a> FrameRef<'a> {
     /// The first frame of `received` and its length; `None` if bytes are missing.
     ///
     /// # Errors
-    /// As soon as the header that says so is whole: a `reserved` that is not 0, lengths that disagree
-    /// or that promise more than `max_data` bytes of data, or more than any service has. What
-    /// follows on the stream is lost then.
+    /// For a `reserved` that is not 0, lengths that disagree, and lengths of more than `max_data` bytes of
+    /// data or of more than a service can have; as soon as the header is complete. The TCP stream cannot
+    /// be split any further then.
     pub fn split(received: &'a [u8], max_data: u32) -> Result<Option<(Self, usize)>, Error> {
         let Some((tcp, rest)) = received.split_at_checked(AMS_TCP_HEADER_LEN) else {
             return Ok(None);
@@ -96,7 +96,7 @@ impl<'a> FrameRef<'a> {
         let header = AmsHeader::decode(header)?;
         if header.data_length != data_length {
             let field = const { Field::of::<HeaderLayout>("data_length") };
-            // Counted from the start of the frame, as all offsets here.
+            // From the start of the frame, as all offsets in this function.
             let at = const { HeaderLayout::LAYOUT.offset("data_length") };
             let (at, found) = (at.saturating_add(to_u32(AMS_TCP_HEADER_LEN)), header.data_length);
             return Err(Error::new(ErrorKind::Mismatch, field, at, data_length, found));
@@ -114,7 +114,7 @@ impl Encode for FrameRef<'_> {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        // No frame has more, but the compiler sees here that no sum of lengths overflows.
+        // `new` limits the data; here the compiler sees that no sum of lengths overflows.
         let data_length = to_u32(self.data.len().min(DATA_MAX));
         let length = data_length.saturating_add(to_u32(AMS_HEADER_LEN));
         Writer::fill(Subject::Stream(Stream::AmsTcpHeader), self.encoded_len(), buf, |out| {

@@ -37,7 +37,7 @@ stream! {
 ///
 /// Source: the vendors' public help pages; the manuals do not describe it.
 ///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```

@@ -1,5 +1,5 @@
-//! ADS Read, Write and ReadWrite, what a device says of itself, the AMS headers around them, and
-//! frames on a TCP stream (ADS-1 … ADS-9).
+//! ADS Read, Write, ReadWrite, ReadDeviceInfo and ReadState, the AMS headers, and frames on a TCP stream
+//! (ADS-1 … ADS-9).
 //!
 //! ```
 //! use ads_cnc::Encode;
@@ -19,8 +19,8 @@
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 //!
-//! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 (ports) and 5 (the three services). What else
-//! is here the manuals do not describe; its source is the vendors' public help pages.
+//! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 1 (ports) and 5 (Read, Write, ReadWrite). The
+//! source of everything else is the vendors' public help pages.
 
 mod address;
 mod codes;

@@ -70,7 +70,7 @@ fn encode<'b>(
     })
 }
 
-/// Declares a reply with data in both readings: result, the length of the data, the data.
+/// Declares both types of a reply with data: result, the length of the data, the data.
 macro_rules! reply_with_data {
     ($doc:literal, $stream:ident, $ref:ident, $owned:ident) => {
         #[doc = include_str!($doc)]
@@ -79,7 +79,7 @@ macro_rules! reply_with_data {
         ///
         /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 5.
         ///
-        /// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated),
+        /// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated),
         /// [`Trailing`](crate::ErrorKind::Trailing) or [`TooLong`](crate::ErrorKind::TooLong).
         ///
         /// ```

@@ -4,7 +4,7 @@ use super::to_u32;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream, Subject};
 
-/// The record at `at` ends after `left` bytes, within the fixed fields that it begins with.
+/// The error for a record at offset `at` that ends after `left` bytes, within its fixed fields.
 #[cold]
 #[inline(never)]
 pub(crate) fn cut(stream: Stream, at: u32, left: usize) -> Error {
@@ -21,7 +21,7 @@ pub(crate) fn cut(stream: Stream, at: u32, left: usize) -> Error {
     Error::new(ErrorKind::Truncated, Field::whole(stream), at, 0, left)
 }
 
-/// The fixed fields are all of a stream, and more or fewer bytes are given.
+/// The error for more or fewer bytes than those of a stream of fixed fields.
 #[cold]
 pub(super) fn not_all(stream: Stream, size: usize, given: usize) -> Error {
     if given < size {

@@ -10,7 +10,7 @@ use crate::layout::{Field, Stream};
 use crate::text::end::{not_cstring, not_optional_nul, split_nul, split_padded, text_len};
 use crate::text::{CncStr, TextRef};
 
-/// The rest of a stream, and its offset.
+/// The bytes that are left of a stream, and their offset.
 pub(crate) struct Reader<'a> {
     stream: Stream,
     bytes: &'a [u8],
@@ -28,7 +28,7 @@ impl<'a> Reader<'a> {
         Ok(Self::without_limit(stream, bytes))
     }
 
-    /// Begins to read a stream whose end is known from its fields: too many bytes are trailing.
+    /// Begins to read a stream whose fields determine its end: more bytes are trailing, not too long.
     pub(crate) fn without_limit(stream: Stream, bytes: &'a [u8]) -> Self {
         Self { stream, bytes, at: 0 }
     }
@@ -121,7 +121,7 @@ impl<'a> Reader<'a> {
             let at = self.at.saturating_sub(4);
             return Err(Error::new(ErrorKind::TooMany, counter, at, fits, count));
         }
-        // Cannot be too much: it fits.
+        // No overflow: the items fit the bytes that are left.
         self.take(counter, count.saturating_mul(each))
     }
 
@@ -133,7 +133,7 @@ impl<'a> Reader<'a> {
         max: u32,
     ) -> Result<&'a [U32], Error> {
         let bytes = self.items(counter, count, 4, max)?;
-        // A multiple of four by now, so that nothing gets lost.
+        // No error: the length is a multiple of four.
         Ok(<[U32]>::ref_from_bytes(bytes).unwrap_or_default())
     }
 
@@ -155,7 +155,7 @@ impl<'a> Reader<'a> {
         let Some((text, _)) = split_nul(window) else {
             return Err(self.error(ErrorKind::MissingNul, field, max));
         };
-        // Once more, but the compiler makes less of it than of one split of all.
+        // A second split, but the code is smaller than with one split of all bytes.
         self.take(field, to_u32(text.len()).saturating_add(1))?;
         Ok(CncStr::without_nul(text))
     }

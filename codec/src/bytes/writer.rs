@@ -6,7 +6,7 @@ use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream, Subject};
 use crate::stream::Encode;
 
-/// Writes into a buffer that was found large enough before the first byte.
+/// Writes into a buffer whose length is checked before the first byte is written.
 pub(crate) struct Writer<'b> {
     rest: &'b mut [u8],
 }
@@ -44,7 +44,7 @@ impl<'b> Writer<'b> {
         })
     }
 
-    /// Writes into this.
+    /// Writes into this buffer.
     #[inline]
     pub(crate) fn new(rest: &'b mut [u8]) -> Self {
         Self { rest }
@@ -69,7 +69,7 @@ impl<'b> Writer<'b> {
         Ok(room)
     }
 
-    /// The next `len` bytes to write; empty if fewer are left, which cannot happen.
+    /// The next `len` bytes to write; empty if fewer are left.
     #[inline]
     pub(crate) fn next(&mut self, len: usize) -> &'b mut [u8] {
         match core::mem::take(&mut self.rest).split_at_mut_checked(len) {
@@ -92,7 +92,7 @@ impl<'b> Writer<'b> {
     /// Writes a stream that is a part of this one.
     #[inline]
     pub(crate) fn stream(&mut self, part: &impl Encode) {
-        // The room is as long as the part says.
+        // No error: the buffer has the length of the part.
         let _written = part.encode(self.next(part.encoded_len()));
     }
 
@@ -109,7 +109,7 @@ impl<'b> Writer<'b> {
         self.array(number.to_le_bytes());
     }
 
-    /// A NUL and the bytes after it, which usually are none.
+    /// A NUL and the bytes after it, usually none.
     #[inline]
     pub(crate) fn nul_and(&mut self, tail: &[u8]) {
         self.put(&[0]);

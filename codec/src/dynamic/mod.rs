@@ -1,7 +1,6 @@
-//! Dynamic parameters, which come and go with the NC program: P, V.L, V.P and V.S (DYN-1 … DYN-7).
+//! Dynamic parameters, which the NC program creates and deletes: P, V.L, V.P and V.S (DYN-1 … DYN-7).
 //!
-//! How many there are changes, and so does the index of each: the manual advises to read a value
-//! by its name.
+//! Their number and their indices change: the manual advises to read a value by its name.
 //!
 //! ```
 //! use ads_cnc::address::Channel;
@@ -25,8 +24,7 @@
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 //!
-//! The GEO task has dynamic variables too, the AEP parameters; no layout of theirs is documented
-//! (DYN-8), so that there is nothing of them here.
+//! The AEP parameters of the GEO task are not supported: their layout is not documented (DYN-8).
 //!
 //! Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3 and 3.1 … 3.4.
 

@@ -64,7 +64,7 @@ stream! {
 crate::number::shown!(DynamicIndex);
 
 impl DynamicIndex {
-    /// Rejects an index that no decoder would accept.
+    /// Rejects 0, as the decoder does.
     pub(crate) fn check(self) -> Result<Self, Error> {
         let field = const { Field::of::<Self>("index") };
         NonZero::check(self.0, field, 0).map(|()| self)
@@ -73,11 +73,11 @@ impl DynamicIndex {
 
 #[doc = include_str!("../../doc/dynamic-value.md")]
 ///
-/// The bits are kept, those of a NaN too; two values are equal if their bits are.
+/// All bits are kept, also those of a NaN; two values are equal if their bits are.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 3.1 … 3.4.
 ///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```

@@ -1,11 +1,11 @@
 //! The field table of every stream, and a walk over a stream's bytes by its table.
 //!
-//! One table feeds the field an [`Error`](crate::Error) names, the byte tables of the
+//! From the same table come the fields that an [`Error`](crate::Error) names, the byte tables of the
 //! documentation, the annotation of bytes in tools, and generated field defects.
 //!
-//! Requirements, VAR-9 for one, are told by their IDs, here and wherever else they are named: the
-//! catalogue in the crate `ads-cnc-vectors` has each in words, with its sections in both editions.
-//! E-17 and the like are errata: see [`errata`](crate::errata).
+//! IDs such as VAR-9 are requirements: the catalogue in the crate `ads-cnc-vectors` has the text of
+//! each, with its sections in both editions. IDs such as E-17 are errata: see
+//! [`errata`](crate::errata).
 //!
 //! ```
 //! use ads_cnc::layout::Stream;

@@ -78,7 +78,7 @@ impl Layout {
         u8::MAX
     }
 
-    /// Whether the fields tell where the stream ends: what follows is trailing, not too long.
+    /// Whether the fields determine the end of the stream: more bytes are trailing, not too long.
     pub(crate) fn ends_itself(&self) -> bool {
         self.is_fixed() || self.fields.iter().any(|row| row.size == Size::Uns8To32)
     }

@@ -73,7 +73,7 @@ impl<'a, V: FnMut(Segment<'a>)> Walk<'a, V> {
     }
 
     fn record(&mut self, stream: Stream) -> Result<(), Error> {
-        // The field before and its value: what counts the items of the next.
+        // The previous field and its value: the count of the items in the next field.
         let mut counter = Field::whole(stream);
         let mut count = 0_u32;
         for (field, spec) in stream.fields().zip(stream.layout().fields) {

@@ -1,4 +1,5 @@
-//! The address of a call: from the parts of an operation by the rules of its function, and back.
+//! The address of a call: built from the parts of an operation by the rules of its function, and
+//! parsed back to the parts.
 
 use super::{GroupRule, OffsetRule};
 use crate::address::{
@@ -15,7 +16,7 @@ pub(super) trait Address: Copy {
         rule.first()
     }
 
-    /// The parts of an address that the rules contain.
+    /// Parses an address that the rules contain.
     fn from_call(group: Group, offset: IndexOffset, rule: OffsetRule) -> Option<Self>;
 }
 
@@ -38,7 +39,7 @@ impl Address for (Channel, ChannelAxis) {
     }
 
     fn offset(self, rule: OffsetRule) -> IndexOffset {
-        // Elements of axes have few bits, so that there always is one.
+        // No error: the elements of `OffsetRule::OfAxis` have few bits.
         self.1.offset(rule.first().get()).unwrap_or(rule.first())
     }
 
@@ -155,7 +156,7 @@ impl Address for (ElementAddress,) {
 pub struct ObjectList(ComGroup);
 
 impl ObjectList {
-    /// The platform's; the first channel lists them too (COM-4).
+    /// The list of the platform; the first channel lists the platform's objects too (COM-4).
     pub const PLATFORM: Self = Self(ComGroup::platform(Access::Object));
 
     /// The list's index group.

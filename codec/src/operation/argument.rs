@@ -14,8 +14,8 @@ use crate::text::CncString;
 use crate::value::Boolean;
 use crate::variable::{ValueRef, VariablePath};
 
-/// The name of a variable or of a parameter: `&str`, `&String` and whatever else is an `AsRef<str>`,
-/// [`CncStr`], [`VariablePath`] and, with `alloc`, `&CncString`. Nothing is copied.
+/// The name of a variable or of a parameter: a reference to any `AsRef<str>`, such as `&str` or
+/// `&String`; [`CncStr`], [`VariablePath`] and, with `alloc`, `&CncString`. Nothing is copied.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.1.
 ///
@@ -65,7 +65,7 @@ impl<'a> IntoName<'a> for &'a CncString {
 
 /// A value to write: a number, a `bool`, or the bytes of a value.
 ///
-/// Text, and arrays of anything but bytes, are encoded into a buffer of the caller's first, by
+/// A text, or an array of another type than bytes, must first be encoded into a buffer of the caller, by
 /// [`EncodeValue`](crate::value::EncodeValue).
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6 and 4.3.7.

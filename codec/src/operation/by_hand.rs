@@ -3,8 +3,7 @@
 //! - `ReadDescriptors`, `ReadElement`, `ReadObject`: the caller chooses the read length, which limits
 //!   the reply.
 //! - `ReadElement`, `WriteElement`, `ReadObject`, `WriteObject`, `CountElements`: the constructors
-//!   reject the address of another function.
-//!   SDA-12
+//!   reject the address of another function (SDA-12).
 //! - `FindInstance`: the class is addressed by number or by index.
 
 use super::{
@@ -68,7 +67,7 @@ impl ReadDescriptors {
         self.first
     }
 
-    /// How many descriptors are asked for; never more than [`COUNT_MAX`](Self::COUNT_MAX).
+    /// The number of descriptors requested; never more than [`COUNT_MAX`](Self::COUNT_MAX).
     pub fn count(&self) -> u32 {
         let len = to_u32(DESCRIPTOR_LEN);
         match self.length.checked_rem(len) {
@@ -94,7 +93,7 @@ impl ReadDescriptors {
     }
 }
 
-/// No content is where a function is (SDA-12).
+/// Rejects the offset of a function, at which no content can be (SDA-12).
 fn content(task: Task, group: IndexGroup, offset: IndexOffset) -> Result<(), Error> {
     match Function::at(task, group, offset) {
         Some(_) => Err(Error::new(ErrorKind::Function, ELEMENT, 0, 0, offset.get())),
@@ -117,7 +116,8 @@ fn object(group: IndexGroup, offset: IndexOffset) -> Result<(ComGroup, IndexOffs
     Ok((com, offset))
 }
 
-/// An element whose content is not a function; the first element counts the others.
+/// Rejects an element that is a function; the first element of an instance is one, too: it has the
+/// number of elements.
 fn element(element: ElementAddress) -> Result<ElementAddress, Error> {
     content(Task::Sda, element.group(Attribute::Content), element.index_offset())?;
     Ok(element)
@@ -301,7 +301,7 @@ impl FindInstance {
         Self { class: ClassGroup::object_address(class), channel, axis }
     }
 
-    /// The same by index: channels and spindles are counted among the active ones.
+    /// The same query by index: channels and spindles are counted among the active ones.
     #[must_use]
     pub const fn by_index(mut self) -> Self {
         self.class.addressing = Addressing::Index;
@@ -313,7 +313,7 @@ impl FindInstance {
         self.class
     }
 
-    /// The channel and the axis that are asked for.
+    /// The channel and the axis of the query.
     pub const fn query(&self) -> ObjectAddressQuery {
         ObjectAddressQuery { channel: self.channel, axis: self.axis }
     }

@@ -1,4 +1,4 @@
-//! From an ADS request to the function it asks for.
+//! Dispatch of an ADS request to a function.
 
 use core::fmt;
 
@@ -9,7 +9,7 @@ use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
 use crate::layout::{Field, Stream};
 
-/// An ADS request as it reaches a CNC.
+/// An ADS request that a CNC receives.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.1 and 5.
 ///
@@ -30,7 +30,7 @@ use crate::layout::{Field, Stream};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Call<'a> {
-    /// The AMS port it was sent to.
+    /// The AMS port that it was sent to.
     pub port: AmsPort,
     /// The service.
     pub service: Service,
@@ -38,13 +38,13 @@ pub struct Call<'a> {
     pub index_group: IndexGroup,
     /// Index offset.
     pub index_offset: IndexOffset,
-    /// The most bytes the client takes; 0 for a Write.
+    /// The most bytes that the client accepts; 0 for a Write.
     pub read_length: u32,
-    /// The bytes that it sends; empty for a Read.
+    /// The data of the request; empty for a Read.
     pub data: &'a [u8],
 }
 
-/// Why a request could not be dispatched.
+/// The reason why a request could not be dispatched.
 ///
 /// ```
 /// use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -73,22 +73,21 @@ pub enum DispatchError {
     Port(AmsPort),
     /// No function of the task has this index group.
     Group(IndexGroup),
-    /// No function of the index group has this offset, or only content has it, which takes another
-    /// service.
+    /// No function of the index group has this offset, or only content that takes another service.
     Offset(IndexOffset),
     /// The function takes another service.
     Service {
-        /// The one it takes.
+        /// The service that the function takes.
         takes: Service,
-        /// The one asked for.
+        /// The service of the request.
         asked: Service,
     },
-    /// The bytes are not what the function takes.
+    /// The data is not a valid request of the function.
     Stream(Error),
 }
 
 impl DispatchError {
-    /// The number to answer with. Which one a CNC gives is not documented: assumed (ADS-7).
+    /// The error number of the response. A CNC's numbers are not documented: assumed (ADS-7).
     pub const fn ads_error(self) -> AdsError {
         match self {
             Self::Port(_) => AdsError::TARGET_PORT_NOT_FOUND,
@@ -112,14 +111,15 @@ impl fmt::Display for DispatchError {
     }
 }
 
-// The error of a stream is shown as this error: as its source, a chain would show it twice.
+// No `source`: `Display` shows the error of the stream, and a report with sources would show it twice.
 impl core::error::Error for DispatchError {}
 
 impl<'a> Call<'a> {
-    /// The function that is called and what it is asked.
+    /// The function that is called, with its arguments: the first row of the function table that matches
+    /// the call.
     ///
-    /// The first row of the function table that the call fits. SDA and GEO both answer for the
-    /// classes of the CNC (ADR-10, assumed). The server checks that its reply fits the read length.
+    /// SDA and GEO both serve the classes of the CNC (ADR-10, assumed). The server checks that its reply
+    /// fits the read length.
     ///
     /// ```
     /// use ads_cnc::address::{IndexGroup, IndexOffset};
@@ -165,7 +165,8 @@ impl<'a> Call<'a> {
                     _ => Request::decode(function, group, self),
                 };
             }
-            // Another service may still reach content here; not so where a function is (SDA-12).
+            // A later row may have content with this service at this offset, but not at the offset of
+            // a function (SDA-12).
             if !spec.is_content() {
                 return Err(DispatchError::Service { takes: spec.service, asked: self.service });
             }
@@ -173,7 +174,7 @@ impl<'a> Call<'a> {
         Err(error)
     }
 
-    /// A Read carries no data; on the wire it has no room for any.
+    /// The error for a Read with data, for which its stream has no field.
     #[cold]
     pub(super) fn read_with_data(&self) -> Error {
         let whole = Field::whole(Stream::ReadRequest);
@@ -189,7 +190,7 @@ const READ_REQUEST_LEN: u32 = Stream::ReadRequest.layout().max;
 mod tests {
     use super::*;
 
-    /// What dispatch would lose it refuses.
+    /// Dispatch rejects the data of a Read.
     #[test]
     fn a_read_has_no_data() {
         let read = Call {

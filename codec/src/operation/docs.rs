@@ -2,7 +2,7 @@
 
 macro_rules! documented {
     (CountObjects $($item:tt)+) => {
-        /// How many objects a list has.
+        /// Reads the number of objects in a list.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -18,8 +18,8 @@ macro_rules! documented {
     (ReadDescriptors $($item:tt)+) => {
         /// Reads descriptors of a list's objects, from one object on.
         ///
-        /// The read length asks for their number: a multiple of 84 for as many, anything else over 84
-        /// for one (the latter assumed, COM-3).
+        /// The read length gives their number: 84 bytes each. A length over 84 that is not a multiple of
+        /// it reads one (assumed, COM-3).
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -33,7 +33,7 @@ macro_rules! documented {
         $($item)+
     };
     (CountVariables $($item:tt)+) => {
-        /// How many variables of a kind a channel has; [`Kind::ALL`] asks for the sum of all kinds.
+        /// Reads the number of variables of a kind in a channel; [`Kind::ALL`] gives the sum of all kinds.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -193,7 +193,7 @@ macro_rules! documented {
         $($item)+
     };
     (AxisHandleByName $($item:tt)+) => {
-        /// Reads the handle of an axis variable, whose name is without that of the axis.
+        /// Reads the handle of an axis variable; the name does not contain the axis.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, ChannelAxis};
@@ -207,7 +207,7 @@ macro_rules! documented {
         $($item)+
     };
     (AxisReadByName $($item:tt)+) => {
-        /// Reads the value of an axis variable, whose name is without that of the axis.
+        /// Reads the value of an axis variable; the name does not contain the axis.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, ChannelAxis};
@@ -220,7 +220,7 @@ macro_rules! documented {
         $($item)+
     };
     (AxisWriteByName $($item:tt)+) => {
-        /// Writes an axis variable, whose name is without that of the axis.
+        /// Writes an axis variable; the name does not contain the axis.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, ChannelAxis};
@@ -234,7 +234,7 @@ macro_rules! documented {
         $($item)+
     };
     (CountDynamic $($item:tt)+) => {
-        /// How many parameters of a kind there are now. The index offset depends on the kind: P,
+        /// Reads the current number of parameters of a kind. The index offset depends on the kind: P,
         /// V.L, V.P, V.S.
         ///
         /// ```
@@ -317,11 +317,10 @@ macro_rules! documented {
         $($item)+
     };
     (CountElements $($item:tt)+) => {
-        /// How many element types an instance has: a read of the content of its first element.
+        /// Reads the number of element types of an instance: the content of its first element.
         ///
-        /// At an offset that is the first element's under the stride 0x1000 alone (the HLD's platform
-        /// axes, E-01), a server cannot tell this from [`ReadElement`](super::ReadElement) of four
-        /// bytes, and takes it for that.
+        /// At the offset of a first element by the stride 0x1000 (platform axes of the HLD, E-01) a server
+        /// dispatches it as [`ReadElement`](super::ReadElement) of four bytes.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
@@ -338,7 +337,7 @@ macro_rules! documented {
     (ReadElement $($item:tt)+) => {
         /// Reads the content of an element.
         ///
-        /// How long it is, the length attribute says.
+        /// The length attribute of the element is its size.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, Class, ElementAddress};
@@ -359,7 +358,7 @@ macro_rules! documented {
     (WriteElement $($item:tt)+) => {
         /// Writes the content of an element. It may set the machine in motion.
         ///
-        /// Whether the element may be written, the write flag says.
+        /// The write flag tells whether the element may be written.
         ///
         /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
         ///
@@ -375,7 +374,7 @@ macro_rules! documented {
         $($item)+
     };
     (ReadElementName $($item:tt)+) => {
-        /// Reads the name of an element. That of the first element names the instance.
+        /// Reads the name of an element. The name of the first element is that of the instance.
         ///
         /// ```
         /// use ads_cnc::address::{Channel, Class, ElementAddress};

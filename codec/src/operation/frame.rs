@@ -7,7 +7,7 @@ use crate::stream::{Decode, Encode};
 
 impl<'a> Call<'a> {
     /// The call that a frame carries; `None` if its command is not one of the three services.
-    /// Whether the flags say that it is a request is not looked at.
+    /// The state flags are not checked.
     ///
     /// ```
     /// use ads_cnc::Encode;
@@ -55,10 +55,10 @@ impl<'a> Call<'a> {
     }
 }
 
-/// As the request of its service: what a frame to the call's port carries.
+/// Encodes the request of the service: the data of a frame to the call's port.
 ///
-/// A Read with data is refused with [`Trailing`](crate::ErrorKind::Trailing), as
-/// [`dispatch`](Call::dispatch) does: it has no room for any. A Write has none for a read length.
+/// A Read with data is rejected with [`Trailing`](crate::ErrorKind::Trailing), as by
+/// [`dispatch`](Call::dispatch). The read length of a Write is not encoded.
 impl Encode for Call<'_> {
     fn encoded_len(&self) -> usize {
         match self.service {

@@ -1,17 +1,17 @@
-//! The function table: one row for each function, in the manual's order. Everything else that is
-//! known of a function is made of its row.
+//! The function table: one row for each function, in the manual's order. The types of a function and
+//! its dispatch are generated from its row.
 //!
 //! A row: the function, its name in reports, ADS service, task and effect, index groups, index
 //! offsets, requirement, section; the parts of its address and, after `;`, the fields of its
-//! request, by their [`field!`] kinds; the request's stream, made of these fields; the type of the
+//! request, with their [`field!`] kinds; the request's stream, built from these fields; the type of the
 //! reply.
 //!
-//! - `plain`, `checked`: how the constructor takes the parts; `by_hand`: it is in `by_hand.rs`.
-//! - `asks 2048`: the read length, if it is not the most that the reply's stream has.
+//! - `plain`: the constructor cannot fail; `checked`: it can; `by_hand`: it is in `by_hand.rs`.
+//! - `asks 2048`: the read length, if it is not the maximum length of the reply's stream.
 //! - `sized length`: the caller chooses the read length.
 //!
-//! Dispatch takes the first row that the call fits. Access to content fits wherever its group does,
-//! so that its rows come after those of the other functions of the group (SDA-12).
+//! Dispatch takes the first row that matches the call. The rows of access to content match every offset
+//! of their groups, so they follow the other functions of the group (SDA-12).
 
 use super::address::Address;
 use super::docs::documented;

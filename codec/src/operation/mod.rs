@@ -1,4 +1,4 @@
-//! The functions of a CNC: where each is, what goes in, what comes out.
+//! The functions of a CNC: the address, the request and the reply of each.
 //!
 //! A client builds an [`Operation`] and sends what it encodes over any transport:
 //!
@@ -15,8 +15,8 @@
 //! # Ok::<(), ads_cnc::Error>(())
 //! ```
 //!
-//! A server hands what it received to [`Call::dispatch`] and answers the [`Request`] with a
-//! [`Reply`]. What dispatch makes of an encoded operation encodes to the same bytes.
+//! A server passes a received request to [`Call::dispatch`] and answers the [`Request`] with a
+//! [`Reply`]. A dispatched request encodes to the bytes received.
 
 mod address;
 mod argument;

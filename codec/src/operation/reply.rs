@@ -10,7 +10,7 @@ use crate::variable::{
     DescriptionByNameRef, DescriptionRef, ExtendedReply, Handle, ValueRef, VariableCount,
 };
 
-/// Declares [`Reply`] and what all its variants have in common.
+/// Declares [`Reply`], with the encoding and the conversion of each variant.
 macro_rules! replies {
     (
         $(#[$doc:meta])*
@@ -42,7 +42,7 @@ macro_rules! replies {
 }
 
 replies! {
-    /// Any reply: what a server answers, what a tool shows.
+    /// Any reply: the response that a server sends or a tool shows.
     ///
     /// ```
     /// use ads_cnc::operation::Reply;
@@ -75,7 +75,7 @@ replies! {
         DynamicName(DynamicNameRef<'a>),
         /// Value of a dynamic parameter.
         DynamicValue(DynamicValue),
-        /// Address of an instance, or none.
+        /// Address of an instance, or [`ObjectAddress::NONE`].
         ObjectAddress(ObjectAddress),
         /// Number of element types.
         ElementCount(ElementCount),
@@ -87,7 +87,7 @@ replies! {
         ElementWriteFlag(ElementWriteFlag),
         /// Content of an object or element.
         Content(ContentRef<'a>),
-        /// Nothing, of a write.
+        /// The reply to a write, which has no data.
         NoData(NoData),
     }
 }

@@ -1,4 +1,4 @@
-//! A row of the function table, and the macro that makes everything of the rows.
+//! A row of the function table, and the macro that generates types and dispatch from the rows.
 
 use super::{GroupRule, OffsetRule, Service, Task};
 use crate::address::Group;
@@ -37,7 +37,7 @@ pub struct FunctionSpec {
     pub reply: Option<Stream>,
     /// The requirement that defines it.
     pub clause: &'static str,
-    /// Section of `ads-en` 1.05 and of `ads-de` 1.051; another document is named.
+    /// Section of `ads-en` 1.05 and of `ads-de` 1.051, or of the document named.
     pub section: &'static str,
 }
 
@@ -48,8 +48,8 @@ impl FunctionSpec {
         matches!(self.request, Some(Stream::Content)) || matches!(self.reply, Some(Stream::Content))
     }
 
-    /// Whether the function has this group on this task. SDA and GEO both answer for the classes
-    /// (ADR-10, assumed).
+    /// Whether the function has this group on this task. SDA and GEO both serve the classes (ADR-10,
+    /// assumed).
     pub(super) const fn is_in(&self, task: Task, group: Group) -> bool {
         matches!(self.task, Task::Com) == matches!(task, Task::Com) && self.group.contains(group)
     }
@@ -68,7 +68,7 @@ impl FunctionSpec {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Effect {
-    /// Nothing.
+    /// None.
     Query,
     /// Changes a value.
     Write,
@@ -76,8 +76,8 @@ pub enum Effect {
     Motion,
 }
 
-/// Declares the functions by their rows: `Function` with its specs, the typed operations, `Request`
-/// and what dispatch finds.
+/// Declares the functions by their rows: `Function` with its specs, the typed operations, `Request` and
+/// its decoding.
 macro_rules! functions {
     ($(
         $function:ident $(<$a:lifetime>)? $name:literal: $service:ident $task:ident $effect:ident,
@@ -131,7 +131,7 @@ macro_rules! functions {
             }
         }
 
-        /// Any operation: what a server is asked, what a tool shows.
+        /// Any operation: the request that a server receives or a tool shows.
         ///
         /// ```
         /// use ads_cnc::address::Channel;
@@ -156,12 +156,12 @@ macro_rules! functions {
         )+ }
 
         impl<'a> Request<'a> {
-            /// Which function is called.
+            /// The function that is called.
             pub const fn function(&self) -> Function {
                 match self { $( Self::$function(_) => Function::$function, )+ }
             }
 
-            /// The call as it goes out: to the function's port, with its service.
+            /// Encodes the call, with the port and the service of the function.
             ///
             /// # Errors
             /// Those of [`Operation::encode`].
@@ -169,7 +169,7 @@ macro_rules! functions {
                 call(self.function(), self.parts(), buf)
             }
 
-            /// How many bytes the data of the call has.
+            /// The number of bytes of the call's data.
             pub fn encoded_len(&self) -> usize {
                 self.parts().encoded_len()
             }
@@ -178,7 +178,7 @@ macro_rules! functions {
                 match self { $( Self::$function(operation) => operation, )+ }
             }
 
-            /// Reads the data received.
+            /// Decodes the data received.
             ///
             /// # Errors
             /// Those of [`Operation::decode_reply`].
@@ -188,7 +188,7 @@ macro_rules! functions {
                 )+ }
             }
 
-            /// What a function is asked that has the address and the service of a call.
+            /// The request to a function that has the address and the service of a call.
             pub(super) fn decode(
                 function: Function,
                 group: Group,

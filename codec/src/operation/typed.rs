@@ -1,4 +1,4 @@
-//! Typed operations: the trait, and the macro that declares one by its row of the table.
+//! Typed operations: the trait, and the macro that declares an operation by its row of the table.
 
 use super::{Call, Function, Service};
 use crate::address::{IndexGroup, IndexOffset};
@@ -10,8 +10,8 @@ pub(super) mod sealed {
     pub trait Sealed {}
 }
 
-/// What a call is made of. The operations share the code that puts it together, which firmware would
-/// have 30 times otherwise.
+/// The parts of a call. A trait object, so that all operations share the code that builds the call:
+/// firmware would have it 30 times otherwise.
 pub(super) trait Parts {
     fn index_group(&self) -> IndexGroup;
     fn index_offset(&self) -> IndexOffset;
@@ -120,16 +120,16 @@ pub trait Operation: sealed::Sealed {
         const { Self::FUNCTION.spec().service }
     }
 
-    /// The index group to send it to.
+    /// The index group of the request.
     fn index_group(&self) -> IndexGroup;
 
-    /// The index offset to send it to.
+    /// The index offset of the request.
     fn index_offset(&self) -> IndexOffset;
 
-    /// The most bytes the reply has, to be sent as the read length; 0 for a Write.
+    /// The most bytes of the reply, sent as the read length; 0 for a Write.
     fn read_length(&self) -> u32;
 
-    /// How many bytes [`encode`](Self::encode) writes.
+    /// The number of bytes that [`encode`](Self::encode) writes.
     fn encoded_len(&self) -> usize;
 
     /// Writes the data to send, if any, to the front of `buf`.
@@ -138,7 +138,7 @@ pub trait Operation: sealed::Sealed {
     /// A value that the function does not take, or a buffer that is too small; nothing is written.
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error>;
 
-    /// Encodes the data into `buf` and puts the address, the service and the read length to it.
+    /// Encodes the data into `buf` and returns it with the address, the service and the read length.
     ///
     /// # Errors
     /// Those of [`encode`](Self::encode).
@@ -149,7 +149,7 @@ pub trait Operation: sealed::Sealed {
         call(Self::FUNCTION, self, buf)
     }
 
-    /// Reads the data received.
+    /// Decodes the data received.
     ///
     /// # Errors
     /// Those of the reply's stream, and a reply longer than was asked for.
@@ -158,9 +158,9 @@ pub trait Operation: sealed::Sealed {
     }
 }
 
-/// The kinds of fields of operations, one line each: the type, what a constructor takes, how it
-/// makes the field of that, how the field goes into the stream, and its documentation. First, what a
-/// constructor rejects.
+/// The kinds of fields of operations, one line each: the type of the field, the type of the
+/// constructor's argument, the conversion of the argument to the field and of the field to the stream,
+/// and the documentation. The first lines document the errors of the constructors.
 macro_rules! field {
     (errors Name)    => { "Those of [`IntoName::into_name`]." };
     (errors CStringPrefix) => { "Those of [`IntoName::into_name`]." };
@@ -229,7 +229,7 @@ macro_rules! operation {
         }
 
         impl $(<$a>)? $function $(<$a>)? {
-            /// The operation that a server is asked for at an address that the rules contain.
+            /// The operation of a call whose address the rules contain.
             fn dispatched<'c>(group: Group, call: &Call<'c>) -> Result<Request<'c>, DispatchError> {
                 let rule = const { Function::$function.spec().offset };
                 let ($( $part, )+) = Address::from_call(group, call.index_offset, rule)

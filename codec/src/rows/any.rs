@@ -22,7 +22,7 @@ pub(crate) fn text(u: Any<'_, '_>, max: usize) -> arbitrary::Result<CncString> {
     Ok(CncString::without_nul(bytes))
 }
 
-/// Text and its NUL, followed by NULs if it `is_padded`, else by anything.
+/// Text and its NUL, followed by NULs if it `is_padded`, else by any bytes.
 pub(crate) fn ended(u: Any<'_, '_>, max: usize, is_padded: bool) -> arbitrary::Result<Text> {
     let text = text(u, max.saturating_sub(1))?;
     let left = max.saturating_sub(1).saturating_sub(text.as_bytes().len());
@@ -33,7 +33,7 @@ pub(crate) fn ended(u: Any<'_, '_>, max: usize, is_padded: bool) -> arbitrary::R
     Ok(Text { text, tail: Some(tail) })
 }
 
-/// The same, or without the NUL.
+/// The same, with or without the NUL.
 pub(crate) fn open(u: Any<'_, '_>, max: usize, is_padded: bool) -> arbitrary::Result<Text> {
     let ended = ended(u, max, is_padded)?;
     let is_open = !ended.text.as_bytes().is_empty() && u.arbitrary()?;

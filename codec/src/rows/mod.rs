@@ -35,7 +35,7 @@ pub(crate) trait Row {
         field: Field,
         at: usize,
     ) -> Result<Self::View<'a>, Error>;
-    /// Bytes that it is encoded to, a count included.
+    /// The length of the encoded row, a count included.
     fn len(view: Self::View<'_>) -> usize;
     /// Rejects what `read` would reject; the row, a count included, begins at `at`.
     #[inline]
@@ -61,7 +61,7 @@ pub(crate) trait Owned: Row {
 
     fn own(view: Self::View<'_>) -> Self::Type;
     fn lend(owned: &Self::Type) -> Self::View<'_>;
-    /// Takes the row's bytes from a reader; `read` rejects what is wrong with them.
+    /// Pulls the row's bytes from a reader; `read` checks them.
     #[cfg(feature = "binrw")]
     fn pull(from: &mut impl Pull) -> binrw::io::Result<()>;
     /// A value that a stream can have, with at most `room` bytes beyond the fewest.

@@ -198,7 +198,7 @@ mod owned {
     use crate::io::Pull;
     use crate::text::{CncString, Text};
 
-    /// Rows that are text with what follows its NUL.
+    /// Rows that are text with a tail.
     macro_rules! texts {
         ($(
             [$($generics:tt)*] $row:ty, at most $max:ident,

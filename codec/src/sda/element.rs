@@ -11,7 +11,7 @@ use crate::stream::{Decode, Encode};
 stream! {
     /// The number of element types of an instance.
     ///
-    /// Elements are counted from the first one on, which is not counted itself (assumed).
+    /// The first element of the instance is not counted (assumed).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 2.2.2. The width is assumed.
     ///
@@ -37,7 +37,7 @@ stream! {
     /// The name, type or unit of an element.
     ///
     /// The text ends at its first NUL or with the reply (assumed). Bytes after the NUL are kept. An
-    /// empty reply is an empty text, and 256 bytes are the most that are asked for (assumed).
+    /// empty reply is an empty text. The read length is 256 bytes (assumed).
     ///
     /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
     ///
@@ -58,12 +58,12 @@ stream! {
 
 #[doc = include_str!("../../doc/element-length.md")]
 ///
-/// How wide the number is, is not documented: one, two and four bytes are accepted, four are
-/// written of a new one (assumed).
+/// The width of the number is not documented (assumed: one, two or four bytes). A new length is written
+/// in four bytes.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 2.2.1 and 2.2.2.
 ///
-/// `decode` refuses with [`Truncated`](crate::ErrorKind::Truncated) or
+/// `decode` rejects bytes with [`Truncated`](crate::ErrorKind::Truncated) or
 /// [`Trailing`](crate::ErrorKind::Trailing).
 ///
 /// ```
@@ -85,7 +85,7 @@ pub struct ElementLength {
     width: Width,
 }
 
-/// In how many bytes a length was found.
+/// The bytes that the number has in the stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "arbitrary", derive(arbitrary::Arbitrary))]
 enum Width {
@@ -138,13 +138,13 @@ impl Encode for ElementLength {
     }
 
     fn encode<'b>(&self, buf: &'b mut [u8]) -> Result<&'b [u8], Error> {
-        // A narrow number is only ever read, so that nothing is cut off.
+        // A narrow number was decoded from as many bytes, so no digit is lost.
         let all = self.length.to_le_bytes();
         Writer::copy(Self::STREAM, all.get(..self.encoded_len()).unwrap_or_default(), buf)
     }
 }
 
-/// The length by the type of its width.
+/// The length, tagged with the type of its width.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
@@ -223,7 +223,7 @@ impl ElementWriteFlag {
     /// TRUE, as written.
     pub const WRITABLE: Self = Self(1);
 
-    /// Whether this is TRUE: anything but 0, and kept.
+    /// Whether the flag is TRUE: any byte but 0.
     pub const fn is_writable(self) -> bool {
         self.0 != 0
     }

@@ -1,7 +1,7 @@
 //! Elements of the classes that the SDA and GEO tasks serve (SDA-1 … SDA-12).
 //!
-//! Which instances of a class there are, one query each tells; an instance is a row of elements
-//! from its first one on, and each element has attributes in index groups of its own:
+//! A query returns the address of an instance of a class, if it exists. An instance is a list of
+//! elements, and each attribute of an element has its own index group:
 //!
 //! | attribute | group | read with | reply |
 //! |---|---|---|---|

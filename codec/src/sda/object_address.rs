@@ -8,7 +8,7 @@ use crate::layout::Field;
 stream! {
     /// Asks for the address of an instance of a class.
     ///
-    /// Which numbers a class takes:
+    /// The numbers of each class:
     ///
     /// | class | channel | axis |
     /// |---|---|---|

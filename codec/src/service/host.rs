@@ -1,4 +1,4 @@
-//! The side of the external services.
+//! The host of external services.
 
 use super::value::{ServiceText, not_zero};
 use super::{ServiceId, ServiceVariable};
@@ -7,33 +7,32 @@ use crate::text::CncStr;
 
 /// One or more services that listen on the Service Interface of one channel.
 ///
-/// It reads REQUEST_STATE; if that is not 0, UUID; if that is one of its own, REQUEST; and then all
-/// three again. What was twice the same is a request, and is handed out (SVC-2): between two reads
-/// the program may have gone on to ask another service. When it is given the answer, the host
-/// 1. reads the three once more, and drops the answer if they are not what they were: the program
-///    has given up, another service is asked now, or the CNC was reset,
+/// It reads REQUEST_STATE; if that is not 0, UUID; if that is one of its services, REQUEST; and then
+/// all three again. If the values are the same both times, they are a request, which the host hands out
+/// (SVC-2): between two reads the program may have called another service. With the answer, the host
+/// 1. reads the three once more, and drops the answer if one has changed: the program has given up or
+///    called another service, or the CNC was reset,
 /// 2. writes RESPONSE,
-/// 3. writes 0 to REQUEST_STATE, as nobody documents whether and when a CNC does (SVC-4),
-/// 4. writes RESPONSE_STATE, which is what the program waits for (SVC-5). It comes last, as a write
-///    of REQUEST_STATE resets it (SVC-3).
+/// 3. writes 0 to REQUEST_STATE, as it is not documented whether and when a CNC does (SVC-4),
+/// 4. writes RESPONSE_STATE, for which the program waits (SVC-5). It is last, as a write of
+///    REQUEST_STATE resets it (SVC-3).
 ///
-/// The order of the last two and the repeated reads are assumed. Between the last read and the
-/// writes a program may still give up and ask anew: the interface has nothing that tells a late
-/// answer from one to the request that has come since. Nor does it tell a request from an earlier
-/// one of the same UUID, text and state.
+/// The order of the last two and the repeated reads are assumed. Between the last read and the writes a
+/// program may still give up and make another request: the interface does not distinguish an answer to
+/// the earlier request from one to the later, nor two requests with the same UUID, text and state.
 ///
 /// # When something fails
-/// Every step stays the same until its end is reported, by [`read`](Self::read),
-/// [`written`](Self::written), [`answer`](Self::answer) or [`poll`](Self::poll). A read can just be
-/// repeated. Of a write that failed, report [`failed`](Self::failed): it may have arrived all the
-/// same, and the program gone on with it. So the host looks before it writes again.
+/// A step stays the same until the caller reports its end, by [`read`](Self::read),
+/// [`written`](Self::written), [`answer`](Self::answer) or [`poll`](Self::poll). A read can be
+/// repeated. Report a failed write by [`failed`](Self::failed): the value may have been written, and the
+/// program may have continued. So the host reads before it writes again.
 ///
-/// In one case that does not help, as nothing in the interface tells it: of two hosts on one channel
-/// one is told that its write of RESPONSE_STATE failed, and it arrived. If the program has then asked
-/// the other's service, and asks the first's again while that looks, the state is written once more
-/// and ends a request that nobody has served. One host for all services of a channel is safe.
+/// The interface does not show one case: two hosts share a channel, and the first one's write of
+/// RESPONSE_STATE is reported as failed but was done. If the program then calls a service of the second
+/// host, and a service of the first again while the first host reads, this host writes the state once
+/// more and ends a request that it has not served. One host for all services of a channel is safe.
 ///
-/// When the CNC was reset or the connection is a new one, [`restart`](Self::restart).
+/// After a reset of the CNC or on a new connection, call [`restart`](Self::restart).
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2.
 ///
@@ -54,7 +53,7 @@ use crate::text::CncStr;
 /// let HostStep::Serve { request, .. } = host.step() else { panic!() };
 /// assert_eq!(request, "3");
 ///
-/// // Refused before anything is written: the program would wait for ever.
+/// // Rejected before anything is written: the program would wait for ever.
 /// assert!(host.answer(CncStr::new("1.732051")?, 0).is_err());
 /// host.answer(CncStr::new("1.732051")?, 1)?;
 /// # Ok::<(), ads_cnc::Error>(())
@@ -76,11 +75,11 @@ pub struct Host<'s> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     Idle,
-    // Is there a request, and whose?
+    // Is there a request, and to which service?
     PollState,
     PollUuid,
     PollRequest,
-    // Is it still there? Before it is handed out, and before it is answered.
+    // Is it unchanged? Before it is handed out, and before it is answered.
     CheckState,
     CheckUuid,
     CheckRequest,
@@ -91,9 +90,9 @@ enum Phase {
     Clear,
     /// Writes RESPONSE_STATE.
     Finish,
-    /// The write of REQUEST_STATE failed: did it arrive?
+    /// The write of REQUEST_STATE failed: was it done?
     LookCleared,
-    // The write of RESPONSE_STATE failed: did it arrive, or is there still nothing else?
+    // The write of RESPONSE_STATE failed: was it done, or is the interface unchanged?
     LookResponseState,
     LookRequestState,
     LookUuid,
@@ -134,20 +133,21 @@ pub enum HostStep<'a> {
     Read(ServiceVariable),
     /// Write this value to this variable, then call [`Host::written`] or [`Host::failed`].
     Write(ServiceVariable, &'a [u8]),
-    /// Do what is asked, as long as it takes, then call [`Host::answer`].
+    /// Serve the request, then call [`Host::answer`].
     Serve {
-        /// The service that is asked, as it was given to [`Host::new`].
+        /// The service that is called, as it was given to [`Host::new`].
         uuid: &'a ServiceId,
         /// The text of the request.
         request: CncStr<'a>,
         /// The request state; not 0.
         request_state: u32,
     },
-    /// There is nothing to do; let some time pass, then call [`Host::poll`].
+    /// Let some time pass, then call [`Host::poll`].
     Wait,
 }
 
-/// How an answer ended: [`Host::outcome`]. The manuals know only the first; the other is assumed.
+/// The outcome of an answer: [`Host::outcome`]. The manuals describe only the first; the other is
+/// assumed.
 ///
 /// ```
 /// use ads_cnc::CncStr;
@@ -169,14 +169,14 @@ pub enum HostStep<'a> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Outcome {
-    /// It was written.
+    /// The answer was written.
     Answered,
-    /// It was dropped, or not all of it written: the request was no longer there.
+    /// The answer was dropped or written in part: the request was withdrawn.
     Abandoned,
 }
 
 impl<'s> Host<'s> {
-    /// Services on one channel. Of two with the same UUID the first is asked.
+    /// Services on one channel. Of two with the same UUID the first is called.
     pub const fn new(services: &'s [ServiceId]) -> Self {
         Self {
             services,
@@ -200,7 +200,7 @@ impl<'s> Host<'s> {
             Phase::Clear => HostStep::Write(ServiceVariable::RequestState, &[0; 4]),
             Phase::Finish => HostStep::Write(ServiceVariable::ResponseState, &self.response_state),
             Phase::Serving => {
-                // It was found there.
+                // The index was found in the list.
                 self.services.get(self.service).map_or(HostStep::Wait, |uuid| HostStep::Serve {
                     uuid,
                     request: self.request.text(),
@@ -223,8 +223,8 @@ impl<'s> Host<'s> {
     ///   state of not just four bytes,
     /// - [`TooLong`](crate::ErrorKind::TooLong): a request of more than 128 bytes with its NUL.
     ///
-    /// What is wrong when it looks for a request is none; it waits for the next
-    /// [`poll`](Self::poll). Later it reads again.
+    /// While it polls, an invalid value means that it waits for the next [`poll`](Self::poll). After
+    /// that it reads the value again.
     pub fn read(&mut self, value: &[u8]) -> Result<(), Error> {
         let Some(variable) = self.phase.asks() else {
             return Ok(());
@@ -260,7 +260,7 @@ impl<'s> Host<'s> {
             Phase::CheckUuid => self.go_on(self.is_own(value), Phase::CheckRequest),
             Phase::CheckRequest => {
                 let next = if self.has_answer() { Phase::Respond } else { Phase::Serving };
-                // One too long is another.
+                // A text that is too long differs from the request.
                 self.go_on(request() == Ok(self.request), next)
             }
             Phase::LookResponseState if state()?.to_le_bytes() == self.response_state => {
@@ -274,9 +274,9 @@ impl<'s> Host<'s> {
         Ok(())
     }
 
-    /// The next phase if all is as it was; otherwise the request is not there any more.
-    fn go_on(&mut self, as_it_was: bool, next: Phase) -> Phase {
-        match as_it_was {
+    /// The next phase if the values are unchanged; otherwise the request was withdrawn.
+    fn go_on(&mut self, is_unchanged: bool, next: Phase) -> Phase {
+        match is_unchanged {
             true => next,
             false if self.has_answer() => self.end(Outcome::Abandoned),
             false => Phase::Idle,
@@ -302,8 +302,8 @@ impl<'s> Host<'s> {
         Phase::Idle
     }
 
-    /// The answer to the request that [`step`](Self::step) has handed out; does nothing if there
-    /// is none.
+    /// Takes the answer to the request that [`step`](Self::step) has handed out; does nothing without a
+    /// request.
     ///
     /// # Errors
     /// Nothing is written then, and another answer can be given:
@@ -330,8 +330,8 @@ impl<'s> Host<'s> {
         };
     }
 
-    /// A step failed. After a write that may have arrived the host looks at the interface before
-    /// it writes again; any other step stays as it is.
+    /// A step failed. After a write, which may have been done, the host reads the interface before it
+    /// writes again; a read stays the next step.
     pub fn failed(&mut self) {
         self.phase = match self.phase {
             Phase::Respond => Phase::CheckState,

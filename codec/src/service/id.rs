@@ -8,14 +8,14 @@ use crate::bytes::to_u32;
 use crate::error::{Error, ErrorKind};
 use crate::text::CncStr;
 
-/// Where a UUID has its hyphens.
+/// The offsets of the hyphens in a UUID.
 const HYPHENS: [usize; 4] = [8, 13, 18, 23];
 
 /// The UUID of a service, as it was written.
 ///
 /// 8, 4, 4, 4 and 12 hexadecimal digits with hyphens between them, as in the examples; that a
 /// UUID has no other form is assumed. Two are equal without regard to case, which is assumed
-/// (SVC-7); what is written to the CNC keeps its case.
+/// (SVC-7); the CNC gets the UUID with its case unchanged.
 ///
 /// Manual: `service-en` and `service-de` 1.03, section 2. The UUID of the example has a digit too
 /// few in the NC program (E-21):

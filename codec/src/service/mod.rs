@@ -1,18 +1,18 @@
-//! The Service Interface: how a CNC program asks a service outside the CNC, and gets its answer.
+//! The Service Interface, by which a CNC program calls a service outside the CNC and gets its answer.
 //!
 //! Five variables of each channel carry one request at a time (SVC-1):
 //!
-//! | variable | type | says |
+//! | variable | type | meaning |
 //! |---|---|---|
-//! | [`V.G.SERVICE.UUID`](ServiceVariable::Uuid) | STRING | which service is asked: [`ServiceId`] |
-//! | [`V.G.SERVICE.REQUEST`](ServiceVariable::Request) | STRING, 128 bytes | what it is asked |
+//! | [`V.G.SERVICE.UUID`](ServiceVariable::Uuid) | STRING | the service that is called: [`ServiceId`] |
+//! | [`V.G.SERVICE.REQUEST`](ServiceVariable::Request) | STRING, 128 bytes | the request |
 //! | [`V.G.SERVICE.REQUEST_STATE`](ServiceVariable::RequestState) | UNS32 | not 0: there is a request |
 //! | [`V.G.SERVICE.RESPONSE_STATE`](ServiceVariable::ResponseState) | UNS32 | not 0: there is a response |
-//! | [`V.G.SERVICE.RESPONSE`](ServiceVariable::Response) | STRING, 128 bytes | what it answered |
+//! | [`V.G.SERVICE.RESPONSE`](ServiceVariable::Response) | STRING, 128 bytes | the response |
 //!
 //! [`Host`] is the external service, or several of them on one channel: a state machine without I/O,
-//! clock or allocation. It says which variable is to be read or written next; the caller does it, over
-//! ADS by [`ReadByName`](crate::operation::ReadByName) for one, and says how it went.
+//! clock or allocation. It returns the variable to read or write next; the caller does so, for example
+//! over ADS by [`ReadByName`](crate::operation::ReadByName), and reports the result.
 //!
 //! Manual: `service-en` and `service-de` 1.03, sections 1 and 2. A CNC has it from V2.11.2030.01 and
 //! V3.1.3057.03 on.

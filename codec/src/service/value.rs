@@ -1,4 +1,4 @@
-//! The values of the five variables, as they are read and written.
+//! The values of the five variables.
 
 use core::fmt;
 
@@ -103,7 +103,7 @@ impl ServiceVariable {
     }
 }
 
-/// A state that has to tell something: not 0.
+/// The bytes of a state, which must not be 0.
 pub(super) fn not_zero(state: u32, variable: ServiceVariable) -> Result<[u8; 4], Error> {
     match state {
         0 => Err(Error::new(ErrorKind::OutOfRange, variable.field(), 0, 1, 0)),

@@ -28,7 +28,7 @@ use crate::variable::VariableType;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ServiceVariable {
-    /// Which service is asked.
+    /// The service that is called.
     Uuid,
     /// The text of the request.
     Request,

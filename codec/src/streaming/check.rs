@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::words::{LoopWord, ProgramEnd};
 
-/// Something in a text that streaming does not permit, or that would be lost.
+/// A construct that streaming does not permit, or a line that would be lost.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6.
 ///
@@ -12,10 +12,10 @@ use super::words::{LoopWord, ProgramEnd};
 /// use ads_cnc::streaming::{DiagnosticKind, LoopWord, NcText};
 ///
 /// let text = NcText::new(b"N10 G0 X0\nN20 $FOR P1=0,10,1 (ten times)\n")?;
-/// let finding = text.diagnostics().next().unwrap();
-/// assert_eq!((finding.line, finding.column), (2, 5));
-/// assert_eq!(finding.kind, DiagnosticKind::Loop(LoopWord::For));
-/// assert_eq!(finding.to_string(), "line 2, column 5: $FOR in a stream (STM-8)");
+/// let diagnostic = text.diagnostics().next().unwrap();
+/// assert_eq!((diagnostic.line, diagnostic.column), (2, 5));
+/// assert_eq!(diagnostic.kind, DiagnosticKind::Loop(LoopWord::For));
+/// assert_eq!(diagnostic.to_string(), "line 2, column 5: $FOR in a stream (STM-8)");
 /// # Ok::<(), ads_cnc::streaming::LineError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,7 +45,7 @@ pub struct Diagnostic {
 pub enum DiagnosticKind {
     /// A word of a loop (STM-8).
     Loop(LoopWord),
-    /// `$GOTO` to a label that is not below (STM-8).
+    /// `$GOTO` to a label that is not in a later line (STM-8).
     BackwardJump {
         /// The line of the label.
         to: u32,
@@ -63,7 +63,7 @@ pub enum DiagnosticKind {
 }
 
 impl DiagnosticKind {
-    /// The requirement it is about.
+    /// The requirement that the text violates.
     pub const fn clause(self) -> &'static str {
         match self {
             Self::Loop(_) | Self::BackwardJump { .. } => "STM-8",

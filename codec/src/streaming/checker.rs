@@ -6,21 +6,19 @@ use super::labels::{self, Labels};
 use super::scan::{Position, Scan, ScanState, Token, Word};
 use super::{Diagnostic, DiagnosticKind, NcText, ProgramEnd};
 
-/// Checks a program as the CNC gets it: some lines, later some more.
+/// Checks a program that arrives in parts, such as the packets that a CNC receives.
 ///
-/// It finds what [`Diagnostics`] has of the whole text, by the same rules, and tells where a program
-/// ends. Comment blocks, labels, program ends and line numbers go over from
-/// one lot of lines to the next. Two things it cannot see: lines that are still to come, and what
-/// is long gone.
-/// - A jump goes back if its label is in its own line or above, and not below *in the lines that
-///   came with it* (assumed). If those are cut elsewhere, a label that is both above and below may
-///   make a difference; nothing else does.
+/// It reports the same diagnostics as [`Diagnostics`] of the whole text, and the ends of programs.
+/// Comment blocks, labels, program ends and line numbers are carried over from one part to the next. Two
+/// differences remain, as it knows neither later lines nor all earlier ones:
+/// - A jump goes back if its label is in its own line or an earlier one, and not in a later line *of the
+///   same part* (assumed). Only for a label that is in both does the result depend on the parts.
 /// - At least the last [`LABELS_KNOWN`](Self::LABELS_KNOWN) labels are known, as long as they have
 ///   no more than [`CHARACTERS_KNOWN`](Self::CHARACTERS_KNOWN) characters together. A jump back to
-///   one that is forgotten is not found.
+///   an older label is not detected.
 ///
-/// It does not mind line ends, the length of a line or characters that are not ASCII:
-/// [`check_line_ends`](super::check_line_ends) checks the first, [`NcText`](super::NcText) all.
+/// It does not check line ends, the length of a line or that characters are ASCII:
+/// [`check_line_ends`](super::check_line_ends) checks the first, [`NcText`](super::NcText) all three.
 ///
 /// Manual: `stream-en`, sections 2.2, 2.3.3, 2.3.4 and 2.3.6 (STM-8, STM-9, STM-10).
 ///
@@ -50,7 +48,7 @@ pub struct Checker {
 #[derive(Clone)]
 struct Judge {
     labels: Labels,
-    /// The program end after which no line with code has been seen.
+    /// The last program end, if no line with code has followed.
     end: Option<(ProgramEnd, u32)>,
 }
 
@@ -82,14 +80,14 @@ impl CheckEvent {
     /// The line, from 1.
     pub const fn line(&self) -> u32 {
         match self {
-            Self::Diagnostic(finding) => finding.line,
+            Self::Diagnostic(diagnostic) => diagnostic.line,
             Self::ProgramEnd { line, .. } => *line,
         }
     }
 }
 
 impl Checker {
-    /// The least number of labels that are remembered.
+    /// The number of labels that are remembered at least.
     pub const LABELS_KNOWN: usize = labels::LABELS;
 
     /// The most characters that these labels may have together.
@@ -103,8 +101,8 @@ impl Checker {
 
     /// Checks the next lines; returns their events in the order of the text.
     ///
-    /// The lines must be complete; a last line without its end counts as one. They count as checked
-    /// even if the iterator is dropped early.
+    /// The lines must be complete; a last line without its end is one, too. All are checked even if the
+    /// iterator is dropped early.
     pub fn check<'c>(&'c mut self, lines: &'c [u8]) -> CheckEvents<'c> {
         let scan = Scan::resume(self.state, lines);
         self.state = self.judge.look_ahead(scan.clone());
@@ -209,7 +207,7 @@ impl Iterator for CheckEvents<'_> {
     }
 }
 
-/// Looks at the lines that are left: a program end in them matters for those to come.
+/// Checks the lines that are left: a program end in them affects later lines.
 impl Drop for CheckEvents<'_> {
     fn drop(&mut self) {
         while self.next().is_some() {}
@@ -224,7 +222,7 @@ impl fmt::Debug for CheckEvents<'_> {
 
 /// The diagnostics of a text, in its order; an open comment block comes last.
 ///
-/// The rules where this manual is silent: *online* marks those of the maker's public help for the
+/// The rules that this manual does not have: *online* marks those of the vendor's public help for the
 /// NC language, *assumed* those without a source:
 /// - Words and labels compare without regard to case (assumed). A `$` word ends where its letters
 ///   end; nothing may be between `$` and the word (online).
@@ -238,11 +236,11 @@ impl fmt::Debug for CheckEvents<'_> {
 ///   (the name and the blanks: online). Labels belong to the program they are in; one begins at
 ///   each line whose first character is `%` (online).
 /// - A jump goes forward if its label is in any line below. It goes back if the label is in its
-///   own line or above, and not below (assumed). A missing label gives no diagnostic: it may
-///   be in a text that follows. A jump to an expression (`$GOTO NV.E.X`) is not judged.
+///   own line or above, and not below (assumed). A missing label gives no diagnostic: a later text
+///   may have it. A jump to an expression (`$GOTO NV.E.X`) is not checked.
 /// - A program end is M2, M30, M17 or M29; leading zeros do not matter (M02: online, the others
-///   assumed), what follows the digits must not be `.` or `_`. It counts even where `$IF` or a
-///   jump may pass it by (assumed): if it is met, what follows is lost or left over.
+///   assumed), and no `.` or `_` follows the digits. It counts even if `$IF` or a jump may skip it
+///   (assumed): when it is executed, the following lines are lost or remain.
 /// - One diagnostic for each line with a program end: the first line below that is neither blank
 ///   nor comment (assumed).
 /// - A line joined to the next by `\` is checked as two (assumed).
@@ -261,8 +259,8 @@ impl fmt::Debug for CheckEvents<'_> {
 /// N50 $GOTO N40\n\
 /// N60 M30\n\
 /// N70 G0 X0\n")?;
-/// let findings: Vec<String> = text.diagnostics().map(|finding| finding.to_string()).collect();
-/// assert_eq!(findings, [
+/// let shown: Vec<String> = text.diagnostics().map(|diagnostic| diagnostic.to_string()).collect();
+/// assert_eq!(shown, [
 ///     "line 3, column 5: $GOTO back to line 2 (STM-8)",
 ///     "line 5, column 1: text after the M30 of line 4 (STM-10)",
 /// ]);
@@ -289,9 +287,9 @@ impl Iterator for Diagnostics<'_> {
     type Item = Diagnostic;
 
     fn next(&mut self) -> Option<Diagnostic> {
-        while let Some(found) = self.judge.next(&mut self.scan) {
-            if let CheckEvent::Diagnostic(finding) = found {
-                return Some(finding);
+        while let Some(event) = self.judge.next(&mut self.scan) {
+            if let CheckEvent::Diagnostic(diagnostic) = event {
+                return Some(diagnostic);
             }
         }
         if self.done {

@@ -1,4 +1,4 @@
-//! Where lines end.
+//! Line ends.
 
 use super::{LineError, LineErrorKind};
 use crate::bytes::to_u32;

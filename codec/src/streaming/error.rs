@@ -1,8 +1,8 @@
 //! Errors of lines.
 
-/// A line that cannot be streamed: where, what was expected, what was there.
+/// A line that cannot be streamed: its position, the expected and the found characters.
 ///
-/// `Copy` and 16 bytes. Of a text it is the first such fault, found before anything is sent.
+/// `Copy` and 16 bytes. The first fault of a text, found before anything is sent.
 ///
 /// Manual: `stream-en`, sections 2.2, 3.1, 3.2 and 4.1.
 ///
@@ -36,8 +36,8 @@ pub struct LineError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 #[non_exhaustive]
 pub enum LineErrorKind {
-    /// With CR LF the line does not fit a packet (STM-20). The column is that of the first
-    /// character that is too much.
+    /// With CR LF the line does not fit a packet (STM-20). The column is that of the first character
+    /// beyond the limit.
     #[error("line of at most 990 characters expected, {length} found")]
     TooLong {
         /// Characters of the line.
@@ -49,7 +49,7 @@ pub enum LineErrorKind {
         /// The byte.
         byte: u8,
     },
-    /// There is no NUL in the stream (STM-7).
+    /// The stream must not contain a NUL (STM-7).
     #[error("ASCII character expected, NUL found")]
     Nul,
     /// LF without CR before it, in data that was received (STM-5).
@@ -64,7 +64,7 @@ pub enum LineErrorKind {
 }
 
 impl LineErrorKind {
-    /// The requirement it is about.
+    /// The requirement that the line violates.
     pub const fn clause(self) -> &'static str {
         match self {
             Self::TooLong { .. } => "STM-20",

@@ -1,11 +1,11 @@
-//! The labels of lines, those that are gone included.
+//! The labels of the lines that were checked.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use super::scan::Label;
 
-/// How many labels, the latest, a checker of packets knows at least …
+/// The number of latest labels that a checker of packets knows at least …
 pub(super) const LABELS: usize = 8192;
 
 /// … if all of them together have no more characters than this.
@@ -16,7 +16,7 @@ pub(super) const CHARACTERS: usize = 256 * 1024;
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     recent: Generation,
-    /// Full; forgotten when the recent one is.
+    /// The previous generation, dropped when the recent one is full.
     before: Generation,
     /// The most labels of a generation.
     labels: usize,
@@ -40,7 +40,7 @@ impl Labels {
         Self { recent: Generation::EMPTY, before: Generation::EMPTY, labels, characters }
     }
 
-    /// The scan comes by a label.
+    /// Records the line of a label.
     pub(super) fn record(&mut self, label: &Label<'_>, line: u32) {
         let recent = &mut self.recent;
         if recent.lines.len() >= self.labels || recent.characters >= self.characters {
@@ -59,7 +59,7 @@ impl Labels {
         self.recent.lines.get(&key).or_else(|| self.before.lines.get(&key)).copied()
     }
 
-    /// Forgets other programs: no jump goes there any more.
+    /// Removes the labels of other programs, to which no jump can go.
     pub(super) fn keep(&mut self, program: u32) {
         for generation in [&mut self.recent, &mut self.before] {
             let first = generation.lines.first_key_value().map(|((program, _), _)| *program);

@@ -38,7 +38,7 @@ pub(super) fn comment_command<'a>(text: &'a [u8], word: &[u8]) -> Option<&'a [u8
     (is && found.eq_ignore_ascii_case(word)).then_some(rest)
 }
 
-/// Passes over blanks and the comments of a line.
+/// Skips blanks and comments.
 pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
     loop {
         match rest {
@@ -50,8 +50,8 @@ pub(super) fn skip_comments(mut rest: &[u8]) -> &[u8] {
     }
 }
 
-/// Passes over what most lines are made of and no word that counts begins with: numbers, signs, and
-/// addresses of one letter such as X.
+/// Skips the bytes of most lines, with which no word of interest begins: numbers, signs, and addresses
+/// of one letter such as X.
 pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
     while let [byte, after @ ..] = rest {
         rest = match sort(*byte) {
@@ -68,15 +68,15 @@ pub(super) fn skip_addresses(mut rest: &[u8]) -> &[u8] {
     rest
 }
 
-/// Of a byte in a line, what it may begin.
+/// A class of bytes, by the words that begin with them.
 #[derive(Clone, Copy)]
 enum Sort {
-    /// Nothing.
+    /// No word.
     Sign,
     Digit,
     /// An address, or a longer word.
     Letter,
-    /// Something to look at.
+    /// A word that must be checked.
     Other,
 }
 
@@ -108,7 +108,7 @@ pub(super) fn after_parentheses(mut rest: &[u8]) -> &[u8] {
     rest
 }
 
-/// The text after the bytes of a sort.
+/// The text after the bytes that satisfy a condition.
 pub(super) fn skip_while(mut bytes: &[u8], is: impl Fn(&u8) -> bool) -> &[u8] {
     while let [byte, after @ ..] = bytes {
         if !is(byte) {
@@ -136,7 +136,7 @@ pub(super) const fn is_in_number(byte: &u8) -> bool {
     matches!(byte, b'0'..=b'9' | b'.')
 }
 
-/// In the name of a variable with its dots.
+/// Whether the byte may be in the name of a variable, dots included.
 pub(super) const fn is_in_path(byte: &u8) -> bool {
     matches!(byte, b'0'..=b'9' | b'A'..=b'Z' | b'a'..=b'z' | b'_' | b'.')
 }

@@ -3,20 +3,20 @@
 //! | manual (`stream-en`) | here |
 //! |---|---|
 //! | 2.2, lines and packets | [`NcText`], [`Packets`] |
-//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, what a program may contain, with `alloc` | `Diagnostics`; packet by packet, `Checker` |
+//! | 2.2, end of the program; 2.3.3, 2.3.4, 2.3.6, permitted contents of a program, with `alloc` | `Diagnostics`; packet by packet, `Checker` |
 //! | 3.1, sizes | [`limits`](crate::limits) |
 //! | 3.2, the object | [`WriteProgramStream`](crate::operation::WriteProgramStream), [`ProgramStreamRef`], [`OBJECT_NAME`] |
 //! | 4.1, line ends | [`check_line_ends`], [`LINE_END_ERROR`] |
 //! | 4.2 and 5, acknowledgement and repetition | [`Sender`], [`Ack`], [`RETRY_AFTER`] |
 //!
 //! A packet is whole lines of ASCII, each ended by CR LF, without a NUL or a length before it
-//! (STM-4, STM-7). Nothing here sends anything, and nothing but `Diagnostics` and `Checker`
-//! allocates.
+//! (STM-4, STM-7). The module does no I/O; only `Diagnostics` and `Checker`
+//! allocate.
 //!
 //! ```
 //! use ads_cnc::streaming::{Ack, NcText, Sender};
 //!
-//! // Everything that can be wrong with the text is found before the first packet is out.
+//! // All faults of the text are found before the first packet is sent.
 //! let text = NcText::new(b"N10 G01 X200 F1000\nN20 X240 Y100\nN30 M30")?;
 //! # #[cfg(feature = "alloc")]
 //! assert_eq!(text.diagnostics().next(), None);
@@ -86,12 +86,12 @@ pub const OBJECT_NAME: &str = "mc_program_stream_w";
 /// Manual: `stream-en`, section 4.1.
 pub const LINE_END_ERROR: u32 = 21476;
 
-/// Number of the CNC warning for data that cannot be taken now (STM-6).
+/// Number of the CNC warning for data that it cannot accept at present (STM-6).
 ///
 /// Manual: `stream-en`, section 4.2.
 pub const BUSY_WARNING: u32 = 11012;
 
-/// How long the manual's driver waits before it writes the same data again (STM-6).
+/// The time that the manual's driver waits before it writes the same data again (STM-6).
 ///
 /// Manual: `stream-en`, section 5.
 pub const RETRY_AFTER: Duration = Duration::from_millis(500);

@@ -26,12 +26,12 @@ use crate::limits::STREAM_PACKET_MAX;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Packets<'a> {
-    /// From the start of a line on; all lines were found to fit a packet.
+    /// Begins at the start of a line; all lines were checked to fit a packet.
     rest: &'a [u8],
     crlf: bool,
 }
 
-/// Where a packet is.
+/// The memory that has a packet.
 #[derive(Clone, Copy)]
 pub(super) enum Cut<'a> {
     Text(&'a [u8]),
@@ -40,7 +40,7 @@ pub(super) enum Cut<'a> {
 }
 
 impl<'a> Packets<'a> {
-    /// `crlf`: all lines of `rest` that end do so in CR LF.
+    /// `crlf`: all line ends in `rest` are CR LF.
     pub(super) const fn new(rest: &'a [u8], crlf: bool) -> Self {
         Self { rest, crlf }
     }
@@ -61,9 +61,9 @@ impl<'a> Packets<'a> {
         }
     }
 
-    /// The next packet, if the text has it as it has to be sent: all packets of a text that
-    /// [is as on the wire](super::NcText::is_wire), and, if only its last line is open, all that
-    /// are without that line.
+    /// The next packet, if it is sent as it is in the text: all packets of a text for which
+    /// [`is_wire`](super::NcText::is_wire) is true, and those without the last line if only its line end
+    /// is missing.
     ///
     /// ```
     /// use ads_cnc::streaming::NcText;
@@ -80,7 +80,7 @@ impl<'a> Packets<'a> {
         }
         let reach = match self.rest.get(..STREAM_PACKET_MAX) {
             Some(reach) => reach,
-            // The last packet. If its last line is open and can be closed, it is not as sent.
+            // The last packet. If its last line has no end and CR LF fits, it must be copied.
             None if self.rest.len() < STREAM_PACKET_MAX.saturating_sub(1) => {
                 self.rest.ends_with(&[LF]).then_some(self.rest)?
             }

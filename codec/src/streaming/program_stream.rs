@@ -5,8 +5,8 @@ use crate::declare::stream;
 stream! {
     /// The data of one write to the program stream.
     ///
-    /// Whether its lines are whole, the CNC finds out when it reads them (STM-5);
-    /// [`Sender`](super::Sender) hands out whole lines.
+    /// The CNC checks that its lines are complete when it reads them (STM-5);
+    /// [`Sender`](super::Sender) returns complete lines.
     ///
     /// Manual: `stream-en`, sections 3.1, 3.2 and 4.1.
     ///

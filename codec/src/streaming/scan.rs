@@ -19,7 +19,7 @@ pub(super) struct Token<'a> {
 }
 
 pub(super) enum Word<'a> {
-    /// The first of a line that is neither blank nor comment; other words may follow from it on.
+    /// The first text of a line that is neither blank nor comment; other words may begin at it.
     Code,
     Goto(Label<'a>),
     Loop(LoopWord),
@@ -72,7 +72,7 @@ pub(super) struct Scan<'a> {
     /// The rest of the present line.
     rest: &'a [u8],
     stage: Stage,
-    /// No bracket closes in what is left of the line.
+    /// The rest of the line has no closing bracket.
     open: bool,
     /// The line after its block number.
     body: &'a [u8],
@@ -87,13 +87,13 @@ pub(super) struct Scan<'a> {
 enum Stage {
     /// No code has been seen in the line.
     Blank,
-    /// As before; the line begins a program, and its name may look like anything.
+    /// The same, in a line that begins a program; its name may contain any words.
     Title,
     Body,
 }
 
 impl<'a> Scan<'a> {
-    /// Resumes after the lines that led to this state.
+    /// Resumes after the lines that ended in this state.
     pub(super) const fn resume(state: ScanState, text: &'a [u8]) -> Self {
         let ScanState { lines, program, block } = state;
         Self {
@@ -120,7 +120,7 @@ impl<'a> Scan<'a> {
         self.below
     }
 
-    /// Goes to the next line that has a label: that, and the line.
+    /// Goes to the next line that has a label; returns the label and the line's number.
     pub(super) fn next_label(&mut self) -> Option<(Label<'a>, u32)> {
         while self.enter_line() {
             if let Some((label, _)) = self.label {
@@ -172,7 +172,7 @@ impl<'a> Scan<'a> {
         true
     }
 
-    /// The next word of the line that counts, and how much of the line is left where it begins.
+    /// The next word of interest in the line, and the length of the line from its start.
     fn next_word(&mut self) -> Option<(usize, Word<'a>)> {
         loop {
             self.rest = skip_comments(skip_addresses(self.rest));
@@ -199,7 +199,7 @@ impl<'a> Scan<'a> {
         Word::Code
     }
 
-    /// The word that begins here, if it is one that counts.
+    /// The word that begins here, if it is of interest.
     fn word(&mut self, first: u8, after: &'a [u8]) -> Option<Word<'a>> {
         match first {
             b'$' => {
@@ -242,7 +242,7 @@ impl<'a> Scan<'a> {
             [b'.', next, ..] if next.is_ascii_alphabetic() || *next == b'_' => {
                 return self.pass_path();
             }
-            // A subroutine's name may look like anything.
+            // The name of a subroutine may contain any words.
             [b' ' | b'\t', ..] if matches!(letters, b"L" | b"l" | b"LL" | b"ll") => {
                 let name = skip_while(after, is_blank);
                 self.rest = skip_while(name, is_in_file_name);
@@ -264,13 +264,13 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Passes over the name of a variable, which may have a program end's letters in it.
+    /// Skips the name of a variable, which may contain the letters of a program end.
     fn pass_path(&mut self) -> Option<Word<'a>> {
         self.rest = skip_while(self.rest, is_in_path);
         None
     }
 
-    /// Where a `$GOTO` goes, if that is plainly written.
+    /// The label of a `$GOTO`; `None` for an expression.
     fn target(&mut self) -> Option<Label<'a>> {
         let at = skip_while(self.rest, is_blank);
         let (label, rest) = match at {
@@ -283,7 +283,7 @@ impl<'a> Scan<'a> {
                 (self.number(digits), rest)
             }
             [b'[', name @ ..] if !self.open => {
-                // Without a bracket that closes here, none closes any that opens below.
+                // No later bracket of the line is closed either.
                 let Some((name, rest)) = name_of(name) else {
                     self.open = true;
                     return None;

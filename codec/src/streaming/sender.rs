@@ -25,16 +25,16 @@ use crate::limits::STREAM_PACKET_MAX;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ack {
-    /// The data was taken.
+    /// The data was accepted.
     Accepted,
-    /// The data cannot be taken now; it is to be written again.
+    /// The data cannot be accepted at present; write it again.
     Busy,
-    /// The data will not be taken.
+    /// The data will not be accepted.
     Rejected,
 }
 
 impl Ack {
-    /// The acknowledgement that the result of a write means. The results of a CNC are not
+    /// The acknowledgement for the result of a write. The results of a CNC are not
     /// documented. Assumed: it rejects an invalid service, address, access or size, and is busy at
     /// every other error (STM-6, ADS-7).
     ///
@@ -124,12 +124,12 @@ pub struct UnexpectedAck;
 
 /// Streams a text: hands out a packet, takes its acknowledgement, goes on.
 ///
-/// After [`Ack::Busy`] the same packet comes again; the caller waits before, as long as it
-/// likes ([`RETRY_AFTER`](super::RETRY_AFTER)), and may give up by dropping the sender. After
-/// [`Ack::Rejected`] it hands out no more. Asking again returns the packet in flight again: it counts
-/// once.
+/// After [`Ack::Busy`] it returns the same packet again; the caller waits before, for any time
+/// ([`RETRY_AFTER`](super::RETRY_AFTER)), and may give up by dropping the sender. After
+/// [`Ack::Rejected`] it returns no more packets. While a packet is in flight, [`packet`](Self::packet)
+/// returns it again without counting it twice.
 ///
-/// Holds one packet, for text that is not [as on the wire](NcText::is_wire).
+/// Has a buffer for one packet, for text that is [not sent unchanged](NcText::is_wire).
 ///
 /// Manual: `stream-en`, sections 2.2, 4.2 and 5 (STM-2, STM-4, STM-6).
 ///
@@ -232,7 +232,7 @@ impl<'a> Sender<'a> {
         self.packets.rest()
     }
 
-    /// How often the present packet was answered by [`Ack::Busy`].
+    /// The number of [`Ack::Busy`] for the present packet.
     pub const fn busy_count(&self) -> u32 {
         self.busy_count
     }

@@ -11,9 +11,9 @@ use crate::limits::NC_LINE_MAX;
 
 /// NC text in which every line can be streamed.
 ///
-/// A line ends in LF, in CR LF, or in CR without LF (the last is assumed: so no CR is ever
-/// within a line that is sent). The last line may be open. A line without characters is a line
-/// and is streamed; text without bytes has no line.
+/// A line ends in LF, in CR LF, or in CR without LF (the last is assumed: no CR is then sent within a
+/// line). The last line may have no line end. A line without characters is streamed; text without bytes
+/// has no line.
 ///
 /// Manual: `stream-en`, sections 2.2, 3.1 and 3.2 (STM-2, STM-4, STM-7, STM-20).
 ///
@@ -34,7 +34,7 @@ pub struct NcText<'a> {
 }
 
 impl<'a> NcText<'a> {
-    /// Looks through the whole text, so that nothing can go wrong once a packet is out.
+    /// Checks the whole text, so that sending its packets cannot fail for a fault of the text.
     ///
     /// # Errors
     /// The first line over 990 characters, byte that is not ASCII, or NUL.
@@ -67,7 +67,7 @@ impl<'a> NcText<'a> {
         self.wire_len
     }
 
-    /// Whether the text is what is sent, byte for byte: each line ends in CR LF, the last too.
+    /// Whether the text is sent unchanged: each line ends in CR LF, including the last.
     pub const fn is_wire(&self) -> bool {
         self.crlf && self.wire_len == self.bytes.len()
     }
@@ -82,7 +82,7 @@ impl<'a> NcText<'a> {
         Packets::new(self.bytes, self.crlf)
     }
 
-    /// Diagnostics of the text: what streaming does not permit, and lines that would be lost.
+    /// Diagnostics of the text: constructs that streaming does not permit, and lines that would be lost.
     #[cfg(feature = "alloc")]
     pub fn diagnostics(&self) -> Diagnostics<'a> {
         Diagnostics::new(*self)

@@ -10,7 +10,7 @@ use crate::variable::{DescriptionByNameRef, DescriptionRef, U32List, ValueRef, V
 macro_rules! describes {
     ($( $description:ident )+) => { $(
         impl<'a> $description<'a> {
-            /// Type, dimensions and size of the variable, found to agree (VAR-8).
+            /// Type, dimensions and size of the variable, checked to agree (VAR-8).
             ///
             /// # Errors
             /// Those of [`Shape::for_variable`].
@@ -53,7 +53,7 @@ describes! { DescriptionRef DescriptionByNameRef }
 impl<'a> ValueRef<'a> {
     /// The elements of a value of this type and these dimensions; an empty list for a single element.
     ///
-    /// With a description at hand, [`DescriptionRef::elements`] checks its size too.
+    /// [`DescriptionRef::elements`] also checks the size in a description.
     ///
     /// ```
     /// use ads_cnc::{Decode, Element, U32List, ValueRef, VariableType};
@@ -97,7 +97,7 @@ mod owned {
     macro_rules! describes {
         ($( $description:ident )+) => { $(
             impl $description {
-                /// As that of the description, borrowed.
+                /// See the method of the borrowed description.
                 ///
                 /// # Errors
                 /// Those of [`Shape::for_variable`].
@@ -105,7 +105,7 @@ mod owned {
                     self.as_ref().shape()
                 }
 
-                /// As those of the description, borrowed.
+                /// See the method of the borrowed description.
                 ///
                 /// # Errors
                 /// Those of [`shape`](Self::shape) and of [`Shape::elements`].
@@ -113,7 +113,7 @@ mod owned {
                     self.as_ref().elements(value)
                 }
 
-                /// As that of the description, borrowed.
+                /// See the method of the borrowed description.
                 ///
                 /// # Errors
                 /// Those of [`elements`](Self::elements).

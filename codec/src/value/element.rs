@@ -121,11 +121,11 @@ pub struct Elements<'a> {
 impl<'a> Elements<'a> {
     /// The elements of a value of this type and these dimensions; an empty list for a single element.
     ///
-    /// The texts of an array have the same share of the bytes (assumed).
+    /// The texts of an array have equal shares of the bytes (assumed).
     ///
     /// # Errors
-    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] for bytes that are not just the size of
-    /// the elements; [`ErrorKind::Mismatch`] if texts cannot share them.
+    /// [`ErrorKind::Truncated`] and [`ErrorKind::Trailing`] if the bytes do not have the size of the
+    /// elements; [`ErrorKind::Mismatch`] if the texts cannot have equal shares of them.
     pub fn new(
         data_type: DataType,
         dimensions: U32List<'a>,
@@ -151,7 +151,7 @@ impl<'a> Elements<'a> {
         self.shape.data_type()
     }
 
-    /// How many.
+    /// The number of elements.
     pub fn len(&self) -> usize {
         to_usize(self.shape.count())
     }
@@ -161,7 +161,7 @@ impl<'a> Elements<'a> {
         self.shape.count() == 0
     }
 
-    /// The element at this index, from 0, of the elements in their order.
+    /// The element at this index, from 0, in the order of [`iter`](Self::iter).
     ///
     /// # Errors
     /// [`ErrorKind::OutOfRange`] for an index beyond the last, and [`ErrorKind::Missing`] if there
@@ -200,7 +200,7 @@ impl<'a> Elements<'a> {
         self.get(to_usize(self.shape.index_of(indices)?))
     }
 
-    /// All in their order.
+    /// The elements in their order.
     pub fn iter(&self) -> ElementIter<'a> {
         ElementIter { elements: *self, indices: 0..self.len() }
     }
@@ -221,7 +221,7 @@ impl fmt::Debug for Elements<'_> {
     }
 }
 
-/// [`Elements`] in their order.
+/// The elements of a value in their order.
 ///
 /// ```
 /// use ads_cnc::U32List;

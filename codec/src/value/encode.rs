@@ -10,11 +10,11 @@ use crate::layout::typed_value::VALUE;
 use crate::limits::ADS_DATA;
 use crate::text::{CncStr, TextRef};
 
-/// A value that is encoded to bytes: a number, a `bool` or [`Boolean`](super::Boolean), a slice or
-/// an array of them, a text, and each form in which values are read.
+/// A value that is encoded to bytes: a number, a `bool` or [`Boolean`](super::Boolean), a slice or an
+/// array of them, a text, an [`Element`] or [`Elements`].
 ///
-/// The bytes are what requests take, and what the content of an object or of an element is. A
-/// [`CncStr`] is written with one NUL, a [`TextRef`] with the end it has.
+/// The bytes are the value in a request, or the content of an object or of an element. A [`CncStr`] is
+/// written with one NUL, a [`TextRef`] with its own end.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, sections 4.3.6 and 4.3.7.
 ///
@@ -34,10 +34,10 @@ pub trait EncodeValue: sealed::Sealed {
     /// The type of the elements.
     fn data_type(&self) -> DataType;
 
-    /// How many elements.
+    /// The number of elements.
     fn element_count(&self) -> usize;
 
-    /// How many bytes [`encode_value`](Self::encode_value) writes.
+    /// The number of bytes that [`encode_value`](Self::encode_value) writes.
     fn value_len(&self) -> usize;
 
     /// Writes the value to the front of `buf` and returns the bytes written.
@@ -81,7 +81,7 @@ fn fill(len: usize, buf: &mut [u8], write: impl FnOnce(&mut Writer<'_>)) -> Resu
     Writer::fill(Subject::TypedValue, len, buf, write)
 }
 
-/// Of each form its type, its number of elements, its bytes, and how they are written.
+/// Implements [`EncodeValue`]: for each type its data type, element count, length and encoding.
 macro_rules! encode_value {
     ($(
         $(#[$doc:meta])*
@@ -91,7 +91,7 @@ macro_rules! encode_value {
         impl $(<$item: super::Scalar $(, const $n: usize)?>)? sealed::Sealed for $form {}
 
         $(#[$doc])*
-        #[allow(unused_variables, reason = "the type alone may say it")]
+        #[allow(unused_variables, reason = "the type alone may determine it")]
         impl $(<$item: super::Scalar $(, const $n: usize)?>)? EncodeValue for $form {
             fn data_type(&self) -> DataType {
                 let $value = self;
@@ -119,7 +119,7 @@ macro_rules! encode_value {
     )+ };
 }
 
-/// Does the same with the value of any element.
+/// Evaluates the expression with the value of any element.
 macro_rules! each {
     ($element:ident, $value:ident => $do:expr) => {
         match $element {
@@ -154,10 +154,10 @@ encode_value! {
     /// The text and one NUL.
     CncStr<'_>, |text| DataType::String, 1, text.len().saturating_add(1),
     |buf| fill(text.value_len(), buf, |out| TextRef::from(*text).write(out));
-    /// The text and the end it has.
+    /// The text and its end.
     TextRef<'_>, |text| DataType::String, 1, text.field_len(),
     |buf| fill(text.value_len(), buf, |out| text.write(out));
-    /// The bytes that were read.
+    /// The bytes of the elements.
     Elements<'_>, |elements| Elements::data_type(elements), elements.len(),
     elements.as_bytes().len(),
     |buf| fill(elements.value_len(), buf, |out| out.put(elements.as_bytes()));

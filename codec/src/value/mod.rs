@@ -1,32 +1,32 @@
-//! Values by their types: what the bytes of a variable, an object or an element say.
+//! Values by their types: reads and writes the bytes of variables, objects and elements.
 //!
 //! A [`ValueRef`](crate::ValueRef) and a content are bytes; the type is in a variable's
 //! description, in an object's descriptor or in an element's attribute. [`DataType`] is the type
-//! of all three, [`Shape`] adds dimensions and bytes, [`Elements`] are the bytes read that way.
+//! of all three, [`Shape`] adds dimensions and size, [`Elements`] are the bytes read by a shape.
 //!
-//! | to have | use |
+//! | task | use |
 //! |---|---|
-//! | numbers of a type that the program knows | [`ValueRef::get`](crate::ValueRef::get), `iter`, `copy_to`, `to_vec` |
-//! | the same, of the described type only | [`Elements::items`], `copy_to`, `to_vec` |
-//! | elements of a type known only at run time | [`Elements::get`], `iter`, [`Element`] |
-//! | a number, a `bool` or a text from any element that can be one | `TryFrom<Element>` |
-//! | a structure of the program's own | [`Reader`] |
-//! | bytes to write | [`EncodeValue`], [`Shape::encode`] |
+//! | read numbers of a type that the program knows | [`ValueRef::get`](crate::ValueRef::get), `iter`, `copy_to`, `to_vec` |
+//! | the same, if it is the described type | [`Elements::items`], `copy_to`, `to_vec` |
+//! | read elements of a type known only at run time | [`Elements::get`], `iter`, [`Element`] |
+//! | convert an element to a number, a `bool` or a text | `TryFrom<Element>` |
+//! | read a structure of the program's own | [`Reader`] |
+//! | encode a value | [`EncodeValue`], [`Shape::encode`] |
 //!
 //! Only vectors and strings allocate. Bytes are little-endian (GEN-1, assumed) and need not be
 //! aligned. Of more than one dimension, the elements are in row-major order, the last index running
-//! fastest: no manual says so, it is **assumed** (VAR-21). So is that an array of STRING gives each
-//! text the same share of its bytes.
+//! fastest: not documented, **assumed** (VAR-21), as is that each text in an array of STRING has the
+//! same number of bytes.
 //!
-//! Errors are those of the table `typed-value`. For a wrong index or dimension, the offset is its
-//! position in the list, from 0. Types are numbered as in section 4.3.2, and those that no
-//! variable has after these: LINT 10, LWORD 11, REAL32 12.
+//! Errors have the subject `typed-value`. For a wrong index or dimension, the offset is its
+//! position in the list, from 0. Types are numbered as in section 4.3.2; the
+//! types that no variable has are LINT 10, LWORD 11 and REAL32 12.
 //!
 //! ```
 //! use ads_cnc::value::{Element, EncodeValue};
 //! use ads_cnc::{Decode, DescriptionRef, U32List, ValueRef};
 //!
-//! // What the CNC says of a variable SGN32[2][3], and its value.
+//! // The description of a variable SGN32[2][3], and its value.
 //! let description = DescriptionRef::decode(
 //!     b"\x01\0\0\x02\x06\0\0\0\x02\0\0\0\x18\0\0\0\x02\0\0\0\x02\0\0\0\x03\0\0\0V.E.field\0",
 //! )?;

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::layout::{Field, Stream};
 use crate::text::TextRef;
 
-/// The whole of a content.
+/// The bytes of a content.
 const CONTENT: Field = Field::of::<ContentRef<'static>>("content");
 
 /// Reads the members of a structure, one after the other, without a panic and without a copy.
@@ -63,7 +63,7 @@ impl<'a> Reader<'a> {
     /// [`ErrorKind::Truncated`](crate::ErrorKind::Truncated) if fewer bytes are left.
     pub fn read<T: Scalar>(&mut self) -> Result<T, Error> {
         let bytes = self.bytes(size_of::<T::Wire>())?;
-        // The length is right, so that reading does not fail.
+        // No error: the length is that of the type.
         let wire = T::Wire::read_from_bytes(bytes).unwrap_or_else(|_| T::Wire::new_zeroed());
         Ok(T::from_wire(wire))
     }

@@ -14,7 +14,7 @@ use super::DataType;
 /// assert_eq!(<f32 as Scalar>::TYPE, DataType::Real32);
 /// ```
 pub trait Scalar: sealed::Wire + Copy + Default + PartialEq + fmt::Debug + 'static {
-    /// The type of the CNC that it is.
+    /// The CNC's type.
     const TYPE: DataType;
 }
 
@@ -22,7 +22,7 @@ pub(super) mod sealed {
     use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
     pub trait Wire: Sized {
-        /// As many bytes as it has.
+        /// The bytes of the number.
         type Wire: FromBytes + IntoBytes + KnownLayout + Immutable + Unaligned + Copy + 'static;
 
         fn from_wire(wire: Self::Wire) -> Self;
@@ -82,10 +82,10 @@ impl sealed::Wire for bool {
     }
 }
 
-/// A BOOLEAN that keeps its byte, of which any but 0 is TRUE.
+/// A BOOLEAN that keeps its byte: 0 is FALSE, any other TRUE.
 ///
-/// An [`Element`](super::Element) holds this instead of `bool`, so that a value encodes to the bytes it
-/// was read from: `bool` would turn a 2 into a 1.
+/// An [`Element`](super::Element) has this instead of `bool`, so that a value encodes to the bytes it was
+/// read from: `bool` would turn a 2 into a 1.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2, where BOOLEAN\[2\] has two bytes. That
 /// any byte but 0 is TRUE is assumed.

@@ -1,4 +1,4 @@
-//! Type, dimensions and bytes of a value.
+//! Type, dimensions and size of a value.
 
 use super::element::Elements;
 use super::{DataType, EncodeValue};
@@ -9,9 +9,9 @@ use crate::layout::typed_value::{COUNT, DIMENSION, INDEX, INDEX_COUNT, SIZE, TYP
 use crate::text::{CncStr, TextRef};
 use crate::variable::{U32List, VariableType};
 
-/// Type, dimensions and bytes of a value, found to agree (VAR-8).
+/// Type, dimensions and size of a value, checked to agree (VAR-8).
 ///
-/// It tells where an element is before anything is read, and checks what is to be written.
+/// It computes the index of an element, and checks values that are to be written.
 ///
 /// Manual: `ads-en` 1.05 and `ads-de` 1.051, section 4.3.2. That the size is that of the type times
 /// the elements follows from the example there.
@@ -43,11 +43,11 @@ pub struct Shape<'a> {
 impl<'a> Shape<'a> {
     /// A value of `size` bytes; an empty list of dimensions for a single element.
     ///
-    /// Each STRING of an array has the same share of the bytes, at least one (assumed).
+    /// The STRINGs of an array have equal shares of the bytes, at least one byte each (assumed).
     ///
     /// # Errors
-    /// [`ErrorKind::Mismatch`] of the size: that of the elements, or the next smaller one that so
-    /// many texts can share, and the one given.
+    /// [`ErrorKind::Mismatch`] of the size: expected is the size of the elements, for texts the next
+    /// smaller multiple of their number; found is the size given.
     pub fn new(data_type: DataType, dimensions: U32List<'a>, size: u32) -> Result<Self, Error> {
         let mismatch = |expected| Err(Error::new(ErrorKind::Mismatch, SIZE, 0, expected, size));
         if let Some(each) = data_type.size() {
@@ -63,13 +63,13 @@ impl<'a> Shape<'a> {
             (0, ..) if size == 0 => 0,
             (1, ..) => size,
             (_, Some(each), Some(0)) if each > 0 => each,
-            // Each text has at least its NUL; no texts have no bytes.
+            // Each text has at least its NUL; a value without texts has no bytes.
             (.., left) => return mismatch(size.saturating_sub(left.unwrap_or(size)).max(count)),
         };
         Ok(Self { data_type, dimensions, count, each })
     }
 
-    /// Of a type of fixed size, if 32 bits hold the size of the whole.
+    /// The shape of elements of a fixed size; `None` if the size of the value exceeds 32 bits.
     pub(super) fn with_element_size(
         data_type: DataType,
         each: u32,
@@ -79,7 +79,7 @@ impl<'a> Shape<'a> {
         count.checked_mul(each).map(|_| Self { data_type, dimensions, count, each })
     }
 
-    /// As a variable's description has it.
+    /// The shape in a variable's description.
     ///
     /// # Errors
     /// Those of [`new`](Self::new), and [`ErrorKind::OutOfRange`] for a type the manuals do not
@@ -92,7 +92,7 @@ impl<'a> Shape<'a> {
         Self::new(known(var_type)?, dimensions, size)
     }
 
-    /// One element of it, as it is read and written by its indices.
+    /// The shape of a single element, which is read and written by its indices.
     pub fn element_shape(&self) -> Shape<'static> {
         Shape { data_type: self.data_type, dimensions: U32List::EMPTY, count: 1, each: self.each }
     }
@@ -107,7 +107,7 @@ impl<'a> Shape<'a> {
         self.dimensions
     }
 
-    /// How many elements: the product of the dimensions.
+    /// The number of elements: the product of the dimensions.
     pub const fn count(&self) -> u32 {
         self.count
     }
@@ -155,7 +155,7 @@ impl<'a> Shape<'a> {
 
     /// Writes a value of this shape to the front of `buf`, for a request or a content.
     ///
-    /// Whether a STRING is NUL-terminated is up to the text given; [`CncStr`] is. A single one may
+    /// A STRING is written with the end of the text given; a [`CncStr`] ends in a NUL. A single STRING may
     /// be shorter than its size.
     ///
     /// ```
@@ -262,9 +262,9 @@ pub(super) fn known(var_type: VariableType) -> Result<DataType, Error> {
     })
 }
 
-/// The product of the dimensions, if 32 bits hold it.
+/// The product of the dimensions; `None` if it exceeds 32 bits.
 fn count(dimensions: U32List<'_>) -> Option<u32> {
-    // A 0 makes it 0, however large the others are.
+    // With a dimension of 0 the product is 0, even if that of the others overflows.
     if dimensions.iter().any(|dimension| dimension == 0) {
         return Some(0);
     }

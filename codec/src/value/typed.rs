@@ -185,7 +185,7 @@ pub(super) fn mismatch(expected: DataType, found: DataType) -> Error {
     Error::new(ErrorKind::Mismatch, TYPE, 0, expected.number(), found.number())
 }
 
-/// The number of an element of any integer type.
+/// The number in an element of any integer type.
 fn integer(element: Element<'_>) -> Option<i128> {
     Some(match element {
         Element::Sgn08(number) => number.into(),
@@ -202,7 +202,7 @@ fn integer(element: Element<'_>) -> Option<i128> {
     })
 }
 
-/// Integers from integers of any type, if the number fits.
+/// Conversions to integers from integers of any type, if the number fits.
 macro_rules! from_integers {
     ($( $type:ty )+) => { $(
         /// # Errors
@@ -221,7 +221,8 @@ macro_rules! from_integers {
 
 from_integers! { i8 u8 i16 u16 i32 u32 i64 u64 }
 
-/// Floating-point numbers from themselves, and from integers that their significand holds exactly.
+/// Conversions to floating-point numbers, from those of no greater size and from integers that the
+/// significand represents exactly.
 macro_rules! from_numbers {
     ($( $type:ty, $digits:literal, |$element:ident| $float:expr; )+) => { $(
         /// # Errors
@@ -238,7 +239,7 @@ macro_rules! from_numbers {
                 let Some(number) = exact else {
                     return Err(mismatch(<$type>::TYPE, $element.data_type()));
                 };
-                // No step rounds: the digits of every part are among those of the whole.
+                // No step rounds: no partial sum has more significant digits than the number.
                 let size = number.unsigned_abs().to_be_bytes().into_iter().fold(0.0, |size, byte| {
                     size * 256.0 + Self::from(byte)
                 });
@@ -260,13 +261,13 @@ from_numbers! {
     };
 }
 
-/// Binary digits from the first to the last that is not 0.
+/// The number of binary digits from the first 1 to the last 1.
 fn digits(number: i128) -> u32 {
     let size = number.unsigned_abs();
     u128::BITS.saturating_sub(size.leading_zeros()).saturating_sub(size.trailing_zeros())
 }
 
-/// Elements of one type alone.
+/// Conversions from elements of one type.
 macro_rules! from_one {
     ($( $(#[$meta:meta])? $type:ty, $data_type:ident, $element:pat => $value:expr; )+) => { $(
         /// # Errors
