@@ -22,23 +22,23 @@ fn what_is_written_is_read() {
     }
 }
 
-/// Six numbers, dots between, digits only.
+/// Six numbers, dots between, digits only; the offset is that of the number.
 #[test]
 fn what_is_no_net_id_is_refused() {
     for (text, wanted) in [
         ("", fault(Digits, "number", 0, (3, 0))),
-        ("1..3.4.5.6", fault(Digits, "number", 1, (3, 0))),
-        ("1.2.3.4.5.", fault(Digits, "number", 5, (3, 0))),
-        ("1.2.3.0004.5.6", fault(Digits, "number", 3, (3, 4))),
+        ("1..3.4.5.6", fault(Digits, "number", 2, (3, 0))),
+        ("1.2.3.4.5.", fault(Digits, "number", 10, (3, 0))),
+        ("1.2.3.0004.5.6", fault(Digits, "number", 6, (3, 4))),
         ("1.2.3.4.5", fault(Mismatch, "numbers", 0, (6, 5))),
         ("1.2.3.4.5.6.7", fault(Mismatch, "numbers", 0, (6, 7))),
         ("1.2.3.4.5.6.", fault(Mismatch, "numbers", 0, (6, 7))),
         ("1.2.3.4.5.6..x", fault(Mismatch, "numbers", 0, (6, 8))),
-        ("1.256.3.4.5.6", fault(OutOfRange, "number", 1, (255, 256))),
-        ("1.2.3.4.5.999", fault(OutOfRange, "number", 5, (255, 999))),
+        ("1.256.3.4.5.6", fault(OutOfRange, "number", 2, (255, 256))),
+        ("1.2.3.4.5.999", fault(OutOfRange, "number", 10, (255, 999))),
         ("+1.2.3.4.5.6", fault(NotDecimal, "number", 0, (0, '+' as usize))),
-        ("1.2.3.4.5.6 ", fault(NotDecimal, "number", 5, (0, ' ' as usize))),
-        ("1.2.٣.4.5.6", fault(NotDecimal, "number", 2, (0, '٣' as usize))),
+        ("1.2.3.4.5.6 ", fault(NotDecimal, "number", 10, (0, ' ' as usize))),
+        ("1.2.٣.4.5.6", fault(NotDecimal, "number", 4, (0, '٣' as usize))),
         ("1,2.3.4.5.6", fault(NotDecimal, "number", 0, (0, ',' as usize))),
     ] {
         assert_eq!(text.parse::<AmsNetId>().map_err(Fault::of), Err(wanted), "{text:?}");
