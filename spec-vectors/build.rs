@@ -1,4 +1,5 @@
-//! Writes the IDs of the requirements as a constant, so that a program can check them when it is compiled.
+//! Writes the IDs of the requirements as a constant, so that a program can check them when it is compiled,
+//! and the lists of the files that the loader includes.
 
 use std::path::Path;
 use std::{env, fs, io};
@@ -13,5 +14,23 @@ fn main() -> io::Result<()> {
     });
     let ids: Vec<&str> = ids.collect();
     let out = env::var_os("OUT_DIR").ok_or_else(|| io::Error::other("cargo sets OUT_DIR"))?;
-    fs::write(Path::new(&out).join("requirement_ids.rs"), format!("&{ids:?}"))
+    let out = Path::new(&out);
+    fs::write(out.join("requirement_ids.rs"), format!("&{ids:?}"))?;
+    for kind in ["vectors", "sequences"] {
+        fs::write(out.join(format!("{kind}.rs")), included(&format!("data/{kind}"))?)?;
+    }
+    Ok(())
+}
+
+/// The path and the text of each file of a folder, in the order of their names.
+fn included(folder: &str) -> io::Result<String> {
+    println!("cargo::rerun-if-changed={folder}");
+    let files = fs::read_dir(folder)?.map(|file| Ok(file?.file_name()));
+    let mut files = files.collect::<io::Result<Vec<_>>>()?;
+    files.sort();
+    let files = files.iter().map(|file| {
+        let path = format!("{folder}/{}", file.display());
+        format!("({path:?}, include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), \"/\", {path:?})))")
+    });
+    Ok(format!("&[{}]", files.collect::<Vec<_>>().join(", ")))
 }

@@ -18,8 +18,17 @@ fn content(group: u32, offset: u32) -> Call<'static> {
 /// SDA-12, STM-1: where a function is, nothing is read or written as content, by anybody.
 #[test]
 fn functions_are_no_content() {
-    let functions = (0x44..=0x4C).chain(0x1B..=0x26).chain([0x1_0004, 0x2_0006]);
-    let of_decoder = functions.map(|offset| (0x12_2301, offset));
+    let rows = Function::ALL.iter().map(|function| function.spec());
+    let of_decoder = rows.filter(|spec| {
+        spec.group == GroupRule::ChannelOf(Class::Decoder) && spec.service != Service::Read
+    });
+    let offsets = of_decoder.flat_map(|spec| match spec.offset {
+        OffsetRule::At(at) => vec![at],
+        OffsetRule::OfKind(offsets) => offsets.to_vec(),
+        OffsetRule::OfAxis(element) => vec![0x1_0000 | element, 0x2_0000 | element],
+        _ => vec![],
+    });
+    let of_decoder = offsets.map(|offset| (0x12_2301, offset));
     for (group, offset) in of_decoder.chain([(0x12_0101, 0x90), (0x2_0106, 0x90)]) {
         let call = content(group, offset);
         let refusal = call.dispatch().unwrap_err();

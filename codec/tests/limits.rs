@@ -2,6 +2,8 @@
 
 mod common;
 
+use std::collections::BTreeSet;
+
 use ads_cnc::ErrorKind::*;
 use ads_cnc::ads::{AdsError, ReadReplyRef};
 use ads_cnc::dynamic::*;
@@ -21,6 +23,10 @@ fn streams_are_as_long_as_they_may_be_and_no_longer() {
         bytes
     };
     let data_length = [0, 0, 0x40, 0];
+    // The other streams tell their end themselves.
+    let has_limit = |stream: &Stream| !stream.layout().is_fixed() && !stream.layout().repeats;
+    let mut rest: BTreeSet<_> = Stream::all().filter(has_limit).collect();
+    rest.remove(&Stream::ElementLength);
     for (stream, bytes) in [
         (Stream::VariableKind, filled(&[b"V.E", &[0; 253]], 256)),
         (Stream::VariableName, filled(&[&[b'V'; 255], b"\0"], 256)),
@@ -31,6 +37,9 @@ fn streams_are_as_long_as_they_may_be_and_no_longer() {
         (Stream::VariableDescription, filled(&[&[1; 16], &[0xFA, 1, 0, 0]], 2048)),
         (Stream::VariableDescription, filled(&[&[1; 16], &[0xBB, 1, 0, 0]], 2048)),
         (Stream::VariableDescriptionByName, filled(&[&[1; 16], &[0xFB, 1, 0, 0]], 2048)),
+        (Stream::VariableHandleWrite, filled(&[&[1; 4], &[0; 4]], 2048)),
+        (Stream::VariableNameWrite, filled(&[b"V\0"], 2048)),
+        (Stream::VariableExtendedDescription, filled(&[], 8)),
         (Stream::DynamicName, filled(&[], 96)),
         (Stream::DynamicNameRequest, filled(&[], 96)),
         (Stream::ElementText, filled(&[], 256)),
@@ -45,7 +54,9 @@ fn streams_are_as_long_as_they_may_be_and_no_longer() {
         assert_eq!(check(stream, &bytes), Ok(()));
         let more = check(stream, &filled(&[&bytes], max + 1)).unwrap_err();
         assert_eq!(Fault::of(more), fault(TooLong, "stream", max, (max, max + 1)));
+        rest.remove(&stream);
     }
+    assert!(rest.is_empty(), "no longest stream of {rest:?}");
 }
 
 /// A count that does not fit is refused at the count, with what would fit (VAR-24).

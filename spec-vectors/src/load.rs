@@ -243,31 +243,9 @@ macro_rules! embedded {
 
 const REQUIREMENTS: (&str, &str) = embedded!("data/requirements.json");
 const ERRATA: (&str, &str) = embedded!("data/errata.json");
-const VECTORS: &[(&str, &str)] = &[
-    embedded!("data/vectors/address.json"),
-    embedded!("data/vectors/ads.json"),
-    embedded!("data/vectors/com.json"),
-    embedded!("data/vectors/content.json"),
-    embedded!("data/vectors/described-by-name.json"),
-    embedded!("data/vectors/device.json"),
-    embedded!("data/vectors/dynamic.json"),
-    embedded!("data/vectors/frame-examples.json"),
-    embedded!("data/vectors/frame-limits.json"),
-    embedded!("data/vectors/frame.json"),
-    embedded!("data/vectors/sda.json"),
-    embedded!("data/vectors/service.json"),
-    embedded!("data/vectors/streaming.json"),
-    embedded!("data/vectors/variable-description.json"),
-    embedded!("data/vectors/variable-name.json"),
-    embedded!("data/vectors/variable-value.json"),
-    embedded!("data/vectors/variable-write.json"),
-];
-const SEQUENCES: [(&str, &str); 4] = [
-    embedded!("data/sequences/nc-check.json"),
-    embedded!("data/sequences/nc-text.json"),
-    embedded!("data/sequences/service.json"),
-    embedded!("data/sequences/streaming.json"),
-];
+/// The files of `data/vectors` and `data/sequences`, as `build.rs` finds them.
+const VECTORS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/vectors.rs"));
+const SEQUENCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sequences.rs"));
 
 fn read() -> Result<Catalogue, LoadError> {
     let requirements: RequirementFile = parse(REQUIREMENTS)?;
@@ -277,7 +255,7 @@ fn read() -> Result<Catalogue, LoadError> {
         vectors.extend(parse::<VectorFile>(file)?.vectors);
     }
     let mut sequences = Vec::new();
-    for file in SEQUENCES {
+    for &file in SEQUENCES {
         sequences.extend(parse::<SequenceFile>(file)?.cases);
     }
     Ok(Catalogue {
@@ -304,7 +282,8 @@ mod tests {
 
     #[test]
     fn every_file_states_the_version() {
-        for (file, text) in VECTORS.iter().copied().chain(SEQUENCES).chain([REQUIREMENTS, ERRATA]) {
+        let files = [VECTORS, SEQUENCES, &[REQUIREMENTS, ERRATA]];
+        for &(file, text) in files.into_iter().flatten() {
             let data: serde_json::Value = serde_json::from_str(text).expect(file);
             assert_eq!(data["version"], VERSION, "{file}");
         }
@@ -322,7 +301,7 @@ mod tests {
     /// Nor is anything of a sequence.
     #[test]
     fn sequences_survive_a_round_trip() {
-        for (file, text) in SEQUENCES {
+        for &(file, text) in SEQUENCES {
             let raw: serde_json::Value = serde_json::from_str(text).expect(file);
             let typed = parse::<SequenceFile>((file, text)).expect("loads");
             let items = raw["cases"].as_array().expect("a list");

@@ -8,11 +8,10 @@ mod named;
 
 use ads_cnc::address::{IndexGroup, IndexOffset};
 use ads_cnc::ads::*;
-use ads_cnc::dynamic::*;
 use ads_cnc::operation::{Call, Operation, ReadElement, ReadObject, Service, WriteElement};
 use ads_cnc::sda::*;
 use ads_cnc::service::{Host, HostStep, ServiceId};
-use ads_cnc::streaming::{Ack, NcText, ProgramStreamRef, Sender, check_line_ends};
+use ads_cnc::streaming::{Ack, NcText, Sender, check_line_ends};
 use ads_cnc::value::{Boolean, EncodeValue as _, Scalar};
 use ads_cnc::*;
 use core::hint::black_box;
@@ -25,49 +24,17 @@ fn both<'a, T: Decode<'a> + Encode>(bytes: &'a [u8]) -> bool {
     black_box(written.unwrap_or_else(|error| error.offset() as usize)).max(after) < usize::MAX
 }
 
-fn readings(bytes: &[u8]) -> bool {
-    both::<AmsTcpHeader>(bytes)
-        & both::<AmsHeader>(bytes)
-        & both::<ReadRequest>(bytes)
-        & both::<ReadReplyRef<'_>>(bytes)
-        & both::<WriteRequestRef<'_>>(bytes)
-        & both::<WriteReply>(bytes)
-        & both::<ReadWriteRequestRef<'_>>(bytes)
-        & both::<ReadWriteReplyRef<'_>>(bytes)
-        & both::<ObjectCount>(bytes)
-        & both::<Descriptor>(bytes)
-        & both::<DescriptorRef<'_>>(bytes)
-        & both::<DescriptorsRef<'_>>(bytes)
-        & both::<VariableKindRef<'_>>(bytes)
-        & both::<VariableCount>(bytes)
-        & both::<VariableIndexKindRef<'_>>(bytes)
-        & both::<DescriptionRef<'_>>(bytes)
-        & both::<VariableNameRef<'_>>(bytes)
-        & both::<Handle>(bytes)
-        & both::<HandleReadRef<'_>>(bytes)
-        & both::<HandleWriteRef<'_>>(bytes)
-        & both::<NameWriteRef<'_>>(bytes)
-        & both::<ExtendedReply>(bytes)
-        & both::<ExtendedDescription>(bytes)
-        & both::<ValueRef<'_>>(bytes)
-        & both::<DescriptionByNameRef<'_>>(bytes)
-        & both::<ContentRef<'_>>(bytes)
-        & both::<ObjectAddressQuery>(bytes)
-        & both::<ObjectAddress>(bytes)
-        & both::<ElementCount>(bytes)
-        & both::<ElementTextRef<'_>>(bytes)
-        & both::<ElementLength>(bytes)
-        & both::<ElementWriteFlag>(bytes)
-        & both::<DynamicCount>(bytes)
-        & both::<DynamicIndex>(bytes)
-        & both::<DynamicNameRef<'_>>(bytes)
-        & both::<DynamicNameRequestRef<'_>>(bytes)
-        & both::<DynamicValue>(bytes)
-        & both::<ProgramStreamRef<'_>>(bytes)
-        & both::<DeviceInfoReply>(bytes)
-        & both::<DeviceStateReply>(bytes)
-        & both::<NoData>(bytes)
+macro_rules! readings {
+    ($( $stream:ident: $view:ty $( , $owned:ty )?; )+) => {
+        fn readings(bytes: &[u8]) -> bool {
+            both::<Descriptor>(bytes)
+                & both::<ExtendedDescription>(bytes)
+                & both::<NoData>(bytes)
+                $( & both::<$view>(bytes) )+
+        }
+    };
 }
+ads_cnc::streams! { readings }
 
 fn walks(bytes: &[u8]) -> usize {
     let mut seen = 0_usize;

@@ -29,7 +29,8 @@ mod version;
 use std::fmt;
 
 use ads_cnc::Kind;
-use ads_cnc::operation::Function;
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::{Function, OffsetRule};
 
 pub use version::{CncVersion, Feature, VersionError};
 
@@ -173,9 +174,8 @@ impl Edition {
             Way::Handle if is_in(self.by_name_only()) => {
                 Support::documented(false, BY_NAME_ONLY_REQUIREMENT)
             }
-            Way::Handle | Way::Name => by_name(),
-            Way::Description => match (by_name(), has(Feature::DescriptionByName)) {
-                (kind, version) if kind.available => {
+            Way::Handle | Way::Name => match (by_name(), Feature::of(function).map(has)) {
+                (kind, Some(version)) if kind.available => {
                     let assumed = version.assumed || (version.available && !is_in(INDEXED));
                     Support { assumed, ..version }
                 }
@@ -199,8 +199,6 @@ enum Way {
     Index,
     Handle,
     Name,
-    /// By name, for the description.
-    Description,
     /// By name, on the axis interface.
     Axis,
     /// A function without kinds.
@@ -209,18 +207,13 @@ enum Way {
 
 impl Way {
     fn of(function: Function) -> Self {
-        match function {
-            Function::CountVariables | Function::DescribeByIndex | Function::DescribeExtended => {
-                Self::Index
-            }
-            Function::HandleByName | Function::ReadByHandle | Function::WriteByHandle => {
-                Self::Handle
-            }
-            Function::ReadByName | Function::WriteByName => Self::Name,
-            Function::DescribeByName => Self::Description,
-            Function::AxisHandleByName | Function::AxisReadByName | Function::AxisWriteByName => {
-                Self::Axis
-            }
+        let spec = function.spec();
+        match (spec.offset, spec.request, spec.reply) {
+            (OffsetRule::OfAxis(_), ..) => Self::Axis,
+            (_, Some(Stream::VariableKind | Stream::VariableIndexKind), _) => Self::Index,
+            (_, Some(Stream::VariableHandleRead | Stream::VariableHandleWrite), _)
+            | (_, _, Some(Stream::VariableHandle)) => Self::Handle,
+            (_, Some(Stream::VariableName | Stream::VariableNameWrite), _) => Self::Name,
             _ => Self::Other,
         }
     }

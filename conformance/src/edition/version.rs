@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use ads_cnc::operation::Function;
+
 use super::Support;
 
 /// The version of a CNC: `V2.11.2077`, `V3.1.3081.07`, `V4.18.0`.
@@ -183,6 +185,14 @@ impl Feature {
     /// All of them.
     pub const ALL: &'static [Self] =
         &[Self::DynamicVariables, Self::DescriptionByName, Self::ServiceInterface];
+
+    /// What a CNC needs for a function; `None` if every version has the function.
+    pub const fn of(function: Function) -> Option<Self> {
+        match function {
+            Function::DescribeByName => Some(Self::DescriptionByName),
+            _ => None,
+        }
+    }
 
     /// The versions that are printed for it, in ascending order.
     pub const fn since(self) -> &'static [CncVersion] {

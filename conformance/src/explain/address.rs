@@ -166,15 +166,12 @@ fn meanings(place: &Place, function: Function, notes: &mut Vec<String>) {
             let name = ads_cnc::streaming::OBJECT_NAME;
             notes.push(format!("also the COM object {name}, written as NC text (STM-1)"));
         }
-        Function::DescribeByName => {
-            let since: Vec<String> =
-                Feature::DescriptionByName.since().iter().map(ToString::to_string).collect();
-            notes.push(format!(
-                "reserved in both editions; online from {} on (VAR-28)",
-                since.join(" and ")
-            ));
-        }
         _ => {}
+    }
+    if let Some(feature) = Feature::of(function) {
+        let since: Vec<String> = feature.since().iter().map(ToString::to_string).collect();
+        let (since, requirement) = (since.join(" and "), feature.requirement());
+        notes.push(format!("from {since} on ({requirement})"));
     }
     let parts = place.group.parts();
     let here = |other: &&FunctionSpec| {

@@ -10,8 +10,9 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function};
 
 use super::cnc::{
-    Answer, Row, Twist, Upstream, behind, dimensions, fits, function, group, is, measured, number,
-    offset, on, put, records_mut, row, text, twisted, u32_at,
+    Answer, ELEMENT_TEXTS, INDEXED, NAMED, Row, Twist, Upstream, behind, dimensions, first, fits,
+    function, group, is, measured, number, offset, on, put, records_mut, row, text, twisted,
+    u32_at,
 };
 
 /// A row about something that does not answer as printed.
@@ -28,19 +29,12 @@ const fn sent(
     twisted(id, &[], what, Twist::Frame(frame))
 }
 
-const TEXTS: &[Function] =
-    &[Function::ReadElementName, Function::ReadElementType, Function::ReadElementUnit];
-
 /// The handles of replies and, back, of requests made others.
 fn handles(cnc: &Upstream<'_>, call: &Call<'_>, other: fn(u32) -> u32) -> Answer {
-    match function(call) {
-        Some(
-            Function::HandleByName
-            | Function::AxisHandleByName
-            | Function::DescribeByIndex
-            | Function::DescribeByName,
-        ) => number(cnc.answer(call), 0, other),
-        Some(Function::ReadByHandle | Function::WriteByHandle) => {
+    let spec = function(call).map(Function::spec);
+    match spec.map(|spec| (first(spec.request), first(spec.reply))) {
+        Some((_, b"handle")) => number(cnc.answer(call), 0, other),
+        Some((b"handle", _)) => {
             let mut data = call.data.to_vec();
             let handle = u32_at(&data, 0).unwrap_or_default();
             put(&mut data, 0, other(handle));
@@ -89,7 +83,7 @@ const ROWS: &[Row] = &[
                 let answer = cnc.whole(call);
                 or_short(cnc, call, answer.map(|bytes| padded(bytes, 0, 96)))
             }
-            Some(function) if TEXTS.contains(&function) => {
+            Some(function) if ELEMENT_TEXTS.contains(&function) => {
                 let answer = cnc.whole(call);
                 or_short(cnc, call, answer.map(|bytes| padded(bytes, 0, 64)))
             }
@@ -103,7 +97,7 @@ const ROWS: &[Row] = &[
                     bytes
                 })
             }
-            Some(function) if TEXTS.contains(&function) => {
+            Some(function) if ELEMENT_TEXTS.contains(&function) => {
                 cnc.answer(call).map(|bytes| match text(&bytes) {
                     [] => bytes,
                     text => text.to_vec(),
@@ -137,10 +131,10 @@ const ROWS: &[Row] = &[
     unprinted(row("different.variables-reversed", &[], "the variables of a kind are in reverse order",
         |cnc, call| match (function(call), u32_at(call.data, 0), call.data.get(4..)) {
             (
-                Some(Function::DescribeByIndex | Function::DescribeExtended),
+                Some(function),
                 Some(index),
                 Some(kind),
-            ) => {
+            ) if INDEXED.contains(&function) => {
                 let count = cnc.ask(group(call), 0x44, kind)?;
                 let last = u32_at(&count, 0).unwrap_or_default().wrapping_sub(1);
                 let index = last.wrapping_sub(index);

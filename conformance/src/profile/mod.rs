@@ -155,8 +155,7 @@ impl Profile {
         match &self.functions {
             Some(_) if self.names(function) => Claim::Yes,
             Some(_) => Claim::No,
-            None if function == Function::DescribeByName => self.has(Feature::DescriptionByName),
-            None => Claim::Yes,
+            None => Feature::of(function).map_or(Claim::Yes, |feature| self.has(feature)),
         }
     }
 

@@ -3,11 +3,11 @@
 //! That a CNC refuses what the manuals do not allow is assumed. That it answers at all is not, nor
 //! that an answer of success means that what was asked is there (ADS-4).
 
-use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::address::{Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{
-    Call, CountObjects, CountVariables, DescribeByIndex, HandleByName, ObjectList, ReadByHandle,
-    ReadByName, ReadDescriptors, Request, Service,
+    Call, CountObjects, CountVariables, DescribeByIndex, Function, GroupRule, HandleByName,
+    ObjectList, ReadByHandle, ReadByName, ReadDescriptors, Request, Service,
 };
 use ads_cnc::{Kind, TextRef, U32List};
 
@@ -195,7 +195,14 @@ fn bad_address(probe: &mut Probe<'_>) -> Step {
             call.index_group = IndexGroup::new(group);
         })?;
     }
-    for offset in [0, 0x43, 0x4D, 0x4E, 0x144, 0x1_0044, u32::MAX] {
+    let is_free = |offset: &u32| {
+        let offset = IndexOffset::new(*offset);
+        let mut specs = Function::ALL.iter().map(|function| function.spec());
+        let group = GroupRule::ChannelOf(Class::Decoder);
+        !specs.any(|spec| spec.group == group && spec.offset.contains(offset))
+    };
+    let free = (0x44..).filter(is_free).take(2);
+    for offset in [0, 0x43].into_iter().chain(free).chain([0x144, 0x1_0044, u32::MAX]) {
         spoilt.call("ADS-4", &format!("the offset {offset:#x}"), |call| {
             call.index_offset = IndexOffset::new(offset);
         })?;

@@ -8,6 +8,7 @@ use ads_cnc_vectors::requirement;
 
 use super::super::findings::{Observation, Topic, TopicRecords};
 use crate::judge::{Checks as _, Rule, assumed, online};
+use crate::values::until_nul;
 use crate::wire_service;
 
 /// What every request has in its headers.
@@ -151,7 +152,7 @@ fn documented(
         page.check(rule, asked >= least, format!("room for {least} bytes"), format!("for {asked}"));
     }
     let mut page = records.on(topic, observation);
-    if let Some(name) = name_of(request) {
+    if let Some(name) = name_of(function, call) {
         let path = VariablePath::from_text(name);
         let found = path.err().map(|error| format!("{name}: {error}")).unwrap_or_default();
         page.check(assumed("VAR-20"), found.is_empty(), "a name as the manual builds them", found);
@@ -163,16 +164,12 @@ fn least(stream: Stream) -> u32 {
     if stream.layout().is_fixed() { stream.layout().max } else { 0 }
 }
 
-/// The name of a variable in a request.
-pub(super) fn name_of<'a>(request: &Request<'a>) -> Option<CncStr<'a>> {
-    match request {
-        Request::HandleByName(request) => Some(request.name.text()),
-        Request::ReadByName(request) => Some(request.name.text()),
-        Request::DescribeByName(request) => Some(request.name.text()),
-        Request::WriteByName(request) => Some(request.name),
-        Request::AxisHandleByName(request) => Some(request.name.text()),
-        Request::AxisReadByName(request) => Some(request.name.text()),
-        Request::AxisWriteByName(request) => Some(request.name),
+/// The name of a variable in a request of this function.
+pub(super) fn name_of<'a>(function: Function, call: &Call<'a>) -> Option<CncStr<'a>> {
+    match function.spec().request {
+        Some(Stream::VariableName | Stream::VariableNameWrite) => {
+            CncStr::from_bytes(until_nul(call.data)).ok()
+        }
         _ => None,
     }
 }

@@ -60,7 +60,7 @@ impl Bench<'_> {
         };
         let by_handle = handle.and_then(|handle| self.cnc.variables.name_of(group, handle));
         let name = by_handle.map(str::to_owned);
-        let name = name.or_else(|| name_of(request).map(|name| name.to_string()));
+        let name = name.or_else(|| name_of(request.function(), call).map(|name| name.to_string()));
         let variable = name.as_deref().and_then(ServiceVariable::by_name);
         let (Some(variable), Some(reply)) = (variable, reply) else { return };
         let written = match request {

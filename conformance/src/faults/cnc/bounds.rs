@@ -7,13 +7,12 @@ use ads_cnc::service::ServiceVariable;
 use super::handle::{joined, parts};
 use super::lookup::{indexed, instance, with_indices};
 use super::{
-    LOGICAL, Row, behind, dimensions, fits, function, group, is, number, offset, on, records,
-    reply, row, text, u32_at,
+    DESCRIPTIONS, LOGICAL, Row, behind, dimensions, fits, function, group, is, number, offset, on,
+    records, reply, row, text, u32_at,
 };
 
 const DESCRIPTORS: &[Function] = &[Function::ReadDescriptors];
 const STREAM: &[Function] = &[Function::WriteProgramStream];
-const DESCRIBE: &[Function] = &[Function::DescribeByIndex, Function::DescribeByName];
 const UUID: &str = ServiceVariable::UUID;
 
 #[rustfmt::skip]
@@ -131,7 +130,7 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.dimensions-2", &["VAR-4", "VAR-8"],
         "a description tells two dimensions at most: of three the last is left out",
-        |cnc, call| reply(cnc, call, DESCRIBE, |mut bytes| {
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             let (numbers, end) = dimensions(&bytes);
             if numbers.len() > 2 {
                 bytes.drain(28..end);

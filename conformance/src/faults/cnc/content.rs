@@ -2,12 +2,16 @@
 
 use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function, Service};
+use ads_cnc::operation::{Call, Function, GroupRule, OffsetRule, Service};
 
-use super::{Row, at, class, function, group, is, number, offset, on, row};
+use super::{Row, at, class, function, functions, group, is, is_at, number, offset, on, row};
 
 const COUNT: &[Function] = &[Function::CountElements];
 const WRITE: &[Function] = &[Function::WriteElement];
+const FUNCTIONS: &[Function] = functions!(|spec| matches!(
+    (spec.group, spec.offset),
+    (GroupRule::ChannelOf(Class::Decoder), OffsetRule::At(_) | OffsetRule::OfKind(_))
+));
 
 const fn is_blank(offset: u32) -> bool {
     offset >= 0x2_0000
@@ -118,8 +122,8 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.sda.functions-behind-content", &["SDA-12"],
         "the functions of the decoder have offsets from 0x100 on, behind its contents",
         |cnc, call| match super::of_decoder(call) {
-            Some(0x02..=0x05 | 0x1B..=0x26 | 0x44..=0x4C) => Err(AdsError::INVALID_OFFSET),
-            Some(0x102..=0x14C) => cnc.answer(&at(call, group(call), offset(call) & 0xFF)),
+            Some(_) if is_at(call, FUNCTIONS) => Err(AdsError::INVALID_OFFSET),
+            Some(0x102..=0x1FF) => cnc.answer(&at(call, group(call), offset(call) & 0xFF)),
             _ => cnc.answer(call),
         }),
 ];

@@ -3,15 +3,13 @@
 use ads_cnc::ads::AdsError;
 use ads_cnc::operation::Function;
 
-use super::{Row, group, is, offset, on, put, reply, row, text, u32_at};
+use super::{ELEMENT_TEXTS, Row, group, is, offset, on, put, reply, row, text, u32_at};
 
 const NAME: &[Function] = &[Function::ReadElementName];
 const TYPE: &[Function] = &[Function::ReadElementType];
 const LENGTH: &[Function] = &[Function::ReadElementLength];
 const UNIT: &[Function] = &[Function::ReadElementUnit];
 const FLAG: &[Function] = &[Function::ReadElementWriteFlag];
-const TEXTS: &[Function] =
-    &[Function::ReadElementName, Function::ReadElementType, Function::ReadElementUnit];
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
@@ -31,12 +29,12 @@ pub(super) const ROWS: &[Row] = &[
             false => cnc.answer(call),
         }),
     row("cnc.sda.text-length-first", &["SDA-6"], "a text comes with its length, an UNS32, in front",
-        |cnc, call| reply(cnc, call, TEXTS, |bytes| {
+        |cnc, call| reply(cnc, call, ELEMENT_TEXTS, |bytes| {
             let length = u32::try_from(text(&bytes).len()).unwrap_or_default();
             [&length.to_le_bytes(), bytes.as_slice()].concat()
         })),
     row("cnc.sda.text-wide", &["SDA-6"], "texts take two bytes a character",
-        |cnc, call| reply(cnc, call, TEXTS, |bytes| bytes.iter().flat_map(|&byte| [byte, 0]).collect())),
+        |cnc, call| reply(cnc, call, ELEMENT_TEXTS, |bytes| bytes.iter().flat_map(|&byte| [byte, 0]).collect())),
     row("cnc.sda.names-empty", &["SDA-6"], "elements have no names: they are empty",
         |cnc, call| reply(cnc, call, NAME, |_| vec![0])),
     on("cnc.sda.unit-refused", &["SDA-6", "ADR-6"], "elements have no unit: it is refused",

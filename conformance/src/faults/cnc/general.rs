@@ -1,31 +1,29 @@
 //! Rules of all streams (GEN).
 
 use ads_cnc::ads::{AdsError, AmsPort};
-use ads_cnc::operation::{Call, Function};
+use ads_cnc::layout::{FieldSpec, Size, Type};
+use ads_cnc::operation::{Call, Function, FunctionSpec};
 use ads_cnc::text::cp1252_to_char;
 
 use super::{
-    Answer, Row, Upstream, behind, dimensions, fits, function, number, on, put, records, row, text,
-    u32_at,
+    Answer, DESCRIPTIONS, NAMED, Row, Upstream, VALUES, WRITES, behind, dimensions, first, fits,
+    function, functions, number, on, put, records, row, text, u32_at,
 };
 
 /// Functions whose reply is a number.
-const NUMBERS: &[Function] = &[
-    Function::CountObjects,
-    Function::CountVariables,
-    Function::HandleByName,
-    Function::CountDynamic,
-    Function::CountElements,
-    Function::AxisHandleByName,
-];
+const NUMBERS: &[Function] =
+    functions!(|spec| matches!(reply(spec), [FieldSpec { size: Size::Fixed(4), .. }]));
 
 /// Functions whose reply is a text.
-const TEXTS: &[Function] = &[
-    Function::ReadElementName,
-    Function::ReadElementUnit,
-    Function::ReadElementType,
-    Function::DynamicNameByIndex,
-];
+const TEXTS: &[Function] =
+    functions!(|spec| matches!(reply(spec), [FieldSpec { ty: Type::String, .. }]));
+
+const fn reply(spec: &FunctionSpec) -> &'static [FieldSpec] {
+    match spec.reply {
+        Some(stream) => stream.layout().fields,
+        None => &[],
+    }
+}
 
 /// Changes the texts of replies and, back, the names of requests.
 fn texts(
@@ -43,11 +41,9 @@ fn texts(
             let (head, name) = bytes.split_at_checked(name).unwrap_or_default();
             [head, &again(text(name), outwards, &[0])].concat()
         }),
-        Some(Function::ReadByName | Function::HandleByName | Function::DescribeByName) => {
-            return cnc.with(call, &again(text(call.data), inwards, &[0]));
-        }
-        Some(Function::WriteByName) => {
-            let tail = [&[0], behind(call.data)].concat();
+        Some(function) if NAMED.contains(&function) => {
+            let value = if WRITES.contains(&function) { behind(call.data) } else { &[] };
+            let tail = [&[0], value].concat();
             return cnc.with(call, &again(text(call.data), inwards, &tail));
         }
         _ => return cnc.answer(call),
@@ -80,7 +76,7 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.gen.reals-words-swapped", &["GEN-1"],
         "the two halves of a REAL64 of a variable stand in the other order",
         |cnc, call| match function(call) {
-            Some(Function::ReadByName | Function::ReadByHandle | Function::AxisReadByName) => {
+            Some(function) if VALUES.contains(&function) => {
                 let answer = cnc.answer(call)?;
                 match answer.split_at_checked(4) {
                     Some((low, high)) if high.len() == 4 => Ok([high, low].concat()),
@@ -92,12 +88,7 @@ pub(super) const ROWS: &[Row] = &[
     row("cnc.gen.requests-big-endian", &["GEN-1"],
         "indices in requests are read with the most significant byte first",
         |cnc, call| match function(call) {
-            Some(
-                Function::DescribeByIndex
-                | Function::DescribeExtended
-                | Function::DynamicNameByIndex
-                | Function::DynamicValueByIndex,
-            ) => {
+            Some(function) if first(function.spec().request) == b"index" => {
                 let mut data = call.data.to_vec();
                 if let Some(index) = u32_at(&data, 0) {
                     put(&mut data, 0, index.swap_bytes());
@@ -162,7 +153,7 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.gen.boolean-4-bytes", &["GEN-5"], "a BOOLEAN variable takes 4 bytes",
         |cnc, call| match function(call) {
-            Some(Function::DescribeByIndex | Function::DescribeByName) => {
+            Some(function) if DESCRIPTIONS.contains(&function) => {
                 cnc.answer(call).map(|mut bytes| {
                     if u32_at(&bytes, 4) == Some(1) {
                         let size = u32_at(&bytes, 12).unwrap_or_default();

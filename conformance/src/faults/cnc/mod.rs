@@ -41,7 +41,8 @@ pub(in crate::faults) use self::bytes::{
 };
 pub use self::faulty::Faulty;
 pub(in crate::faults) use self::request::{
-    LOGICAL, at, class, com_group, function, group, is, named, of_decoder, offset,
+    DESCRIPTIONS, ELEMENT_TEXTS, INDEXED, LOGICAL, NAMED, VALUES, WRITES, at, class, com_group,
+    first, function, functions, group, is, is_at, of_decoder, offset,
 };
 use self::upstream::Memory;
 pub(crate) use self::upstream::Upstream;

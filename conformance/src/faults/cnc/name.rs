@@ -4,15 +4,10 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Function, Service};
 
 use super::variable::without_indices;
-use super::{Row, at, behind, function, group, is, named, of_decoder, on, row, text, u32_at};
+use super::{
+    NAMED, Row, at, behind, function, group, is, is_at, of_decoder, on, row, text, u32_at,
+};
 use crate::edition::Edition;
-
-const NAMED: &[Function] = &[
-    Function::HandleByName,
-    Function::ReadByName,
-    Function::WriteByName,
-    Function::DescribeByName,
-];
 
 /// A row that shows in the German edition.
 const fn german(mut row: Row) -> Row {
@@ -33,7 +28,7 @@ pub(super) const ROWS: &[Row] = &[
             false => cnc.answer(call),
         }),
     row("cnc.var.name-of-256", &["VAR-9"], "names of more than 255 characters are cut and looked up",
-        |cnc, call| match named(call) && call.service == Service::ReadWrite {
+        |cnc, call| match is_at(call, NAMED) && call.service == Service::ReadWrite {
             true if call.data.len() > 256 => {
                 let name = text(call.data);
                 cnc.with(call, &[name.get(..255).unwrap_or(name), &[0]].concat())
@@ -41,7 +36,7 @@ pub(super) const ROWS: &[Row] = &[
             _ => cnc.answer(call),
         }),
     row("cnc.var.name-not-ended", &["VAR-9"], "names with a NUL are refused",
-        |cnc, call| match named(call) && call.service == Service::ReadWrite {
+        |cnc, call| match is_at(call, NAMED) && call.service == Service::ReadWrite {
             true if call.data.contains(&0) => Err(AdsError::SYMBOL_NOT_FOUND),
             true => cnc.with(call, &[call.data, &[0]].concat()),
             false => cnc.answer(call),
@@ -106,7 +101,7 @@ pub(super) const ROWS: &[Row] = &[
         })),
     german(row("cnc.var.dynamic-refused", &["VAR-19"],
         "V.P, V.L and V.S are not reached through the channel interface",
-        |cnc, call| match (named(call), call.data) {
+        |cnc, call| match (is_at(call, NAMED), call.data) {
             (true, [b'V', b'.', b'P' | b'L' | b'S', b'.', ..]) => Err(AdsError::SYMBOL_NOT_FOUND),
             _ => cnc.answer(call),
         })),

@@ -4,11 +4,11 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::{Call, Function};
 
 use super::{
-    Answer, Row, Upstream, group, is, number, of_decoder, offset, on, put, row, text, u32_at,
+    Answer, INDEXED, Row, Upstream, group, is, number, of_decoder, offset, on, put, row, text,
+    u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountVariables];
-const INDEXED: &[Function] = &[Function::DescribeByIndex, Function::DescribeExtended];
 
 /// Index and kind, made others.
 fn indexed(

@@ -6,12 +6,11 @@ use ads_cnc::operation::{Call, Function};
 use super::handle::parts;
 use super::lookup::{described, descriptor, element_is, indexed, is_string, object_is};
 use super::{
-    Answer, LOGICAL, Row, Upstream, behind, dimensions, fits, function, group, is, number,
-    of_decoder, offset, on, put, records_mut, reply, row, text, u32_at,
+    Answer, DESCRIPTIONS, LOGICAL, Row, Upstream, behind, dimensions, fits, function, group, is,
+    number, of_decoder, offset, on, put, records_mut, reply, row, text, u32_at,
 };
 
 const BOTH: &[Function] = &[Function::DynamicValueByName, Function::DynamicValueByIndex];
-const DESCRIBE: &[Function] = &[Function::DescribeByIndex, Function::DescribeByName];
 
 /// The REAL64 as it is when it has gone through a text of six digits behind the point.
 fn six_digits(bytes: Vec<u8>) -> Vec<u8> {
@@ -194,7 +193,7 @@ pub(super) const ROWS: &[Row] = &[
             _ => cnc.answer(call),
         }),
     on("cnc.var.strings-read-only", &["VAR-6"], "a STRING is described as READ_ONLY, and written",
-        DESCRIBE, |cnc, call| {
+        DESCRIPTIONS, |cnc, call| {
             let answer = cnc.answer(call)?;
             match is_string(&answer) {
                 true => number(Ok(answer), 8, |_| 1),

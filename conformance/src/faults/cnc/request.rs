@@ -1,7 +1,61 @@
 //! What a request asks.
 
 use ads_cnc::address::{ClassGroup, ComGroup, Group, IndexGroup, IndexOffset};
-use ads_cnc::operation::{Call, Function};
+use ads_cnc::layout::Stream;
+use ads_cnc::operation::{Call, Effect, Function, OffsetRule};
+
+/// The functions whose row has a property, as a list that a constant can hold.
+macro_rules! functions {
+    (|$spec:ident| $has:expr) => {{
+        const FOUND: ([Function; Function::ALL.len()], usize) = {
+            let mut found = [Function::CountObjects; Function::ALL.len()];
+            let (mut rest, mut len) = (Function::ALL, 0_usize);
+            while let [function, others @ ..] = rest {
+                let $spec = function.spec();
+                if $has && let Some(free) = found.split_at_mut(len).1.first_mut() {
+                    *free = *function;
+                    len = len.saturating_add(1);
+                }
+                rest = others;
+            }
+            (found, len)
+        };
+        FOUND.0.split_at(FOUND.1).0
+    }};
+}
+pub(in crate::faults) use functions;
+
+/// The name of the first field of a stream.
+pub(in crate::faults) const fn first(stream: Option<Stream>) -> &'static [u8] {
+    let Some(stream) = stream else { return &[] };
+    let [field, ..] = stream.layout().fields else { return &[] };
+    field.name.as_bytes()
+}
+
+/// Functions of the channel interface whose request begins with a name.
+pub(in crate::faults) const NAMED: &[Function] =
+    functions!(|spec| matches!((spec.offset, first(spec.request)), (OffsetRule::At(_), b"name")));
+
+/// Functions that write a variable.
+pub(in crate::faults) const WRITES: &[Function] =
+    functions!(|spec| matches!(spec.effect, Effect::Write));
+
+/// Functions whose reply is the value of a variable.
+pub(in crate::faults) const VALUES: &[Function] =
+    functions!(|spec| matches!(spec.reply, Some(Stream::VariableValue)));
+
+/// Functions whose reply describes a variable: its handle and more.
+pub(in crate::faults) const DESCRIPTIONS: &[Function] =
+    functions!(|spec| matches!(first(spec.reply), b"handle")
+        && !matches!(spec.reply, Some(Stream::VariableHandle)));
+
+/// Functions whose request is the index and the kind of a variable.
+pub(in crate::faults) const INDEXED: &[Function] =
+    functions!(|spec| matches!(spec.request, Some(Stream::VariableIndexKind)));
+
+/// Functions whose reply is the name, the type or the unit of an element.
+pub(in crate::faults) const ELEMENT_TEXTS: &[Function] =
+    functions!(|spec| matches!(spec.reply, Some(Stream::ElementText)));
 
 /// The same request at another address.
 pub(in crate::faults) fn at<'c>(call: &Call<'c>, group: u32, offset: u32) -> Call<'c> {
@@ -51,7 +105,9 @@ pub(in crate::faults) fn of_decoder(call: &Call<'_>) -> Option<u32> {
     (group(call) & 0xFFEF_FF00 == 0x02_2300).then(|| offset(call))
 }
 
-/// Whether it is a request of the channel interface that begins with a name.
-pub(in crate::faults) fn named(call: &Call<'_>) -> bool {
-    matches!(of_decoder(call), Some(0x46 | 0x48 | 0x4A | 0x4C))
+/// Whether it is at an offset of the decoder that one of these functions has, whatever channel and
+/// way of addressing.
+pub(in crate::faults) fn is_at(call: &Call<'_>, functions: &[Function]) -> bool {
+    let mut offsets = functions.iter().map(|function| function.spec().offset);
+    of_decoder(call).is_some() && offsets.any(|rule| rule.contains(call.index_offset))
 }

@@ -1,17 +1,21 @@
 //! Values and extended descriptions of variables (VAR).
 
+use ads_cnc::address::Class;
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function};
+use ads_cnc::operation::{Call, Function, GroupRule, OffsetRule};
 
 use super::variable::{described, element, first_element};
 use super::{
-    Row, dimensions, fits, function, group, is, number, offset, on, put, reply, row, text, u32_at,
+    Row, VALUES, dimensions, fits, function, functions, group, is, is_at, number, offset, on, put,
+    reply, row, text, u32_at,
 };
 
 const BY_NAME: &[Function] = &[Function::DescribeByName];
 const EXTENDED: &[Function] = &[Function::DescribeExtended];
-const VALUES: &[Function] =
-    &[Function::ReadByName, Function::ReadByHandle, Function::AxisReadByName];
+const CHANNEL: &[Function] = functions!(|spec| matches!(
+    (spec.group, spec.offset),
+    (GroupRule::ChannelOf(Class::Decoder), OffsetRule::At(_))
+));
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
@@ -167,8 +171,8 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.channel-ignored", &["VAR-14", "VAR-2"],
         "variables are those of channel 1, whatever the channel",
-        |cnc, call| match super::of_decoder(call) {
-            Some(0x44..=0x4C) => cnc.at(call, 0x12_2301, offset(call)),
-            _ => cnc.answer(call),
+        |cnc, call| match is_at(call, CHANNEL) {
+            true => cnc.at(call, 0x12_2301, offset(call)),
+            false => cnc.answer(call),
         }),
 ];

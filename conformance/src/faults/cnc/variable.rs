@@ -5,11 +5,11 @@ use ads_cnc::operation::{Call, Function};
 
 use super::number::count;
 use super::{
-    Answer, Row, Upstream, dimensions, fits, function, group, on, put, reply, row, text, u32_at,
+    Answer, DESCRIPTIONS, Row, Upstream, dimensions, fits, function, group, on, put, reply, row,
+    text, u32_at,
 };
 
 const DESCRIBE: &[Function] = &[Function::DescribeByIndex];
-const BOTH: &[Function] = &[Function::DescribeByIndex, Function::DescribeByName];
 
 /// The description of the variable with this handle or name, as it is read.
 pub(super) fn described(cnc: &Upstream<'_>, call: &Call<'_>) -> Option<Vec<u8>> {
@@ -118,7 +118,7 @@ pub(super) const ROWS: &[Row] = &[
         })),
     row("cnc.var.description-dimensions-missing", &["VAR-4"],
         "a description has no dimensions: m is 0 for arrays too",
-        |cnc, call| reply(cnc, call, BOTH, |mut bytes| {
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             let (_, name) = dimensions(&bytes);
             bytes.drain(20.min(bytes.len())..name);
             put(&mut bytes, 16, 0);
@@ -126,7 +126,7 @@ pub(super) const ROWS: &[Row] = &[
         })),
     row("cnc.var.description-dimensions-reversed", &["VAR-4"],
         "the dimensions of a description come in reverse order",
-        |cnc, call| reply(cnc, call, BOTH, |mut bytes| {
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             let (numbers, _) = dimensions(&bytes);
             let mut place = 20_usize;
             for number in numbers.iter().rev() {
@@ -137,7 +137,7 @@ pub(super) const ROWS: &[Row] = &[
         })),
     row("cnc.var.description-largest-index", &["VAR-4", "VAR-8"],
         "a description has the largest index of each dimension, not the number of elements",
-        |cnc, call| reply(cnc, call, BOTH, |mut bytes| {
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             let (numbers, _) = dimensions(&bytes);
             let mut place = 20_usize;
             for number in numbers {

@@ -1,19 +1,19 @@
 //! Functions of one variable that contradict each other (VAR).
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Function};
+use ads_cnc::operation::{Call, Function, Service};
 
 use super::handle::{joined, parts};
 use super::number::count;
 use super::{
-    Row, Upstream, behind, dimensions, fits, function, group, is, of_decoder, offset, on, reply,
-    row, text, u32_at,
+    NAMED, Row, Upstream, WRITES, behind, dimensions, fits, function, group, is, of_decoder,
+    offset, on, reply, row, text, u32_at,
 };
 
-const BY_NAME: &[Function] =
-    &[Function::HandleByName, Function::ReadByName, Function::DescribeByName];
-const WRITE: &[Function] =
-    &[Function::WriteByHandle, Function::WriteByName, Function::AxisWriteByName];
+/// Whether it asks about a variable by its name.
+fn is_query(call: &Call<'_>) -> bool {
+    is(call, NAMED) && call.service == Service::ReadWrite
+}
 
 /// The names of V.E and V.G in the order of their indices.
 fn listed(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<Vec<u8>> {
@@ -54,7 +54,7 @@ fn old(cnc: &Upstream<'_>, call: &Call<'_>) -> Vec<u8> {
 pub(super) const ROWS: &[Row] = &[
     row("cnc.var.name-compared-8", &["VAR-9"],
         "names are compared by their first 8 characters if there is none that is the same",
-        |cnc, call| match (is(call, BY_NAME), cnc.answer(call)) {
+        |cnc, call| match (is_query(call), cnc.answer(call)) {
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
                 let name = text(call.data);
                 let same = |other: &Vec<u8>| name.len() > 8 && other.get(..8) == name.get(..8);
@@ -65,7 +65,7 @@ pub(super) const ROWS: &[Row] = &[
         }),
     on("cnc.var.write-low-byte", &["VAR-12", "VAR-13"],
         "of a written value the first byte counts, the others stay",
-        WRITE, |cnc, call| {
+        WRITES, |cnc, call| {
             let (at, old) = (value_at(call), old(cnc, call));
             let mut data = call.data.to_vec();
             let value = data.iter_mut().skip(at).zip(old).skip(1);
@@ -74,7 +74,7 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.write-next-element", &["VAR-12"],
         "a write of an element by handle writes the element behind it too",
-        |cnc, call| match (is(call, WRITE), parts(call.data)) {
+        |cnc, call| match (is(call, WRITES), parts(call.data)) {
             (true, Some((handle, at, value)))
                 if function(call) == Some(Function::WriteByHandle) =>
             {
@@ -88,7 +88,7 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.write-refused-done", &["VAR-12", "VAR-13"],
         "a value of more bytes than the variable has is refused, and its front written",
-        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
+        |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
                 let len = value_at(call).saturating_add(old(cnc, call).len());
                 let _ = cnc.with(call, call.data.get(..len).unwrap_or(call.data));
@@ -115,7 +115,7 @@ pub(super) const ROWS: &[Row] = &[
         }),
     on("cnc.var.text-keeps-rest", &["VAR-12", "VAR-13", "VAR-25"],
         "of a text that is written shorter the old one stays behind it",
-        WRITE, |cnc, call| {
+        WRITES, |cnc, call| {
             let (at, old) = (value_at(call), old(cnc, call));
             let value = call.data.get(at..).unwrap_or_default();
             let text = text(value);
@@ -188,7 +188,7 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("cnc.var.structure-index-beyond", &["VAR-20"],
         "an index within a name that is out of bounds is taken for 0",
-        |cnc, call| match (is(call, BY_NAME), cnc.answer(call)) {
+        |cnc, call| match (is_query(call), cnc.answer(call)) {
             (true, Err(AdsError::SYMBOL_NOT_FOUND)) => {
                 let name = String::from_utf8_lossy(text(call.data)).into_owned();
                 let Some((head, tail)) = name.split_once('[') else {

@@ -5,11 +5,9 @@ use ads_cnc::operation::{Call, Function};
 
 use super::variable::without_indices;
 use super::{
-    Answer, Row, Upstream, behind, function, group, is, of_decoder, on, put_off, row, text,
+    Answer, Row, Upstream, WRITES, behind, function, group, is, of_decoder, on, put_off, row, text,
 };
 
-const WRITE: &[Function] =
-    &[Function::WriteByHandle, Function::WriteByName, Function::AxisWriteByName];
 const BY_HANDLE: &[Function] = &[Function::WriteByHandle];
 const BY_NAME: &[Function] = &[Function::WriteByName];
 
@@ -36,14 +34,14 @@ pub(super) const ROWS: &[Row] = &[
     on("cnc.var.write-by-name-ignored", &["VAR-13"], "a write by name succeeds and changes nothing",
         BY_NAME, |cnc, call| undone(cnc, call, 0x48, &[text(call.data), &[0]].concat())),
     on("cnc.var.write-late", &["VAR-12", "VAR-13"], "a write takes effect with the next one",
-        WRITE, put_off),
+        WRITES, put_off),
     on("cnc.var.write-by-handle-refused", &["VAR-12"], "writes by handle are refused",
         BY_HANDLE, |_, _| Err(AdsError::INVALID_ACCESS)),
     on("cnc.var.write-by-name-refused", &["VAR-13"], "writes by name are refused",
         BY_NAME, |_, _| Err(AdsError::INVALID_ACCESS)),
     row("cnc.var.write-read-only-accepted", &["VAR-6"],
         "a write of what is READ_ONLY succeeds, and changes nothing",
-        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
+        |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_ACCESS)) => Ok(Vec::new()),
             (_, answer) => answer,
         }),
@@ -66,7 +64,7 @@ pub(super) const ROWS: &[Row] = &[
     }),
     row("cnc.var.write-long-accepted", &["VAR-12", "VAR-13"],
         "a value of more bytes than the variable has is cut and written",
-        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
+        |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) => {
                 let mut data = call.data.to_vec();
                 for _ in 0..8 {
@@ -139,7 +137,7 @@ pub(super) const ROWS: &[Row] = &[
             false => cnc.answer(call),
         }),
     row("cnc.var.write-1024", &["VAR-12", "VAR-13"], "writes of more than 64 bytes are refused",
-        |cnc, call| match is(call, WRITE) && call.data.len() > 64 {
+        |cnc, call| match is(call, WRITES) && call.data.len() > 64 {
             true => Err(AdsError::INVALID_SIZE),
             false => cnc.answer(call),
         }),

@@ -8,8 +8,8 @@ use ads_cnc::operation::Function;
 use ads_cnc::service::ServiceVariable;
 
 use super::{
-    Row, TEXTS, function, group, is, measured, offset, on, or_short, put, row, sent, text, u32_at,
-    unprinted,
+    ELEMENT_TEXTS, Row, function, group, is, measured, offset, on, or_short, put, row, sent, text,
+    u32_at, unprinted,
 };
 
 #[rustfmt::skip]
@@ -71,7 +71,7 @@ pub(super) const ROWS: &[Row] = &[
                 };
                 or_short(cnc, call, cnc.whole(call).map(remains))
             }
-            Some(function) if TEXTS.contains(&function) => {
+            Some(function) if ELEMENT_TEXTS.contains(&function) => {
                 or_short(cnc, call, cnc.whole(call).map(|bytes| [&bytes[..], b"x\0"].concat()))
             }
             _ => cnc.answer(call),

@@ -2,34 +2,29 @@
 //! which requests it refuses no manual says.
 
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Function, Service};
+use ads_cnc::operation::{Function, OffsetRule, Service};
 
 use super::unprinted;
 use crate::faults::cnc::{
-    Row, function, group, is, named, number, of_decoder, offset, put, row, text, u32_at,
+    INDEXED, NAMED, Row, WRITES, function, functions, group, is, is_at, number, of_decoder, offset,
+    put, row, text, u32_at,
 };
 
 const COUNT: &[Function] = &[Function::CountVariables];
-const INDEXED: &[Function] = &[Function::DescribeByIndex, Function::DescribeExtended];
-
-const OF_AXES: &[Function] =
-    &[Function::AxisHandleByName, Function::AxisReadByName, Function::AxisWriteByName];
+const OF_AXES: &[Function] = functions!(|spec| matches!(spec.offset, OffsetRule::OfAxis(_)));
 
 /// What handles of the axis interface have that those of the channel interface have not.
 const OF_AXIS_INTERFACE: u32 = 0x1000_0000;
 
-const WRITE: &[Function] =
-    &[Function::WriteByHandle, Function::WriteByName, Function::AxisWriteByName];
-
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
     row("different.name-unended", &[], "names without a NUL are taken",
-        |cnc, call| match named(call) && !call.data.contains(&0) {
+        |cnc, call| match is_at(call, NAMED) && !call.data.contains(&0) {
             true if !call.data.is_empty() => cnc.with(call, &[call.data, &[0]].concat()),
             _ => cnc.answer(call),
         }),
     row("different.name-bytes-behind", &[], "bytes behind the NUL of a name are ignored",
-        |cnc, call| match named(call) && call.service == Service::ReadWrite {
+        |cnc, call| match is_at(call, NAMED) && call.service == Service::ReadWrite {
             true if call.data.contains(&0) => cnc.with(call, &[text(call.data), &[0]].concat()),
             _ => cnc.answer(call),
         }),
@@ -65,7 +60,7 @@ pub(super) const ROWS: &[Row] = &[
         }),
     row("different.short-values", &[],
         "a value of fewer bytes than the variable has is written, and zeros behind it, but to a service",
-        |cnc, call| match (is(call, WRITE), cnc.answer(call)) {
+        |cnc, call| match (is(call, WRITES), cnc.answer(call)) {
             (true, Err(AdsError::INVALID_SIZE)) if !call.data.starts_with(b"V.G.SERVICE.") => {
                 let longer = (1..=8).map(|more| [call.data, &vec![0; more]].concat());
                 let done = longer.map(|data| cnc.with(call, &data)).find(Result::is_ok);

@@ -4,23 +4,17 @@ use ads_cnc::ads::{AdsError, FrameRef};
 use ads_cnc::operation::{Call, Function, Service};
 
 use super::{
-    Answer, Row, Twist, Upstream, function, group, is, offset, on, put, records_mut, row, text,
-    twisted, u32_at, unprinted,
+    Answer, NAMED, Row, Twist, Upstream, function, group, is, offset, on, put, records_mut, row,
+    text, twisted, u32_at, unprinted,
 };
 use super::{measured, sent};
 
 const STREAM: &[Function] = &[Function::WriteProgramStream];
-const BY_NAME: &[Function] = &[
-    Function::ReadByName,
-    Function::WriteByName,
-    Function::HandleByName,
-    Function::DescribeByName,
-];
 
 /// The request with the case of its name as it is listed, if it is in another.
 fn any_case(cnc: &Upstream<'_>, call: &Call<'_>) -> Answer {
     let answer = cnc.answer(call);
-    if !is(call, BY_NAME) || answer != Err(AdsError::SYMBOL_NOT_FOUND) {
+    if !is(call, NAMED) || answer != Err(AdsError::SYMBOL_NOT_FOUND) {
         return answer;
     }
     let asked = text(call.data);

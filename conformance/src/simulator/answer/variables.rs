@@ -18,7 +18,6 @@ use ads_cnc::{
 
 use self::resolve::{Named, UNKNOWN, parameter};
 use super::{Answer, Running, encode};
-use crate::edition::Feature;
 use crate::simulator::content::{check_size, put};
 use crate::simulator::model::At;
 use crate::simulator::to_u32;
@@ -59,13 +58,8 @@ impl Running<'_> {
         encode(ExtendedReply(self.variable(channel, at)?.extended))
     }
 
-    /// Not there on a CNC too old for it, as the manuals reserve it.
     pub(super) fn describe_by_name(&self, op: &DescribeByName<'_>) -> Answer {
         let channel = self.channel(op.channel)?;
-        let version = self.model.version;
-        if !version.is_none_or(|version| version.has(Feature::DescriptionByName).available) {
-            return Err(AdsError::INVALID_OFFSET);
-        }
         let (named, indices) = self.named(Function::DescribeByName, channel, op.name.text())?;
         let Named::Variable(at) = named else {
             // What a parameter is; that it has no handle is assumed.

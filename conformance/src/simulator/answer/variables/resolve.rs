@@ -7,6 +7,7 @@ use ads_cnc::operation::Function;
 use ads_cnc::{CncStr, CncString, Handle, Kind, U32List, VariablePath};
 
 use super::Running;
+use crate::edition::Feature;
 use crate::simulator::model::{At, ChannelModel, Variable, handle_at, parameter_kind};
 use crate::simulator::to_len;
 
@@ -72,13 +73,19 @@ impl Running<'_> {
         at.copied().ok_or(AdsError::INVALID_DATA)
     }
 
-    /// What a name on the channel interface means, and the element that it selects.
+    /// What a name on the channel interface means, and the element that it selects. A function for
+    /// which the CNC is too old is at no offset.
     pub(super) fn named<'n>(
         &self,
         function: Function,
         channel: usize,
         name: CncStr<'n>,
     ) -> Result<(Named, U32List<'n>), AdsError> {
+        if let (Some(version), Some(feature)) = (self.model.version, Feature::of(function))
+            && !version.has(feature).available
+        {
+            return Err(AdsError::INVALID_OFFSET);
+        }
         let path = VariablePath::from_text(name).map_err(|_| UNKNOWN)?;
         self.permit(function, path.kind())?;
         let model = self.model.channels.get(channel).ok_or(AdsError::INVALID_GROUP)?;
