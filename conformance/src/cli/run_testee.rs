@@ -65,7 +65,7 @@ pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io
         match &fault {
             None => writeln!(out, "ok     {what}")?,
             Some(fault) => {
-                faults = faults.saturating_add(1);
+                faults += 1;
                 writeln!(out, "WRONG  {what}: {fault}")?;
                 for (mark, line) in [("→", sent), ("←", received)] {
                     if let Some(line) = line {

@@ -1,5 +1,11 @@
 //! `ads-cnc set`: writes a value by its name.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::unreachable, clippy::unwrap_used)
+)]
+
 use std::io::{self, Write as _};
 
 use ads_cnc::dynamic::DynamicKind;

@@ -1,5 +1,7 @@
 //! What came of a case.
 
+use std::panic::{self, AssertUnwindSafe};
+
 use super::{Case, Judgement, Stop, Verdict};
 
 /// What came of a case.
@@ -106,4 +108,13 @@ fn of_requirement(
 /// The verdict that stands for several.
 pub fn gravest(verdicts: impl IntoIterator<Item = Verdict>) -> Option<Verdict> {
     verdicts.into_iter().max_by_key(|verdict| verdict.gravity())
+}
+
+/// Runs a case; its error is the message of a panic, which ends this case alone.
+pub(crate) fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+    panic::catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
+        let text = payload.downcast_ref::<&str>().copied();
+        let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+        format!("the case panicked: {}", text.unwrap_or("without a message"))
+    })
 }

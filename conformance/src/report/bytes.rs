@@ -115,7 +115,7 @@ impl BytesReport {
                 let is_like =
                     (ITEMS..last).contains(&place) && list.len() > ITEMS.saturating_add(2);
                 if is_like && field.differs.is_empty() {
-                    more = more.saturating_add(1);
+                    more += 1;
                     continue;
                 }
                 shown.extend((more > 0).then_some(Shown::More(more)));

@@ -93,7 +93,7 @@ fn cases(report: &Report, who: Subject, verbose: bool, out: &mut dyn Write) -> i
         let mut totals = Totals::new();
         for case in &cases {
             let number = totals.entry(case.verdict).or_default();
-            *number = number.saturating_add(1);
+            *number += 1;
         }
         let waived = cases.iter().filter(|case| case.waived).count();
         writeln!(out, "  {stream:<width$}  {}", counts(&totals, waived))?;

@@ -78,11 +78,11 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
             finding(&all, &mut text)?;
         }
         let text = String::from_utf8_lossy(&text);
-        length = length.saturating_add(text.len());
+        length += text.len();
         if length > FAILURES_MAX && shown > 0 {
             break;
         }
-        shown = shown.saturating_add(1);
+        shown += 1;
         let (verdict, title) = (worded(case.verdict, case.waived), plain(&case.title));
         let (fence, id) = (fence(&text), html(&case.id));
         writeln!(out, "<details><summary>{verdict}: <code>{id}</code> {title}</summary>\n")?;

@@ -189,7 +189,7 @@ fn parallel<T: Sync, R: Send>(
     tell: &(impl Fn(usize, usize) + Sync),
 ) -> Vec<R> {
     let left = Mutex::new((items.iter().enumerate(), Vec::with_capacity(items.len())));
-    let workers = thread::available_parallelism().map_or(1, usize::from).saturating_mul(threads);
+    let workers = thread::available_parallelism().map_or(1, usize::from) * threads;
     thread::scope(|scope| {
         for _ in 0..workers {
             scope.spawn(|| {

@@ -81,7 +81,7 @@ fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
     for mode in Mode::ALL {
         let Figures { caught, elsewhere, missed, undetectable, quiet, alarms } =
             table.figures(mode);
-        let variants = quiet.saturating_add(alarms);
+        let variants = quiet + alarms;
         let defects: usize = [caught, elsewhere, missed, undetectable].iter().sum();
         let alarms = format!("{alarms} of {variants}");
         writeln!(
@@ -113,7 +113,7 @@ fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
 }
 
 fn percent(part: usize, all: usize) -> String {
-    let tenths = part.saturating_mul(1000).checked_div(all).unwrap_or_default();
+    let tenths = (part * 1000).checked_div(all).unwrap_or_default();
     format!("{}.{}", tenths / 10, tenths % 10)
 }
 

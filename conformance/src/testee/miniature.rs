@@ -81,6 +81,7 @@ impl Miniature {
         }
     }
 
+impl Miniature {
     /// Whether it does nothing wrong.
     pub const fn is_right(self) -> bool {
         matches!(self, Self::Noisy | Self::DecodesOnly | Self::Terse)

@@ -161,7 +161,7 @@ impl Dialogue<'_> {
         let call = request.encode(&mut buf).ok()?;
         let data = self.call(&call);
         let sent = self.malformed.entry(request.function()).or_default();
-        *sent = sent.saturating_add(1);
+        *sent += 1;
         if *sent <= MALFORMED_EACH && self.client.gate().lets_malformed_pass() {
             self.spoilt(&call, data.as_ref().map_or(0, Vec::len));
         }
@@ -324,7 +324,7 @@ impl Dialogue<'_> {
             let count = self.ask(CountDynamic::new(channel, kind)).and_then(|data| number(&data));
             let listed = count.unwrap_or_default().min(LISTED_MAX);
             let mut names = vec!["P1".to_owned(), "P2".to_owned(), format!("{kind}.unknown")];
-            for index in (1..=listed.saturating_add(1)).chain(WIDE) {
+            for index in (1..=listed + 1).chain(WIDE) {
                 let name = DynamicNameByIndex::new(channel, kind, index).ok();
                 let name = name.and_then(|op| self.ask(op));
                 let text =
@@ -387,8 +387,7 @@ impl Dialogue<'_> {
             let Some(count) = self.ask(CountObjects::new(list)) else { continue };
             let count = number(&count).unwrap_or_default();
             let listed = count.min(LISTED_MAX);
-            let singles =
-                (1..=listed.saturating_add(1)).chain([count.saturating_add(1)]).chain(WIDE);
+            let singles = (1..=listed + 1).chain([count.saturating_add(1)]).chain(WIDE);
             let ranges = [(1, 2), (1, listed), (1, 252), (listed, 2), (2, listed), (WIDE[0], 3)];
             for (first, many) in singles.map(|first| (first, 1)).chain(ranges) {
                 let Ok(op) = ReadDescriptors::new(list, first, many) else { continue };
@@ -668,7 +667,7 @@ fn parts(dimensions: &[u32]) -> Vec<Vec<u32>> {
         parts.push(each.map(|(at, &count)| if at == beyond { count } else { 0 }).collect());
         parts.push(dimensions.iter().enumerate().map(|(at, _)| u32::from(at == beyond)).collect());
     }
-    parts.push(vec![0; dimensions.len().saturating_add(1)]);
+    parts.push(vec![0; dimensions.len() + 1]);
     parts.sort_unstable();
     parts.dedup();
     parts.retain(|part| !part.is_empty());
