@@ -37,7 +37,6 @@
 //! for its tests and fuzz targets alone, and may change with any version.
 
 #![forbid(unsafe_code)]
-#![deny(missing_docs)]
 #![deny(clippy::disallowed_methods)]
 // Nothing may panic on bytes from outside, nor between a write and its restoring. Modules that have
 // neither allow it below: there a panic ends one case, which is then a harness error.

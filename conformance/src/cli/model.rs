@@ -38,7 +38,6 @@ impl ModelArgs {
         target.open_or(|| self.cnc().map_err(|error| Trouble::Usage(error.to_string())))
     }
 
-    /// The CNC with this model.
     pub(super) fn cnc(&self) -> Result<Cnc, ModelError> {
         let settings = Settings { edition: self.edition, version: self.cnc_version };
         let model = match &self.model {

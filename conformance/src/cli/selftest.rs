@@ -52,7 +52,6 @@ pub(super) struct SelfTest {
 }
 
 impl SelfTest {
-    /// Tries them all.
     pub(super) fn execute(&self) -> Exit {
         let terminal = io::stderr().is_terminal();
         let last = Mutex::new(0_usize);

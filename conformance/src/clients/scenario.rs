@@ -28,7 +28,6 @@ pub(super) struct Ask {
     pub(super) tolerated: Vec<Vec<u8>>,
     /// Where the function is.
     pub(super) place: &'static str,
-    /// What its data is.
     pub(super) stream: &'static str,
 }
 
@@ -69,7 +68,6 @@ impl Ask {
         }
     }
 
-    /// The requirement of its service.
     pub(super) const fn service_rule(&self) -> &'static str {
         match self.command {
             2 => "ADS-1",
@@ -104,7 +102,6 @@ pub(super) fn both(group: u32, offset: u32, data: &[u8], least: u32) -> Ask {
     ask(9, 552, group, offset, data.to_vec(), least)
 }
 
-/// A Write.
 pub(super) fn write(port: u16, group: u32, offset: u32, data: &[u8]) -> Ask {
     ask(3, port, group, offset, data.to_vec(), 0)
 }

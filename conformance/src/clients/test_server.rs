@@ -30,7 +30,6 @@ const LINGER: Duration = Duration::from_millis(200);
 /// One request and what was sent for it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Turn {
-    /// Which connection.
     pub(super) connection: usize,
     /// The request; of the last one perhaps only a part.
     pub(super) request: Vec<u8>,

@@ -18,9 +18,7 @@ use ads_cnc::layout::{Field, Segment, Size, Stream};
 pub struct Defect {
     /// Stream, field and change: `variable-description.size.flip`.
     pub id: String,
-    /// The stream.
     pub stream: Stream,
-    /// The field.
     pub field: Field,
     /// What happens to its bytes.
     pub change: Change,
@@ -88,7 +86,6 @@ impl Defect {
         Self { id, stream, field, change }
     }
 
-    /// The defect with this ID.
     pub fn by_id(id: &str) -> Option<Self> {
         Stream::all().flat_map(Self::of_stream).find(|defect| defect.id == id)
     }

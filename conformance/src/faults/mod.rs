@@ -35,7 +35,6 @@ pub struct Seed {
     pub id: String,
     /// What it breaks: one of them has to fail. None if nothing is wrong with it.
     pub requirements: Vec<&'static str>,
-    /// What is done.
     pub what: String,
     /// By whom.
     pub kind: Kind,
@@ -52,7 +51,6 @@ pub struct Seed {
 pub enum Kind {
     /// A codec. A wrong field is wrong in a CNC too.
     Codec,
-    /// A CNC.
     Cnc,
     /// A CNC that does things otherwise, and none of them wrong.
     Different,
@@ -80,7 +78,6 @@ enum How {
     Cnc(Twist),
 }
 
-/// All of them.
 pub fn all() -> &'static [Seed] {
     static ALL: OnceLock<Vec<Seed>> = OnceLock::new();
     ALL.get_or_init(|| {
@@ -91,7 +88,6 @@ pub fn all() -> &'static [Seed] {
     })
 }
 
-/// The one with this ID.
 pub fn by_id(id: &str) -> Option<&'static Seed> {
     all().iter().find(|seed| seed.id == id)
 }

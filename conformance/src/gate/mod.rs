@@ -68,7 +68,6 @@ pub struct Permit<'f> {
 }
 
 impl<'f> Permit<'f> {
-    /// The frame.
     pub const fn frame(&self) -> &'f [u8] {
         self.frame
     }

@@ -12,7 +12,6 @@ pub struct Case {
     pub id: String,
     /// What is tried, in a sentence.
     pub title: String,
-    /// Who is judged.
     pub subject: Subject,
     /// The requirements it can judge.
     pub requirements: Vec<&'static str>,
@@ -30,7 +29,6 @@ pub enum Subject {
     Codec,
     /// A codec behind a pipe.
     Testee,
-    /// A CNC.
     Target,
     /// What asks a CNC.
     Client,

@@ -7,9 +7,7 @@ use super::{Case, Judgement, Stop, Verdict};
 /// What came of a case.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The case.
     pub case: Case,
-    /// For each of its requirements.
     pub verdicts: Vec<RequirementVerdict>,
     /// Checks made.
     pub checks: usize,
@@ -22,7 +20,6 @@ pub struct Outcome {
 /// What came of one requirement in a case.
 #[derive(Clone, Debug)]
 pub struct RequirementVerdict {
-    /// The requirement.
     pub requirement: &'static str,
     /// The gravest verdict of its checks.
     pub verdict: Verdict,
@@ -50,7 +47,6 @@ impl Outcome {
         Self { case, verdicts, checks: 0, note: Some(note.into()), refused: false }
     }
 
-    /// A case that was tried.
     pub(crate) fn tried(
         case: Case,
         judgements: Vec<Judgement>,

@@ -134,12 +134,10 @@ pub enum Exit {
     Stale,
     /// A value was changed and could not be restored.
     LeftChanged,
-    /// An internal error.
     Internal,
 }
 
 impl Exit {
-    /// The number.
     pub const fn code(self) -> u8 {
         match self {
             Self::Success => 0,
@@ -153,7 +151,6 @@ impl Exit {
         }
     }
 
-    /// The one with this number.
     pub fn from_code(code: u8) -> Option<Self> {
         Self::ALL.into_iter().find(|exit| exit.code() == code)
     }

@@ -18,9 +18,7 @@ use crate::session::{Session, Trouble};
 /// | anything else | a COM object or an element of SDA or GEO, by its whole name |
 #[derive(Clone, Debug)]
 pub struct Question {
-    /// The name.
     pub name: String,
-    /// Which channel.
     pub channel: Channel,
     /// Which place, over the axis interface; of V.A only.
     pub axis: Option<ChannelAxis>,

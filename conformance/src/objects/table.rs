@@ -10,7 +10,6 @@ use crate::values::printable;
 pub struct Column {
     /// What the column is called.
     pub head: &'static str,
-    /// The cell of an object.
     pub cell: fn(&Object) -> String,
 }
 

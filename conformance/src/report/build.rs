@@ -28,9 +28,7 @@ pub struct About {
     pub seed: u32,
     /// What was selected; all if it is empty.
     pub only: Vec<String>,
-    /// Who was judged.
     pub target: TargetReport,
-    /// What it claims.
     pub profile: Option<Profile>,
     /// Known failures.
     pub waivers: Waivers,

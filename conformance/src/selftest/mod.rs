@@ -66,13 +66,11 @@ pub struct Tried {
     pub id: String,
     /// As what it was tried.
     pub group: Group,
-    /// What it does.
     pub what: String,
     /// What it breaks; nothing if it does nothing wrong.
     pub targets: Vec<String>,
     /// Requirements that failed.
     pub failed: Vec<String>,
-    /// What came of it.
     pub result: Outcomes,
     /// Of one that survives: why it may.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -102,7 +100,6 @@ pub enum Outcomes {
     Broken,
 }
 
-/// A self-test.
 #[derive(Clone, Debug, Serialize)]
 pub struct SelfTest {
     /// Each that was tried, in the order of groups and IDs.

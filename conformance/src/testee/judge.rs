@@ -20,7 +20,6 @@ const ANSWERS_MAX: usize = 32 << 20;
 /// How a testee is asked.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms<'t> {
-    /// Seed of the order.
     pub seed: u32,
     /// As whom it is judged.
     pub subject: Subject,

@@ -59,7 +59,6 @@ pub trait Testee {
 /// What a testee does when it is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reaction {
-    /// It answers.
     Answer(Answer),
     /// It answers something that is no answer.
     Garbled(String),

@@ -26,7 +26,6 @@ struct Channel {
     counts: BTreeMap<String, u32>,
     /// By name: with the kind and index it was described at.
     described: BTreeMap<String, (Description, String, u32)>,
-    /// The name of each handle.
     handles: BTreeMap<u32, String>,
     /// The first handle of each name.
     names: BTreeMap<String, u32>,

@@ -46,7 +46,6 @@ pub struct Options {
     pub exact: bool,
 }
 
-/// What was found.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     /// In the order of their lists.

@@ -95,7 +95,6 @@ pub(super) struct Dialogue<'t> {
 
 /// What came of asking everything.
 pub(super) struct Asked {
-    /// The digest of each answer.
     pub(super) answers: Vec<u64>,
     /// The first request that was answered otherwise than by the CNC it was compared with.
     pub(super) difference: Option<String>,

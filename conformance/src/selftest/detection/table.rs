@@ -21,7 +21,6 @@ const PUBLISHED: &str = include_str!("../../../doc/detection.tsv");
 /// What is measured of one defect or variant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// The defect's ID.
     pub id: String,
     /// A hash of what the row says of the defect, and of what the CNC answers with it.
     pub hash: String,
@@ -81,7 +80,6 @@ impl Table {
         Self::parse(PUBLISHED)
     }
 
-    /// The row of a defect.
     pub fn row(&self, seed: &Seed) -> Option<&Row> {
         self.rows.iter().find(|row| row.id == seed.id)
     }
