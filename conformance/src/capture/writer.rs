@@ -105,8 +105,8 @@ impl Capture {
 
     fn packet(&mut self, outgoing: bool, flags: u8, data: &[u8]) {
         let Some(flow) = &mut self.flow else { return };
-        let block = enhanced(&flow.packet(outgoing, flags, data));
-        if let Err(error) = self.out.write_all(&block) {
+        let packet = flow.packet(outgoing, flags, data);
+        if let Err(error) = packet.and_then(|packet| self.out.write_all(&enhanced(&packet))) {
             self.error.get_or_insert(error);
         }
     }
