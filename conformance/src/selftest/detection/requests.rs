@@ -35,6 +35,7 @@ use crate::client::{Client, Inquiry};
 use crate::exchange::Fault;
 use crate::simulator::Cnc;
 use crate::simulator::program::digest;
+use crate::text::hex::compact;
 use crate::values::until_nul;
 
 /// Channel numbers and ranks that are asked for; a CNC with more is asked for these alone.
@@ -208,7 +209,7 @@ impl Dialogue<'_> {
         let said: Vec<&str> = violations.chain([fault.as_str()]).collect();
         self.heard(&exchange.received, &said.join("\n"), || {
             let spec = call.dispatch().map(|request| request.function().spec().name);
-            let data: String = call.data.iter().map(|byte| format!("{byte:02x}")).collect();
+            let data = compact::show(call.data);
             format!("{} to port {}: {exchange} [{data}]", spec.unwrap_or("no function"), call.port)
         });
         exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec)
