@@ -13,6 +13,8 @@ use std::fmt;
 
 use ads_cnc::layout::{Field, Segment, Size, Stream};
 
+use crate::text::named;
+
 /// One field done wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Defect {
@@ -37,20 +39,9 @@ pub enum Change {
     Zero,
 }
 
+named! { Change: FlipLow "flip", Invert "invert", SwapBytes "swap", Zero "zero", }
+
 impl Change {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::FlipLow, Self::Invert, Self::SwapBytes, Self::Zero];
-
-    /// The change's name in the ID of a defect.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::FlipLow => "flip",
-            Self::Invert => "invert",
-            Self::SwapBytes => "swap",
-            Self::Zero => "zero",
-        }
-    }
-
     fn apply(self, bytes: &mut [u8]) {
         match self {
             Self::FlipLow => bytes.iter_mut().take(1).for_each(|byte| *byte ^= 1),

@@ -23,6 +23,7 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use crate::edition::Edition;
+use crate::text::named;
 
 pub use cnc::Faulty;
 use cnc::Twist;
@@ -56,19 +57,7 @@ pub enum Kind {
     Different,
 }
 
-impl Kind {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Codec, Self::Cnc, Self::Different];
-
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Codec => "codec",
-            Self::Cnc => "cnc",
-            Self::Different => "different",
-        }
-    }
-}
+named! { Kind: Codec "codec", Cnc "cnc", Different "different", }
 
 /// How it is done.
 #[derive(Clone, Debug)]

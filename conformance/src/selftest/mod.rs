@@ -22,6 +22,7 @@ use serde::Serialize;
 use crate::faults::{self, Kind};
 use crate::judge::{Exit, Outcome, Verdict};
 use crate::session::Trouble;
+use crate::text::named;
 use detection::{Checked, Scope};
 
 pub use show::print;
@@ -42,21 +43,8 @@ pub enum Group {
     Different,
 }
 
-impl Group {
-    /// All of them, in the order of reports.
-    pub const ALL: [Self; 5] =
-        [Self::Codec, Self::Cnc, Self::Client, Self::Miniature, Self::Different];
-
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Codec => "codec",
-            Self::Cnc => "cnc",
-            Self::Client => "client",
-            Self::Miniature => "miniature",
-            Self::Different => "different",
-        }
-    }
+named! { Group:
+    Codec "codec", Cnc "cnc", Client "client", Miniature "miniature", Different "different",
 }
 
 /// One that is tried.
