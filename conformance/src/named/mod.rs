@@ -40,7 +40,7 @@ pub struct Question {
 /// use ads_cnc_conformance::session::Session;
 /// use ads_cnc_conformance::values::plain;
 ///
-/// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+/// let mut session = Session::simulated(Cnc::with_default_model()?, Gate::queries())?;
 /// let mut value = |name: &str| {
 ///     let question = Question::new(name, Channel::new(1).unwrap());
 ///     let object = find(&mut session, &question)?;

@@ -53,7 +53,7 @@ impl Report {
                 tally.add(one.verdict, one.waived);
             }
         }
-        // The embedded CNC refuses nothing; a device for which the gate closed was not judged whole.
+        // The simulated CNC refuses nothing; a device for which the gate closed was not judged whole.
         tally.refused = outcomes.iter().any(|outcome| outcome.refused);
         tally.left_changed = !left_changed.is_empty();
         tally.stale = waivers.iter().any(|waiver| waiver.state.is_stale());
