@@ -6,7 +6,6 @@ use serde_json::Value;
 
 use super::Action;
 use super::literal::Literal;
-use super::ordering::Order;
 use super::script::Script;
 use super::tamper::Tamper;
 use crate::judge::{Body, CLIENT, Case, Needs, Rule, Subject};
@@ -123,6 +122,21 @@ pub(super) enum Expect {
     DoneOrError,
     /// An error.
     Error,
+}
+
+/// Which order of requests is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// All of a program in packets.
+    Stream,
+    /// That nothing of a program that cannot be streamed is.
+    NoStream(&'static str),
+    /// A service that answers what it is asked.
+    Host,
+    /// A service that is not asked.
+    IdleHost,
+    /// One that asks a service.
+    Caller,
 }
 
 /// Something a client is put through.

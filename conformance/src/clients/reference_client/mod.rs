@@ -2,6 +2,7 @@
 
 mod actions;
 mod defects;
+mod error;
 mod faults;
 mod service;
 mod streaming;
@@ -15,7 +16,8 @@ pub use defects::{Defect, Flaw, defects, find_defect, habits};
 
 use super::message::{Answer, Hello, Identity, PROTOCOL, Place, Reaction};
 use super::{Action, Actor, VOCABULARY};
-use wire::{Fail, Wire};
+use error::Fail;
+use wire::Wire;
 
 /// This project's client, in this process.
 #[derive(Clone, Copy, Debug, Default)]
