@@ -190,7 +190,7 @@ fn play(
     }
     let stop = said(scenario, &script, &reaction, turns.last(), &mut findings);
     let stop = stop.or(beyond.stop());
-    let is_lost = matches!(reaction, Reaction::Died(_) | Reaction::Hung(_) | Reaction::Broken(_));
+    let is_lost = matches!(reaction, Reaction::Died(_) | Reaction::Silent(_) | Reaction::Broken(_));
     let mut case = scenario.case();
     // A client may ask more than it has to; that is judged too.
     for judgement in &findings.record.judgements {
@@ -245,7 +245,7 @@ fn said(
     let rules: Vec<Rule> = match reaction {
         Reaction::Answer(_) => rules,
         // Whatever is assumed of what it was to do: this is nothing that can be meant.
-        Reaction::Died(_) | Reaction::Hung(_) | Reaction::Garbled(_) => {
+        Reaction::Died(_) | Reaction::Silent(_) | Reaction::Garbled(_) => {
             let must = |rule: Rule| Rule { level: Some(Level::Must), ..rule };
             rules.into_iter().map(must).chain([CLIENT.into()]).collect()
         }

@@ -92,19 +92,7 @@ pub enum Answer {
 }
 
 /// What a client does when it is told to do something.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Reaction {
-    /// It says what came of it.
-    Answer(Answer),
-    /// It says something else.
-    Garbled(String),
-    /// It ends without a word.
-    Died(String),
-    /// It neither ends nor says anything for so long.
-    Hung(std::time::Duration),
-    /// It could not be told.
-    Broken(String),
-}
+pub type Reaction = crate::process::Reaction<Answer>;
 
 impl std::fmt::Display for Reaction {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -117,8 +105,10 @@ impl std::fmt::Display for Reaction {
                 write!(f, "unsupported: {}", shorten(what, SHOWN))
             }
             Self::Garbled(what) => write!(f, "no answer of the protocol: {what}"),
-            Self::Died(how) => write!(f, "it died: {how}"),
-            Self::Hung(time) => write!(f, "it hung: no word within {} ms", time.as_millis()),
+            Self::Died(how) => {
+                write!(f, "it died: {}", how.strip_prefix("it ended, ").unwrap_or(how))
+            }
+            Self::Silent(time) => write!(f, "it hung: no word within {} ms", time.as_millis()),
             Self::Broken(why) => f.write_str(why),
         }
     }

@@ -2,6 +2,7 @@
 
 pub(crate) mod interrupt;
 mod lines;
+mod subprocess;
 
 use std::io;
 use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus};
@@ -15,6 +16,7 @@ use process_wrap::std::{ChildWrapper, CommandWrap};
 use process_wrap::std::{CreationFlags, JobObject};
 
 pub use lines::{LINE_MAX, LineProcess, RecvError, Stderr, cut, read_line, text};
+pub use subprocess::{GRACE, Reaction, Subprocess};
 
 /// How long a command has at least for its first word: some languages take longer for starting than
 /// for any answer.

@@ -104,7 +104,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             break;
         }
         asked = asked.saturating_add(1);
-        if matches!(reaction, Reaction::Crashed(_) | Reaction::Silent(_) | Reaction::Broken(_)) {
+        if matches!(reaction, Reaction::Died(_) | Reaction::Silent(_) | Reaction::Broken(_)) {
             (lost, restarts) = (lost.saturating_add(1), restarts.saturating_add(1));
         } else {
             lost = 0;

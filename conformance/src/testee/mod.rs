@@ -14,8 +14,6 @@ mod process;
 mod protocol_rules;
 mod verdicts;
 
-use std::time::Duration;
-
 pub use crate::codec::message::{
     Answer, Capabilities, Command, Hello, Identity, Known, Output, PROTOCOL, Question, Rejection,
     Reply,
@@ -57,18 +55,7 @@ pub trait Testee {
 }
 
 /// What a testee does when it is asked.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Reaction {
-    Answer(Answer),
-    /// It answers something that is no answer.
-    Garbled(String),
-    /// It ends.
-    Crashed(String),
-    /// It says nothing for so long.
-    Silent(Duration),
-    /// It could not be asked.
-    Broken(String),
-}
+pub type Reaction = crate::process::Reaction<Answer>;
 
 impl Testee for Own {
     fn hello(&mut self) -> Result<Hello, Reaction> {

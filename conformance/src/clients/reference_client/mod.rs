@@ -70,7 +70,7 @@ pub fn answer(flaw: Option<Flaw>, place: &Place, action: &Action) -> Reaction {
             Reaction::Answer(Answer::Error(format!("the CNC refuses it, ADS error {error:#x}")))
         }
         Err(Fail::Dies) => Reaction::Died("it would have ended here".to_owned()),
-        Err(Fail::Hangs) => Reaction::Hung(Duration::MAX),
+        Err(Fail::Hangs) => Reaction::Silent(Duration::MAX),
     }
 }
 
