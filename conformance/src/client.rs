@@ -164,9 +164,6 @@ impl Client {
     }
 
     /// Ends the capture, if there is one.
-    ///
-    /// # Errors
-    /// What of it could not be written.
     pub fn end_capture(&mut self) -> io::Result<()> {
         self.capture.take().map_or(Ok(()), Tap::finish)
     }

@@ -110,9 +110,6 @@ pub(crate) fn rehearse(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStr
 /// The other end of a [`Wire`]: a socket, or a CNC of this process.
 pub trait Peer: fmt::Debug + Send {
     /// Takes bytes.
-    ///
-    /// # Errors
-    /// Those of the system.
     fn send(&mut self, bytes: &[u8]) -> io::Result<()>;
 
     /// Gives the bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end.
@@ -164,17 +161,11 @@ impl Wire {
     }
 
     /// Sends a frame that may be sent.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn send(&mut self, permit: Permit<'_>) -> io::Result<()> {
         self.peer.send(permit.frame())
     }
 
     /// As [`send`](Self::send), so many bytes at a time, one pause after the other.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn send_in_pieces(
         &mut self,
         permit: Permit<'_>,

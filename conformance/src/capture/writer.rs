@@ -54,17 +54,11 @@ impl fmt::Debug for Capture {
 
 impl Capture {
     /// A capture in a new file, or in place of an old one.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn create(file: &Path) -> io::Result<Self> {
         Self::new(Box::new(BufWriter::new(File::create(file)?)))
     }
 
     /// A capture that goes somewhere else.
-    ///
-    /// # Errors
-    /// Those of the writer.
     pub fn new(mut out: Box<dyn Write + Send>) -> io::Result<Self> {
         out.write_all(&section())?;
         out.write_all(&interface())?;

@@ -17,8 +17,5 @@ pub trait Tap: fmt::Debug + Send {
     fn closed(&mut self);
 
     /// Ends the record.
-    ///
-    /// # Errors
-    /// What of it could not be written.
     fn finish(self: Box<Self>) -> io::Result<()>;
 }

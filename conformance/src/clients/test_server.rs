@@ -147,9 +147,6 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 impl TestServer {
     /// Listens.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn new(addr: SocketAddr) -> io::Result<Self> {
         let run: Arc<Mutex<Option<Arc<Run>>>> = Arc::default();
         let playing = Arc::clone(&run);

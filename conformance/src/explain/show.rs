@@ -36,9 +36,6 @@ impl Paint {
 }
 
 /// Writes an explanation.
-///
-/// # Errors
-/// Those of `out`.
 pub fn print(explanation: &Explanation, paint: Paint, out: &mut impl Write) -> io::Result<()> {
     for (number, part) in explanation.parts.iter().enumerate() {
         if number > 0 {

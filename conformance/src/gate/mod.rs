@@ -149,9 +149,6 @@ impl Gate {
     }
 
     /// Whether malformed requests may be sent to this target now.
-    ///
-    /// # Errors
-    /// Why not.
     pub fn check_malformed(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
         match &self.allowed {
             _ if self.simulated.is_some() => Ok(()),

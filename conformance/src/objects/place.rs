@@ -135,9 +135,6 @@ impl Place {
     }
 
     /// Reads the bytes of the value; `size` is that of a content.
-    ///
-    /// # Errors
-    /// What came instead.
     pub fn read(&self, session: &mut Session, size: u32) -> Result<Vec<u8>, Trouble> {
         match self {
             Self::Object { group, offset } => {

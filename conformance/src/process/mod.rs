@@ -48,9 +48,6 @@ pub struct Running(Arc<Shared>);
 
 impl Running {
     /// Starts a command.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn start(command: Command) -> io::Result<Self> {
         let mut command = CommandWrap::from(command);
         #[cfg(unix)]
@@ -83,9 +80,6 @@ impl Running {
     }
 
     /// How it has ended, if it has.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn try_wait(&self) -> io::Result<Option<ExitStatus>> {
         lock(&self.0).try_wait()
     }

@@ -119,9 +119,6 @@ impl Subprocess {
     }
 
     /// Tells one that runs to end; the first it said until then.
-    ///
-    /// # Errors
-    /// How it ended otherwise than it should.
     pub fn bye(&mut self, line: Vec<u8>) -> (Result<(), String>, Option<String>) {
         if self.running.is_none() {
             return (Ok(()), None);

@@ -10,9 +10,6 @@ use crate::judge::{Exit, Verdict, WaiverReport};
 const FAILURES_MAX: usize = 48_000;
 
 /// Writes the report as Markdown.
-///
-/// # Errors
-/// Those of `out`.
 pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, time, editions, seed, only, target, profile, .. } = report;
     let verdict = if report.exit() == Exit::Success { "passed" } else { "not passed" };

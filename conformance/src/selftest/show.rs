@@ -10,9 +10,6 @@ use crate::judge::Exit;
 const TARGETS_SHOWN: usize = 6;
 
 /// Writes what came of a self-test; with `verbose` of each that was tried.
-///
-/// # Errors
-/// Those of `out`.
 pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     for one in &test.tried {
         let fine = matches!(

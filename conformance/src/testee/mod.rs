@@ -29,18 +29,12 @@ pub use process::{Process, answered, greeted};
 /// Who is judged by the golden vectors.
 pub trait Testee {
     /// Starts it and asks what it can do.
-    ///
-    /// # Errors
-    /// Whatever it did instead of saying so.
     fn hello(&mut self) -> Result<Hello, Reaction>;
 
     /// Asks it something; one that has ended before is started anew.
     fn ask(&mut self, question: &Question) -> Reaction;
 
     /// Lets it end.
-    ///
-    /// # Errors
-    /// How it ended otherwise than it should.
     fn bye(&mut self) -> Result<(), String>;
 
     /// Why it is not to be asked any more.

@@ -55,9 +55,6 @@ impl From<Stop> for Otherwise {
 pub type Done<T> = Result<T, Otherwise>;
 
 /// A step that does not go as stated.
-///
-/// # Errors
-/// Always.
 pub fn differs<T>(expected: impl ToString, found: impl ToString) -> Done<T> {
     Err(Otherwise::Differs(expected.to_string(), found.to_string()))
 }

@@ -17,21 +17,12 @@ pub trait ServiceActor {
     type Program: Asking;
 
     /// The program with one request.
-    ///
-    /// # Errors
-    /// Why that cannot be asked.
     fn ask(&self, request: Request) -> Result<Self::Program, CallError>;
 
     /// The value of a variable: of a text without what fills it up.
-    ///
-    /// # Errors
-    /// Why it is not known.
     fn read(&mut self, channel: u32, variable: ServiceVariable) -> Done<Vec<u8>>;
 
     /// Writes a value. If it is rejected, the class of its fault.
-    ///
-    /// # Errors
-    /// Why that is not known.
     fn write(
         &mut self,
         channel: u32,
@@ -40,9 +31,6 @@ pub trait ServiceActor {
     ) -> Done<Option<&'static str>>;
 
     /// Does something to an interface from within.
-    ///
-    /// # Errors
-    /// Why that cannot be done.
     fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> Done<()>;
 }
 
@@ -73,9 +61,6 @@ impl Asking for Script {
 }
 
 /// Goes through the steps up to the first at fault.
-///
-/// # Errors
-/// A step that does not go as stated.
 pub fn play<'c>(actor: &mut impl ServiceActor, given: &'c ServiceSequence) -> Done<Fault<'c>> {
     let mut ids: BTreeMap<&str, [ServiceId; 1]> = BTreeMap::new();
     for (name, service) in &given.services {
@@ -274,9 +259,6 @@ fn request(step: &ServiceStep) -> Done<Result<Request, CallError>> {
 }
 
 /// A script of one request.
-///
-/// # Errors
-/// Why it cannot be asked.
 pub fn script(request: Request) -> Result<Script, CallError> {
     let config = ScriptConfig {
         requests: vec![request],

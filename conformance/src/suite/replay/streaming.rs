@@ -12,21 +12,12 @@ use crate::suite::probe::harness;
 /// A CNC that a program is streamed to.
 pub trait StreamActor {
     /// Starts the streaming program.
-    ///
-    /// # Errors
-    /// Why it does not start.
     fn start(&mut self, now: Duration) -> Done<()>;
 
     /// Resets the channel.
-    ///
-    /// # Errors
-    /// Why that cannot be done.
     fn reset(&mut self, now: Duration) -> Done<()>;
 
     /// Bytes in the buffer.
-    ///
-    /// # Errors
-    /// Why that is not known.
     fn held(&mut self) -> Done<usize>;
 
     /// Writes the packet of a step.
@@ -42,16 +33,10 @@ pub trait StreamActor {
     ) -> Done<Ack>;
 
     /// Lets the decoder take what is there. The class of what is at fault.
-    ///
-    /// # Errors
-    /// What does not go as stated.
     fn take(&mut self, step: &StreamStep, now: Duration) -> Done<Option<&'static str>>;
 }
 
 /// Goes through the steps up to the first at fault.
-///
-/// # Errors
-/// A step that does not go as stated.
 pub fn play<'c>(actor: &mut impl StreamActor, given: &'c Streaming) -> Done<Fault<'c>> {
     let text = given.text.as_ref().map(Pieces::bytes);
     let sender = text.as_deref().map(|text| NcText::new(text).map(Sender::new));
@@ -112,9 +97,6 @@ fn write(
 }
 
 /// Lets the decoder run for no time at all, in which it reads and runs what is there.
-///
-/// # Errors
-/// What does not go as stated.
 pub fn take(program: &mut Program, step: &StreamStep, now: Duration) -> Done<Option<&'static str>> {
     if !matches!(program.state(), State::Running | State::Dry) {
         return Ok(Some("not-started"));
