@@ -66,7 +66,7 @@ const FIRST_INVOKE_ID: u32 = 0x5403_0201;
 impl Gate {
     /// Anything but what is never sent: for the CNC that this server of this process has, which
     /// moves nothing. [`Client`] takes no other address with it.
-    pub fn of_embedded(server: &Server) -> Self {
+    pub fn of_server(server: &Server) -> Self {
         Self::of_address(server.addr())
     }
 }
@@ -120,8 +120,8 @@ impl Client {
             let why = "malformed requests are sent to a CNC on this machine only";
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
         }
-        if gate.embedded().is_some_and(|only| only != target.addr) {
-            let why = "writes of all kinds are sent to the embedded CNC only";
+        if gate.simulated().is_some_and(|only| only != target.addr) {
+            let why = "writes of all kinds are sent to the simulated CNC only";
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, why));
         }
         Ok(Self {
@@ -164,9 +164,6 @@ impl Client {
     }
 
     /// Ends the capture, if there is one.
-    ///
-    /// # Errors
-    /// What of it could not be written.
     pub fn end_capture(&mut self) -> io::Result<()> {
         self.capture.take().map_or(Ok(()), Tap::finish)
     }

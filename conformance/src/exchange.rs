@@ -17,15 +17,10 @@ use crate::judge::Evidence;
 pub struct Exchange {
     /// Port the request went to.
     pub port: AmsPort,
-    /// Service.
     pub service: Service,
-    /// Index group.
     pub index_group: IndexGroup,
-    /// Index offset.
     pub index_offset: IndexOffset,
-    /// Read length.
     pub read_length: u32,
-    /// Data of the request.
     pub data: Vec<u8>,
     /// The whole frame sent; empty if none was.
     pub sent: Vec<u8>,
@@ -82,7 +77,6 @@ pub enum Fault {
     Unsendable(Error),
     /// Nothing came in this time.
     Silence(Duration),
-    /// The connection was closed.
     Closed,
     /// Whatever it was: the request is looked at alone.
     Unseen,
@@ -123,9 +117,7 @@ impl fmt::Display for Fault {
 /// A rule that a frame itself breaks.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
-    /// The requirement.
     pub requirement: &'static str,
-    /// What is wrong.
     pub what: String,
 }
 
@@ -158,7 +150,6 @@ impl Exchange {
         }
     }
 
-    /// The call that was sent.
     pub fn call(&self) -> Call<'_> {
         Call {
             port: self.port,

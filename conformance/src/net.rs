@@ -5,6 +5,9 @@
 use std::fmt;
 use std::io::{self, Read as _, Write as _};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use crate::gate::Permit;
@@ -17,15 +20,75 @@ pub fn listen(addr: SocketAddr) -> io::Result<TcpListener> {
     TcpListener::bind(addr)
 }
 
-/// Connects to a listener of this process and closes: what waits for a connection wakes up.
-pub(crate) fn knock(listener: SocketAddr, timeout: Duration) -> io::Result<()> {
-    // A listener on all addresses is reached on this machine's own.
-    let ip = match listener.ip() {
-        IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
-        IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
-        ip => ip,
-    };
-    TcpStream::connect_timeout(&SocketAddr::new(ip, listener.port()), timeout).map(drop)
+/// Accepts the connections of a listener in a thread of its own, until dropped.
+#[derive(Debug)]
+pub struct Acceptor {
+    addr: SocketAddr,
+    stopped: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Acceptor {
+    /// Hands over each connection, and whose it is.
+    ///
+    /// # Errors
+    /// If the listener has no address or the system no thread.
+    pub fn start(
+        name: &str,
+        listener: TcpListener,
+        mut take: impl FnMut(TcpStream, SocketAddr) + Send + 'static,
+    ) -> io::Result<Self> {
+        let (addr, stopped) = (listener.local_addr()?, Arc::new(AtomicBool::new(false)));
+        let is_stopped = Arc::clone(&stopped);
+        let accept = move || loop {
+            let accepted = listener.accept();
+            if is_stopped.load(Ordering::SeqCst) {
+                return;
+            }
+            match accepted {
+                Ok((stream, peer)) => take(stream, peer),
+                Err(error) => {
+                    // Out of file descriptors, most likely: wait for connections to end.
+                    tracing::warn!("no connection: {error}");
+                    thread::sleep(Duration::from_millis(50));
+                }
+            }
+        };
+        let thread = thread::Builder::new().name(name.to_owned()).spawn(accept)?;
+        Ok(Self { addr, stopped, thread: Some(thread) })
+    }
+
+    /// Where it listens.
+    pub const fn addr(&self) -> SocketAddr {
+        self.addr
+    }
+
+    /// Accepts no more connections.
+    pub fn stop(&mut self) {
+        let Some(thread) = self.thread.take() else { return };
+        self.stopped.store(true, Ordering::SeqCst);
+        // The thread waits for a connection: it gets one. Without, it is left behind.
+        if self.knock().is_ok() || thread.is_finished() {
+            let _panicked = thread.join();
+        }
+    }
+
+    fn knock(&self) -> io::Result<()> {
+        // A listener on all addresses is reached on this machine's own.
+        let ip = match self.addr.ip() {
+            IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
+            IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
+            ip => ip,
+        };
+        let addr = SocketAddr::new(ip, self.addr.port());
+        TcpStream::connect_timeout(&addr, Duration::from_secs(1)).map(drop)
+    }
+}
+
+impl Drop for Acceptor {
+    fn drop(&mut self) {
+        self.stop();
+    }
 }
 
 /// Connects to a listener on this machine for what may send anything: a client that is wrong on
@@ -47,9 +110,6 @@ pub(crate) fn rehearse(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStr
 /// The other end of a [`Wire`]: a socket, or a CNC of this process.
 pub trait Peer: fmt::Debug + Send {
     /// Takes bytes.
-    ///
-    /// # Errors
-    /// Those of the system.
     fn send(&mut self, bytes: &[u8]) -> io::Result<()>;
 
     /// Gives the bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end.
@@ -101,17 +161,11 @@ impl Wire {
     }
 
     /// Sends a frame that may be sent.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn send(&mut self, permit: Permit<'_>) -> io::Result<()> {
         self.peer.send(permit.frame())
     }
 
     /// As [`send`](Self::send), so many bytes at a time, one pause after the other.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn send_in_pieces(
         &mut self,
         permit: Permit<'_>,
@@ -120,7 +174,7 @@ impl Wire {
     ) -> io::Result<()> {
         for piece in permit.frame().chunks(piece.max(1)) {
             self.peer.send(piece)?;
-            std::thread::sleep(pause);
+            thread::sleep(pause);
         }
         Ok(())
     }

@@ -43,9 +43,6 @@ pub(crate) const fn reply_stream(service: Service) -> Stream {
 }
 
 /// Result and data of a service's reply; of a Write there is never any data.
-///
-/// # Errors
-/// Those of the reply.
 pub fn decode_reply(service: Service, payload: &[u8]) -> Result<(AdsError, Option<&[u8]>), Error> {
     match service {
         Service::Read => ReadReplyRef::decode(payload).map(|reply| (reply.result, reply.data)),
@@ -57,9 +54,6 @@ pub fn decode_reply(service: Service, payload: &[u8]) -> Result<(AdsError, Optio
 }
 
 /// A service's reply; a Write's has no room for data and leaves it out.
-///
-/// # Errors
-/// Those of the reply.
 pub fn encode_reply(
     service: Service,
     result: AdsError,

@@ -14,7 +14,7 @@ use ads_cnc_conformance::profile::Profile;
 use ads_cnc_conformance::simulator::{Cnc, DEFAULT_MODEL, Model, Server, Settings};
 use ads_cnc_conformance::suite::{self, Session};
 
-/// Runs the suite against an embedded CNC with this defect, or its vectors against the codec.
+/// Runs the suite against a simulated CNC with this defect, or its vectors against the codec.
 fn run(defect: Option<&Defect>, wanted: impl Fn(&Case) -> bool) -> Vec<Outcome> {
     run_against(Cnc::with_default_model().unwrap(), profile(), defect, wanted)
 }
@@ -37,7 +37,7 @@ fn run_against(
     let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).unwrap();
     let server = Server::start(listener, faulty).unwrap();
     let target = Target::local(server.addr(), server.net_id());
-    let client = Client::connect(target, Gate::of_embedded(&server)).unwrap();
+    let client = Client::connect(target, Gate::of_server(&server)).unwrap();
     let mut session = Session::new(client, profile).with_cnc(cnc);
     suite::run(cases, Some(&mut session), seed.as_ref(), 0)
 }
@@ -168,7 +168,7 @@ fn every_field_of_the_description_by_name_is_seen() {
 
 /// Without a defect nothing is raised, and everything that can be judged is.
 #[test]
-fn the_embedded_cnc_raises_nothing() {
+fn the_simulated_cnc_raises_nothing() {
     for outcome in run(None, |_| true) {
         let verdict = outcome.verdict();
         // One example contradicts another, and of V.P, V.L, V.S only the German edition speaks.

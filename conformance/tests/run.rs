@@ -23,7 +23,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// Without a command the suite runs against the embedded CNC and passes.
+/// Without a command the suite runs against the simulated CNC and passes.
 #[test]
 fn no_command_runs_the_suite() {
     let output = ads_cnc(&[]);

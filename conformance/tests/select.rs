@@ -105,7 +105,7 @@ fn an_edition_is_judged_by_itself() {
         };
         assert_eq!(verdict(has), Some("pass".into()));
         assert_eq!(verdict(lacks), Some("not-run".into()));
-        // The embedded CNC follows it, and has what that edition alone has.
+        // The simulated CNC follows it, and has what that edition alone has.
         assert_eq!(report["profile"]["claims"]["edition"], edition);
         assert_eq!(with(&report, "pass").contains("VAR-19"), edition == "de-1.051");
     }
@@ -161,7 +161,7 @@ fn the_list_of_a_device_has_the_cases_that_run() {
         .map(|one| one["id"].as_str().unwrap())
         .collect();
     let report = json(&["run"]);
-    let left_out = ["not sent to a device", "--allow-write", "the embedded", "printed examples"];
+    let left_out = ["not sent to a device", "--allow-write", "the simulated", "printed examples"];
     let run = report["cases"].as_array().unwrap().iter().filter(|case| {
         let note = case["note"].as_str().unwrap_or_default();
         !left_out.iter().any(|why| note.contains(why))

@@ -146,7 +146,7 @@ fn a_script_is_answered() {
 
 /// Without a target a CNC is started that asks, and needs no file.
 #[test]
-fn an_embedded_cnc_asks_too() {
+fn a_simulated_cnc_asks_too() {
     let mut tool = Command::new(env!("CARGO_BIN_EXE_ads-cnc"));
     tool.args(["service", "--uuid", ID, "--answers", "2", "--"]).args(EXPLAIN);
     let output = tool.output().unwrap();

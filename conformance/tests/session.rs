@@ -31,8 +31,8 @@ fn allowing(tables: &str) -> Gate {
     Gate::queries().with_allowed(Some(Allowed::from_toml(&file).unwrap()))
 }
 
-fn embedded(gate: Gate) -> Session {
-    Session::embedded(Cnc::with_default_model().unwrap(), gate).unwrap()
+fn simulated(gate: Gate) -> Session {
+    Session::simulated(Cnc::with_default_model().unwrap(), gate).unwrap()
 }
 
 fn variable(name: &str) -> String {
@@ -44,7 +44,7 @@ const WRITABLE: &str = "V.E.test";
 
 #[test]
 fn what_is_allowed_is_written_and_nothing_else() {
-    let mut session = embedded(allowing(&variable(WRITABLE)));
+    let mut session = simulated(allowing(&variable(WRITABLE)));
     let value = [7, 0, 0, 0];
     let write = |name| WriteByName::new(channel(), name, &value).unwrap();
     session.call(&write("V.E.test[4]")).unwrap();
@@ -59,7 +59,7 @@ fn what_is_allowed_is_written_and_nothing_else() {
 
 #[test]
 fn a_handle_confirmed_for_an_allowed_name_is_written() {
-    let mut session = embedded(allowing(&variable(WRITABLE)));
+    let mut session = simulated(allowing(&variable(WRITABLE)));
     let handle = session.call(&HandleByName::new(channel(), WRITABLE).unwrap()).unwrap();
     let other = session.call(&HandleByName::new(channel(), "V.E.Testvar").unwrap()).unwrap();
     let write = |handle| WriteByHandle::new(channel(), handle, U32List::from(&[4]), &[8, 0, 0, 0]);
@@ -73,7 +73,7 @@ fn a_handle_confirmed_for_an_allowed_name_is_written() {
 #[test]
 fn an_object_allowed_by_its_name_is_written_once_the_list_is_known() {
     const NAME: &str = "mc_command_single_block_w";
-    let mut session = embedded(allowing(&format!("[[object]]\nchannel = 1\nname = \"{NAME}\"\n")));
+    let mut session = simulated(allowing(&format!("[[object]]\nchannel = 1\nname = \"{NAME}\"\n")));
     let count = session.call(&CountObjects::new(channel())).unwrap().0;
     let list = ReadDescriptors::new(channel(), 1, count).unwrap();
     let objects: Descriptors =
@@ -83,14 +83,14 @@ fn an_object_allowed_by_its_name_is_written_once_the_list_is_known() {
     let (group, offset) = (object.index_group(), object.index_offset());
     session.call(&WriteObject::new(group, offset, &[1]).unwrap()).unwrap();
 
-    let mut session = embedded(allowing(&format!("[[object]]\nchannel = 1\nname = \"{NAME}\"\n")));
+    let mut session = simulated(allowing(&format!("[[object]]\nchannel = 1\nname = \"{NAME}\"\n")));
     let write = WriteObject::new(group, offset, &[1]).unwrap();
     assert!(matches!(session.call(&write), Err(Trouble::Refused(_))));
 }
 
 #[test]
 fn an_error_of_the_cnc_is_told_with_its_meaning() {
-    let mut session = embedded(Gate::queries());
+    let mut session = simulated(Gate::queries());
     let read = ReadByName::new(channel(), "V.E.nothing_there").unwrap();
     let trouble = session.call(&read).unwrap_err();
     assert_eq!(trouble.ads_error(), Some(AdsError::SYMBOL_NOT_FOUND));
@@ -235,8 +235,8 @@ fn a_device_says_what_it_is() {
     let state = saying(0, &[0, 0, 0, 0, 15, 0, 1, 0]).device_state(Task::Com).unwrap();
     assert_eq!((state.ads_state, state.device_state), (AdsState::CONFIG, 1));
 
-    // Each task of the embedded CNC says the same.
-    let mut session = embedded(Gate::queries());
+    // Each task of the simulated CNC says the same.
+    let mut session = simulated(Gate::queries());
     for task in [Task::Geo, Task::Sda, Task::Com] {
         assert_eq!(session.device_info(task).unwrap().name(), "ads-cnc serve");
         assert_eq!(session.device_state(task).unwrap().ads_state, AdsState::RUN);

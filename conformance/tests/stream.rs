@@ -190,7 +190,7 @@ fn an_entry_has_to_name_the_stream() {
     let addr = addr.to_string();
     let options = ["--target", &addr, "--net-id", "127.0.0.1.1.1"];
     assert_eq!(code(&tool(file.path(), &options).output().unwrap()), 4);
-    // An embedded CNC needs no file, but heeds one.
+    // A simulated CNC needs no file, but heeds one.
     let allow = TestFile::allowing("");
     assert_eq!(code(&tool(file.path(), &["--allow-write", allow.path()]).output().unwrap()), 4);
     assert_eq!(code(&tool(file.path(), &[]).output().unwrap()), 0);

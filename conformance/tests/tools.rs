@@ -165,7 +165,7 @@ fn what_cannot_be_read_says_what_to_do() {
 }
 
 #[test]
-fn values_are_set_in_the_embedded_cnc() {
+fn values_are_set_in_the_simulated_cnc() {
     insta::assert_snapshot!(
         "set",
         shown(&[
@@ -301,20 +301,20 @@ fn a_file_is_for_one_device_and_some_time() {
         let file = Temporary::new(&format!("not-{}", &expires[..4]), &file);
         let set = ["set", "V.E.vartest", "1", "--allow-write", file.path()];
         assert_eq!(device.call(&set).status.code(), Some(4));
-        // The embedded CNC is bound to a file too, if there is one.
+        // The simulated CNC is bound to a file too, if there is one.
         assert_eq!(ads_cnc(&set).status.code(), Some(4));
     }
     assert_eq!(device.value(&["V.E.vartest"]), "4711");
 }
 
-/// A device lists the same as the embedded CNC, which has the same model.
+/// A device lists the same as the simulated CNC, which has the same model.
 #[test]
 fn a_device_is_browsed() {
     let device = Device::start(&[]);
     let output = device.call(&["browse", "--exact"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     assert_eq!(text(&output.stdout), text(&ads_cnc(&["browse"]).stdout));
-    // What belongs to the embedded CNC is no device's.
+    // What belongs to the simulated CNC is no device's.
     let output = device.call(&["browse", "--cnc-version", "V4.29.0"]);
     assert_eq!(output.status.code(), Some(2));
 }

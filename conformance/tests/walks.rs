@@ -8,7 +8,7 @@ use ads_cnc_conformance::session::Session;
 use ads_cnc_conformance::simulator::{Cnc, Responder};
 
 fn found(cnc: impl Responder + 'static, options: &Options) -> Found {
-    let mut session = Session::embedded(cnc, Gate::queries()).unwrap();
+    let mut session = Session::simulated(cnc, Gate::queries()).unwrap();
     walk(&mut session, options, &mut |_| {}).unwrap()
 }
 

@@ -47,7 +47,6 @@ pub enum FileError {
     /// It is something else.
     #[error("neither pcap nor pcapng")]
     Format,
-    /// There is nothing in it.
     #[error("the file is empty")]
     Empty,
 }

@@ -93,7 +93,6 @@ topics! {
 }
 
 impl Topic {
-    /// Requests of a function.
     pub(super) fn of_request(function: Function) -> Self {
         match function.spec().clause.get(..3) {
             Some("COM") => Self::ClientCom,

@@ -36,7 +36,6 @@ pub(super) enum Content<'p> {
     Link(i32),
 }
 
-/// The segment of a packet.
 pub(super) fn segment<'p>(packet: &Packet<'p>) -> Content<'p> {
     let bytes = packet.bytes;
     let behind = |length: usize| bytes.get(length..).unwrap_or_default();

@@ -54,7 +54,6 @@ use self::tally::{count, count_of};
 use self::tcp::Mark;
 use crate::judge::Outcome;
 
-/// The TCP port of AMS.
 pub const AMS_TCP_PORT: u16 = 48898;
 
 /// What is looked for.
@@ -75,9 +74,7 @@ impl Default for Options {
 /// What came of a capture.
 #[derive(Debug)]
 pub struct Checked {
-    /// Each case.
     pub outcomes: Vec<Outcome>,
-    /// What was there.
     pub tally: Tally,
     /// Golden vectors, if they were wanted.
     pub vectors: Option<Collector>,
@@ -88,7 +85,6 @@ pub struct Checked {
 pub enum Piece {
     /// A whole frame.
     Frame {
-        /// Who sent it.
         from: SocketAddr,
         /// Whom it was sent to.
         to: SocketAddr,
@@ -97,7 +93,6 @@ pub enum Piece {
     },
     /// Bytes that were not captured; how many, if that is known.
     Gap {
-        /// Who sent them.
         from: SocketAddr,
         /// Whom they were sent to.
         to: SocketAddr,

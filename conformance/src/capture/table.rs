@@ -56,7 +56,6 @@ pub(super) enum Event {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ending {
     pub(super) connection: u64,
-    /// Its last packet.
     pub(super) last: u64,
     /// The direction of which nothing was captured, not even an acknowledgement.
     pub(super) unseen: Option<Way>,

@@ -27,7 +27,6 @@ impl Time {
     }
 }
 
-/// A part of a second.
 fn part(units: u64, resolution: u64) -> Duration {
     let nanos = u128::from(units).saturating_mul(1_000_000_000).checked_div(resolution.into());
     Duration::from_nanos(nanos.and_then(|nanos| u64::try_from(nanos).ok()).unwrap_or(0))

@@ -54,17 +54,11 @@ impl fmt::Debug for Capture {
 
 impl Capture {
     /// A capture in a new file, or in place of an old one.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn create(file: &Path) -> io::Result<Self> {
         Self::new(Box::new(BufWriter::new(File::create(file)?)))
     }
 
     /// A capture that goes somewhere else.
-    ///
-    /// # Errors
-    /// Those of the writer.
     pub fn new(mut out: Box<dyn Write + Send>) -> io::Result<Self> {
         out.write_all(&section())?;
         out.write_all(&interface())?;
@@ -105,8 +99,8 @@ impl Capture {
 
     fn packet(&mut self, outgoing: bool, flags: u8, data: &[u8]) {
         let Some(flow) = &mut self.flow else { return };
-        let block = enhanced(&flow.packet(outgoing, flags, data));
-        if let Err(error) = self.out.write_all(&block) {
+        let packet = flow.packet(outgoing, flags, data);
+        if let Err(error) = packet.and_then(|packet| self.out.write_all(&enhanced(&packet))) {
             self.error.get_or_insert(error);
         }
     }

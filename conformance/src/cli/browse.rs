@@ -212,7 +212,7 @@ fn read_all(
         };
         contents.push(match content {
             Ok(content) => {
-                bytes = bytes.saturating_add(content.len());
+                bytes += content.len();
                 if bytes > CONTENTS_MAX {
                     enough = Some(format!("not read, as {} MiB were", CONTENTS_MAX >> 20));
                 }

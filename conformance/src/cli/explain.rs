@@ -252,7 +252,7 @@ fn read_file(file: &Path) -> Result<Vec<u8>, String> {
 
 fn read(from: impl Read, name: &str) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
-    let most = INPUT_MAX.saturating_add(1);
+    let most = INPUT_MAX + 1;
     from.take(most).read_to_end(&mut bytes).map_err(|error| format!("{name}: {error}"))?;
     match u64::try_from(bytes.len()) {
         Ok(length) if length <= INPUT_MAX => Ok(bytes),

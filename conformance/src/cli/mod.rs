@@ -113,7 +113,7 @@ impl Cli {
             Some(Command::Selftest(selftest)) => selftest.execute().into(),
             Some(Command::Client(client)) => client.execute().into(),
             Some(Command::Serve(args)) => serve::serve(&args),
-            // The suite against the embedded CNC, its options as they are by default.
+            // The suite against the simulated CNC, its options as they are by default.
             None => Self::parse_from(["ads-cnc", "run"]).run(),
         }
     }

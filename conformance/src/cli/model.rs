@@ -32,13 +32,12 @@ impl ModelArgs {
         let is_given = self.model.is_some() || self.edition.is_some() || self.cnc_version.is_some();
         if is_given && target.is_device() {
             let why =
-                "--model, --edition and --cnc-version are of the embedded CNC, not of --target";
+                "--model, --edition and --cnc-version are of the simulated CNC, not of --target";
             return Err(Trouble::Usage(why.to_owned()));
         }
         target.open_or(|| self.cnc().map_err(|error| Trouble::Usage(error.to_string())))
     }
 
-    /// The CNC with this model.
     pub(super) fn cnc(&self) -> Result<Cnc, ModelError> {
         let settings = Settings { edition: self.edition, version: self.cnc_version };
         let model = match &self.model {

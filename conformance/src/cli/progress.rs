@@ -3,15 +3,15 @@
 use std::io::{self, IsTerminal as _, Write as _};
 use std::time::{Duration, Instant};
 
-/// How often the line is written.
-const EVERY: Duration = Duration::from_millis(100);
+/// How often the line of a terminal changes.
+pub(super) const EVERY: Duration = Duration::from_millis(100);
 /// So that it never wraps, which would leave lines behind.
 pub(super) const WIDTH: usize = 76;
 
-/// A line on stderr, written over and over; nothing where stderr is no terminal.
+/// A line on stderr, written over and over where that is a terminal.
 #[derive(Debug)]
 pub(super) struct Progress {
-    live: bool,
+    pub(super) live: bool,
     last: Instant,
     width: usize,
 }
@@ -21,28 +21,42 @@ impl Progress {
         Self { live: io::stderr().is_terminal(), last: Instant::now(), width: 0 }
     }
 
-    /// Shows this, unless something was shown just now.
+    /// Shows this on a terminal, unless something was shown just now.
     pub(super) fn tell(&mut self, text: impl FnOnce() -> String) {
-        if self.live && self.last.elapsed() >= EVERY {
-            self.last = Instant::now();
+        if self.live && self.is_due(EVERY) {
             self.show(&text());
         }
     }
 
-    /// Takes the line away.
-    pub(super) fn clear(&mut self) {
-        if self.width > 0 {
-            self.show("");
-            let _unread = write!(io::stderr(), "\r");
-            self.width = 0;
-        }
+    /// Whether nothing was shown for this long.
+    pub(super) fn is_due(&self, every: Duration) -> bool {
+        self.last.elapsed() >= every
     }
 
-    fn show(&mut self, text: &str) {
-        let line: String = text.chars().take(WIDTH).collect();
-        let (len, width) = (line.chars().count(), self.width);
-        let _unread = write!(io::stderr(), "\r{line:<width$}");
-        self.width = len;
+    /// Shows this; in a line of its own where stderr is no terminal.
+    pub(super) fn show(&mut self, text: &str) {
+        self.last = Instant::now();
+        let line = self.fitted(text);
+        // Progress that nobody sees is none.
+        let _unseen = match self.live {
+            true => write!(io::stderr(), "\r{line:<0$}", self.width),
+            false => writeln!(io::stderr(), "{line}"),
+        };
+        self.width = line.chars().count();
+    }
+
+    /// As much of a text as a terminal's line takes.
+    pub(super) fn fitted(&self, text: &str) -> String {
+        let most = if self.live { WIDTH } else { usize::MAX };
+        text.chars().take(most).collect()
+    }
+
+    /// Takes the line off the terminal.
+    pub(super) fn clear(&mut self) {
+        if self.live && self.width > 0 {
+            self.show("");
+            let _unseen = write!(io::stderr(), "\r");
+        }
     }
 }
 

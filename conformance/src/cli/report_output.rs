@@ -71,7 +71,6 @@ impl Forms {
         }
     }
 
-    /// Writes those that are wanted.
     pub(super) fn write(&self, report: &Report) -> io::Result<()> {
         self.wanted().try_for_each(|(file, maker)| write(file, |out| maker(report, out)))
     }

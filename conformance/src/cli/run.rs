@@ -26,7 +26,7 @@ mod target;
 /// Under which these options stand in the help.
 const SELECTION: &str = "Selection";
 
-/// Runs the conformance suite against the embedded CNC, against a device, or against a client.
+/// Runs the conformance suite against the simulated CNC, against a device, or against a client.
 ///
 /// Without --target a simulated CNC is started on this machine and judged together with the codec.
 /// A device is only read: nothing is sent to it but documented queries, to the ports they are
@@ -74,7 +74,7 @@ pub(super) struct Run {
     #[arg(long, help_heading = SELECTION, value_name = "AREA|ID")]
     only: Vec<String>,
 
-    /// Judge by this edition alone, en-1.05 or de-1.051; the embedded CNC follows it [default: both]
+    /// Judge by this edition alone, en-1.05 or de-1.051; the simulated CNC follows it [default: both]
     #[arg(long, help_heading = SELECTION, value_name = "EDITION", value_parser = Edition::by_name)]
     edition: Option<Edition>,
 
@@ -101,7 +101,7 @@ pub(super) struct Run {
     #[arg(long, short)]
     verbose: bool,
 
-    /// Switch on a defect of the embedded CNC and of the codec's cases (see serve --list-defects)
+    /// Switch on a defect of the simulated CNC and of the codec's cases (see serve --list-defects)
     #[arg(long, value_name = "ID", conflicts_with = "target")]
     defect: Option<String>,
 }
@@ -240,14 +240,14 @@ impl Run {
             }
         };
         // Who waits for a client says first where.
-        let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_embedded();
+        let asks = self.testee.is_some() || self.client.is_wanted() || !self.is_simulated();
         if asks && !self.client.waits() {
             complain(self.deadline);
         }
         let report = match &self.testee {
             _ if self.client.is_wanted() => self.of_client(seed, waivers, &interrupt),
             Some(command) => self.testee(command, seed, waivers),
-            None if self.is_embedded() => self.embedded(seed, waivers, profile, defect),
+            None if self.is_simulated() => self.simulated(seed, waivers, profile, defect),
             None => self.device(seed, waivers, profile, changes),
         };
         if interrupt.came() && !self.client.waits() {
@@ -273,7 +273,7 @@ impl Run {
     /// What the file says, or what holds without one; --edition is about both.
     fn profile(&self) -> Result<Profile, String> {
         let read = self.profile.as_deref().map(Profile::from_file).transpose();
-        let without = match self.is_embedded() {
+        let without = match self.is_simulated() {
             true => {
                 let model = Model::default_model().map_err(|error| error.to_string())?;
                 Profile { printed_examples: true, ..model.profile() }
@@ -285,7 +285,7 @@ impl Run {
         Ok(Profile { edition, ..profile })
     }
 
-    const fn is_embedded(&self) -> bool {
+    const fn is_simulated(&self) -> bool {
         !(self.target.is_device() || self.target.is_dry())
     }
 
@@ -296,7 +296,7 @@ impl Run {
         }
         let fits = |case: &Case| match (&self.testee, case.needs) {
             (Some(_), needs) => needs == Needs::Codec,
-            (None, Needs::Codec) => self.is_embedded(),
+            (None, Needs::Codec) => self.is_simulated(),
             (None, _) => true,
         };
         let mut cases: Vec<Case> = suite::cases().into_iter().filter(fits).collect();

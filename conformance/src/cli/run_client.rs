@@ -12,16 +12,9 @@ use crate::deadline::Deadline;
 use crate::judge::{Case, Outcome, Plan};
 use crate::process::interrupt::Interrupt;
 use crate::report::TargetReport;
-use crate::text::shorten;
 
 /// Under which these options stand in the help.
 const CLIENT: &str = "Client under test";
-
-/// The last of stderr that a report keeps.
-const STDERR_SHOWN: usize = 4000;
-
-/// The most characters of a name that are shown.
-const SAID_MAX: usize = 200;
 
 /// A client instead of a target.
 #[derive(Args, Clone, Debug, Default)]
@@ -108,18 +101,9 @@ impl ClientArgs {
         let mut process = Process::new(command, timeout).with_deadline(deadline);
         let Judged { hello, outcomes, requests } = clients::judge(&mut process, server, &wanted);
         let stderr = clients::Actor::stderr(&process);
-        let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
-        let stderr: String = stderr.chars().skip(skipped).collect();
-        let said = |text: &str| Some(shorten(text, SAID_MAX)).filter(|text| !text.is_empty());
-        let identity = hello.map(|hello| hello.client).unwrap_or_default();
-        let target = TargetReport {
-            name: said(&identity.name).unwrap_or_else(|| "client".to_owned()),
-            version: said(&identity.version),
-            language: said(&identity.language),
-            command: Some(command.to_owned()),
-            stderr: Some(stderr).filter(|stderr| !stderr.is_empty()),
-            ..TargetReport::default()
-        };
+        let identity = hello.map(|hello| hello.client);
+        let given = identity.as_ref().map(|one| [&*one.name, &*one.version, &*one.language]);
+        let target = super::run_testee::target("client", command, given, &stderr);
         OfClient { target, outcomes, frames: requests }
     }
 }

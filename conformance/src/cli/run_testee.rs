@@ -7,7 +7,7 @@ use crate::deadline::Deadline;
 use crate::judge::{Case, Exit, Outcome, Subject};
 use crate::process::interrupt;
 use crate::report::TargetReport;
-use crate::testee::{Finding, Hello, Judged, Process, Terms, check_protocol, judge};
+use crate::testee::{Finding, Judged, Process, Terms, check_protocol, judge};
 use crate::text::shorten;
 
 /// The last of stderr that a report keeps.
@@ -34,18 +34,27 @@ pub(super) fn run(
     let mut process = Process::new(command, timeout).with_deadline(deadline);
     let terms = Terms { seed, subject: Subject::Testee, edition, strict: false };
     let Judged { hello, outcomes, .. } = judge(&mut process, cases, terms);
-    OfTestee { target: target(command, hello, &process.stderr()), outcomes }
+    let identity = hello.map(|hello| hello.testee);
+    let given = identity.as_ref().map(|one| [&*one.name, &*one.version, &*one.language]);
+    OfTestee { target: target("testee", command, given, &process.stderr()), outcomes }
 }
 
-fn target(command: &str, hello: Option<Hello>, stderr: &str) -> TargetReport {
-    let said = |text: &str| Some(shorten(text, SAID_MAX)).filter(|text| !text.is_empty());
-    let identity = hello.map(|hello| hello.testee);
+/// What a report says of a program that a command started: the name, version and language it gave,
+/// and the last of stderr.
+pub(super) fn target(
+    kind: &str,
+    command: &str,
+    given: Option<[&str; 3]>,
+    stderr: &str,
+) -> TargetReport {
+    let given = given.unwrap_or_default().map(|text| shorten(text, SAID_MAX));
+    let [name, version, language] = given.map(|text| Some(text).filter(|text| !text.is_empty()));
     let skipped = stderr.chars().count().saturating_sub(STDERR_SHOWN);
     let last: String = stderr.chars().skip(skipped).collect();
     TargetReport {
-        name: identity.as_ref().and_then(|one| said(&one.name)).unwrap_or("testee".to_owned()),
-        version: identity.as_ref().and_then(|one| said(&one.version)),
-        language: identity.as_ref().and_then(|one| said(&one.language)),
+        name: name.unwrap_or_else(|| kind.to_owned()),
+        version,
+        language,
         command: Some(command.to_owned()),
         stderr: Some(last).filter(|last| !last.is_empty()),
         ..TargetReport::default()
@@ -65,7 +74,7 @@ pub(super) fn check(command: &str, timeout: Duration, out: &mut dyn Write) -> io
         match &fault {
             None => writeln!(out, "ok     {what}")?,
             Some(fault) => {
-                faults = faults.saturating_add(1);
+                faults += 1;
                 writeln!(out, "WRONG  {what}: {fault}")?;
                 for (mark, line) in [("→", sent), ("←", received)] {
                     if let Some(line) = line {

@@ -52,13 +52,12 @@ pub(super) struct SelfTest {
 }
 
 impl SelfTest {
-    /// Tries them all.
     pub(super) fn execute(&self) -> Exit {
         let terminal = io::stderr().is_terminal();
         let last = Mutex::new(0_usize);
         let tell = |done: usize, all: usize| {
             let mut last = last.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            if terminal && (done == all || done >= usize::saturating_add(*last, 10)) {
+            if terminal && (done == all || done >= *last + 10) {
                 *last = done;
                 let end = if done == all { "\n" } else { "" };
                 let _unseen = write!(io::stderr(), "\r{done} of {all}{end}");

@@ -1,5 +1,11 @@
 //! `ads-cnc set`: writes a value by its name.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::unreachable, clippy::unwrap_used)
+)]
+
 use std::io::{self, Write as _};
 
 use ads_cnc::dynamic::DynamicKind;
@@ -8,7 +14,7 @@ use clap::Args;
 use super::complain;
 use super::model::ModelArgs;
 use super::name::{NameArgs, written};
-use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, embedded_gate};
+use super::target::{DeadlineArgs, REACHING_A_DEVICE, TargetArgs, simulator_gate};
 use crate::judge::Exit;
 use crate::named::{by_name_alone, find};
 use crate::objects::{Access, Object, Place};
@@ -21,7 +27,7 @@ use crate::values::{Type, parse, plain};
 /// variable, object or element, on this device, for the time the file says; without, the write is
 /// refused with the entry that it needs.
 ///
-/// Without --target the embedded CNC is written to, without a file. It ends with this command and
+/// Without --target the simulated CNC is written to, without a file. It ends with this command and
 /// keeps nothing: that shows what would happen, no more.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES, after_long_help = format!("{EXAMPLES}\n\n{REACHING_A_DEVICE}"))]
@@ -98,8 +104,8 @@ impl Set {
             // A content has one size, whatever the text in it.
             bytes.resize(usize::try_from(size).unwrap_or(usize::MAX).max(bytes.len()), 0);
         }
-        if session.is_embedded() && !self.target.has_file() {
-            session = session.behind(embedded_gate(object.place.entry()))?;
+        if session.is_simulated() && !self.target.has_file() {
+            session = session.behind(simulator_gate(object.place.entry()))?;
         }
         object.place.write(&mut session, &bytes)?;
         if session.is_dry() {
@@ -111,9 +117,9 @@ impl Set {
             Err(trouble) => return Err(trouble),
         };
         self.show(&object, &ty, old.as_deref(), new.as_deref())?;
-        if session.is_embedded() {
+        if session.is_simulated() {
             complain(
-                "the embedded CNC ends here and keeps nothing; --target writes to one that stays",
+                "the simulated CNC ends here and keeps nothing; --target writes to one that stays",
             );
         }
         Ok(judge(&ty, &bytes, new.as_deref()))
@@ -121,7 +127,7 @@ impl Set {
 
     /// Ends it before anything is asked, if the name alone tells that it may not be written.
     fn ask_gate(&self, object: &Object, session: &mut Session) -> Result<(), Trouble> {
-        if session.is_embedded() && !self.target.has_file() {
+        if session.is_simulated() && !self.target.has_file() {
             return Ok(());
         }
         let checked = object.place.check(session);
@@ -133,12 +139,12 @@ impl Set {
         checked
     }
 
-    /// The embedded CNC may be written what is asked for, in a dry run too.
+    /// The simulated CNC may be written what is asked for, in a dry run too.
     fn open(&self, alone: Option<&Object>) -> Result<Session, Trouble> {
-        let embedded = !self.target.is_device() && !self.target.has_file();
+        let simulated = !self.target.is_device() && !self.target.has_file();
         match alone {
-            Some(object) if embedded && self.target.is_dry() => {
-                Session::dry_embedded(embedded_gate(object.place.entry()))
+            Some(object) if simulated && self.target.is_dry() => {
+                Session::dry_simulated(simulator_gate(object.place.entry()))
             }
             _ => Ok(self.model.open(&self.target)?.with_deadline(self.deadline.begin())),
         }

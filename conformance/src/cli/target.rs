@@ -169,8 +169,8 @@ impl TargetArgs {
     ) -> Result<Session, Trouble> {
         match (self.is_device() || self.has_file(), self.dry_run) {
             (true, _) => self.open_or(cnc),
-            (false, true) => Session::dry_embedded(embedded_gate(entry)),
-            (false, false) => self.recorded(Session::embedded(cnc()?, embedded_gate(entry))?),
+            (false, true) => Session::dry_simulated(simulator_gate(entry)),
+            (false, false) => self.recorded(Session::simulated(cnc()?, simulator_gate(entry))?),
         }
     }
 
@@ -213,8 +213,8 @@ impl TargetArgs {
     ) -> Result<Session, Trouble> {
         let gate = self.gate()?;
         match (self.device()?, self.dry_run) {
-            (None, false) => self.recorded(Session::embedded(cnc()?, gate)?),
-            (None, true) => Session::dry_embedded(gate),
+            (None, false) => self.recorded(Session::simulated(cnc()?, gate)?),
+            (None, true) => Session::dry_simulated(gate),
             (Some(target), false) => self.recorded(Session::connect(target, gate)?),
             (Some(target), true) => Session::dry(target, gate),
         }
@@ -271,14 +271,14 @@ impl TargetArgs {
     }
 }
 
-/// The CNC that is embedded unless told otherwise.
+/// The simulated CNC unless another is named.
 pub(super) fn default_cnc() -> Result<Cnc, Trouble> {
     let internal = |error| Trouble::Internal(format!("the default model: {error}"));
     Cnc::with_default_model().map_err(internal)
 }
 
-/// A gate that lets this write through to an embedded CNC.
-pub(super) fn embedded_gate(entry: Entry) -> Gate {
+/// A gate that lets this write through to a simulated CNC.
+pub(super) fn simulator_gate(entry: Entry) -> Gate {
     let expires = Moment::from_rfc3339("9999-12-31T23:59:59Z").unwrap_or(Moment::EPOCH);
     Gate::queries().with_allowed(Some(Allowed {
         target: NET_ID,

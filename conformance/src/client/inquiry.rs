@@ -13,9 +13,7 @@ use crate::judge::Evidence;
 
 /// A command without data, by its reply.
 pub trait Inquiry: for<'a> Decode<'a> {
-    /// The command.
     const COMMAND: Command;
-    /// Its name.
     const NAME: &'static str;
     /// The requirement on its reply.
     const CLAUSE: &'static str;

@@ -6,7 +6,6 @@ use std::net::SocketAddr;
 
 /// A record of all bytes that a client sends and receives.
 pub trait Tap: fmt::Debug + Send {
-    /// A connection was opened.
     fn opened(&mut self, local: SocketAddr, remote: SocketAddr);
 
     /// These bytes were sent.
@@ -15,12 +14,8 @@ pub trait Tap: fmt::Debug + Send {
     /// These bytes were received.
     fn received(&mut self, bytes: &[u8]);
 
-    /// The connection was closed.
     fn closed(&mut self);
 
     /// Ends the record.
-    ///
-    /// # Errors
-    /// What of it could not be written.
     fn finish(self: Box<Self>) -> io::Result<()>;
 }

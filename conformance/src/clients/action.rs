@@ -7,7 +7,6 @@ use serde::Serialize;
 /// A word of the vocabulary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Word {
-    /// The word.
     pub name: &'static str,
     /// What stands behind it. The last may contain blanks.
     pub arguments: &'static [&'static str],
@@ -59,7 +58,6 @@ pub const VOCABULARY: &[Word] = words! {
 /// A word and what stands behind it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Action {
-    /// The word.
     pub action: String,
     /// What stands behind it.
     pub args: Vec<String>,

@@ -15,7 +15,9 @@ use super::scenario::{Expect, Scenario};
 use super::script::Script;
 use super::test_server::{TestServer, Turn};
 use super::{Actor, Defect, ReferenceClient, ordering, request_match, requests, scenarios};
-use crate::judge::{Body, CLIENT, Case, Needs, Outcome, Record, Rule, Stop, Subject, Verdict};
+use crate::judge::{
+    Body, CLIENT, Case, Needs, Outcome, Record, Rule, Stop, Subject, Verdict, caught,
+};
 use crate::process::interrupt;
 use crate::simulator::Cnc;
 
@@ -90,7 +92,8 @@ pub fn judge(actor: &mut dyn Actor, server: &TestServer, scenarios: &[Scenario])
             None if word.ends_with("-objects") || word == "stream" => 553,
             None => 552,
         };
-        let played = play(actor, server, scenario, &place(port));
+        let played =
+            caught(|| play(actor, server, scenario, &place(port))).and_then(|played| played);
         if interrupt::came() {
             // Whether it would have answered is not known.
             outcomes.push(Outcome::interrupted(case));
@@ -187,7 +190,7 @@ fn play(
     }
     let stop = said(scenario, &script, &reaction, turns.last(), &mut findings);
     let stop = stop.or(beyond.stop());
-    let is_lost = matches!(reaction, Reaction::Died(_) | Reaction::Hung(_) | Reaction::Broken(_));
+    let is_lost = matches!(reaction, Reaction::Died(_) | Reaction::Silent(_) | Reaction::Broken(_));
     let mut case = scenario.case();
     // A client may ask more than it has to; that is judged too.
     for judgement in &findings.record.judgements {
@@ -242,7 +245,7 @@ fn said(
     let rules: Vec<Rule> = match reaction {
         Reaction::Answer(_) => rules,
         // Whatever is assumed of what it was to do: this is nothing that can be meant.
-        Reaction::Died(_) | Reaction::Hung(_) | Reaction::Garbled(_) => {
+        Reaction::Died(_) | Reaction::Silent(_) | Reaction::Garbled(_) => {
             let must = |rule: Rule| Rule { level: Some(Level::Must), ..rule };
             rules.into_iter().map(must).chain([CLIENT.into()]).collect()
         }
@@ -319,5 +322,42 @@ impl Program {
 impl Drop for Program {
     fn drop(&mut self) {
         let _gone = fs::remove_file(&self.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Action;
+    use super::*;
+
+    /// A client that panics at its first action.
+    #[derive(Default)]
+    struct Panics(ReferenceClient, usize);
+
+    impl Actor for Panics {
+        fn hello(&mut self, place: &Place) -> Result<Hello, Reaction> {
+            Actor::hello(&mut self.0, place)
+        }
+
+        fn act(&mut self, place: &Place, scenario: &str, action: &Action) -> Reaction {
+            self.1 += 1;
+            assert_ne!(self.1, 1, "the first action");
+            self.0.act(place, scenario, action)
+        }
+
+        fn bye(&mut self) -> Result<(), String> {
+            self.0.bye()
+        }
+    }
+
+    #[test]
+    fn only_a_scenario_that_panics_is_a_harness_error() {
+        let server = TestServer::new(([127, 0, 0, 1], 0).into()).unwrap();
+        let scenarios = scenarios();
+        let judged = judge(&mut Panics::default(), &server, &scenarios[..2]);
+        let verdicts: Vec<_> = judged.outcomes.iter().map(Outcome::verdict).collect();
+        assert_eq!(verdicts, [Verdict::HarnessError, Verdict::Pass, Verdict::Pass]);
+        let note = judged.outcomes[0].note.as_deref().unwrap();
+        assert!(note.starts_with("the case panicked: ") && note.contains("the first action"));
     }
 }

@@ -6,13 +6,9 @@
 pub(super) struct Literal {
     /// Service, by the number of its command.
     pub(super) command: u8,
-    /// The AMS port.
     pub(super) port: u16,
-    /// Index group.
     pub(super) group: u32,
-    /// Index offset.
     pub(super) offset: u32,
-    /// Data of the request.
     pub(super) data: Vec<u8>,
     /// The most bytes that a name as data may be filled up to with NULs; 0 for other data.
     pub(super) padded: usize,

@@ -17,7 +17,6 @@ pub const PROTOCOL: u32 = 1;
 pub struct Hello {
     /// Version of the protocol it speaks.
     pub protocol: u32,
-    /// Who it is.
     pub client: Identity,
     /// The words of the vocabulary that it knows.
     pub actions: Vec<String>,
@@ -30,11 +29,8 @@ pub struct Hello {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Identity {
-    /// Its name.
     pub name: String,
-    /// Its version.
     pub version: String,
-    /// The language it is written in.
     pub language: String,
 }
 
@@ -49,7 +45,6 @@ pub struct Place {
     pub port: u16,
 }
 
-/// What a client is told.
 pub(super) fn told(place: &Place, scenario: &str, action: &Action) -> Value {
     json!({
         "cmd": "do",
@@ -89,7 +84,6 @@ const SHOWN: usize = 200;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Answer {
-    /// It was done, and this is the result.
     Result(Value),
     /// It was not: the CNC refused, or what came from it was wrong.
     Error(String),
@@ -98,19 +92,7 @@ pub enum Answer {
 }
 
 /// What a client does when it is told to do something.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Reaction {
-    /// It says what came of it.
-    Answer(Answer),
-    /// It says something else.
-    Garbled(String),
-    /// It ends without a word.
-    Died(String),
-    /// It neither ends nor says anything for so long.
-    Hung(std::time::Duration),
-    /// It could not be told.
-    Broken(String),
-}
+pub type Reaction = crate::process::Reaction<Answer>;
 
 impl std::fmt::Display for Reaction {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -123,8 +105,10 @@ impl std::fmt::Display for Reaction {
                 write!(f, "unsupported: {}", shorten(what, SHOWN))
             }
             Self::Garbled(what) => write!(f, "no answer of the protocol: {what}"),
-            Self::Died(how) => write!(f, "it died: {how}"),
-            Self::Hung(time) => write!(f, "it hung: no word within {} ms", time.as_millis()),
+            Self::Died(how) => {
+                write!(f, "it died: {}", how.strip_prefix("it ended, ").unwrap_or(how))
+            }
+            Self::Silent(time) => write!(f, "it hung: no word within {} ms", time.as_millis()),
             Self::Broken(why) => f.write_str(why),
         }
     }

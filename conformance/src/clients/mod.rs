@@ -35,18 +35,12 @@ pub use test_server::TestServer;
 /// Who is put through scenarios.
 pub trait Actor {
     /// Asks who it is and what it knows.
-    ///
-    /// # Errors
-    /// Whatever it did instead of saying so.
     fn hello(&mut self, place: &Place) -> Result<Hello, Reaction>;
 
     /// Tells it to do something; one that has ended before is started anew.
     fn act(&mut self, place: &Place, scenario: &str, action: &Action) -> Reaction;
 
     /// Lets it end.
-    ///
-    /// # Errors
-    /// How it ended otherwise than it should.
     fn bye(&mut self) -> Result<(), String>;
 
     /// The lines it has said beyond its answers since this was asked last.

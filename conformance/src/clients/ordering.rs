@@ -6,26 +6,11 @@ use ads_cnc::service::ServiceVariable;
 use super::findings::Findings;
 use super::request_match::result_of;
 use super::requests::with_request;
-use super::scenario::Scenario;
+use super::scenario::{Order, Scenario};
 use super::script::Script;
 use super::test_server::Turn;
 use crate::judge::assumed;
 use crate::values::until_nul;
-
-/// What is looked at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Order {
-    /// All of a program in packets.
-    Stream,
-    /// That nothing of a program that cannot be streamed is.
-    NoStream(&'static str),
-    /// A service that answers what it is asked.
-    Host,
-    /// A service that is not asked.
-    IdleHost,
-    /// One that asks a service.
-    Caller,
-}
 
 /// The longest packet, and the longest line without its end.
 const PACKET_MAX: usize = 992;

@@ -6,7 +6,6 @@ use serde_json::Value;
 
 use super::Action;
 use super::literal::Literal;
-use super::ordering::Order;
 use super::script::Script;
 use super::tamper::Tamper;
 use crate::judge::{Body, CLIENT, Case, Needs, Rule, Subject};
@@ -28,7 +27,6 @@ pub(super) struct Ask {
     pub(super) tolerated: Vec<Vec<u8>>,
     /// Where the function is.
     pub(super) place: &'static str,
-    /// What its data is.
     pub(super) stream: &'static str,
 }
 
@@ -69,7 +67,6 @@ impl Ask {
         }
     }
 
-    /// The requirement of its service.
     pub(super) const fn service_rule(&self) -> &'static str {
         match self.command {
             2 => "ADS-1",
@@ -104,7 +101,6 @@ pub(super) fn both(group: u32, offset: u32, data: &[u8], least: u32) -> Ask {
     ask(9, 552, group, offset, data.to_vec(), least)
 }
 
-/// A Write.
 pub(super) fn write(port: u16, group: u32, offset: u32, data: &[u8]) -> Ask {
     ask(3, port, group, offset, data.to_vec(), 0)
 }
@@ -126,6 +122,21 @@ pub(super) enum Expect {
     DoneOrError,
     /// An error.
     Error,
+}
+
+/// Which order of requests is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// All of a program in packets.
+    Stream,
+    /// That nothing of a program that cannot be streamed is.
+    NoStream(&'static str),
+    /// A service that answers what it is asked.
+    Host,
+    /// A service that is not asked.
+    IdleHost,
+    /// One that asks a service.
+    Caller,
 }
 
 /// Something a client is put through.

@@ -49,9 +49,6 @@ impl Script {
     }
 
     /// What is done for a frame.
-    ///
-    /// # Errors
-    /// Why it is none.
     pub(super) fn answer(
         &mut self,
         connection: usize,

@@ -2,8 +2,8 @@
 //! into what they should not be.
 
 use std::io::{self, Read as _, Write as _};
-use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::net::{Shutdown, SocketAddr, TcpStream};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
@@ -30,7 +30,6 @@ const LINGER: Duration = Duration::from_millis(200);
 /// One request and what was sent for it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Turn {
-    /// Which connection.
     pub(super) connection: usize,
     /// The request; of the last one perhaps only a part.
     pub(super) request: Vec<u8>,
@@ -123,15 +122,9 @@ impl std::fmt::Display for Beyond {
 /// A listener with a scenario behind it, one after the other.
 #[derive(Debug)]
 pub struct TestServer {
-    addr: SocketAddr,
-    shared: Arc<Shared>,
-    acceptor: Option<JoinHandle<()>>,
-}
-
-#[derive(Debug, Default)]
-struct Shared {
-    stopped: AtomicBool,
-    run: Mutex<Option<Arc<Run>>>,
+    acceptor: net::Acceptor,
+    /// What is played.
+    run: Arc<Mutex<Option<Arc<Run>>>>,
 }
 
 /// What is going on.
@@ -154,23 +147,21 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 impl TestServer {
     /// Listens.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn new(addr: SocketAddr) -> io::Result<Self> {
-        let listener = net::listen(addr)?;
-        let addr = listener.local_addr()?;
-        let shared = Arc::new(Shared::default());
-        let accepting = Arc::clone(&shared);
-        let acceptor = thread::Builder::new()
-            .name("clients".to_owned())
-            .spawn(move || accepting.accept(&listener))?;
-        Ok(Self { addr, shared, acceptor: Some(acceptor) })
+        let run: Arc<Mutex<Option<Arc<Run>>>> = Arc::default();
+        let playing = Arc::clone(&run);
+        let acceptor = net::Acceptor::start("clients", net::listen(addr)?, move |stream, _| {
+            // Between scenarios nobody is there. Held until all that is known of the connection is
+            // with its scenario, which may end at any time.
+            let run = lock(&playing);
+            let _gone = run.clone().map(|run| run.connect(stream));
+        })?;
+        Ok(Self { acceptor, run })
     }
 
     /// Where it listens.
     pub const fn addr(&self) -> SocketAddr {
-        self.addr
+        self.acceptor.addr()
     }
 
     /// The AMS NetId it answers for.
@@ -180,7 +171,7 @@ impl TestServer {
 
     /// From now on this is played.
     pub(super) fn begin(&self, script: Script) {
-        *lock(&self.shared.run) = Some(Arc::new(Run {
+        *lock(&self.run) = Some(Arc::new(Run {
             script: Mutex::new(script),
             turns: Mutex::default(),
             streams: Mutex::default(),
@@ -194,7 +185,7 @@ impl TestServer {
     /// Waits until somebody has connected and all connections are closed again, or it is told not
     /// to wait any longer.
     pub(super) fn watch(&self, mut go_on: impl FnMut() -> bool) {
-        let Some(run) = lock(&self.shared.run).clone() else { return };
+        let Some(run) = lock(&self.run).clone() else { return };
         let mut quiet: Option<Instant> = None;
         while go_on() {
             let any = run.count.load(Ordering::SeqCst) > 0;
@@ -212,13 +203,13 @@ impl TestServer {
     /// The requests that came since this was asked before, but for the last, whose answer may not
     /// be out.
     pub(super) fn turns(&self) -> Vec<Turn> {
-        let Some(run) = lock(&self.shared.run).clone() else { return Vec::new() };
+        let Some(run) = lock(&self.run).clone() else { return Vec::new() };
         lock(&run.turns).take_answered()
     }
 
     /// Ends what is played: every connection is closed.
     pub(super) fn end(&self) -> (Vec<Turn>, Beyond, Option<Script>) {
-        let Some(run) = lock(&self.shared.run).take() else {
+        let Some(run) = lock(&self.run).take() else {
             return (Vec::new(), Beyond::default(), None);
         };
         // A client that has closed may have sent something just before.
@@ -240,30 +231,8 @@ impl TestServer {
 
 impl Drop for TestServer {
     fn drop(&mut self) {
-        self.shared.stopped.store(true, Ordering::SeqCst);
+        self.acceptor.stop();
         self.end();
-        let woken = net::knock(self.addr, Duration::from_secs(1)).is_ok();
-        let acceptor = self.acceptor.take().filter(|acceptor| woken || acceptor.is_finished());
-        let _joined = acceptor.map(JoinHandle::join);
-    }
-}
-
-impl Shared {
-    fn accept(&self, listener: &TcpListener) {
-        loop {
-            let accepted = listener.accept();
-            if self.stopped.load(Ordering::SeqCst) {
-                return;
-            }
-            let Ok((stream, _)) = accepted else {
-                thread::sleep(Duration::from_millis(20));
-                continue;
-            };
-            // Between scenarios nobody is there. Held until all that is known of the connection is
-            // with its scenario, which may end at any time.
-            let run = lock(&self.run);
-            let _gone = run.clone().map(|run| run.connect(stream));
-        }
     }
 }
 

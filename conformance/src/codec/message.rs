@@ -18,7 +18,6 @@ pub enum Command {
         /// Version of the protocol.
         protocol: u32,
     },
-    /// A case.
     Case {
         /// Number of the case in this run.
         seq: u64,
@@ -35,7 +34,6 @@ pub enum Command {
 pub struct Question {
     /// `decode`, `encode`, `packets`, `check`, or one that does not exist.
     pub op: String,
-    /// The stream.
     pub stream: String,
     /// The edition, such as `en-1.05`.
     pub edition: String,
@@ -74,7 +72,6 @@ pub struct Known {
     /// Type of the elements of a value or content.
     #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<Type>,
-    /// Its dimensions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dimensions: Option<Vec<u32>>,
     /// What an axis counts in an index offset.
@@ -131,12 +128,9 @@ pub struct Hello {
 /// Who answers.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
-    /// Its name.
     pub name: String,
-    /// Its version.
     #[serde(default)]
     pub version: String,
-    /// What it is written in.
     #[serde(default)]
     pub language: String,
 }
@@ -166,7 +160,6 @@ impl Capabilities {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Answer {
-    /// It was done.
     Ok(Output),
     /// It cannot be.
     Reject(Rejection),
@@ -177,7 +170,6 @@ pub enum Answer {
     },
     /// Something else is wrong.
     Error {
-        /// What.
         message: String,
     },
 }
@@ -220,7 +212,6 @@ pub struct Rejection {
 pub struct Reply {
     /// Number of the case; none if the line of the case could not be read.
     pub seq: Option<u64>,
-    /// The answer.
     #[serde(flatten)]
     pub answer: Answer,
 }

@@ -75,7 +75,6 @@ where
     }
 }
 
-/// The value of these fields.
 pub(super) fn from_fields<T>(context: &Context, fields: &Fields) -> Result<T, Refused>
 where
     T: for<'a> Decode<'a> + DeserializeOwned,

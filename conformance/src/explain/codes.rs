@@ -6,7 +6,6 @@ use ads_cnc::operation::Task;
 use ads_cnc::text::cp1252_to_char;
 use ads_cnc::{CncStr, TextRef};
 
-/// What a task is called.
 pub(super) const fn task(task: Task) -> &'static str {
     match task {
         Task::Geo => "GEO",
@@ -15,7 +14,6 @@ pub(super) const fn task(task: Task) -> &'static str {
     }
 }
 
-/// What a class is called.
 pub(crate) const fn class_name(class: Class) -> &'static str {
     match class {
         Class::PositionController => "position controller",
@@ -48,7 +46,6 @@ pub(super) const fn command(command: Command) -> Option<&'static str> {
     })
 }
 
-/// What state flags say.
 pub(super) const fn state_flags(flags: StateFlags) -> Option<&'static str> {
     match flags {
         StateFlags::REQUEST => Some("request"),

@@ -25,6 +25,7 @@ mod frame;
 mod model;
 mod nc;
 mod part;
+#[allow(clippy::restriction)]
 mod show;
 mod typed;
 mod value;

@@ -25,7 +25,6 @@ pub struct Question {
 /// What the bytes are.
 #[derive(Clone, Debug)]
 pub enum Subject {
-    /// This stream.
     Stream(Stream),
     /// What goes in or comes out at this place.
     Place(Place),
@@ -39,13 +38,10 @@ pub enum Subject {
 /// Where a service is asked for, as far as it is known.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
-    /// The AMS port.
     pub port: Option<AmsPort>,
     /// The service; without it, that of the function at this address.
     pub service: Option<Service>,
-    /// Index group.
     pub group: IndexGroup,
-    /// Index offset.
     pub offset: IndexOffset,
     /// Whether the bytes are the answer.
     pub reply: bool,
@@ -58,7 +54,6 @@ pub struct Explanation {
     pub format: u32,
     /// Bytes given.
     pub length: usize,
-    /// What came of it.
     pub outcome: Outcome,
     /// Streams in the order of their bytes; what a service carries follows it.
     pub parts: Vec<Part>,
@@ -90,7 +85,6 @@ impl Outcome {
 /// A stream.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Part {
-    /// What it is.
     pub title: String,
     /// The stream's name; none for bytes that no table describes.
     pub stream: Option<&'static str>,
@@ -100,13 +94,11 @@ pub struct Part {
     pub sources: Vec<String>,
     /// Where the stream begins in the bytes given.
     pub at: usize,
-    /// Its bytes.
     pub length: usize,
     /// Where it is sent to or from.
     pub address: Option<Address>,
     /// Its fields, up to the first fault.
     pub rows: Vec<Row>,
-    /// What is wrong with it.
     pub faults: Vec<Fault>,
     /// The bytes from the fault on.
     pub unread: Option<Unread>,
@@ -117,7 +109,6 @@ pub struct Part {
 /// A field, or one item of a field with several.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// Offset in the stream.
     pub offset: usize,
     /// Number of bytes.
     pub length: usize,
@@ -132,7 +123,6 @@ pub struct Row {
     /// Name of the type.
     #[serde(rename = "type")]
     pub ty: String,
-    /// The value.
     pub value: String,
     /// What the field says.
     pub meaning: &'static str,
@@ -154,11 +144,9 @@ pub struct Fault {
     pub class: &'static str,
     /// The field; `stream` for the stream as a whole.
     pub field: String,
-    /// Offset in the stream.
     pub offset: usize,
     /// What was expected, in the unit of the class.
     pub expected: Option<u32>,
-    /// What was there.
     pub found: Option<u32>,
     /// All of it in words.
     pub text: String,
@@ -167,7 +155,6 @@ pub struct Fault {
 /// Bytes that were not read.
 #[derive(Clone, Debug, Serialize)]
 pub struct Unread {
-    /// Offset in the stream.
     pub offset: usize,
     /// Number of bytes.
     pub length: usize,
@@ -182,15 +169,12 @@ pub struct Address {
     pub port: Option<u16>,
     /// The service, if it is known.
     pub service: Option<String>,
-    /// Index group.
     pub index_group: u32,
-    /// Index offset.
     pub index_offset: u32,
     /// What the group addresses.
     pub group: String,
     /// What the offset addresses.
     pub offset: String,
-    /// The function there.
     pub function: Option<FunctionReport>,
     /// Other meanings, and why there is no function.
     pub notes: Vec<String>,
@@ -199,7 +183,6 @@ pub struct Address {
 /// A function of the CNC.
 #[derive(Clone, Debug, Serialize)]
 pub struct FunctionReport {
-    /// Its name.
     pub name: &'static str,
     /// The service it takes.
     pub service: String,

@@ -36,9 +36,6 @@ impl Paint {
 }
 
 /// Writes an explanation.
-///
-/// # Errors
-/// Those of `out`.
 pub fn print(explanation: &Explanation, paint: Paint, out: &mut impl Write) -> io::Result<()> {
     for (number, part) in explanation.parts.iter().enumerate() {
         if number > 0 {
@@ -83,7 +80,7 @@ fn show_part(part: &Part, several: bool, paint: Paint, out: &mut impl Write) -> 
     }
     if let Some(unread) = &part.unread {
         for (number, chunk) in chunks(&unread.hex).enumerate() {
-            let at = unread.offset.saturating_add(number.saturating_mul(LINE));
+            let at = unread.offset + number * LINE;
             // The field that does not get its bytes.
             let mut cut = part.faults.iter().filter(|fault| fault.offset == at);
             let name =
@@ -124,7 +121,7 @@ fn show_row(
     );
     writeln!(out, "{}", line.trim_end())?;
     for (number, chunk) in (1_usize..).zip(lines) {
-        let at = offset.saturating_add(number.saturating_mul(LINE));
+        let at = offset + number * LINE;
         writeln!(out, "{}", paint.style(style, &format!("{mark} {at:6}  {chunk}")))?;
     }
     for note in &row.notes {
@@ -175,7 +172,7 @@ fn show_address(address: &Address, paint: Paint, out: &mut impl Write) -> io::Re
 
 /// Hex in lines of so many bytes.
 fn chunks(hex: &str) -> impl Iterator<Item = &str> {
-    let width = LINE.saturating_mul(3);
+    let width = LINE * 3;
     let mut rest = hex;
     std::iter::from_fn(move || {
         if rest.is_empty() {

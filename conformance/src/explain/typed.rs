@@ -14,7 +14,6 @@ pub(super) struct Typed {
     pub(super) value: String,
 }
 
-/// The elements of a value.
 pub(super) fn elements(
     ty: DataType,
     dimensions: &[u32],

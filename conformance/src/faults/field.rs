@@ -13,14 +13,14 @@ use std::fmt;
 
 use ads_cnc::layout::{Field, Segment, Size, Stream};
 
+use crate::text::named;
+
 /// One field done wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Defect {
     /// Stream, field and change: `variable-description.size.flip`.
     pub id: String,
-    /// The stream.
     pub stream: Stream,
-    /// The field.
     pub field: Field,
     /// What happens to its bytes.
     pub change: Change,
@@ -39,20 +39,9 @@ pub enum Change {
     Zero,
 }
 
+named! { Change: FlipLow "flip", Invert "invert", SwapBytes "swap", Zero "zero", }
+
 impl Change {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::FlipLow, Self::Invert, Self::SwapBytes, Self::Zero];
-
-    /// The change's name in the ID of a defect.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::FlipLow => "flip",
-            Self::Invert => "invert",
-            Self::SwapBytes => "swap",
-            Self::Zero => "zero",
-        }
-    }
-
     fn apply(self, bytes: &mut [u8]) {
         match self {
             Self::FlipLow => bytes.iter_mut().take(1).for_each(|byte| *byte ^= 1),
@@ -88,7 +77,6 @@ impl Defect {
         Self { id, stream, field, change }
     }
 
-    /// The defect with this ID.
     pub fn by_id(id: &str) -> Option<Self> {
         Stream::all().flat_map(Self::of_stream).find(|defect| defect.id == id)
     }

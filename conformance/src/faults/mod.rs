@@ -23,6 +23,7 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use crate::edition::Edition;
+use crate::text::named;
 
 pub use cnc::Faulty;
 use cnc::Twist;
@@ -35,7 +36,6 @@ pub struct Seed {
     pub id: String,
     /// What it breaks: one of them has to fail. None if nothing is wrong with it.
     pub requirements: Vec<&'static str>,
-    /// What is done.
     pub what: String,
     /// By whom.
     pub kind: Kind,
@@ -52,25 +52,12 @@ pub struct Seed {
 pub enum Kind {
     /// A codec. A wrong field is wrong in a CNC too.
     Codec,
-    /// A CNC.
     Cnc,
     /// A CNC that does things otherwise, and none of them wrong.
     Different,
 }
 
-impl Kind {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Codec, Self::Cnc, Self::Different];
-
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Codec => "codec",
-            Self::Cnc => "cnc",
-            Self::Different => "different",
-        }
-    }
-}
+named! { Kind: Codec "codec", Cnc "cnc", Different "different", }
 
 /// How it is done.
 #[derive(Clone, Debug)]
@@ -80,7 +67,6 @@ enum How {
     Cnc(Twist),
 }
 
-/// All of them.
 pub fn all() -> &'static [Seed] {
     static ALL: OnceLock<Vec<Seed>> = OnceLock::new();
     ALL.get_or_init(|| {
@@ -91,7 +77,6 @@ pub fn all() -> &'static [Seed] {
     })
 }
 
-/// The one with this ID.
 pub fn by_id(id: &str) -> Option<&'static Seed> {
     all().iter().find(|seed| seed.id == id)
 }

@@ -56,7 +56,6 @@ fn or_short(cnc: &Upstream<'_>, call: &Call<'_>, answer: Answer) -> Answer {
     fits(call, answer).or_else(|_| cnc.answer(call))
 }
 
-/// All rows.
 pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
     let areas =
         [ROWS, elements::ROWS, unspecified::ROWS, replies::ROWS, models::ROWS, requests::ROWS];

@@ -101,7 +101,6 @@ impl Allowed {
 pub enum Entry {
     /// A variable by its name, or by a handle that was asked for by this name.
     Variable {
-        /// Which channel.
         channel: Channel,
         /// Which axis, over the axis interface.
         axis: Option<ChannelAxis>,
@@ -109,19 +108,9 @@ pub enum Entry {
         name: CncString,
     },
     /// The content at an address: of a COM object or of an element.
-    Content {
-        /// Index group.
-        group: IndexGroup,
-        /// Index offset.
-        offset: IndexOffset,
-    },
+    Content { group: IndexGroup, offset: IndexOffset },
     /// The content of the one COM object of this name in a list.
-    Object {
-        /// Which list.
-        list: List,
-        /// The name.
-        name: CncString,
-    },
+    Object { list: List, name: CncString },
     /// NC programs for a channel.
     Stream(Channel),
     /// What a host of the Service Interface writes to a channel.

@@ -53,7 +53,7 @@ pub struct Gate {
     /// Whether malformed frames pass, if a file permits them.
     malformed: bool,
     /// Of a CNC in this process, which is thrown away.
-    embedded: Option<SocketAddr>,
+    simulated: Option<SocketAddr>,
     /// Where the frames go, if that is known.
     peer: Option<IpAddr>,
     allowed: Option<Allowed>,
@@ -68,7 +68,6 @@ pub struct Permit<'f> {
 }
 
 impl<'f> Permit<'f> {
-    /// The frame.
     pub const fn frame(&self) -> &'f [u8] {
         self.frame
     }
@@ -95,19 +94,19 @@ impl Gate {
     }
 
     /// Anything but what is never sent, to this address only: that of a
-    /// [`Server`](crate::simulator::Server) of this process, see [`Gate::of_embedded`].
-    pub(crate) fn of_address(embedded: SocketAddr) -> Self {
-        Self { embedded: Some(embedded), ..Self::default() }
+    /// [`Server`](crate::simulator::Server) of this process, see [`Gate::of_server`].
+    pub(crate) fn of_address(simulated: SocketAddr) -> Self {
+        Self { simulated: Some(simulated), ..Self::default() }
     }
 
     /// The only address that it may stand in front of, if there is but one.
-    pub const fn embedded(&self) -> Option<SocketAddr> {
-        self.embedded
+    pub const fn simulated(&self) -> Option<SocketAddr> {
+        self.simulated
     }
 
     /// Whether any write may pass at all.
     pub const fn may_let_writes_pass(&self) -> bool {
-        self.embedded.is_some() || self.allowed.is_some()
+        self.simulated.is_some() || self.allowed.is_some()
     }
 
     /// What a file allows.
@@ -137,7 +136,7 @@ impl Gate {
     /// Whether malformed frames may pass: some of them may be writes to whoever takes them.
     pub fn lets_malformed_pass(&self) -> bool {
         let permits = |allowed: &Allowed| allowed.malformed;
-        self.embedded.is_some() || self.malformed && self.allowed.as_ref().is_some_and(permits)
+        self.simulated.is_some() || self.malformed && self.allowed.as_ref().is_some_and(permits)
     }
 
     /// Why nothing of what the file allows may be sent to this target now.
@@ -150,12 +149,9 @@ impl Gate {
     }
 
     /// Whether malformed requests may be sent to this target now.
-    ///
-    /// # Errors
-    /// Why not.
     pub fn check_malformed(&self, target: AmsNetId, now: Moment) -> Result<(), Refusal> {
         match &self.allowed {
-            _ if self.embedded.is_some() => Ok(()),
+            _ if self.simulated.is_some() => Ok(()),
             Some(allowed) if allowed.malformed => self.check_target(target, now),
             _ => Err(Reason::NoMalformed(target).into()),
         }
@@ -170,7 +166,7 @@ impl Gate {
         let whole = match whole(frame) {
             Ok(whole) => whole,
             // To whom it goes is not known either.
-            Err(_) if self.embedded.is_some() => return permit(false),
+            Err(_) if self.simulated.is_some() => return permit(false),
             Err(reason) => return Err(reason.into()),
         };
         let target = whole.header().target.net_id;
@@ -243,7 +239,7 @@ impl Gate {
             _ if call.port != spec.task.port() => {
                 Err(Reason::Port(call.port, request.function()).into())
             }
-            _ if self.embedded.is_some() => Ok(false),
+            _ if self.simulated.is_some() => Ok(false),
             _ => self.check_change(&request, to, now).map(|()| false),
         }
     }

@@ -14,7 +14,6 @@ use super::{Entry, Moment};
 /// A frame the gate did not let through.
 #[derive(Clone, Debug)]
 pub struct Refusal {
-    /// Why.
     pub reason: Reason,
     /// The entry that would allow it, if there is one.
     pub needed: Option<Entry>,
@@ -49,15 +48,9 @@ pub enum Reason {
     /// The function changes something that the file does not name.
     NoEntry(Function),
     /// The file is about another target.
-    OtherTarget {
-        /// The one it allows.
-        allowed: AmsNetId,
-        /// The one asked for.
-        target: AmsNetId,
-    },
+    OtherTarget { allowed: AmsNetId, target: AmsNetId },
     /// The file is for another IP address.
     OtherAddress {
-        /// The one it allows.
         allowed: Option<IpAddr>,
         /// The one that the connection goes to, if it is known.
         address: Option<IpAddr>,

@@ -5,6 +5,8 @@ use std::fmt;
 use ads_cnc_vectors::{Sequence, Vector, is_requirement};
 use serde::{Deserialize, Serialize};
 
+use crate::text::named;
+
 /// One thing the suite tries.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -12,7 +14,6 @@ pub struct Case {
     pub id: String,
     /// What is tried, in a sentence.
     pub title: String,
-    /// Who is judged.
     pub subject: Subject,
     /// The requirements it can judge.
     pub requirements: Vec<&'static str>,
@@ -30,7 +31,6 @@ pub enum Subject {
     Codec,
     /// A codec behind a pipe.
     Testee,
-    /// A CNC.
     Target,
     /// What asks a CNC.
     Client,
@@ -40,28 +40,9 @@ pub enum Subject {
     CapturedCnc,
 }
 
-impl Subject {
-    /// All of them, in the order of reports.
-    pub const ALL: [Self; 6] = [
-        Self::Codec,
-        Self::Testee,
-        Self::Target,
-        Self::Client,
-        Self::CapturedClient,
-        Self::CapturedCnc,
-    ];
-
-    /// Its name in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Codec => "codec",
-            Self::Testee => "testee",
-            Self::Target => "target",
-            Self::Client => "client",
-            Self::CapturedClient => "captured-client",
-            Self::CapturedCnc => "captured-cnc",
-        }
-    }
+named! { Subject:
+    Codec "codec", Testee "testee", Target "target", Client "client",
+    CapturedClient "captured-client", CapturedCnc "captured-cnc",
 }
 
 impl fmt::Display for Subject {

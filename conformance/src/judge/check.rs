@@ -19,7 +19,6 @@ pub enum Stop {
     NotApplicable(String),
     /// What came back does not tell.
     Inconclusive(String),
-    /// The gate refused.
     Refused(String),
     /// The run is to end.
     Interrupted,
@@ -30,7 +29,6 @@ pub enum Stop {
 /// A requirement at a level: that of the catalogue, or of an assumed part.
 #[derive(Clone, Copy, Debug)]
 pub struct Rule {
-    /// The requirement.
     pub id: &'static str,
     /// The level it is judged at.
     pub level: Option<Level>,
@@ -57,11 +55,9 @@ pub const fn online(id: &'static str) -> Rule {
 /// One check of one requirement.
 #[derive(Clone, Debug)]
 pub struct Judgement {
-    /// The requirement.
     pub requirement: &'static str,
     /// The level it was judged at; that of an assumed part may be lower.
     pub level: Option<Level>,
-    /// What came of it.
     pub verdict: Verdict,
     /// What was expected; empty for a pass.
     pub expected: String,
@@ -82,7 +78,6 @@ pub(crate) const TEXT_MAX: usize = 1024;
 /// The checks of one case.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Record {
-    /// Those that are kept.
     pub(crate) judgements: Vec<Judgement>,
     /// How many there were.
     pub(crate) checks: usize,
@@ -90,7 +85,6 @@ pub(crate) struct Record {
 
 /// Who judges checks: a case that asks for itself, or one that looks on.
 pub(crate) trait Checks {
-    /// Judges one check.
     fn check(
         &mut self,
         rule: impl Into<Rule>,

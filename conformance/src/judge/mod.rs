@@ -17,6 +17,7 @@ pub(crate) use check::{Checks, Record, TEXT_MAX};
 pub use check::{Judgement, Rule, Step, Stop, assumed, online};
 pub use evidence::Evidence;
 pub use left_changed::LeftChanged;
+pub(crate) use outcome::caught;
 pub use outcome::{Outcome, RequirementVerdict, gravest};
 pub use plan::{LeftOut, Plan, Selection, Unmatched, any_seed};
 pub(crate) use plan::{names, order};

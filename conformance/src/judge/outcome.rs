@@ -1,13 +1,13 @@
 //! What came of a case.
 
+use std::panic::{self, AssertUnwindSafe};
+
 use super::{Case, Judgement, Stop, Verdict};
 
 /// What came of a case.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The case.
     pub case: Case,
-    /// For each of its requirements.
     pub verdicts: Vec<RequirementVerdict>,
     /// Checks made.
     pub checks: usize,
@@ -20,7 +20,6 @@ pub struct Outcome {
 /// What came of one requirement in a case.
 #[derive(Clone, Debug)]
 pub struct RequirementVerdict {
-    /// The requirement.
     pub requirement: &'static str,
     /// The gravest verdict of its checks.
     pub verdict: Verdict,
@@ -48,7 +47,6 @@ impl Outcome {
         Self { case, verdicts, checks: 0, note: Some(note.into()), refused: false }
     }
 
-    /// A case that was tried.
     pub(crate) fn tried(
         case: Case,
         judgements: Vec<Judgement>,
@@ -106,4 +104,13 @@ fn of_requirement(
 /// The verdict that stands for several.
 pub fn gravest(verdicts: impl IntoIterator<Item = Verdict>) -> Option<Verdict> {
     verdicts.into_iter().max_by_key(|verdict| verdict.gravity())
+}
+
+/// Runs a case; its error is the message of a panic, which ends this case alone.
+pub(crate) fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
+    panic::catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
+        let text = payload.downcast_ref::<&str>().copied();
+        let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+        format!("the case panicked: {}", text.unwrap_or("without a message"))
+    })
 }

@@ -55,7 +55,6 @@ pub struct Plan {
 /// What was left out of a run because something else was selected.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LeftOut {
-    /// The case.
     pub id: String,
     /// Whom it would have judged.
     pub subject: Subject,

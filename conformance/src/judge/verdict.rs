@@ -6,6 +6,8 @@ use std::process::ExitCode;
 use ads_cnc_vectors::Level;
 use serde::{Deserialize, Serialize};
 
+use crate::text::named;
+
 /// The judgement of one requirement in one case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -34,45 +36,19 @@ pub enum Verdict {
     HarnessError,
 }
 
-impl Verdict {
-    /// All of them, in the order of reports.
-    pub const ALL: [Self; 11] = [
-        Self::Pass,
-        Self::Fail,
-        Self::Warning,
-        Self::Differs,
-        Self::Vacuous,
-        Self::Inconclusive,
-        Self::NotApplicable,
-        Self::NotObserved,
-        Self::NotRun,
-        Self::Interrupted,
-        Self::HarnessError,
-    ];
+named! { Verdict:
+    Pass "pass", Fail "fail", Warning "warning", Differs "differs", Vacuous "vacuous",
+    Inconclusive "inconclusive", NotApplicable "not-applicable", NotObserved "not-observed",
+    NotRun "not-run", Interrupted "interrupted", HarnessError "harness-error",
+}
 
+impl Verdict {
     /// The verdict on something of this level that was not done.
     pub const fn missed(level: Level) -> Self {
         match level {
             Level::Must => Self::Fail,
             Level::Should => Self::Warning,
             Level::Info => Self::Differs,
-        }
-    }
-
-    /// The verdict's name in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Pass => "pass",
-            Self::Fail => "fail",
-            Self::Warning => "warning",
-            Self::Differs => "differs",
-            Self::Vacuous => "vacuous",
-            Self::Inconclusive => "inconclusive",
-            Self::NotApplicable => "not-applicable",
-            Self::NotObserved => "not-observed",
-            Self::NotRun => "not-run",
-            Self::Interrupted => "interrupted",
-            Self::HarnessError => "harness-error",
         }
     }
 
@@ -134,12 +110,10 @@ pub enum Exit {
     Stale,
     /// A value was changed and could not be restored.
     LeftChanged,
-    /// An internal error.
     Internal,
 }
 
 impl Exit {
-    /// The number.
     pub const fn code(self) -> u8 {
         match self {
             Self::Success => 0,
@@ -153,7 +127,6 @@ impl Exit {
         }
     }
 
-    /// The one with this number.
     pub fn from_code(code: u8) -> Option<Self> {
         Self::ALL.into_iter().find(|exit| exit.code() == code)
     }

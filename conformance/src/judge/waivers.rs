@@ -46,17 +46,13 @@ pub struct WaiverError {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WaiverReport {
-    /// The case.
     pub test: String,
-    /// The requirement.
     pub requirement: String,
-    /// The verdict that is expected.
     pub verdict: Verdict,
     /// Why it is put up with.
     pub reason: String,
     /// The first day on which it holds no longer.
     pub expires: String,
-    /// What became of it.
     pub state: WaiverState,
     /// The verdict in this run, if there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -85,7 +81,6 @@ impl WaiverState {
         matches!(self, Self::Expired | Self::Unmatched | Self::Otherwise)
     }
 
-    /// For people.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Used => "used",
@@ -163,7 +158,6 @@ impl Waivers {
         self.0.is_empty()
     }
 
-    /// What becomes of each.
     pub(crate) fn apply(
         &self,
         outcomes: &[Outcome],

@@ -18,9 +18,7 @@ use crate::session::{Session, Trouble};
 /// | anything else | a COM object or an element of SDA or GEO, by its whole name |
 #[derive(Clone, Debug)]
 pub struct Question {
-    /// The name.
     pub name: String,
-    /// Which channel.
     pub channel: Channel,
     /// Which place, over the axis interface; of V.A only.
     pub axis: Option<ChannelAxis>,
@@ -42,7 +40,7 @@ pub struct Question {
 /// use ads_cnc_conformance::session::Session;
 /// use ads_cnc_conformance::values::plain;
 ///
-/// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+/// let mut session = Session::simulated(Cnc::with_default_model()?, Gate::queries())?;
 /// let mut value = |name: &str| {
 ///     let question = Question::new(name, Channel::new(1).unwrap());
 ///     let object = find(&mut session, &question)?;

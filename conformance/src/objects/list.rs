@@ -26,7 +26,6 @@ pub enum List {
     Axis(u8),
     /// An instance of a class of SDA and GEO.
     Class {
-        /// Which class.
         class: Class,
         /// Which channel; of a spindle its index, of the platform none.
         channel: Option<u8>,
@@ -35,20 +34,13 @@ pub enum List {
     },
     /// Variables of a kind, `V.E` for one.
     Variables {
-        /// The kind.
         kind: &'static str,
-        /// Which channel.
         channel: u8,
         /// Which place, over the axis interface.
         axis: Option<u16>,
     },
     /// Dynamic parameters.
-    Parameters {
-        /// The kind.
-        kind: DynamicKind,
-        /// Which channel.
-        channel: u8,
-    },
+    Parameters { kind: DynamicKind, channel: u8 },
 }
 
 impl fmt::Display for List {

@@ -27,7 +27,6 @@ impl Pattern {
         }
     }
 
-    /// The whole name.
     pub fn whole(text: &str) -> Self {
         Self { wanted: folded(text).collect() }
     }

@@ -20,9 +20,7 @@ use crate::values::Type;
 /// One thing that can be read.
 #[derive(Clone, Debug)]
 pub struct Object {
-    /// The list it is in.
     pub list: List,
-    /// Its name.
     pub name: CncString,
     /// Where its value is.
     pub place: Place,
@@ -80,22 +78,14 @@ impl fmt::Display for Access {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// The content of a COM object.
-    Object {
-        /// Index group.
-        group: IndexGroup,
-        /// Index offset.
-        offset: IndexOffset,
-    },
+    Object { group: IndexGroup, offset: IndexOffset },
     /// The content of an element of a class.
     Element {
-        /// Where it is.
         element: ElementAddress,
         /// SDA or GEO.
         task: Task,
     },
-    /// A variable, by its name.
     Variable {
-        /// Which channel.
         channel: Channel,
         /// Which place, over the axis interface.
         axis: Option<ChannelAxis>,
@@ -103,14 +93,7 @@ pub enum Place {
         name: CncString,
     },
     /// A dynamic parameter, by its name.
-    Parameter {
-        /// Which channel.
-        channel: Channel,
-        /// The kind.
-        kind: DynamicKind,
-        /// The name.
-        name: CncString,
-    },
+    Parameter { channel: Channel, kind: DynamicKind, name: CncString },
 }
 
 impl Place {
@@ -152,9 +135,6 @@ impl Place {
     }
 
     /// Reads the bytes of the value; `size` is that of a content.
-    ///
-    /// # Errors
-    /// What came instead.
     pub fn read(&self, session: &mut Session, size: u32) -> Result<Vec<u8>, Trouble> {
         match self {
             Self::Object { group, offset } => {

@@ -11,13 +11,11 @@ use crate::values::value_of;
 /// Objects of a target, as they are written as JSON; see `schema/objects.schema.json`.
 #[derive(Clone, Debug, Serialize)]
 pub struct ObjectsReport {
-    /// The version of this format.
     pub format: u32,
     /// Where the target listens.
     pub target: String,
     /// Its AMS NetId.
     pub net_id: String,
-    /// What was asked for.
     pub objects: Vec<ObjectReport>,
     /// What the CNC did not tell.
     pub notes: Vec<String>,
@@ -31,12 +29,9 @@ impl ObjectsReport {
     }
 }
 
-/// An object.
 #[derive(Clone, Debug, Serialize)]
 pub struct ObjectReport {
-    /// The list it is in.
     pub list: String,
-    /// Its name.
     pub name: String,
     /// The name of its type.
     pub r#type: Option<String>,
@@ -44,7 +39,6 @@ pub struct ObjectReport {
     pub dimensions: Vec<u32>,
     /// Bytes of its value.
     pub size: Option<u32>,
-    /// Its unit.
     pub unit: Option<String>,
     /// `R`, `RW`, or a code that no manual has.
     pub access: Option<String>,

@@ -10,7 +10,6 @@ use crate::values::printable;
 pub struct Column {
     /// What the column is called.
     pub head: &'static str,
-    /// The cell of an object.
     pub cell: fn(&Object) -> String,
 }
 
@@ -67,9 +66,6 @@ const VARIABLE: &[Column] = &[
 ];
 
 /// Writes rows of cells under their heads, each column as wide as it has to be.
-///
-/// # Errors
-/// Those of `out`.
 pub fn table(
     heads: &[&str],
     rows: impl Iterator<Item = Vec<String>> + Clone,
@@ -91,9 +87,6 @@ pub fn table(
 
 /// Writes rows of cells as comma-separated values with CR LF, as in RFC 4180. A cell that a
 /// spreadsheet would take for a formula has an apostrophe before it.
-///
-/// # Errors
-/// Those of `out`.
 pub fn csv(
     heads: &[&str],
     rows: impl Iterator<Item = Vec<String>>,

@@ -73,9 +73,6 @@ pub(crate) struct Interrupt(Receiver<()>);
 
 impl Interrupt {
     /// Catches the signals; possible once in a process.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub(crate) fn catch() -> io::Result<Self> {
         Self::catch_telling(|| (), || None)
     }
@@ -83,9 +80,6 @@ impl Interrupt {
     /// Catches the signals. `first_words` is called at the first one. `last_words` is called before a
     /// second one ends the process, and gives the exit code if it is another than that of an
     /// interrupted process.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub(crate) fn catch_telling(
         first_words: impl Fn() + Send + 'static,
         last_words: impl Fn() -> Option<Exit> + Send + 'static,

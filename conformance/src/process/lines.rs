@@ -68,9 +68,6 @@ pub struct LineProcess {
 
 impl LineProcess {
     /// Starts a command, apart from this process.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn start(mut command: Command, stderr: &Stderr) -> io::Result<Self> {
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let child = Running::start(command)?;
@@ -105,9 +102,6 @@ impl LineProcess {
     }
 
     /// Waits for a line.
-    ///
-    /// # Errors
-    /// What came instead.
     pub fn recv(&self, timeout: Duration) -> Result<String, RecvError> {
         let begun = Instant::now();
         loop {

@@ -2,6 +2,7 @@
 
 pub(crate) mod interrupt;
 mod lines;
+mod subprocess;
 
 use std::io;
 use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus};
@@ -15,6 +16,7 @@ use process_wrap::std::{ChildWrapper, CommandWrap};
 use process_wrap::std::{CreationFlags, JobObject};
 
 pub use lines::{LINE_MAX, LineProcess, RecvError, Stderr, cut, read_line, text};
+pub use subprocess::{GRACE, Reaction, Subprocess};
 
 /// How long a command has at least for its first word: some languages take longer for starting than
 /// for any answer.
@@ -46,9 +48,6 @@ pub struct Running(Arc<Shared>);
 
 impl Running {
     /// Starts a command.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn start(command: Command) -> io::Result<Self> {
         let mut command = CommandWrap::from(command);
         #[cfg(unix)]
@@ -81,9 +80,6 @@ impl Running {
     }
 
     /// How it has ended, if it has.
-    ///
-    /// # Errors
-    /// Those of the system.
     pub fn try_wait(&self) -> io::Result<Option<ExitStatus>> {
         lock(&self.0).try_wait()
     }

@@ -22,9 +22,6 @@ struct Badge {
 /// Writes a badge as shields.io reads it from an endpoint: the suite's version, how the run ended,
 /// the editions and, if any, the waivers. A value that was left changed is named; of several the
 /// first is, with their number.
-///
-/// # Errors
-/// Those of `out`.
 pub fn to_badge(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let (word, color) = match report.exit() {
         Exit::Success => ("passed", "brightgreen"),

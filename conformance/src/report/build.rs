@@ -28,9 +28,7 @@ pub struct About {
     pub seed: u32,
     /// What was selected; all if it is empty.
     pub only: Vec<String>,
-    /// Who was judged.
     pub target: TargetReport,
-    /// What it claims.
     pub profile: Option<Profile>,
     /// Known failures.
     pub waivers: Waivers,
@@ -55,7 +53,7 @@ impl Report {
                 tally.add(one.verdict, one.waived);
             }
         }
-        // The embedded CNC refuses nothing; a device for which the gate closed was not judged whole.
+        // The simulated CNC refuses nothing; a device for which the gate closed was not judged whole.
         tally.refused = outcomes.iter().any(|outcome| outcome.refused);
         tally.left_changed = !left_changed.is_empty();
         tally.stale = waivers.iter().any(|waiver| waiver.state.is_stale());
@@ -134,7 +132,7 @@ fn totals(requirements: &[RequirementReport]) -> Totals {
     let mut totals = Totals::new();
     for one in requirements {
         let number = totals.entry(one.verdict).or_default();
-        *number = number.saturating_add(1);
+        *number += 1;
     }
     totals
 }

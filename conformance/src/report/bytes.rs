@@ -26,13 +26,11 @@ pub struct BytesReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FieldReport {
-    /// Its offset.
     pub offset: usize,
     /// Its bytes in hex.
     pub hex: String,
     /// Its name; `?` for what cannot be read, empty for bytes that no table describes.
     pub field: String,
-    /// Its value.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub value: String,
     /// What the field says.
@@ -91,7 +89,6 @@ impl BytesReport {
 /// What is shown of bytes: a field, or how many are passed over for being like those around.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shown<'r> {
-    /// A field.
     Field(&'r FieldReport),
     /// So many items of the field above.
     More(usize),
@@ -101,7 +98,6 @@ pub(super) enum Shown<'r> {
 const ITEMS: usize = 6;
 
 impl BytesReport {
-    /// All of them.
     pub fn bytes(&self) -> Vec<u8> {
         self.fields.iter().flat_map(FieldReport::bytes).collect()
     }
@@ -115,7 +111,7 @@ impl BytesReport {
                 let is_like =
                     (ITEMS..last).contains(&place) && list.len() > ITEMS.saturating_add(2);
                 if is_like && field.differs.is_empty() {
-                    more = more.saturating_add(1);
+                    more += 1;
                     continue;
                 }
                 shown.extend((more > 0).then_some(Shown::More(more)));
@@ -133,7 +129,6 @@ impl FieldReport {
         Self { offset, hex, field: field.to_owned(), value, meaning, differs: Vec::new() }
     }
 
-    /// Its bytes.
     pub fn bytes(&self) -> impl Iterator<Item = u8> {
         self.hex.split(' ').filter_map(|byte| u8::from_str_radix(byte, 16).ok())
     }

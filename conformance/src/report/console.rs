@@ -9,9 +9,6 @@ use super::model::{CaseReport, EvidenceReport, FailureReport, Report, TargetRepo
 use crate::judge::{Exit, Subject, Verdict, WaiverReport};
 
 /// Writes the report. `verbose` shows the cases made of vectors one by one too.
-///
-/// # Errors
-/// Those of `out`.
 pub fn print(report: &Report, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     report.left_changed.iter().try_for_each(|left| writeln!(out, "{left}"))?;
     head(report, out)?;
@@ -93,7 +90,7 @@ fn cases(report: &Report, who: Subject, verbose: bool, out: &mut dyn Write) -> i
         let mut totals = Totals::new();
         for case in &cases {
             let number = totals.entry(case.verdict).or_default();
-            *number = number.saturating_add(1);
+            *number += 1;
         }
         let waived = cases.iter().filter(|case| case.waived).count();
         writeln!(out, "  {stream:<width$}  {}", counts(&totals, waived))?;

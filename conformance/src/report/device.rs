@@ -11,7 +11,6 @@ use crate::text::escape;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DeviceReport {
-    /// Its name.
     pub name: String,
     /// Its version, three numbers with dots.
     pub version: String,

@@ -51,7 +51,6 @@ const fn meaning(exit: Exit) -> &'static str {
     }
 }
 
-/// Claims in words.
 fn claims(profile: &ProfileReport) -> Vec<(String, String)> {
     let word = |value: &serde_json::Value| match value {
         serde_json::Value::Null => "not said".to_owned(),

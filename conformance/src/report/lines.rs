@@ -38,16 +38,16 @@ fn of_field(field: &FieldReport, fold: bool) -> Vec<String> {
     let bytes: Vec<u8> = field.bytes().collect();
     let (mut all, mut zeros) = (Vec::new(), 0_usize);
     for (begin, chunk) in (0_usize..).step_by(hex::LINE).zip(bytes.chunks(hex::LINE)) {
-        let end = begin.saturating_add(hex::LINE);
+        let end = begin + hex::LINE;
         let differs = field.differs.iter().any(|place| (begin..end).contains(place));
         // What a text is filled up with would hide the rest.
         if fold && begin > 0 && !differs && chunk.iter().all(|&byte| byte == 0) {
-            zeros = zeros.saturating_add(chunk.len());
+            zeros += chunk.len();
             continue;
         }
         fill(&mut all, &mut zeros);
         let mark = if differs { '!' } else { ' ' };
-        let at = field.offset.saturating_add(begin);
+        let at = field.offset + begin;
         let name = if begin == 0 { field.field.as_str() } else { "" };
         all.push(hex::line(mark, at, chunk, name));
     }

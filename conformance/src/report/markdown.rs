@@ -10,9 +10,6 @@ use crate::judge::{Exit, Verdict, WaiverReport};
 const FAILURES_MAX: usize = 48_000;
 
 /// Writes the report as Markdown.
-///
-/// # Errors
-/// Those of `out`.
 pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, time, editions, seed, only, target, profile, .. } = report;
     let verdict = if report.exit() == Exit::Success { "passed" } else { "not passed" };
@@ -78,11 +75,11 @@ fn failures(report: &Report, out: &mut dyn Write) -> io::Result<()> {
             finding(&all, &mut text)?;
         }
         let text = String::from_utf8_lossy(&text);
-        length = length.saturating_add(text.len());
+        length += text.len();
         if length > FAILURES_MAX && shown > 0 {
             break;
         }
-        shown = shown.saturating_add(1);
+        shown += 1;
         let (verdict, title) = (worded(case.verdict, case.waived), plain(&case.title));
         let (fence, id) = (fence(&text), html(&case.id));
         writeln!(out, "<details><summary>{verdict}: <code>{id}</code> {title}</summary>\n")?;

@@ -30,9 +30,6 @@ pub use model::{
 };
 
 /// Writes the report as JSON.
-///
-/// # Errors
-/// Those of `out`.
 pub fn to_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     json::write(report, out)
 }

@@ -37,9 +37,7 @@ pub struct Report {
     pub seed: u32,
     /// What was selected; all if it is empty.
     pub only: Vec<String>,
-    /// Who was judged.
     pub target: TargetReport,
-    /// What it claims.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profile: Option<ProfileReport>,
     /// Failures that are known, and what became of each.
@@ -62,7 +60,6 @@ pub struct Report {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TargetReport {
-    /// What it is.
     pub name: String,
     /// Its version, as it says itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -85,7 +82,6 @@ pub struct TargetReport {
     /// The last of what it wrote to stderr; not judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stderr: Option<String>,
-    /// The file that was judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
 }
@@ -94,7 +90,6 @@ pub struct TargetReport {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProfileReport {
-    /// The profile's name.
     pub name: String,
     /// Each claim under its name.
     pub claims: BTreeMap<String, Value>,
@@ -104,7 +99,6 @@ pub struct ProfileReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubjectReport {
-    /// Who it is.
     pub subject: Subject,
     /// Verdicts of its requirements, each once and by its gravest.
     pub totals: Totals,
@@ -130,7 +124,6 @@ pub struct AreaReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RequirementReport {
-    /// The requirement.
     pub requirement: String,
     /// The gravest verdict on it.
     pub verdict: Verdict,
@@ -139,15 +132,12 @@ pub struct RequirementReport {
     pub waived: bool,
 }
 
-/// One case.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CaseReport {
     /// The case's slug.
     pub id: String,
-    /// What it tries.
     pub title: String,
-    /// Who is judged.
     pub subject: Subject,
     /// The stream of a case that is a vector.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -173,7 +163,6 @@ pub struct CaseReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FailureReport {
-    /// The requirement.
     pub requirement: String,
     /// The level it was judged at; that of an assumed part may be lower than the whole's.
     pub level: Option<Level>,
@@ -181,14 +170,11 @@ pub struct FailureReport {
     pub clause: String,
     /// Where it stands: document, edition, section.
     pub sources: Vec<String>,
-    /// The verdict.
     pub verdict: Verdict,
     /// Whether it is put up with.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub waived: bool,
-    /// What was expected.
     pub expected: String,
-    /// What was there.
     pub found: String,
     /// Checks with the same verdict that are not shown.
     pub more: usize,

@@ -22,6 +22,7 @@ use serde::Serialize;
 use crate::faults::{self, Kind};
 use crate::judge::{Exit, Outcome, Verdict};
 use crate::session::Trouble;
+use crate::text::named;
 use detection::{Checked, Scope};
 
 pub use show::print;
@@ -42,21 +43,8 @@ pub enum Group {
     Different,
 }
 
-impl Group {
-    /// All of them, in the order of reports.
-    pub const ALL: [Self; 5] =
-        [Self::Codec, Self::Cnc, Self::Client, Self::Miniature, Self::Different];
-
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Codec => "codec",
-            Self::Cnc => "cnc",
-            Self::Client => "client",
-            Self::Miniature => "miniature",
-            Self::Different => "different",
-        }
-    }
+named! { Group:
+    Codec "codec", Cnc "cnc", Client "client", Miniature "miniature", Different "different",
 }
 
 /// One that is tried.
@@ -66,13 +54,11 @@ pub struct Tried {
     pub id: String,
     /// As what it was tried.
     pub group: Group,
-    /// What it does.
     pub what: String,
     /// What it breaks; nothing if it does nothing wrong.
     pub targets: Vec<String>,
     /// Requirements that failed.
     pub failed: Vec<String>,
-    /// What came of it.
     pub result: Outcomes,
     /// Of one that survives: why it may.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -102,7 +88,6 @@ pub enum Outcomes {
     Broken,
 }
 
-/// A self-test.
 #[derive(Clone, Debug, Serialize)]
 pub struct SelfTest {
     /// Each that was tried, in the order of groups and IDs.
@@ -189,7 +174,7 @@ fn parallel<T: Sync, R: Send>(
     tell: &(impl Fn(usize, usize) + Sync),
 ) -> Vec<R> {
     let left = Mutex::new((items.iter().enumerate(), Vec::with_capacity(items.len())));
-    let workers = thread::available_parallelism().map_or(1, usize::from).saturating_mul(threads);
+    let workers = thread::available_parallelism().map_or(1, usize::from) * threads;
     thread::scope(|scope| {
         for _ in 0..workers {
             scope.spawn(|| {

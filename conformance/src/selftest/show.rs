@@ -10,9 +10,6 @@ use crate::judge::Exit;
 const TARGETS_SHOWN: usize = 6;
 
 /// Writes what came of a self-test; with `verbose` of each that was tried.
-///
-/// # Errors
-/// Those of `out`.
 pub fn print(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<()> {
     for one in &test.tried {
         let fine = matches!(
@@ -81,7 +78,7 @@ fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
     for mode in Mode::ALL {
         let Figures { caught, elsewhere, missed, undetectable, quiet, alarms } =
             table.figures(mode);
-        let variants = quiet.saturating_add(alarms);
+        let variants = quiet + alarms;
         let defects: usize = [caught, elsewhere, missed, undetectable].iter().sum();
         let alarms = format!("{alarms} of {variants}");
         writeln!(
@@ -113,7 +110,7 @@ fn detection(test: &SelfTest, verbose: bool, out: &mut dyn Write) -> io::Result<
 }
 
 fn percent(part: usize, all: usize) -> String {
-    let tenths = part.saturating_mul(1000).checked_div(all).unwrap_or_default();
+    let tenths = (part * 1000).checked_div(all).unwrap_or_default();
     format!("{}.{}", tenths / 10, tenths % 10)
 }
 

@@ -34,7 +34,7 @@ fn of_seed(seed: &'static Seed) -> Candidate {
 /// Who does nothing wrong may take as long as anybody.
 const IMPATIENCE: Duration = Duration::from_millis(400);
 
-/// Runs the cases of a target against an embedded CNC that has it: as it is by default, and one
+/// Runs the cases of a target against a simulated CNC that has it: as it is by default, and one
 /// new enough for whatever there is.
 ///
 /// First those alone that can judge what the defect breaks: what is caught by them is caught.
@@ -71,7 +71,7 @@ fn run(
     let cnc = Arc::clone(faulty.cnc());
     let profile = cnc.model().profile();
     let profile = Profile { printed_examples: seed.printed, ..profile };
-    let session = session::Session::embedded_to_try(Arc::clone(&faulty))?;
+    let session = session::Session::simulated_to_try(Arc::clone(&faulty))?;
     // The CNC runs as long as it is held.
     let (client, _running) = session.into_parts();
     let client = match seed.kind {

@@ -26,7 +26,7 @@ use crate::simulator::{NET_ID, Responder, Server};
 
 pub use trouble::Trouble;
 
-/// A conversation with a CNC: a device, or one embedded in this process.
+/// A conversation with a CNC: a device, or one simulated in this process.
 ///
 /// ```
 /// use ads_cnc::address::Channel;
@@ -35,7 +35,7 @@ pub use trouble::Trouble;
 /// use ads_cnc_conformance::gate::Gate;
 /// use ads_cnc_conformance::session::{Session, Trouble};
 ///
-/// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+/// let mut session = Session::simulated(Cnc::with_default_model()?, Gate::queries())?;
 /// let channel = Channel::new(1)?;
 /// let value = session.call(&ReadByName::new(channel, "V.E.Testvar")?)?;
 /// assert_eq!(value.bytes[..4], [123, 0, 0, 0]);
@@ -48,7 +48,7 @@ pub use trouble::Trouble;
 pub struct Session {
     // Before the server, which waits for its connections when it is dropped.
     client: Client,
-    embedded: Option<Server>,
+    simulated: Option<Server>,
     request: Vec<u8>,
     reply: Vec<u8>,
     answered: bool,
@@ -81,15 +81,15 @@ impl Session {
     ///
     /// # Errors
     /// If the system has no socket or no thread left.
-    pub fn embedded(cnc: impl Responder + 'static, gate: Gate) -> Result<Self, Trouble> {
+    pub fn simulated(cnc: impl Responder + 'static, gate: Gate) -> Result<Self, Trouble> {
         let failed = |error: io::Error| {
-            Trouble::Internal(format!("the embedded CNC could not be started: {error}"))
+            Trouble::Internal(format!("the simulated CNC could not be started: {error}"))
         };
         let listener = net::listen(SocketAddr::from(([127, 0, 0, 1], 0))).map_err(failed)?;
         let server = Server::start(listener, cnc).map_err(failed)?;
         // No network is in between: whoever is that late has not been let run by this machine.
         let target =
-            Target { timeout: EMBEDDED_TIMEOUT, ..Target::local(server.addr(), server.net_id()) };
+            Target { timeout: SIMULATED_TIMEOUT, ..Target::local(server.addr(), server.net_id()) };
         let client = Client::connect(target, gate).map_err(failed)?;
         Ok(Self::over(client, Some(server)))
     }
@@ -109,31 +109,31 @@ impl Session {
     /// away.
     ///
     /// # Errors
-    /// Those of [`embedded`](Self::embedded).
-    pub fn embedded_to_try(cnc: impl Responder + 'static) -> Result<Self, Trouble> {
-        let session = Self::embedded(cnc, Gate::queries())?;
-        match session.embedded.as_ref().map(Gate::of_embedded) {
+    /// Those of [`simulated`](Self::simulated).
+    pub fn simulated_to_try(cnc: impl Responder + 'static) -> Result<Self, Trouble> {
+        let session = Self::simulated(cnc, Gate::queries())?;
+        match session.simulated.as_ref().map(Gate::of_server) {
             Some(gate) => session.behind(gate),
             None => Ok(session),
         }
     }
 
-    /// [`dry`](Self::dry) to the CNC that would have been embedded.
+    /// [`dry`](Self::dry) to the CNC that would have been started.
     ///
     /// # Errors
     /// Those of [`dry`](Self::dry).
-    pub fn dry_embedded(gate: Gate) -> Result<Self, Trouble> {
+    pub fn dry_simulated(gate: Gate) -> Result<Self, Trouble> {
         Self::dry(Target::local(SocketAddr::from(([127, 0, 0, 1], 0)), NET_ID), gate)
     }
 
-    /// The same embedded CNC behind another gate, over a connection of its own: what a device is
+    /// The same simulated CNC behind another gate, over a connection of its own: what a device is
     /// never without a file, a CNC that is thrown away may be.
     ///
     /// # Errors
-    /// [`Trouble::Usage`] for anything but an embedded CNC.
+    /// [`Trouble::Usage`] for anything but a simulated CNC.
     pub fn behind(self, gate: Gate) -> Result<Self, Trouble> {
-        let Self { client, embedded: Some(server), .. } = self else {
-            return Err(Trouble::Usage("only an embedded CNC can have another gate".to_owned()));
+        let Self { client, simulated: Some(server), .. } = self else {
+            return Err(Trouble::Usage("only a simulated CNC can have another gate".to_owned()));
         };
         let target = *client.target();
         let mut before = client;
@@ -148,10 +148,10 @@ impl Session {
         })
     }
 
-    fn over(client: Client, embedded: Option<Server>) -> Self {
+    fn over(client: Client, simulated: Option<Server>) -> Self {
         Self {
             client,
-            embedded,
+            simulated,
             request: Vec::new(),
             reply: Vec::new(),
             answered: false,
@@ -245,7 +245,7 @@ impl Session {
     /// use ads_cnc_conformance::gate::Gate;
     /// use ads_cnc_conformance::session::Session;
     ///
-    /// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+    /// let mut session = Session::simulated(Cnc::with_default_model()?, Gate::queries())?;
     /// assert_eq!(session.device_info(Task::Com)?.name(), "ads-cnc serve");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -265,7 +265,7 @@ impl Session {
     /// use ads_cnc_conformance::gate::Gate;
     /// use ads_cnc_conformance::session::Session;
     ///
-    /// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+    /// let mut session = Session::simulated(Cnc::with_default_model()?, Gate::queries())?;
     /// assert_eq!(session.device_state(Task::Sda)?.ads_state, AdsState::RUN);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -316,9 +316,9 @@ impl Session {
         checked.map_err(|fault| Trouble::fault(&self.client, fault, self.answered))
     }
 
-    /// Whether the CNC is one embedded in this process.
-    pub const fn is_embedded(&self) -> bool {
-        self.embedded.is_some()
+    /// Whether the CNC is simulated in this process.
+    pub const fn is_simulated(&self) -> bool {
+        self.simulated.is_some()
     }
 
     /// Whether nothing is sent.
@@ -331,9 +331,9 @@ impl Session {
         self.client.target()
     }
 
-    /// The connection, for what is not typed, and the embedded CNC to keep alive beside it.
+    /// The connection, for what is not typed, and the simulated CNC to keep alive beside it.
     pub fn into_parts(self) -> (Client, Option<Server>) {
-        (self.client, self.embedded)
+        (self.client, self.simulated)
     }
 }
 
@@ -385,8 +385,8 @@ impl fmt::Display for Shown<'_> {
     }
 }
 
-/// How long the embedded CNC is waited for.
-const EMBEDDED_TIMEOUT: Duration = Duration::from_secs(6);
+/// How long the simulated CNC is waited for.
+const SIMULATED_TIMEOUT: Duration = Duration::from_secs(6);
 
 /// How long a tool waits for an answer unless told otherwise.
 pub const TIMEOUT: Duration = Duration::from_secs(2);

@@ -36,7 +36,6 @@ pub enum Trouble {
     NoAnswer(String),
     /// An AMS error: the request reached no CNC.
     Ams {
-        /// The error.
         error: AdsError,
         /// What to do next.
         hint: String,

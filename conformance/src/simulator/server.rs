@@ -5,7 +5,6 @@ mod connection;
 use std::collections::BTreeMap;
 use std::io;
 use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
@@ -60,24 +59,20 @@ impl Default for ServerOptions {
 /// How long a client may leave an answer lying before its connection ends.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// How long the server waits for its own thread to take notice of its end.
-const WAKE_TIMEOUT: Duration = Duration::from_secs(1);
-
 /// A running server; dropping it ends every connection and waits for their threads.
 #[derive(Debug)]
 pub struct Server {
-    addr: SocketAddr,
+    acceptor: net::Acceptor,
     shared: Arc<Shared>,
-    acceptor: Option<JoinHandle<Vec<JoinHandle<()>>>>,
 }
 
 #[derive(Debug)]
 struct Shared {
     cnc: Box<dyn Responder>,
     options: ServerOptions,
-    stopped: AtomicBool,
     /// The open connections, to end them from outside.
     connections: Mutex<BTreeMap<u64, TcpStream>>,
+    threads: Mutex<Vec<JoinHandle<()>>>,
 }
 
 impl Server {
@@ -98,20 +93,23 @@ impl Server {
         cnc: impl Responder + 'static,
         options: ServerOptions,
     ) -> io::Result<Self> {
-        let addr = listener.local_addr()?;
-        let stopped = AtomicBool::new(false);
-        let connections = Mutex::new(BTreeMap::new());
-        let shared = Arc::new(Shared { cnc: Box::new(cnc), options, stopped, connections });
-        let accepting = Arc::clone(&shared);
-        let acceptor = thread::Builder::new()
-            .name("cnc-accept".to_owned())
-            .spawn(move || accepting.accept(&listener))?;
-        Ok(Self { addr, shared, acceptor: Some(acceptor) })
+        let (connections, threads) = Default::default();
+        let shared = Arc::new(Shared { cnc: Box::new(cnc), options, connections, threads });
+        let (accepting, mut ids) = (Arc::clone(&shared), 0_u64..);
+        let acceptor = net::Acceptor::start("cnc-accept", listener, move |stream, peer| {
+            lock(&accepting.threads).retain(|thread| !thread.is_finished());
+            let Some(id) = ids.next() else { return };
+            match Arc::clone(&accepting).connection(id, stream, peer) {
+                Ok(thread) => lock(&accepting.threads).push(thread),
+                Err(error) => tracing::warn!(%peer, "connection not taken: {error}"),
+            }
+        })?;
+        Ok(Self { acceptor, shared })
     }
 
     /// Where it listens.
     pub const fn addr(&self) -> SocketAddr {
-        self.addr
+        self.acceptor.addr()
     }
 
     /// The AMS NetId it answers for.
@@ -122,45 +120,18 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        self.shared.stopped.store(true, Ordering::SeqCst);
-        // The acceptor waits for a connection: it gets one. Without, it is left behind.
-        let woken = net::knock(self.addr, WAKE_TIMEOUT).is_ok();
-        let acceptor = self.acceptor.take().filter(|acceptor| woken || acceptor.is_finished());
-        let threads = acceptor.and_then(|acceptor| acceptor.join().ok()).unwrap_or_default();
-        for stream in self.shared.connections().values() {
+        self.acceptor.stop();
+        for stream in lock(&self.shared.connections).values() {
             // Closed by the client already, if this fails.
             let _closed = stream.shutdown(Shutdown::Both);
         }
-        for thread in threads {
+        for thread in lock(&self.shared.threads).drain(..) {
             let _panicked = thread.join();
         }
     }
 }
 
 impl Shared {
-    fn accept(self: Arc<Self>, listener: &TcpListener) -> Vec<JoinHandle<()>> {
-        let mut threads: Vec<JoinHandle<()>> = Vec::new();
-        for id in 0_u64.. {
-            let accepted = listener.accept();
-            if self.stopped.load(Ordering::SeqCst) {
-                break;
-            }
-            threads.retain(|thread| !thread.is_finished());
-            match accepted {
-                Ok((stream, peer)) => match Arc::clone(&self).connection(id, stream, peer) {
-                    Ok(thread) => threads.push(thread),
-                    Err(error) => tracing::warn!(%peer, "connection not taken: {error}"),
-                },
-                Err(error) => {
-                    // Out of file descriptors, most likely: wait for connections to end.
-                    tracing::warn!("no connection: {error}");
-                    thread::sleep(Duration::from_millis(50));
-                }
-            }
-        }
-        threads
-    }
-
     fn connection(
         self: Arc<Self>,
         id: u64,
@@ -170,7 +141,7 @@ impl Shared {
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(WRITE_TIMEOUT))?;
         let options = self.options;
-        let mut connections = self.connections();
+        let mut connections = lock(&self.connections);
         if connections.len() >= CONNECTIONS_MAX {
             return Err(io::Error::other("there are as many as there may be"));
         }
@@ -187,11 +158,11 @@ impl Shared {
             }
         })
     }
+}
 
-    fn connections(&self) -> MutexGuard<'_, BTreeMap<u64, TcpStream>> {
-        // The map is whole whatever panicked meanwhile.
-        self.connections.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // It is whole whatever panicked meanwhile.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 struct Open {
@@ -201,7 +172,7 @@ struct Open {
 
 impl Drop for Open {
     fn drop(&mut self) {
-        self.shared.connections().remove(&self.id);
+        lock(&self.shared.connections).remove(&self.id);
     }
 }
 

@@ -29,7 +29,7 @@ mod place;
 mod platform;
 mod printed;
 mod probe;
-mod replay;
+pub mod replay;
 mod run;
 mod sda;
 mod service_interface;

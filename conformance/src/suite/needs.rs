@@ -21,11 +21,11 @@ impl Needs {
             Self::Writes if !gate.may_let_writes_pass() => {
                 not_run("writes: only what a file for --allow-write names")
             }
-            Self::MalformedWrites if gate.embedded().is_none() => {
-                not_run("writes what no client should: to the embedded CNC only")
+            Self::MalformedWrites if gate.simulated().is_none() => {
+                not_run("writes what no client should: to the simulated CNC only")
             }
             Self::Embedded if !inside => not_run(
-                "takes something that is done to a CNC from within: to the embedded one only",
+                "takes something that is done to a CNC from within: to the simulated CNC only",
             ),
             Self::PrintedExamples if !profile.printed_examples => Some((
                 Verdict::NotApplicable,

@@ -1,7 +1,6 @@
 //! Running cases.
 
 use std::collections::HashMap;
-use std::panic::{self, AssertUnwindSafe};
 use std::sync::LazyLock;
 
 use super::probe::Probe;
@@ -9,7 +8,7 @@ use super::session::Session;
 use super::{Try, printed, replay, rows};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
-use crate::judge::{Body, Case, Needs, Outcome, Step, Stop, Subject, Verdict};
+use crate::judge::{Body, Case, Needs, Outcome, Stop, Subject, Verdict, caught};
 use crate::process::interrupt;
 use crate::testee::{self, Terms};
 
@@ -88,22 +87,17 @@ fn one(case: Case, run: Option<Try>, session: Option<&mut Session>) -> Outcome {
     });
     let step = match begun {
         Ok(Ok(())) if probe.interrupted => Err(Stop::Interrupted),
-        Ok(step) | Err(step) => step,
+        Ok(step) => step,
+        Err(panicked) => Err(Stop::Harness(panicked)),
     };
     let put_back = caught(|| probe.put_back()).unwrap_or_else(|panicked| {
         probe.session.changes.give_up();
-        panicked
+        Err(Stop::Harness(panicked))
     });
     let step = step.and(put_back);
     let step = probe.end(step);
     let (judgements, checks) = probe.into_findings();
     Outcome::tried(case, judgements, checks, step.err())
-}
-
-/// What a panic is to a case; its message is on stderr.
-fn caught<T>(run: impl FnOnce() -> T) -> Result<T, Step> {
-    panic::catch_unwind(AssertUnwindSafe(run))
-        .map_err(|_| Err(Stop::Harness("the case panicked".to_owned())))
 }
 
 #[cfg(test)]
@@ -161,9 +155,13 @@ mod tests {
             body: Body::Probe,
         };
         let reads: Try = |probe| probe.value_at(&place()).map(drop);
-        let verdicts =
-            [panics, reads].map(|run| one(case(), Some(run), Some(&mut session)).verdict());
-        assert_eq!(verdicts, [Verdict::HarnessError, Verdict::NotObserved]);
+        let [panicked, next] =
+            [panics, reads].map(|run| one(case(), Some(run), Some(&mut session)));
+        assert_eq!(
+            [panicked.verdict(), next.verdict()],
+            [Verdict::HarnessError, Verdict::NotObserved]
+        );
+        assert_eq!(panicked.note.as_deref(), Some("the case panicked: in a case"));
         assert_eq!(Probe::new(&mut session).value_at(&place()).unwrap(), before);
         assert!(session.changes().left().is_empty());
     }

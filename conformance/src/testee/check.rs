@@ -11,11 +11,8 @@ use crate::text::{escape, hex::compact};
 /// What a step of the protocol came to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// The step.
     pub what: String,
-    /// The line sent.
     pub sent: Option<String>,
-    /// The line received.
     pub received: Option<String>,
     /// What is wrong, and how it should be.
     pub fault: Option<String>,

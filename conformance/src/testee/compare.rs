@@ -8,7 +8,6 @@ use crate::text::hex::compact;
 /// How a value differs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Difference {
-    /// It is another one.
     Other(String),
     /// What follows a text is not told.
     Untold(String),

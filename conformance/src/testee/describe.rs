@@ -36,7 +36,7 @@ fn described(reaction: &Reaction) -> String {
         }
         Reaction::Answer(Answer::Error { message }) => format!("an error of its own: {message}"),
         Reaction::Garbled(why) => format!("no answer of the protocol: {why}"),
-        Reaction::Crashed(how) => format!("a crash: {how}"),
+        Reaction::Died(how) => format!("a crash: {how}"),
         Reaction::Silent(limit) => format!("no answer within {} ms", limit.as_millis()),
         Reaction::Broken(why) => why.clone(),
     }

@@ -1,12 +1,14 @@
 //! Asking a testee everything, and what comes of it.
 
+use std::collections::HashMap;
+
 use super::describe::describe;
 use super::plan::{Asked, Purpose, plan};
 use super::protocol_rules::ProtocolRules;
 use super::verdicts::{Reactions, Verdicts};
 use super::{Reaction, Testee};
 use crate::codec::message::{Answer, Hello};
-use crate::judge::{Case, Outcome, Stop, Subject, Verdict};
+use crate::judge::{Case, Outcome, Stop, Subject, Verdict, caught};
 use crate::process::interrupt;
 
 /// Questions in a row that end with a crash or in silence, after which no more are asked.
@@ -18,7 +20,6 @@ const ANSWERS_MAX: usize = 32 << 20;
 /// How a testee is asked.
 #[derive(Clone, Copy, Debug)]
 pub struct Terms<'t> {
-    /// Seed of the order.
     pub seed: u32,
     /// As whom it is judged.
     pub subject: Subject,
@@ -79,12 +80,20 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     let mut reactions = Reactions::new();
     let (mut lost, mut restarts, mut asked, mut gone) = (0_usize, 0_usize, 0_usize, None);
     let mut kept = 0_usize;
+    let mut panicked = HashMap::new();
     for Asked { purpose, question } in plan(&cases, capabilities, &edition, terms.seed) {
         if let Some(why) = testee.over() {
             gone = Some(Stop::Inconclusive(format!("not asked: {why}")));
             break;
         }
-        let reaction = testee.ask(&question);
+        let reaction = match (caught(|| testee.ask(&question)), purpose) {
+            (Ok(reaction), _) => reaction,
+            (Err(why), Purpose::Case(case) | Purpose::Sanity { case, .. }) => {
+                panicked.insert(case, why);
+                continue;
+            }
+            (Err(_), Purpose::MadeUp) => continue,
+        };
         if interrupt::came() {
             // Whether it would have answered is not known.
             gone = Some(Stop::Interrupted);
@@ -95,7 +104,7 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
             break;
         }
         asked = asked.saturating_add(1);
-        if matches!(reaction, Reaction::Crashed(_) | Reaction::Silent(_) | Reaction::Broken(_)) {
+        if matches!(reaction, Reaction::Died(_) | Reaction::Silent(_) | Reaction::Broken(_)) {
             (lost, restarts) = (lost.saturating_add(1), restarts.saturating_add(1));
         } else {
             lost = 0;
@@ -129,7 +138,17 @@ pub fn judge(testee: &mut dyn Testee, mut cases: Vec<Case>, terms: Terms<'_>) ->
     }
     let view =
         Verdicts { cases: &cases, reactions: &reactions, hello: &hello, edition, terms, gone };
-    let mut outcomes: Vec<Outcome> = (0..wanted).filter_map(|place| view.outcome(place)).collect();
+    let outcome = |place| {
+        let judged = match panicked.remove(&place) {
+            Some(why) => Err(why),
+            None => caught(|| view.outcome(place)),
+        };
+        judged.unwrap_or_else(|why| {
+            let case = cases.get(place)?.clone();
+            Some(Outcome::tried(case, Vec::new(), 0, Some(Stop::Harness(why))))
+        })
+    };
+    let mut outcomes: Vec<Outcome> = (0..wanted).filter_map(outcome).collect();
     // Our own codec is asked without a protocol in between.
     if terms.subject != Subject::Codec {
         let protocol = protocol.outcome(terms.subject);
@@ -153,4 +172,43 @@ fn without_hello(cases: Vec<Case>, reaction: &Reaction, subject: Subject) -> Jud
     let mut outcomes: Vec<Outcome> = cases.into_iter().map(untried).collect();
     outcomes.push(protocol.outcome(subject));
     Judged { hello: None, outcomes, asked: 0, restarts: 0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Own, Question};
+    use super::*;
+
+    /// The codec, which panics when it is asked one op.
+    struct Panics(Own);
+
+    impl Testee for Panics {
+        fn hello(&mut self) -> Result<Hello, Reaction> {
+            Testee::hello(&mut self.0)
+        }
+
+        fn ask(&mut self, question: &Question) -> Reaction {
+            assert_ne!(question.op, "check", "asked");
+            self.0.ask(question)
+        }
+
+        fn bye(&mut self) -> Result<(), String> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn only_a_case_that_panics_is_a_harness_error() {
+        let cases = crate::judge::codec_cases();
+        let terms = Terms { seed: 1, subject: Subject::Codec, edition: None, strict: true };
+        let judged = judge(&mut Panics(Own::default()), cases, terms);
+        let (panicked, others): (Vec<_>, Vec<_>) = judged.outcomes.iter().partition(|outcome| {
+            matches!(outcome.case.body, crate::judge::Body::Sequence(one) if one.kind() == "nc-check")
+        });
+        for outcome in &panicked {
+            assert_eq!(outcome.verdict(), Verdict::HarnessError);
+            assert!(outcome.note.as_ref().unwrap().contains("the case panicked: "), "{outcome:?}");
+        }
+        assert!(!panicked.is_empty() && others.iter().all(|one| one.verdict() == Verdict::Pass));
+    }
 }

@@ -4,6 +4,7 @@ use super::Own;
 use crate::codec::message::{
     Answer, Capabilities, Command, Hello, Output, Question, Rejection, Reply,
 };
+use crate::text::named;
 
 /// A testee that misbehaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,47 +41,14 @@ pub enum Miniature {
     Terse,
 }
 
+named! { Miniature:
+    AcceptsAll "accepts-all", RefusesAll "refuses-all", Echoes "echoes", Hangs "hangs",
+    Crashes "crashes", Boasts "boasts", KnowsAll "knows-all", Excuses "excuses",
+    Miscounts "miscounts", Mumbles "mumbles", Tires "tires", Stays "stays", Noisy "noisy",
+    DecodesOnly "decodes-only", Terse "terse",
+}
+
 impl Miniature {
-    /// All of them.
-    pub const ALL: [Self; 15] = [
-        Self::AcceptsAll,
-        Self::RefusesAll,
-        Self::Echoes,
-        Self::Hangs,
-        Self::Crashes,
-        Self::Boasts,
-        Self::KnowsAll,
-        Self::Excuses,
-        Self::Miscounts,
-        Self::Mumbles,
-        Self::Tires,
-        Self::Stays,
-        Self::Noisy,
-        Self::DecodesOnly,
-        Self::Terse,
-    ];
-
-    /// Its name on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::AcceptsAll => "accepts-all",
-            Self::RefusesAll => "refuses-all",
-            Self::Echoes => "echoes",
-            Self::Hangs => "hangs",
-            Self::Crashes => "crashes",
-            Self::Boasts => "boasts",
-            Self::KnowsAll => "knows-all",
-            Self::Excuses => "excuses",
-            Self::Miscounts => "miscounts",
-            Self::Mumbles => "mumbles",
-            Self::Tires => "tires",
-            Self::Stays => "stays",
-            Self::Noisy => "noisy",
-            Self::DecodesOnly => "decodes-only",
-            Self::Terse => "terse",
-        }
-    }
-
     /// Whether it does nothing wrong.
     pub const fn is_right(self) -> bool {
         matches!(self, Self::Noisy | Self::DecodesOnly | Self::Terse)

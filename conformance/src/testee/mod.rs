@@ -14,8 +14,6 @@ mod process;
 mod protocol_rules;
 mod verdicts;
 
-use std::time::Duration;
-
 pub use crate::codec::message::{
     Answer, Capabilities, Command, Hello, Identity, Known, Output, PROTOCOL, Question, Rejection,
     Reply,
@@ -31,18 +29,12 @@ pub use process::{Process, answered, greeted};
 /// Who is judged by the golden vectors.
 pub trait Testee {
     /// Starts it and asks what it can do.
-    ///
-    /// # Errors
-    /// Whatever it did instead of saying so.
     fn hello(&mut self) -> Result<Hello, Reaction>;
 
     /// Asks it something; one that has ended before is started anew.
     fn ask(&mut self, question: &Question) -> Reaction;
 
     /// Lets it end.
-    ///
-    /// # Errors
-    /// How it ended otherwise than it should.
     fn bye(&mut self) -> Result<(), String>;
 
     /// Why it is not to be asked any more.
@@ -57,19 +49,7 @@ pub trait Testee {
 }
 
 /// What a testee does when it is asked.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Reaction {
-    /// It answers.
-    Answer(Answer),
-    /// It answers something that is no answer.
-    Garbled(String),
-    /// It ends.
-    Crashed(String),
-    /// It says nothing for so long.
-    Silent(Duration),
-    /// It could not be asked.
-    Broken(String),
-}
+pub type Reaction = crate::process::Reaction<Answer>;
 
 impl Testee for Own {
     fn hello(&mut self) -> Result<Hello, Reaction> {

@@ -42,7 +42,6 @@ impl Own {
         }
     }
 
-    /// Answers a question.
     pub fn answer(&self, question: &Question) -> Answer {
         match self.defect.as_ref().and_then(Seed::of_codec) {
             Some(twist) => twist.answer(&|question| self.answer_right(question), question),

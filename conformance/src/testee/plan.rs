@@ -12,7 +12,6 @@ pub(super) enum Purpose {
     Case(usize),
     /// To see at the start and at the end whether it still does what it did.
     Sanity {
-        /// The case.
         case: usize,
         /// At the start.
         first: bool,

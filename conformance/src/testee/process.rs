@@ -5,12 +5,8 @@ use std::time::Duration;
 use super::{Reaction, Testee};
 use crate::codec::message::{Answer, Command, Hello, PROTOCOL, Question, Reply};
 use crate::deadline::Deadline;
-use crate::process::interrupt;
-use crate::process::{LineProcess, RecvError, START, Stderr, cut, shell};
+use crate::process::{START, Subprocess, cut};
 use crate::text::shorten;
-
-/// How long it has for ending after `bye`.
-const GRACE: Duration = Duration::from_secs(2);
 
 /// As much of a line as a person reads.
 const SHOWN: usize = 400;
@@ -18,14 +14,10 @@ const SHOWN: usize = 400;
 /// Who is started to be judged.
 #[derive(Debug)]
 pub struct Process {
-    line: String,
-    timeout: Duration,
+    process: Subprocess,
     seq: u64,
-    running: Option<LineProcess>,
-    stderr: Stderr,
     sent: Option<String>,
     received: Option<String>,
-    deadline: Option<Deadline>,
     /// How often it was started.
     pub starts: usize,
 }
@@ -34,14 +26,10 @@ impl Process {
     /// A testee that is started by a command line, with so much time for each answer.
     pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
         Self {
-            line: line.into(),
-            timeout,
+            process: Subprocess::new(line, timeout),
             seq: 0,
-            running: None,
-            stderr: Stderr::default(),
             sent: None,
             received: None,
-            deadline: None,
             starts: 0,
         }
     }
@@ -49,12 +37,12 @@ impl Process {
     /// With a moment after which nothing more is asked.
     #[must_use]
     pub fn with_deadline(self, deadline: Deadline) -> Self {
-        Self { deadline: Some(deadline), ..self }
+        Self { process: self.process.with_deadline(deadline), ..self }
     }
 
     /// The last of what it wrote to stderr.
     pub fn stderr(&self) -> String {
-        self.stderr.text()
+        self.process.stderr()
     }
 
     /// The lines sent and received last, each cut to what a person reads.
@@ -62,100 +50,49 @@ impl Process {
         (self.sent.clone(), self.received.clone())
     }
 
-    fn limit(&self, time: Duration) -> Duration {
-        self.deadline.map_or(time, |deadline| deadline.limit(time))
-    }
-
-    fn start(&mut self) -> Result<(), Reaction> {
-        if interrupt::came() {
-            return Err(Reaction::Broken("interrupted".to_owned()));
-        }
-        self.starts = self.starts.saturating_add(1);
-        let started = LineProcess::start(shell(&self.line), &self.stderr);
-        let running =
-            started.map_err(|error| Reaction::Broken(format!("it cannot be started: {error}")))?;
-        self.running = Some(running);
-        Ok(())
-    }
-
     fn exchange(&mut self, command: &Command, timeout: Duration) -> Result<String, Reaction> {
         let line = serde_json::to_vec(command)
             .map_err(|error| Reaction::Broken(format!("the question: {error}")))?;
         (self.sent, self.received) = (Some(shorten(&String::from_utf8_lossy(&line), SHOWN)), None);
-        let Some(running) = &self.running else {
-            return Err(Reaction::Broken("it is not running".to_owned()));
-        };
-        running.send(line);
-        match running.recv(self.limit(timeout)) {
-            Ok(line) => {
-                self.received = Some(shorten(&line, SHOWN));
-                Ok(line)
-            }
-            Err(RecvError::NoText(why)) => Err(Reaction::Garbled(why)),
-            Err(RecvError::Garbled(why)) => {
-                self.running = None;
-                Err(Reaction::Garbled(why))
-            }
-            Err(RecvError::Silence) => {
-                self.running = None;
-                Err(Reaction::Silent(timeout))
-            }
-            Err(RecvError::Interrupted) => {
-                self.running = None;
-                Err(Reaction::Broken("interrupted".to_owned()))
-            }
-            Err(RecvError::Closed) => Err(Reaction::Crashed(self.ended())),
-        }
-    }
-
-    /// How it has ended that has closed its stdout.
-    fn ended(&mut self) -> String {
-        let Some(running) = self.running.take() else {
-            return "it was not running".to_owned();
-        };
-        match running.ended(GRACE) {
-            Some(status) => format!("it ended, {status}"),
-            None => "it closed its stdout".to_owned(),
-        }
+        self.process.send(line);
+        let line = self.process.recv(timeout)?;
+        self.received = Some(shorten(&line, SHOWN));
+        Ok(line)
     }
 }
 
 impl Testee for Process {
     fn hello(&mut self) -> Result<Hello, Reaction> {
-        self.running = None;
-        self.start()?;
-        let line =
-            self.exchange(&Command::Hello { protocol: PROTOCOL }, START.max(self.timeout))?;
+        self.process.start([])?;
+        self.starts = self.starts.saturating_add(1);
+        let timeout = START.max(self.process.timeout);
+        let line = self.exchange(&Command::Hello { protocol: PROTOCOL }, timeout)?;
         greeted(&line)
     }
 
     fn ask(&mut self, question: &Question) -> Reaction {
-        if self.running.is_none()
+        if self.process.running.is_none()
             && let Err(reaction) = self.hello()
         {
             return reaction;
         }
         self.seq = self.seq.saturating_add(1);
         let command = Command::Case { seq: self.seq, question: Box::new(question.clone()) };
-        let line = match self.exchange(&command, self.timeout) {
+        let line = match self.exchange(&command, self.process.timeout) {
             Ok(line) => line,
             Err(reaction) => return reaction,
         };
         let (reaction, in_step) = answered(&line, self.seq);
         if !in_step {
-            self.running = None;
+            self.process.running = None;
         }
         reaction
     }
 
     fn bye(&mut self) -> Result<(), String> {
-        let Some(running) = self.running.take() else { return Ok(()) };
-        running.send(serde_json::to_vec(&Command::Bye).unwrap_or_default());
-        match running.finish(self.limit(GRACE.max(self.timeout))) {
+        match self.process.bye(serde_json::to_vec(&Command::Bye).unwrap_or_default()) {
             (_, Some(unasked)) => Err(format!("it said {unasked}, which nobody asked for")),
-            (Some(status), _) if status.success() => Ok(()),
-            (Some(status), _) => Err(format!("it ended with {status} after bye")),
-            (None, _) => Err("it did not end after bye".to_owned()),
+            (end, None) => end,
         }
     }
 
@@ -164,7 +101,7 @@ impl Testee for Process {
     }
 
     fn over(&self) -> Option<String> {
-        self.deadline.filter(Deadline::is_over).map(|deadline| deadline.to_string())
+        self.process.over()
     }
 }
 

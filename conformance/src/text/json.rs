@@ -10,9 +10,6 @@ use serde_json::ser::{Formatter, PrettyFormatter};
 use super::is_escaped;
 
 /// Writes a value as indented JSON and ends the line.
-///
-/// # Errors
-/// Those of `out`.
 pub(crate) fn write(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
     let escaping = Escaping(PrettyFormatter::new());
     value.serialize(&mut Serializer::with_formatter(&mut *out, escaping))?;

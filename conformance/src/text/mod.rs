@@ -15,3 +15,19 @@ pub(crate) fn shorten(text: &str, most: usize) -> String {
     let shown: String = text.chars().take(most).collect();
     if shown.len() < text.len() { shown + "…" } else { shown }
 }
+
+/// The variants of an enum, in this order, and the name of each.
+macro_rules! named {
+    ($enum:ident: $($variant:ident $name:literal,)+) => {
+        impl $enum {
+            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
+
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)+
+                }
+            }
+        }
+    };
+}
+pub(crate) use named;

@@ -1,8 +1,11 @@
 //! The golden sequences of streaming with the interface alone and a sender.
 
-use ads_cnc::streaming::{Ack, DiagnosticKind, LINE_END_ERROR, NcText, ProgramEnd, Sender};
+use std::time::Duration;
+
+use ads_cnc::streaming::{Ack, DiagnosticKind, LINE_END_ERROR, NcText, ProgramEnd};
 use ads_cnc_conformance::simulator::program::StreamingInterface;
-use ads_cnc_vectors::{Given, Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
+use ads_cnc_conformance::suite::replay::{Done, StreamActor, play_stream};
+use ads_cnc_vectors::{Given, Pieces, StreamAck, StreamError, StreamStep};
 
 use crate::{cases, stated_fault};
 
@@ -10,89 +13,49 @@ use crate::{cases, stated_fault};
 fn streams_go_as_stated() {
     for case in cases("streaming", 35) {
         let Given::Streaming(given) = &case.given else { unreachable!() };
-        let fault = run(given, &case.id);
+        let mut cnc =
+            Cnc { interface: StreamingInterface::new(), running: false, program: Vec::new() };
+        let fault = play_stream(&mut cnc, given).expect(&case.id);
         assert_eq!(fault, stated_fault(case), "{}", case.id);
     }
 }
 
-/// Goes through the steps up to the first at fault.
-fn run<'c>(given: &'c Streaming, id: &str) -> Option<(&'static str, &'c str)> {
-    let text = given.text.as_ref().map(Pieces::bytes);
-    let mut cnc = Cnc {
-        interface: StreamingInterface::new(),
-        sender: text.as_deref().map(|text| Sender::new(NcText::new(text).expect("a good text"))),
-        running: false,
-        program: Vec::new(),
-    };
-    for step in &given.steps {
-        let at = format!("{id}: {}", step.id);
-        let fault = cnc.step(step, &at);
-        if !matches!(fault, Some("outcome" | "overfull" | "not-started")) {
-            assert_eq!(cnc.interface.len(), step.held, "{at}");
-        }
-        if let Some(fault) = fault {
-            return Some((fault, &step.id));
-        }
-    }
-    if let Some(sender) = &mut cnc.sender {
-        assert_eq!(sender.packet(), None, "{id}: packets are left");
-    }
-    None
-}
-
-struct Cnc<'a> {
+struct Cnc {
     interface: StreamingInterface,
-    sender: Option<Sender<'a>>,
     running: bool,
     /// What was taken since the start.
     program: Vec<u8>,
 }
 
-impl Cnc<'_> {
-    fn step(&mut self, step: &StreamStep, at: &str) -> Option<&'static str> {
-        match step.action {
-            StreamAction::Start => {
-                self.running = true;
-                self.program.clear();
-                None
-            }
-            StreamAction::Reset => {
-                self.running = false;
-                self.interface.reset();
-                None
-            }
-            StreamAction::Write => self.write(step, at),
-            StreamAction::Take => self.take(step, at),
-        }
+impl StreamActor for Cnc {
+    fn start(&mut self, _: Duration) -> Done<()> {
+        self.running = true;
+        self.program.clear();
+        Ok(())
     }
 
-    fn write(&mut self, step: &StreamStep, at: &str) -> Option<&'static str> {
-        let data = step.bytes.as_ref().expect("a write has bytes").bytes();
-        let own = match &mut self.sender {
-            Some(sender) => sender.packet() == Some(&data),
-            None => true,
-        };
-        let ack = self.interface.write(&data);
-        if let Some(sender) = self.sender.as_mut().filter(|_| own) {
-            sender.acknowledge(ack).expect("a packet is out");
-        }
-        let found = match ack {
-            Ack::Accepted => StreamAck::Accepted,
-            Ack::Busy => StreamAck::Later,
-            Ack::Rejected => StreamAck::Refused,
-        };
-        match (found, step.ack.expect("a write has an answer")) {
-            (StreamAck::Later, StreamAck::Accepted) => return Some("overfull"),
-            (found, stated) => assert_eq!(found, stated, "{at}"),
-        }
-        match (own, ack) {
-            (false, _) => Some("order"),
-            (true, Ack::Rejected) => Some("too-long"),
-            _ => None,
-        }
+    fn reset(&mut self, _: Duration) -> Done<()> {
+        self.running = false;
+        self.interface.reset();
+        Ok(())
     }
 
-    fn take(&mut self, step: &StreamStep, at: &str) -> Option<&'static str> {
+    fn held(&mut self) -> Done<usize> {
+        Ok(self.interface.len())
+    }
+
+    fn write(&mut self, data: &[u8], _: StreamAck, _: &StreamStep, _: Duration) -> Done<Ack> {
+        Ok(self.interface.write(data))
+    }
+
+    fn take(&mut self, step: &StreamStep, _: Duration) -> Done<Option<&'static str>> {
+        Ok(self.taken(step))
+    }
+}
+
+impl Cnc {
+    fn taken(&mut self, step: &StreamStep) -> Option<&'static str> {
+        let at = &step.id;
         if !self.running {
             return Some("not-started");
         }

@@ -2,7 +2,6 @@
 
 mod decoder;
 mod golden_interface;
-mod golden_machines;
 mod golden_service;
 mod golden_streaming;
 mod interfaces;

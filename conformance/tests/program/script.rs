@@ -8,9 +8,9 @@ use ads_cnc_conformance::simulator::program::service::{CallStep, ServiceInterfac
 use ads_cnc_conformance::simulator::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
 };
+use ads_cnc_conformance::suite::replay::square_root;
 use proptest::prelude::*;
 
-use crate::golden_service::square_root;
 use crate::kept;
 
 const ZERO: Duration = Duration::ZERO;

@@ -61,7 +61,7 @@ fn what_tools_say_passes() {
         assert_eq!(checked.status.code(), Some(0), "{call:?}: {shown}");
         assert!(!shown.contains("DIFFERS") && !shown.contains("WARNING"), "{call:?}: {shown}");
     }
-    // The embedded CNC listens where the system lets it: whoever forgets that is told.
+    // The simulated CNC listens where the system lets it: whoever forgets that is told.
     let forgotten = ads_cnc(&["check", &folder.file("2.pcapng")]);
     let hint = "TCP segments on other ports; see --port and --any-port";
     assert!(text(&forgotten.stdout).contains(hint), "{}", text(&forgotten.stdout));

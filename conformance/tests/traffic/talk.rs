@@ -1,4 +1,4 @@
-//! Conversations with the embedded CNC, as its client recorded them.
+//! Conversations with the simulated CNC, as its client recorded them.
 
 use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
@@ -45,7 +45,7 @@ pub(crate) fn conversation(
     let cnc = Faulty::new(Cnc::with_default_model().unwrap(), seed.as_ref());
     let memory = Memory::default();
     let capture = Capture::new(Box::new(memory.clone())).unwrap();
-    let session = Session::embedded(cnc, Gate::queries()).unwrap();
+    let session = Session::simulated(cnc, Gate::queries()).unwrap();
     let mut session = session.with_capture(capture);
     talk(&mut session);
     drop(session);

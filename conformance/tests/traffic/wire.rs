@@ -199,7 +199,7 @@ fn hostile_files_are_read() {
     }
 }
 
-/// A conversation with the embedded CNC raises nothing, on either side.
+/// A conversation with the simulated CNC raises nothing, on either side.
 #[test]
 fn what_is_recorded_passes() {
     let checked = checked(&recorded(None, everything));

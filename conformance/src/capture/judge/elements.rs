@@ -103,7 +103,6 @@ impl Bench<'_> {
         page.check(size_rule(data_type), length == size, expected, found);
     }
 
-    /// The address of an instance.
     fn instance(
         &mut self,
         observation: &Observation<'_>,

@@ -9,10 +9,11 @@ mod replies;
 mod requests;
 mod service;
 mod streaming;
+mod target;
 mod values;
 mod variables;
 
-pub(super) use variables::Target;
+pub(super) use target::Target;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::time::Duration;

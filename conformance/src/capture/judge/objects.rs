@@ -25,7 +25,6 @@ struct List {
     count: Option<u32>,
     /// By index: the descriptor, and whether it was read alone.
     known: BTreeMap<u32, (Descriptor, bool)>,
-    /// The index of each ID.
     ids: BTreeMap<u32, u32>,
 }
 

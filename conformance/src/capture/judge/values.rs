@@ -5,7 +5,7 @@ use ads_cnc::{VariableAccess, VariableType};
 
 use super::super::findings::{Observation, Topic};
 use super::Bench;
-use super::variables::Target;
+use super::target::Target;
 use crate::judge::{Checks as _, assumed};
 
 /// Bytes of the longest text that can be declared.

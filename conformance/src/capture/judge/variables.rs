@@ -6,6 +6,7 @@ use ads_cnc::operation::{Call, Reply, Request};
 use ads_cnc::{CncStr, Description, ExtendedReply, Synchronisation, Validity, VariablePath};
 
 use super::super::findings::{Observation, Topic};
+use super::target::Target;
 use super::{Bench, Room};
 use crate::judge::{Checks as _, assumed};
 use crate::suite::holds_together;
@@ -26,7 +27,6 @@ struct Channel {
     counts: BTreeMap<String, u32>,
     /// By name: with the kind and index it was described at.
     described: BTreeMap<String, (Description, String, u32)>,
-    /// The name of each handle.
     handles: BTreeMap<u32, String>,
     /// The first handle of each name.
     names: BTreeMap<String, u32>,
@@ -42,14 +42,6 @@ impl Channel {
             self.names.insert(name.to_owned(), handle);
         }
     }
-}
-
-/// A variable that a request is about.
-#[derive(Clone, Debug)]
-pub(in super::super) struct Target {
-    pub(in super::super) description: Description,
-    /// The indices that select an element; none for the whole.
-    pub(in super::super) indices: Vec<u32>,
 }
 
 impl Variables {

@@ -1,4 +1,4 @@
-//! The suite against a device, or against the embedded CNC.
+//! The suite against a device, or against the simulated CNC.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -55,8 +55,8 @@ impl Run {
         self.judge(plan, session, None, self.about(target, seed, waivers))
     }
 
-    /// Starts the embedded CNC, runs everything against it and stops it.
-    pub(super) fn embedded(
+    /// Starts the simulated CNC, runs everything against it and stops it.
+    pub(super) fn simulated(
         &self,
         seed: u32,
         waivers: Waivers,
@@ -69,7 +69,7 @@ impl Run {
         let model = Model::with_settings(DEFAULT_MODEL, "the default model", settings);
         let faulty = Faulty::new(Cnc::new(model.map_err(internal)?), defect.as_ref());
         let cnc = Arc::clone(faulty.cnc());
-        let session = session::Session::embedded_to_try(faulty)?;
+        let session = session::Session::simulated_to_try(faulty)?;
         let mut session = self.target.recorded(session)?;
         let (target, device) = (*session.target(), of_itself(&mut session));
         // The CNC runs as long as it is held.
@@ -77,8 +77,8 @@ impl Run {
         let session = Session::new(client, profile).with_cnc(cnc);
         let target = TargetReport {
             name: match &defect {
-                None => "embedded CNC".to_owned(),
-                Some(defect) => format!("embedded CNC with the defect {}", defect.id),
+                None => "simulated CNC".to_owned(),
+                Some(defect) => format!("simulated CNC with the defect {}", defect.id),
             },
             address: Some(target.addr.to_string()),
             net_id: Some(target.net_id.to_string()),

@@ -134,7 +134,6 @@ impl Capture {
         self.closed.recv_timeout(GRACE) != Err(RecvTimeoutError::Timeout)
     }
 
-    /// What was written.
     fn kept(&self) -> Vec<u8> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

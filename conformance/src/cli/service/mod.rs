@@ -1,5 +1,11 @@
 //! `ads-cnc service`: a host of the Service Interface that runs a command for each request.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::unreachable, clippy::unwrap_used)
+)]
+
 mod command;
 mod response;
 

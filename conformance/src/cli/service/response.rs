@@ -10,7 +10,6 @@ use ads_cnc::{CncStr, CncString};
 /// Bytes of stdout that are kept: more than can be answered, in UTF-8 too.
 pub(super) const KEPT: usize = 1024;
 
-/// The state of success.
 const SUCCESS: u32 = 1;
 /// Exit code 1.
 const EXIT_CODE_1: u32 = 1001;

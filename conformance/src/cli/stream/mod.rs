@@ -1,5 +1,11 @@
 //! `ads-cnc stream`: an NC program, packet by packet, to the streaming object of a channel.
 
+#![cfg_attr(
+    not(test),
+    deny(clippy::arithmetic_side_effects, clippy::as_conversions, clippy::indexing_slicing),
+    deny(clippy::expect_used, clippy::panic, clippy::unreachable, clippy::unwrap_used)
+)]
+
 mod check;
 mod progress;
 mod send;

@@ -1,15 +1,13 @@
 //! How far it is, on stderr.
 
 use std::fmt;
-use std::io::{self, IsTerminal as _, Write as _};
 use std::time::{Duration, Instant};
 
 use ads_cnc::streaming::{self, NcText};
 
-use super::super::progress::WIDTH;
+use super::super::progress::{self, EVERY};
 
-/// How often the line of a terminal changes, and how often one is written elsewhere.
-const ON_TERMINAL: Duration = Duration::from_millis(100);
+/// How often a line is written where stderr is no terminal.
 const ELSEWHERE: Duration = Duration::from_secs(5);
 
 /// Shows how far it is: one line that changes on a terminal, one every few seconds elsewhere.
@@ -17,12 +15,9 @@ pub(super) struct Progress {
     lines: usize,
     bytes: usize,
     started: Instant,
-    shown: Instant,
-    terminal: bool,
+    line: progress::Progress,
     quiet: bool,
     waited: bool,
-    /// Characters that stand on the terminal's line.
-    width: usize,
 }
 
 impl Progress {
@@ -31,11 +26,9 @@ impl Progress {
             lines: text.line_count(),
             bytes: text.wire_len(),
             started: Instant::now(),
-            shown: Instant::now(),
-            terminal: io::stderr().is_terminal(),
+            line: progress::Progress::new(),
             quiet,
             waited: false,
-            width: 0,
         }
     }
 
@@ -45,46 +38,29 @@ impl Progress {
 
     /// Shows how much was accepted, if that is due, and why it waits.
     pub(super) fn show(&mut self, sent: streaming::Progress, waits: Option<&str>) {
-        let due = match self.terminal {
+        let due = match self.line.live {
             // Nothing may come after it for long.
             true if waits.is_some() && !self.waited => Duration::ZERO,
-            true => ON_TERMINAL,
+            true => EVERY,
             false => ELSEWHERE,
         };
         self.waited = waits.is_some();
-        if self.quiet || self.shown.elapsed() < due {
-            return;
+        if !self.quiet && self.line.is_due(due) {
+            self.line.show(&self.text(sent, waits));
         }
-        self.shown = Instant::now();
-        let line = self.line(sent, waits);
-        let mut err = io::stderr().lock();
-        // Progress that nobody sees is none.
-        let _unseen = match self.terminal {
-            true => write!(err, "\r{line:<0$}", self.width).and_then(|()| err.flush()),
-            false => writeln!(err, "{line}"),
-        };
-        self.width = line.chars().count();
     }
 
-    fn line(&self, sent: streaming::Progress, waits: Option<&str>) -> String {
+    fn text(&self, sent: streaming::Progress, waits: Option<&str>) -> String {
         let streaming::Progress { lines, bytes, .. } = sent;
         let (all, of, rate) = (self.lines, Size(self.bytes), Rate(bytes, self.elapsed()));
         let bytes = Size(bytes);
         let (comma, waits) = waits.map_or(("", ""), |waits| (", ", waits));
-        let line = format!("{lines} of {all} lines, {bytes} of {of}, {rate}{comma}{waits}");
-        match self.terminal {
-            true => line.chars().take(WIDTH).collect(),
-            false => line,
-        }
+        format!("{lines} of {all} lines, {bytes} of {of}, {rate}{comma}{waits}")
     }
 
     /// Takes the line off the terminal.
     pub(super) fn clear(&mut self) {
-        if self.terminal && self.width > 0 {
-            let mut err = io::stderr().lock();
-            let _unseen = write!(err, "\r{:1$}\r", "", self.width).and_then(|()| err.flush());
-            self.width = 0;
-        }
+        self.line.clear();
     }
 }
 
@@ -138,12 +114,14 @@ mod tests {
         let text = NcText::new(b"N10 G0 X0\nN20 M30\n").unwrap();
         let progress = Progress::new(text, false);
         let sent = streaming::Progress { packets: 1, lines: 1, bytes: 11 };
-        let line = progress.line(sent, Some("refused 3 times"));
+        let line = progress.text(sent, Some("refused 3 times"));
         assert!(line.starts_with("1 of 2 lines, 11 bytes of 20 bytes, "), "{line}");
         assert!(line.ends_with("/s, refused 3 times"), "{line}");
-        let progress = Progress { terminal: true, lines: 12_345_678, ..progress };
+        let mut progress = Progress { lines: 12_345_678, ..progress };
+        progress.line.live = true;
         let sent = streaming::Progress { packets: 123_456, lines: 1_234_567, bytes: 123_456_789 };
-        let line = progress.line(sent, Some("refused 1200 times with 0x706"));
-        assert_eq!(line.chars().count(), WIDTH, "{line}");
+        let line = progress.text(sent, Some("refused 1200 times with 0x706"));
+        let line = progress.line.fitted(&line);
+        assert_eq!(line.chars().count(), progress::WIDTH, "{line}");
     }
 }

@@ -13,7 +13,8 @@ use ads_cnc::value::DataType;
 use ads_cnc::{CncStr, Descriptor, Handle, Kind, U32List};
 use serde_json::{Value, json};
 
-use super::wire::{Fail, Wire};
+use super::error::Fail;
+use super::wire::Wire;
 use super::{DONE, Flaw, service, streaming};
 use crate::clients::Action;
 use crate::values::{self, Type};

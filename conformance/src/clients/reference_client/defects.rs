@@ -11,7 +11,6 @@ pub struct Defect {
     pub requirement: &'static str,
     /// What the client does.
     pub what: &'static str,
-    /// How.
     pub flaw: Flaw,
 }
 
@@ -27,7 +26,6 @@ macro_rules! flaws {
         habits { $( $habit:ident $habit_id:literal $other:literal; )+ }
     ) => {
         /// One thing done wrong; its [`Defect`] says what.
-        #[allow(missing_docs, reason = "the defect of each says what it is")]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum Flaw { $( $flaw, )+ $( $habit, )+ }

@@ -5,7 +5,7 @@ use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{Call, Service};
 
 use super::Flaw;
-use super::wire::Fail;
+use super::error::Fail;
 
 /// A request, to be spoilt.
 pub(super) struct Asked {

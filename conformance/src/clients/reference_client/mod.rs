@@ -2,6 +2,7 @@
 
 mod actions;
 mod defects;
+mod error;
 mod faults;
 mod service;
 mod streaming;
@@ -15,7 +16,8 @@ pub use defects::{Defect, Flaw, defects, find_defect, habits};
 
 use super::message::{Answer, Hello, Identity, PROTOCOL, Place, Reaction};
 use super::{Action, Actor, VOCABULARY};
-use wire::{Fail, Wire};
+use error::Fail;
+use wire::Wire;
 
 /// This project's client, in this process.
 #[derive(Clone, Copy, Debug, Default)]
@@ -68,7 +70,7 @@ pub fn answer(flaw: Option<Flaw>, place: &Place, action: &Action) -> Reaction {
             Reaction::Answer(Answer::Error(format!("the CNC refuses it, ADS error {error:#x}")))
         }
         Err(Fail::Dies) => Reaction::Died("it would have ended here".to_owned()),
-        Err(Fail::Hangs) => Reaction::Hung(Duration::MAX),
+        Err(Fail::Hangs) => Reaction::Silent(Duration::MAX),
     }
 }
 

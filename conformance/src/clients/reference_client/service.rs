@@ -9,8 +9,9 @@ use ads_cnc::service::{ServiceId, ServiceVariable};
 use serde_json::Value;
 
 use super::Flaw;
+use super::error::Fail;
 use super::streaming::{PATIENCE, PAUSE};
-use super::wire::{Fail, Wire};
+use super::wire::Wire;
 use crate::values::until_nul;
 
 fn read(wire: &mut Wire, channel: Channel, variable: ServiceVariable) -> Result<Vec<u8>, Fail> {

@@ -10,7 +10,8 @@ use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::{Ack, NcText};
 use serde_json::Value;
 
-use super::wire::{Fail, Wire};
+use super::error::Fail;
+use super::wire::Wire;
 use super::{DONE, Flaw};
 
 /// From one look to the next.

@@ -4,10 +4,11 @@ use std::io::{self, Read as _, Write as _};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-use ads_cnc::ads::{AdsError, AmsAddr, AmsHeader, AmsPort, FrameRef, StateFlags};
+use ads_cnc::ads::{AmsAddr, AmsHeader, AmsPort, FrameRef, StateFlags};
 use ads_cnc::operation::{Operation, Service};
 
 use super::Flaw;
+use super::error::Fail;
 use super::faults::{Asked, believe, misread, spoil_frame};
 use crate::client::{SOURCE_PORT, answer, frame, net_id_of};
 use crate::clients::Place;
@@ -16,25 +17,6 @@ use crate::simulator::DATA_MAX;
 
 /// How long it waits for a reply.
 const TIMEOUT: Duration = Duration::from_secs(3);
-
-/// Why there is no result.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Fail {
-    /// The CNC refuses.
-    Refused(AdsError),
-    /// Something is wrong, here or there.
-    Said(String),
-    /// It dies here.
-    Dies,
-    /// It waits for ever.
-    Hangs,
-}
-
-impl<T: std::fmt::Display> From<T> for Fail {
-    fn from(why: T) -> Self {
-        Self::Said(why.to_string())
-    }
-}
 
 /// A connection.
 pub(super) struct Wire {

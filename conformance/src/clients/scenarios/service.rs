@@ -3,7 +3,8 @@
 use ads_cnc::service::ServiceVariable;
 
 use crate::clients::Scenario;
-use crate::clients::ordering::{Order, REQUEST};
+use crate::clients::ordering::REQUEST;
+use crate::clients::scenario::Order;
 use crate::clients::script::Script;
 use crate::judge::assumed;
 

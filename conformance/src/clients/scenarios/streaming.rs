@@ -3,8 +3,8 @@
 use ads_cnc::ads::AdsError;
 
 use crate::clients::Scenario;
-use crate::clients::ordering::Order;
 use crate::clients::scenario::Expect;
+use crate::clients::scenario::Order;
 
 const JUDGED: &[&str] = &["STM-1", "STM-2", "STM-4", "STM-7", "STM-15", "STM-20", "ADS-2"];
 

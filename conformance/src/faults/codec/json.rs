@@ -3,6 +3,8 @@
 use ads_cnc::text::cp1252_to_char;
 use serde_json::{Map, Value as Json};
 
+use crate::text::hex;
+
 /// Every single value.
 pub(super) fn each(value: &mut Json, change: &mut dyn FnMut(&mut Map<String, Json>)) {
     match value {
@@ -19,19 +21,14 @@ pub(super) fn each(value: &mut Json, change: &mut dyn FnMut(&mut Map<String, Jso
 pub(super) fn texts(value: &mut Json, change: fn(Vec<u8>) -> Vec<u8>) {
     each(value, &mut |one| {
         if one.get("type").and_then(Json::as_str) == Some("STRING")
-            && let Some(hex) = one.get("hex").and_then(Json::as_str)
+            && let Some(bytes) = one.get("hex").and_then(Json::as_str)
         {
-            let bytes = change(bytes(hex));
+            let bytes = change(hex::compact::parse(bytes).unwrap_or_default());
             let text: String = bytes.iter().map(|byte| cp1252_to_char(*byte)).collect();
-            let hex: Vec<String> = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
-            one.insert("hex".to_owned(), Json::String(hex.join(" ")));
+            one.insert("hex".to_owned(), Json::String(hex::spaced(&bytes)));
             one.insert("value".to_owned(), Json::String(text));
         }
     });
-}
-
-fn bytes(hex: &str) -> Vec<u8> {
-    hex.split_ascii_whitespace().filter_map(|byte| u8::from_str_radix(byte, 16).ok()).collect()
 }
 
 /// Every number of these types.

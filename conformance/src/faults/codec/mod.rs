@@ -19,7 +19,6 @@ use crate::codec;
 use crate::codec::message::{Answer, Output, Question, Rejection};
 use crate::judge::in_catalogue;
 
-/// The right answers.
 pub(super) type Right<'a> = &'a dyn Fn(&Question) -> Answer;
 
 /// How a codec does something wrong.
@@ -46,7 +45,6 @@ pub(crate) enum Twist {
 }
 
 impl Twist {
-    /// The answer to a question.
     pub(crate) fn answer(self, right: Right<'_>, question: &Question) -> Answer {
         let stream = question.stream.as_str();
         match self {
@@ -192,7 +190,6 @@ fn seed(id: String, requirements: Vec<&'static str>, what: String, twist: Twist)
     Seed { id, requirements, what, kind: Kind::Codec, edition: None, printed: true, how }
 }
 
-/// All of them.
 pub(super) fn seeds() -> Vec<Seed> {
     let mut seeds = forgotten_checks();
     seeds.extend(too_strict());

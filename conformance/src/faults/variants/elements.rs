@@ -111,7 +111,7 @@ pub(super) const ROWS: &[Row] = &[
     on("different.name-as-it-ends", &[],
         "the name of a parameter is taken without its NUL only, or with just one",
         &[Function::DynamicValueByName],
-        |cnc, call| match call.data.len() > text(call.data).len().saturating_add(1) {
+        |cnc, call| match call.data.len() > text(call.data).len() + 1 {
             true => Err(AdsError::INVALID_SIZE),
             false => cnc.answer(call),
         }),

@@ -102,7 +102,7 @@ pub(super) const ROWS: &[Row] = &[
         };
         answer.map(|mut bytes| {
             if text_now {
-                bytes.truncate(text(&bytes).len().saturating_add(1));
+                bytes.truncate(text(&bytes).len() + 1);
             }
             bytes
         })

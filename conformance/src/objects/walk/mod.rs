@@ -46,7 +46,6 @@ pub struct Options {
     pub exact: bool,
 }
 
-/// What was found.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     /// In the order of their lists.
@@ -80,7 +79,7 @@ pub struct Seen {
 /// use ads_cnc_conformance::objects::{Options, Pattern, walk};
 /// use ads_cnc_conformance::session::Session;
 ///
-/// let mut session = Session::embedded(Cnc::with_default_model()?, Gate::queries())?;
+/// let mut session = Session::simulated(Cnc::with_default_model()?, Gate::queries())?;
 /// let options = Options { names: Some(Pattern::part("feedhold")), ..Options::default() };
 /// let found = walk(&mut session, &options, &mut |_| {})?;
 /// let lists: Vec<String> = found.objects.iter().map(|object| object.list.to_string()).collect();

@@ -127,9 +127,9 @@ const ZEROS: usize = 8;
 
 fn row(field: &FieldReport) -> RowView {
     let bytes: Vec<u8> = field.bytes().collect();
-    let used = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last.saturating_add(1));
-    let marked = field.differs.iter().max().map_or(0, |last| last.saturating_add(1));
-    let shown = used.max(marked).saturating_add(ZEROS);
+    let used = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+    let marked = field.differs.iter().max().map_or(0, |last| last + 1);
+    let shown = used.max(marked) + ZEROS;
     RowView {
         more: 0,
         offset: field.offset,

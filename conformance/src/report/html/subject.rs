@@ -123,7 +123,7 @@ fn chips(verdicts: impl Iterator<Item = (Verdict, bool)>) -> Vec<Chip> {
     let mut totals: BTreeMap<(Verdict, bool), usize> = BTreeMap::new();
     for key in verdicts {
         let number = totals.entry(key).or_default();
-        *number = number.saturating_add(1);
+        *number += 1;
     }
     let chip = |((verdict, waived), number): ((Verdict, bool), usize)| {
         let class = if waived { format!("{verdict} waived") } else { verdict.to_string() };

@@ -26,6 +26,7 @@ use crate::profile::Profile;
 use crate::session::{self, Trouble};
 use crate::simulator::{Cnc, DEFAULT_MODEL, Model, NET_ID, Settings};
 use crate::suite;
+use crate::text::named;
 
 use super::Outcomes;
 pub use check::{Checked, SAMPLE, Scope};
@@ -44,20 +45,9 @@ pub enum Mode {
     All,
 }
 
+named! { Mode: ReadOnly "read-only", Profiled "profiled", Writes "writes", All "all", }
+
 impl Mode {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::ReadOnly, Self::Profiled, Self::Writes, Self::All];
-
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::ReadOnly => "read-only",
-            Self::Profiled => "profiled",
-            Self::Writes => "writes",
-            Self::All => "all",
-        }
-    }
-
     const fn has_profile(self) -> bool {
         matches!(self, Self::Profiled | Self::All)
     }

@@ -35,6 +35,7 @@ use crate::client::{Client, Inquiry};
 use crate::exchange::Fault;
 use crate::simulator::Cnc;
 use crate::simulator::program::digest;
+use crate::text::hex::compact;
 use crate::values::until_nul;
 
 /// Channel numbers and ranks that are asked for; a CNC with more is asked for these alone.
@@ -95,7 +96,6 @@ pub(super) struct Dialogue<'t> {
 
 /// What came of asking everything.
 pub(super) struct Asked {
-    /// The digest of each answer.
     pub(super) answers: Vec<u64>,
     /// The first request that was answered otherwise than by the CNC it was compared with.
     pub(super) difference: Option<String>,
@@ -161,7 +161,7 @@ impl Dialogue<'_> {
         let call = request.encode(&mut buf).ok()?;
         let data = self.call(&call);
         let sent = self.malformed.entry(request.function()).or_default();
-        *sent = sent.saturating_add(1);
+        *sent += 1;
         if *sent <= MALFORMED_EACH && self.client.gate().lets_malformed_pass() {
             self.spoilt(&call, data.as_ref().map_or(0, Vec::len));
         }
@@ -209,7 +209,7 @@ impl Dialogue<'_> {
         let said: Vec<&str> = violations.chain([fault.as_str()]).collect();
         self.heard(&exchange.received, &said.join("\n"), || {
             let spec = call.dispatch().map(|request| request.function().spec().name);
-            let data: String = call.data.iter().map(|byte| format!("{byte:02x}")).collect();
+            let data = compact::show(call.data);
             format!("{} to port {}: {exchange} [{data}]", spec.unwrap_or("no function"), call.port)
         });
         exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec)
@@ -324,7 +324,7 @@ impl Dialogue<'_> {
             let count = self.ask(CountDynamic::new(channel, kind)).and_then(|data| number(&data));
             let listed = count.unwrap_or_default().min(LISTED_MAX);
             let mut names = vec!["P1".to_owned(), "P2".to_owned(), format!("{kind}.unknown")];
-            for index in (1..=listed.saturating_add(1)).chain(WIDE) {
+            for index in (1..=listed + 1).chain(WIDE) {
                 let name = DynamicNameByIndex::new(channel, kind, index).ok();
                 let name = name.and_then(|op| self.ask(op));
                 let text =
@@ -387,8 +387,7 @@ impl Dialogue<'_> {
             let Some(count) = self.ask(CountObjects::new(list)) else { continue };
             let count = number(&count).unwrap_or_default();
             let listed = count.min(LISTED_MAX);
-            let singles =
-                (1..=listed.saturating_add(1)).chain([count.saturating_add(1)]).chain(WIDE);
+            let singles = (1..=listed + 1).chain([count.saturating_add(1)]).chain(WIDE);
             let ranges = [(1, 2), (1, listed), (1, 252), (listed, 2), (2, listed), (WIDE[0], 3)];
             for (first, many) in singles.map(|first| (first, 1)).chain(ranges) {
                 let Ok(op) = ReadDescriptors::new(list, first, many) else { continue };
@@ -668,7 +667,7 @@ fn parts(dimensions: &[u32]) -> Vec<Vec<u32>> {
         parts.push(each.map(|(at, &count)| if at == beyond { count } else { 0 }).collect());
         parts.push(dimensions.iter().enumerate().map(|(at, _)| u32::from(at == beyond)).collect());
     }
-    parts.push(vec![0; dimensions.len().saturating_add(1)]);
+    parts.push(vec![0; dimensions.len() + 1]);
     parts.sort_unstable();
     parts.dedup();
     parts.retain(|part| !part.is_empty());

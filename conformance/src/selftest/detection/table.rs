@@ -21,7 +21,6 @@ const PUBLISHED: &str = include_str!("../../../doc/detection.tsv");
 /// What is measured of one defect or variant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// The defect's ID.
     pub id: String,
     /// A hash of what the row says of the defect, and of what the CNC answers with it.
     pub hash: String,
@@ -81,7 +80,6 @@ impl Table {
         Self::parse(PUBLISHED)
     }
 
-    /// The row of a defect.
     pub fn row(&self, seed: &Seed) -> Option<&Row> {
         self.rows.iter().find(|row| row.id == seed.id)
     }
@@ -99,7 +97,7 @@ impl Table {
                 Found::Quiet => &mut figures.quiet,
                 Found::Alarm => &mut figures.alarms,
             };
-            *count = count.saturating_add(1);
+            *count += 1;
         }
         figures
     }
@@ -119,7 +117,7 @@ impl Table {
         let mut counts: Vec<usize> = counts.collect();
         counts.sort_unstable();
         let at = |tenths: usize| {
-            let place = counts.len().saturating_mul(tenths).checked_div(10).unwrap_or_default();
+            let place = counts.len() * tenths / 10;
             counts.get(place).copied().unwrap_or_default()
         };
         (at(5), at(9))
@@ -193,7 +191,7 @@ impl Table {
         for mode in Mode::ALL {
             let Figures { caught, elsewhere, missed, undetectable, quiet, alarms } =
                 self.figures(mode);
-            let variants = quiet.saturating_add(alarms);
+            let variants = quiet + alarms;
             let defects = [caught, elsewhere, missed, undetectable].iter().sum::<usize>();
             let _ = writeln!(
                 text,

@@ -98,7 +98,6 @@ impl Cnc {
         self.clock.pass(time);
     }
 
-    /// Its data model.
     pub const fn model(&self) -> &Model {
         &self.model
     }

@@ -25,7 +25,6 @@ impl ModelError {
         self.line
     }
 
-    /// The error.
     pub fn reason(&self) -> &str {
         &self.reason
     }

@@ -55,7 +55,6 @@ pub struct Model {
     pub(super) axis_lists: Vec<Descriptors>,
 }
 
-/// A channel.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ChannelModel {
     /// Logical number, from 1.
@@ -71,7 +70,6 @@ pub(super) struct ChannelModel {
     pub(super) global: Vec<usize>,
     pub(super) by_handle: HashMap<u32, At>,
     pub(super) parameters: Vec<Parameter>,
-    /// Its streaming program.
     pub(super) program: ProgramConfig,
     /// Its program that asks services, if it has one.
     pub(super) script: Option<ScriptConfig>,

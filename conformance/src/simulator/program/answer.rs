@@ -21,11 +21,9 @@ pub struct Answer {
 /// How a request ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// There was a response.
     Response {
         /// The response state.
         state: u32,
-        /// The response.
         text: CncString,
     },
     /// There was none within the longest wait.

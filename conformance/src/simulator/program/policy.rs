@@ -35,11 +35,8 @@ pub(crate) struct Policy {
 pub(crate) enum Event {
     /// The channel is set up.
     PowerOn,
-    /// A start.
     Start,
-    /// An NC reset.
     Reset,
-    /// A program end.
     End,
     /// All lines were run.
     Dry,

@@ -26,7 +26,6 @@ pub struct ScriptConfig {
 /// A request to a service: `V.G.SERVICE.UUID`, `.REQUEST` and `.REQUEST_STATE`, and the wait.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Request {
-    /// The service.
     pub uuid: ServiceId,
     /// What it is asked.
     pub text: CncString,
@@ -92,7 +91,6 @@ impl ScriptConfig {
 pub struct ScriptError {
     /// The place of the request, from 0.
     pub request: usize,
-    /// Its error.
     pub error: CallError,
 }
 

@@ -30,7 +30,6 @@ pub struct Message {
     pub line: u32,
     /// The column, from 1.
     pub column: u32,
-    /// The error.
     pub text: String,
 }
 
@@ -74,7 +73,6 @@ pub enum StartError {
     /// Without a name there is no streaming (STM-13).
     #[error("P-CHAN-00158 streaming_prog_file is empty: name of the streaming program expected")]
     NoName,
-    /// It is running.
     #[error("the streaming program is running")]
     Running,
     /// It was aborted; an NC reset has to come first (assumed).

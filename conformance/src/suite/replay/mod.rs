@@ -1,13 +1,18 @@
-//! The golden sequences of data streaming and of the Service Interface, over the wire: the suite is
-//! the client or the service, and lets the CNC's own part happen from within.
+//! The golden sequences of data streaming and of the Service Interface: each has one player, which is
+//! the client or the service, and leaves the CNC's part to an actor. The suite's actor is a CNC over
+//! the wire, whose own part happens from within; tests have actors without a wire.
 
 mod service;
 mod streaming;
+mod wire;
+
+pub use service::{Asking, ServiceActor, fault_class, play as play_service, script, square_root};
+pub use streaming::{StreamActor, play as play_stream, take};
 
 use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 
 use crate::judge::{Body, Case, Needs, Step, Stop, Subject};
-use crate::suite::probe::{Probe, harness};
+use crate::suite::probe::Probe;
 
 /// What a client or a service does, which the suite itself is here.
 const NOT_THE_TARGETS: [&str; 5] = ["STM-17", "SVC-2", "SVC-5", "SVC-7", "SVC-13"];
@@ -31,10 +36,11 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 /// What is at fault: its class, and the step.
-type Fault<'c> = Option<(&'static str, &'c str)>;
+pub type Fault<'c> = Option<(&'static str, &'c str)>;
 
 /// How a step ends that does not go as stated, or cannot be done.
-enum Otherwise {
+#[derive(Debug)]
+pub enum Otherwise {
     /// What was expected, and what was there.
     Differs(String, String),
     Stop(Stop),
@@ -46,9 +52,10 @@ impl From<Stop> for Otherwise {
     }
 }
 
-type Done<T> = Result<T, Otherwise>;
+pub type Done<T> = Result<T, Otherwise>;
 
-fn differs<T>(expected: impl ToString, found: impl ToString) -> Done<T> {
+/// A step that does not go as stated.
+pub fn differs<T>(expected: impl ToString, found: impl ToString) -> Done<T> {
     Err(Otherwise::Differs(expected.to_string(), found.to_string()))
 }
 
@@ -60,8 +67,8 @@ fn lacks(what: &str) -> Otherwise {
 /// Goes through a sequence.
 pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
     let done = match &sequence.given {
-        Given::Streaming(given) => streaming::run(probe, given, &sequence.cited()),
-        Given::Service(given) => service::run(probe, given),
+        Given::Streaming(given) => wire::stream(probe, given, &sequence.cited()),
+        Given::Service(given) => wire::service(probe, given),
         _ => return Err(Stop::Harness("a text has no steps".to_owned())),
     };
     let stated = match &sequence.expect {
@@ -88,9 +95,4 @@ fn show(fault: Option<(&str, &str)>) -> String {
         None => "every step as stated".to_owned(),
         Some((class, step)) => format!("{class} in the step {step}"),
     }
-}
-
-/// What the embedded CNC refuses to have done to it is a mistake of the suite.
-fn within<T>(done: Result<T, crate::simulator::ControlError>) -> Done<T> {
-    done.map_err(|error| harness(error).into())
 }

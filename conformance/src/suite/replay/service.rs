@@ -1,64 +1,73 @@
-//! The steps at the Service Interface: program within, services and anybody else over the wire.
+//! The steps at the Service Interface: a program that asks, services and anybody else.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use std::time::Duration;
 
-use ads_cnc::address::Channel;
-use ads_cnc::operation::{ReadByName, WriteByName};
 use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
-use ads_cnc::{CncStr, CncString, ErrorKind, VariableType};
+use ads_cnc::{CncStr, CncString, ErrorKind};
 use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
-use super::{Done, Fault, differs, lacks, within};
-use crate::judge::{Step, Stop};
-use crate::simulator::Cnc;
+use super::{Done, Fault, differs, lacks};
 use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
-use crate::simulator::program::{
-    Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
-};
-use crate::suite::probe::{Probe, harness};
-use crate::suite::stream::heard;
+use crate::simulator::program::{Outcome, Repeat, Request, Script, ScriptConfig, Wait};
+use crate::suite::probe::harness;
 
-/// Goes through the steps up to the first at fault, and leaves the interfaces as at the start.
-pub(super) fn run<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {
-    let cnc = probe.cnc()?;
-    let channels = crate::suite::service_interface::channels(probe)?;
-    for step in &given.steps {
-        channel_of(&channels, step)?;
+/// The interfaces of a CNC's channels, by number, and the program that asks.
+pub trait ServiceActor {
+    type Program: Asking;
+
+    /// The program with one request.
+    fn ask(&self, request: Request) -> Result<Self::Program, CallError>;
+
+    /// The value of a variable: of a text without what fills it up.
+    fn read(&mut self, channel: u32, variable: ServiceVariable) -> Done<Vec<u8>>;
+
+    /// Writes a value. If it is rejected, the class of its fault.
+    fn write(
+        &mut self,
+        channel: u32,
+        variable: ServiceVariable,
+        value: &[u8],
+    ) -> Done<Option<&'static str>>;
+
+    /// Does something to an interface from within.
+    fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> Done<()>;
+}
+
+/// A program that asks.
+pub trait Asking {
+    /// Does one step.
+    fn step(&mut self, now: Duration, interface: &mut ServiceInterface);
+
+    /// What it does next.
+    fn next_step(&self) -> Option<CallStep<'_>>;
+
+    /// What came of its request.
+    fn outcome(&self) -> Option<Outcome>;
+}
+
+impl Asking for Script {
+    fn step(&mut self, now: Duration, interface: &mut ServiceInterface) {
+        Script::step(self, now, interface);
     }
-    let reset = || {
-        let mut all = channels.iter();
-        within(all.try_for_each(|one| cnc.with_service(one.number(), |service| service.reset())))
-    };
-    reset()?;
-    let done = steps(probe, &cnc, given, &channels);
-    reset()?;
-    done
+
+    fn next_step(&self) -> Option<CallStep<'_>> {
+        Script::next_step(self)
+    }
+
+    fn outcome(&self) -> Option<Outcome> {
+        self.answers().next().map(|answer| answer.outcome.clone())
+    }
 }
 
-/// The channel of a step: the first is the first that has the interface, whatever its number.
-fn channel_of(channels: &[Channel], step: &ServiceStep) -> Step<Channel> {
-    let place = step.channel.unwrap_or(1);
-    let before = usize::try_from(place).ok().and_then(|place| place.checked_sub(1));
-    let channel = before.and_then(|before| channels.get(before)).copied();
-    let why = || format!("there are not {place} channels with a Service Interface");
-    channel.ok_or_else(|| Stop::NotApplicable(why()))
-}
-
-fn steps<'c>(
-    probe: &mut Probe<'_>,
-    cnc: &Arc<Cnc>,
-    given: &'c ServiceSequence,
-    channels: &[Channel],
-) -> Done<Fault<'c>> {
+/// Goes through the steps up to the first at fault.
+pub fn play<'c>(actor: &mut impl ServiceActor, given: &'c ServiceSequence) -> Done<Fault<'c>> {
     let mut ids: BTreeMap<&str, [ServiceId; 1]> = BTreeMap::new();
     for (name, service) in &given.services {
         ids.insert(name, [ServiceId::new(&service.uuid).map_err(harness)?]);
     }
     let hosts = ids.iter().map(|(name, ids)| (*name, Host::new(ids))).collect();
-    let (script, now) = (None, Duration::ZERO);
-    let mut scene = Scene { probe, cnc, given, channels, hosts, script, now };
+    let mut scene = Scene { actor, given, hosts, program: None, now: Duration::ZERO };
     for step in &given.steps {
         if let Some(at) = step.at {
             scene.now = Duration::from_millis(at);
@@ -70,44 +79,37 @@ fn steps<'c>(
     Ok(None)
 }
 
-struct Scene<'s, 'p, 'c> {
-    probe: &'s mut Probe<'p>,
-    cnc: &'s Arc<Cnc>,
+struct Scene<'s, 'c, A: ServiceActor> {
+    actor: &'s mut A,
     given: &'c ServiceSequence,
-    channels: &'s [Channel],
     hosts: BTreeMap<&'c str, Host<'s>>,
-    script: Option<Script>,
+    program: Option<A::Program>,
     now: Duration,
 }
 
-impl Scene<'_, '_, '_> {
+impl<A: ServiceActor> Scene<'_, '_, A> {
     fn step(&mut self, step: &ServiceStep) -> Done<Option<&'static str>> {
         match step.action {
             ServiceAction::Read => {
                 let value = bytes(step)?;
-                let read = self.read(step, variable(step)?)?;
+                let read = self.actor.read(channel(step), variable(step)?)?;
                 if step.actor == "program" {
-                    self.script_step(step)?;
+                    self.program_step(step)?;
                 }
                 Ok((read != value).then_some("outcome"))
             }
             ServiceAction::Write => self.write(step),
-            ServiceAction::Ask => match ask(step)? {
-                Ok(script) => {
-                    self.script = Some(self.cnc.as_run(script));
+            ServiceAction::Ask => match request(step)?.and_then(|one| self.actor.ask(one)) {
+                Ok(program) => {
+                    self.program = Some(program);
                     Ok(None)
                 }
-                Err(error) => Ok(Some(class(error.kind()))),
+                Err(error) => Ok(Some(fault_class(error.kind()))),
             },
-            ServiceAction::Wait => {
-                let state = self.script_step(step)?;
-                let script = self.script.as_ref().ok_or_else(|| lacks("program"))?;
-                let waits = matches!(script.next_step(), Some(CallStep::Wait { .. }));
-                match (state, waits) {
-                    (ScriptState::Waiting(0), true) => Ok(None),
-                    (state, _) => differs("the program waits", format!("{state:?}")),
-                }
-            }
+            ServiceAction::Wait => match self.program_step(step)?.next_step() {
+                Some(CallStep::Wait { .. }) => Ok(None),
+                other => differs("the program waits", format!("{other:?}")),
+            },
             ServiceAction::Timeout => match self.outcome(step)? {
                 None => Ok(Some("too-early")),
                 Some(Outcome::TimedOut) => Ok(None),
@@ -139,76 +141,39 @@ impl Scene<'_, '_, '_> {
         }
     }
 
-    /// The value over the wire: of a text what the interface holds, without what fills it up.
-    fn read(&mut self, step: &ServiceStep, variable: ServiceVariable) -> Step<Vec<u8>> {
-        let channel = channel_of(self.channels, step)?;
-        let request = ReadByName::new(channel, variable.name()).map_err(harness)?;
-        let exchange = heard(self.probe.send(request)?)?;
-        let value = exchange.answer().and_then(|answer| answer.success());
-        let mut value = value.unwrap_or_default().to_vec();
-        if variable.var_type() == VariableType::STRING {
-            let filled = value.iter().rposition(|&byte| byte != 0);
-            value.truncate(filled.map_or(1, |last| last.saturating_add(2)));
-        }
-        Ok(value)
-    }
-
-    /// Whether the value was taken over the wire.
-    fn put(&mut self, step: &ServiceStep, variable: ServiceVariable, value: &[u8]) -> Step<bool> {
-        let channel = channel_of(self.channels, step)?;
-        let request = WriteByName::new(channel, variable.name(), value).map_err(harness)?;
-        let exchange = heard(self.probe.send(request)?)?;
-        Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
-    }
-
     /// The program does one step.
-    fn script_step(&mut self, step: &ServiceStep) -> Done<ScriptState> {
-        let script = self.script.as_mut().ok_or_else(|| lacks("program"))?;
-        let (now, channel) = (self.now, channel_of(self.channels, step)?);
-        within(self.cnc.with_service(channel.number(), |service| {
-            script.step(now, service);
-            script.state()
-        }))
+    fn program_step(&mut self, step: &ServiceStep) -> Done<&A::Program> {
+        let program = self.program.as_mut().ok_or_else(|| lacks("program"))?;
+        let now = self.now;
+        self.actor.with(channel(step), |interface| program.step(now, interface))?;
+        Ok(program)
     }
 
     /// What came of the request, once the program has looked.
     fn outcome(&mut self, step: &ServiceStep) -> Done<Option<Outcome>> {
-        for _ in 0..2 {
-            self.script_step(step)?;
-        }
-        let script = self.script.as_ref().ok_or_else(|| lacks("program"))?;
-        Ok(script.answers().next().map(|answer| answer.outcome.clone()))
+        self.program_step(step)?;
+        Ok(self.program_step(step)?.outcome())
     }
 
     /// What the service wants next, once it has read what it wants to read.
     fn wants(&mut self, step: &ServiceStep) -> Done<Wants> {
-        let actor = step.actor.as_str();
-        let host = |hosts: &mut BTreeMap<&str, Host<'_>>| -> Done<HostWants> {
-            let host = hosts.get_mut(actor).ok_or_else(|| lacks("service"))?;
-            Ok(match host.step() {
-                HostStep::Read(variable) => HostWants::Read(variable),
-                HostStep::Write(variable, value) => {
-                    HostWants::Other(Wants::Write(variable, value.to_vec()))
-                }
-                HostStep::Serve { request, request_state, .. } => {
-                    HostWants::Other(Wants::Serve(request.into(), request_state))
-                }
-                _ => HostWants::Other(Wants::Nothing),
-            })
-        };
-        if let Some(host) = self.hosts.get_mut(actor) {
-            host.poll();
-        }
+        let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
+        host.poll();
         loop {
-            match host(&mut self.hosts)? {
-                HostWants::Other(wants) => return Ok(wants),
-                HostWants::Read(variable) => {
-                    let value = self.read(step, variable)?;
-                    let host = self.hosts.get_mut(actor).ok_or_else(|| lacks("service"))?;
+            match host.step() {
+                HostStep::Read(variable) => {
+                    let value = self.actor.read(channel(step), variable)?;
                     if let Err(error) = host.read(&value) {
                         return differs(format!("a value of {}", variable.name()), error);
                     }
                 }
+                HostStep::Write(variable, value) => {
+                    return Ok(Wants::Write(variable, value.to_vec()));
+                }
+                HostStep::Serve { request, request_state, .. } => {
+                    return Ok(Wants::Serve(request.into(), request_state));
+                }
+                _ => return Ok(Wants::Nothing),
             }
         }
     }
@@ -216,32 +181,24 @@ impl Scene<'_, '_, '_> {
     fn write(&mut self, step: &ServiceStep) -> Done<Option<&'static str>> {
         let (variable, value) = (variable(step)?, bytes(step)?);
         match step.actor.as_str() {
-            "other" => {
-                let taken = self.put(step, variable, &value)?;
-                // Which of the faults it is, an error number does not tell: the bytes do.
-                let error = || ServiceInterface::new().write(variable, &value).err();
-                let odd = || error().map_or("outcome", |error| class(error.kind()));
-                Ok((!taken).then(odd))
-            }
+            "other" => self.actor.write(channel(step), variable, &value),
             "program" => {
-                let script = self.script.as_ref().ok_or_else(|| lacks("program"))?;
-                if script.next_step() != Some(CallStep::Write(variable, &value)) {
+                let program = self.program.as_ref().ok_or_else(|| lacks("program"))?;
+                if program.next_step() != Some(CallStep::Write(variable, &value)) {
                     return Ok(Some("order"));
                 }
-                self.script_step(step)?;
-                let read = self.read(step, variable)?;
-                match read == value {
-                    true => Ok(None),
-                    false => {
-                        differs(format!("{value:02x?} in {}", step.id), format!("{read:02x?}"))
-                    }
+                self.program_step(step)?;
+                let read = self.actor.read(channel(step), variable)?;
+                if read != value {
+                    return differs(format!("{value:02x?} in {}", step.id), format!("{read:02x?}"));
                 }
+                Ok(None)
             }
             service => {
                 if self.wants(step)? != Wants::Write(variable, value.clone()) {
                     return Ok(Some("order"));
                 }
-                if !self.put(step, variable, &value)? {
+                if self.actor.write(channel(step), variable, &value)?.is_some() {
                     return differs(format!("{} takes {value:02x?}", variable.name()), "an error");
                 }
                 let host = self.hosts.get_mut(service).ok_or_else(|| lacks("service"))?;
@@ -259,7 +216,7 @@ impl Scene<'_, '_, '_> {
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
         let answer = CncStr::from_bytes(&response).map_err(harness)?;
         if let Err(error) = host.answer(answer, state) {
-            return Ok(Some(class(error.kind())));
+            return Ok(Some(fault_class(error.kind())));
         }
         let service = self.given.services.get(&step.actor);
         let does = service.and_then(|service| service.does.as_deref());
@@ -267,11 +224,6 @@ impl Scene<'_, '_, '_> {
         let wrong = does == Some("square-root") && square_root(&request.to_string()) != stated;
         Ok(wrong.then_some("outcome"))
     }
-}
-
-enum HostWants {
-    Read(ServiceVariable),
-    Other(Wants),
 }
 
 /// What a service does next, apart from reading.
@@ -282,7 +234,11 @@ enum Wants {
     Serve(CncString, u32),
 }
 
-fn ask(step: &ServiceStep) -> Done<Result<Script, CallError>> {
+fn channel(step: &ServiceStep) -> u32 {
+    step.channel.unwrap_or(1)
+}
+
+fn request(step: &ServiceStep) -> Done<Result<Request, CallError>> {
     let parameter = |value: &Option<String>| value.as_ref().map(|_| number(value)).transpose();
     let wait = match &step.wait {
         None => Wait::Loop,
@@ -296,21 +252,25 @@ fn ask(step: &ServiceStep) -> Done<Result<Script, CallError>> {
     let asked = text(&step.request)?;
     let asked = CncStr::from_bytes(&asked).map(CncString::from);
     let uuid = ServiceId::new(step.uuid.as_deref().ok_or_else(|| lacks("UUID"))?);
-    let request = match (uuid, asked) {
-        (Ok(uuid), Ok(text)) => Request { uuid, text, state, wait },
-        (Err(error), _) | (_, Err(error)) => return Ok(Err(error.into())),
-    };
+    Ok(match (uuid, asked) {
+        (Ok(uuid), Ok(text)) => Ok(Request { uuid, text, state, wait }),
+        (Err(error), _) | (_, Err(error)) => Err(error.into()),
+    })
+}
+
+/// A script of one request.
+pub fn script(request: Request) -> Result<Script, CallError> {
     let config = ScriptConfig {
         requests: vec![request],
         repeat: Repeat::Times(1),
         pause: Duration::ZERO,
         cycle: Duration::ZERO,
     };
-    Ok(Script::new(config).map_err(|error| error.error))
+    Script::new(config).map_err(|error| error.error)
 }
 
 /// The example's service, which the manuals have in C: `atof`, `sqrt` and `%f`.
-fn square_root(request: &str) -> (String, u32) {
+pub fn square_root(request: &str) -> (String, u32) {
     let digits = request.trim_start();
     let x = (0..=digits.len()).rev().find_map(|len| digits.get(..len)?.parse().ok());
     let x: f64 = x.unwrap_or(0.0);
@@ -338,7 +298,8 @@ fn number(value: &Option<String>) -> Done<u32> {
     number.ok_or_else(|| lacks("number"))
 }
 
-fn class(kind: ErrorKind) -> &'static str {
+/// What sequences call an error.
+pub fn fault_class(kind: ErrorKind) -> &'static str {
     match kind {
         ErrorKind::Truncated => "truncated",
         ErrorKind::Trailing => "trailing",

@@ -1,88 +1,57 @@
-//! The steps of data streaming, over the wire.
+//! The steps of data streaming.
 
-use std::sync::Arc;
 use std::time::Duration;
 
-use ads_cnc::address::Channel;
 use ads_cnc::streaming::{Ack, CheckEvent, Checker, DiagnosticKind, NcText, Sender};
-use ads_cnc_vectors::{
-    Pieces, Requirement, StreamAck, StreamAction, StreamError, StreamStep, Streaming,
-};
+use ads_cnc_vectors::{Pieces, StreamAck, StreamAction, StreamError, StreamStep, Streaming};
 
-use super::{Done, Fault, differs, lacks, within};
-use crate::judge::{Stop, assumed};
-use crate::simulator::Cnc;
-use crate::simulator::program::{Message, Pace, Program, ProgramConfig, Start, State};
-use crate::suite::probe::{Probe, harness};
-use crate::suite::stream::{HELD_MAX, Sent, send, send_until_taken};
+use super::{Done, Fault, differs, lacks};
+use crate::simulator::program::{Message, Pace, Program, State};
+use crate::suite::probe::harness;
 
-/// Who plays, and before whom.
-struct Scene<'s, 'p> {
-    probe: &'s mut Probe<'p>,
-    cnc: Arc<Cnc>,
-    channel: Channel,
-    /// What the sequence is about.
-    rules: &'s [&'static Requirement],
+/// A CNC that a program is streamed to.
+pub trait StreamActor {
+    /// Starts the streaming program.
+    fn start(&mut self, now: Duration) -> Done<()>;
+
+    /// Resets the channel.
+    fn reset(&mut self, now: Duration) -> Done<()>;
+
+    /// Bytes in the buffer.
+    fn held(&mut self) -> Done<usize>;
+
+    /// Writes the packet of a step.
+    ///
+    /// # Errors
+    /// An answer that is neither the stated one nor that of a full buffer.
+    fn write(
+        &mut self,
+        data: &[u8],
+        stated: StreamAck,
+        step: &StreamStep,
+        now: Duration,
+    ) -> Done<Ack>;
+
+    /// Lets the decoder take what is there. The class of what is at fault.
+    fn take(&mut self, step: &StreamStep, now: Duration) -> Done<Option<&'static str>>;
 }
 
-impl Scene<'_, '_> {
-    fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Done<T> {
-        within(self.cnc.with_program(self.channel.number(), then))
-    }
-
-    fn set(&self, config: ProgramConfig) -> Done<()> {
-        within(self.cnc.set_program(self.channel.number(), config))
-    }
-
-    /// Judges what the error number of a refusal says.
-    fn number(&mut self, rule: &'static str, ack: Ack, sent: &Sent) {
-        if self.rules.iter().any(|one| one.id == rule) {
-            let expected = format!("{ack:?} by its number");
-            self.probe.check(assumed(rule), sent.assumed() == ack, expected, sent);
-        }
-    }
-}
-
-/// Goes through the steps up to the first at fault, and leaves the program as it was set up.
-pub(super) fn run<'c>(
-    probe: &mut Probe<'_>,
-    given: &'c Streaming,
-    rules: &[&'static Requirement],
-) -> Done<Fault<'c>> {
-    let (cnc, channel) = (probe.cnc()?, probe.channel()?);
-    let mut scene = Scene { probe, cnc, channel, rules };
-    let config = scene.with(|program| program.config().clone())?;
-    if config.name.is_empty() {
-        let why = format!("streaming is off in channel {}", channel.number());
-        return Err(Stop::NotApplicable(why).into());
-    }
-    scene.set(ProgramConfig { start: Start::ByHand, pace: Pace::Hold, ..config.clone() })?;
-    let done = steps(&mut scene, given);
-    scene.set(config)?;
-    done
-}
-
-fn steps<'c>(scene: &mut Scene<'_, '_>, given: &'c Streaming) -> Done<Fault<'c>> {
+/// Goes through the steps up to the first at fault.
+pub fn play<'c>(actor: &mut impl StreamActor, given: &'c Streaming) -> Done<Fault<'c>> {
     let text = given.text.as_ref().map(Pieces::bytes);
     let sender = text.as_deref().map(|text| NcText::new(text).map(Sender::new));
     let mut sender = sender.transpose().map_err(harness)?;
+    let mut now = Duration::ZERO;
     for step in &given.steps {
+        now = step.at.map_or(now, Duration::from_millis);
         let fault = match step.action {
-            StreamAction::Start => {
-                if let Err(error) = scene.with(|one| one.start(Duration::ZERO))? {
-                    return differs("the program starts", error);
-                }
-                None
-            }
-            StreamAction::Reset => {
-                scene.with(|program| program.reset(Duration::ZERO))?;
-                None
-            }
-            StreamAction::Write => write(scene, &mut sender, step)?,
-            StreamAction::Take => take(scene, step)?,
+            StreamAction::Start => actor.start(now).map(|()| None)?,
+            StreamAction::Reset => actor.reset(now).map(|()| None)?,
+            StreamAction::Write => write(actor, &mut sender, step, now)?,
+            StreamAction::Take => actor.take(step, now)?,
         };
         if !matches!(fault, Some("outcome" | "overfull" | "not-started")) {
-            let held = scene.with(|program| program.held())?;
+            let held = actor.held()?;
             if held != step.held {
                 return differs(format!("{} bytes held after {}", step.held, step.id), held);
             }
@@ -98,9 +67,10 @@ fn steps<'c>(scene: &mut Scene<'_, '_>, given: &'c Streaming) -> Done<Fault<'c>>
 }
 
 fn write(
-    scene: &mut Scene<'_, '_>,
+    actor: &mut impl StreamActor,
     sender: &mut Option<Sender<'_>>,
     step: &StreamStep,
+    now: Duration,
 ) -> Done<Option<&'static str>> {
     let data = step.bytes.as_ref().ok_or_else(|| lacks("bytes"))?.bytes();
     let stated = step.ack.ok_or_else(|| lacks("answer"))?;
@@ -108,26 +78,13 @@ fn write(
         Some(sender) => sender.packet() == Some(&data),
         None => true,
     };
-    let held = scene.with(|program| program.held())?;
-    let sent = match stated {
-        StreamAck::Accepted => send_until_taken(scene.probe, scene.channel, &data)?,
-        StreamAck::Later | StreamAck::Refused => send(scene.probe, scene.channel, &data)?,
-    };
-    // Whether it is taken, everybody sees. Whether a refusal is one for now or for good only what
-    // was stated says: that its number tells is assumed.
-    let ack = match stated {
-        _ if sent.is_taken() => Ack::Accepted,
-        StreamAck::Later => Ack::Busy,
-        StreamAck::Accepted | StreamAck::Refused => Ack::Rejected,
-    };
+    let ack = actor.write(&data, stated, step, now)?;
     match (stated, ack) {
-        (StreamAck::Accepted, Ack::Accepted) => {}
-        (StreamAck::Accepted, _) if held.saturating_add(data.len()) > HELD_MAX => {
-            return Ok(Some("overfull"));
-        }
-        (StreamAck::Later, Ack::Busy) => scene.number("STM-6", Ack::Busy, &sent),
-        (StreamAck::Refused, Ack::Rejected) => scene.number("STM-2", Ack::Rejected, &sent),
-        _ => return differs(format!("{stated:?} in {}", step.id), sent),
+        (StreamAck::Accepted, Ack::Busy) => return Ok(Some("overfull")),
+        (StreamAck::Accepted, Ack::Accepted)
+        | (StreamAck::Later, Ack::Busy)
+        | (StreamAck::Refused, Ack::Rejected) => {}
+        _ => return differs(format!("{stated:?} in {}", step.id), format!("{ack:?}")),
     }
     if let Some(sender) = sender.as_mut().filter(|_| own) {
         sender.acknowledge(ack).map_err(harness)?;
@@ -140,20 +97,17 @@ fn write(
 }
 
 /// Lets the decoder run for no time at all, in which it reads and runs what is there.
-fn take(scene: &Scene<'_, '_>, step: &StreamStep) -> Done<Option<&'static str>> {
-    let state = scene.with(|program| program.state())?;
-    if !matches!(state, State::Running | State::Dry) {
+pub fn take(program: &mut Program, step: &StreamStep, now: Duration) -> Done<Option<&'static str>> {
+    if !matches!(program.state(), State::Running | State::Dry) {
         return Ok(Some("not-started"));
     }
     let stated = step.bytes.as_ref().ok_or_else(|| lacks("bytes"))?.bytes();
-    let (executed, state) = scene.with(|program| {
-        program.forget_executed();
-        program.set_pace(Pace::Fast, Duration::ZERO);
-        program.set_pace(Pace::Hold, Duration::ZERO);
-        (program.executed().kept().to_vec(), program.state())
-    })?;
-    let Some(behind) = stated.strip_prefix(&executed[..]) else { return Ok(Some("outcome")) };
-    match state {
+    program.forget_executed();
+    program.set_pace(Pace::Fast, now);
+    program.set_pace(Pace::Hold, now);
+    let executed = program.executed().kept();
+    let Some(behind) = stated.strip_prefix(executed) else { return Ok(Some("outcome")) };
+    match program.state() {
         State::Aborted(Message { number, line, column, text, .. }) => {
             let found = Some(StreamError { number, line, column });
             if step.error != found {

@@ -6,6 +6,7 @@ use ads_cnc::CncStr;
 use ads_cnc::service::ServiceVariable::{Request, RequestState, Uuid};
 use ads_cnc::service::*;
 use ads_cnc_conformance::simulator::program::service::*;
+pub(crate) use ads_cnc_conformance::suite::replay::square_root;
 
 pub(crate) const ROOT: &str = "560AACBF-6335-44a9-895A-8B27F3ED5E47";
 pub(crate) const COMMAND: &str = "19719079-BA06-4740-BC02-DE5215211751";
@@ -20,15 +21,6 @@ pub(crate) fn text(text: &str) -> CncStr<'_> {
 
 pub(crate) fn millis(millis: u64) -> Duration {
     Duration::from_millis(millis)
-}
-
-/// The example's service, which the manuals have in C.
-pub(crate) fn square_root(request: &str) -> (String, u32) {
-    let x: f64 = request.parse().unwrap_or(0.0);
-    if x >= 0.0 {
-        return (format!("{:.6}", x.sqrt()), 1);
-    }
-    (format!("ERROR: cannot calc square root of negative number {x:.6}"), 99)
 }
 
 /// The interface of a channel, with a record of what was written to it.

@@ -82,7 +82,6 @@ pub enum CallStep<'a> {
     Done {
         /// The response state.
         state: u32,
-        /// The response.
         response: CncStr<'a>,
     },
     /// There was no response within the longest wait. The request stands until the next one.

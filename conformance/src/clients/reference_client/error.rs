@@ -1,0 +1,22 @@
+//! How an action of this project's client fails.
+
+use ads_cnc::ads::AdsError;
+
+/// Why there is no result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Fail {
+    /// The CNC refuses.
+    Refused(AdsError),
+    /// Something is wrong, here or there.
+    Said(String),
+    /// It dies here.
+    Dies,
+    /// It waits for ever.
+    Hangs,
+}
+
+impl<T: std::fmt::Display> From<T> for Fail {
+    fn from(why: T) -> Self {
+        Self::Said(why.to_string())
+    }
+}

@@ -1,0 +1,139 @@
+//! A program that is spoken with in lines, and what it does when it is told something.
+
+use std::process::ExitStatus;
+use std::time::Duration;
+
+use super::{LineProcess, RecvError, Stderr, interrupt, shell};
+use crate::deadline::Deadline;
+
+/// How long a program has for ending when all is said.
+pub const GRACE: Duration = Duration::from_secs(2);
+
+/// What a program does when it is told something.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reaction<A> {
+    Answer(A),
+    /// It says something that is no answer.
+    Garbled(String),
+    /// It ends, or closes its stdout.
+    Died(String),
+    /// It says nothing for so long.
+    Silent(Duration),
+    /// It could not be told.
+    Broken(String),
+}
+
+/// A program that is started by a command line.
+#[derive(Debug)]
+pub struct Subprocess {
+    line: String,
+    /// The time for each answer.
+    pub timeout: Duration,
+    stderr: Stderr,
+    deadline: Option<Deadline>,
+    /// While it runs.
+    pub(crate) running: Option<LineProcess>,
+}
+
+impl Subprocess {
+    pub fn new(line: impl Into<String>, timeout: Duration) -> Self {
+        let (line, stderr) = (line.into(), Stderr::default());
+        Self { line, timeout, stderr, deadline: None, running: None }
+    }
+
+    /// With a moment after which it is told nothing more.
+    #[must_use]
+    pub fn with_deadline(self, deadline: Deadline) -> Self {
+        Self { deadline: Some(deadline), ..self }
+    }
+
+    /// Why it is not to be told any more.
+    pub fn over(&self) -> Option<String> {
+        self.deadline.filter(Deadline::is_over).map(|deadline| deadline.to_string())
+    }
+
+    /// The last of what it wrote to stderr.
+    pub fn stderr(&self) -> String {
+        self.stderr.text()
+    }
+
+    /// Starts it anew, with these variables.
+    ///
+    /// # Errors
+    /// [`Reaction::Broken`]: why it cannot be started.
+    pub fn start<A>(
+        &mut self,
+        variables: impl IntoIterator<Item = (&'static str, String)>,
+    ) -> Result<(), Reaction<A>> {
+        self.running = None;
+        if interrupt::came() {
+            return Err(Reaction::Broken("interrupted".to_owned()));
+        }
+        let mut command = shell(&self.line);
+        command.envs(variables);
+        let started = LineProcess::start(command, &self.stderr);
+        let broken = |error| Reaction::Broken(format!("it cannot be started: {error}"));
+        self.running = Some(started.map_err(broken)?);
+        Ok(())
+    }
+
+    /// Says a line, if it runs.
+    pub fn send(&self, line: Vec<u8>) {
+        if let Some(running) = &self.running {
+            running.send(line);
+        }
+    }
+
+    /// The line it answers with. Unless that is only no text, it is ended if there is none.
+    ///
+    /// # Errors
+    /// What it does instead.
+    pub fn recv<A>(&mut self, timeout: Duration) -> Result<String, Reaction<A>> {
+        let limit = self.limit(timeout);
+        let Some(running) = self.running.take() else {
+            return Err(Reaction::Broken("it is not running".to_owned()));
+        };
+        match running.recv(limit) {
+            Ok(line) => {
+                self.running = Some(running);
+                Ok(line)
+            }
+            Err(RecvError::NoText(why)) => {
+                self.running = Some(running);
+                Err(Reaction::Garbled(why))
+            }
+            Err(RecvError::Garbled(why)) => Err(Reaction::Garbled(why)),
+            Err(RecvError::Silence) => Err(Reaction::Silent(timeout)),
+            Err(RecvError::Interrupted) => Err(Reaction::Broken("interrupted".to_owned())),
+            Err(RecvError::Closed) => Err(Reaction::Died(match running.ended(GRACE) {
+                Some(status) => format!("it ended, {status}"),
+                None => "it closed its stdout".to_owned(),
+            })),
+        }
+    }
+
+    /// Closes its stdin and waits for its end: how it ended, if it did, and the first it said
+    /// until then.
+    pub fn finish(&mut self, limit: Duration) -> (Option<ExitStatus>, Option<String>) {
+        self.running.take().map_or((None, None), |running| running.finish(limit))
+    }
+
+    /// Tells one that runs to end; the first it said until then.
+    pub fn bye(&mut self, line: Vec<u8>) -> (Result<(), String>, Option<String>) {
+        if self.running.is_none() {
+            return (Ok(()), None);
+        }
+        self.send(line);
+        let (status, unasked) = self.finish(self.limit(GRACE.max(self.timeout)));
+        let end = match status {
+            Some(status) if status.success() => Ok(()),
+            Some(status) => Err(format!("it ended with {status} after bye")),
+            None => Err("it did not end after bye".to_owned()),
+        };
+        (end, unasked)
+    }
+
+    fn limit(&self, time: Duration) -> Duration {
+        self.deadline.map_or(time, |deadline| deadline.limit(time))
+    }
+}

@@ -1,0 +1,198 @@
+//! The actor of the suite: the CNC of this process, over the wire.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use ads_cnc::VariableType;
+use ads_cnc::address::Channel;
+use ads_cnc::operation::{ReadByName, WriteByName};
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::streaming::Ack;
+use ads_cnc_vectors::{Requirement, ServiceSequence, StreamAck, StreamStep, Streaming};
+
+use super::service::{ServiceActor, fault_class, script};
+use super::streaming::StreamActor;
+use super::{Done, Fault, differs, service, streaming};
+use crate::judge::{Step, Stop, assumed};
+use crate::simulator::program::service::{CallError, ServiceInterface};
+use crate::simulator::program::{Pace, Program, ProgramConfig, Request, Script, Start};
+use crate::simulator::{Cnc, ControlError};
+use crate::suite::probe::{Probe, harness};
+use crate::suite::stream::{HELD_MAX, Sent, heard, send, send_until_taken};
+
+/// What the simulated CNC refuses to have done to it is a mistake of the suite.
+fn within<T>(done: Result<T, ControlError>) -> Done<T> {
+    done.map_err(|error| harness(error).into())
+}
+
+/// Plays a sequence of the Service Interface, and leaves the interfaces as at the start.
+pub(super) fn service<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {
+    let (cnc, channels) = (probe.cnc()?, crate::suite::service_interface::channels(probe)?);
+    let mut actor = Services { probe, cnc, channels };
+    for step in &given.steps {
+        actor.channel(step.channel.unwrap_or(1))?;
+    }
+    actor.reset()?;
+    let done = service::play(&mut actor, given);
+    actor.reset()?;
+    done
+}
+
+struct Services<'s, 'p> {
+    probe: &'s mut Probe<'p>,
+    cnc: Arc<Cnc>,
+    channels: Vec<Channel>,
+}
+
+impl Services<'_, '_> {
+    fn reset(&self) -> Done<()> {
+        let mut all = self.channels.iter();
+        let reset = |one: &Channel| self.cnc.with_service(one.number(), |service| service.reset());
+        within(all.try_for_each(reset))
+    }
+
+    /// The channel of a step: the first is the first that has the interface, whatever its number.
+    fn channel(&self, place: u32) -> Step<Channel> {
+        let before = usize::try_from(place).ok().and_then(|place| place.checked_sub(1));
+        let channel = before.and_then(|before| self.channels.get(before)).copied();
+        let why = || format!("there are not {place} channels with a Service Interface");
+        channel.ok_or_else(|| Stop::NotApplicable(why()))
+    }
+}
+
+impl ServiceActor for Services<'_, '_> {
+    type Program = Script;
+
+    fn ask(&self, request: Request) -> Result<Script, CallError> {
+        Ok(self.cnc.as_run(script(request)?))
+    }
+
+    fn read(&mut self, channel: u32, variable: ServiceVariable) -> Done<Vec<u8>> {
+        let channel = self.channel(channel)?;
+        let request = ReadByName::new(channel, variable.name()).map_err(harness)?;
+        let exchange = heard(self.probe.send(request)?)?;
+        let value = exchange.answer().and_then(|answer| answer.success());
+        let mut value = value.unwrap_or_default().to_vec();
+        if variable.var_type() == VariableType::STRING {
+            let filled = value.iter().rposition(|&byte| byte != 0);
+            value.truncate(filled.map_or(1, |last| last + 2));
+        }
+        Ok(value)
+    }
+
+    fn write(
+        &mut self,
+        channel: u32,
+        variable: ServiceVariable,
+        value: &[u8],
+    ) -> Done<Option<&'static str>> {
+        let channel = self.channel(channel)?;
+        let request = WriteByName::new(channel, variable.name(), value).map_err(harness)?;
+        let exchange = heard(self.probe.send(request)?)?;
+        let taken = exchange.answer().is_some_and(|answer| answer.success().is_some());
+        // Which of the faults it is, an error number does not tell: the bytes do.
+        let error = || ServiceInterface::new().write(variable, value).err();
+        let fault = || error().map_or("outcome", |error| fault_class(error.kind()));
+        Ok((!taken).then(fault))
+    }
+
+    fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> Done<()> {
+        within(self.cnc.with_service(self.channel(channel)?.number(), then))
+    }
+}
+
+/// Plays a sequence of streaming, and leaves the program as it was set up.
+pub(super) fn stream<'c>(
+    probe: &mut Probe<'_>,
+    given: &'c Streaming,
+    rules: &[&'static Requirement],
+) -> Done<Fault<'c>> {
+    let (cnc, channel) = (probe.cnc()?, probe.channel()?);
+    let mut actor = Stream { probe, cnc, channel, rules };
+    let config = actor.with(|program| program.config().clone())?;
+    if config.name.is_empty() {
+        let why = format!("streaming is off in channel {}", channel.number());
+        return Err(Stop::NotApplicable(why).into());
+    }
+    actor.set(ProgramConfig { start: Start::ByHand, pace: Pace::Hold, ..config.clone() })?;
+    let done = streaming::play(&mut actor, given);
+    actor.set(config)?;
+    done
+}
+
+struct Stream<'s, 'p> {
+    probe: &'s mut Probe<'p>,
+    cnc: Arc<Cnc>,
+    channel: Channel,
+    /// What the sequence is about.
+    rules: &'s [&'static Requirement],
+}
+
+impl Stream<'_, '_> {
+    fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Done<T> {
+        within(self.cnc.with_program(self.channel.number(), then))
+    }
+
+    fn set(&self, config: ProgramConfig) -> Done<()> {
+        within(self.cnc.set_program(self.channel.number(), config))
+    }
+
+    /// Judges what the error number of a refusal says.
+    fn number(&mut self, rule: &'static str, ack: Ack, sent: &Sent) {
+        if self.rules.iter().any(|one| one.id == rule) {
+            let expected = format!("{ack:?} by its number");
+            self.probe.check(assumed(rule), sent.assumed() == ack, expected, sent);
+        }
+    }
+}
+
+/// Time does not pass: the program is on hold.
+impl StreamActor for Stream<'_, '_> {
+    fn start(&mut self, _: Duration) -> Done<()> {
+        match self.with(|one| one.start(Duration::ZERO))? {
+            Ok(()) => Ok(()),
+            Err(error) => differs("the program starts", error),
+        }
+    }
+
+    fn reset(&mut self, _: Duration) -> Done<()> {
+        self.with(|program| program.reset(Duration::ZERO))
+    }
+
+    fn held(&mut self) -> Done<usize> {
+        self.with(|program| program.held())
+    }
+
+    /// Whether it is taken, everybody sees. Whether a refusal is one for now or for good only what
+    /// was stated says: that its number tells is assumed.
+    fn write(
+        &mut self,
+        data: &[u8],
+        stated: StreamAck,
+        step: &StreamStep,
+        _: Duration,
+    ) -> Done<Ack> {
+        let held = self.held()?;
+        let sent = match stated {
+            StreamAck::Accepted => send_until_taken(self.probe, self.channel, data)?,
+            StreamAck::Later | StreamAck::Refused => send(self.probe, self.channel, data)?,
+        };
+        match (stated, sent.is_taken()) {
+            (StreamAck::Accepted, true) => Ok(Ack::Accepted),
+            (StreamAck::Accepted, false) if held + data.len() > HELD_MAX => Ok(Ack::Busy),
+            (StreamAck::Later, false) => {
+                self.number("STM-6", Ack::Busy, &sent);
+                Ok(Ack::Busy)
+            }
+            (StreamAck::Refused, false) => {
+                self.number("STM-2", Ack::Rejected, &sent);
+                Ok(Ack::Rejected)
+            }
+            _ => differs(format!("{stated:?} in {}", step.id), sent),
+        }
+    }
+
+    fn take(&mut self, step: &StreamStep, _: Duration) -> Done<Option<&'static str>> {
+        self.with(|program| streaming::take(program, step, Duration::ZERO))?
+    }
+}
