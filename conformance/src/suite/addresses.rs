@@ -7,7 +7,7 @@ use ads_cnc::address::{
 
 use super::inventory::{Instance, Object};
 use super::place::Place;
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use crate::judge::{Rule, Step, Stop, assumed};
 use crate::simulator::{Held, Holder};
 
@@ -27,7 +27,7 @@ fn rules(ids: &[&'static str]) -> Vec<Rule> {
 }
 
 fn object(held: &Held, group: IndexGroup, offset: IndexOffset) -> Step<Place> {
-    let size = u32::try_from(held.value.len()).map_err(harness)?;
+    let size = u32::try_from(held.value.len())?;
     Ok(Place::Object { group, offset, size })
 }
 
@@ -40,7 +40,7 @@ fn element(
     (addressing, class, instance): (Addressing, Class, u8),
     offset: IndexOffset,
 ) -> Step<Place> {
-    let length = u32::try_from(held.value.len()).map_err(harness)?;
+    let length = u32::try_from(held.value.len())?;
     let group = ClassGroup { addressing, class, attribute: Attribute::Content, instance };
     Ok(Place::Element { element: ElementAddress::new(group, offset), length })
 }
@@ -65,8 +65,8 @@ impl Addresses {
     /// Each address of a content that a manual prints or the target says.
     pub(super) fn of(&self, held: &Held) -> Step<Vec<At>> {
         use Addressing::{Index, Logical};
-        let at = |stride, axis: u8| {
-            IndexOffset::for_axis(stride, axis.into(), held.element).map_err(harness)
+        let at = |stride, axis: u8| -> Step<IndexOffset> {
+            Ok(IndexOffset::for_axis(stride, axis.into(), held.element)?)
         };
         let own = at(AxisStride::X10000, 0)?;
         match held.holder {

@@ -12,7 +12,7 @@ use super::addresses::Addresses;
 use super::probe::Probe;
 use super::steady::Steady;
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop};
+use crate::judge::{Needs, Rule, Step, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -57,7 +57,7 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
                 let Some(other) = attribute.as_ref().map(text) else { continue };
                 // Types may have other names than the manual's, but names are no types.
                 let swapped = is_type(&other) && !is_type(&of_type);
-                let found = format!("{other:?} at {group}, {of_type:?} at 0x200 for {at}");
+                let found = || format!("{other:?} at {group}, {of_type:?} at 0x200 for {at}");
                 probe.check("ADR-6", !swapped, "the type at 0x200", found);
             }
             let length: Option<ElementLength> = read(probe, ReadElementLength::new(element))?;
@@ -66,7 +66,8 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
             // That it is read at all is judged elsewhere.
             let Some(content) = probe.try_ask(content)? else { continue };
             let same = u32::try_from(content.len()) == Ok(length);
-            let found = format!("{length} at 0x300, a content of {} bytes for {at}", content.len());
+            let found =
+                || format!("{length} at 0x300, a content of {} bytes for {at}", content.len());
             probe.check("ADR-6", same, "the length of the content at 0x300", found);
         }
     }
@@ -129,8 +130,8 @@ fn within(probe: &mut Probe<'_>) -> Step {
                     .any(|one| one.holder == held.holder && one.name.to_string() == text_read);
             let taken = others.any(|other| *other == text_read) || of_others;
             let kept = text_read == *text_of || text_read.is_empty() || !taken;
-            let found = format!("{text_read:?} for {at}");
-            probe.check("ADR-6", kept, format!("the {what} {text_of:?}"), found);
+            let found = || format!("{text_read:?} for {at}");
+            probe.check("ADR-6", kept, || format!("the {what} {text_of:?}"), found);
         }
         let length: Option<ElementLength> = read(probe, ReadElementLength::new(element))?;
         let length = length.map(ElementLength::get).and_then(|length| usize::try_from(length).ok());
@@ -138,8 +139,5 @@ fn within(probe: &mut Probe<'_>) -> Step {
             (format!("a length of {}", held.value.len()), format!("{length:?} for {at}"));
         probe.check("ADR-6", length == Some(held.value.len()), expected, found);
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("the CNC has no element".to_owned())),
-    }
+    applicable(any, "the CNC has no element")
 }

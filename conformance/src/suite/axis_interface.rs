@@ -6,7 +6,7 @@ use ads_cnc::operation::AxisHandleByName;
 use ads_cnc::{CncString, Decode as _, Description, Handle, VariablePath};
 
 use super::place::Place;
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use crate::judge::Step;
 
 /// The most places of a channel that are looked at.
@@ -29,7 +29,7 @@ pub(super) fn answering(
     let mut all = Vec::new();
     let mut gap = 0_u32;
     for place in 1..=PLACES_MAX {
-        let axis = ChannelAxis::new(place).map_err(harness)?;
+        let axis = ChannelAxis::new(place)?;
         let name = name.as_cnc_str().into();
         let handle = probe.try_ask(AxisHandleByName { channel, axis, name })?;
         match handle.and_then(|data| Handle::decode(&data).ok()) {

@@ -13,10 +13,10 @@ use ads_cnc_vectors::Hex;
 
 use super::describe_by_name::kinds;
 use super::inventory::Instance;
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use super::variable::name_of;
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop};
+use crate::judge::{IfThere as _, Needs, Step, Stop};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -136,23 +136,19 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         let swapped = !one.has(probe, number)? && one.has(probe, from_behind)?;
-        let found = format!("{number:#x}, where the last is number {from_behind:#x}");
-        probe.check("GEN-1", !swapped, format!("the number of {one}"), found);
+        let found = || format!("{number:#x}, where the last is number {from_behind:#x}");
+        probe.check("GEN-1", !swapped, || format!("the number of {one}"), found);
     }
     for channel in probe.channels()? {
-        let variables = match probe.variables(channel) {
-            Ok(variables) => variables,
-            Err(Stop::NotApplicable(_) | Stop::Inconclusive(_)) => continue,
-            Err(stop) => return Err(stop),
-        };
+        let Some(variables) = probe.variables(channel).if_known()? else { continue };
         for variable in variables {
             let name = name_of(&variable);
             let Some(data) = probe.try_ask(HandleByName { channel, name })? else { continue };
             let Ok(handle) = Handle::decode(&data) else { continue };
             let known = variable.handle.0;
             let swapped = handle.0 != known && handle.0.swap_bytes() == known;
-            let expected = format!("{:?} of {}", variable.handle, variable.name.text);
-            probe.check("GEN-1", !swapped, expected, format!("{handle:?}"));
+            let expected = || format!("{:?} of {}", variable.handle, variable.name.text);
+            probe.check("GEN-1", !swapped, expected, || format!("{handle:?}"));
         }
     }
     Ok(())
@@ -161,7 +157,7 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
 /// A number that makes no sense, but does from behind.
 fn in_order(probe: &mut Probe<'_>, what: &str, number: u32, makes_sense: impl Fn(u32) -> bool) {
     let swapped = !makes_sense(number) && makes_sense(number.swap_bytes());
-    let found = format!("{number:#x} for {what}");
+    let found = || format!("{number:#x} for {what}");
     probe.check("GEN-1", !swapped, "the lowest byte first", found);
 }
 
@@ -229,8 +225,8 @@ fn order(probe: &mut Probe<'_>, what: &str, size: usize, held: &[u8], read: Opti
     let mut pairs = held.chunks(size).zip(read.chunks(size));
     let permuted = pairs.any(|(one, other)| is_permuted(one, other));
     if held == read || permuted {
-        let expected = format!("{} of {what}", Hex(held.to_vec()));
-        probe.check("GEN-1", !permuted, expected, Hex(read));
+        let expected = || format!("{} of {what}", Hex(held.to_vec()));
+        probe.check("GEN-1", !permuted, expected, || Hex(read));
     }
 }
 
@@ -258,7 +254,7 @@ fn value_order(probe: &mut Probe<'_>) -> Step {
         let held = parameter.value.to_le_bytes();
         let read = probe.try_ask(DynamicValueByName { channel, kind, name })?;
         order(probe, &what, held.len(), &held, read);
-        let by_index = DynamicValueByIndex::new(channel, kind, *index).map_err(harness)?;
+        let by_index = DynamicValueByIndex::new(channel, kind, *index)?;
         let read = probe.try_ask(by_index)?;
         order(probe, &what, held.len(), &held, read);
     }

@@ -32,7 +32,7 @@ fn as_configured(probe: &mut Probe<'_>) -> Step {
             probe.check("VAR-2", same, number, found.len());
             for one in &configured {
                 let found = found.get(&one.name.to_string());
-                let expected = format!("a description of {}", one.name);
+                let expected = || format!("a description of {}", one.name);
                 probe.check("VAR-3", found.is_some(), expected, "none");
                 let Some((described, extended)) = found else { continue };
                 holds(probe, one, described);
@@ -47,8 +47,8 @@ fn as_configured(probe: &mut Probe<'_>) -> Step {
                 if one.access == VariableAccess::READ_ONLY {
                     let name = one.name.as_cnc_str().into();
                     let value = probe.try_ask(ReadByName { channel, name })?.unwrap_or_default();
-                    let expected = format!("{} of {}", Hex(one.value.clone()), one.name);
-                    probe.check("VAR-14", value == one.value, expected, Hex(value));
+                    let expected = || format!("{} of {}", Hex(one.value.clone()), one.name);
+                    probe.check("VAR-14", value == one.value, expected, || Hex(value));
                 }
             }
         }
@@ -75,17 +75,17 @@ fn listed(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<Descr
 
 fn holds(probe: &mut Probe<'_>, one: &Configured, found: &Description) {
     let name = &one.name;
-    let expected = format!("{:?} of {name}", one.var_type);
+    let expected = || format!("{:?} of {name}", one.var_type);
     let same = found.var_type == one.var_type;
-    probe.check("VAR-5", same, expected, format!("{:?}", found.var_type));
-    let expected = format!("{:?} of {name}", one.access);
+    probe.check("VAR-5", same, expected, || format!("{:?}", found.var_type));
+    let expected = || format!("{:?} of {name}", one.access);
     let same = found.access == one.access;
-    probe.check("VAR-6", same, expected, format!("{:?}", found.access));
-    let expected = format!("{} bytes of {name}", one.size);
+    probe.check("VAR-6", same, expected, || format!("{:?}", found.access));
+    let expected = || format!("{} bytes of {name}", one.size);
     let same = usize::try_from(found.size) == Ok(one.size);
     probe.check("VAR-8", same, expected, found.size);
-    let expected = format!("{:?} of {name}", one.dimensions);
+    let expected = || format!("{:?} of {name}", one.dimensions);
     let rule = if one.dimensions.is_empty() { "VAR-7" } else { "VAR-4" };
     let same = found.dimensions == one.dimensions;
-    probe.check(rule, same, expected, format!("{:?}", found.dimensions));
+    probe.check(rule, same, expected, || format!("{:?}", found.dimensions));
 }

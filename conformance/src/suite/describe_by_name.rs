@@ -8,11 +8,11 @@ use ads_cnc::{
 };
 
 use super::inventory::{KINDS, VARIABLES_MAX};
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use super::variable::name_of;
 use super::{Row, case};
 use crate::edition::Feature;
-use crate::judge::{Needs, Rule, Step, Stop, assumed, online};
+use crate::judge::{Needs, OrStop as _, Rule, Step, Stop, assumed, online};
 use crate::profile::Claim;
 
 #[rustfmt::skip]
@@ -59,15 +59,15 @@ fn extended(probe: &mut Probe<'_>) -> Step {
 }
 
 fn of_external(probe: &mut Probe<'_>, reply: &ExtendedReply, at: &str) {
-    let found = format!("nothing for {at}");
+    let found = || format!("nothing for {at}");
     probe.check("VAR-15", reply.0.is_some(), "an extended description", found);
     let Some(extended) = reply.0 else { return };
     let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
-    let found = format!("{} for {at}", extended.synchronisation.0);
+    let found = || format!("{} for {at}", extended.synchronisation.0);
     let kept = known.contains(&extended.synchronisation);
     probe.check("VAR-15", kept, "a synchronisation of 1 or 2", found);
     let known = [Validity::CHANNEL, Validity::GLOBAL];
-    let found = format!("{} for {at}", extended.validity.0);
+    let found = || format!("{} for {at}", extended.validity.0);
     probe.check("VAR-15", known.contains(&extended.validity), "a validity of 1 or 2", found);
 }
 
@@ -76,10 +76,10 @@ fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> 
     let exchange = probe.send(request)?;
     let data = exchange.answer().and_then(|answer| answer.data.clone());
     let empty = data.is_none_or(|data| data.is_empty());
-    let expected = format!("no data for {at}");
-    probe.check("VAR-16", empty && exchange.answer().is_some(), &expected, exchange.result());
-    let success = exchange.answer().is_some_and(|answer| answer.success().is_some());
-    probe.check(assumed("VAR-16"), success, "the result 0", exchange.result());
+    let expected = || format!("no data for {at}");
+    probe.check("VAR-16", empty && exchange.answer().is_some(), &expected, &exchange);
+    let success = exchange.success().is_some();
+    probe.check(assumed("VAR-16"), success, "the result 0", &exchange);
     Ok(())
 }
 
@@ -97,8 +97,8 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
                 }
                 // No more than nothing can be given of it.
                 let given = probe.try_ask(describe(beyond))?.unwrap_or_default();
-                let found = format!("{} bytes", given.len());
-                probe.check("VAR-3", given.is_empty(), format!("nothing for {what}"), found);
+                let found = || format!("{} bytes", given.len());
+                probe.check("VAR-3", given.is_empty(), || format!("nothing for {what}"), found);
             }
         }
     }
@@ -133,11 +133,11 @@ fn described_by_name(probe: &mut Probe<'_>) -> Step {
             let kept = (described.var_type, described.access, described.size)
                 == (variable.var_type, variable.access, variable.size)
                 && described.dimensions == variable.dimensions;
-            let expected = format!("the description of {name} by its index");
-            probe.check("VAR-28", kept, expected, format!("{described:?}"));
+            let expected = || format!("the description of {name} by its index");
+            probe.check("VAR-28", kept, expected, || format!("{described:?}"));
             let same = described.handle == variable.handle;
-            let expected = format!("{:?} of {name}", variable.handle);
-            probe.check(online("VAR-28"), same, expected, format!("{:?}", described.handle));
+            let expected = || format!("{:?} of {name}", variable.handle);
+            probe.check(online("VAR-28"), same, expected, || format!("{:?}", described.handle));
         }
     }
     Ok(())
@@ -146,11 +146,11 @@ fn described_by_name(probe: &mut Probe<'_>) -> Step {
 fn unknown_described(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
-    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let known = variables.first().or_inconclusive("no variable")?;
     is_there(probe, channel, known)?;
     for name in ["V.E.no such variable", "V.E.", ""] {
         let rule = Rule::from("VAR-28");
-        let unknown = TextRef::new(name).map_err(harness)?;
+        let unknown = TextRef::new(name)?;
         let good = DescribeByName { channel, name: name_of(known) };
         let bad = DescribeByName { name: unknown, ..good };
         probe.refuses(rule, &format!("the name {name:?}"), bad, good)?;

@@ -13,7 +13,7 @@ use ads_cnc::{CncString, Decode, DescriptorsRef, ObjectCount};
 
 pub(super) use variables::{KINDS, VARIABLES_MAX};
 
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use crate::explain::class_name;
 use crate::judge::{Step, Stop};
 use crate::profile::Claim;
@@ -96,7 +96,7 @@ impl Probe<'_> {
         let axes = (1..=self.session.profile.platform_axes).map(PlatformAxis::new);
         let axes: Result<Vec<_>, _> = axes.map(|axis| axis.map(ObjectList::from)).collect();
         let platform = std::iter::once(ObjectList::PLATFORM);
-        Ok(platform.chain(channels).chain(axes.map_err(harness)?).collect())
+        Ok(platform.chain(channels).chain(axes?).collect())
     }
 
     /// Every object of all lists. What cannot be read is judged elsewhere, and left out here.
@@ -108,7 +108,7 @@ impl Probe<'_> {
                 let count = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
                 let mut gaps = 0_u32;
                 for first in 1..=count {
-                    let one = ReadDescriptors::new(list, first, 1).map_err(harness)?;
+                    let one = ReadDescriptors::new(list, first, 1)?;
                     let data = self.try_ask(one)?.filter(|data| data.len() == DESCRIPTOR_LEN);
                     let data = data.unwrap_or_default();
                     let object = DescriptorsRef::decode(&data).ok();
@@ -134,7 +134,7 @@ impl Probe<'_> {
             self.session.inventory.objects = Some(all);
         }
         match self.session.inventory.objects.as_deref() {
-            Some([]) | None => Err(Stop::NotApplicable("the target has no object".to_owned())),
+            Some([]) | None => Err(Stop::not_applicable("the target has no object")),
             Some(all) => Ok(all.to_vec()),
         }
     }
@@ -149,8 +149,7 @@ impl Probe<'_> {
     /// elsewhere.
     pub(super) fn instances(&mut self) -> Step<Vec<Instance>> {
         if self.claims(Function::FindInstance) == Claim::No {
-            let why = "the profile does not claim object addresses".to_owned();
-            return Err(Stop::NotApplicable(why));
+            return Err(Stop::not_applicable("the profile does not claim object addresses"));
         }
         if self.session.inventory.instances.is_none() {
             let mut all = Vec::new();
@@ -172,7 +171,7 @@ impl Probe<'_> {
             self.session.inventory.instances = Some(all);
         }
         match self.session.inventory.instances.as_deref() {
-            Some([]) | None => Err(Stop::NotApplicable("the target names no instance".to_owned())),
+            Some([]) | None => Err(Stop::not_applicable("the target names no instance")),
             Some(all) => Ok(all.to_vec()),
         }
     }
@@ -255,6 +254,6 @@ impl Probe<'_> {
 
     /// The channel with this number.
     pub(super) fn channel_of(&self, number: u32) -> Step<Channel> {
-        Channel::new(number).map_err(harness)
+        Ok(Channel::new(number)?)
     }
 }

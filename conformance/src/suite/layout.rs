@@ -4,7 +4,6 @@ use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::{CncString, Description, VariableType};
 use ads_cnc_vectors::Level;
 
-use super::probe::harness;
 use crate::judge::{Rule, Step, assumed};
 
 /// How many elements an array has; of what is none, one.
@@ -81,6 +80,6 @@ pub(super) fn brackets(variable: &Description) -> Rule {
 pub(super) fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>> {
     let mut name = variable.name.text.to_string();
     place.iter().for_each(|index| name.push_str(&format!("[{index}]")));
-    let name: CncString = name.parse().map_err(harness)?;
+    let name: CncString = name.parse()?;
     Ok(Some(name).filter(|name| name.as_bytes().len() < TEXT_MAX))
 }

@@ -29,6 +29,7 @@ mod place;
 mod platform;
 mod printed;
 mod probe;
+mod raw_call;
 mod replay;
 mod run;
 mod sda;

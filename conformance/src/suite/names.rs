@@ -7,12 +7,12 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{CncString, Decode as _, TextRef, VariablePath, VariableType};
 
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use super::steady::Steady;
 use super::variable::name_of;
 use super::{Row, case};
 use crate::edition::{Edition, Feature};
-use crate::judge::{Needs, Step, Stop, assumed};
+use crate::judge::{Needs, OrStop as _, Step, Stop, applicable, assumed};
 use crate::profile::Claim;
 use crate::values::until_nul;
 
@@ -51,19 +51,20 @@ fn paths(probe: &mut Probe<'_>) -> Step {
 fn known(probe: &mut Probe<'_>) -> Step<CncString> {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
-    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let known = variables.first().or_inconclusive("no variable")?;
     Ok(known.name.text.clone())
 }
 
 fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let names = probe.session.profile.by_name_only.clone();
     if names.is_empty() {
-        let why = "no variable is known that is by name only; a profile can name one".to_owned();
-        return Err(Stop::NotApplicable(why));
+        return Err(Stop::not_applicable(
+            "no variable is known that is by name only; a profile can name one",
+        ));
     }
     let (channel, known) = (probe.channel()?, known(probe)?);
     for name in names.iter() {
-        let name = TextRef::new(name).map_err(harness)?;
+        let name = TextRef::new(name)?;
         probe.ask("VAR-18", ReadByName { channel, name })?;
         let good = HandleByName { channel, name: known.as_cnc_str().into() };
         let what = format!("the handle of {}", name.text());
@@ -80,7 +81,7 @@ fn dynamic(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
         let Some(data) = probe.try_ask(CountDynamic::new(channel, kind))? else { continue };
         let count = DynamicCount::decode(&data).map_or(0, |count| count.0.min(64));
         for index in 1..=count {
-            let request = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+            let request = DynamicNameByIndex::new(channel, kind, index)?;
             let data = probe.try_ask(request)?.unwrap_or_default();
             let name = DynamicName::decode(&data).ok().map(|name| name.name.text);
             // One that leaves no room for its NUL cannot be asked for.
@@ -123,15 +124,7 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
         let name = TextRef::from(name.as_cnc_str());
         let by_name = ReadByName { channel, name };
         let one = DynamicValueByName { channel, kind: *kind, name };
-        let what = name.text().to_string();
-        steady.same_part(
-            probe,
-            &["VAR-19".into()],
-            &what,
-            one.into(),
-            by_name.into(),
-            <[u8]>::to_vec,
-        )?;
+        steady.same(probe, "VAR-19", name.text(), one, by_name)?;
         let good = HandleByName { channel, name: known.as_cnc_str().into() };
         let what = format!("the handle of {}", name.text());
         probe.refuses("VAR-18", &what, HandleByName { channel, name }, good)?;
@@ -149,18 +142,15 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             any = true;
             let value = probe.try_ask(ReadByName { channel, name: name_of(&variable) })?;
             let Some(value) = value else { continue };
-            let found = format!("{} bytes of {}", value.len(), variable.name.text);
+            let found = || format!("{} bytes of {}", value.len(), variable.name.text);
             let fits = u32::try_from(value.len()).is_ok_and(|len| len <= variable.size);
-            let expected = format!("at most the {} bytes it is described with", variable.size);
+            let expected = || format!("at most the {} bytes it is described with", variable.size);
             probe.check(assumed("VAR-22"), fits, expected, found);
             let text = until_nul(&value);
             let readable = text.iter().all(|&byte| byte >= b' ' || byte == b'\t');
-            let found = format!("{text:02x?} of {}", variable.name.text);
+            let found = || format!("{text:02x?} of {}", variable.name.text);
             probe.check(assumed("VAR-22"), readable, "characters up to the first NUL", found);
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no variable is a STRING".to_owned())),
-    }
+    applicable(any, "no variable is a STRING")
 }

@@ -7,9 +7,9 @@ use super::byte_order::Counted;
 use super::describe_by_name::kinds;
 use super::inventory::OBJECTS_MAX;
 use super::inventory::VARIABLES_MAX;
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop};
+use crate::judge::{Needs, Step, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -44,7 +44,7 @@ fn packed(probe: &mut Probe<'_>) -> Step {
     for list in probe.lists()? {
         let Ok(Some(number)) = Counted::Objects(list).number(probe) else { continue };
         for first in 1..=number.min(OBJECTS_MAX) {
-            let one = ReadDescriptors::new(list, first, 1).map_err(harness)?;
+            let one = ReadDescriptors::new(list, first, 1)?;
             let Some(bytes) = probe.try_ask(one)? else { break };
             any = true;
             descriptor_is_packed(probe, &bytes);
@@ -62,10 +62,7 @@ fn packed(probe: &mut Probe<'_>) -> Step {
             }
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing is described".to_owned())),
-    }
+    applicable(any, "nothing is described")
 }
 
 fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
@@ -81,7 +78,7 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
         }),
         false => None,
     };
-    let found = format!("{} bytes more in between", shift.unwrap_or_default());
+    let found = || format!("{} bytes more in between", shift.unwrap_or_default());
     probe.check("GEN-2", shift.is_none(), "name and type at bytes 20 and 52", found);
 }
 
@@ -98,8 +95,13 @@ fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
                 .is_ok_and(|one| of_kind(&one) && one.var_type.name().is_some())
         }),
     };
-    let found = format!("{} bytes more in between", shift.unwrap_or_default());
-    probe.check("GEN-2", shift.is_none(), format!("a name of {kind} behind the dimensions"), found);
+    let found = || format!("{} bytes more in between", shift.unwrap_or_default());
+    probe.check(
+        "GEN-2",
+        shift.is_none(),
+        || format!("a name of {kind} behind the dimensions"),
+        found,
+    );
 }
 
 /// How many bytes too many stand somewhere before `end`, so that the stream makes sense without

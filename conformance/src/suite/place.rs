@@ -9,6 +9,7 @@ use ads_cnc::{CncString, Error, Handle};
 use ads_cnc_vectors::Hex;
 
 use super::probe::Probe;
+use super::raw_call::RawCall;
 use crate::judge::{Rule, Step, Stop};
 use crate::values::until_nul;
 
@@ -61,8 +62,7 @@ impl Place {
 
 /// Whether a request has a form on the wire: a long value beside a long name has none.
 pub(super) fn is_sendable(request: &Request<'_>) -> bool {
-    let mut buf = vec![0; request.encoded_len()];
-    request.encode(&mut buf).is_ok()
+    RawCall::new(*request).is_ok()
 }
 
 /// The nearest other value: one bit of the first byte. A text gets another first character; one of
@@ -138,11 +138,9 @@ impl Probe<'_> {
         };
         self.session.changes.is_now(place, Some(value));
         let exchange = self.send(write)?;
-        let kept = exchange.answer().is_some_and(|answer| answer.success().is_some());
-        for &rule in trial.rules {
-            let expected = format!("{} takes {}", trial.what, Hex(value.to_vec()));
-            self.check(rule, kept, expected, exchange.result());
-        }
+        let kept = exchange.success().is_some();
+        let expected = || format!("{} takes {}", trial.what, Hex(value.to_vec()));
+        self.check(trial.rules, kept, expected, &exchange);
         Ok(kept)
     }
 
@@ -191,10 +189,8 @@ impl Probe<'_> {
         if !kept && self.moves(place, trial.is_text)? {
             return Ok(());
         }
-        for &rule in trial.rules {
-            let expected = format!("{} of {}, as written", Hex(other.to_vec()), trial.what);
-            self.check(rule, kept, expected, Hex(after.clone()));
-        }
+        let expected = || format!("{} of {}, as written", Hex(other.to_vec()), trial.what);
+        self.check(trial.rules, kept, expected, || Hex(after.clone()));
         then(self, before, other)
     }
 
@@ -207,10 +203,8 @@ impl Probe<'_> {
         if !kept && self.moves(place, trial.is_text)? {
             return Ok(taken);
         }
-        for &rule in trial.rules {
-            let expected = format!("{} of {} again", Hex(before.to_vec()), trial.what);
-            self.check(rule, kept, expected, Hex(after.clone()));
-        }
+        let expected = || format!("{} of {} again", Hex(before.to_vec()), trial.what);
+        self.check(trial.rules, kept, expected, || Hex(after.clone()));
         Ok(kept)
     }
 
@@ -225,11 +219,12 @@ impl Probe<'_> {
         if let Some(sibling) = sibling {
             let Some(taken) = self.value_at(sibling)? else { return Ok(()) };
             let Some(write) = sibling.write(&taken).ok().filter(is_sendable) else {
-                let why = "nothing to hold it against has a value that can be written".to_owned();
-                return Err(Stop::Inconclusive(why));
+                return Err(Stop::inconclusive(
+                    "nothing to hold it against has a value that can be written",
+                ));
             };
             let exchange = self.send(write)?;
-            if exchange.answer().is_none_or(|answer| answer.success().is_none()) {
+            if exchange.success().is_none() {
                 // Whether writable things take a value is judged by those cases.
                 let why = format!("nothing to hold it against is written: {}", exchange.result());
                 return Err(Stop::Inconclusive(why));
@@ -243,11 +238,9 @@ impl Probe<'_> {
             return Ok(());
         }
         let exchange = self.send(write)?;
-        let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
-        for &rule in trial.rules {
-            let expected = format!("an error number for a write of {}", trial.what);
-            self.check(rule, refused, expected, exchange.result());
-        }
+        let refused = exchange.is_error();
+        let expected = || format!("an error number for a write of {}", trial.what);
+        self.check(trial.rules, refused, expected, &exchange);
         Ok(())
     }
 }

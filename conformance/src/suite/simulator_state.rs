@@ -96,7 +96,7 @@ fn is_read(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let all = cnc.held();
     if all.is_empty() {
-        return Err(Stop::NotApplicable("the CNC holds nothing".to_owned()));
+        return Err(Stop::not_applicable("the CNC holds nothing"));
     }
     let addresses = Addresses::new(probe)?;
     let mut done = Ok(());
@@ -118,7 +118,7 @@ fn read(probe: &mut Probe<'_>, addresses: &Addresses, held: &Held, value: &[u8])
         // Of the program stream, and where functions are, nothing is read.
         let Ok(request) = place.read() else { continue };
         let exchange = probe.send(request)?;
-        let found = exchange.answer().and_then(|answer| answer.success());
+        let found = exchange.success();
         judge(probe, &rules, held, (value, found), &exchange.result());
     }
     Ok(())
@@ -151,7 +151,7 @@ fn write(probe: &mut Probe<'_>, all: &[Held], held: &Held, addresses: &[At], val
         }
         let exchange = probe.send(request)?;
         // That what may be written is taken is judged elsewhere.
-        if exchange.answer().is_none_or(|answer| answer.success().is_none()) {
+        if exchange.success().is_none() {
             continue;
         }
         let mut others = Vec::new();
@@ -162,11 +162,9 @@ fn write(probe: &mut Probe<'_>, all: &[Held], held: &Held, addresses: &[At], val
                 others.push(format!("{} ({:?})", now.name, now.holder));
             }
         }
-        let expected = format!("no change but that of {} ({:?})", held.name, held.holder);
+        let expected = || format!("no change but that of {} ({:?})", held.name, held.holder);
         let found = others.join(", ");
-        for &rule in &rules {
-            probe.check(rule, others.is_empty(), &expected, &found);
-        }
+        probe.check(&rules, others.is_empty(), &expected, &found);
         all.iter().for_each(|held| cnc.hold(held, &held.value));
     }
     Ok(())
@@ -192,8 +190,8 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         let mine = |object: &&Object| is_list_of(held.holder, object.list.parts());
         // What instances there are is judged elsewhere.
         if let Some(count) = addresses.count(held) {
-            let expected = format!("element {} of {:?}", held.element, held.holder);
-            let found = format!("{count} elements");
+            let expected = || format!("element {} of {:?}", held.element, held.holder);
+            let found = || format!("{count} elements");
             probe.check("OBJ-1", held.element <= count, expected, found);
         }
         // That platform axes have lists is assumed; what is not claimed has none.
@@ -210,18 +208,21 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         };
         let listed = objects.iter().filter(mine).find(at);
         let what = format!("{} ({:?})", held.name, held.holder);
-        for rule in ["COM-2", "OBJ-1"] {
-            probe.check(rule, listed.is_some(), format!("{what} in its list"), "it is not");
-        }
+        probe.check(
+            ["COM-2", "OBJ-1"],
+            listed.is_some(),
+            || format!("{what} in its list"),
+            "it is not",
+        );
         let Some(object) = listed else { continue };
         let sized = u32::try_from(held.value.len()) == Ok(object.size);
-        let expected = format!("{} bytes of {what}", held.value.len());
-        probe.check("COM-2", sized, expected, format!("{} bytes", object.size));
+        let expected = || format!("{} bytes of {what}", held.value.len());
+        probe.check("COM-2", sized, expected, || format!("{} bytes", object.size));
         // It may have another name there, but not another's, nor half of its own.
         let taken = all.iter().any(|one| one.name == object.name);
         let cut = held.name.as_bytes().starts_with(object.name.as_bytes());
         let named = object.name == held.name || !taken && !cut;
-        probe.check("COM-2", named, format!("the name of {what}"), &object.name);
+        probe.check("COM-2", named, || format!("the name of {what}"), || &object.name);
     }
     Ok(())
 }

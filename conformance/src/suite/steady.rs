@@ -1,15 +1,54 @@
-//! Two ways to the same value. A machine moves: only one that stands still meanwhile is judged.
+//! Comparing while the machine moves: only what stood still meanwhile is judged.
+
+use std::fmt::Display;
 
 use ads_cnc::operation::Request;
 use ads_cnc_vectors::Hex;
 
 use super::probe::Probe;
-use crate::judge::{Rule, Step, Stop};
+use crate::judge::{Describe, Evidence, Rule, Rules, Step, Stop};
 
 /// How often a value that does not stand still is read again.
-const TRIES: usize = 3;
+pub(super) const TRIES: usize = 3;
 
-/// What came of comparing.
+/// What came of comparing a value, read before and after, with what was read in between.
+pub(super) enum Compared<B, R> {
+    /// The value could not be read.
+    NoValue,
+    /// In between there was no answer.
+    NoAnswer,
+    Same,
+    /// It stood still the last time, and differed. The evidence is that of what was read in between.
+    Differs(B, R, Option<Evidence>),
+    /// It did not stand still the last time.
+    Moved,
+}
+
+/// Compares what `other` reads with what `value` reads before and after it, up to the first time that
+/// `same` finds them the same.
+pub(super) fn compare<B: PartialEq, R>(
+    probe: &mut Probe<'_>,
+    mut value: impl FnMut(&mut Probe<'_>) -> Step<Option<B>>,
+    mut other: impl FnMut(&mut Probe<'_>, &B) -> Step<Option<R>>,
+    same: impl Fn(&B, &R) -> bool,
+) -> Step<Compared<B, R>> {
+    let mut last = Compared::Moved;
+    for _ in 0..TRIES {
+        let Some(before) = value(probe)? else { return Ok(Compared::NoValue) };
+        let Some(read) = other(probe, &before)? else { return Ok(Compared::NoAnswer) };
+        if same(&before, &read) {
+            return Ok(Compared::Same);
+        }
+        let evidence = probe.evidence();
+        last = match value(probe)?.as_ref() == Some(&before) {
+            true => Compared::Differs(before, read, evidence),
+            false => Compared::Moved,
+        };
+    }
+    Ok(last)
+}
+
+/// Two ways to the same value, to be judged by many such pairs.
 #[derive(Debug, Default)]
 pub(super) struct Steady {
     judged: bool,
@@ -17,66 +56,52 @@ pub(super) struct Steady {
 }
 
 impl Steady {
-    /// Holds what `other` reads against what `one` reads before and after it.
-    pub(super) fn same(
+    /// Judges what `other` reads by what `one` reads before and after it.
+    pub(super) fn same<'a, 'b>(
         &mut self,
         probe: &mut Probe<'_>,
-        rules: &[Rule],
-        what: &str,
-        one: impl Into<Request<'static>>,
-        other: Request<'_>,
+        rules: impl Rules,
+        what: impl Display,
+        one: impl Into<Request<'a>>,
+        other: impl Into<Request<'b>>,
     ) -> Step {
-        let one = one.into();
-        self.same_part(probe, rules, what, one, other, |bytes| bytes.to_vec())
-    }
-
-    /// As [`same`](Self::same), where `other` reads a part.
-    pub(super) fn same_part(
-        &mut self,
-        probe: &mut Probe<'_>,
-        rules: &[Rule],
-        what: &str,
-        one: Request<'_>,
-        other: Request<'_>,
-        part: impl Fn(&[u8]) -> Vec<u8>,
-    ) -> Step {
-        let mut differs = None;
-        for _ in 0..TRIES {
-            // Whether that is answered at all is judged elsewhere.
-            let Some(before) = probe.try_ask(one)? else { return Ok(()) };
-            let Some(read) = probe.try_ask(other)? else {
-                self.judge(probe, rules, false, format!("an answer of {what}"), "an error");
-                return Ok(());
-            };
-            if part(&before) == read {
-                self.judge(probe, rules, true, String::new(), "");
-                return Ok(());
-            }
-            let stood = probe.try_ask(one)?.as_ref() == Some(&before);
-            differs = stood.then_some((before, read));
-        }
-        match differs {
-            // It stood still before and after, and read otherwise in between.
-            Some((before, read)) => {
-                let expected = format!("{} of {what}", Hex(part(&before)));
-                self.judge(probe, rules, false, expected, &Hex(read).to_string());
-            }
-            None => self.moved = Some(format!("{what} does not stand still")),
-        }
+        let (one, other) = (one.into(), other.into());
+        // Whether that is answered at all is judged elsewhere.
+        let compared = compare(
+            probe,
+            |probe| probe.try_ask(one),
+            |probe, _| probe.try_ask(other),
+            |before, read| before == read,
+        )?;
+        self.judge(probe, rules, &what, compared, |probe, rules, (before, read, _)| {
+            let expected = || format!("{} of {what}", Hex(before));
+            probe.check(rules, false, expected, || Hex(read));
+        });
         Ok(())
     }
 
-    fn judge(
+    /// Judges what came of a comparison; `differs` says what differs.
+    pub(super) fn judge<B, R>(
         &mut self,
         probe: &mut Probe<'_>,
-        rules: &[Rule],
-        kept: bool,
-        expected: String,
-        found: &str,
+        rules: impl Rules,
+        what: &impl Display,
+        compared: Compared<B, R>,
+        differs: impl FnOnce(&mut Probe<'_>, &[Rule], (B, R, Option<Evidence>)),
     ) {
-        self.judged = true;
-        for &rule in rules {
-            probe.check(rule, kept, &expected, found);
+        let rules: Vec<Rule> = rules.rules().collect();
+        self.judged |= !matches!(compared, Compared::NoValue | Compared::Moved);
+        match compared {
+            Compared::NoValue => {}
+            Compared::NoAnswer => {
+                let expected = || format!("an answer of {what}");
+                probe.check(&rules[..], false, expected, "an error");
+            }
+            Compared::Same => probe.pass(&rules[..]),
+            Compared::Differs(before, read, evidence) => {
+                differs(probe, &rules, (before, read, evidence));
+            }
+            Compared::Moved => self.moved = Some(format!("{what} does not stand still")),
         }
     }
 
@@ -87,4 +112,74 @@ impl Steady {
             _ => Ok(()),
         }
     }
+}
+
+/// How often something is tried while parameters come and go.
+const TRIES_OF_PARAMETERS: usize = 5;
+/// In how many of them it has to fail, and in none be right.
+const FAILURES: usize = 3;
+
+/// One check that is not recorded yet.
+pub(super) struct Checked {
+    rules: Vec<Rule>,
+    kept: bool,
+    expected: String,
+    found: String,
+    evidence: Option<Evidence>,
+}
+
+impl Checked {
+    /// With the last call as its evidence.
+    pub(super) fn new(
+        probe: &Probe<'_>,
+        rules: impl Rules,
+        kept: bool,
+        expected: impl Describe,
+        found: impl Describe,
+    ) -> Self {
+        let words = (!kept).then(|| (expected.describe(), found.describe()));
+        let (expected, found) = words.unwrap_or_default();
+        Self { rules: rules.rules().collect(), kept, expected, found, evidence: probe.evidence() }
+    }
+
+    fn record(self, probe: &mut Probe<'_>) {
+        let last = probe.evidence();
+        probe.show(self.evidence);
+        probe.check(&self.rules[..], self.kept, self.expected, self.found);
+        probe.show(last);
+    }
+}
+
+/// What these answer; None if one of them does not.
+fn answers(probe: &mut Probe<'_>, guards: &[Request<'_>]) -> Step<Option<Vec<Vec<u8>>>> {
+    guards.iter().map(|&guard| probe.try_ask(guard)).collect()
+}
+
+/// Judges what `act` finds, if the guards answer the same before and after it; it gets their
+/// answers. What fails is tried again: it has to fail every time. Where nothing stands still,
+/// nothing is judged.
+pub(super) fn steadily(
+    probe: &mut Probe<'_>,
+    guards: &[Request<'_>],
+    mut act: impl FnMut(&mut Probe<'_>, &[Vec<u8>]) -> Step<Vec<Checked>>,
+) -> Step {
+    let (mut failed, mut failures) = (Vec::new(), 0_usize);
+    for _ in 0..TRIES_OF_PARAMETERS {
+        let Some(before) = answers(probe, guards)? else { continue };
+        let checks = act(probe, &before)?;
+        if answers(probe, guards)?.as_ref() != Some(&before) {
+            continue;
+        }
+        if checks.iter().all(|check| check.kept) {
+            failed = checks;
+            failures = FAILURES;
+            break;
+        }
+        failed = checks;
+        failures = failures.saturating_add(1);
+    }
+    if failures >= FAILURES {
+        failed.into_iter().for_each(|check| check.record(probe));
+    }
+    Ok(())
 }

@@ -6,7 +6,7 @@ use ads_cnc_vectors::Hex;
 use super::place::{Place, Trial, same};
 use super::probe::Probe;
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{IfThere as _, Needs, Rule, Step, Stop, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -30,11 +30,7 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(Place, String)>> {
         Err(stop) => return Err(stop),
     }
     for channel in probe.channels()? {
-        let variables = match probe.variables(channel) {
-            Ok(variables) => variables,
-            Err(Stop::NotApplicable(_) | Stop::Inconclusive(_)) => continue,
-            Err(stop) => return Err(stop),
-        };
+        let Some(variables) = probe.variables(channel).if_known()? else { continue };
         all.extend(variables.into_iter().filter_map(|variable| {
             let is_text = variable.var_type == VariableType::STRING
                 && variable.dimensions.is_empty()
@@ -72,10 +68,7 @@ fn written(probe: &mut Probe<'_>) -> Step {
             },
         )?;
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no text may be written".to_owned())),
-    }
+    applicable(any, "no text may be written")
 }
 
 /// Writes all characters, as many as fit each time.
@@ -106,7 +99,7 @@ fn is_read_again(
     }
     let read = probe.value_at(place)?.unwrap_or_default();
     let kept = same(&read, value, true);
-    let expected = format!("{} of {what}, as written", Hex(value.to_vec()));
-    probe.check(rule, kept, expected, Hex(read));
+    let expected = || format!("{} of {what}, as written", Hex(value.to_vec()));
+    probe.check(rule, kept, expected, || Hex(read));
     Ok(())
 }

@@ -11,6 +11,7 @@ use ads_cnc_vectors::Hex;
 use super::inventory::OBJECTS_MAX;
 use super::place::{Place, Trial, same};
 use super::probe::Probe;
+use super::raw_call::RawCall;
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Entry;
 use crate::judge::{LeftChanged, Step, Stop};
@@ -222,7 +223,7 @@ impl Probe<'_> {
 
     fn look(&mut self, change: &Change) -> Option<Vec<u8>> {
         let exchange = self.insist(change.place.read().ok()?)?;
-        exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec)
+        exchange.success().map(<[u8]>::to_vec)
     }
 
     /// Whether it was taken.
@@ -240,7 +241,7 @@ impl Probe<'_> {
             Some(Err(Fault::Refused(why))) => Some(why.to_string()),
             _ => None,
         };
-        sent.is_some_and(|sent| sent.answer().is_some_and(|answer| answer.success().is_some()))
+        sent.is_some_and(|sent| sent.success().is_some())
     }
 
     /// Asks for what tells the gate that the place is what a file names.
@@ -258,7 +259,7 @@ impl Probe<'_> {
                     let Entry::Object { list, .. } = entry else { continue };
                     let list = list.list();
                     let Some(count) = self.insist(CountObjects::new(list)) else { continue };
-                    let count = count.answer().and_then(|answer| answer.success());
+                    let count = count.success();
                     let count = count.and_then(|data| ObjectCount::decode(data).ok());
                     for first in 1..=count.map_or(0, |count| count.0.min(OBJECTS_MAX)) {
                         if let Ok(one) = ReadDescriptors::new(list, first, 1) {
@@ -273,10 +274,8 @@ impl Probe<'_> {
 
     /// Sends a request, whatever ends the case or the run otherwise.
     fn insist<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Exchange> {
-        let request = request.into();
-        let mut buf = vec![0; request.encoded_len()];
-        let call = request.encode(&mut buf).ok()?;
+        let request = RawCall::new(request).ok()?;
         self.session.frames = self.session.frames.saturating_add(1);
-        Some(self.session.client.call(&call))
+        Some(self.session.client.call(&request.call()))
     }
 }

@@ -13,7 +13,7 @@ use super::probe::Probe;
 use super::variable::name_of;
 use super::{Row, case};
 use crate::explain::{Values, type_by_name};
-use crate::judge::{Evidence, Needs, Rule, Step, Stop};
+use crate::judge::{Evidence, Needs, Rule, Step, Stop, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -64,7 +64,7 @@ impl Steady {
             };
             if part(&before) == read {
                 self.judged = true;
-                probe.check(rule, true, "", "");
+                probe.pass(rule);
                 return Ok(());
             }
             let evidence = probe.evidence();
@@ -84,7 +84,7 @@ impl Steady {
                 let values = typed(variable, dimensions);
                 probe.show(evidence.map(|evidence| Evidence { values, ..evidence }));
                 let words = format!("{} of the whole of {name}", Hex(expected.clone()));
-                probe.check_reply(rule, false, &expected, words, Hex(read));
+                probe.check_reply(rule, false, &expected, words, || Hex(read));
             }
             None => self.moved = Some(format!("{name} does not stand still")),
         }
@@ -131,10 +131,7 @@ pub(super) fn each_array(
         }
         _ => Ok(()),
     })?;
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no variable is an array".to_owned())),
-    }
+    applicable(any, "no variable is an array")
 }
 
 fn whole(channel: Channel, variable: &Description) -> ReadByHandle<'static> {
@@ -146,14 +143,12 @@ fn whole_by_handle(probe: &mut Probe<'_>) -> Step {
         let value = probe.ask("VAR-11", whole(channel, variable))?;
         let name = &variable.name.text;
         let expected = "at most 2048 bytes";
-        let found = format!("{} bytes of {name}", value.len());
+        let found = || format!("{} bytes of {name}", value.len());
         probe.check("VAR-14", value.len() <= 2048, expected, &found);
         if variable.var_type.element_size().is_some() {
             let same = u32::try_from(value.len()) == Ok(variable.size);
-            let expected = format!("the {} bytes of its description", variable.size);
-            for rule in ["VAR-8", "VAR-14"] {
-                probe.check(rule, same, &expected, &found);
-            }
+            let expected = || format!("the {} bytes of its description", variable.size);
+            probe.check(["VAR-8", "VAR-14"], same, &expected, &found);
         }
         Ok(())
     })
@@ -167,11 +162,9 @@ fn whole_by_name(probe: &mut Probe<'_>) -> Step {
             && let Some(value) = probe.try_ask(request)?
         {
             let same = u32::try_from(value.len()) == Ok(variable.size);
-            let expected = format!("the {} bytes of its description", variable.size);
-            let found = format!("{} bytes of {}", value.len(), variable.name.text);
-            for rule in ["VAR-14", "GEN-2"] {
-                probe.check(rule, same, &expected, &found);
-            }
+            let expected = || format!("the {} bytes of its description", variable.size);
+            let found = || format!("{} bytes of {}", value.len(), variable.name.text);
+            probe.check(["VAR-14", "GEN-2"], same, &expected, &found);
         }
         let at = (channel, variable);
         steady.compare(probe, "VAR-9".into(), at, request.into(), <[u8]>::to_vec)
@@ -187,9 +180,10 @@ fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
             let request = ReadByHandle::new(channel, variable.handle, indices);
             if variable.var_type.element_size().is_some() {
                 let element = probe.ask("VAR-11", request)?;
-                let found = format!("{} bytes of {} {place:?}", element.len(), variable.name.text);
+                let found =
+                    || format!("{} bytes of {} {place:?}", element.len(), variable.name.text);
                 let sized = element.len() == size;
-                probe.check("VAR-14", sized, format!("{size} bytes of one element"), found);
+                probe.check("VAR-14", sized, || format!("{size} bytes of one element"), found);
             }
             if let ([_], VariableType::STRING) = (&place[..], variable.var_type) {
                 text_by_name(probe, channel, variable, &place)?;
@@ -218,8 +212,8 @@ fn text_by_name(
         let kept = same(&read, &before, true);
         let stood = probe.try_ask(by_name)?.as_ref() == Some(&before);
         if kept || stood && left == 0 {
-            let expected = format!("{} of {name}, by handle too", Hex(before));
-            probe.check("VAR-11", kept, expected, Hex(read));
+            let expected = || format!("{} of {name}, by handle too", Hex(before));
+            probe.check("VAR-11", kept, expected, || Hex(read));
             return Ok(());
         }
     }
@@ -235,9 +229,9 @@ fn elements_by_name(probe: &mut Probe<'_>) -> Step {
             if variable.var_type.element_size().is_some()
                 && let Some(element) = probe.try_ask(request)?
             {
-                let found = format!("{} bytes of {name}", element.len());
+                let found = || format!("{} bytes of {name}", element.len());
                 let sized = element.len() == size;
-                probe.check("VAR-14", sized, format!("{size} bytes of one element"), found);
+                probe.check("VAR-14", sized, || format!("{size} bytes of one element"), found);
             }
             let (at, part) = ((channel, variable), part(number, size));
             steady.compare(probe, brackets(variable), at, request.into(), part)?;
@@ -254,13 +248,10 @@ fn string_size(probe: &mut Probe<'_>) -> Step {
             any = true;
             let texts = element_count(&variable.dimensions);
             let one = variable.size.checked_div(texts).unwrap_or(0);
-            let found = format!("{one} bytes for each text of {}", variable.name.text);
+            let found = || format!("{one} bytes for each text of {}", variable.name.text);
             probe.check("VAR-25", (1..=800).contains(&one), "1 to 800 bytes", found);
         }
         Ok(())
     })?;
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no variable is a STRING".to_owned())),
-    }
+    applicable(any, "no variable is a STRING")
 }

@@ -9,10 +9,10 @@ use ads_cnc_vectors::Hex;
 use super::axis_interface::place_of;
 use super::names::dynamic_among_variables;
 use super::place::{Place, Trial, same};
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use super::variable::name_of;
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{Needs, Rule, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -49,10 +49,7 @@ pub(super) fn each(
             }
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
-    }
+    applicable(any, "nothing of it may be written")
 }
 
 pub(super) fn trial<'t>(variable: &'t Description, what: &'t str, rules: &'t [Rule]) -> Trial<'t> {
@@ -99,12 +96,12 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let named = probe.value_at(&place)?.unwrap_or_default();
             let read = probe.value_at(&by_handle)?.unwrap_or_default();
             let is_text = variable.var_type == VariableType::STRING;
-            let expected = format!("{} of {name} by its handle", Hex(new.to_vec()));
+            let expected = || format!("{} of {name} by its handle", Hex(new.to_vec()));
             let kept = same(&read, new, is_text);
-            probe.check("VAR-13", kept, &expected, Hex(read.clone()));
+            probe.check("VAR-13", kept, &expected, || Hex(read.clone()));
             // What the name gives by now the handle has to give as well.
             let kept = kept || !same(&named, new, is_text);
-            probe.check("VAR-14", kept, expected, Hex(read));
+            probe.check("VAR-14", kept, expected, || Hex(read));
             Ok(())
         })?;
         Ok(true)
@@ -134,8 +131,8 @@ fn axis_variables(probe: &mut Probe<'_>) -> Step {
         let named = Place::Name { channel, name: variable.name.text.clone() };
         probe.try_write(&trial(variable, what, &rules), at, |probe, _, new| {
             let read = probe.value_at(&named)?.unwrap_or_default();
-            let expected = format!("{} of {}", Hex(new.to_vec()), variable.name.text);
-            probe.check("VAR-26", read == new, expected, Hex(read));
+            let expected = || format!("{} of {}", Hex(new.to_vec()), variable.name.text);
+            probe.check("VAR-26", read == new, expected, || Hex(read));
             Ok(())
         })
     })
@@ -162,22 +159,19 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
             probe.try_write(&trial, &place, |probe, _, new| {
                 // What is taken is there, though.
                 let read = probe.value_at(&place)?.unwrap_or_default();
-                let expected = format!("{} of {what}, as written", Hex(new.to_vec()));
-                probe.check(rule, read == new, expected, Hex(read));
+                let expected = || format!("{} of {what}, as written", Hex(new.to_vec()));
+                probe.check(rule, read == new, expected, || Hex(read));
                 Ok(())
             })?;
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
-    }
+    applicable(any, "nothing of it may be written")
 }
 
 fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let names = probe.session.profile.by_name_only.clone();
     let names: Result<Vec<CncString>, _> = names.iter().map(|name| name.parse()).collect();
-    by_names(probe, "VAR-18", names.map_err(harness)?)
+    by_names(probe, "VAR-18", names?)
 }
 
 fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {

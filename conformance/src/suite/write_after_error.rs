@@ -8,12 +8,12 @@ use ads_cnc_vectors::Hex;
 
 use super::inventory::OF_PLACES;
 use super::place::{Place, another, is_sendable};
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use super::sda::length_of;
 use super::write_content::{is_blank, nothing, place_of};
 use super::write_refused::{Known, writable};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop};
+use crate::judge::{Needs, Rule, Step, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -29,13 +29,13 @@ pub(super) const CASES: &[Row] = &[
 fn after_refusal(probe: &mut Probe<'_>) -> Step {
     for known in writable(probe)? {
         let Known { channel, variable, value } = &known;
-        let unknown = WriteByName::new(*channel, "V.E.no such variable", value).map_err(harness)?;
+        let unknown = WriteByName::new(*channel, "V.E.no such variable", value)?;
         let handle =
             Place::Handle { channel: *channel, handle: variable.handle, indices: Vec::new() };
         for (id, place) in [("VAR-13", known.place()), ("VAR-12", handle)] {
             let other = another(value, false);
             let (good, back) = (place.write(&other), place.write(value));
-            let (good, back) = (good.map_err(harness)?, back.map_err(harness)?);
+            let (good, back) = (good?, back?);
             // As it is taken without a refusal before it.
             let taken = |probe: &mut Probe<'_>, request| -> Step<bool> {
                 Ok(probe.try_ask(request)?.is_some())
@@ -48,20 +48,16 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
                 continue;
             }
             let exchange = probe.send(good)?;
-            let done = exchange.answer().is_some_and(|answer| answer.success().is_some());
+            let done = exchange.success().is_some();
             let name = &variable.name.text;
-            for rule in [id, "ADS-2", "ADS-4"] {
-                let expected = format!("{name} written behind a refusal");
-                probe.check(rule, done, expected, exchange.result());
-            }
+            let expected = || format!("{name} written behind a refusal");
+            probe.check([id, "ADS-2", "ADS-4"], done, expected, &exchange);
             let after = probe.value_at(&place)?.unwrap_or_default();
             // What never takes another value is judged elsewhere.
             let (again, read) = (taken(probe, good)?, probe.value_at(&place)?);
             if again && read.as_ref() == Some(&other) {
-                let expected = format!("{} of {name}, as written", Hex(other.clone()));
-                for rule in [id, "ADS-2"] {
-                    probe.check(rule, after == other, &expected, Hex(after.clone()));
-                }
+                let expected = || format!("{} of {name}, as written", Hex(other.clone()));
+                probe.check([id, "ADS-2"], after == other, &expected, || Hex(after.clone()));
             }
             taken(probe, back)?;
         }
@@ -89,18 +85,20 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
             let Some(bad) = place.write(data).ok().filter(is_sendable) else { continue };
             any = true;
             let exchange = probe.send(bad)?;
-            if exchange.answer().is_some_and(|answer| answer.success().is_none()) {
+            if exchange.is_error() {
                 let after = probe.value_at(&place)?.unwrap_or_default();
                 let there = data.get(..after.len()).unwrap_or(data);
                 let kept = after == value || !after.starts_with(there);
-                let expected = format!(
-                    "{} of {name}, as {} bytes were refused",
-                    Hex(value.clone()),
-                    data.len()
-                );
-                probe.check("COM-5", kept, expected, Hex(after));
+                let expected = || {
+                    format!(
+                        "{} of {name}, as {} bytes were refused",
+                        Hex(value.clone()),
+                        data.len()
+                    )
+                };
+                probe.check("COM-5", kept, expected, || Hex(after));
             }
-            probe.send(place.write(&value).map_err(harness)?)?;
+            probe.send(place.write(&value)?)?;
         }
     }
     nothing(any)
@@ -149,19 +147,16 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
         };
         any = true;
         let other = another(&blank, false);
-        probe.send(place.write(&other).map_err(harness)?)?;
+        probe.send(place.write(&other)?)?;
         let evidence = probe.evidence();
         let after = probe.value_at(&place)?.unwrap_or_default();
         probe.show(evidence);
         let kept = after != other;
-        let expected = format!("{} of {what}, blank as before", Hex(blank.clone()));
-        probe.check(Rule::from("SDA-11"), kept, expected, Hex(after));
+        let expected = || format!("{} of {what}, blank as before", Hex(blank.clone()));
+        probe.check(Rule::from("SDA-11"), kept, expected, || Hex(after));
         if !kept {
-            probe.send(place.write(&blank).map_err(harness)?)?;
+            probe.send(place.write(&blank)?)?;
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no place is known to be empty".to_owned())),
-    }
+    applicable(any, "no place is known to be empty")
 }

@@ -6,10 +6,10 @@ use ads_cnc_vectors::Hex;
 
 use super::inventory::Object;
 use super::place::{Place, Trial};
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use super::write_content::{Named, flagged, is_blank, nothing, place_of};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop};
+use crate::judge::{Needs, Rule, Step, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -57,7 +57,7 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         let Some(value) = probe.value_at(&logical)?.filter(|value| !value.is_empty()) else {
             continue;
         };
-        if probe.try_ask(logical.write(&value).map_err(harness)?)?.is_none() {
+        if probe.try_ask(logical.write(&value)?)?.is_none() {
             continue;
         }
         any = true;
@@ -67,8 +67,8 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         probe.try_write(&trial, &place, |probe, _, _| {
             let (read, number) = (probe.value_at(&place)?, probe.value_at(&logical)?);
             let same = number == read || probe.value_at(&place)? != read;
-            let expected = format!("{} of {what}, by number too", Hex(read.unwrap_or_default()));
-            probe.check("ADR-12", same, expected, Hex(number.unwrap_or_default()));
+            let expected = || format!("{} of {what}, by number too", Hex(read.unwrap_or_default()));
+            probe.check("ADR-12", same, expected, || Hex(number.unwrap_or_default()));
             Ok(())
         })?;
     }
@@ -98,16 +98,13 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
         probe.try_write(&trial, place, |probe, _, new| {
             let (before, read) = (probe.value_at(place)?, probe.value_at(&twin)?);
             let stood = probe.value_at(place)? == before && before.as_deref() == Some(new);
-            let expected = format!("{} of {what}, in the HLD of {other} too", Hex(new.to_vec()));
-            let found = Hex(read.clone().unwrap_or_default());
+            let expected = || format!("{} of {what}, in the HLD of {other} too", Hex(new.to_vec()));
+            let found = || Hex(read.clone().unwrap_or_default());
             probe.check("SDA-13", !stood || read == before, expected, found);
             Ok(())
         })?;
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no axis of the HLD may be written".to_owned())),
-    }
+    applicable(any, "no axis of the HLD may be written")
 }
 
 /// The interface reads and writes them; which of them may be written the CNC knows.
@@ -123,8 +120,5 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
             probe.try_write(&trial, &place, |_, _, _| Ok(()))?;
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("there is no V.CYC that may be written".to_owned())),
-    }
+    applicable(any, "there is no V.CYC that may be written")
 }

@@ -3,17 +3,18 @@
 use ads_cnc::Decode as _;
 use ads_cnc::address::{AxisStride, Class, ElementAddress, IndexOffset};
 use ads_cnc::operation::{
-    CountElements, ReadElementName, ReadElementType, ReadElementWriteFlag, Request,
+    CountElements, ReadElementName, ReadElementType, ReadElementWriteFlag, Request, Service,
 };
 use ads_cnc::sda::{ElementText, ElementWriteFlag};
 use ads_cnc_vectors::Hex;
 
 use super::inventory::{Instance, Object};
 use super::place::{Place, Trial};
-use super::probe::{Probe, harness};
+use super::probe::Probe;
+use super::raw_call::RawCall;
 use super::sda::length_of;
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{Needs, Rule, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -32,10 +33,7 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 pub(super) fn nothing(any: bool) -> Step {
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
-    }
+    applicable(any, "nothing of it may be written")
 }
 
 pub(super) fn place_of(object: &Object) -> Place {
@@ -168,11 +166,11 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             let again = probe.value_at(place)?;
             probe.show(evidence);
             let kept = again.as_ref() != Some(before);
-            let expected = format!("{} at a place of its own", one.what);
-            probe.check(rule, kept, expected, format!("written in {twin} too"));
+            let expected = || format!("{} at a place of its own", one.what);
+            probe.check(rule, kept, expected, || format!("written in {twin} too"));
         }
         if is_own && !twins.is_empty() {
-            probe.check("SDA-1", true, "", "");
+            probe.pass("SDA-1");
         }
     }
     nothing(!all.is_empty())
@@ -229,14 +227,14 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
         for other in [&longer[..], value.get(1..).unwrap_or_default()] {
             let Ok(write) = place.write(other) else { continue };
             let exchange = probe.send(write)?;
-            let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
-            let expected = format!("an error for {} bytes of {what}", other.len());
-            probe.check(assumed("SDA-8"), refused, expected, exchange.result());
+            let refused = exchange.is_error();
+            let expected = || format!("an error for {} bytes of {what}", other.len());
+            probe.check(assumed("SDA-8"), refused, expected, &exchange);
             let after = probe.value_at(place)?.unwrap_or_default();
             let kept = !refused || after == value;
-            let expected = format!("{} of {what} still", Hex(value.clone()));
-            probe.check("SDA-8", kept, expected, Hex(after));
-            probe.send(place.write(&value).map_err(harness)?)?;
+            let expected = || format!("{} of {what} still", Hex(value.clone()));
+            probe.check("SDA-8", kept, expected, || Hex(after));
+            probe.send(place.write(&value)?)?;
         }
     }
     nothing(!all.is_empty())
@@ -257,16 +255,14 @@ fn read_only_elements(probe: &mut Probe<'_>) -> Step {
 /// Written as content of the first element, which it shares its address with.
 fn number_of_elements(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances()? {
-        let request = Request::from(CountElements::new(instance.first).map_err(harness)?);
-        let mut buf = [0; 0];
-        let count = request.encode(&mut buf).map_err(harness)?;
-        let data = instance.count.to_le_bytes();
-        let service = ads_cnc::operation::Service::Write;
-        let call = ads_cnc::operation::Call { service, read_length: 0, data: &data, ..count };
-        let exchange = probe.call(&call)?;
-        let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
-        let expected = format!("an error number for a write of the number of {instance}");
-        probe.check("SDA-4", refused, expected, exchange.result());
+        let write = RawCall::new(CountElements::new(instance.first)?)?.with(|call| {
+            (call.service, call.read_length) = (Service::Write, 0);
+            call.data = instance.count.to_le_bytes().to_vec();
+        });
+        let exchange = probe.call(&write)?;
+        let refused = exchange.is_error();
+        let expected = || format!("an error number for a write of the number of {instance}");
+        probe.check("SDA-4", refused, expected, &exchange);
     }
     Ok(())
 }

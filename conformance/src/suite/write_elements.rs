@@ -70,10 +70,9 @@ fn elements(
                 let read = probe.value_at(&place)?.unwrap_or_default();
                 let is_text = variable.var_type == VariableType::STRING;
                 let kept = same(&read, new, is_text);
-                for rule in trial.rules.iter().map(|rule| Rule::from(rule.id)) {
-                    let expected = format!("{} of {name}, as written", Hex(new.to_vec()));
-                    probe.check(rule, kept, expected, Hex(read.clone()));
-                }
+                let expected = || format!("{} of {name}, as written", Hex(new.to_vec()));
+                let stated: Vec<Rule> = trial.rules.iter().map(|rule| rule.id.into()).collect();
+                probe.check(&stated, kept, expected, || Hex(read.clone()));
                 // The one element, at its place of the whole, and nothing else.
                 let mut expected = before.clone();
                 let size = old.len();
@@ -81,10 +80,8 @@ fn elements(
                 let part = expected.get_mut(start..start.saturating_add(size));
                 part.unwrap_or_default().iter_mut().zip(new).for_each(|(byte, new)| *byte = *new);
                 let after = probe.value_at(&whole)?.unwrap_or_default();
-                for &rule in trial.rules {
-                    let shown = Hex(expected.clone());
-                    probe.check(rule, after == expected, shown, Hex(after.clone()));
-                }
+                let shown = || Hex(expected.clone());
+                probe.check(trial.rules, after == expected, shown, || Hex(after.clone()));
                 Ok(())
             })?;
         }

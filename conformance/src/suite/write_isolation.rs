@@ -73,7 +73,7 @@ fn all(probe: &mut Probe<'_>) -> Step<Vec<One>> {
         }
     }
     match still.is_empty() {
-        true => Err(Stop::Inconclusive("no variable stands still".to_owned())),
+        true => Err(Stop::inconclusive("no variable stands still")),
         false => Ok(still),
     }
 }
@@ -168,13 +168,14 @@ fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[One]) {
         let wrong = one.seen.iter().filter(|seen| seen.expected != seen.read);
         let mut wrong = wrong.filter(|_| !is_shared(all, one)).peekable();
         if wrong.peek().is_none() {
-            probe.check(rule, true, "", "");
+            probe.pass(rule);
         }
         for seen in wrong {
             let (name, channel) = (&one.variable.name.text, one.channel.number());
-            let expected = format!("{} of {name} of channel {channel}", Hex(seen.expected.clone()));
+            let expected =
+                || format!("{} of {name} of channel {channel}", Hex(seen.expected.clone()));
             probe.show(seen.evidence.clone());
-            probe.check(rule, false, expected, Hex(seen.read.clone()));
+            probe.check(rule, false, expected, || Hex(seen.read.clone()));
         }
     }
 }
@@ -184,7 +185,7 @@ pub(super) fn write(probe: &mut Probe<'_>, place: &Place, value: &[u8]) -> Step<
     let Some(write) = place.write(value).ok().filter(is_sendable) else { return Ok(false) };
     probe.session.changes.is_now(place, Some(value));
     let exchange = probe.send(write)?;
-    Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
+    Ok(exchange.success().is_some())
 }
 
 /// Puts everything back, by whichever way takes it.
@@ -199,7 +200,7 @@ fn restore(probe: &mut Probe<'_>, rule: Rule, all: &mut [One]) -> Step {
             }
         }
         let (name, kept) = (&one.variable.name.text, one.value == one.start);
-        let expected = format!("{} of {name} again", Hex(one.start.clone()));
+        let expected = || format!("{} of {name} again", Hex(one.start.clone()));
         probe.check(rule, kept, expected, "another value");
     }
     Ok(())
@@ -239,7 +240,7 @@ fn of_axes(probe: &mut Probe<'_>) -> Step {
         one.at = place_of(probe, one.channel, &one.variable)?;
     }
     if all.iter().all(|one| one.at.is_none()) {
-        return Err(Stop::NotApplicable("no axis variable is on the axis interface".to_owned()));
+        return Err(Stop::not_applicable("no axis variable is on the axis interface"));
     }
     both_ways(probe, "VAR-26".into(), all, |one| one.at.clone(), One::handled)
 }

@@ -2,15 +2,16 @@
 //! what is there afterwards.
 
 use ads_cnc::address::Channel;
-use ads_cnc::operation::{Call, Request, WriteByHandle, WriteByName};
+use ads_cnc::operation::{Request, WriteByHandle, WriteByName};
 use ads_cnc::{CncStr, CncString, Description, Handle, U32List, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::place::{Place, Trial, another, is_sendable};
-use super::probe::{Probe, harness};
+use super::probe::Probe;
+use super::raw_call::RawCall;
 use super::write::{each, handle_of, is_of_service, trial};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop};
+use crate::judge::{Needs, OrStop as _, Rule, Step, Stop};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -73,14 +74,14 @@ pub(super) fn writable(probe: &mut Probe<'_>) -> Step<Vec<Known>> {
         }
     }
     match all.is_empty() {
-        true => Err(Stop::NotApplicable("no number may be written".to_owned())),
+        true => Err(Stop::not_applicable("no number may be written")),
         false => Ok(all),
     }
 }
 
 fn first(probe: &mut Probe<'_>) -> Step<Known> {
     let first = writable(probe)?.into_iter().next();
-    first.ok_or(Stop::NotApplicable("no number may be written".to_owned()))
+    first.or_not_applicable("no number may be written")
 }
 
 /// Each way to every READ_ONLY variable.
@@ -120,17 +121,17 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
         let other = another(&before, trial.is_text);
         let Some(write) = place.write(&other).ok().filter(is_sendable) else { return Ok(()) };
         let exchange = probe.send(write)?;
-        let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
-        let expected = format!("an error number for a write of {}", trial.what);
-        probe.check("VAR-6", refused, expected, exchange.result());
+        let refused = exchange.is_error();
+        let expected = || format!("an error number for a write of {}", trial.what);
+        probe.check("VAR-6", refused, expected, &exchange);
         let after = probe.value_at(place)?.unwrap_or_default();
         // What moves by itself has not been written.
         if after != before && (moved || probe.moves(place, false)?) {
             return Ok(());
         }
-        let expected = format!("{} of {} as before", Hex(before.clone()), trial.what);
+        let expected = || format!("{} of {} as before", Hex(before.clone()), trial.what);
         probe
-            .check("VAR-6", after == before, expected, Hex(after))
+            .check("VAR-6", after == before, expected, || Hex(after))
             .then_some(())
             .ok_or(Stop::Judged)
     })
@@ -145,20 +146,17 @@ pub(super) fn taken(
 ) -> Step<bool> {
     let exchange = probe.send(request)?;
     if exchange.answer().is_none() {
-        let expected = format!("an answer to {what}");
-        probe.require(&[rule], false, expected, exchange.result())?;
+        let expected = || format!("an answer to {what}");
+        probe.require(&[rule], false, expected, &exchange)?;
     }
-    Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
+    Ok(exchange.success().is_some())
 }
 
 /// What is refused must differ by its fault only from what is taken.
 pub(super) fn taken_first(probe: &mut Probe<'_>, rule: Rule, good: Request<'_>) -> Step {
     match taken(probe, rule, "what differs by that alone", good)? {
         true => Ok(()),
-        false => {
-            let why = "what differs by that alone is refused too".to_owned();
-            Err(Stop::Inconclusive(why))
-        }
+        false => Err(Stop::inconclusive("what differs by that alone is refused too")),
     }
 }
 
@@ -171,16 +169,15 @@ fn refused(
     (bad, good): (Request<'_>, Request<'_>),
     watched: &Place,
 ) -> Step {
-    let mut buf = vec![0; bad.encoded_len()];
-    let Ok(call) = bad.encode(&mut buf) else { return Ok(()) };
-    refused_call(probe, rules, what, (&call, good), watched)
+    let Ok(bad) = RawCall::new(bad) else { return Ok(()) };
+    refused_call(probe, rules, what, (&bad, good), watched)
 }
 
 fn refused_call(
     probe: &mut Probe<'_>,
     rules: &[Rule],
     what: &str,
-    (bad, good): (&Call<'_>, Request<'_>),
+    (bad, good): (&RawCall, Request<'_>),
     watched: &Place,
 ) -> Step {
     let Some(&rule) = rules.first() else { return Ok(()) };
@@ -190,20 +187,18 @@ fn refused_call(
     taken_first(probe, rule, good)?;
     let before = probe.value_at(watched)?;
     let exchange = probe.call(bad)?;
-    let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
+    let refused = exchange.is_error();
     for &rule in rules {
-        let expected = format!("an error number for {what}");
-        probe.check(rule, refused, expected, exchange.result());
+        let expected = || format!("an error number for {what}");
+        probe.check(rule, refused, expected, &exchange);
     }
     let after = probe.value_at(watched)?;
     if after != before && probe.moves(watched, false)? {
         return probe.send(good).map(drop);
     }
-    for &rule in rules {
-        let same = after == before;
-        let found = Hex(after.clone().unwrap_or_default());
-        probe.check(rule, same, format!("the value of before {what}"), found);
-    }
+    let same = after == before;
+    let found = || Hex(after.clone().unwrap_or_default());
+    probe.check(rules, same, || format!("the value of before {what}"), found);
     probe.send(good).map(drop)
 }
 
@@ -226,7 +221,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let (longer, shorter) = (format!("{text}x"), text.get(..text.len().saturating_sub(1)));
     let near = [longer.as_str(), shorter.unwrap_or_default()];
     for unknown in ["V.E.no such variable", ""].into_iter().chain(near) {
-        let unknown: CncString = unknown.parse().map_err(harness)?;
+        let unknown: CncString = unknown.parse()?;
         let is_there =
             |one: &Description| one.name.text.as_bytes().eq_ignore_ascii_case(unknown.as_bytes());
         // Whether upper and lower case are told apart is not said.
@@ -238,7 +233,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         let rules = ["ADS-4", "VAR-13"].map(Rule::from);
         refused(probe, &rules, &what, (bad, good), &watched)?;
     }
-    let element: CncString = format!("{text}[0]").parse().map_err(harness)?;
+    let element: CncString = format!("{text}[0]").parse()?;
     let bad = WriteByName { channel, name: element.as_cnc_str(), value: value.into() }.into();
     refused(probe, &["VAR-13".into()], "an element of no array", (bad, good), &watched)
 }
@@ -263,17 +258,17 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
         let whole = Place::Handle { channel, handle: *handle, indices: Vec::new() };
         let Some(value) = probe.value_at(&first)? else { return Ok(false) };
         let other = another(&value, false);
-        let good = first.write(&value).map_err(harness)?;
-        let named = by_name(0).map_err(harness)?;
+        let good = first.write(&value)?;
+        let named = by_name(0)?;
         let good_by_name = Place::Name { channel, name: named };
         for beyond in probe.beyond(count) {
             let what = format!("a write to {}[{beyond}] of {count}", name.text);
             let bad = Place::Handle { channel, handle: *handle, indices: vec![beyond] };
-            let bad = bad.write(&other).map_err(harness)?;
+            let bad = bad.write(&other)?;
             refused(probe, &["VAR-12".into()], &what, (bad, good), &whole)?;
-            let bad = Place::Name { channel, name: by_name(beyond).map_err(harness)? };
-            let bad = bad.write(&other).map_err(harness)?;
-            let good = good_by_name.write(&value).map_err(harness)?;
+            let bad = Place::Name { channel, name: by_name(beyond)? };
+            let bad = bad.write(&other)?;
+            let good = good_by_name.write(&value)?;
             refused(probe, &["VAR-13".into()], &what, (bad, good), &whole)?;
         }
         Ok(true)
@@ -285,25 +280,23 @@ fn bad_requests(probe: &mut Probe<'_>) -> Step {
         let watched = known.place();
         // Without its end there is no name, and nothing that would be behind it.
         let good = known.by_name(&known.value);
-        let mut buf = vec![0; good.encoded_len()];
-        let call = good.encode(&mut buf).map_err(harness)?;
+        let call = RawCall::new(good)?;
         let name: Vec<u8> = known.name().bytes().collect();
         for size in [known.value.len(), 4, 8] {
             let data = [&name[..], &vec![b'A'; size]].concat();
             let what = format!("a write of {size} bytes to a name without NUL");
-            let bad = Call { data: &data, ..call };
+            let bad = call.with(|call| call.data = data);
             refused_call(probe, &["VAR-13".into()], &what, (&bad, good), &watched)?;
         }
         let good = known.by_handle(U32List::EMPTY, &known.value);
-        let mut buf = vec![0; good.encoded_len()];
-        let call = good.encode(&mut buf).map_err(harness)?;
+        let call = RawCall::new(good)?;
         for count in [0x4000_0000_u32, 0x8000_0001, u32::MAX] {
             let mut data = call.data.to_vec();
             data.get_mut(4..8)
                 .into_iter()
                 .for_each(|four| four.copy_from_slice(&count.to_le_bytes()));
             let what = format!("a write with a count of {count:#x} indices");
-            let bad = Call { data: &data, ..call };
+            let bad = call.with(|call| call.data = data);
             let rules = ["VAR-24", "VAR-12"].map(Rule::from);
             refused_call(probe, &rules, &what, (&bad, good), &watched)?;
         }

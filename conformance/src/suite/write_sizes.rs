@@ -6,7 +6,7 @@ use ads_cnc_vectors::Hex;
 
 use super::axis_interface::place_of;
 use super::place::{Place, another, is_sendable};
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use super::write::{each, is_of_service};
 use super::write_refused::{taken, taken_first};
 use super::{Row, case};
@@ -32,7 +32,7 @@ fn ways(probe: &mut Probe<'_>, channel: Channel, variable: &Description) -> Step
     let mut all = vec![by_handle(Vec::new()), by_name(name.clone())];
     if variable.dimensions.len() == 1 {
         all.push(by_handle(vec![0]));
-        all.push(by_name(format!("{name}[0]").parse().map_err(harness)?));
+        all.push(by_name(format!("{name}[0]").parse()?));
     }
     let of_axis = place_of(probe, channel, variable)?;
     all.extend(of_axis.map(|place| Way { id: "VAR-26", place }));
@@ -121,18 +121,18 @@ impl Sent<'_> {
         let (read, after) = (probe.value_at(&way.place)?, probe.value_at(watched)?);
         probe.show(evidence);
         let rule = if is_text { of_size } else { assumed(way.id) };
-        probe.check(rule, !is_taken, format!("an error number for {what}"), "a success");
+        probe.check(rule, !is_taken, || format!("an error number for {what}"), "a success");
         if is_taken {
             let read = read.unwrap_or_default();
-            let expected = format!("an error, or {what} read back");
-            probe.check(of_size, read.starts_with(other), expected, Hex(read));
+            let expected = || format!("an error, or {what} read back");
+            probe.check(of_size, read.starts_with(other), expected, || Hex(read));
         } else {
             // What moves by itself has not been written.
             if after != before && probe.moves(watched, false)? {
                 return probe.send(good).map(drop);
             }
-            let expected = format!("the value of before {what}");
-            let shown = Hex(after.clone().unwrap_or_default());
+            let expected = || format!("the value of before {what}");
+            let shown = || Hex(after.clone().unwrap_or_default());
             probe.check(way.id, after == before, expected, shown);
         }
         probe.send(good).map(drop)

@@ -47,8 +47,8 @@ fn texts(probe: &mut Probe<'_>) -> Step {
                     // A read without an answer shows nothing.
                     let Some(after) = probe.value_at(&place)? else { return Ok(false) };
                     let kept = until_nul(&after) == until_nul(&before);
-                    let expected = format!("{} of {name} again", Hex(before.clone()));
-                    Ok(probe.check(id, kept, expected, Hex(after)))
+                    let expected = || format!("{} of {name} again", Hex(before.clone()));
+                    Ok(probe.check(id, kept, expected, || Hex(after)))
                 },
             )?;
         }
@@ -70,15 +70,15 @@ fn of_lengths(
         // As many bytes as it is described with: that fewer are taken is assumed.
         value.resize(size.max(1), 0);
         let taken = write(probe, place, &value)?;
-        let expected = format!("{name} takes a text of {len} characters");
+        let expected = || format!("{name} takes a text of {len} characters");
         probe.check(online("VAR-25"), taken, expected, "an error");
         if !taken {
             continue;
         }
         let read = probe.value_at(place)?.unwrap_or_default();
         let same = until_nul(&read) == until_nul(&value);
-        let expected = format!("{len} characters of {name}, as written");
-        let found = format!("{} bytes: {}", read.len(), Hex(read.clone()));
+        let expected = || format!("{len} characters of {name}, as written");
+        let found = || format!("{} bytes: {}", read.len(), Hex(read.clone()));
         probe.check(id, same, &expected, &found);
         probe.check(online("VAR-25"), same, expected, found);
     }
@@ -100,7 +100,7 @@ fn shorter(
         return Ok(());
     }
     let read = probe.value_at(place)?.unwrap_or_default();
-    let expected = format!("{:?} of {name}, as written", "zz");
-    probe.check(id, until_nul(&read) == until_nul(short), expected, Hex(read));
+    let expected = || format!("{:?} of {name}, as written", "zz");
+    probe.check(id, until_nul(&read) == until_nul(short), expected, || Hex(read));
     Ok(())
 }

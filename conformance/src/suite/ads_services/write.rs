@@ -3,7 +3,7 @@
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use crate::judge::{Rule, Step, Stop};
+use crate::judge::{Rule, Step, applicable};
 use crate::suite::place::{Place, Trial};
 use crate::suite::probe::Probe;
 use crate::suite::write::is_of_service;
@@ -35,10 +35,7 @@ pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
         any |= !tried.is_empty();
     }
     any |= objects(probe)?;
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
-    }
+    applicable(any, "nothing of it may be written")
 }
 
 fn objects(probe: &mut Probe<'_>) -> Step<bool> {
@@ -97,8 +94,8 @@ fn at(
     if let (Some(before), Some(meanwhile)) = (&before, meanwhile)
         && after.as_ref() == Some(before)
     {
-        let expected = format!("{} beside {what}, as before", Hex(before.clone()));
-        probe.check(RULE, meanwhile == *before, expected, Hex(meanwhile));
+        let expected = || format!("{} beside {what}, as before", Hex(before.clone()));
+        probe.check(RULE, meanwhile == *before, expected, || Hex(meanwhile));
     }
     Ok(())
 }

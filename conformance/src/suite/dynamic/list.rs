@@ -12,26 +12,23 @@ use ads_cnc::operation::{
 use ads_cnc_vectors::Hex;
 
 use super::super::inventory::KINDS;
-use super::super::probe::{Probe, harness};
-use super::steady::{Checked, steadily};
+use super::super::probe::Probe;
+use super::super::steady::{Checked, steadily};
 use super::{PARAMETERS_MAX, each, nothing, number, prefix};
-use crate::judge::{Evidence, Rule, Step, Stop, assumed};
+use crate::judge::{Evidence, Step, Stop, assumed};
 use crate::profile::Claim;
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        let rules = ["DYN-1", "SDA-12"].map(Rule::from);
+        let rules = ["DYN-1", "SDA-12"];
         for kind in DynamicKind::ALL {
-            let data = probe.ask_for(&rules, CountDynamic::new(channel, kind))?;
+            let data = probe.ask(rules, CountDynamic::new(channel, kind))?;
             let count = DynamicCount::decode(&data);
-            let found = format!("{} bytes for {}", data.len(), prefix(kind));
+            let found = || format!("{} bytes for {}", data.len(), prefix(kind));
+            probe.check(rules, count.is_ok(), "a number of 4 bytes", found);
             // A number in the wrong order of bytes is the first to leave all limits.
             let plausible = count.is_ok_and(|count| count.0 <= 0x00FF_FFFF);
-            for rule in rules {
-                probe.check(rule, count.is_ok(), "a number of 4 bytes", &found);
-                let found = format!("{count:?}");
-                probe.check(rule, plausible, "a number of parameters", found);
-            }
+            probe.check(rules, plausible, "a number of parameters", || format!("{count:?}"));
         }
         // Other functions of the decoder are in its group too.
         if probe.claims(Function::CountVariables) == Claim::Yes {
@@ -54,9 +51,9 @@ struct Told {
 }
 
 fn tell(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind, index: u32) -> Step<Told> {
-    let request = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+    let request = DynamicNameByIndex::new(channel, kind, index)?;
     let exchange = probe.send(request)?;
-    let data = exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec);
+    let data = exchange.success().map(<[u8]>::to_vec);
     Ok(Told { index, data, result: exchange.result(), evidence: probe.evidence() })
 }
 
@@ -177,38 +174,34 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &List) {
     let mut seen = HashSet::new();
     for told in names {
         probe.show(told.evidence.clone());
-        let expected = format!("a name of index {} of {count} of {}", told.index, prefix(kind));
+        let expected = || format!("a name of index {} of {count} of {}", told.index, prefix(kind));
         // The number may be wrong as well as the range; of the first, the function too.
         let rules: &[&str] = match told.index {
             1 => &["DYN-1", "DYN-5", "SDA-12", "DYN-2"],
             _ => &["DYN-1", "DYN-5", "SDA-12"],
         };
-        for &rule in rules {
-            probe.check(rule, told.data.is_some(), &expected, &told.result);
-        }
+        probe.check(rules, told.data.is_some(), &expected, &told.result);
         let Some(data) = &told.data else { continue };
-        let found = format!("{} bytes of index {}", data.len(), told.index);
-        let expected = format!("at most {DYNAMIC_NAME_MAX} bytes");
+        let found = || format!("{} bytes of index {}", data.len(), told.index);
+        let expected = || format!("at most {DYNAMIC_NAME_MAX} bytes");
         probe.check("DYN-6", data.len() <= DYNAMIC_NAME_MAX, expected, &found);
         let name = DynamicName::decode(data);
         if !probe.check("DYN-2", name.is_ok(), "a name", found) {
             continue;
         }
         let name = name.map(|name| name.name.text.to_string()).unwrap_or_default();
-        let found = format!("{name:?} at index {}", told.index);
+        let found = || format!("{name:?} at index {}", told.index);
         let ended = name.chars().count() < DYNAMIC_NAME_MAX;
         probe.check(assumed("DYN-6"), ended, "a name with room for its NUL", &found);
         let of_kind = is_of(kind, &name);
-        probe.check("DYN-2", of_kind, format!("a name of {}", prefix(kind)), &found);
-        let own = seen.insert(name);
-        for rule in ["DYN-2", "DYN-5"] {
-            probe.check(rule, own, "another at each index", &found);
-        }
+        probe.check("DYN-2", of_kind, || format!("a name of {}", prefix(kind)), &found);
+        let own = seen.insert(name.clone());
+        probe.check(["DYN-2", "DYN-5"], own, "another at each index", &found);
     }
     if let Some(other) = swayed {
         probe.show(other.evidence.clone());
-        let found = format!("{}, asked for backwards", other.result);
-        let expected = format!("the name of index {}, whatever was asked before", other.index);
+        let found = || format!("{}, asked for backwards", other.result);
+        let expected = || format!("the name of index {}, whatever was asked before", other.index);
         probe.check("DYN-2", false, expected, found);
     }
     // Whoever has one more than it says to have tells its name.
@@ -217,8 +210,8 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &List) {
     let name = DynamicName::decode(data).map(|name| name.name.text.to_string());
     let another = name.is_ok_and(|name| is_of(kind, &name) && !seen.contains(&name));
     let is_whole = *count <= PARAMETERS_MAX;
-    let expected = format!("{} of {} in all", count, prefix(kind));
-    let found = format!("index {} is {}", beyond.index, Hex(data.to_vec()));
+    let expected = || format!("{} of {} in all", count, prefix(kind));
+    let found = || format!("index {} is {}", beyond.index, Hex(data.to_vec()));
     probe.check("DYN-1", !(another && is_whole), expected, found);
 }
 
@@ -251,16 +244,16 @@ fn refused_of(
     let exchange = probe.send(bad)?;
     let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
     let refused = given.is_some_and(<[u8]>::is_empty);
-    let expected = format!("an error number for {what}");
-    Ok(vec![Checked::new(probe, "DYN-5", refused, expected, exchange.result())])
+    let expected = || format!("an error number for {what}");
+    Ok(vec![Checked::new(probe, "DYN-5", refused, expected, &exchange)])
 }
 
 pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
             let first: [Request<'_>; 2] = [
-                DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?.into(),
-                DynamicValueByIndex::new(channel, kind, 1).map_err(harness)?.into(),
+                DynamicNameByIndex::new(channel, kind, 1)?.into(),
+                DynamicValueByIndex::new(channel, kind, 1)?.into(),
             ];
             let what = format!("index 1 of no {}", prefix(kind));
             for first in first {
@@ -276,8 +269,8 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
             return Ok(());
         }
         let requests = |index| -> Step<[Request<'_>; 2]> {
-            let name = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
-            let value = DynamicValueByIndex::new(channel, kind, index).map_err(harness)?;
+            let name = DynamicNameByIndex::new(channel, kind, index)?;
+            let value = DynamicValueByIndex::new(channel, kind, index)?;
             Ok([name.into(), value.into()])
         };
         for beyond in beyond(probe, count) {

@@ -30,7 +30,7 @@ impl Probe<'_> {
             all.extend(self.session.variables.get(&key).into_iter().flatten().cloned());
         }
         match all.is_empty() {
-            true => Err(Stop::NotApplicable("the target has no variable".to_owned())),
+            true => Err(Stop::not_applicable("the target has no variable")),
             false => Ok(all),
         }
     }
@@ -63,7 +63,7 @@ impl Probe<'_> {
         T: for<'b> Decode<'b>,
     {
         let exchange = self.send(request)?;
-        let data = exchange.answer().and_then(|answer| answer.success());
+        let data = exchange.success();
         let what = T::STREAM.layout().name;
         let lacks = |why: String| Stop::Inconclusive(format!("no {what} to go by: {why}"));
         T::decode(data.ok_or_else(|| lacks(exchange.result()))?)

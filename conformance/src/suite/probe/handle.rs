@@ -3,11 +3,12 @@
 use ads_cnc::CncString;
 use ads_cnc::operation::{DescribeByName, Function, HandleByName, Request};
 
-use super::{Probe, harness};
+use super::Probe;
 use crate::exchange::Fault;
 use crate::gate::{Doubt, Reason, Refusal};
 use crate::judge::Step;
 use crate::profile::Claim;
+use crate::suite::raw_call::RawCall;
 
 impl Probe<'_> {
     /// Asks for what confirms the handle of a write: descriptions of the channel if this connection
@@ -53,9 +54,7 @@ impl Probe<'_> {
     /// Whether a request could be sent, and why the gate rejects it if that is why not. Nothing is
     /// sent.
     pub(super) fn check_gate(&self, request: &Request<'_>) -> Step<Result<(), Option<Refusal>>> {
-        let mut buf = vec![0; request.encoded_len()];
-        let call = request.encode(&mut buf).map_err(harness)?;
-        match self.session.client.check(&call) {
+        match self.session.client.check(&RawCall::new(*request)?.call()) {
             Ok(()) => Ok(Ok(())),
             Err(Fault::Refused(refusal)) => Ok(Err(Some(*refusal))),
             Err(_) => Ok(Err(None)),

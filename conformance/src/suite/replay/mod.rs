@@ -7,7 +7,7 @@ mod streaming;
 use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 
 use crate::judge::{Body, Case, Needs, Step, Stop, Subject};
-use crate::suite::probe::{Probe, harness};
+use crate::suite::probe::Probe;
 
 /// What a client or a service does, which the suite itself is here.
 const NOT_THE_TARGETS: [&str; 5] = ["STM-17", "SVC-2", "SVC-5", "SVC-7", "SVC-13"];
@@ -43,6 +43,13 @@ enum Otherwise {
 impl From<Stop> for Otherwise {
     fn from(stop: Stop) -> Self {
         Self::Stop(stop)
+    }
+}
+
+/// What the embedded CNC rejects within is a mistake of the suite.
+impl<E: std::error::Error> From<E> for Otherwise {
+    fn from(error: E) -> Self {
+        Self::Stop(error.into())
     }
 }
 
@@ -88,9 +95,4 @@ fn show(fault: Option<(&str, &str)>) -> String {
         None => "every step as stated".to_owned(),
         Some((class, step)) => format!("{class} in the step {step}"),
     }
-}
-
-/// What the embedded CNC refuses to have done to it is a mistake of the suite.
-fn within<T>(done: Result<T, crate::simulator::ControlError>) -> Done<T> {
-    done.map_err(|error| harness(error).into())
 }

@@ -10,14 +10,14 @@ use ads_cnc::service::{Host, HostStep, ServiceId, ServiceVariable};
 use ads_cnc::{CncStr, CncString, ErrorKind, VariableType};
 use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
 
-use super::{Done, Fault, differs, lacks, within};
+use super::{Done, Fault, differs, lacks};
 use crate::judge::{Step, Stop};
 use crate::simulator::Cnc;
 use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
 use crate::simulator::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
 };
-use crate::suite::probe::{Probe, harness};
+use crate::suite::probe::Probe;
 use crate::suite::stream::heard;
 
 /// Goes through the steps up to the first at fault, and leaves the interfaces as at the start.
@@ -29,7 +29,7 @@ pub(super) fn run<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done
     }
     let reset = || {
         let mut all = channels.iter();
-        within(all.try_for_each(|one| cnc.with_service(one.number(), |service| service.reset())))
+        all.try_for_each(|one| cnc.with_service(one.number(), |service| service.reset()))
     };
     reset()?;
     let done = steps(probe, &cnc, given, &channels);
@@ -54,7 +54,7 @@ fn steps<'c>(
 ) -> Done<Fault<'c>> {
     let mut ids: BTreeMap<&str, [ServiceId; 1]> = BTreeMap::new();
     for (name, service) in &given.services {
-        ids.insert(name, [ServiceId::new(&service.uuid).map_err(harness)?]);
+        ids.insert(name, [ServiceId::new(&service.uuid)?]);
     }
     let hosts = ids.iter().map(|(name, ids)| (*name, Host::new(ids))).collect();
     let (script, now) = (None, Duration::ZERO);
@@ -142,9 +142,9 @@ impl Scene<'_, '_, '_> {
     /// The value over the wire: of a text what the interface holds, without what fills it up.
     fn read(&mut self, step: &ServiceStep, variable: ServiceVariable) -> Step<Vec<u8>> {
         let channel = channel_of(self.channels, step)?;
-        let request = ReadByName::new(channel, variable.name()).map_err(harness)?;
+        let request = ReadByName::new(channel, variable.name())?;
         let exchange = heard(self.probe.send(request)?)?;
-        let value = exchange.answer().and_then(|answer| answer.success());
+        let value = exchange.success();
         let mut value = value.unwrap_or_default().to_vec();
         if variable.var_type() == VariableType::STRING {
             let filled = value.iter().rposition(|&byte| byte != 0);
@@ -156,19 +156,19 @@ impl Scene<'_, '_, '_> {
     /// Whether the value was taken over the wire.
     fn put(&mut self, step: &ServiceStep, variable: ServiceVariable, value: &[u8]) -> Step<bool> {
         let channel = channel_of(self.channels, step)?;
-        let request = WriteByName::new(channel, variable.name(), value).map_err(harness)?;
+        let request = WriteByName::new(channel, variable.name(), value)?;
         let exchange = heard(self.probe.send(request)?)?;
-        Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
+        Ok(exchange.success().is_some())
     }
 
     /// The program does one step.
     fn script_step(&mut self, step: &ServiceStep) -> Done<ScriptState> {
         let script = self.script.as_mut().ok_or_else(|| lacks("program"))?;
         let (now, channel) = (self.now, channel_of(self.channels, step)?);
-        within(self.cnc.with_service(channel.number(), |service| {
+        Ok(self.cnc.with_service(channel.number(), |service| {
             script.step(now, service);
             script.state()
-        }))
+        })?)
     }
 
     /// What came of the request, once the program has looked.
@@ -257,7 +257,7 @@ impl Scene<'_, '_, '_> {
             return differs("a request to answer", "none");
         };
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
-        let answer = CncStr::from_bytes(&response).map_err(harness)?;
+        let answer = CncStr::from_bytes(&response)?;
         if let Err(error) = host.answer(answer, state) {
             return Ok(Some(class(error.kind())));
         }

@@ -9,11 +9,11 @@ use ads_cnc_vectors::{
     Pieces, Requirement, StreamAck, StreamAction, StreamError, StreamStep, Streaming,
 };
 
-use super::{Done, Fault, differs, lacks, within};
+use super::{Done, Fault, differs, lacks};
 use crate::judge::{Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Message, Pace, Program, ProgramConfig, Start, State};
-use crate::suite::probe::{Probe, harness};
+use crate::suite::probe::Probe;
 use crate::suite::stream::{HELD_MAX, Sent, send, send_until_taken};
 
 /// Who plays, and before whom.
@@ -27,17 +27,17 @@ struct Scene<'s, 'p> {
 
 impl Scene<'_, '_> {
     fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Done<T> {
-        within(self.cnc.with_program(self.channel.number(), then))
+        Ok(self.cnc.with_program(self.channel.number(), then)?)
     }
 
     fn set(&self, config: ProgramConfig) -> Done<()> {
-        within(self.cnc.set_program(self.channel.number(), config))
+        Ok(self.cnc.set_program(self.channel.number(), config)?)
     }
 
     /// Judges what the error number of a refusal says.
     fn number(&mut self, rule: &'static str, ack: Ack, sent: &Sent) {
         if self.rules.iter().any(|one| one.id == rule) {
-            let expected = format!("{ack:?} by its number");
+            let expected = || format!("{ack:?} by its number");
             self.probe.check(assumed(rule), sent.assumed() == ack, expected, sent);
         }
     }
@@ -65,7 +65,7 @@ pub(super) fn run<'c>(
 fn steps<'c>(scene: &mut Scene<'_, '_>, given: &'c Streaming) -> Done<Fault<'c>> {
     let text = given.text.as_ref().map(Pieces::bytes);
     let sender = text.as_deref().map(|text| NcText::new(text).map(Sender::new));
-    let mut sender = sender.transpose().map_err(harness)?;
+    let mut sender = sender.transpose()?;
     for step in &given.steps {
         let fault = match step.action {
             StreamAction::Start => {
@@ -130,7 +130,7 @@ fn write(
         _ => return differs(format!("{stated:?} in {}", step.id), sent),
     }
     if let Some(sender) = sender.as_mut().filter(|_| own) {
-        sender.acknowledge(ack).map_err(harness)?;
+        sender.acknowledge(ack)?;
     }
     Ok(match (own, ack) {
         (false, _) => Some("order"),

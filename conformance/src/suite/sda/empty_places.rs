@@ -8,7 +8,7 @@ use ads_cnc_vectors::Hex;
 
 use super::super::content::read_of;
 use super::super::inventory::{Instance, OBJECTS_MAX, OF_PLACES};
-use super::super::probe::{Probe, harness};
+use super::super::probe::Probe;
 use super::length_of;
 use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
@@ -16,8 +16,7 @@ use crate::simulator::Cnc;
 pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
     let places = probe.session.profile.empty_places.clone();
     if places.is_empty() {
-        let why = "no place is known to be empty; a profile can name one".to_owned();
-        return Err(Stop::NotApplicable(why));
+        return Err(Stop::not_applicable("no place is known to be empty; a profile can name one"));
     }
     let all = probe.instances()?;
     for &(channel, place) in places.iter() {
@@ -53,7 +52,7 @@ fn is_blank(bytes: &[u8]) -> bool {
 
 fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance]) -> Step {
     // How many elements there are is content, too.
-    probe.ask("SDA-11", CountElements::new(one.first).map_err(harness)?)?;
+    probe.ask("SDA-11", CountElements::new(one.first)?)?;
     let count = occupied.iter().map(|other| other.count).chain([one.count]).max();
     for place in 1..=count.unwrap_or_default().min(OBJECTS_MAX) {
         let Ok(element) = one.first.nth(place) else { continue };
@@ -70,7 +69,7 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
             continue;
         };
         let content = probe.ask("SDA-11", read)?;
-        let found = format!("{} of element {place} of {one}", Hex(content.clone()));
+        let found = || format!("{} of element {place} of {one}", Hex(content.clone()));
         // What zeros are for one axis, others are for another: blank is what no axis has.
         let of_axis = !is_blank(&content) && theirs.contains(&content);
         probe.check("SDA-11", !of_axis, "blank, not what an axis has elsewhere", &found);
@@ -96,8 +95,8 @@ fn blank_objects(probe: &mut Probe<'_>, channel: u32, place: u32) -> Step {
             continue;
         };
         let content = probe.ask("SDA-11", read)?;
-        let expected = format!("zeros of {} at place {place} of channel {channel}", object.name);
-        probe.check(assumed("SDA-11"), is_blank(&content), expected, Hex(content));
+        let expected = || format!("zeros of {} at place {place} of channel {channel}", object.name);
+        probe.check(assumed("SDA-11"), is_blank(&content), expected, || Hex(content));
     }
     Ok(())
 }
@@ -120,12 +119,12 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     };
     let before = at(probe, one, mine)?;
     let objects = numbers_of(probe, one, mine)?;
-    let none = || Stop::NotApplicable("nothing is the number of an axis".to_owned());
+    let none = || Stop::not_applicable("nothing is the number of an axis");
     if before.is_empty() && objects.is_empty() {
         return Err(none());
     }
     // The axis of the other channel comes here: an element that follows is the axis's number.
-    cnc.exchange_axis(one, 1, theirs).map_err(harness)?;
+    cnc.exchange_axis(one, 1, theirs)?;
     let moved = (at(probe, one, theirs), numbers_of(probe, one, theirs));
     let blank = blank_at(probe, other.into(), 1, &before);
     restore(&cnc)?;
@@ -136,13 +135,13 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     }
     let is_number = |(element, _): &&(Found, Vec<u8>)| numbers.contains(element);
     for ((class, element), content) in blank?.iter().filter(is_number) {
-        let found = format!("{} of element {element} of {class:?}", Hex(content.clone()));
+        let found = || format!("{} of element {element} of {class:?}", Hex(content.clone()));
         probe.check("SDA-11", is_blank(content), "0 where the axis was", found);
     }
     for &(channel, place) in probe.session.profile.empty_places.clone().iter() {
         for ((class, element), content) in blank_at(probe, channel, place, &numbers)? {
-            let found = format!("{} of element {element} of {class:?}", Hex(content.clone()));
-            let expected = format!("0 at place {place} of channel {channel}");
+            let found = || format!("{} of element {element} of {class:?}", Hex(content.clone()));
+            let expected = || format!("0 at place {place} of channel {channel}");
             probe.check("SDA-11", is_blank(&content), expected, found);
         }
     }
@@ -155,8 +154,8 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
             continue;
         };
         let content = probe.ask("SDA-11", read)?;
-        let expected = format!("0 of {name} at {}", object.offset);
-        probe.check("SDA-11", is_blank(&content), expected, Hex(content));
+        let expected = || format!("0 of {name} at {}", object.offset);
+        probe.check("SDA-11", is_blank(&content), expected, || Hex(content));
     }
     Ok(())
 }
@@ -164,7 +163,7 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
 /// In the order in which they do not get into each other's way.
 fn restore(cnc: &Arc<Cnc>) -> Step {
     for (channel, axis) in CHANNELS {
-        cnc.exchange_axis(channel, 1, axis).map_err(harness)?;
+        cnc.exchange_axis(channel, 1, axis)?;
     }
     Ok(())
 }

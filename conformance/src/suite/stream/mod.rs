@@ -16,7 +16,7 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
 
-use super::probe::{Probe, harness};
+use super::probe::Probe;
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop};
 
@@ -87,8 +87,9 @@ fn object(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         any = true;
-        let found = format!("{} at {}, {}", object.name, object.group, object.offset);
-        let expected = format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
+        let found = || format!("{} at {}, {}", object.name, object.group, object.offset);
+        let expected =
+            || format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
         probe.check("STM-1", here && named, expected, found);
         probe.check("STM-1", object.writable, "write access", "none");
     }
@@ -117,12 +118,12 @@ fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
             if let Some(cnc) = &probe.session.cnc {
                 let config = cnc.with_program(channel.number(), |one| one.config().clone());
                 let set_up = config.and_then(|config| cnc.set_program(channel.number(), config));
-                set_up.map_err(harness)?;
+                set_up?;
             }
             return Ok(channel);
         }
     }
-    Err(Stop::NotApplicable("no stream may be written".to_owned()))
+    Err(Stop::not_applicable("no stream may be written"))
 }
 
 /// Writes until it is taken; how often it was refused before. None if it is not, though there is
@@ -145,7 +146,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
             let room = match &probe.session.cnc {
                 Some(cnc) => {
                     let held = cnc.with_program(channel.number(), |program| program.held());
-                    held.map_err(harness)?.saturating_add(data.len()) <= HELD_MAX
+                    held?.saturating_add(data.len()) <= HELD_MAX
                 }
                 None => false,
             };
@@ -161,7 +162,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
 fn taken(probe: &mut Probe<'_>, rules: &[&'static str], at: Channel, data: &[u8]) -> Step {
     let taken = write(probe, at, data)?;
     for &rule in rules {
-        let expected = format!("{} bytes of whole lines taken", data.len());
+        let expected = || format!("{} bytes of whole lines taken", data.len());
         probe.check(rule, taken.is_some(), expected, "refused while there is room");
     }
     Ok(())
@@ -173,7 +174,7 @@ fn whole_lines(probe: &mut Probe<'_>) -> Step {
     taken(probe, &["STM-1", "STM-4", "STM-7"], channel, lines)?;
     let ranks = (1_u32..).zip(probe.channels()?);
     let rank = ranks.filter(|(_, one)| *one == channel).map(|(rank, _)| rank).next();
-    let by_index = Channel::by_index(rank.unwrap_or(1)).map_err(harness)?;
+    let by_index = Channel::by_index(rank.unwrap_or(1))?;
     if probe.may(WriteProgramStream::new(by_index, b"\r\n"))? {
         taken(probe, &["STM-1"], by_index, lines)?;
     }

@@ -5,12 +5,13 @@ use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Request, WriteProgramStream};
+use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::Ack;
 
 use crate::exchange::{Exchange, Fault};
-use crate::judge::{Step, Stop};
-use crate::suite::probe::{Probe, harness};
+use crate::judge::{Describe, Step, Stop};
+use crate::suite::probe::Probe;
+use crate::suite::raw_call::RawCall;
 
 /// How a write was answered. Which error number means that it is refused for now, and which that it
 /// is for good, is documented nowhere: what they are taken for is assumed.
@@ -39,6 +40,12 @@ impl Sent {
             None if self.answered => Ack::Accepted,
             None => Ack::Rejected,
         }
+    }
+}
+
+impl Describe for &Sent {
+    fn describe(self) -> String {
+        self.to_string()
     }
 }
 
@@ -80,10 +87,8 @@ pub(in crate::suite) fn send_until_taken(
 
 /// Sends bytes to the stream as they are, whether a client may or not.
 pub(in crate::suite) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Sent> {
-    let request = Request::from(WriteProgramStream::new(channel, b"\r\n"));
-    let mut buf = [0; 2];
-    let whole = request.encode(&mut buf).map_err(harness)?;
-    let exchange = heard(probe.call(&Call { data, ..whole })?)?;
+    let lines = RawCall::new(WriteProgramStream::new(channel, b"\r\n"))?;
+    let exchange = heard(probe.call(&lines.with(|call| call.data = data.to_vec()))?)?;
     let answer = exchange.answer();
     let errors = answer.map(|answer| [answer.ams_error, answer.result]);
     Ok(Sent {
