@@ -66,14 +66,6 @@ fn decoder_group(probe: &mut Probe<'_>) -> Step {
     Ok(())
 }
 
-impl Probe<'_> {
-    /// Rank and number of each claimed channel.
-    pub(super) fn ranks(&self) -> Step<Vec<(Channel, Channel)>> {
-        let channels = self.channels()?;
-        (1..).zip(channels).map(|(rank, channel)| Ok((Channel::by_index(rank)?, channel))).collect()
-    }
-}
-
 /// What a channel is known by: its numbers, its first object and its first variables.
 fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
     let mut requests =

@@ -8,7 +8,7 @@ use ads_cnc::address::{
 use super::inventory::{Instance, Object};
 use super::place::Place;
 use super::probe::Probe;
-use crate::judge::{Rule, Step, Stop, assumed};
+use crate::judge::{IfThere as _, Rule, Step, assumed};
 use crate::simulator::{Held, Holder};
 
 /// What a target says itself of where things are, where no manual does.
@@ -45,20 +45,13 @@ fn element(
     Ok(Place::Element { element: ElementAddress::new(group, offset), length })
 }
 
-/// What is not there or not claimed says nothing.
-fn any<T>(found: Step<Vec<T>>) -> Step<Vec<T>> {
-    match found {
-        Err(Stop::NotApplicable(_)) => Ok(Vec::new()),
-        found => found,
-    }
-}
-
 impl Addresses {
     pub(super) fn new(probe: &mut Probe<'_>) -> Step<Self> {
         Ok(Self {
             channels: probe.session.profile.channels.to_vec(),
-            objects: any(probe.objects())?,
-            instances: any(probe.instances())?,
+            // What is not there or not claimed says nothing.
+            objects: probe.objects().if_applicable()?.unwrap_or_default(),
+            instances: probe.instances().if_applicable()?.unwrap_or_default(),
         })
     }
 

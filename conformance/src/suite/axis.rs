@@ -10,10 +10,10 @@ use ads_cnc::{CncString, Decode as _, Description, Handle, Kind, TextRef, U32Lis
 use ads_cnc_vectors::Hex;
 
 use super::axis_interface::{self, PLACES_MAX, answering};
+use super::inventory::name_of;
 use super::probe::Probe;
 use super::raw_call::RawCall;
 use super::steady::Steady;
-use super::variable::name_of;
 use super::{Row, case};
 use crate::judge::{Needs, Step, applicable, assumed};
 

@@ -3,10 +3,8 @@
 use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class, PlatformAxis};
 use ads_cnc::operation::{AxisHandleByName, ObjectList, ReadElement, Request};
 
-use super::content::read_of;
 use super::inventory::OF_PLACES;
 use super::probe::Probe;
-use super::sda::length_of;
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop};
 
@@ -49,7 +47,7 @@ fn contents(
             continue;
         }
         for element in instance.elements() {
-            let Some(length) = length_of(probe, element)? else { continue };
+            let Some(length) = probe.length_of(element)? else { continue };
             let Ok(read) = ReadElement::new(element, length) else { continue };
             all.push(still(probe, read)?);
         }
@@ -63,7 +61,7 @@ fn objects(probe: &mut Probe<'_>, list: ObjectList, axis: Option<u32>) -> Step<V
     let mut all = Vec::new();
     for object in probe.objects()?.iter().filter(|object| object.list == list) {
         let at = object.offset.axis_and_element(AxisStride::X10000).map_or(0, |(axis, _)| axis);
-        let Some(read) = read_of(object).filter(|_| axis.is_none_or(|axis| axis == at)) else {
+        let Some(read) = object.read().filter(|_| axis.is_none_or(|axis| axis == at)) else {
             continue;
         };
         all.push(still(probe, read)?);

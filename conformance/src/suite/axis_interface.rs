@@ -3,7 +3,7 @@
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::AxisHandleByName;
-use ads_cnc::{CncString, Decode as _, Description, Handle, VariablePath};
+use ads_cnc::{CncString, Description, Handle, VariablePath};
 
 use super::place::Place;
 use super::probe::Probe;
@@ -31,8 +31,7 @@ pub(super) fn answering(
     for place in 1..=PLACES_MAX {
         let axis = ChannelAxis::new(place)?;
         let name = name.as_cnc_str().into();
-        let handle = probe.try_ask(AxisHandleByName { channel, axis, name })?;
-        match handle.and_then(|data| Handle::decode(&data).ok()) {
+        match probe.try_read::<Handle>(AxisHandleByName { channel, axis, name })? {
             Some(handle) => {
                 all.push(At { axis, handle });
                 gap = 0;

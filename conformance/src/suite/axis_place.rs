@@ -6,15 +6,15 @@ use ads_cnc::address::{Channel, ChannelAxis, IndexOffset};
 use ads_cnc::operation::{
     AxisHandleByName, AxisReadByName, HandleByName, ReadByHandle, ReadByName, Request,
 };
-use ads_cnc::{CncString, Decode as _, Description, Handle, TextRef, U32List};
+use ads_cnc::{CncString, Description, Handle, TextRef, U32List};
 use ads_cnc_vectors::Hex;
 
 use super::axis::{described, names};
 use super::axis_interface::{At, answering};
+use super::inventory::name_of;
 use super::probe::Probe;
 use super::raw_call::RawCall;
 use super::steady::{Compared, compare};
-use super::variable::name_of;
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop, applicable, assumed};
 
@@ -111,7 +111,7 @@ fn too_far(probe: &mut Probe<'_>) -> Step {
     for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {
         let far = ChannelAxis::new(u32::from(axis.index()) | bit)?;
         let request = AxisHandleByName { channel, axis: far, name: name.as_cnc_str().into() };
-        let given = probe.try_ask(request)?.and_then(|data| Handle::decode(&data).ok());
+        let given = probe.try_read::<Handle>(request)?;
         let expected = || format!("not the handle of place {} at {}", axis.index(), far.index());
         probe.check("VAR-26", given != Some(handle), expected, || format!("{handle:?}"));
     }
@@ -162,7 +162,7 @@ fn exchanged(probe: &mut Probe<'_>) -> Step {
     for place in [2, 3] {
         let axis = ChannelAxis::new(place)?;
         let request = AxisHandleByName::new(channel, axis, NAME)?;
-        let handle = probe.try_ask(request)?.and_then(|data| Handle::decode(&data).ok());
+        let handle = probe.try_read::<Handle>(request)?;
         handles.extend(handle);
     }
     let &[second, third] = handles.as_slice() else {
@@ -202,8 +202,7 @@ fn exchanged(probe: &mut Probe<'_>) -> Step {
 /// By its name on the channel interface, and by the handle that it has there.
 fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, Seen)> {
     let name = format!("{NAME}.Z");
-    let handle = probe.try_ask(HandleByName::new(channel, &name)?)?;
-    let handle = handle.and_then(|data| Handle::decode(&data).ok());
+    let handle = probe.try_read::<Handle>(HandleByName::new(channel, &name)?)?;
     let by_name = probe.try_ask(ReadByName::new(channel, &name)?)?;
     let by_handle = match handle {
         Some(handle) => probe.try_ask(ReadByHandle::new(channel, handle, U32List::EMPTY))?,

@@ -8,15 +8,14 @@ use ads_cnc::operation::{
     ReadElementName, Request,
 };
 use ads_cnc::sda::ElementCount;
-use ads_cnc::{Decode, Handle, Kind, ObjectCount, VariableCount};
+use ads_cnc::{Handle, Kind, ObjectCount, VariableCount};
 use ads_cnc_vectors::Hex;
 
-use super::describe_by_name::kinds;
 use super::inventory::Instance;
+use super::inventory::name_of;
 use super::probe::Probe;
-use super::variable::name_of;
 use super::{Row, case};
-use crate::judge::{IfThere as _, Needs, Step, Stop};
+use crate::judge::{IfThere as _, Needs, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -55,31 +54,23 @@ impl std::fmt::Display for Counted {
 impl Counted {
     /// How many there are, as the target says.
     pub(super) fn number(&self, probe: &mut Probe<'_>) -> Step<Option<u32>> {
-        fn read<T: for<'b> Decode<'b>>(
-            probe: &mut Probe<'_>,
-            request: Request<'_>,
-            get: fn(T) -> u32,
-        ) -> Step<Option<u32>> {
-            let data = probe.try_ask(request)?;
-            Ok(data.and_then(|data| T::decode(&data).ok()).map(get))
-        }
-        match self {
+        Ok(match self {
             Self::Objects(list) => {
-                read(probe, CountObjects::new(*list).into(), |count: ObjectCount| count.0)
+                probe.try_read(CountObjects::new(*list))?.map(|count: ObjectCount| count.0)
             }
             Self::Variables(channel, _, kind) => {
                 let request = CountVariables::new(*channel, *kind);
-                read(probe, request.into(), |count: VariableCount| count.0)
+                probe.try_read(request)?.map(|count: VariableCount| count.0)
             }
             Self::Parameters(channel, kind) => {
                 let request = CountDynamic::new(*channel, *kind);
-                read(probe, request.into(), |count: DynamicCount| count.0)
+                probe.try_read(request)?.map(|count: DynamicCount| count.0)
             }
             Self::Elements(instance) => match CountElements::new(instance.first) {
-                Ok(request) => read(probe, request.into(), |count: ElementCount| count.0),
-                Err(_) => Ok(None),
+                Ok(request) => probe.try_read(request)?.map(|count: ElementCount| count.0),
+                Err(_) => None,
             },
-        }
+        })
     }
 
     /// Whether there is one with this number.
@@ -107,21 +98,16 @@ impl Counted {
 fn counted(probe: &mut Probe<'_>) -> Step<Vec<Counted>> {
     let mut all: Vec<Counted> = probe.lists()?.into_iter().map(Counted::Objects).collect();
     for channel in probe.channels()? {
-        let listed = kinds(probe).into_iter();
+        let listed = probe.kinds().into_iter();
         all.extend(listed.map(|(name, kind)| Counted::Variables(channel, name, kind)));
         all.extend(DynamicKind::ALL.map(|kind| Counted::Parameters(channel, kind)));
     }
-    match probe.instances() {
-        Ok(instances) => all.extend(instances.into_iter().map(Counted::Elements)),
-        Err(Stop::NotApplicable(_)) => {}
-        Err(stop) => return Err(stop),
-    }
+    let instances = probe.instances().if_applicable()?.unwrap_or_default();
+    all.extend(instances.into_iter().map(Counted::Elements));
     let mut claimed = Vec::new();
     for one in all {
-        match one.number(probe) {
-            Ok(_) => claimed.push(one),
-            Err(Stop::NotApplicable(_)) => {}
-            Err(stop) => return Err(stop),
+        if one.number(probe).if_applicable()?.is_some() {
+            claimed.push(one);
         }
     }
     Ok(claimed)
@@ -140,11 +126,10 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
         probe.check("GEN-1", !swapped, || format!("the number of {one}"), found);
     }
     for channel in probe.channels()? {
-        let Some(variables) = probe.variables(channel).if_known()? else { continue };
-        for variable in variables {
+        for variable in probe.variables(channel).if_known()?.unwrap_or_default() {
             let name = name_of(&variable);
-            let Some(data) = probe.try_ask(HandleByName { channel, name })? else { continue };
-            let Ok(handle) = Handle::decode(&data) else { continue };
+            let handle: Option<Handle> = probe.try_read(HandleByName { channel, name })?;
+            let Some(handle) = handle else { continue };
             let known = variable.handle.0;
             let swapped = handle.0 != known && handle.0.swap_bytes() == known;
             let expected = || format!("{:?} of {}", variable.handle, variable.name.text);
@@ -162,48 +147,31 @@ fn in_order(probe: &mut Probe<'_>, what: &str, number: u32, makes_sense: impl Fn
 }
 
 fn field_order(probe: &mut Probe<'_>) -> Step {
-    let nothing = |stop| match stop {
-        Stop::NotApplicable(_) | Stop::Inconclusive(_) => Ok(()),
-        stop => Err(stop),
-    };
-    match probe.objects() {
-        Ok(objects) => {
-            let is_com = |group| matches!(IndexGroup::new(group).parts(), Some(Group::Com(_)));
-            for object in objects {
-                let name = object.name.to_string();
-                in_order(probe, &format!("the group of {name}"), object.group.get(), is_com);
-                let size = format!("the size of {name}");
-                in_order(probe, &size, object.size, |size| size <= 0x00FF_FFFF);
-            }
-        }
-        Err(stop) => nothing(stop)?,
+    let is_com = |group| matches!(IndexGroup::new(group).parts(), Some(Group::Com(_)));
+    for object in probe.objects().if_known()?.unwrap_or_default() {
+        let name = object.name.to_string();
+        in_order(probe, &format!("the group of {name}"), object.group.get(), is_com);
+        let size = format!("the size of {name}");
+        in_order(probe, &size, object.size, |size| size <= 0x00FF_FFFF);
     }
     for channel in probe.channels()? {
-        match probe.variables(channel) {
-            Ok(variables) => {
-                for one in variables {
-                    let name = one.name.text.to_string();
-                    let of_type = format!("the type of {name}");
-                    in_order(probe, &of_type, one.var_type.0, |code| (1..=9).contains(&code));
-                    let access = format!("the access of {name}");
-                    in_order(probe, &access, one.access.0, |code| (1..=2).contains(&code));
-                    let size = format!("the size of {name}");
-                    in_order(probe, &size, one.size, |size| size <= 0x00FF_FFFF);
-                }
-            }
-            Err(stop) => nothing(stop)?,
+        for one in probe.variables(channel).if_known()?.unwrap_or_default() {
+            let name = one.name.text.to_string();
+            let of_type = format!("the type of {name}");
+            in_order(probe, &of_type, one.var_type.0, |code| (1..=9).contains(&code));
+            let access = format!("the access of {name}");
+            in_order(probe, &access, one.access.0, |code| (1..=2).contains(&code));
+            let size = format!("the size of {name}");
+            in_order(probe, &size, one.size, |size| size <= 0x00FF_FFFF);
         }
         let number = u32::from(channel.number());
-        match probe.address_of(Class::Decoder, number, 0) {
-            Ok(Some(address)) => {
-                let of_class = |group| {
-                    matches!(IndexGroup::new(group).parts(), Some(Group::Class(_))) || group == 0
-                };
-                let what = format!("the group of the decoder of channel {number}");
-                in_order(probe, &what, address.index_group.get(), of_class);
-            }
-            Ok(None) => {}
-            Err(stop) => nothing(stop)?,
+        let address = probe.address_of(Class::Decoder, number, 0).if_known()?.flatten();
+        if let Some(address) = address {
+            let of_class = |group| {
+                matches!(IndexGroup::new(group).parts(), Some(Group::Class(_))) || group == 0
+            };
+            let what = format!("the group of the decoder of channel {number}");
+            in_order(probe, &what, address.index_group.get(), of_class);
         }
     }
     Ok(())

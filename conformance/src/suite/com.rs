@@ -10,7 +10,7 @@ use super::inventory::OBJECTS_MAX;
 use super::probe::Probe;
 use super::raw_call::RawCall;
 use super::{Row, case};
-use crate::judge::{Checks, Needs, Step, Stop, applicable, assumed, online};
+use crate::judge::{Checks, IfThere as _, Needs, Step, Stop, applicable, assumed, online};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -167,11 +167,8 @@ pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: Descrip
 fn in_sequence(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for list in lists(probe)? {
-        match known_number(probe, list) {
-            Ok(number) => sequence(probe, list, number)?,
-            Err(Stop::NotApplicable(_)) => continue,
-            Err(stop) => return Err(stop),
-        }
+        let Some(number) = known_number(probe, list).if_applicable()? else { continue };
+        sequence(probe, list, number)?;
         any = true;
     }
     applicable(any, "no list has an object")

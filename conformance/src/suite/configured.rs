@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeExtended, ReadByName};
-use ads_cnc::{Decode as _, Description, ExtendedReply, Kind, VariableAccess, VariableCount};
+use ads_cnc::{Description, ExtendedReply, Kind, VariableAccess, VariableCount};
 use ads_cnc_vectors::Hex;
 
 use super::inventory::VARIABLES_MAX;
@@ -60,14 +60,13 @@ type Described = HashMap<String, (Description, Option<ExtendedReply>)>;
 
 /// What is described, by its name, with what the same index has beside it.
 fn listed(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<Described> {
-    let count = probe.try_ask(CountVariables::new(channel, kind))?.unwrap_or_default();
-    let count = VariableCount::decode(&count).map_or(0, |count| count.0.min(VARIABLES_MAX));
+    let count: Option<VariableCount> = probe.try_read(CountVariables::new(channel, kind))?;
     let mut all = HashMap::new();
-    for index in 0..count {
-        let data = probe.try_ask(DescribeByIndex::new(channel, index, kind))?;
-        let Some(Ok(found)) = data.map(|data| Description::decode(&data)) else { continue };
-        let data = probe.try_ask(DescribeExtended::new(channel, index, kind))?;
-        let extended = data.and_then(|data| ExtendedReply::decode(&data).ok());
+    for index in 0..count.map_or(0, |count| count.0.min(VARIABLES_MAX)) {
+        let found: Option<Description> =
+            probe.try_read(DescribeByIndex::new(channel, index, kind))?;
+        let Some(found) = found else { continue };
+        let extended = probe.try_read(DescribeExtended::new(channel, index, kind))?;
         all.insert(found.name.text.to_string(), (found, extended));
     }
     Ok(all)

@@ -2,8 +2,8 @@
 
 use std::collections::HashSet;
 
-use ads_cnc::address::{Addressing, ComGroup, ComTable, Group};
-use ads_cnc::operation::{CountObjects, ReadDescriptors, ReadElementName, ReadObject, Request};
+use ads_cnc::address::{ComGroup, ComTable, Group};
+use ads_cnc::operation::{CountObjects, ReadDescriptors, ReadElementName, ReadObject};
 use ads_cnc::{Descriptors, ErrorKind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
@@ -12,7 +12,7 @@ use super::probe::Probe;
 use super::raw_call::RawCall;
 use super::steady::Steady;
 use super::{Row, case};
-use crate::judge::{Needs, OrStop as _, Step, Stop, applicable, assumed};
+use crate::judge::{IfThere as _, Needs, OrStop as _, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -29,11 +29,6 @@ pub(super) const CASES: &[Row] = &[
     case("obj-everything", &["OBJ-1"], Needs::Queries, everything,
         "Everything that is counted can be listed, each thing once"),
 ];
-
-/// The read of an object's content; none of the program stream, of which no read is documented.
-pub(super) fn read_of(object: &Object) -> Option<ReadObject> {
-    ReadObject::new(object.group, object.offset, object.size).ok()
-}
 
 fn content(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
@@ -68,7 +63,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
 fn room(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
-        if read_of(&object).is_none() {
+        if object.read().is_none() {
             continue;
         }
         for more in [1, 7, 64] {
@@ -85,24 +80,17 @@ fn room(probe: &mut Probe<'_>) -> Step {
     applicable(any, "no content is read with more room")
 }
 
-/// The same place by the rank of its channel; none if it is not a channel's.
-fn by_index(probe: &Probe<'_>, object: &Object) -> Option<ReadObject> {
-    let Some(Group::Com(com)) = object.group.parts() else { return None };
-    let (ComTable::Channel, Addressing::Logical) = (com.table, com.addressing) else { return None };
-    let channels = &probe.session.profile.channels;
-    let rank =
-        (1_u8..).zip(channels.iter()).find(|(_, channel)| **channel == u32::from(com.instance));
-    let group = ComGroup { addressing: Addressing::Index, instance: rank?.0, ..com };
-    ReadObject::new(group.index_group(), object.offset, object.size).ok()
+fn is_of_channel(object: &Object) -> bool {
+    let com = object.group.parts();
+    matches!(com, Some(Group::Com(ComGroup { table: ComTable::Channel, instance: 1.., .. })))
 }
 
 fn content_by_index(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     let mut any = false;
-    for object in probe.objects()? {
-        let (Some(one), Some(other)) = (read_of(&object), by_index(probe, &object)) else {
-            continue;
-        };
+    for object in probe.objects()?.into_iter().filter(is_of_channel) {
+        let by_rank = probe.object_by_rank(&object).and_then(|other| other.read());
+        let (Some(one), Some(other)) = (object.read(), by_rank) else { continue };
         any = true;
         steady.same(probe, ["ADR-1", "ADR-12"], &object.name, one, other)?;
     }
@@ -123,14 +111,12 @@ fn places(probe: &mut Probe<'_>) -> Step {
 
 fn read_lengths(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
-    let read = all.iter().filter(|one| one.size > 1).find_map(read_of);
-    let read = read.or_not_applicable("no object has two bytes")?;
-    let request = Request::from(read);
-    let good = RawCall::new(request)?;
+    let read = all.iter().filter(|one| one.size > 1).find_map(Object::read);
+    let good = RawCall::new(read.or_not_applicable("no object has two bytes")?)?;
     for read_length in [0, good.read_length.saturating_sub(1)] {
         let what = format!("a read length of {read_length} for {} bytes", good.read_length);
         let bad = good.with(|call| call.read_length = read_length);
-        probe.refuses(assumed("ADS-1"), &what, &bad, &good)?;
+        probe.refuses(assumed("ADS-1"), &what, bad, &good)?;
     }
     Ok(())
 }
@@ -154,12 +140,7 @@ fn everything(probe: &mut Probe<'_>) -> Step {
             probe.check(rule, id.is_some_and(|id| ids.insert(id)), "another object", found);
         }
     }
-    let instances = match probe.instances() {
-        Ok(instances) => instances,
-        Err(Stop::NotApplicable(_)) => Vec::new(),
-        Err(stop) => return Err(stop),
-    };
-    for instance in instances {
+    for instance in probe.instances().if_applicable()?.unwrap_or_default() {
         let mut places = HashSet::new();
         for element in instance.elements() {
             let name = probe.ask("OBJ-1", ReadElementName::new(element))?;

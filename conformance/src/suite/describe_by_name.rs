@@ -3,13 +3,13 @@
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, DescribeByName, DescribeExtended};
 use ads_cnc::{
-    Decode as _, Description, DescriptionByName, ExtendedReply, Kind, Synchronisation, TextRef,
-    Validity, VariableCount,
+    Description, DescriptionByName, ExtendedReply, Kind, Synchronisation, TextRef, Validity,
+    VariableCount,
 };
 
-use super::inventory::{KINDS, VARIABLES_MAX};
+use super::inventory::VARIABLES_MAX;
+use super::inventory::name_of;
 use super::probe::Probe;
-use super::variable::name_of;
 use super::{Row, case};
 use crate::edition::Feature;
 use crate::judge::{Needs, OrStop as _, Rule, Step, Stop, assumed, online};
@@ -27,22 +27,15 @@ pub(super) const CASES: &[Row] = &[
         "A name nobody has is described by an error"),
 ];
 
-/// The kinds that the target lists.
-pub(super) fn kinds(probe: &Probe<'_>) -> Vec<(&'static str, Kind<'static>)> {
-    let profile = &probe.session.profile;
-    KINDS.into_iter().filter(|(_, kind)| profile.has_kind(*kind)).collect()
-}
-
 /// How many variables of a kind there are; that is judged elsewhere.
 fn count(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
-    let data = probe.try_ask(CountVariables::new(channel, kind))?;
-    let count = data.and_then(|data| VariableCount::decode(&data).ok());
+    let count = probe.try_read::<VariableCount>(CountVariables::new(channel, kind))?;
     Ok(count.map_or(0, |count| count.0.min(VARIABLES_MAX)))
 }
 
 fn extended(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
+        for (name, kind) in probe.kinds() {
             for index in 0..count(probe, channel, kind)? {
                 let request = DescribeExtended::new(channel, index, kind);
                 let at = format!("index {index} of {name}");
@@ -85,7 +78,7 @@ fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> 
 
 fn extended_beyond(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
+        for (name, kind) in probe.kinds() {
             let count = count(probe, channel, kind)?;
             let Some(last) = count.checked_sub(1) else { continue };
             for beyond in probe.beyond(count) {

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use ads_cnc::address::{Addressing, Channel, Class, ClassGroup, ElementAddress};
+use ads_cnc::address::{Class, ElementAddress};
 use ads_cnc::operation::{
     CountElements, ReadElement, ReadElementLength, ReadElementName, ReadElementType,
     ReadElementUnit, ReadElementWriteFlag, Request,
@@ -10,10 +10,10 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag};
 use ads_cnc::{Decode, ErrorKind};
 
-use super::inventory::{Instance, OF_PLACES, number_of};
+use super::inventory::{self, Instance, OF_PLACES, element_by_rank, number_of};
 use super::probe::Probe;
 use super::raw_call::RawCall;
-use super::sda::{length_of, type_and_length};
+use super::sda::type_and_length;
 use super::steady::Steady;
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Step, assumed};
@@ -118,21 +118,15 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     // Of a place without an axis the number may be blank as all its contents.
     let rule = if at_place && count == 0 { assumed("SDA-4") } else { "SDA-4".into() };
     let what = format!("element {} of {instance}, which has {count}", beyond.index_offset());
-    let pairs: [(Request<'_>, Request<'_>); 5] = [
-        (ReadElementName::new(beyond).into(), ReadElementName::new(last).into()),
-        (ReadElementType::new(beyond).into(), ReadElementType::new(last).into()),
-        (ReadElementLength::new(beyond).into(), ReadElementLength::new(last).into()),
-        (ReadElementUnit::new(beyond).into(), ReadElementUnit::new(last).into()),
-        (ReadElementWriteFlag::new(beyond).into(), ReadElementWriteFlag::new(last).into()),
-    ];
-    for (beyond, last) in pairs {
+    for (beyond, last) in inventory::attributes(beyond).into_iter().zip(inventory::attributes(last))
+    {
         // The first of all need not have them all.
         if count > 0 || probe.try_ask(last)?.is_some() {
             probe.refuses(rule, &what, beyond, last)?;
         }
     }
     // Among the decoder's contents are functions, of which not all are known.
-    let Some(length) = length_of(probe, last)?.filter(|_| instance.class != Class::Decoder) else {
+    let Some(length) = probe.length_of(last)?.filter(|_| instance.class != Class::Decoder) else {
         return Ok(());
     };
     let (Ok(beyond), Ok(last)) = (ReadElement::new(beyond, length), ReadElement::new(last, length))
@@ -187,8 +181,7 @@ fn each(
 
 fn attributes(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances()? {
-        let of_instance = probe.try_ask(ReadElementName::new(instance.first))?;
-        let of_instance = of_instance.and_then(|data| ElementText::decode(&data).ok());
+        let of_instance = probe.try_read::<ElementText>(ReadElementName::new(instance.first))?;
         for element in instance.elements() {
             attributes_of(probe, &instance, of_instance.as_ref(), element)?;
         }
@@ -228,9 +221,8 @@ fn attributes_of(
 
 fn content(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, instance, element| {
-        let Some(length) = length_of(probe, element)? else { return Ok(()) };
-        let ty = probe.try_ask(ReadElementType::new(element))?;
-        let ty = ty.and_then(|data| ElementText::decode(&data).ok());
+        let Some(length) = probe.length_of(element)? else { return Ok(()) };
+        let ty = probe.try_read::<ElementText>(ReadElementType::new(element))?;
         let type_name = ty.map(|ty| ty.text.text.to_string()).unwrap_or_default();
         let at = format!("element {} of {instance}", element.index_offset());
         let read = match ReadElement::new(element, length) {
@@ -257,30 +249,16 @@ fn content(probe: &mut Probe<'_>) -> Step {
 }
 
 fn content_by_index(probe: &mut Probe<'_>) -> Step {
-    let ranks: Vec<(u8, Channel)> = (1_u8..).zip(probe.channels()?).collect();
     let mut steady = Steady::default();
     each(probe, |probe, instance, element| {
-        let rank =
-            ranks.iter().find(|(_, channel)| u32::from(channel.number()) == instance.channel);
-        let (Some((rank, _)), false) = (rank, instance.class == Class::Spindle) else {
-            return Ok(());
-        };
-        let group =
-            ClassGroup { addressing: Addressing::Index, instance: *rank, ..element.class_group() };
-        let by_index = ElementAddress::new(group, element.index_offset());
-        let Some(length) = length_of(probe, element)? else { return Ok(()) };
+        let rank = probe.rank_of(instance.channel).filter(|_| instance.class != Class::Spindle);
+        let Some(rank) = rank else { return Ok(()) };
+        let by_index = element_by_rank(element, rank);
+        let Some(length) = probe.length_of(element)? else { return Ok(()) };
         let rules = ["ADR-1", "ADR-12"];
         let what = format!("element {} of {instance}", element.index_offset());
-        let attributes = |element| -> [Request<'static>; 5] {
-            [
-                ReadElementName::new(element).into(),
-                ReadElementType::new(element).into(),
-                ReadElementLength::new(element).into(),
-                ReadElementUnit::new(element).into(),
-                ReadElementWriteFlag::new(element).into(),
-            ]
-        };
-        for (one, other) in attributes(element).into_iter().zip(attributes(by_index)) {
+        let pairs = inventory::attributes(element).into_iter().zip(inventory::attributes(by_index));
+        for (one, other) in pairs {
             let what = format!("{} of {what}", one.function().spec().name);
             steady.same(probe, rules, what, one, other)?;
         }
@@ -296,7 +274,7 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let one = all.iter().find_map(|one| one.elements().next());
     let element = one.or_not_applicable("no instance has an element")?;
-    let Some(length) = length_of(probe, element)? else { return Ok(()) };
+    let Some(length) = probe.length_of(element)? else { return Ok(()) };
     let requests: [Request<'_>; 2] =
         [ReadElementLength::new(element).into(), ReadElementWriteFlag::new(element).into()];
     let content = ReadElement::new(element, length).ok().map(Request::from);
@@ -304,7 +282,7 @@ fn read_lengths(probe: &mut Probe<'_>) -> Step {
         let good = RawCall::new(request)?;
         let bad = good.with(|call| call.read_length = 0);
         let what = format!("a read length of 0 for {}", request.function().spec().name);
-        probe.refuses(assumed("ADS-1"), &what, &bad, &good)?;
+        probe.refuses(assumed("ADS-1"), &what, bad, &good)?;
     }
     Ok(())
 }

@@ -8,15 +8,15 @@ use ads_cnc::operation::{
     ReadElementName, ReadElementUnit, Request,
 };
 use ads_cnc::sda::{ElementText, ObjectAddress};
-use ads_cnc::{CncString, Decode as _, Kind, U32List, VariableType};
+use ads_cnc::{CncString, Kind, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::addresses::Addresses;
+use super::inventory::name_of;
 use super::probe::Probe;
 use super::raw_call::RawCall;
-use super::variable::name_of;
 use super::{Row, case};
-use crate::judge::{IfThere as _, Needs, Rule, Step, Stop, applicable, assumed, online};
+use crate::judge::{IfThere as _, Needs, Rule, Step, applicable, assumed, online};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -46,11 +46,8 @@ fn ports_answer(probe: &mut Probe<'_>) -> Step {
         let of_com = CountObjects::new(channel).into();
         let of_class = FindInstance::new(Class::Decoder, channel.number().into(), 0).into();
         let request: Request<'_> = if port == AmsPort::COM { of_com } else { of_class };
-        let call = RawCall::new(request)?;
-        let exchange = match probe.call(&call.with(|call| call.port = port)) {
-            Err(Stop::NotApplicable(_)) => continue,
-            exchange => exchange?,
-        };
+        let call = RawCall::new(request)?.with(|call| call.port = port);
+        let Some(exchange) = probe.call(&call).if_applicable()? else { continue };
         let nobody = exchange.answer().is_some_and(|answer| {
             [answer.ams_error, answer.result].contains(&AdsError::TARGET_PORT_NOT_FOUND)
         });
@@ -107,10 +104,7 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
 fn numbering(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     let find = |probe: &mut Probe<'_>, class, channel| -> Step<Option<ObjectAddress>> {
-        match probe.address_of(class, channel, 0) {
-            Err(Stop::NotApplicable(_)) => Ok(None),
-            address => address,
-        }
+        Ok(probe.address_of(class, channel, 0).if_applicable()?.flatten())
     };
     // Of SDA is said that it has the decoder.
     let first = u32::from(probe.channel()?.number());
@@ -229,8 +223,7 @@ fn names_within(probe: &mut Probe<'_>) -> Step {
         let of_name: Request<'_> = ReadElementName::new(element).into();
         let of_unit = ReadElementUnit::new(element).into();
         for (held, request) in [(&held.name, of_name), (&held.unit, of_unit)] {
-            let read = probe.try_ask(request)?.unwrap_or_default();
-            let read = ElementText::decode(&read).ok();
+            let read = probe.try_read::<ElementText>(request)?;
             text(probe, held, read.iter().map(|read| read.text.text.as_bytes()));
         }
     }

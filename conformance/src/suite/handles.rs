@@ -7,9 +7,9 @@ use ads_cnc::operation::{HandleByName, ReadByHandle, ReadByName};
 use ads_cnc::{Decode as _, Description, Handle, Kind, TextRef, U32List, VariablePath};
 use ads_cnc_vectors::Hex;
 
+use super::inventory::name_of;
 use super::probe::Probe;
 use super::steady::Steady;
-use super::variable::name_of;
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Step, Stop, assumed};
 
@@ -90,8 +90,7 @@ fn stays(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for variable in probe.readable(channel)? {
             let asked = HandleByName { channel, name: name_of(&variable) };
-            let data = probe.try_ask(asked)?;
-            let handle = data.and_then(|data| Handle::decode(&data).ok());
+            let handle = probe.try_read::<Handle>(asked)?;
             all.extend(handle.map(|handle| (channel, variable, handle)));
         }
         let unknown = TextRef::new("V.E.no such variable")?;

@@ -2,20 +2,25 @@
 
 mod variables;
 
-use ads_cnc::address::{Channel, Class, ElementAddress, PlatformAxis};
+use ads_cnc::address::{
+    Addressing, AxisStride, Channel, Class, ClassGroup, ComGroup, ComTable, ElementAddress, Group,
+    PlatformAxis,
+};
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{
     CountElements, CountObjects, FindInstance, Function, ObjectList, ReadDescriptors,
-    ReadElementName, Request,
+    ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit, ReadElementWriteFlag,
+    ReadObject, Request,
 };
 use ads_cnc::sda::{ElementCount, ElementLength, ObjectAddress};
 use ads_cnc::{CncString, Decode, DescriptorsRef, ObjectCount};
 
-pub(super) use variables::{KINDS, VARIABLES_MAX};
+pub(super) use variables::{KINDS, VARIABLES_MAX, name_of};
 
+use super::place::Place;
 use super::probe::Probe;
 use crate::explain::class_name;
-use crate::judge::{Step, Stop};
+use crate::judge::{OrStop as _, Step, Stop};
 use crate::profile::Claim;
 
 /// The most objects of a list that are looked at, and elements of an instance.
@@ -50,6 +55,30 @@ pub(super) struct Object {
     pub(super) offset: ads_cnc::address::IndexOffset,
 }
 
+impl Object {
+    /// The read of its content; none of the program stream, of which no read is documented.
+    pub(super) fn read(&self) -> Option<ReadObject> {
+        ReadObject::new(self.group, self.offset, self.size).ok()
+    }
+
+    pub(super) const fn place(&self) -> Place {
+        Place::Object { group: self.group, offset: self.offset, size: self.size }
+    }
+
+    pub(super) fn is_text(&self) -> bool {
+        self.type_name.as_cnc_str() == "STRING"
+    }
+
+    /// Whether it is of the axis at this place: the objects of a channel's axes have a stride that
+    /// only their descriptors tell.
+    pub(super) fn is_at(&self, place: u32) -> bool {
+        let strides = [AxisStride::X1000, AxisStride::X10000];
+        let mut split =
+            strides.iter().filter_map(|&stride| self.offset.axis_and_element(stride).ok());
+        split.any(|(axis, element)| axis == place && element > 0)
+    }
+}
+
 /// An instance of a class, by what it was asked for.
 #[derive(Clone, Debug)]
 pub(super) struct Instance {
@@ -77,6 +106,24 @@ impl Instance {
     }
 }
 
+/// The attributes of an element.
+pub(super) fn attributes(element: ElementAddress) -> [Request<'static>; 5] {
+    [
+        ReadElementName::new(element).into(),
+        ReadElementType::new(element).into(),
+        ReadElementLength::new(element).into(),
+        ReadElementUnit::new(element).into(),
+        ReadElementWriteFlag::new(element).into(),
+    ]
+}
+
+/// The same element of the channel with this rank.
+pub(super) fn element_by_rank(element: ElementAddress, rank: u8) -> ElementAddress {
+    let group =
+        ClassGroup { addressing: Addressing::Index, instance: rank, ..element.class_group() };
+    ElementAddress::new(group, element.index_offset())
+}
+
 impl std::fmt::Display for Instance {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} ({}, {})", class_name(self.class), self.channel, self.axis)
@@ -90,6 +137,45 @@ pub(super) fn number_of(data: &[u8]) -> Option<u32> {
 }
 
 impl Probe<'_> {
+    /// Rank and number of each claimed channel.
+    pub(super) fn ranks(&self) -> Step<Vec<(Channel, Channel)>> {
+        let ranked = (1..).zip(self.channels()?);
+        ranked.map(|(rank, channel)| Ok((Channel::by_index(rank)?, channel))).collect()
+    }
+
+    /// The rank of the channel with this number.
+    pub(super) fn rank_of(&self, number: u32) -> Option<u8> {
+        let channels = self.session.profile.channels.iter();
+        (1..).zip(channels).find(|(_, channel)| **channel == number).map(|(rank, _)| rank)
+    }
+
+    /// The same object where channels are counted by rank; None if its group is no logical one. The
+    /// platform and its axes have the same number there.
+    pub(super) fn object_by_rank(&self, object: &Object) -> Option<Object> {
+        let Some(Group::Com(com)) = object.group.parts() else { return None };
+        let instance = match (com.table, com.instance) {
+            (ComTable::Channel, 1..) => self.rank_of(com.instance.into())?,
+            (_, instance) => instance,
+        };
+        let by_rank = ComGroup { addressing: Addressing::Index, instance, ..com };
+        (com.addressing == Addressing::Logical)
+            .then(|| Object { group: by_rank.index_group(), ..object.clone() })
+    }
+
+    /// Whether an object is of a place of its channel that the profile says to be without an axis: what
+    /// is written there nobody has.
+    pub(super) fn is_blank(&self, object: &Object) -> bool {
+        let channel = u32::from(object.list.parts().instance);
+        let empty = self.session.profile.empty_places.iter();
+        empty.filter(|at| at.0 == channel).any(|at| object.is_at(at.1))
+    }
+
+    /// The length of an element, as it says itself.
+    pub(super) fn length_of(&mut self, element: ElementAddress) -> Step<Option<u32>> {
+        let length: Option<ElementLength> = self.try_read(ReadElementLength::new(element))?;
+        Ok(length.map(ElementLength::get))
+    }
+
     /// The object lists of the platform, the channels and the platform axes that are claimed.
     pub(super) fn lists(&self) -> Step<Vec<ObjectList>> {
         let channels = self.channels()?.into_iter().map(ObjectList::from);
@@ -104,8 +190,8 @@ impl Probe<'_> {
         if self.session.inventory.objects.is_none() {
             let mut all = Vec::new();
             for list in self.lists()? {
-                let Some(data) = self.try_ask(CountObjects::new(list))? else { continue };
-                let count = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
+                let count: Option<ObjectCount> = self.try_read(CountObjects::new(list))?;
+                let count = count.map_or(0, |count| count.0.min(OBJECTS_MAX));
                 let mut gaps = 0_u32;
                 for first in 1..=count {
                     let one = ReadDescriptors::new(list, first, 1)?;
@@ -133,10 +219,8 @@ impl Probe<'_> {
             }
             self.session.inventory.objects = Some(all);
         }
-        match self.session.inventory.objects.as_deref() {
-            Some([]) | None => Err(Stop::not_applicable("the target has no object")),
-            Some(all) => Ok(all.to_vec()),
-        }
+        let all = self.session.inventory.objects.clone();
+        all.filter(|all| !all.is_empty()).or_not_applicable("the target has no object")
     }
 
     /// Whether an instance is at a place that the profile says to be without an axis.
@@ -170,10 +254,8 @@ impl Probe<'_> {
             }
             self.session.inventory.instances = Some(all);
         }
-        match self.session.inventory.instances.as_deref() {
-            Some([]) | None => Err(Stop::not_applicable("the target names no instance")),
-            Some(all) => Ok(all.to_vec()),
-        }
+        let all = self.session.inventory.instances.clone();
+        all.filter(|all| !all.is_empty()).or_not_applicable("the target names no instance")
     }
 
     /// The axes of a channel from this one on, up to the first that is not there.
@@ -222,9 +304,10 @@ impl Probe<'_> {
         }
         let (mut reached, mut gaps) = (0, 0_u32);
         for place in 1..count {
-            match self.is_named(first, place)? {
-                true => (reached, gaps) = (place, 0),
-                false => gaps = gaps.saturating_add(1),
+            if self.is_named(first, place)? {
+                (reached, gaps) = (place, 0);
+            } else {
+                gaps = gaps.saturating_add(1);
             }
             if gaps >= GAPS_MAX {
                 break;
@@ -247,9 +330,7 @@ impl Probe<'_> {
         channel: u32,
         axis: u32,
     ) -> Step<Option<ObjectAddress>> {
-        let request = Request::from(FindInstance::new(class, channel, axis));
-        let data = self.try_ask(request)?;
-        Ok(data.and_then(|data| ObjectAddress::decode(&data).ok()))
+        self.try_read(FindInstance::new(class, channel, axis))
     }
 
     /// The channel with this number.

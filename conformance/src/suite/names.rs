@@ -5,11 +5,11 @@ use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByName, HandleByName, ReadByName,
 };
-use ads_cnc::{CncString, Decode as _, TextRef, VariablePath, VariableType};
+use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
 
+use super::inventory::name_of;
 use super::probe::Probe;
 use super::steady::Steady;
-use super::variable::name_of;
 use super::{Row, case};
 use crate::edition::{Edition, Feature};
 use crate::judge::{Needs, OrStop as _, Step, Stop, applicable, assumed};
@@ -78,12 +78,10 @@ fn dynamic(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
     let channel = probe.channel()?;
     let mut all = Vec::new();
     for kind in DynamicKind::ALL.into_iter().filter(|kind| *kind != DynamicKind::P) {
-        let Some(data) = probe.try_ask(CountDynamic::new(channel, kind))? else { continue };
-        let count = DynamicCount::decode(&data).map_or(0, |count| count.0.min(64));
-        for index in 1..=count {
+        let count: Option<DynamicCount> = probe.try_read(CountDynamic::new(channel, kind))?;
+        for index in 1..=count.map_or(0, |count| count.0.min(64)) {
             let request = DynamicNameByIndex::new(channel, kind, index)?;
-            let data = probe.try_ask(request)?.unwrap_or_default();
-            let name = DynamicName::decode(&data).ok().map(|name| name.name.text);
+            let name = probe.try_read::<DynamicName>(request)?.map(|name| name.name.text);
             // One that leaves no room for its NUL cannot be asked for.
             let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
             all.extend(name.map(|name| (kind, name)));

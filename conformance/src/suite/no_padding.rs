@@ -4,7 +4,6 @@ use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
 use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
 
 use super::byte_order::Counted;
-use super::describe_by_name::kinds;
 use super::inventory::OBJECTS_MAX;
 use super::inventory::VARIABLES_MAX;
 use super::probe::Probe;
@@ -51,7 +50,7 @@ fn packed(probe: &mut Probe<'_>) -> Step {
         }
     }
     for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
+        for (name, kind) in probe.kinds() {
             let counted = Counted::Variables(channel, name, kind);
             let Ok(Some(number)) = counted.number(probe) else { continue };
             for index in 0..number.min(VARIABLES_MAX) {

@@ -60,6 +60,9 @@ impl Place {
     }
 }
 
+/// Why a case that writes is not applicable.
+pub(super) const NOTHING_WRITABLE: &str = "nothing of it may be written";
+
 /// Whether a request has a form on the wire: a long value beside a long name has none.
 pub(super) fn is_sendable(request: &Request<'_>) -> bool {
     RawCall::new(*request).is_ok()

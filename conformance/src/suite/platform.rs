@@ -9,7 +9,6 @@ use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject};
 use ads_cnc::{Decode as _, Descriptors, ObjectCount};
 
 use super::com::{known_number, number, one_by_one};
-use super::content::read_of;
 use super::inventory::{OBJECTS_MAX, Object};
 use super::probe::Probe;
 use super::steady::Steady;
@@ -98,11 +97,11 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     let mut any = false;
     for object in of(ObjectList::PLATFORM) {
-        let Some(one) = read_of(object) else { continue };
+        let Some(one) = object.read() else { continue };
         any = true;
         let what = object.name.to_string();
         let same = |one: &&Object| one.name == object.name && one.size == object.size;
-        if let Some(other) = of(first).find(same).and_then(read_of) {
+        if let Some(other) = of(first).find(same).and_then(Object::read) {
             steady.same(probe, "COM-4", &what, one, other)?;
         }
         // And at its own offset in the groups of both.

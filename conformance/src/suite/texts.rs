@@ -6,7 +6,7 @@ use ads_cnc_vectors::Hex;
 use super::place::{Place, Trial, same};
 use super::probe::Probe;
 use super::{Row, case};
-use crate::judge::{IfThere as _, Needs, Rule, Step, Stop, applicable, assumed};
+use crate::judge::{IfThere as _, Needs, Rule, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -20,17 +20,13 @@ const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
 /// Texts that may be written, by what names them.
 fn texts(probe: &mut Probe<'_>) -> Step<Vec<(Place, String)>> {
     let mut all = Vec::new();
-    match probe.objects() {
-        Ok(objects) => all.extend(objects.into_iter().filter_map(|object| {
-            let is_text = object.type_name.as_cnc_str() == "STRING" && object.writable;
-            let (group, offset, size) = (object.group, object.offset, object.size);
-            is_text.then(|| (Place::Object { group, offset, size }, object.name.to_string()))
-        })),
-        Err(Stop::NotApplicable(_)) => {}
-        Err(stop) => return Err(stop),
+    for object in probe.objects().if_applicable()?.unwrap_or_default() {
+        if object.is_text() && object.writable {
+            all.push((object.place(), object.name.to_string()));
+        }
     }
     for channel in probe.channels()? {
-        let Some(variables) = probe.variables(channel).if_known()? else { continue };
+        let variables = probe.variables(channel).if_known()?.unwrap_or_default();
         all.extend(variables.into_iter().filter_map(|variable| {
             let is_text = variable.var_type == VariableType::STRING
                 && variable.dimensions.is_empty()

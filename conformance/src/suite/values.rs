@@ -5,15 +5,17 @@ use ads_cnc::operation::{ReadByHandle, ReadByName, Request};
 use ads_cnc::{Description, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
+use super::inventory::name_of;
 use super::layout::{
     brackets, element_count, element_name, element_size, order, part, places_tried,
 };
 use super::place::same;
 use super::probe::Probe;
-use super::variable::name_of;
+use super::steady::{Compared, Steady, compare};
 use super::{Row, case};
 use crate::explain::{Values, type_by_name};
-use crate::judge::{Evidence, Needs, Rule, Step, Stop, applicable};
+use crate::judge::{Evidence, Needs, Rule, Step, applicable};
+use crate::text::hex::spaced;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -29,74 +31,31 @@ pub(super) const CASES: &[Row] = &[
         "A text is no longer than one can be declared"),
 ];
 
-/// How often a value that does not stand still is read again.
-const TRIES: usize = 3;
-
-/// Compares what a request reads with what a whole variable, read before and after it, makes
-/// expected. A machine moves: only a value that stands still meanwhile is judged.
-struct Steady {
-    judged: bool,
-    moved: Option<String>,
-}
-
-impl Steady {
-    const fn new() -> Self {
-        Self { judged: false, moved: None }
-    }
-
-    fn compare(
-        &mut self,
-        probe: &mut Probe<'_>,
-        rule: Rule,
-        (channel, variable): (Channel, &Description),
-        request: Request<'_>,
-        part: impl Fn(&[u8]) -> Vec<u8>,
-    ) -> Step {
-        let name = &variable.name.text;
-        let mut differs = None;
-        for _ in 0..TRIES {
-            let before = probe.ask("VAR-14", whole(channel, variable))?;
-            let Some(read) = probe.try_ask(request)? else {
-                self.judged = true;
-                let what = format!("an answer of {name}");
-                probe.check(rule, false, what, "an error");
-                return Ok(());
-            };
-            if part(&before) == read {
-                self.judged = true;
-                probe.pass(rule);
-                return Ok(());
-            }
-            let evidence = probe.evidence();
-            if probe.ask("VAR-14", whole(channel, variable))? == before {
-                differs = Some((before, read, evidence));
-            } else {
-                differs = None;
-            }
-        }
-        match differs {
-            // Each time it stood still before and after, and read otherwise in between.
-            Some((before, read, evidence)) => {
-                self.judged = true;
-                let expected = part(&before);
-                let dimensions: &[u32] =
-                    if expected == before { &variable.dimensions } else { &[] };
-                let values = typed(variable, dimensions);
-                probe.show(evidence.map(|evidence| Evidence { values, ..evidence }));
-                let words = format!("{} of the whole of {name}", Hex(expected.clone()));
-                probe.check_reply(rule, false, &expected, words, || Hex(read));
-            }
-            None => self.moved = Some(format!("{name} does not stand still")),
-        }
-        Ok(())
-    }
-
-    fn finish(self) -> Step {
-        match (self.judged, self.moved) {
-            (false, Some(moved)) => Err(Stop::Inconclusive(moved)),
-            _ => Ok(()),
-        }
-    }
+/// Judges what a request reads by what the whole variable, read before and after it, makes expected.
+fn compare_with_whole<'r>(
+    steady: &mut Steady,
+    probe: &mut Probe<'_>,
+    rule: impl Into<Rule>,
+    (channel, variable): (Channel, &Description),
+    request: impl Into<Request<'r>>,
+    part: impl Fn(&[u8]) -> Vec<u8>,
+) -> Step {
+    let (request, name) = (request.into(), &variable.name.text);
+    let compared = compare(
+        probe,
+        |probe| probe.ask("VAR-14", whole(channel, variable)).map(Some),
+        |probe, _| probe.try_ask(request),
+        |whole, read| part(whole) == *read,
+    )?;
+    steady.judge(probe, rule.into(), name, compared, |probe, rules, (whole, read, evidence)| {
+        let expected = part(&whole);
+        let dimensions: &[u32] = if expected == whole { &variable.dimensions } else { &[] };
+        let values = typed(variable, dimensions);
+        probe.show(evidence.map(|evidence| Evidence { values, ..evidence }));
+        let words = || format!("{} of the whole of {name}", spaced(&expected));
+        probe.check_reply(rules, false, &expected, words, || Hex(read));
+    });
+    Ok(())
 }
 
 /// How a report reads the value of a variable.
@@ -155,7 +114,7 @@ fn whole_by_handle(probe: &mut Probe<'_>) -> Step {
 }
 
 fn whole_by_name(probe: &mut Probe<'_>) -> Step {
-    let mut steady = Steady::new();
+    let mut steady = Steady::default();
     each(probe, |probe, channel, variable| {
         let request = ReadByName { channel, name: name_of(variable) };
         if variable.var_type.element_size().is_some()
@@ -167,13 +126,13 @@ fn whole_by_name(probe: &mut Probe<'_>) -> Step {
             probe.check(["VAR-14", "GEN-2"], same, &expected, &found);
         }
         let at = (channel, variable);
-        steady.compare(probe, "VAR-9".into(), at, request.into(), <[u8]>::to_vec)
+        compare_with_whole(&mut steady, probe, "VAR-9", at, request, <[u8]>::to_vec)
     })?;
     steady.finish()
 }
 
 fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
-    let mut steady = Steady::new();
+    let mut steady = Steady::default();
     each_array(probe, |probe, channel, variable, size| {
         for (number, place) in places_tried(&variable.dimensions) {
             let indices = place.as_slice();
@@ -189,7 +148,7 @@ fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
                 text_by_name(probe, channel, variable, &place)?;
             }
             let (at, part) = ((channel, variable), part(number, size));
-            steady.compare(probe, order(variable), at, request.into(), part)?;
+            compare_with_whole(&mut steady, probe, order(variable), at, request, part)?;
         }
         Ok(())
     })?;
@@ -206,22 +165,25 @@ fn text_by_name(
     let Some(name) = element_name(variable, place)? else { return Ok(()) };
     let by_name = ReadByName { channel, name: name.as_cnc_str().into() };
     let by_handle = ReadByHandle::new(channel, variable.handle, place);
-    for left in (0..TRIES).rev() {
-        let (before, read) = (probe.try_ask(by_name)?, probe.try_ask(by_handle)?);
-        let (Some(before), Some(read)) = (before, read) else { return Ok(()) };
-        let kept = same(&read, &before, true);
-        let stood = probe.try_ask(by_name)?.as_ref() == Some(&before);
-        if kept || stood && left == 0 {
-            let expected = || format!("{} of {name}, by handle too", Hex(before));
-            probe.check("VAR-11", kept, expected, || Hex(read));
-            return Ok(());
+    let compared = compare(
+        probe,
+        |probe| probe.try_ask(by_name),
+        |probe, _| probe.try_ask(by_handle),
+        |named, handled| same(handled, named, true),
+    )?;
+    match compared {
+        Compared::Same => probe.pass("VAR-11"),
+        Compared::Differs(named, handled, _) => {
+            let expected = || format!("{} of {name}, by handle too", Hex(named));
+            probe.check("VAR-11", false, expected, || Hex(handled));
         }
+        Compared::NoValue | Compared::NoAnswer | Compared::Moved => {}
     }
     Ok(())
 }
 
 fn elements_by_name(probe: &mut Probe<'_>) -> Step {
-    let mut steady = Steady::new();
+    let mut steady = Steady::default();
     each_array(probe, |probe, channel, variable, size| {
         for (number, place) in places_tried(&variable.dimensions) {
             let Some(name) = element_name(variable, &place)? else { continue };
@@ -234,7 +196,7 @@ fn elements_by_name(probe: &mut Probe<'_>) -> Step {
                 probe.check("VAR-14", sized, || format!("{size} bytes of one element"), found);
             }
             let (at, part) = ((channel, variable), part(number, size));
-            steady.compare(probe, brackets(variable), at, request.into(), part)?;
+            compare_with_whole(&mut steady, probe, brackets(variable), at, request, part)?;
         }
         Ok(())
     })?;

@@ -12,8 +12,7 @@ use ads_cnc::{
     VariableType,
 };
 
-use super::describe_by_name::kinds;
-use super::inventory::{KINDS, VARIABLES_MAX};
+use super::inventory::{KINDS, VARIABLES_MAX, name_of};
 use super::probe::Probe;
 use super::{Row, case};
 use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, applicable, assumed};
@@ -48,13 +47,13 @@ fn number(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> 
 fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let mut sum = 0_u32;
-        for (_, kind) in kinds(probe) {
+        for (_, kind) in probe.kinds() {
             sum = sum.saturating_add(number(probe, channel, kind)?);
         }
         let VariableCount(all) = probe.read("VAR-1", CountVariables::new(channel, Kind::ALL))?;
         let found = || format!("{all} of channel {}", channel.number());
         // What is not claimed is not counted here, but may well be there.
-        let whole = kinds(probe).len() == KINDS.len();
+        let whole = probe.kinds().len() == KINDS.len();
         let kept = if whole { all == sum } else { all >= sum };
         probe.check("VAR-1", kept, || format!("{sum} variables of all kinds"), found);
         if !probe.session.client.gate().lets_malformed_pass() {
@@ -72,7 +71,7 @@ fn count(probe: &mut Probe<'_>) -> Step {
 
 fn descriptions(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
+        for (name, kind) in probe.kinds() {
             let number = number(probe, channel, kind)?.min(VARIABLES_MAX);
             let mut names = HashSet::new();
             let mut all = Vec::new();
@@ -96,10 +95,12 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
 fn again(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>, all: &[Description]) -> Step {
     let indexed: Vec<(u32, &Description)> = (0..).zip(all).collect();
     for (index, first) in indexed.into_iter().rev() {
-        let request = || DescribeByIndex::new(channel, index, kind);
-        let read = |data: Option<Vec<u8>>| data.and_then(|data| Description::decode(&data).ok());
-        let same = read(probe.try_ask(request())?).as_ref() == Some(first);
-        if same || read(probe.try_ask(request())?).as_ref() == Some(first) {
+        let mut is_first = || -> Step<bool> {
+            let read = probe.try_read(DescribeByIndex::new(channel, index, kind))?;
+            Ok(read.as_ref() == Some(first))
+        };
+        let same = is_first()?;
+        if same || is_first()? {
             let expected = || format!("{} at index {index} again", first.name.text);
             probe.check("VAR-3", same, expected, "another description");
         }
@@ -151,7 +152,7 @@ pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, ki
 
 fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        for (_, kind) in kinds(probe) {
+        for (_, kind) in probe.kinds() {
             let number = number(probe, channel, kind)?;
             let Some(last) = number.checked_sub(1) else {
                 let first = DescribeByIndex::new(channel, 0, kind);
@@ -179,14 +180,14 @@ fn other_channel(probe: &mut Probe<'_>) -> Step {
     };
     let (channel, absent) = (probe.channel()?, Channel::new(absent)?);
     let what = format!("channel {}", absent.number());
-    for (_, kind) in kinds(probe).into_iter().chain([("", Kind::ALL)]) {
+    for (_, kind) in probe.kinds().into_iter().chain([("", Kind::ALL)]) {
         let count = |channel| CountVariables::new(channel, kind);
         probe.refuses("VAR-2", &what, count(absent), count(channel))?;
     }
     let variables = probe.variables(channel)?;
     let Some(known) = variables.first() else { return Ok(()) };
     let kind = VariablePath::from_text(known.name.text.as_cnc_str()).map(|path| path.kind());
-    if let Some((_, kind)) = kinds(probe).into_iter().find(|(_, one)| Ok(*one) == kind) {
+    if let Some((_, kind)) = probe.kinds().into_iter().find(|(_, one)| Ok(*one) == kind) {
         let first = |channel| DescribeByIndex::new(channel, 0, kind);
         probe.refuses("VAR-3", &what, first(absent), first(channel))?;
     }
@@ -194,11 +195,6 @@ fn other_channel(probe: &mut Probe<'_>) -> Step {
     probe.refuses("VAR-14", &what, read(absent), read(channel))?;
     let read = |channel| ReadByHandle::new(channel, known.handle, U32List::EMPTY);
     probe.refuses("VAR-14", &what, read(absent), read(channel))
-}
-
-/// The name of a description, as a request carries it.
-pub(super) fn name_of(variable: &Description) -> TextRef<'_> {
-    variable.name.text.as_cnc_str().into()
 }
 
 /// The structures that a leaf is in: `V.E.a`, `V.E.a[0]` and `V.E.a[0].b` of `V.E.a[0].b.c`.

@@ -3,14 +3,14 @@
 use ads_cnc::address::Channel;
 use ads_cnc::operation::HandleByName;
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{CncString, Decode as _, Description, Handle, VariableAccess, VariableType};
+use ads_cnc::{CncString, Description, Handle, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::axis_interface::place_of;
+use super::inventory::name_of;
 use super::names::dynamic_among_variables;
-use super::place::{Place, Trial, same};
+use super::place::{NOTHING_WRITABLE, Place, Trial, same};
 use super::probe::Probe;
-use super::variable::name_of;
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable, assumed};
 
@@ -49,7 +49,7 @@ pub(super) fn each(
             }
         }
     }
-    applicable(any, "nothing of it may be written")
+    applicable(any, NOTHING_WRITABLE)
 }
 
 pub(super) fn trial<'t>(variable: &'t Description, what: &'t str, rules: &'t [Rule]) -> Trial<'t> {
@@ -63,8 +63,7 @@ pub(super) fn handle_of(
     channel: Channel,
     variable: &Description,
 ) -> Step<Handle> {
-    let data = probe.try_ask(HandleByName { channel, name: name_of(variable) })?;
-    let handle = data.and_then(|data| Handle::decode(&data).ok());
+    let handle = probe.try_read::<Handle>(HandleByName { channel, name: name_of(variable) })?;
     Ok(handle.unwrap_or(variable.handle))
 }
 
@@ -165,7 +164,7 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
             })?;
         }
     }
-    applicable(any, "nothing of it may be written")
+    applicable(any, NOTHING_WRITABLE)
 }
 
 fn by_name_only(probe: &mut Probe<'_>) -> Step {

@@ -1,16 +1,13 @@
 //! Cases of writes that were refused: nothing of them is there, and the next one is done.
 
-use ads_cnc::Decode as _;
 use ads_cnc::address::ComTable;
 use ads_cnc::operation::{ReadElementType, WriteByName};
 use ads_cnc::sda::ElementText;
 use ads_cnc_vectors::Hex;
 
 use super::inventory::OF_PLACES;
-use super::place::{Place, another, is_sendable};
+use super::place::{NOTHING_WRITABLE, Place, another, is_sendable};
 use super::probe::Probe;
-use super::sda::length_of;
-use super::write_content::{is_blank, nothing, place_of};
 use super::write_refused::{Known, writable};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable};
@@ -69,9 +66,9 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
 fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
-        let (place, name) = (place_of(&object), object.name.to_string());
-        let is_text = object.type_name.as_cnc_str() == "STRING";
-        let is_tried = object.writable && !is_text && !is_blank(probe, &object);
+        let (place, name) = (object.place(), object.name.to_string());
+        let is_text = object.is_text();
+        let is_tried = object.writable && !is_text && !probe.is_blank(&object);
         if !is_tried || place.read().is_err() || !probe.may_write(&place, &name)? {
             continue;
         }
@@ -101,7 +98,7 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
             probe.send(place.write(&value)?)?;
         }
     }
-    nothing(any)
+    applicable(any, NOTHING_WRITABLE)
 }
 
 /// By an integer the place may get an axis: its logical number is written there.
@@ -119,10 +116,10 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         for element in instance.elements() {
-            let ty = probe.try_ask(ReadElementType::new(element))?.unwrap_or_default();
-            let ty = ElementText::decode(&ty).map(|ty| ty.text.text.to_string());
+            let ty: Option<ElementText> = probe.try_read(ReadElementType::new(element))?;
+            let ty = ty.map(|ty| ty.text.text.to_string());
             if !may_be_a_number(&ty.unwrap_or_default())
-                && let Some(length) = length_of(probe, element)?
+                && let Some(length) = probe.length_of(element)?
             {
                 let what = format!("element {} of {instance}", element.index_offset());
                 all.push((Place::Element { element, length }, what));
@@ -133,8 +130,8 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
         let is_of_channel =
             object.list.parts().table == ComTable::Channel && object.group.get() & 0xFF00 == 0x0100;
         let number = may_be_a_number(&object.type_name.to_string());
-        if object.writable && is_of_channel && !number && is_blank(probe, &object) {
-            all.push((place_of(&object), object.name.to_string()));
+        if object.writable && is_of_channel && !number && probe.is_blank(&object) {
+            all.push((object.place(), object.name.to_string()));
         }
     }
     let mut any = false;

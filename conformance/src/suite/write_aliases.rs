@@ -1,13 +1,12 @@
 //! Cases of what is written one way and read another: by number and by rank, with a channel and
 //! without.
 
-use ads_cnc::address::{Class, ComTable, IndexGroup};
+use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
 
-use super::inventory::Object;
-use super::place::{Place, Trial};
+use super::place::{NOTHING_WRITABLE, Place, Trial};
 use super::probe::Probe;
-use super::write_content::{Named, flagged, is_blank, nothing, place_of};
+use super::write_content::{Named, flagged};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable};
 
@@ -21,32 +20,15 @@ pub(super) const CASES: &[Row] = &[
         "V.CYC that can be written within is written by its name"),
 ];
 
-/// The group of an object without the bit of logical addressing: channels are counted there.
-fn by_index(probe: &Probe<'_>, object: &Object) -> Step<Option<IndexGroup>> {
-    const LOGICAL: u32 = 0x10_0000;
-    let group = object.group.get();
-    let (base, instance) = (group & 0xFFFF_FF00, group & 0xFF);
-    if !matches!(base, 0x12_0100 | 0x12_0200) {
-        return Ok(None);
-    }
-    let is_channel = object.list.parts().table == ComTable::Channel && base == 0x12_0100;
-    let mut ranks = (1_u32..).zip(probe.channels()?);
-    let rank = match is_channel && instance > 0 {
-        true => ranks.find(|(_, one)| u32::from(one.number()) == instance).map(|(rank, _)| rank),
-        false => Some(instance),
-    };
-    Ok(rank.map(|rank| IndexGroup::new((base & !LOGICAL) | rank)))
-}
-
 fn objects_by_index(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
-        let (logical, what) = (place_of(&object), object.name.to_string());
-        if !object.writable || is_blank(probe, &object) || logical.read().is_err() {
+        let (logical, what) = (object.place(), object.name.to_string());
+        if !object.writable || probe.is_blank(&object) || logical.read().is_err() {
             continue;
         }
-        let Some(group) = by_index(probe, &object)? else { continue };
-        let place = Place::Object { group, offset: object.offset, size: object.size };
+        let Some(by_rank) = probe.object_by_rank(&object) else { continue };
+        let place = by_rank.place();
         if place.read().is_err()
             || !probe.may_write(&logical, &what)?
             || !probe.may_write(&place, &what)?
@@ -62,7 +44,7 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         }
         any = true;
         let rules = [Rule::from("ADR-12")];
-        let is_text = object.type_name.as_cnc_str() == "STRING";
+        let is_text = object.is_text();
         let trial = Trial { what: &format!("{what} by index"), rules: &rules, is_text, name: None };
         probe.try_write(&trial, &place, |probe, _, _| {
             let (read, number) = (probe.value_at(&place)?, probe.value_at(&logical)?);
@@ -72,7 +54,7 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
             Ok(())
         })?;
     }
-    nothing(any)
+    applicable(any, NOTHING_WRITABLE)
 }
 
 fn axes_of_hld(probe: &mut Probe<'_>) -> Step {

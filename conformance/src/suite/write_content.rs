@@ -1,7 +1,6 @@
 //! Cases that write COM objects and elements of SDA and GEO, and undo it.
 
-use ads_cnc::Decode as _;
-use ads_cnc::address::{AxisStride, Class, ElementAddress, IndexOffset};
+use ads_cnc::address::{Class, ElementAddress};
 use ads_cnc::operation::{
     CountElements, ReadElementName, ReadElementType, ReadElementWriteFlag, Request, Service,
 };
@@ -9,10 +8,9 @@ use ads_cnc::sda::{ElementText, ElementWriteFlag};
 use ads_cnc_vectors::Hex;
 
 use super::inventory::{Instance, Object};
-use super::place::{Place, Trial};
+use super::place::{NOTHING_WRITABLE, Place, Trial};
 use super::probe::Probe;
 use super::raw_call::RawCall;
-use super::sda::length_of;
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable, assumed};
 
@@ -32,34 +30,13 @@ pub(super) const CASES: &[Row] = &[
         "The number of elements of an instance takes no value"),
 ];
 
-pub(super) fn nothing(any: bool) -> Step {
-    applicable(any, "nothing of it may be written")
-}
-
-pub(super) fn place_of(object: &Object) -> Place {
-    Place::Object { group: object.group, offset: object.offset, size: object.size }
-}
-
-/// Whether an object is at a place where no axis is: what is written there nobody has.
-pub(super) fn is_blank(probe: &Probe<'_>, object: &Object) -> bool {
-    let parts = object.list.parts();
-    let at = |offset: IndexOffset, place: u32| {
-        let strides = [AxisStride::X1000, AxisStride::X10000];
-        let mut split = strides.iter().filter_map(|&stride| offset.axis_and_element(stride).ok());
-        split.any(|(axis, element)| axis == place && element > 0)
-    };
-    let empty = probe.session.profile.empty_places.iter();
-    let mut own = empty.filter(|(channel, _)| *channel == u32::from(parts.instance));
-    own.any(|&(_, place)| at(object.offset, place))
-}
-
 /// Objects that may be written, by what their descriptors say of that.
 fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Object>> {
     let mut all = Vec::new();
     for object in probe.objects()? {
-        let place = place_of(&object);
+        let place = object.place();
         if object.writable == is_writable
-            && !is_blank(probe, &object)
+            && !probe.is_blank(&object)
             && place.read().is_ok()
             && probe.may_write(&place, &object.name.to_string())?
         {
@@ -73,26 +50,25 @@ fn objects(probe: &mut Probe<'_>) -> Step {
     let all = writable(probe, true)?;
     for object in &all {
         let what = object.name.to_string();
-        let is_text = object.type_name.as_cnc_str() == "STRING";
+        let is_text = object.is_text();
         let rules = ["COM-5", "COM-2"].map(Rule::from);
         let trial = Trial { what: &what, rules: &rules, is_text, name: None };
-        probe.try_write(&trial, &place_of(object), |_, _, _| Ok(()))?;
+        probe.try_write(&trial, &object.place(), |_, _, _| Ok(()))?;
     }
-    nothing(!all.is_empty())
+    applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 fn read_only_objects(probe: &mut Probe<'_>) -> Step {
-    let known =
-        writable(probe, true)?.into_iter().find(|one| one.type_name.as_cnc_str() != "STRING");
-    let known = known.as_ref().map(place_of);
+    let known = writable(probe, true)?.into_iter().find(|one| !one.is_text());
+    let known = known.as_ref().map(Object::place);
     let all = writable(probe, false)?;
     for object in &all {
         let what = object.name.to_string();
         let rules = ["COM-2".into()];
         let trial = Trial { what: &what, rules: &rules, is_text: false, name: None };
-        probe.write_refused(&trial, &place_of(object), known.as_ref())?;
+        probe.write_refused(&trial, &object.place(), known.as_ref())?;
     }
-    nothing(!all.is_empty())
+    applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 /// An element with its name and whether it is a text.
@@ -125,15 +101,14 @@ fn named(
     is_writable: bool,
 ) -> Step<Option<Named>> {
     let text = |probe: &mut Probe<'_>, request: Request<'static>| -> Step<String> {
-        let data = probe.try_ask(request)?.unwrap_or_default();
-        Ok(ElementText::decode(&data).map(|text| text.text.text.to_string()).unwrap_or_default())
+        let text: Option<ElementText> = probe.try_read(request)?;
+        Ok(text.map(|text| text.text.text.to_string()).unwrap_or_default())
     };
-    let flag = probe.try_ask(ReadElementWriteFlag::new(element))?.unwrap_or_default();
-    let flag = ElementWriteFlag::decode(&flag).map(ElementWriteFlag::is_writable);
-    if flag != Ok(is_writable) {
+    let flag: Option<ElementWriteFlag> = probe.try_read(ReadElementWriteFlag::new(element))?;
+    if flag.map(ElementWriteFlag::is_writable) != Some(is_writable) {
         return Ok(None);
     }
-    let Some(length) = length_of(probe, element)? else { return Ok(None) };
+    let Some(length) = probe.length_of(element)? else { return Ok(None) };
     let place = Place::Element { element, length };
     let name = text(probe, ReadElementName::new(element).into())?;
     if place.read().is_err() || !probe.may_write(&place, &name)? {
@@ -173,7 +148,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
             probe.pass("SDA-1");
         }
     }
-    nothing(!all.is_empty())
+    applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 /// Where else a write might go to: what is there, what it holds and how it is judged.
@@ -205,7 +180,7 @@ fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<Twin>> {
     }
     let mut all = Vec::new();
     for (rule, what, element) in others {
-        if length_of(probe, element)? != Some(length) {
+        if probe.length_of(element)? != Some(length) {
             continue;
         }
         let place = Place::Element { element, length };
@@ -237,7 +212,7 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
             probe.send(place.write(&value)?)?;
         }
     }
-    nothing(!all.is_empty())
+    applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 fn read_only_elements(probe: &mut Probe<'_>) -> Step {
@@ -249,7 +224,7 @@ fn read_only_elements(probe: &mut Probe<'_>) -> Step {
         let trial = Trial { what, rules: &rules, is_text: false, name: None };
         probe.write_refused(&trial, place, known.as_ref())?;
     }
-    nothing(!all.is_empty())
+    applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 /// Written as content of the first element, which it shares its address with.

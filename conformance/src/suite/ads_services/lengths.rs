@@ -10,10 +10,9 @@ use ads_cnc::{Kind, VariableType};
 use super::maybe;
 use crate::judge::{Step, applicable};
 use crate::profile::Claim;
-use crate::suite::describe_by_name::kinds;
+use crate::suite::inventory::name_of;
 use crate::suite::probe::Probe;
 use crate::suite::raw_call::RawCall;
-use crate::suite::variable::name_of;
 use crate::wire_service::clause;
 
 /// TCP may cut a frame anywhere: its length says where it ends.
@@ -53,7 +52,7 @@ pub(super) fn asked_for(probe: &mut Probe<'_>) -> Step {
             let name = DynamicNameByIndex::new(channel, kind, 1)?;
             lengths_of(probe, name.into(), Extent::Open)?;
         }
-        for (_, kind) in kinds(probe) {
+        for (_, kind) in probe.kinds() {
             let count = CountVariables::new(channel, kind);
             lengths_of(probe, count.into(), Extent::Fixed("VAR-2"))?;
             for index in 0..2 {

@@ -14,12 +14,10 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
 
-use super::describe_by_name::kinds;
+use super::inventory::name_of;
 use super::inventory::number_of;
 use super::probe::Probe;
-use super::sda::length_of;
 use super::steady::Steady;
-use super::variable::name_of;
 use super::{Row, case};
 use crate::judge::{Needs, Step, applicable};
 use crate::profile::Claim;
@@ -118,7 +116,7 @@ fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: &str = "ADS-3";
     let mut steady = Steady::default();
     for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
+        for (name, kind) in probe.kinds() {
             let data = some(probe, RULE, CountVariables::new(channel, kind))?;
             let Some(data) = data else { continue };
             let count = VariableCount::decode(&data);
@@ -216,7 +214,7 @@ fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step<bool>
             probe.check(rules, count.is_some(), expected, || format!("{data:02x?}"));
             for place in 1..=count.unwrap_or_default().min(SOME) {
                 let Ok(element) = first.nth(place) else { break };
-                let Some(length) = length_of(probe, element)? else { continue };
+                let Some(length) = probe.length_of(element)? else { continue };
                 let Ok(read) = ReadElement::new(element, length) else { continue };
                 let Some(data) = maybe(probe, read)? else { continue };
                 let found = || format!("{} bytes", data.len());

@@ -4,10 +4,9 @@ use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use crate::judge::{Rule, Step, applicable};
-use crate::suite::place::{Place, Trial};
+use crate::suite::place::{NOTHING_WRITABLE, Place, Trial};
 use crate::suite::probe::Probe;
 use crate::suite::write::is_of_service;
-use crate::suite::write_content::is_blank;
 
 /// So many of each kind are tried.
 const SOME: usize = 3;
@@ -35,22 +34,20 @@ pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
         any |= !tried.is_empty();
     }
     any |= objects(probe)?;
-    applicable(any, "nothing of it may be written")
+    applicable(any, NOTHING_WRITABLE)
 }
 
 fn objects(probe: &mut Probe<'_>) -> Step<bool> {
     let Ok(objects) = probe.objects() else { return Ok(false) };
     let mut tried = 0_usize;
-    for object in
-        objects.iter().filter(|one| one.writable && one.type_name.as_cnc_str() != "STRING")
-    {
+    for object in objects.iter().filter(|one| one.writable && !one.is_text()) {
         let (group, offset, size) = (object.group, object.offset, object.size);
         let place = Place::Object { group, offset, size };
         let name = object.name.to_string();
         // At a place without an axis nothing is written: its content is blank.
         let of_axis = offset.get() >= 0x1000;
         let filled = match place.read() {
-            Ok(read) if !is_blank(probe, object) && probe.may(read)? => {
+            Ok(read) if !probe.is_blank(object) && probe.may(read)? => {
                 probe.value_at(&place)?.is_some_and(|was| !of_axis || any(&was))
             }
             _ => false,

@@ -58,8 +58,7 @@ const fn prefix(kind: DynamicKind) -> &'static str {
 
 /// How many there are, if the target says; that is judged elsewhere.
 fn number(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<u32> {
-    let data = probe.try_ask(CountDynamic::new(channel, kind))?;
-    let count = data.and_then(|data| DynamicCount::decode(&data).ok());
+    let count = probe.try_read::<DynamicCount>(CountDynamic::new(channel, kind))?;
     Ok(count.map_or(0, |count| count.0))
 }
 

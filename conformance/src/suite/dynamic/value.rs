@@ -129,8 +129,7 @@ pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
 
 /// Each function by the channel's rank, beside the same by its number.
 pub(super) fn by_rank(probe: &mut Probe<'_>) -> Step {
-    for (rank, channel) in (1_u32..).zip(probe.channels()?) {
-        let rank = Channel::by_index(rank)?;
+    for (rank, channel) in probe.ranks()? {
         for kind in DynamicKind::ALL {
             let count = |channel| CountDynamic::new(channel, kind).into();
             same_by_rank(probe, count(channel), count(rank))?;

@@ -43,7 +43,7 @@ fn channel_of(channels: &[Channel], step: &ServiceStep) -> Step<Channel> {
     let before = usize::try_from(place).ok().and_then(|place| place.checked_sub(1));
     let channel = before.and_then(|before| channels.get(before)).copied();
     let why = || format!("there are not {place} channels with a Service Interface");
-    channel.ok_or_else(|| Stop::NotApplicable(why()))
+    channel.ok_or_else(|| Stop::not_applicable(why()))
 }
 
 fn steps<'c>(

@@ -6,10 +6,10 @@ use ads_cnc::Decode as _;
 use ads_cnc::address::{
     Addressing, Attribute, AxisStride, Class, ClassGroup, ElementAddress, IndexOffset,
 };
-use ads_cnc::operation::{CountElements, FindInstance, Request};
+use ads_cnc::operation::{CountElements, FindInstance};
 use ads_cnc::sda::ObjectAddress;
 
-use super::super::inventory::OF_PLACES;
+use super::super::inventory::{OF_PLACES, element_by_rank};
 use super::super::probe::Probe;
 use super::super::raw_call::RawCall;
 use super::super::steady::Steady;
@@ -80,23 +80,16 @@ fn offset(probe: &mut Probe<'_>, class: Class, axis: u32, first: ElementAddress)
 
 pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
-    for (rank, channel) in (1_u32..).zip(probe.channels()?) {
+    for (rank, channel) in (1_u8..).zip(probe.channels()?) {
         for class in OF_PLACES.into_iter().chain([Class::Hld]) {
             let number = channel.number().into();
             let Some(logical) = probe.address_of(class, number, 0)? else { continue };
             let Ok(Some(first)) = logical.first_element() else { continue };
             any = true;
-            let group = ClassGroup {
-                addressing: Addressing::Index,
-                instance: u8::try_from(rank)?,
-                ..first.class_group()
-            };
-            let by_index = ElementAddress::new(group, first.index_offset());
-            let request = Request::from(FindInstance::new(class, rank, 0).by_index());
+            let by_index = element_by_rank(first, rank);
             // That objects are asked for by rank too is not said of this function.
-            let exchange = probe.send(request)?;
-            let data = exchange.success();
-            let found = data.and_then(|data| ObjectAddress::decode(data).ok());
+            let exchange = probe.send(FindInstance::new(class, rank.into(), 0).by_index())?;
+            let found = exchange.success().and_then(|data| ObjectAddress::decode(data).ok());
             let same = found == Some(ObjectAddress::from(by_index)) || found == Some(logical);
             let expected =
                 || format!("{} or the address by number", by_index.group(Attribute::Content));

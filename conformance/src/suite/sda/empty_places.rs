@@ -2,14 +2,12 @@
 
 use std::sync::Arc;
 
-use ads_cnc::address::{AxisStride, Class, ElementAddress, Group, IndexOffset};
+use ads_cnc::address::{Class, ElementAddress, Group};
 use ads_cnc::operation::{CountElements, ObjectList, ReadElement};
 use ads_cnc_vectors::Hex;
 
-use super::super::content::read_of;
 use super::super::inventory::{Instance, OBJECTS_MAX, OF_PLACES};
 use super::super::probe::Probe;
-use super::length_of;
 use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
 
@@ -39,7 +37,7 @@ pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
 
 /// The content of an element; nothing of what is none.
 fn content(probe: &mut Probe<'_>, element: ElementAddress) -> Step<Option<Vec<u8>>> {
-    let Some(length) = length_of(probe, element)? else { return Ok(None) };
+    let Some(length) = probe.length_of(element)? else { return Ok(None) };
     match ReadElement::new(element, length) {
         Ok(read) => probe.try_ask(read),
         Err(_) => Ok(None),
@@ -61,7 +59,7 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
             let Ok(other) = other.first.nth(place) else { continue };
             theirs.extend(content(probe, other)?);
         }
-        let length = match length_of(probe, element)? {
+        let length = match probe.length_of(element)? {
             Some(length) => Some(length),
             None => theirs.first().and_then(|bytes| u32::try_from(bytes.len()).ok()),
         };
@@ -78,20 +76,11 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
     Ok(())
 }
 
-/// Whether an offset is at this place: the objects of a channel's axes have a stride that only
-/// their descriptors tell.
-fn is_at(offset: IndexOffset, place: u32) -> bool {
-    let strides = [AxisStride::X1000, AxisStride::X10000];
-    let mut split = strides.iter().filter_map(|&stride| offset.axis_and_element(stride).ok());
-    split.any(|(axis, element)| axis == place && element > 0)
-}
-
 fn blank_objects(probe: &mut Probe<'_>, channel: u32, place: u32) -> Step {
     let list = ObjectList::from(probe.channel_of(channel)?);
     for object in probe.objects()?.into_iter().filter(|one| one.list == list) {
         let is_com = matches!(object.group.parts(), Some(Group::Com(_)));
-        let (true, true, Some(read)) = (is_at(object.offset, place), is_com, read_of(&object))
-        else {
+        let (true, true, Some(read)) = (object.is_at(place), is_com, object.read()) else {
             continue;
         };
         let content = probe.ask("SDA-11", read)?;
@@ -148,8 +137,7 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     let list = ObjectList::from(probe.channel_of(one.into())?);
     for object in probe.objects()?.into_iter().filter(|object| object.list == list) {
         let name = object.name.to_string();
-        let (true, false, Some(read)) =
-            (of_com.contains(&name), is_at(object.offset, 1), read_of(&object))
+        let (true, false, Some(read)) = (of_com.contains(&name), object.is_at(1), object.read())
         else {
             continue;
         };
@@ -216,7 +204,7 @@ fn numbers_of(probe: &mut Probe<'_>, channel: u8, number: u32) -> Step<Vec<Strin
     let number = u64::from(number).to_le_bytes();
     let mut all = Vec::new();
     for object in probe.objects()?.into_iter().filter(|object| object.list == list) {
-        let (true, Some(read)) = (is_at(object.offset, 1), read_of(&object)) else { continue };
+        let (true, Some(read)) = (object.is_at(1), object.read()) else { continue };
         let content = probe.try_ask(read)?.unwrap_or_default();
         if !content.is_empty() && number.starts_with(&content) {
             all.push(object.name.to_string());

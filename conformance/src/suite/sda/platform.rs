@@ -5,7 +5,6 @@ use ads_cnc::operation::ReadElement;
 
 use super::super::probe::Probe;
 use super::super::steady::Steady;
-use super::length_of;
 use crate::judge::{Step, Stop};
 
 pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
@@ -30,7 +29,7 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
         let counts = format!("{} elements, of {axis} {}", mine.count, axis.count);
         probe.check("SDA-13", mine.count == axis.count, "the same elements", counts);
         for (one, other) in axis.elements().zip(mine.elements()) {
-            let Some(length) = length_of(probe, one)? else { continue };
+            let Some(length) = probe.length_of(one)? else { continue };
             let read = |address| ReadElement::new(address, length);
             let (Ok(read_one), Ok(read_other)) = (read(one), read(other)) else { continue };
             let what = format!("element {} of {axis}", one.index_offset());

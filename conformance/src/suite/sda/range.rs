@@ -40,9 +40,8 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
         let exchange = probe.send(count)?;
         let read = exchange.success().is_some();
         let expected = || format!("the elements of the {} ({channel}, {axis})", class_name(class));
-        for &rule in rules.iter().filter(|rule| rule.id == "SDA-5") {
-            probe.check(rule, read, &expected, &exchange);
-        }
+        let of_range: Vec<Rule> = rules.iter().filter(|rule| rule.id == "SDA-5").copied().collect();
+        probe.check(&of_range, read, expected, &exchange);
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{Decode as _, Handle, U32List};
+use ads_cnc::{Handle, U32List};
 use ads_cnc_vectors::Hex;
 
 use super::{NONE, ONE, WIDE, channels, get, put, within, within_at};
@@ -17,7 +17,7 @@ fn handle_of(
     variable: ServiceVariable,
 ) -> Step<Option<Handle>> {
     let name = HandleByName::new(channel, variable.name())?;
-    Ok(probe.try_ask(name)?.and_then(|data| Handle::decode(&data).ok()))
+    Ok(probe.try_read::<Handle>(name)?)
 }
 
 /// Texts of any length, written one way and read the other.

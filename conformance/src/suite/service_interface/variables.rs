@@ -2,7 +2,7 @@
 
 use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{Decode as _, Handle, U32List, VariableType};
+use ads_cnc::{Handle, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::{NONE, WIDE, get, put, within};
@@ -96,7 +96,7 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
         }
         for (variable, _) in all {
             let name = HandleByName::new(channel, variable.name())?;
-            let handle = probe.try_ask(name)?.and_then(|data| Handle::decode(&data).ok());
+            let handle = probe.try_read::<Handle>(name)?;
             let Some(handle) = handle else { continue };
             let by_name = get(probe, channel, variable)?;
             let request = ReadByHandle::new(channel, handle, U32List::EMPTY);

@@ -18,7 +18,7 @@ use ads_cnc::streaming::RETRY_AFTER;
 
 use super::probe::Probe;
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop};
+use crate::judge::{Needs, Step, Stop, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -93,10 +93,7 @@ fn object(probe: &mut Probe<'_>) -> Step {
         probe.check("STM-1", here && named, expected, found);
         probe.check("STM-1", object.writable, "write access", "none");
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable(format!("no list names {NAME}"))),
-    }
+    applicable(any, &format!("no list names {NAME}"))
 }
 
 /// How long a device may take before it has read what it holds.
@@ -161,10 +158,8 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
 
 fn taken(probe: &mut Probe<'_>, rules: &[&'static str], at: Channel, data: &[u8]) -> Step {
     let taken = write(probe, at, data)?;
-    for &rule in rules {
-        let expected = || format!("{} bytes of whole lines taken", data.len());
-        probe.check(rule, taken.is_some(), expected, "refused while there is room");
-    }
+    let expected = || format!("{} bytes of whole lines taken", data.len());
+    probe.check(rules, taken.is_some(), expected, "refused while there is room");
     Ok(())
 }
 
@@ -172,9 +167,8 @@ fn whole_lines(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
     let lines = b"; comment\r\n(a second line)\r\n\r\n";
     taken(probe, &["STM-1", "STM-4", "STM-7"], channel, lines)?;
-    let ranks = (1_u32..).zip(probe.channels()?);
-    let rank = ranks.filter(|(_, one)| *one == channel).map(|(rank, _)| rank).next();
-    let by_index = Channel::by_index(rank.unwrap_or(1))?;
+    let rank = probe.ranks()?.into_iter().find(|(_, one)| *one == channel);
+    let Some((by_index, _)) = rank else { return Ok(()) };
     if probe.may(WriteProgramStream::new(by_index, b"\r\n"))? {
         taken(probe, &["STM-1"], by_index, lines)?;
     }
