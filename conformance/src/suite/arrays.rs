@@ -39,7 +39,7 @@ fn array_has_elements(probe: &mut Probe<'_>) -> Step {
         let has_first = ask(probe, &first)?.is_some();
         if dimensions.len() == 1 && whole_is_there {
             let expected = || format!("element 0 of {name}, or no dimension", name = name.text);
-            probe.check(["VAR-4", "VAR-7"], has_first, &expected, "an error");
+            probe.check(["VAR-4", "VAR-7"], has_first, expected, "an error");
         }
         if !has_first {
             return Ok(());

@@ -127,7 +127,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
                     ["VAR-10", "VAR-26", "ADR-7"],
                     other.is_none(),
                     "a handle of each place",
-                    &found,
+                    found,
                 );
             }
             if !any && axis != first {
@@ -144,13 +144,13 @@ fn handles(probe: &mut Probe<'_>) -> Step {
             let name = &variable.name.text;
             let has_place = !is_one_number || at_places.contains_key(&variable.handle.0);
             let expected = || format!("a place from 1 on with the handle of {name}");
-            probe.check(["VAR-26", "GEN-6"], has_place, &expected, "none has it");
+            probe.check(["VAR-26", "GEN-6"], has_place, expected, "none has it");
         }
     }
     each(probe, |probe, at, variable| {
         let found = || format!("that of {} for {at}", variable.name.text);
         let same = at.own == at.name;
-        probe.check("VAR-26", same, || format!("the handle of a {}", at.name), &found);
+        probe.check("VAR-26", same, || format!("the handle of a {}", at.name), found);
         probe.check("VAR-10", same, "a handle of this variable", found);
         Ok(())
     })

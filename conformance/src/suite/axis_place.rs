@@ -42,14 +42,14 @@ fn places(probe: &mut Probe<'_>) -> Step {
                 described.iter().filter(|one| one.0 == *name).map(|one| &one.1).collect();
             let found = || format!("{} places of channel {}", places.len(), channel.number());
             let expected = || format!("a place for each {name} of {} axes", own.len());
-            probe.check(["VAR-26", "GEN-6"], places.len() >= own.len(), &expected, &found);
+            probe.check(["VAR-26", "GEN-6"], places.len() >= own.len(), expected, found);
             // An axis is at one place. Where none is, handles are nobody's.
             let mut seen = HashSet::new();
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
                 let found = || format!("{:?} of place {} too", at.handle, at.axis.index());
                 let expected = || format!("another handle at each place for {name}");
                 let own = seen.insert(at.handle.0);
-                probe.check(["VAR-10", "VAR-26"], own, &expected, &found);
+                probe.check(["VAR-10", "VAR-26"], own, expected, found);
             }
             for variable in own {
                 at_a_place(probe, channel, name, variable, &places)?;
@@ -193,7 +193,7 @@ fn exchanged(probe: &mut Probe<'_>) -> Step {
     probe.check(assumed("VAR-10"), handle == Some(second), expected, || format!("{handle:?}"));
     let expected = || format!("{found} of {NAME}.Z");
     for (rule, value) in [("VAR-26", value.by_place), ("VAR-10", value.by_handle)] {
-        probe.check(rule, value == of_z.by_place, &expected, || Hex(value));
+        probe.check(rule, value == of_z.by_place, expected, || Hex(value));
     }
     let back = seen(probe, 3, third)? == of_z && seen(probe, 2, second)? == of_y;
     probe.require("VAR-26", back, "all axes where they were", "others")

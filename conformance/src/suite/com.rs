@@ -194,9 +194,10 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         let alone = singles.iter().skip(usize_of(skip)).take(usize_of(count));
         let alone: Vec<u8> = alone.flatten().copied().collect();
         let expected = || format!("{count} descriptors from {first} on, as they read one by one");
-        let found = match together.len() == alone.len() {
-            true => "other bytes".to_owned(),
-            false => format!("{} bytes instead of {}", together.len(), alone.len()),
+        let found = if together.len() == alone.len() {
+            "other bytes".to_owned()
+        } else {
+            format!("{} bytes instead of {}", together.len(), alone.len())
         };
         probe.check("COM-3", together == alone, expected, found);
     }

@@ -27,7 +27,7 @@ fn as_configured(probe: &mut Probe<'_>) -> Step {
         let (external, global) = cnc.model().configured(channel.number().into());
         for (kind, configured) in [(Kind::V_E, external), (Kind::V_G, global)] {
             let found = listed(probe, channel, kind)?;
-            let number = format!("{} of channel {}", configured.len(), channel.number());
+            let number = || format!("{} of channel {}", configured.len(), channel.number());
             let same = found.len() == configured.len();
             probe.check("VAR-2", same, number, found.len());
             for one in &configured {

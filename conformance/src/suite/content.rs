@@ -49,7 +49,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
         let found = || format!("{} bytes of {}", content.len(), object.name);
         let sized = u32::try_from(content.len()) == Ok(object.size);
         let expected = || format!("the {} bytes of its descriptor", object.size);
-        probe.check(rules, sized, &expected, &found);
+        probe.check(rules, sized, expected, found);
         if object.type_name.as_cnc_str() == "BOOL" {
             let bit = matches!(*content, [0 | 1]);
             let found = || format!("{content:?} of {}", object.name);
@@ -74,7 +74,7 @@ fn room(probe: &mut Probe<'_>) -> Step {
             let expected = || format!("the {} bytes of {}", object.size, object.name);
             let found = || format!("{} bytes in a room of {size}", content.len());
             let sized = u32::try_from(content.len()) == Ok(object.size);
-            probe.check(["COM-2", "COM-5"], sized, &expected, &found);
+            probe.check(["COM-2", "COM-5"], sized, expected, found);
         }
     }
     applicable(any, "no content is read with more room")
@@ -104,7 +104,7 @@ fn places(probe: &mut Probe<'_>) -> Step {
         let place = (object.list, object.group, object.offset);
         let found = || format!("{} at {}, {} again", object.name, object.group, object.offset);
         let own = seen.insert(place);
-        probe.check(["COM-2", "COM-5"], own, "a place of its own", &found);
+        probe.check(["COM-2", "COM-5"], own, "a place of its own", found);
     }
     Ok(())
 }

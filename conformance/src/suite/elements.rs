@@ -57,9 +57,9 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         let data = probe.ask("SDA-4", CountElements::new(first)?)?;
         probe.pass("ADR-6");
         let found = || format!("{} bytes for the number of {instance}", data.len());
-        probe.check(assumed("SDA-4"), data.len() == 4, "a number of 4 bytes", &found);
+        probe.check(assumed("SDA-4"), data.len() == 4, "a number of 4 bytes", found);
         let told = number_of(&data);
-        probe.check("SDA-4", told.is_some(), "a number", &found);
+        probe.check("SDA-4", told.is_some(), "a number", found);
         let same = told == Some(instance.told);
         let found = || format!("{told:?} elements of {instance}");
         probe.check("SDA-4", same, || format!("{}, as before", instance.told), found);
@@ -77,7 +77,7 @@ fn elements(probe: &mut Probe<'_>) -> Step {
         // What a place without an axis is called nobody says, nor what has nothing else to name.
         let is_bare = count == 0 || probe.is_claimed_empty(&instance);
         let rule = if is_bare { assumed("SDA-4") } else { "SDA-4".into() };
-        probe.check(rule, !name.is_empty(), "the name of the instance", &found);
+        probe.check(rule, !name.is_empty(), "the name of the instance", found);
         let rule = assumed("SDA-4");
         // Axes of the platform are in several HLDs.
         let shared = instance.class == Class::Hld && instance.axis > 0;
@@ -199,9 +199,9 @@ fn attributes_of(
     let name: ElementText = attribute(probe, "SDA-6", ReadElementName::new(element))?;
     let at = format!("element {} of {instance}", element.index_offset());
     let found = || format!("{:?} of {at}", text(&name));
-    probe.check("SDA-6", !text(&name).is_empty(), "a name", &found);
+    probe.check("SDA-6", !text(&name).is_empty(), "a name", found);
     let is_own = of_instance.is_none_or(|of_instance| text(of_instance) != text(&name));
-    probe.check("SDA-4", is_own, "another name than the instance's, which element 0 has", &found);
+    probe.check("SDA-4", is_own, "another name than the instance's, which element 0 has", found);
     let ty: ElementText = attribute(probe, "SDA-7", ReadElementType::new(element))?;
     let length: ElementLength = attribute(probe, "SDA-8", ReadElementLength::new(element))?;
     let unit: ElementText = attribute(probe, "SDA-6", ReadElementUnit::new(element))?;

@@ -90,7 +90,7 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
             let (rule, name) = (rule_of(variable.var_type), &variable.name.text);
             let expected = || format!("{whole} bytes for {:?}", variable.var_type);
             let found = || format!("{} bytes of {name}", variable.size);
-            probe.check(rule, variable.size == whole, &expected, found);
+            probe.check(rule, variable.size == whole, expected, found);
             let read = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
             // That it is read at all is judged elsewhere.
             let Some(value) = probe.try_ask(read)? else { continue };

@@ -39,7 +39,7 @@ fn described(probe: &mut Probe<'_>) -> Step {
             let by_name = ReadByName { channel, name: name_of(&variable) };
             let answered = probe.try_ask(by_handle)?.is_some();
             let expected = || format!("an answer to the handle {what} is described with");
-            probe.check(["VAR-4", "VAR-10"], answered, &expected, "an error");
+            probe.check(["VAR-4", "VAR-10"], answered, expected, "an error");
             let exchange = probe.send(by_name)?;
             let named = exchange.success().is_some();
             let expected = || format!("an answer to the name {what}");

@@ -33,11 +33,11 @@ fn paths(probe: &mut Probe<'_>) -> Step {
         for variable in probe.variables(channel)? {
             let name = &variable.name.text;
             let path = VariablePath::from_text(name.as_cnc_str());
-            let found = match &path {
-                Ok(_) => format!("{name}"),
+            let found = || match &path {
+                Ok(_) => name.to_string(),
                 Err(error) => format!("{name}: {error}"),
             };
-            probe.check("VAR-20", path.is_ok(), "a name of structures and indices", &found);
+            probe.check("VAR-20", path.is_ok(), "a name of structures and indices", found);
             let Ok(path) = path else { continue };
             // An array at a leaf is one thing: its elements are not listed.
             let whole = path.elements().is_empty();
@@ -95,7 +95,7 @@ pub(super) fn dynamic_among_variables(
     probe: &mut Probe<'_>,
 ) -> Step<Vec<(DynamicKind, CncString)>> {
     let profile = &probe.session.profile;
-    let lacks = |why: &str| Err(Stop::NotApplicable(why.to_owned()));
+    let lacks = |why| Err(Stop::not_applicable(why));
     if profile.edition != Edition::German {
         return lacks("the edition has V.P, V.L and V.S among the parameters only");
     }

@@ -69,14 +69,13 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
         DescriptorsRef::decode(bytes).ok().and_then(|list| list.get(0)).is_some_and(judge)
     };
     // An unknown type is none of the manual's, but a type.
-    let shift = match object(bytes, |one| one.name().is_empty() && one.type_name().is_empty()) {
-        true => unpacked(bytes, 52, |bytes| {
-            let mut bytes = bytes.to_vec();
-            bytes.resize(ads_cnc::limits::DESCRIPTOR_LEN, 0);
-            object(&bytes, |one| has_type(one) && !one.name().is_empty())
-        }),
-        false => None,
+    let is_unpacked = object(bytes, |one| one.name().is_empty() && one.type_name().is_empty());
+    let makes_sense = |bytes: &[u8]| {
+        let mut bytes = bytes.to_vec();
+        bytes.resize(ads_cnc::limits::DESCRIPTOR_LEN, 0);
+        object(&bytes, |one| has_type(one) && !one.name().is_empty())
     };
+    let shift = if is_unpacked { unpacked(bytes, 52, makes_sense) } else { None };
     let found = || format!("{} bytes more in between", shift.unwrap_or_default());
     probe.check("GEN-2", shift.is_none(), "name and type at bytes 20 and 52", found);
 }
@@ -86,14 +85,11 @@ fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
         let name = one.name.text.to_string();
         name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'))
     };
-    let decoded = Description::decode(bytes);
-    let shift = match decoded.is_ok_and(|one| of_kind(&one)) {
-        true => None,
-        false => unpacked(bytes, bytes.len(), |bytes| {
-            Description::decode(bytes)
-                .is_ok_and(|one| of_kind(&one) && one.var_type.name().is_some())
-        }),
+    let makes_sense = |bytes: &[u8]| {
+        Description::decode(bytes).is_ok_and(|one| of_kind(&one) && one.var_type.name().is_some())
     };
+    let is_of_kind = Description::decode(bytes).is_ok_and(|one| of_kind(&one));
+    let shift = if is_of_kind { None } else { unpacked(bytes, bytes.len(), makes_sense) };
     let found = || format!("{} bytes more in between", shift.unwrap_or_default());
     probe.check(
         "GEN-2",

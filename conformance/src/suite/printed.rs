@@ -8,6 +8,7 @@ use ads_cnc_vectors::{Direction, Hex, ProvenanceKind, Vector, vector, vectors};
 use super::probe::Probe;
 use super::raw_call::RawCall;
 use crate::judge::{Body, Case, Evidence, Needs, Rule, Step, Stop, case_of, typed};
+use crate::text::hex::spaced;
 
 /// One example contradicts another of the same variable (E-27): no CNC answers both.
 const CONTRADICTED: &str = "value-printed-name-element";
@@ -68,7 +69,7 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
             Some(bytes) if bytes != expected => !wrong.contains(&id),
             received => received.is_some(),
         };
-        let printed = format!("{} as printed", Hex(expected.clone()));
+        let printed = || format!("{} as printed", spaced(&expected));
         probe.check_reply(rule, kept, &expected, printed, &found);
     }
     Ok(())

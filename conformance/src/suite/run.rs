@@ -28,18 +28,12 @@ pub fn run(
 ) -> Vec<Outcome> {
     let (codec, target): (Vec<Case>, Vec<Case>) =
         cases.into_iter().partition(|case| case.needs == Needs::Codec);
-    let mut outcomes = match codec.is_empty() {
-        true => Vec::new(),
-        false => {
-            let mut own = testee::Own { defect: defect.cloned() };
-            testee::judge(
-                &mut own,
-                codec,
-                Terms { seed, subject: Subject::Codec, edition: None, strict: true },
-            )
-            .outcomes
-        }
-    };
+    let mut outcomes = Vec::new();
+    if !codec.is_empty() {
+        let mut own = testee::Own { defect: defect.cloned() };
+        let terms = Terms { seed, subject: Subject::Codec, edition: None, strict: true };
+        outcomes = testee::judge(&mut own, codec, terms).outcomes;
+    }
     outcomes.extend(target.into_iter().map(|case| {
         let run = TRIES.get(case.id.as_str()).copied();
         one(case, run, session.as_deref_mut())

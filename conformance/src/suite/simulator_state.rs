@@ -2,7 +2,6 @@
 //! content another value, so that none passes for another.
 
 use ads_cnc::address::{ComGroup, ComTable};
-use ads_cnc_vectors::Hex;
 
 use super::addresses::{Addresses, At};
 use super::byte_order::is_permuted;
@@ -12,6 +11,7 @@ use super::probe::Probe;
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
 use crate::simulator::{Held, Holder};
+use crate::text::hex::spaced;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -81,14 +81,13 @@ fn judge(
 ) {
     let kept = found.is_some_and(|found| same(held, expected, found));
     let permuted = is_number(held) && found.is_some_and(|found| is_permuted(expected, found));
-    let what = format!("{} of {} ({:?})", Hex(expected.to_vec()), held.name, held.holder);
-    let shown = found.map_or_else(|| result.to_owned(), |found| Hex(found.to_vec()).to_string());
+    let what = || format!("{} of {} ({:?})", spaced(expected), held.name, held.holder);
+    let shown = || found.map_or_else(|| result.to_owned(), spaced);
     if is_number(held) && found.is_some_and(|found| found.len() == expected.len()) {
-        probe.check("GEN-1", !permuted, &what, &shown);
+        probe.check("GEN-1", !permuted, what, shown);
     }
-    for &rule in rules.iter().filter(|rule| !permuted || rule.id == "COM-5") {
-        probe.check(rule, kept, &what, &shown);
-    }
+    let rules = rules.iter().filter(|rule| !permuted || rule.id == "COM-5").copied();
+    probe.check(&rules.collect::<Vec<_>>(), kept, what, shown);
 }
 
 /// Every content with its values over the rounds; they are put back whatever comes of it.
@@ -130,9 +129,10 @@ fn is_held(probe: &mut Probe<'_>) -> Step {
     let addresses = Addresses::new(probe)?;
     let mut done = Ok(());
     for (number, held) in (1..).zip(&all).filter(|(_, held)| held.writable) {
-        let value = match is_bit(held) {
-            true => held.value.iter().map(|bit| bit ^ 1).collect(),
-            false => value(held, number, 0),
+        let value = if is_bit(held) {
+            held.value.iter().map(|bit| bit ^ 1).collect()
+        } else {
+            value(held, number, 0)
         };
         done = done.and_then(|()| write(probe, &all, held, &addresses.of(held)?, &value));
         all.iter().for_each(|held| cnc.hold(held, &held.value));
@@ -164,7 +164,7 @@ fn write(probe: &mut Probe<'_>, all: &[Held], held: &Held, addresses: &[At], val
         }
         let expected = || format!("no change but that of {} ({:?})", held.name, held.holder);
         let found = others.join(", ");
-        probe.check(&rules, others.is_empty(), &expected, &found);
+        probe.check(&rules, others.is_empty(), expected, found);
         all.iter().for_each(|held| cnc.hold(held, &held.value));
     }
     Ok(())

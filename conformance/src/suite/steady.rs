@@ -40,9 +40,10 @@ pub(super) fn compare<B: PartialEq, R>(
             return Ok(Compared::Same);
         }
         let evidence = probe.evidence();
-        last = match value(probe)?.as_ref() == Some(&before) {
-            true => Compared::Differs(before, read, evidence),
-            false => Compared::Moved,
+        last = if value(probe)?.as_ref() == Some(&before) {
+            Compared::Differs(before, read, evidence)
+        } else {
+            Compared::Moved
         };
     }
     Ok(last)

@@ -103,11 +103,11 @@ fn whole_by_handle(probe: &mut Probe<'_>) -> Step {
         let name = &variable.name.text;
         let expected = "at most 2048 bytes";
         let found = || format!("{} bytes of {name}", value.len());
-        probe.check("VAR-14", value.len() <= 2048, expected, &found);
+        probe.check("VAR-14", value.len() <= 2048, expected, found);
         if variable.var_type.element_size().is_some() {
             let same = u32::try_from(value.len()) == Ok(variable.size);
             let expected = || format!("the {} bytes of its description", variable.size);
-            probe.check(["VAR-8", "VAR-14"], same, &expected, &found);
+            probe.check(["VAR-8", "VAR-14"], same, expected, found);
         }
         Ok(())
     })
@@ -123,7 +123,7 @@ fn whole_by_name(probe: &mut Probe<'_>) -> Step {
             let same = u32::try_from(value.len()) == Ok(variable.size);
             let expected = || format!("the {} bytes of its description", variable.size);
             let found = || format!("{} bytes of {}", value.len(), variable.name.text);
-            probe.check(["VAR-14", "GEN-2"], same, &expected, &found);
+            probe.check(["VAR-14", "GEN-2"], same, expected, found);
         }
         let at = (channel, variable);
         compare_with_whole(&mut steady, probe, "VAR-9", at, request, <[u8]>::to_vec)

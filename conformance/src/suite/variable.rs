@@ -125,7 +125,7 @@ pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, ki
     probe.check("VAR-6", known, "access 1 or 2", || format!("{} of {name}", access.0));
     let empty = variable.dimensions.contains(&0);
     let found = || format!("{:?} of {name}", variable.dimensions);
-    probe.check("VAR-4", !empty, "at least one element in each dimension", &found);
+    probe.check("VAR-4", !empty, "at least one element in each dimension", found);
     probe.check("VAR-7", !empty, "no dimension where there is no array", found);
     let Description { var_type, access, .. } = variable;
     // As they stand they mean nothing, and would the other way round.

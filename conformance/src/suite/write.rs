@@ -97,7 +97,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let is_text = variable.var_type == VariableType::STRING;
             let expected = || format!("{} of {name} by its handle", Hex(new.to_vec()));
             let kept = same(&read, new, is_text);
-            probe.check("VAR-13", kept, &expected, || Hex(read.clone()));
+            probe.check("VAR-13", kept, expected, || Hex(read.clone()));
             // What the name gives by now the handle has to give as well.
             let kept = kept || !same(&named, new, is_text);
             probe.check("VAR-14", kept, expected, || Hex(read));

@@ -54,7 +54,7 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
             let (again, read) = (taken(probe, good)?, probe.value_at(&place)?);
             if again && read.as_ref() == Some(&other) {
                 let expected = || format!("{} of {name}, as written", Hex(other.clone()));
-                probe.check([id, "ADS-2"], after == other, &expected, || Hex(after.clone()));
+                probe.check([id, "ADS-2"], after == other, expected, || Hex(after.clone()));
             }
             taken(probe, back)?;
         }

@@ -72,10 +72,10 @@ fn all(probe: &mut Probe<'_>) -> Step<Vec<One>> {
             still.push(one);
         }
     }
-    match still.is_empty() {
-        true => Err(Stop::inconclusive("no variable stands still")),
-        false => Ok(still),
+    if still.is_empty() {
+        return Err(Stop::inconclusive("no variable stands still"));
     }
+    Ok(still)
 }
 
 /// Another value, in which every byte is another if the type allows it.

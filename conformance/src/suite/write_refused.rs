@@ -11,7 +11,7 @@ use super::probe::Probe;
 use super::raw_call::RawCall;
 use super::write::{each, handle_of, is_of_service, trial};
 use super::{Row, case};
-use crate::judge::{Needs, OrStop as _, Rule, Step, Stop};
+use crate::judge::{Needs, OrStop as _, Rule, Step, Stop, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -73,10 +73,8 @@ pub(super) fn writable(probe: &mut Probe<'_>) -> Step<Vec<Known>> {
             }
         }
     }
-    match all.is_empty() {
-        true => Err(Stop::not_applicable("no number may be written")),
-        false => Ok(all),
-    }
+    applicable(!all.is_empty(), "no number may be written")?;
+    Ok(all)
 }
 
 fn first(probe: &mut Probe<'_>) -> Step<Known> {
@@ -154,9 +152,10 @@ pub(super) fn taken(
 
 /// What is refused must differ by its fault only from what is taken.
 pub(super) fn taken_first(probe: &mut Probe<'_>, rule: Rule, good: Request<'_>) -> Step {
-    match taken(probe, rule, "what differs by that alone", good)? {
-        true => Ok(()),
-        false => Err(Stop::inconclusive("what differs by that alone is refused too")),
+    if taken(probe, rule, "what differs by that alone", good)? {
+        Ok(())
+    } else {
+        Err(Stop::inconclusive("what differs by that alone is refused too"))
     }
 }
 

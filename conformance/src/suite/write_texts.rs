@@ -79,7 +79,7 @@ fn of_lengths(
         let same = until_nul(&read) == until_nul(&value);
         let expected = || format!("{len} characters of {name}, as written");
         let found = || format!("{} bytes: {}", read.len(), Hex(read.clone()));
-        probe.check(id, same, &expected, &found);
+        probe.check(id, same, expected, found);
         probe.check(online("VAR-25"), same, expected, found);
     }
     shorter(probe, id, place, (name, size))

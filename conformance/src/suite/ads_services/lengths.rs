@@ -96,7 +96,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
         && let Some(found) = answer(probe, there)?
     {
         let expected = || format!("{there} bytes of {what}, as many as are asked for");
-        probe.check([rule, own], found == Some(whole.len()), &expected, || format!("{found:?}"));
+        probe.check([rule, own], found == Some(whole.len()), expected, || format!("{found:?}"));
     }
     // What it gives instead of an error, if it gives anything, fits.
     if let Some(found) = answer(probe, there.saturating_sub(1))? {
@@ -112,7 +112,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     if let Some(found) = answer(probe, there.saturating_add(5))? {
         let fits = found.is_none_or(|len| len <= whole.len());
         let expected = || format!("{there} bytes of {what}, or an error");
-        probe.check([rule, own], fits, &expected, || format!("{found:?}"));
+        probe.check([rule, own], fits, expected, || format!("{found:?}"));
     }
     // Where much room is taken, a byte less of it makes no difference.
     let much = there.saturating_add(0x1_0000);
@@ -121,7 +121,7 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
         && let Some(found) = answer(probe, much.saturating_sub(1))?
     {
         let expected = || format!("{len} bytes of {what}, as with more room");
-        probe.check([rule, "ADS-4"], found == Some(len), &expected, || format!("{found:?}"));
+        probe.check([rule, "ADS-4"], found == Some(len), expected, || format!("{found:?}"));
     }
     Ok(())
 }

@@ -95,7 +95,7 @@ fn listed(
         let told = told.unwrap_or_default();
         let found = || format!("{told:?} at index {index} of {count}");
         let same = told == *name;
-        probe.check(["DYN-2", "DYN-5"], same, || format!("{name:?}"), &found);
+        probe.check(["DYN-2", "DYN-5"], same, || format!("{name:?}"), found);
         // A refusal leaves nothing behind.
         let beyond = DynamicNameByIndex::new(channel, kind, count.saturating_add(1));
         probe.try_ask(beyond?)?;
@@ -109,7 +109,7 @@ fn listed(
         let same = by_name == Some(*value);
         probe.check("DYN-3", same, || value, found);
         if name.len() > 20 {
-            probe.check("DYN-6", told == *name && same, || format!("{value} of {name:?}"), &found);
+            probe.check("DYN-6", told == *name && same, || format!("{value} of {name:?}"), found);
         }
         let by_index = DynamicValueByIndex::new(channel, kind, index)?;
         let by_index = value_of(probe.try_ask(by_index)?);

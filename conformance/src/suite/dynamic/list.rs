@@ -180,11 +180,11 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &List) {
             1 => &["DYN-1", "DYN-5", "SDA-12", "DYN-2"],
             _ => &["DYN-1", "DYN-5", "SDA-12"],
         };
-        probe.check(rules, told.data.is_some(), &expected, &told.result);
+        probe.check(rules, told.data.is_some(), expected, &told.result);
         let Some(data) = &told.data else { continue };
         let found = || format!("{} bytes of index {}", data.len(), told.index);
         let expected = || format!("at most {DYNAMIC_NAME_MAX} bytes");
-        probe.check("DYN-6", data.len() <= DYNAMIC_NAME_MAX, expected, &found);
+        probe.check("DYN-6", data.len() <= DYNAMIC_NAME_MAX, expected, found);
         let name = DynamicName::decode(data);
         if !probe.check("DYN-2", name.is_ok(), "a name", found) {
             continue;
@@ -192,11 +192,11 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &List) {
         let name = name.map(|name| name.name.text.to_string()).unwrap_or_default();
         let found = || format!("{name:?} at index {}", told.index);
         let ended = name.chars().count() < DYNAMIC_NAME_MAX;
-        probe.check(assumed("DYN-6"), ended, "a name with room for its NUL", &found);
+        probe.check(assumed("DYN-6"), ended, "a name with room for its NUL", found);
         let of_kind = is_of(kind, &name);
-        probe.check("DYN-2", of_kind, || format!("a name of {}", prefix(kind)), &found);
+        probe.check("DYN-2", of_kind, || format!("a name of {}", prefix(kind)), found);
         let own = seen.insert(name.clone());
-        probe.check(["DYN-2", "DYN-5"], own, "another at each index", &found);
+        probe.check(["DYN-2", "DYN-5"], own, "another at each index", found);
     }
     if let Some(other) = swayed {
         probe.show(other.evidence.clone());

@@ -230,12 +230,10 @@ impl Scene<'_, '_, '_> {
                 }
                 self.script_step(step)?;
                 let read = self.read(step, variable)?;
-                match read == value {
-                    true => Ok(None),
-                    false => {
-                        differs(format!("{value:02x?} in {}", step.id), format!("{read:02x?}"))
-                    }
+                if read == value {
+                    return Ok(None);
                 }
+                differs(format!("{value:02x?} in {}", step.id), format!("{read:02x?}"))
             }
             service => {
                 if self.wants(step)? != Wants::Write(variable, value.clone()) {

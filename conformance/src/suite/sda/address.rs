@@ -24,16 +24,16 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let of_class = class == one.class && attribute == Attribute::Content;
         let expected = || format!("the content group of the {}", class_name(one.class));
         let found = || format!("{group} for {one}");
-        probe.check("ADR-5", of_class, expected, &found);
+        probe.check("ADR-5", of_class, expected, found);
         let same = u32::from(instance) == one.channel;
         let rule = if one.class == Class::Spindle { "ADR-2" } else { "ADR-5" };
-        probe.check(rule, same, || format!("the group of instance {}", one.channel), &found);
+        probe.check(rule, same, || format!("the group of instance {}", one.channel), found);
         if one.class == Class::Spindle {
             let by_index = addressing == Addressing::Index;
-            probe.check("ADR-2", by_index, "a group without the logical bit", &found);
+            probe.check("ADR-2", by_index, "a group without the logical bit", found);
         } else {
             let logical = addressing == Addressing::Logical;
-            probe.check("ADR-5", logical, "a group with the logical bit, as asked", &found);
+            probe.check("ADR-5", logical, "a group with the logical bit, as asked", found);
         }
         offset(probe, one.class, one.axis, one.first);
         let own = seen.insert((group, one.first.index_offset()));

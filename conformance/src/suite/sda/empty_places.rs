@@ -70,7 +70,7 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
         let found = || format!("{} of element {place} of {one}", Hex(content.clone()));
         // What zeros are for one axis, others are for another: blank is what no axis has.
         let of_axis = !is_blank(&content) && theirs.contains(&content);
-        probe.check("SDA-11", !of_axis, "blank, not what an axis has elsewhere", &found);
+        probe.check("SDA-11", !of_axis, "blank, not what an axis has elsewhere", found);
         probe.check(assumed("SDA-11"), is_blank(&content), "zeros", found);
     }
     Ok(())

@@ -24,9 +24,9 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
     for axis in &platform {
         let mine = own.iter().find(|one| one.axis == axis.axis);
         let expected = || format!("axis {} under channel {first} as under channel 0", axis.axis);
-        probe.check(["SDA-5", "SDA-13"], mine.is_some(), &expected, "no such instance");
+        probe.check(["SDA-5", "SDA-13"], mine.is_some(), expected, "no such instance");
         let Some(mine) = mine else { continue };
-        let counts = format!("{} elements, of {axis} {}", mine.count, axis.count);
+        let counts = || format!("{} elements, of {axis} {}", mine.count, axis.count);
         probe.check("SDA-13", mine.count == axis.count, "the same elements", counts);
         for (one, other) in axis.elements().zip(mine.elements()) {
             let Some(length) = probe.length_of(one)? else { continue };

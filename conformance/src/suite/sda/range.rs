@@ -24,11 +24,11 @@ fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, a
     let first = address.and_then(|address| address.first_element().ok()).flatten();
     let expected =
         || format!("the {} ({channel}, {axis}) in a group of its class", class_name(class));
-    let found = match address {
+    let found = || match address {
         Some(address) => format!("{}, {}", address.index_group, address.index_offset),
         None => exchange.result(),
     };
-    probe.check(rules, first.is_some(), &expected, &found);
+    probe.check(rules, first.is_some(), expected, found);
     if let Some(first) = first {
         let group = first.class_group();
         let same = (group.class, u32::from(group.instance)) == (class, channel);
@@ -72,10 +72,10 @@ fn is_nowhere(
     let none = address == Ok(ObjectAddress::NONE);
     let expected = || format!("(0, 0) for the {} ({channel}, {axis})", class_name(class));
     let found = || Hex(data.to_vec());
-    probe.check("SDA-2", none, &expected, &found);
+    probe.check("SDA-2", none, expected, found);
     // An instance is found where there can be none.
     let is_found = address.is_ok_and(|address| matches!(address.first_element(), Ok(Some(_))));
-    probe.check(rules, !is_found, &expected, &found);
+    probe.check(rules, !is_found, expected, found);
     Ok(())
 }
 

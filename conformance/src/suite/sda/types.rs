@@ -24,10 +24,7 @@ fn rule_of(type_name: &str) -> Rule {
     let is_alike = digits.is_some_and(|digits| {
         digits.len() == 2 && digits.bytes().all(|byte| byte.is_ascii_digit())
     });
-    match is_alike || type_name == "STRING" {
-        true => assumed("SDA-7"),
-        false => "SDA-7".into(),
-    }
+    if is_alike || type_name == "STRING" { assumed("SDA-7") } else { "SDA-7".into() }
 }
 
 /// Judges the type and the length of an element, which have to go together.
@@ -48,9 +45,10 @@ pub(in super::super) fn type_and_length(
     };
     let expected = || format!("the {size} bytes of {type_name}");
     // A value of its type has that many bytes, or the type is another.
-    let [of_name, of_length] = match is_printed {
-        true => ["SDA-7", "SDA-8"].map(Rule::from),
-        false => ["SDA-7", "SDA-8"].map(online),
+    let [of_name, of_length] = if is_printed {
+        ["SDA-7", "SDA-8"].map(Rule::from)
+    } else {
+        ["SDA-7", "SDA-8"].map(online)
     };
     let of_type = if type_name == "BOOLEAN" { "GEN-5".into() } else { online("GEN-5") };
     probe.check([of_name, of_length, of_type], length == size, expected, found);

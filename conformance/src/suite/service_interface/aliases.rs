@@ -35,7 +35,7 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
                 let read = ReadByHandle::new(channel, handle, U32List::EMPTY);
                 let read = probe.try_ask(read)?.unwrap_or_default();
                 let same = until_nul(&read) == until_nul(&value);
-                probe.check("SVC-1", same, &expected, || Hex(read));
+                probe.check("SVC-1", same, expected, || Hex(read));
                 put(probe, channel, variable, b"\0")?;
                 let write = WriteByHandle::new(channel, handle, U32List::EMPTY, &value);
                 probe.send(write)?;
@@ -92,7 +92,7 @@ pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
                             )
                         };
                         let same = until_nul(&read) == until_nul(value);
-                        probe.check(["SVC-1", "SVC-4"], same, &expected, || Hex(read.clone()));
+                        probe.check(["SVC-1", "SVC-4"], same, expected, || Hex(read.clone()));
                     }
                 }
                 Ok(())

@@ -48,7 +48,7 @@ pub(super) const CASES: &[Row] = &[
 /// answer.
 pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
     let profile = &probe.session.profile;
-    let lacks = |why: &str| Err(Stop::NotApplicable(why.to_owned()));
+    let lacks = |why| Err(Stop::not_applicable(why));
     if !profile.has_section(Section::Service) {
         return lacks("the profile does not claim the Service Interface");
     }
@@ -67,9 +67,10 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
                     there.push(channel);
                 }
             }
-            match there.is_empty() {
-                true => lacks("no channel has the Service Interface, which comes with a version"),
-                false => Ok(there),
+            if there.is_empty() {
+                lacks("no channel has the Service Interface, which comes with a version")
+            } else {
+                Ok(there)
             }
         }
     }
@@ -78,10 +79,9 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
 fn variables(probe: &mut Probe<'_>) -> Step {
     let version = probe.session.profile.cnc_version;
     let since = version.map(|version| version.has(Feature::ServiceInterface));
-    let of_version = since.filter(|answer| answer.available).map(|answer| match answer.assumed {
-        true => assumed("SVC-11"),
-        false => "SVC-11".into(),
-    });
+    let of_version = since
+        .filter(|answer| answer.available)
+        .map(|answer| if answer.assumed { assumed("SVC-11") } else { "SVC-11".into() });
     for channel in channels(probe)? {
         let described = probe.variables(channel)?;
         for variable in ServiceVariable::ALL {

@@ -130,9 +130,10 @@ fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
 fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u32>> {
     let (begun, mut waited, mut refused) = (Instant::now(), Duration::ZERO, 0_u32);
     // Of the embedded CNC it is known how fast it is.
-    let (wait, patience) = match probe.session.cnc.is_some() {
-        true => (Duration::from_millis(5), Duration::from_millis(300)),
-        false => (RETRY_AFTER, PATIENCE),
+    let (wait, patience) = if probe.session.cnc.is_some() {
+        (Duration::from_millis(5), Duration::from_millis(300))
+    } else {
+        (RETRY_AFTER, PATIENCE)
     };
     loop {
         let sent = send(probe, channel, data)?;
