@@ -8,9 +8,7 @@ use ads_cnc::operation::{
 use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::KINDS;
-use super::probe::Probe;
-use super::raw_call::RawCall;
+use super::kit::{KINDS, Probe, RawCall};
 use super::{Row, case};
 use crate::exchange::Exchange;
 use crate::judge::{Needs, OrStop as _, Record, Step, Stop, assumed, online};

@@ -3,9 +3,7 @@
 use ads_cnc::Description;
 use ads_cnc::operation::{ReadByHandle, ReadByName};
 
-use super::layout::{brackets, element_name};
-use super::probe::Probe;
-use super::values::{each, each_array};
+use super::kit::{Probe, brackets, each_array, each_variable, element_name};
 use super::{Row, case};
 use crate::judge::{Needs, Step, assumed};
 
@@ -88,7 +86,7 @@ fn index_out_of_bounds(probe: &mut Probe<'_>) -> Step {
 }
 
 fn number_of_indices(probe: &mut Probe<'_>) -> Step {
-    each(probe, |probe, channel, variable| {
+    each_variable(probe, |probe, channel, variable| {
         let m = variable.dimensions.len();
         let zeros = vec![0; m.saturating_add(1)];
         for n in [m.saturating_sub(1), m.saturating_add(1)] {

@@ -6,10 +6,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::sda::{ElementLength, ElementText};
 
-use super::addresses::Addresses;
-use super::inventory::{self, element_by_rank};
-use super::probe::Probe;
-use super::steady::Steady;
+use super::kit::{Addresses, Probe, Steady, attribute_reads, element_by_rank};
 use super::{Row, case};
 use crate::judge::{Needs, Step, applicable};
 
@@ -70,8 +67,8 @@ fn by_index(probe: &mut Probe<'_>) -> Step {
         let rank = probe.rank_of(instance.channel).filter(|_| instance.class != Class::Spindle);
         let Some(rank) = rank else { continue };
         for element in std::iter::once(instance.first).chain(instance.elements()) {
-            let by_rank = inventory::attributes(element_by_rank(element, rank));
-            for (one, other) in inventory::attributes(element).into_iter().zip(by_rank) {
+            let by_rank = attribute_reads(element_by_rank(element, rank));
+            for (one, other) in attribute_reads(element).into_iter().zip(by_rank) {
                 let what = one.function().spec().name;
                 let what = format!("{what} {} of {instance}", element.index_offset());
                 steady.same(probe, ["ADR-1", "ADR-12"], what, one, other)?;

@@ -6,14 +6,13 @@ use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::{
     AxisHandleByName, AxisReadByName, HandleByName, ReadByHandle, ReadByName, Request,
 };
-use ads_cnc::{CncString, Decode as _, Description, Handle, Kind, TextRef, U32List, VariablePath};
+use ads_cnc::{CncString, Decode as _, Description, Handle, TextRef, U32List};
 use ads_cnc_vectors::Hex;
 
-use super::axis_interface::{self, PLACES_MAX, answering};
-use super::inventory::name_of;
-use super::probe::Probe;
-use super::raw_call::RawCall;
-use super::steady::Steady;
+use super::kit::{
+    AxisHandle, PLACES_MAX, Probe, RawCall, Steady, answering_places, axis_names, axis_variables,
+    name_of,
+};
 use super::{Row, case};
 use crate::judge::{Needs, Step, applicable, assumed};
 
@@ -26,42 +25,25 @@ pub(super) const CASES: &[Row] = &[
     case("axis-unknown", &["VAR-26", "ADS-4"], Needs::Queries, unknown,
         "What no axis has is answered by an error on the axis interface"),
     case("axis-zero", &["VAR-26"], Needs::Malformed, zero,
-        "At axis 0 the offsets of the axis interface are other functions"),
+        "AxisVariable axis 0 the offsets of the axis interface are other functions"),
 ];
-
-/// The axis variables of a channel as described, with their names on the axis interface.
-pub(super) fn described(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-) -> Step<Vec<(CncString, Description)>> {
-    let all = probe.variables(channel)?;
-    let of_axes = all.into_iter().filter_map(|variable| {
-        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
-        if path.kind() != Kind::V_A {
-            return None;
-        }
-        path.axis()?;
-        Some((path.without_axis().ok()?, variable))
-    });
-    Ok(of_axes.collect())
-}
 
 /// Each place of each channel at which a variable with this name answers: with its handle.
 fn each(
     probe: &mut Probe<'_>,
-    mut judge: impl FnMut(&mut Probe<'_>, At<'_>, &Description) -> Step,
+    mut judge: impl FnMut(&mut Probe<'_>, AxisVariable<'_>, &Description) -> Step,
 ) -> Step {
     let mut any = false;
     for channel in probe.channels()? {
-        let described = described(probe, channel)?;
+        let described = axis_variables(probe, channel)?;
         let by_handle: HashMap<u32, &(CncString, Description)> =
             described.iter().map(|one| (one.1.handle.0, one)).collect();
-        for name in names(&described) {
-            for axis_interface::At { axis, handle } in answering(probe, channel, name)? {
+        for name in axis_names(&described) {
+            for AxisHandle { axis, handle } in answering_places(probe, channel, name)? {
                 // Where no axis is nothing is described.
                 let Some((own, variable)) = by_handle.get(&handle.0) else { continue };
                 any = true;
-                let at = At { channel, axis, name, own };
+                let at = AxisVariable { channel, axis, name, own };
                 judge(probe, at, variable)?;
             }
         }
@@ -69,24 +51,8 @@ fn each(
     applicable(any, "the target describes no axis variable")
 }
 
-pub(super) fn names(described: &[(CncString, Description)]) -> Vec<&CncString> {
-    let mut names: Vec<&CncString> = described.iter().map(|(name, _)| name).collect();
-    names.sort_by_key(|name| name.as_bytes());
-    names.dedup();
-    names
-}
-
-/// The name on the axis interface of a variable that some axis has.
-pub(super) fn name_on_axes(variables: &[Description]) -> Option<CncString> {
-    variables.iter().find_map(|variable| {
-        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
-        let of_axis = path.kind() == Kind::V_A && path.axis().is_some();
-        of_axis.then(|| path.without_axis().ok()).flatten()
-    })
-}
-
 /// A variable on the axis interface.
-struct At<'a> {
+struct AxisVariable<'a> {
     channel: Channel,
     axis: ChannelAxis,
     /// The name it was asked for by.
@@ -95,7 +61,7 @@ struct At<'a> {
     own: &'a CncString,
 }
 
-impl std::fmt::Display for At<'_> {
+impl std::fmt::Display for AxisVariable<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} of place {}", self.name, self.axis.index())
     }
@@ -103,14 +69,14 @@ impl std::fmt::Display for At<'_> {
 
 fn handles(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        let described = described(probe, channel)?;
+        let described = axis_variables(probe, channel)?;
         let first = ChannelAxis::new(1)?;
         // An axis is at one place at least of a channel that describes one.
         let mut any = described.is_empty();
         let mut at_places: HashMap<u32, u32> = HashMap::new();
         for place in 1..=PLACES_MAX {
             let axis = ChannelAxis::new(place)?;
-            for name in names(&described) {
+            for name in axis_names(&described) {
                 let request = AxisHandleByName { channel, axis, name: name.as_cnc_str().into() };
                 let Some(data) = probe.try_ask(request)? else { continue };
                 any = true;
@@ -159,7 +125,7 @@ fn handles(probe: &mut Probe<'_>) -> Step {
 fn values(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     each(probe, |probe, at, variable| {
-        let At { channel, axis, name, .. } = at;
+        let AxisVariable { channel, axis, name, .. } = at;
         let request = AxisReadByName { channel, axis, name: name.as_cnc_str().into() };
         let value = probe.ask("VAR-26", request)?;
         if variable.var_type.element_size().is_some() {
@@ -210,7 +176,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
 
 fn zero(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, at, _| {
-        let At { channel, axis, name, .. } = at;
+        let AxisVariable { channel, axis, name, .. } = at;
         let name = TextRef::from(name.as_cnc_str());
         let requests: [Request<'_>; 2] = [
             AxisHandleByName { channel, axis, name }.into(),

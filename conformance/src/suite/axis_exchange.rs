@@ -3,8 +3,7 @@
 use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class, PlatformAxis};
 use ads_cnc::operation::{AxisHandleByName, ObjectList, ReadElement, Request};
 
-use super::inventory::OF_PLACES;
-use super::probe::Probe;
+use super::kit::{OF_PLACES, Probe};
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop};
 

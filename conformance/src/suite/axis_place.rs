@@ -9,12 +9,10 @@ use ads_cnc::operation::{
 use ads_cnc::{CncString, Description, Handle, TextRef, U32List};
 use ads_cnc_vectors::Hex;
 
-use super::axis::{described, names};
-use super::axis_interface::{At, answering};
-use super::inventory::name_of;
-use super::probe::Probe;
-use super::raw_call::RawCall;
-use super::steady::{Compared, compare};
+use super::kit::{
+    AxisHandle, Compared, Probe, RawCall, answering_places, axis_names, axis_variables, compare,
+    name_of,
+};
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop, applicable, assumed};
 
@@ -33,11 +31,11 @@ pub(super) const CASES: &[Row] = &[
 fn places(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for channel in probe.channels()? {
-        let described = described(probe, channel)?;
+        let described = axis_variables(probe, channel)?;
         let handles: HashSet<u32> = described.iter().map(|one| one.1.handle.0).collect();
-        for name in names(&described) {
+        for name in axis_names(&described) {
             any = true;
-            let places = answering(probe, channel, name)?;
+            let places = answering_places(probe, channel, name)?;
             let own: Vec<&Description> =
                 described.iter().filter(|one| one.0 == *name).map(|one| &one.1).collect();
             let found = || format!("{} places of channel {}", places.len(), channel.number());
@@ -65,7 +63,7 @@ fn at_a_place(
     channel: Channel,
     name: &CncString,
     variable: &Description,
-    places: &[At],
+    places: &[AxisHandle],
 ) -> Step {
     let by_name = ReadByName { channel, name: name_of(variable) };
     let find = |probe: &mut Probe<'_>, value: &Vec<u8>| -> Step<Option<bool>> {
@@ -91,12 +89,12 @@ fn at_a_place(
 }
 
 /// A name that answers at a place where an axis is, with its handle there.
-fn one(probe: &mut Probe<'_>) -> Step<(Channel, At, CncString)> {
+fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     for channel in probe.channels()? {
-        let described = described(probe, channel)?;
+        let described = axis_variables(probe, channel)?;
         let handles: HashSet<u32> = described.iter().map(|one| one.1.handle.0).collect();
-        for name in names(&described) {
-            let mut places = answering(probe, channel, name)?.into_iter();
+        for name in axis_names(&described) {
+            let mut places = answering_places(probe, channel, name)?.into_iter();
             if let Some(at) = places.rfind(|at| handles.contains(&at.handle.0)) {
                 return Ok((channel, at, name.clone()));
             }
@@ -107,7 +105,7 @@ fn one(probe: &mut Probe<'_>) -> Step<(Channel, At, CncString)> {
 
 /// What there is of places that are not there is not said, but that it is no axis.
 fn too_far(probe: &mut Probe<'_>) -> Step {
-    let (channel, At { axis, handle }, name) = one(probe)?;
+    let (channel, AxisHandle { axis, handle }, name) = one(probe)?;
     for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {
         let far = ChannelAxis::new(u32::from(axis.index()) | bit)?;
         let request = AxisHandleByName { channel, axis: far, name: name.as_cnc_str().into() };
@@ -119,7 +117,7 @@ fn too_far(probe: &mut Probe<'_>) -> Step {
 }
 
 fn reserved(probe: &mut Probe<'_>) -> Step {
-    let (channel, At { axis, .. }, name) = one(probe)?;
+    let (channel, AxisHandle { axis, .. }, name) = one(probe)?;
     let name = TextRef::from(name.as_cnc_str());
     let request = Request::from(AxisReadByName { channel, axis, name });
     let good = RawCall::new(request)?;

@@ -1,19 +1,12 @@
 //! Cases of the order of the bytes of numbers.
 
-use ads_cnc::address::{Channel, Class, Group, IndexGroup};
-use ads_cnc::dynamic::{DynamicCount, DynamicKind};
-use ads_cnc::operation::{
-    CountDynamic, CountElements, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex,
-    DynamicValueByIndex, DynamicValueByName, HandleByName, ObjectList, ReadByName, ReadDescriptors,
-    ReadElementName, Request,
-};
-use ads_cnc::sda::ElementCount;
-use ads_cnc::{Handle, Kind, ObjectCount, VariableCount};
+use ads_cnc::Handle;
+use ads_cnc::address::{Class, Group, IndexGroup};
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::operation::{DynamicValueByIndex, DynamicValueByName, HandleByName, ReadByName};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::Instance;
-use super::inventory::name_of;
-use super::probe::Probe;
+use super::kit::{Counted, Probe, is_permuted, name_of};
 use super::{Row, case};
 use crate::judge::{IfThere as _, Needs, Step};
 
@@ -26,73 +19,6 @@ pub(super) const CASES: &[Row] = &[
     case("gen-value-order", &["GEN-1"], Needs::Embedded, value_order,
         "Values of variables and parameters come with their lowest byte first"),
 ];
-
-/// Something that is counted, and can be asked for by its number from 1.
-#[derive(Clone, Debug)]
-pub(super) enum Counted {
-    Objects(ObjectList),
-    Variables(Channel, &'static str, Kind<'static>),
-    Parameters(Channel, DynamicKind),
-    Elements(Instance),
-}
-
-impl std::fmt::Display for Counted {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Objects(list) => write!(f, "objects of {}", list.parts().index_group()),
-            Self::Variables(channel, kind, _) => {
-                write!(f, "{kind} of channel {}", channel.number())
-            }
-            Self::Parameters(channel, kind) => {
-                write!(f, "{kind:?} of channel {}", channel.number())
-            }
-            Self::Elements(instance) => write!(f, "elements of {instance}"),
-        }
-    }
-}
-
-impl Counted {
-    /// How many there are, as the target says.
-    pub(super) fn number(&self, probe: &mut Probe<'_>) -> Step<Option<u32>> {
-        Ok(match self {
-            Self::Objects(list) => {
-                probe.try_read(CountObjects::new(*list))?.map(|count: ObjectCount| count.0)
-            }
-            Self::Variables(channel, _, kind) => {
-                let request = CountVariables::new(*channel, *kind);
-                probe.try_read(request)?.map(|count: VariableCount| count.0)
-            }
-            Self::Parameters(channel, kind) => {
-                let request = CountDynamic::new(*channel, *kind);
-                probe.try_read(request)?.map(|count: DynamicCount| count.0)
-            }
-            Self::Elements(instance) => match CountElements::new(instance.first) {
-                Ok(request) => probe.try_read(request)?.map(|count: ElementCount| count.0),
-                Err(_) => None,
-            },
-        })
-    }
-
-    /// Whether there is one with this number.
-    fn has(&self, probe: &mut Probe<'_>, number: u32) -> Step<bool> {
-        let request: Option<Request<'_>> = match self {
-            Self::Objects(list) => ReadDescriptors::new(*list, number, 1).ok().map(Into::into),
-            Self::Variables(channel, _, kind) => {
-                let index = number.checked_sub(1);
-                index.map(|index| DescribeByIndex::new(*channel, index, *kind).into())
-            }
-            Self::Parameters(channel, kind) => {
-                DynamicNameByIndex::new(*channel, *kind, number).ok().map(Into::into)
-            }
-            Self::Elements(instance) => {
-                let element = instance.first.nth(number).ok();
-                element.map(|element| ReadElementName::new(element).into())
-            }
-        };
-        let Some(request) = request else { return Ok(false) };
-        Ok(probe.try_ask(request)?.is_some_and(|data| !data.is_empty()))
-    }
-}
 
 /// Everything that is claimed to be counted.
 fn counted(probe: &mut Probe<'_>) -> Step<Vec<Counted>> {
@@ -175,16 +101,6 @@ fn field_order(probe: &mut Probe<'_>) -> Step {
         }
     }
     Ok(())
-}
-
-/// The same bytes in another order.
-pub(super) fn is_permuted(one: &[u8], other: &[u8]) -> bool {
-    let sorted = |bytes: &[u8]| {
-        let mut bytes = bytes.to_vec();
-        bytes.sort_unstable();
-        bytes
-    };
-    one != other && sorted(one) == sorted(other)
 }
 
 /// Other bytes than those held are another matter.

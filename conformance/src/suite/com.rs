@@ -4,13 +4,11 @@ use std::collections::HashSet;
 
 use ads_cnc::address::{Access, ComGroup, ComTable, Group};
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
-use ads_cnc::{Decode, DescriptorRef, Descriptors, DescriptorsRef, ObjectCount};
+use ads_cnc::{Decode, DescriptorRef, DescriptorsRef, ObjectCount};
 
-use super::inventory::OBJECTS_MAX;
-use super::probe::Probe;
-use super::raw_call::RawCall;
+use super::kit::{OBJECTS_MAX, Probe, RawCall, known_object_count, read_descriptors};
 use super::{Row, case};
-use crate::judge::{Checks, IfThere as _, Needs, Step, Stop, applicable, assumed, online};
+use crate::judge::{Checks, IfThere as _, Needs, Step, applicable, assumed, online};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -25,52 +23,6 @@ pub(super) const CASES: &[Row] = &[
     case("com-odd-length", &["COM-3"], Needs::Queries, odd_length,
         "A read length that is no multiple of 84 gives one descriptor"),
 ];
-
-/// Asks for descriptors and takes at most as many as were asked for.
-fn read(
-    probe: &mut Probe<'_>,
-    rule: &'static str,
-    list: ObjectList,
-    first: u32,
-    count: u32,
-) -> Step<Descriptors> {
-    let request = ReadDescriptors::new(list, first, count)?;
-    probe.read(rule, request)
-}
-
-/// Every descriptor by a read of its own: that several come together is judged elsewhere.
-pub(super) fn one_by_one(
-    probe: &mut Probe<'_>,
-    rule: &'static str,
-    list: ObjectList,
-    number: u32,
-) -> Step<Descriptors> {
-    let mut all = Descriptors::default();
-    for first in 1..=number {
-        let one = read(probe, rule, list, first, 1)?;
-        one.as_ref().iter().for_each(|object| all.push(object.to_owned()));
-    }
-    Ok(all)
-}
-
-pub(super) fn number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
-    let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
-    if number == 0 {
-        return Err(Stop::not_applicable("the list has no object"));
-    }
-    Ok(number.min(OBJECTS_MAX))
-}
-
-/// As [`number`], where it is not this case that judges it.
-pub(super) fn known_number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
-    let exchange = probe.send(CountObjects::new(list))?;
-    let data = exchange.success().unwrap_or_default();
-    match ObjectCount::decode(data) {
-        Ok(ObjectCount(number)) if number > 0 => Ok(number.min(OBJECTS_MAX)),
-        Ok(_) => Err(Stop::not_applicable("the list has no object")),
-        Err(_) => Err(Stop::inconclusive("the number of objects could not be read")),
-    }
-}
 
 /// The platform's list and those of the channels; what of it is not there is judged elsewhere.
 fn lists(probe: &mut Probe<'_>) -> Step<Vec<ObjectList>> {
@@ -120,15 +72,15 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let list = ObjectList::from(channel);
         let mut ids = HashSet::new();
-        for first in 1..=known_number(probe, list)? {
-            let one = read(probe, "COM-2", list, first, 1)?;
+        for first in 1..=known_object_count(probe, list)? {
+            let one = read_descriptors(probe, "COM-2", list, first, 1)?;
             let Some(object) = one.as_ref().get(0) else { continue };
             let id = object.id();
             probe
                 .check("COM-2", ids.insert(id), "an ID no other object has", || format!("ID {id}"));
             descriptor_holds_together(probe, object);
             // Objects are static.
-            let again = read(probe, "COM-2", list, first, 1)?;
+            let again = read_descriptors(probe, "COM-2", list, first, 1)?;
             let what = |one: DescriptorRef<'_>| {
                 let at = (one.index_group(), one.index_offset());
                 (one.id(), one.size(), at, one.name().to_string(), one.type_name().to_string())
@@ -167,7 +119,7 @@ pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: Descrip
 fn in_sequence(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for list in lists(probe)? {
-        let Some(number) = known_number(probe, list).if_applicable()? else { continue };
+        let Some(number) = known_object_count(probe, list).if_applicable()? else { continue };
         sequence(probe, list, number)?;
         any = true;
     }
@@ -210,7 +162,7 @@ fn usize_of(number: u32) -> usize {
 
 fn end_of_list(probe: &mut Probe<'_>) -> Step {
     let list = ObjectList::from(probe.channel()?);
-    let number = known_number(probe, list)?;
+    let number = known_object_count(probe, list)?;
     let request = ReadDescriptors::new(list, number, 3)?;
     let exchange = probe.send(request)?;
     let data = exchange.success();
@@ -227,7 +179,7 @@ fn end_of_list(probe: &mut Probe<'_>) -> Step {
 
 fn odd_length(probe: &mut Probe<'_>) -> Step {
     let list = ObjectList::from(probe.channel()?);
-    known_number(probe, list)?;
+    known_object_count(probe, list)?;
     let request = Request::from(ReadDescriptors::new(list, 1, 1)?);
     let one = RawCall::new(request)?;
     for read_length in [85, 100, 167, 169] {

@@ -7,8 +7,7 @@ use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeExtended, Read
 use ads_cnc::{Description, ExtendedReply, Kind, VariableAccess, VariableCount};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::VARIABLES_MAX;
-use super::probe::Probe;
+use super::kit::{Probe, VARIABLES_MAX};
 use super::{Row, case};
 use crate::judge::{Needs, Step};
 use crate::simulator::Configured;

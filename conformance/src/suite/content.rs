@@ -7,10 +7,7 @@ use ads_cnc::operation::{CountObjects, ReadDescriptors, ReadElementName, ReadObj
 use ads_cnc::{Descriptors, ErrorKind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::{OBJECTS_MAX, Object};
-use super::probe::Probe;
-use super::raw_call::RawCall;
-use super::steady::Steady;
+use super::kit::{OBJECTS_MAX, Object, Probe, RawCall, Steady};
 use super::{Row, case};
 use crate::judge::{IfThere as _, Needs, OrStop as _, Step, applicable, assumed};
 

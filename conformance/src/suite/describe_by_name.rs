@@ -7,9 +7,7 @@ use ads_cnc::{
     VariableCount,
 };
 
-use super::inventory::VARIABLES_MAX;
-use super::inventory::name_of;
-use super::probe::Probe;
+use super::kit::{Probe, VARIABLES_MAX, name_of};
 use super::{Row, case};
 use crate::edition::Feature;
 use crate::judge::{Needs, OrStop as _, Rule, Step, Stop, assumed, online};

@@ -3,7 +3,7 @@
 use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;
 
-use super::probe::Probe;
+use super::kit::Probe;
 use super::{Row, case};
 use crate::client::{Inquired, Inquiry, Said};
 use crate::judge::{Evidence, Needs, Step};

@@ -10,11 +10,10 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag};
 use ads_cnc::{Decode, ErrorKind};
 
-use super::inventory::{self, Instance, OF_PLACES, element_by_rank, number_of};
-use super::probe::Probe;
-use super::raw_call::RawCall;
+use super::kit::{
+    Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank, number_of,
+};
 use super::sda::type_and_length;
-use super::steady::Steady;
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Step, assumed};
 
@@ -118,8 +117,7 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     // Of a place without an axis the number may be blank as all its contents.
     let rule = if at_place && count == 0 { assumed("SDA-4") } else { "SDA-4".into() };
     let what = format!("element {} of {instance}, which has {count}", beyond.index_offset());
-    for (beyond, last) in inventory::attributes(beyond).into_iter().zip(inventory::attributes(last))
-    {
+    for (beyond, last) in attribute_reads(beyond).into_iter().zip(attribute_reads(last)) {
         // The first of all need not have them all.
         if count > 0 || probe.try_ask(last)?.is_some() {
             probe.refuses(rule, &what, beyond, last)?;
@@ -257,7 +255,7 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
         let Some(length) = probe.length_of(element)? else { return Ok(()) };
         let rules = ["ADR-1", "ADR-12"];
         let what = format!("element {} of {instance}", element.index_offset());
-        let pairs = inventory::attributes(element).into_iter().zip(inventory::attributes(by_index));
+        let pairs = attribute_reads(element).into_iter().zip(attribute_reads(by_index));
         for (one, other) in pairs {
             let what = format!("{} of {what}", one.function().spec().name);
             steady.same(probe, rules, what, one, other)?;

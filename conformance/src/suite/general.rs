@@ -11,10 +11,7 @@ use ads_cnc::sda::{ElementText, ObjectAddress};
 use ads_cnc::{CncString, Kind, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::addresses::Addresses;
-use super::inventory::name_of;
-use super::probe::Probe;
-use super::raw_call::RawCall;
+use super::kit::{Addresses, Probe, RawCall, name_of, name_on_axes};
 use super::{Row, case};
 use crate::judge::{IfThere as _, Needs, Rule, Step, applicable, assumed, online};
 
@@ -137,7 +134,7 @@ fn no_channel_0(probe: &mut Probe<'_>) -> Step {
         probe.refuses("GEN-6", &what, &bad, &good)?;
     }
     let Some(variables) = probe.variables(channel).if_known()? else { return Ok(()) };
-    let Some(name) = super::axis::name_on_axes(&variables) else { return Ok(()) };
+    let Some(name) = name_on_axes(&variables) else { return Ok(()) };
     let axis = ChannelAxis::new(1)?;
     let request: Request<'_> =
         AxisHandleByName { channel, axis, name: name.as_cnc_str().into() }.into();

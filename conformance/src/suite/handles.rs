@@ -7,9 +7,7 @@ use ads_cnc::operation::{HandleByName, ReadByHandle, ReadByName};
 use ads_cnc::{Decode as _, Description, Handle, Kind, TextRef, U32List, VariablePath};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::name_of;
-use super::probe::Probe;
-use super::steady::Steady;
+use super::kit::{Probe, Steady, name_of};
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Step, Stop, assumed};
 

@@ -11,8 +11,7 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Kind, TextRef, U32List};
 
-use super::probe::Probe;
-use super::raw_call::RawCall;
+use super::kit::{Probe, RawCall};
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Rule, Step, assumed};
 

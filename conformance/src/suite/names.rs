@@ -1,19 +1,11 @@
 //! Cases of names: what they are made of, and what is reached by name only.
 
-use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
-use ads_cnc::limits::DYNAMIC_NAME_MAX;
-use ads_cnc::operation::{
-    CountDynamic, DynamicNameByIndex, DynamicValueByName, HandleByName, ReadByName,
-};
+use ads_cnc::operation::{DynamicValueByName, HandleByName, ReadByName};
 use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
 
-use super::inventory::name_of;
-use super::probe::Probe;
-use super::steady::Steady;
+use super::kit::{Probe, Steady, dynamic_among_variables, name_of};
 use super::{Row, case};
-use crate::edition::{Edition, Feature};
 use crate::judge::{Needs, OrStop as _, Step, Stop, applicable, assumed};
-use crate::profile::Claim;
 use crate::values::until_nul;
 
 #[rustfmt::skip]
@@ -71,47 +63,6 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
         probe.refuses("VAR-18", &what, HandleByName { channel, name }, good)?;
     }
     Ok(())
-}
-
-/// The names of V.P, V.L and V.S that there are at the moment.
-fn dynamic(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
-    let channel = probe.channel()?;
-    let mut all = Vec::new();
-    for kind in DynamicKind::ALL.into_iter().filter(|kind| *kind != DynamicKind::P) {
-        let count: Option<DynamicCount> = probe.try_read(CountDynamic::new(channel, kind))?;
-        for index in 1..=count.map_or(0, |count| count.0.min(64)) {
-            let request = DynamicNameByIndex::new(channel, kind, index)?;
-            let name = probe.try_read::<DynamicName>(request)?.map(|name| name.name.text);
-            // One that leaves no room for its NUL cannot be asked for.
-            let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
-            all.extend(name.map(|name| (kind, name)));
-        }
-    }
-    Ok(all)
-}
-
-/// The V.P, V.L and V.S that are among the variables too, by edition and version.
-pub(super) fn dynamic_among_variables(
-    probe: &mut Probe<'_>,
-) -> Step<Vec<(DynamicKind, CncString)>> {
-    let profile = &probe.session.profile;
-    let lacks = |why| Err(Stop::not_applicable(why));
-    if profile.edition != Edition::German {
-        return lacks("the edition has V.P, V.L and V.S among the parameters only");
-    }
-    let claim = profile.has(Feature::DynamicVariables);
-    if claim == Claim::No {
-        return lacks("the version has V.P, V.L and V.S among the parameters only");
-    }
-    let (channel, all) = (probe.channel()?, dynamic(probe)?);
-    let Some((_, name)) = all.first() else {
-        return lacks("there is no V.P, V.L or V.S at the moment");
-    };
-    let by_name = ReadByName { channel, name: name.as_cnc_str().into() };
-    if claim == Claim::Open && probe.try_ask(by_name)?.is_none() {
-        return lacks("the target has no V.P, V.L or V.S here, which come with a version");
-    }
-    Ok(all)
 }
 
 fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {

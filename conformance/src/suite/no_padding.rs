@@ -3,10 +3,7 @@
 use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
 use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
 
-use super::byte_order::Counted;
-use super::inventory::OBJECTS_MAX;
-use super::inventory::VARIABLES_MAX;
-use super::probe::Probe;
+use super::kit::{Counted, OBJECTS_MAX, Probe, VARIABLES_MAX};
 use super::{Row, case};
 use crate::judge::{Needs, Step, applicable};
 

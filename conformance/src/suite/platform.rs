@@ -8,10 +8,9 @@ use ads_cnc::address::{
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject};
 use ads_cnc::{Decode as _, Descriptors, ObjectCount};
 
-use super::com::{known_number, number, one_by_one};
-use super::inventory::{OBJECTS_MAX, Object};
-use super::probe::Probe;
-use super::steady::Steady;
+use super::kit::{
+    OBJECTS_MAX, Object, Probe, Steady, descriptors_one_by_one, known_object_count, object_count,
+};
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop, applicable, assumed};
 
@@ -28,7 +27,7 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 fn platform_objects(probe: &mut Probe<'_>) -> Step {
-    let platform = number(probe, ObjectList::PLATFORM).map_err(|stop| match stop {
+    let platform = object_count(probe, ObjectList::PLATFORM).map_err(|stop| match stop {
         Stop::NotApplicable(_) => Stop::not_applicable("the platform has no object"),
         other => other,
     });
@@ -40,10 +39,10 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
         }
         other => other?,
     };
-    let own = one_by_one(probe, "COM-4", ObjectList::PLATFORM, platform)?;
+    let own = descriptors_one_by_one(probe, "COM-4", ObjectList::PLATFORM, platform)?;
     let first = Channel::new(1)?;
-    let all = known_number(probe, first.into())?;
-    let listed = one_by_one(probe, "COM-4", first.into(), all)?;
+    let all = known_object_count(probe, first.into())?;
+    let listed = descriptors_one_by_one(probe, "COM-4", first.into(), all)?;
     let names: HashSet<String> =
         listed.as_ref().iter().map(|object| object.name().to_string()).collect();
     for object in own.as_ref().iter() {
@@ -142,8 +141,8 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
         probe.check("COM-6", answered, expected, &exchange);
     }
     let list = ObjectList::from(Channel::new(1)?);
-    let number = known_number(probe, list)?;
-    let listed = one_by_one(probe, "COM-6", list, number)?;
+    let number = known_object_count(probe, list)?;
+    let listed = descriptors_one_by_one(probe, "COM-6", list, number)?;
     let printed = "mc_command_single_block_w";
     let object = listed.as_ref().iter().find(|object| object.name() == printed);
     let address = object.map(|object| (object.index_group().get(), object.index_offset().get()));

@@ -5,8 +5,7 @@ use ads_cnc::layout::Stream;
 use ads_cnc::operation::{Service, Task};
 use ads_cnc_vectors::{Direction, Hex, ProvenanceKind, Vector, vector, vectors};
 
-use super::probe::Probe;
-use super::raw_call::RawCall;
+use super::kit::{Probe, RawCall};
 use crate::judge::{Body, Case, Evidence, Needs, Rule, Step, Stop, case_of, typed};
 use crate::text::hex::spaced;
 

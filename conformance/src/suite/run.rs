@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::LazyLock;
 
-use super::probe::Probe;
+use super::kit::Probe;
 use super::session::Session;
 use super::{Try, printed, replay, rows};
 use crate::deadline::Deadline;
@@ -114,7 +114,7 @@ mod tests {
     use crate::net;
     use crate::profile::Profile;
     use crate::simulator::{Cnc, NET_ID, Server};
-    use crate::suite::place::{Place, Trial};
+    use crate::suite::kit::{Place, Trial};
 
     const NAME: &str = "V.E.vartest";
 

@@ -3,11 +3,7 @@
 
 use ads_cnc::address::{ComGroup, ComTable};
 
-use super::addresses::{Addresses, At};
-use super::byte_order::is_permuted;
-use super::inventory::Object;
-use super::place::{self, Place};
-use super::probe::Probe;
+use super::kit::{self, Addresses, JudgedPlace, Object, Place, Probe, is_permuted};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
 use crate::simulator::{Held, Holder};
@@ -67,7 +63,7 @@ fn value(held: &Held, number: u32, round: u32) -> Vec<u8> {
 }
 
 fn same(held: &Held, one: &[u8], other: &[u8]) -> bool {
-    place::same(one, other, held.type_name == "STRING")
+    kit::same(one, other, held.type_name == "STRING")
 }
 
 /// Judges a value that was read or is held now. One with its bytes in another order is of the
@@ -140,7 +136,13 @@ fn is_held(probe: &mut Probe<'_>) -> Step {
     done
 }
 
-fn write(probe: &mut Probe<'_>, all: &[Held], held: &Held, addresses: &[At], value: &[u8]) -> Step {
+fn write(
+    probe: &mut Probe<'_>,
+    all: &[Held],
+    held: &Held,
+    addresses: &[JudgedPlace],
+    value: &[u8],
+) -> Step {
     let cnc = probe.cnc()?;
     for (place, rules) in addresses {
         // The two homes of platform data are read.

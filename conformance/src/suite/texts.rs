@@ -3,8 +3,7 @@
 use ads_cnc::VariableType;
 use ads_cnc_vectors::Hex;
 
-use super::place::{Place, Trial, same};
-use super::probe::Probe;
+use super::kit::{Place, Probe, Trial, same};
 use super::{Row, case};
 use crate::judge::{IfThere as _, Needs, Rule, Step, applicable, assumed};
 

@@ -5,13 +5,10 @@ use ads_cnc::operation::{ReadByHandle, ReadByName, Request};
 use ads_cnc::{Description, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::name_of;
-use super::layout::{
-    brackets, element_count, element_name, element_size, order, part, places_tried,
+use super::kit::{
+    Compared, Probe, Steady, brackets, compare, each_array, each_variable, element_count,
+    element_name, name_of, order, part, places_tried, same,
 };
-use super::place::same;
-use super::probe::Probe;
-use super::steady::{Compared, Steady, compare};
 use super::{Row, case};
 use crate::explain::{Values, type_by_name};
 use crate::judge::{Evidence, Needs, Rule, Step, applicable};
@@ -64,41 +61,12 @@ fn typed(variable: &Description, dimensions: &[u32]) -> Values {
     Values { ty, dimensions: dimensions.to_vec() }
 }
 
-/// Every variable of every channel.
-pub(super) fn each(
-    probe: &mut Probe<'_>,
-    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step,
-) -> Step {
-    for channel in probe.channels()? {
-        for variable in probe.readable(channel)? {
-            judge(probe, channel, &variable)?;
-        }
-    }
-    Ok(())
-}
-
-/// Every array.
-pub(super) fn each_array(
-    probe: &mut Probe<'_>,
-    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, usize) -> Step,
-) -> Step {
-    let mut any = false;
-    each(probe, |probe, channel, variable| match element_size(variable) {
-        Some(size) if !variable.dimensions.is_empty() => {
-            any = true;
-            judge(probe, channel, variable, size)
-        }
-        _ => Ok(()),
-    })?;
-    applicable(any, "no variable is an array")
-}
-
 fn whole(channel: Channel, variable: &Description) -> ReadByHandle<'static> {
     ReadByHandle::new(channel, variable.handle, U32List::EMPTY)
 }
 
 fn whole_by_handle(probe: &mut Probe<'_>) -> Step {
-    each(probe, |probe, channel, variable| {
+    each_variable(probe, |probe, channel, variable| {
         let value = probe.ask("VAR-11", whole(channel, variable))?;
         let name = &variable.name.text;
         let expected = "at most 2048 bytes";
@@ -115,7 +83,7 @@ fn whole_by_handle(probe: &mut Probe<'_>) -> Step {
 
 fn whole_by_name(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
-    each(probe, |probe, channel, variable| {
+    each_variable(probe, |probe, channel, variable| {
         let request = ReadByName { channel, name: name_of(variable) };
         if variable.var_type.element_size().is_some()
             && let Some(value) = probe.try_ask(request)?
@@ -205,7 +173,7 @@ fn elements_by_name(probe: &mut Probe<'_>) -> Step {
 
 fn string_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
-    each(probe, |probe, _, variable| {
+    each_variable(probe, |probe, _, variable| {
         if variable.var_type == VariableType::STRING {
             any = true;
             let texts = element_count(&variable.dimensions);

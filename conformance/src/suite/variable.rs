@@ -12,8 +12,7 @@ use ads_cnc::{
     VariableType,
 };
 
-use super::inventory::{KINDS, VARIABLES_MAX, name_of};
-use super::probe::Probe;
+use super::kit::{KINDS, Probe, VARIABLES_MAX, name_of};
 use super::{Row, case};
 use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, applicable, assumed};
 

@@ -8,8 +8,7 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString, Description, TextRef};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::name_of;
-use super::probe::Probe;
+use super::kit::{Probe, name_of};
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Step, applicable};
 

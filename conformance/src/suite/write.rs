@@ -1,16 +1,13 @@
 //! Cases that write variables, and undo it.
 
 use ads_cnc::address::Channel;
-use ads_cnc::operation::HandleByName;
-use ads_cnc::service::ServiceVariable;
-use ads_cnc::{CncString, Description, Handle, VariableAccess, VariableType};
+use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::axis_interface::place_of;
-use super::inventory::name_of;
-use super::names::dynamic_among_variables;
-use super::place::{NOTHING_WRITABLE, Place, Trial, same};
-use super::probe::Probe;
+use super::kit::{
+    NOTHING_WRITABLE, Place, Probe, Trial, axis_address, dynamic_among_variables, each_of_access,
+    handle_of, same, write_check,
+};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable, assumed};
 
@@ -30,45 +27,8 @@ pub(super) const CASES: &[Row] = &[
         "V.P, V.L and V.S are written among the variables, by name"),
 ];
 
-/// What writing a variable of the Service Interface leads to has cases of its own.
-pub(super) fn is_of_service(variable: &Description) -> bool {
-    ServiceVariable::by_name(&variable.name.text.to_string()).is_some()
-}
-
-/// Every variable of this access of every channel.
-pub(super) fn each(
-    probe: &mut Probe<'_>,
-    access: VariableAccess,
-    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step<bool>,
-) -> Step {
-    let mut any = false;
-    for channel in probe.channels()? {
-        for variable in probe.variables(channel)? {
-            if variable.access == access && !is_of_service(&variable) {
-                any |= judge(probe, channel, &variable)?;
-            }
-        }
-    }
-    applicable(any, NOTHING_WRITABLE)
-}
-
-pub(super) fn trial<'t>(variable: &'t Description, what: &'t str, rules: &'t [Rule]) -> Trial<'t> {
-    let is_text = variable.var_type == VariableType::STRING;
-    Trial { what, rules, is_text, name: Some(&variable.name.text) }
-}
-
-/// The handle of a name, asked for by it: a file that names it allows the handle then.
-pub(super) fn handle_of(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-    variable: &Description,
-) -> Step<Handle> {
-    let handle = probe.try_read::<Handle>(HandleByName { channel, name: name_of(variable) })?;
-    Ok(handle.unwrap_or(variable.handle))
-}
-
 fn by_handle(probe: &mut Probe<'_>) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let handle = handle_of(probe, channel, variable)?;
         let place = Place::Handle { channel, handle, indices: Vec::new() };
         let name = variable.name.text.to_string();
@@ -76,13 +36,13 @@ fn by_handle(probe: &mut Probe<'_>) -> Step {
             return Ok(false);
         }
         let rules = ["VAR-12", "VAR-17", "VAR-6", "VAR-10"].map(Rule::from);
-        probe.try_write(&trial(variable, &name, &rules), &place, |_, _, _| Ok(()))?;
+        probe.try_write(&write_check(variable, &name, &rules), &place, |_, _, _| Ok(()))?;
         Ok(true)
     })
 }
 
 fn by_name(probe: &mut Probe<'_>) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let place = Place::Name { channel, name: variable.name.text.clone() };
         let name = variable.name.text.to_string();
         if !probe.may_write(&place, &name)? {
@@ -91,7 +51,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
         let handle = variable.handle;
         let by_handle = Place::Handle { channel, handle, indices: Vec::new() };
         let rules = ["VAR-13", "VAR-17", "VAR-6"].map(Rule::from);
-        probe.try_write(&trial(variable, &name, &rules), &place, |probe, _, new| {
+        probe.try_write(&write_check(variable, &name, &rules), &place, |probe, _, new| {
             let named = probe.value_at(&place)?.unwrap_or_default();
             let read = probe.value_at(&by_handle)?.unwrap_or_default();
             let is_text = variable.var_type == VariableType::STRING;
@@ -113,8 +73,8 @@ fn each_of_axes(
     access: VariableAccess,
     mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, &Place, &str) -> Step,
 ) -> Step {
-    each(probe, access, |probe, channel, variable| {
-        let Some(at) = place_of(probe, channel, variable)? else { return Ok(false) };
+    each_of_access(probe, access, |probe, channel, variable| {
+        let Some(at) = axis_address(probe, channel, variable)? else { return Ok(false) };
         let what = format!("{} on the axis interface", variable.name.text);
         if !probe.may_write(&at, &what)? {
             return Ok(false);
@@ -128,7 +88,7 @@ fn axis_variables(probe: &mut Probe<'_>) -> Step {
     let rules = ["VAR-26", "VAR-17"].map(Rule::from);
     each_of_axes(probe, VariableAccess::READ_WRITE, |probe, channel, variable, at, what| {
         let named = Place::Name { channel, name: variable.name.text.clone() };
-        probe.try_write(&trial(variable, what, &rules), at, |probe, _, new| {
+        probe.try_write(&write_check(variable, what, &rules), at, |probe, _, new| {
             let read = probe.value_at(&named)?.unwrap_or_default();
             let expected = || format!("{} of {}", Hex(new.to_vec()), variable.name.text);
             probe.check("VAR-26", read == new, expected, || Hex(read));
@@ -140,7 +100,7 @@ fn axis_variables(probe: &mut Probe<'_>) -> Step {
 fn axis_read_only(probe: &mut Probe<'_>) -> Step {
     let rules = ["VAR-6", "VAR-26"].map(Rule::from);
     each_of_axes(probe, VariableAccess::READ_ONLY, |probe, _, variable, at, what| {
-        probe.write_refused(&trial(variable, what, &rules), at, None)
+        probe.write_refused(&write_check(variable, what, &rules), at, None)
     })
 }
 

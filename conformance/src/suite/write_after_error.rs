@@ -5,10 +5,9 @@ use ads_cnc::operation::{ReadElementType, WriteByName};
 use ads_cnc::sda::ElementText;
 use ads_cnc_vectors::Hex;
 
-use super::inventory::OF_PLACES;
-use super::place::{NOTHING_WRITABLE, Place, another, is_sendable};
-use super::probe::Probe;
-use super::write_refused::{Known, writable};
+use super::kit::{
+    Known, NOTHING_WRITABLE, OF_PLACES, Place, Probe, another, is_sendable, writable_numbers,
+};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable};
 
@@ -24,7 +23,7 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 fn after_refusal(probe: &mut Probe<'_>) -> Step {
-    for known in writable(probe)? {
+    for known in writable_numbers(probe)? {
         let Known { channel, variable, value } = &known;
         let unknown = WriteByName::new(*channel, "V.E.no such variable", value)?;
         let handle =

@@ -4,9 +4,7 @@
 use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
 
-use super::place::{NOTHING_WRITABLE, Place, Trial};
-use super::probe::Probe;
-use super::write_content::{Named, flagged};
+use super::kit::{NOTHING_WRITABLE, Named, Place, Probe, Trial, elements_with_flag};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable};
 
@@ -61,7 +59,7 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());
     let all = probe.instances()?;
     let mut any = false;
-    for one in flagged(probe, true)? {
+    for one in elements_with_flag(probe, true)? {
         let Named { instance, element, place, what, is_text } = &one;
         let other = match instance.channel {
             _ if instance.class != Class::Hld || instance.axis == 0 => continue,

@@ -1,16 +1,12 @@
 //! Cases that write COM objects and elements of SDA and GEO, and undo it.
 
-use ads_cnc::address::{Class, ElementAddress};
-use ads_cnc::operation::{
-    CountElements, ReadElementName, ReadElementType, ReadElementWriteFlag, Request, Service,
-};
-use ads_cnc::sda::{ElementText, ElementWriteFlag};
+use ads_cnc::address::Class;
+use ads_cnc::operation::{CountElements, Service};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::{Instance, Object};
-use super::place::{NOTHING_WRITABLE, Place, Trial};
-use super::probe::Probe;
-use super::raw_call::RawCall;
+use super::kit::{
+    NOTHING_WRITABLE, Named, Object, Place, Probe, RawCall, Trial, elements_with_flag,
+};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable, assumed};
 
@@ -71,56 +67,8 @@ fn read_only_objects(probe: &mut Probe<'_>) -> Step {
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
-/// An element with its name and whether it is a text.
-pub(super) struct Named {
-    pub(super) instance: Instance,
-    pub(super) element: ElementAddress,
-    pub(super) place: Place,
-    pub(super) what: String,
-    pub(super) is_text: bool,
-}
-
-/// Elements that may be written, by what their flags say of that.
-pub(super) fn flagged(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Named>> {
-    let mut all = Vec::new();
-    for instance in probe.instances()? {
-        if probe.is_claimed_empty(&instance) {
-            continue;
-        }
-        for element in instance.elements() {
-            all.extend(named(probe, &instance, element, is_writable)?);
-        }
-    }
-    Ok(all)
-}
-
-fn named(
-    probe: &mut Probe<'_>,
-    instance: &Instance,
-    element: ElementAddress,
-    is_writable: bool,
-) -> Step<Option<Named>> {
-    let text = |probe: &mut Probe<'_>, request: Request<'static>| -> Step<String> {
-        let text: Option<ElementText> = probe.try_read(request)?;
-        Ok(text.map(|text| text.text.text.to_string()).unwrap_or_default())
-    };
-    let flag: Option<ElementWriteFlag> = probe.try_read(ReadElementWriteFlag::new(element))?;
-    if flag.map(ElementWriteFlag::is_writable) != Some(is_writable) {
-        return Ok(None);
-    }
-    let Some(length) = probe.length_of(element)? else { return Ok(None) };
-    let place = Place::Element { element, length };
-    let name = text(probe, ReadElementName::new(element).into())?;
-    if place.read().is_err() || !probe.may_write(&place, &name)? {
-        return Ok(None);
-    }
-    let is_text = text(probe, ReadElementType::new(element).into())? == "STRING";
-    let (what, instance) = (format!("{name} of {instance}"), instance.clone());
-    Ok(Some(Named { instance, element, place, what, is_text }))
-}
-
 fn elements(probe: &mut Probe<'_>) -> Step {
-    let all = flagged(probe, true)?;
+    let all = elements_with_flag(probe, true)?;
     for one in &all {
         let twins = twins(probe, one)?;
         let rules = ["SDA-9".into()];
@@ -193,7 +141,7 @@ fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<Twin>> {
 
 /// What is refused is not written either.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
-    let all = flagged(probe, true)?;
+    let all = elements_with_flag(probe, true)?;
     for Named { place, what, .. } in all.iter().filter(|one| !one.is_text) {
         let Some(value) = probe.value_at(place)?.filter(|value| !value.is_empty()) else {
             continue;
@@ -216,9 +164,9 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
 }
 
 fn read_only_elements(probe: &mut Probe<'_>) -> Step {
-    let known = flagged(probe, true)?.into_iter().find(|one| !one.is_text);
+    let known = elements_with_flag(probe, true)?.into_iter().find(|one| !one.is_text);
     let known = known.map(|known| known.place);
-    let all = flagged(probe, false)?;
+    let all = elements_with_flag(probe, false)?;
     for Named { place, what, .. } in &all {
         let rules = ["SDA-9".into()];
         let trial = Trial { what, rules: &rules, is_text: false, name: None };

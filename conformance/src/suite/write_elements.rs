@@ -4,9 +4,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::place::{Place, same};
-use super::probe::Probe;
-use super::write::{each, handle_of, trial};
+use super::kit::{Place, Probe, each_of_access, handle_of, same, write_check};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, assumed};
 
@@ -49,7 +47,7 @@ fn elements(
     rules: impl Fn(&Description) -> Vec<Rule>,
     place_of: impl Fn(&mut Probe<'_>, Channel, &Description, Vec<u32>) -> Step<Option<Place>>,
 ) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let mut any = false;
         let whole = Place::Handle { channel, handle: variable.handle, indices: Vec::new() };
         let arrays =
@@ -64,7 +62,7 @@ fn elements(
             any = true;
             let before = probe.value_at(&whole)?.unwrap_or_default();
             let rules = rules(variable);
-            let trial = trial(variable, &name, &rules);
+            let trial = write_check(variable, &name, &rules);
             probe.try_write(&trial, &place, |probe, old, new| {
                 // Wherever it lies, and whoever allows it: what it takes there it gives there.
                 let read = probe.value_at(&place)?.unwrap_or_default();

@@ -5,11 +5,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess};
 use ads_cnc_vectors::Hex;
 
-use super::axis_interface::place_of;
-use super::layout::element_count;
-use super::place::{Place, is_sendable};
-use super::probe::Probe;
-use super::write::is_of_service;
+use super::kit::{Place, Probe, axis_address, element_count, is_of_service, write_value};
 use super::{Row, case};
 use crate::judge::{Evidence, Needs, Rule, Step, Stop};
 
@@ -131,7 +127,7 @@ fn pass(
         }
         let Some(place) = by(one) else { continue };
         let value = other_value(&one.variable, &one.value, salt.wrapping_add(number));
-        if write(probe, &place, &value)? {
+        if write_value(probe, &place, &value)? {
             one.value = value;
         }
     }
@@ -180,21 +176,13 @@ fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[One]) {
     }
 }
 
-/// Whether a value is taken.
-pub(super) fn write(probe: &mut Probe<'_>, place: &Place, value: &[u8]) -> Step<bool> {
-    let Some(write) = place.write(value).ok().filter(is_sendable) else { return Ok(false) };
-    probe.session.changes.is_now(place, Some(value));
-    let exchange = probe.send(write)?;
-    Ok(exchange.success().is_some())
-}
-
 /// Puts everything back, by whichever way takes it.
 fn restore(probe: &mut Probe<'_>, rule: Rule, all: &mut [One]) -> Step {
     for one in all.iter_mut().filter(|one| one.start != one.value) {
         let ways = [one.at.clone(), Some(one.handled()), Some(one.named())];
         for place in ways.into_iter().flatten() {
             let start = one.start.clone();
-            if write(probe, &place, &start)? && probe.value_at(&place)? == Some(start) {
+            if write_value(probe, &place, &start)? && probe.value_at(&place)? == Some(start) {
                 one.value = one.start.clone();
                 break;
             }
@@ -237,7 +225,7 @@ fn by_handle(probe: &mut Probe<'_>) -> Step {
 fn of_axes(probe: &mut Probe<'_>) -> Step {
     let mut all = all(probe)?;
     for one in &mut all {
-        one.at = place_of(probe, one.channel, &one.variable)?;
+        one.at = axis_address(probe, one.channel, &one.variable)?;
     }
     if all.iter().all(|one| one.at.is_none()) {
         return Err(Stop::not_applicable("no axis variable is on the axis interface"));

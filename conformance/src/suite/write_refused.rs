@@ -1,17 +1,16 @@
 //! Cases of writes that are no good: what is refused is not done either, and what is taken is
 //! what is there afterwards.
 
-use ads_cnc::address::Channel;
 use ads_cnc::operation::{Request, WriteByHandle, WriteByName};
-use ads_cnc::{CncStr, CncString, Description, Handle, U32List, VariableAccess, VariableType};
+use ads_cnc::{CncString, Description, Handle, U32List, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::place::{Place, Trial, another, is_sendable};
-use super::probe::Probe;
-use super::raw_call::RawCall;
-use super::write::{each, handle_of, is_of_service, trial};
+use super::kit::{
+    Known, Place, Probe, RawCall, Trial, another, each_of_access, handle_of, is_sendable,
+    require_taken, writable_numbers, write_check,
+};
 use super::{Row, case};
-use crate::judge::{Needs, OrStop as _, Rule, Step, Stop, applicable};
+use crate::judge::{Needs, OrStop as _, Rule, Step, Stop};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -27,58 +26,8 @@ pub(super) const CASES: &[Row] = &[
         "A write whose name has no end, or whose count of indices lies, writes nothing"),
 ];
 
-/// A variable with the value it has, to hold a refusal against.
-pub(super) struct Known {
-    pub(super) channel: Channel,
-    pub(super) variable: Description,
-    pub(super) value: Vec<u8>,
-}
-
-impl Known {
-    pub(super) fn place(&self) -> Place {
-        Place::Name { channel: self.channel, name: self.variable.name.text.clone() }
-    }
-
-    fn name(&self) -> CncStr<'_> {
-        self.variable.name.text.as_cnc_str()
-    }
-
-    fn by_handle<'v>(&self, indices: U32List<'v>, value: &'v [u8]) -> Request<'v> {
-        WriteByHandle::new(self.channel, self.variable.handle, indices, value).into()
-    }
-
-    fn by_name<'v>(&'v self, value: &'v [u8]) -> Request<'v> {
-        WriteByName { channel: self.channel, name: self.name(), value: value.into() }.into()
-    }
-}
-
-/// Numbers that may be written, the first of each type; those that read as they are described, as
-/// anything else is judged elsewhere.
-pub(super) fn writable(probe: &mut Probe<'_>) -> Step<Vec<Known>> {
-    let mut all: Vec<Known> = Vec::new();
-    for channel in probe.channels()? {
-        for variable in probe.variables(channel)? {
-            let is_number = variable.access == VariableAccess::READ_WRITE
-                && variable.dimensions.is_empty()
-                && variable.var_type != VariableType::STRING
-                && !is_of_service(&variable);
-            let of_type = all.iter().any(|known| known.variable.var_type == variable.var_type);
-            let place = Place::Name { channel, name: variable.name.text.clone() };
-            if !is_number || of_type || !probe.may_write(&place, &variable.name.text.to_string())? {
-                continue;
-            }
-            let value = probe.value_at(&place)?.unwrap_or_default();
-            if u32::try_from(value.len()) == Ok(variable.size) {
-                all.push(Known { channel, variable, value });
-            }
-        }
-    }
-    applicable(!all.is_empty(), "no number may be written")?;
-    Ok(all)
-}
-
 fn first(probe: &mut Probe<'_>) -> Step<Known> {
-    let first = writable(probe)?.into_iter().next();
+    let first = writable_numbers(probe)?.into_iter().next();
     first.or_not_applicable("no number may be written")
 }
 
@@ -87,7 +36,7 @@ fn each_read_only(
     probe: &mut Probe<'_>,
     mut judge: impl FnMut(&mut Probe<'_>, &Trial<'_>, &Place) -> Step,
 ) -> Step {
-    each(probe, VariableAccess::READ_ONLY, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_ONLY, |probe, channel, variable| {
         let name = variable.name.text.to_string();
         let handle = handle_of(probe, channel, variable)?;
         let mut any = false;
@@ -98,7 +47,7 @@ fn each_read_only(
             if probe.may_write(&place, &name)? {
                 any = true;
                 let rules = [Rule::from("VAR-6")];
-                judge(probe, &trial(variable, &name, &rules), &place)?;
+                judge(probe, &write_check(variable, &name, &rules), &place)?;
             }
         }
         Ok(any)
@@ -135,30 +84,6 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-/// Whether a request is taken; silence is no answer to anything, and judged by `rule`.
-pub(super) fn taken(
-    probe: &mut Probe<'_>,
-    rule: Rule,
-    what: &str,
-    request: Request<'_>,
-) -> Step<bool> {
-    let exchange = probe.send(request)?;
-    if exchange.answer().is_none() {
-        let expected = || format!("an answer to {what}");
-        probe.require(&[rule], false, expected, &exchange)?;
-    }
-    Ok(exchange.success().is_some())
-}
-
-/// What is refused must differ by its fault only from what is taken.
-pub(super) fn taken_first(probe: &mut Probe<'_>, rule: Rule, good: Request<'_>) -> Step {
-    if taken(probe, rule, "what differs by that alone", good)? {
-        Ok(())
-    } else {
-        Err(Stop::inconclusive("what differs by that alone is refused too"))
-    }
-}
-
 /// Sends a write that must be refused and have no effect on `watched`; then the good one again,
 /// so that all is as it was.
 fn refused(
@@ -183,7 +108,7 @@ fn refused_call(
     if !is_sendable(&good) {
         return Ok(());
     }
-    taken_first(probe, rule, good)?;
+    require_taken(probe, rule, good)?;
     let before = probe.value_at(watched)?;
     let exchange = probe.call(bad)?;
     let refused = exchange.is_error();
@@ -240,7 +165,7 @@ const ARRAYS_MAX: usize = 16;
 
 fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
     let mut tried = 0_usize;
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let Description { handle, dimensions, var_type, name, .. } = variable;
         let &[count] = dimensions.as_slice() else { return Ok(false) };
         let by_name = |index: u32| format!("{}[{index}]", name.text).parse::<CncString>();
@@ -273,7 +198,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
 }
 
 fn bad_requests(probe: &mut Probe<'_>) -> Step {
-    for known in writable(probe)? {
+    for known in writable_numbers(probe)? {
         let watched = known.place();
         // Without its end there is no name, and nothing that would be behind it.
         let good = known.by_name(&known.value);

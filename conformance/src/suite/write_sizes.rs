@@ -4,11 +4,10 @@ use ads_cnc::address::Channel;
 use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::axis_interface::place_of;
-use super::place::{Place, another, is_sendable};
-use super::probe::Probe;
-use super::write::{each, is_of_service};
-use super::write_refused::{taken, taken_first};
+use super::kit::{
+    Place, Probe, another, axis_address, each_of_access, is_of_service, is_sendable, is_taken,
+    require_taken,
+};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, assumed, online};
 
@@ -34,7 +33,7 @@ fn ways(probe: &mut Probe<'_>, channel: Channel, variable: &Description) -> Step
         all.push(by_handle(vec![0]));
         all.push(by_name(format!("{name}[0]").parse()?));
     }
-    let of_axis = place_of(probe, channel, variable)?;
+    let of_axis = axis_address(probe, channel, variable)?;
     all.extend(of_axis.map(|place| Way { id: "VAR-26", place }));
     Ok(all)
 }
@@ -42,7 +41,7 @@ fn ways(probe: &mut Probe<'_>, channel: Channel, variable: &Description) -> Step
 /// Of each type the first variable and the first array, and whatever an axis has.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut tried = Vec::new();
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let is_of_axis = variable.name.text.as_bytes().starts_with(b"V.A.");
         let sort = (variable.var_type, variable.dimensions.len(), is_of_axis);
         if is_of_service(variable) || tried.contains(&sort) || variable.dimensions.len() > 1 {
@@ -114,9 +113,9 @@ impl Sent<'_> {
             return Ok(());
         }
         let of_size: Rule = if is_text { online("VAR-25") } else { way.id.into() };
-        taken_first(probe, way.id.into(), good)?;
+        require_taken(probe, way.id.into(), good)?;
         let before = probe.value_at(watched)?;
-        let is_taken = taken(probe, way.id.into(), what, bad)?;
+        let is_taken = is_taken(probe, way.id.into(), what, bad)?;
         let evidence = probe.evidence();
         let (read, after) = (probe.value_at(&way.place)?, probe.value_at(watched)?);
         probe.show(evidence);

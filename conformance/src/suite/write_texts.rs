@@ -3,10 +3,7 @@
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::place::{Place, Trial};
-use super::probe::Probe;
-use super::write::each;
-use super::write_isolation::write;
+use super::kit::{Place, Probe, Trial, each_of_access, write_value};
 use super::{Row, case};
 use crate::judge::{Needs, Step, online};
 use crate::values::until_nul;
@@ -18,7 +15,7 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 fn texts(probe: &mut Probe<'_>) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let name = variable.name.text.clone();
         if variable.var_type != VariableType::STRING || !variable.dimensions.is_empty() {
             return Ok(false);
@@ -43,7 +40,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
                 &before,
                 |probe| of_lengths(probe, id, &place, (&name, variable.size)),
                 |probe| {
-                    write(probe, &place, &before)?;
+                    write_value(probe, &place, &before)?;
                     // A read without an answer shows nothing.
                     let Some(after) = probe.value_at(&place)? else { return Ok(false) };
                     let kept = until_nul(&after) == until_nul(&before);
@@ -69,7 +66,7 @@ fn of_lengths(
         value.push(0);
         // As many bytes as it is described with: that fewer are taken is assumed.
         value.resize(size.max(1), 0);
-        let taken = write(probe, place, &value)?;
+        let taken = write_value(probe, place, &value)?;
         let expected = || format!("{name} takes a text of {len} characters");
         probe.check(online("VAR-25"), taken, expected, "an error");
         if !taken {
@@ -96,7 +93,10 @@ fn shorter(
     let mut longest = vec![b'y'; size.saturating_sub(1)];
     longest.push(0);
     let short = b"zz\0".get(..size.min(3)).unwrap_or_default();
-    if short.last() != Some(&0) || !write(probe, place, &longest)? || !write(probe, place, short)? {
+    if short.last() != Some(&0)
+        || !write_value(probe, place, &longest)?
+        || !write_value(probe, place, short)?
+    {
         return Ok(());
     }
     let read = probe.value_at(place)?.unwrap_or_default();

@@ -10,9 +10,7 @@ use ads_cnc::{Kind, VariableType};
 use super::maybe;
 use crate::judge::{Step, applicable};
 use crate::profile::Claim;
-use crate::suite::inventory::name_of;
-use crate::suite::probe::Probe;
-use crate::suite::raw_call::RawCall;
+use crate::suite::kit::{Probe, RawCall, name_of};
 use crate::wire_service::clause;
 
 /// TCP may cut a frame anywhere: its length says where it ends.

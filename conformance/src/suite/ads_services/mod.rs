@@ -14,13 +14,10 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
 
-use super::inventory::name_of;
-use super::inventory::number_of;
-use super::probe::Probe;
-use super::steady::Steady;
 use super::{Row, case};
 use crate::judge::{Needs, Step, applicable};
 use crate::profile::Claim;
+use crate::suite::kit::{Probe, Steady, name_of, number_of};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

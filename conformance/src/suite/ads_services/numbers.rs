@@ -6,8 +6,7 @@ use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{CountObjects, CountVariables, Request, WriteByName};
 
 use crate::judge::Step;
-use crate::suite::probe::Probe;
-use crate::suite::raw_call::RawCall;
+use crate::suite::kit::{Probe, RawCall};
 
 /// Which number it is nobody says, so any other is right too: but not the same one with its bytes
 /// in reverse order.

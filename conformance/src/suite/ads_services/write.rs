@@ -4,9 +4,7 @@ use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use crate::judge::{Rule, Step, applicable};
-use crate::suite::place::{NOTHING_WRITABLE, Place, Trial};
-use crate::suite::probe::Probe;
-use crate::suite::write::is_of_service;
+use crate::suite::kit::{NOTHING_WRITABLE, Place, Probe, Trial, is_of_service};
 
 /// So many of each kind are tried.
 const SOME: usize = 3;

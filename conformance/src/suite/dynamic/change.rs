@@ -7,10 +7,10 @@ use ads_cnc::operation::{DynamicNameByIndex, DynamicValueByIndex, DynamicValueBy
 
 use ads_cnc_vectors::Hex;
 
-use super::super::probe::Probe;
 use super::{number, prefix};
 use crate::judge::Step;
 use crate::simulator::Cnc;
+use crate::suite::kit::Probe;
 
 /// More than a byte has numbers.
 const MANY: u32 = 300;

@@ -11,12 +11,10 @@ use ads_cnc::operation::{
 };
 use ads_cnc_vectors::Hex;
 
-use super::super::inventory::KINDS;
-use super::super::probe::Probe;
-use super::super::steady::{Checked, steadily};
 use super::{PARAMETERS_MAX, each, nothing, number, prefix};
 use crate::judge::{Evidence, Step, Stop, assumed};
 use crate::profile::Claim;
+use crate::suite::kit::{Checked, KINDS, Probe, steadily};
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {

@@ -6,10 +6,9 @@ use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, Request,
 };
 
-use super::super::probe::Probe;
-use super::super::raw_call::RawCall;
 use super::{each, first, refuses_still, told};
 use crate::judge::{Step, assumed};
+use crate::suite::kit::{Probe, RawCall};
 
 pub(super) fn bad_requests(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, count| {

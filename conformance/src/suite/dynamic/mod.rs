@@ -11,11 +11,9 @@ use ads_cnc::limits::DYNAMIC_NAME_MAX;
 use ads_cnc::operation::{CountDynamic, DynamicNameByIndex, Request};
 use ads_cnc::{CncString, Decode as _};
 
-use super::probe::Probe;
-use super::raw_call::IntoRawCall;
-use super::steady::{Checked, steadily};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
+use crate::suite::kit::{Checked, IntoRawCall, Probe, steadily};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

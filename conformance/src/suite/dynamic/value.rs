@@ -8,12 +8,10 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{CncString, Decode as _, TextRef};
 
-use super::super::place::is_sendable;
-use super::super::probe::Probe;
-use super::super::steady::{Checked, steadily};
 use super::{PARAMETERS_MAX, each, first, number, prefix, refuses_still, told};
 use crate::exchange::Exchange;
 use crate::judge::{Step, Stop, assumed};
+use crate::suite::kit::{Checked, Probe, is_sendable, steadily};
 use crate::text::hex::spaced;
 
 /// Names from this length on are judged by how long a name may be, too.

@@ -7,7 +7,7 @@ mod streaming;
 use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 
 use crate::judge::{Body, Case, Needs, Step, Stop, Subject};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 
 /// What a client or a service does, which the suite itself is here.
 const NOT_THE_TARGETS: [&str; 5] = ["STM-17", "SVC-2", "SVC-5", "SVC-7", "SVC-13"];

@@ -17,8 +17,7 @@ use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
 use crate::simulator::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
 };
-use crate::suite::probe::Probe;
-use crate::suite::stream::heard;
+use crate::suite::kit::{Probe, heard};
 
 /// Goes through the steps up to the first at fault, and leaves the interfaces as at the start.
 pub(super) fn run<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {

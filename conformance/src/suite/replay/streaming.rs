@@ -13,7 +13,7 @@ use super::{Done, Fault, differs, lacks};
 use crate::judge::{Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Message, Pace, Program, ProgramConfig, Start, State};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 use crate::suite::stream::{HELD_MAX, Sent, send, send_until_taken};
 
 /// Who plays, and before whom.

@@ -9,12 +9,9 @@ use ads_cnc::address::{
 use ads_cnc::operation::{CountElements, FindInstance};
 use ads_cnc::sda::ObjectAddress;
 
-use super::super::inventory::{OF_PLACES, element_by_rank};
-use super::super::probe::Probe;
-use super::super::raw_call::RawCall;
-use super::super::steady::Steady;
 use crate::explain::class_name;
 use crate::judge::{Rule, Step, applicable, assumed};
+use crate::suite::kit::{OF_PLACES, Probe, RawCall, Steady, element_by_rank};
 
 pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
     let mut seen = HashSet::new();

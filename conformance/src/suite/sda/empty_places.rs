@@ -6,10 +6,9 @@ use ads_cnc::address::{Class, ElementAddress, Group};
 use ads_cnc::operation::{CountElements, ObjectList, ReadElement};
 use ads_cnc_vectors::Hex;
 
-use super::super::inventory::{Instance, OBJECTS_MAX, OF_PLACES};
-use super::super::probe::Probe;
 use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
+use crate::suite::kit::{Instance, OBJECTS_MAX, OF_PLACES, Probe};
 
 pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
     let places = probe.session.profile.empty_places.clone();

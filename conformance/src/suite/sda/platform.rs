@@ -3,9 +3,8 @@
 use ads_cnc::address::Class;
 use ads_cnc::operation::ReadElement;
 
-use super::super::probe::Probe;
-use super::super::steady::Steady;
 use crate::judge::{Step, Stop};
+use crate::suite::kit::{Probe, Steady};
 
 pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());

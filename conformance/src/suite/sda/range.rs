@@ -6,10 +6,9 @@ use ads_cnc::operation::{CountElements, FindInstance, Request};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc_vectors::Hex;
 
-use super::super::inventory::{INSTANCES_MAX, Instance, OF_PLACES};
-use super::super::probe::Probe;
 use crate::explain::class_name;
 use crate::judge::{Rule, Step, applicable, assumed};
+use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe};
 
 /// Asks for what has to be there. Another task may serve a class: who refuses to say is not judged
 /// but for the decoder, which SDA has.

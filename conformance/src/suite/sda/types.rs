@@ -1,7 +1,7 @@
 //! The types of elements, by their names.
 
-use super::super::probe::Probe;
 use crate::judge::{Rule, assumed, online};
+use crate::suite::kit::Probe;
 
 /// The bytes of a type, and whether the manuals say them or only help pages do. The tables of
 /// dynamic parameters print those of UNS32 and REAL64, an example that of BOOLEAN.

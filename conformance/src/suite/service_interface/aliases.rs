@@ -8,7 +8,7 @@ use ads_cnc_vectors::Hex;
 
 use super::{NONE, ONE, WIDE, channels, get, put, within, within_at};
 use crate::judge::{Step, applicable};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 use crate::values::until_nul;
 
 fn handle_of(

@@ -13,9 +13,7 @@ use ads_cnc_vectors::Hex;
 use crate::edition::Feature;
 use crate::judge::{Needs, Rule, Step, Stop, applicable, assumed};
 use crate::profile::{Claim, Section};
-use crate::suite::place::{Place, Trial};
-use crate::suite::probe::Probe;
-use crate::suite::stream::heard;
+use crate::suite::kit::{Place, Probe, Trial, heard};
 use crate::suite::{Row, case};
 use crate::values::until_nul;
 

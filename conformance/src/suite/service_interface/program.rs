@@ -10,7 +10,7 @@ use ads_cnc_vectors::Hex;
 use super::{NONE, get, put, within};
 use crate::judge::{Step, Stop};
 use crate::simulator::program::{Outcome, Repeat, Script, ScriptConfig, ScriptState};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 use crate::values::until_nul;
 
 /// Looks at the variables after each step of a program.

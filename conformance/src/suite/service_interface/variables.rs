@@ -7,7 +7,7 @@ use ads_cnc_vectors::Hex;
 
 use super::{NONE, WIDE, get, put, within};
 use crate::judge::Step;
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 use crate::values::until_nul;
 
 pub(super) fn longest(probe: &mut Probe<'_>) -> Step {

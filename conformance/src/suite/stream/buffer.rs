@@ -10,7 +10,7 @@ use super::{Sent, comment, send, send_until_taken};
 use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Pace, Program, ProgramConfig, Start, State};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 
 /// The most bytes that the interface holds.
 pub(in crate::suite) const HELD_MAX: usize = 4094;

@@ -5,7 +5,7 @@ use ads_cnc::address::Channel;
 use super::buffer::{expect, set_up, set_up_at, taken};
 use crate::judge::{Step, Stop};
 use crate::simulator::program::{Pace, Start, State};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 
 /// Each channel by its number, and by its rank.
 pub(super) fn channels(probe: &mut Probe<'_>) -> Step {

@@ -4,7 +4,7 @@ use super::buffer::{HELD_MAX, expect, set_up, set_up_at, taken};
 use super::{comment, send};
 use crate::judge::{Step, applicable};
 use crate::simulator::program::{Pace, Start};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 
 /// Packets that fill an interface.
 const FILLING: [usize; 5] = [992, 992, 992, 992, 126];

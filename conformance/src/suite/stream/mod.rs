@@ -7,7 +7,7 @@ mod words;
 mod write;
 
 pub(super) use buffer::HELD_MAX;
-pub(super) use write::{Sent, heard, send, send_until_taken};
+pub(super) use write::{Sent, send, send_until_taken};
 
 use std::time::{Duration, Instant};
 
@@ -16,9 +16,9 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
 
-use super::probe::Probe;
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop, applicable};
+use crate::suite::kit::Probe;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -4,7 +4,7 @@ use super::buffer::{expect, set_up, taken};
 use super::send_until_taken;
 use crate::judge::{Rule, Step};
 use crate::simulator::program::{Pace, Start, State};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 
 pub(super) fn forbidden_words(probe: &mut Probe<'_>) -> Step {
     for word in [

@@ -8,10 +8,8 @@ use ads_cnc::ads::AdsError;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::Ack;
 
-use crate::exchange::{Exchange, Fault};
-use crate::judge::{Describe, Step, Stop};
-use crate::suite::probe::Probe;
-use crate::suite::raw_call::RawCall;
+use crate::judge::{Describe, Step};
+use crate::suite::kit::{Probe, RawCall, heard};
 
 /// How a write was answered. Which error number means that it is refused for now, and which that it
 /// is for good, is documented nowhere: what they are taken for is assumed.
@@ -52,15 +50,6 @@ impl Describe for &Sent {
 impl fmt::Display for Sent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.shown)
-    }
-}
-
-/// An exchange that was not passed over in silence: whether it was done then nobody knows, and
-/// nothing of what follows can be held against it.
-pub(in crate::suite) fn heard(exchange: Exchange) -> Step<Exchange> {
-    match &exchange.outcome {
-        Err(fault @ Fault::Silence(_)) => Err(Stop::Inconclusive(format!("{exchange}: {fault}"))),
-        _ => Ok(exchange),
     }
 }
 

@@ -5,14 +5,12 @@ use ads_cnc::address::{
     ElementAddress, IndexGroup, IndexOffset,
 };
 
-use super::inventory::{Instance, Object};
-use super::place::Place;
-use super::probe::Probe;
 use crate::judge::{IfThere as _, Rule, Step, assumed};
 use crate::simulator::{Held, Holder};
+use crate::suite::kit::{Instance, Object, Place, Probe};
 
 /// What a target says itself of where things are, where no manual does.
-pub(super) struct Addresses {
+pub(crate) struct Addresses {
     /// Of the channels, in the order of their ranks.
     channels: Vec<u32>,
     objects: Vec<Object>,
@@ -20,7 +18,7 @@ pub(super) struct Addresses {
 }
 
 /// An address of a content, and by what rules it is one.
-pub(super) type At = (Place, Vec<Rule>);
+pub(crate) type JudgedPlace = (Place, Vec<Rule>);
 
 fn rules(ids: &[&'static str]) -> Vec<Rule> {
     ids.iter().map(|&id| Rule::from(id)).collect()
@@ -46,7 +44,7 @@ fn element(
 }
 
 impl Addresses {
-    pub(super) fn new(probe: &mut Probe<'_>) -> Step<Self> {
+    pub(crate) fn new(probe: &mut Probe<'_>) -> Step<Self> {
         Ok(Self {
             channels: probe.session.profile.channels.to_vec(),
             // What is not there or not claimed says nothing.
@@ -56,7 +54,7 @@ impl Addresses {
     }
 
     /// Each address of a content that a manual prints or the target says.
-    pub(super) fn of(&self, held: &Held) -> Step<Vec<At>> {
+    pub(crate) fn of(&self, held: &Held) -> Step<Vec<JudgedPlace>> {
         use Addressing::{Index, Logical};
         let at = |stride, axis: u8| -> Step<IndexOffset> {
             Ok(IndexOffset::for_axis(stride, axis.into(), held.element)?)
@@ -141,7 +139,7 @@ impl Addresses {
     }
 
     /// The element that a content is, if it is one, at its first address.
-    pub(super) fn element(&self, held: &Held) -> Step<Option<ElementAddress>> {
+    pub(crate) fn element(&self, held: &Held) -> Step<Option<ElementAddress>> {
         let first = self.of(held)?.into_iter().next();
         Ok(first.and_then(|(place, _)| match place {
             Place::Element { element, .. } => Some(element),
@@ -149,7 +147,7 @@ impl Addresses {
         }))
     }
 
-    pub(super) fn objects(&self) -> &[Object] {
+    pub(crate) fn objects(&self) -> &[Object] {
         &self.objects
     }
 
@@ -159,7 +157,7 @@ impl Addresses {
         channel: u8,
         logical: &[&'static str],
         of: impl Fn(Addressing, u8) -> Step<Place>,
-    ) -> Step<Vec<At>> {
+    ) -> Step<Vec<JudgedPlace>> {
         let mut ranks = (1_u8..).zip(&self.channels);
         let Some((rank, _)) = ranks.find(|(_, number)| **number == u32::from(channel)) else {
             return Ok(Vec::new());
@@ -171,7 +169,7 @@ impl Addresses {
     }
 
     /// How many elements the target says that there are where this one is.
-    pub(super) fn count(&self, held: &Held) -> Option<u32> {
+    pub(crate) fn count(&self, held: &Held) -> Option<u32> {
         let found = match held.holder {
             Holder::OfChannel { class, channel } => self.instance(class, channel, 0),
             Holder::OfAxis { class, axis } => self.instance(class, 0, axis),
@@ -195,4 +193,14 @@ impl Addresses {
 
 fn plus(first: IndexOffset, held: &Held) -> Step<IndexOffset> {
     Ok(IndexOffset::new(first.get().saturating_add(held.element)))
+}
+
+/// The same bytes in another order.
+pub(crate) fn is_permuted(one: &[u8], other: &[u8]) -> bool {
+    let sorted = |bytes: &[u8]| {
+        let mut bytes = bytes.to_vec();
+        bytes.sort_unstable();
+        bytes
+    };
+    one != other && sorted(one) == sorted(other)
 }

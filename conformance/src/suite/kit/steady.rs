@@ -5,14 +5,14 @@ use std::fmt::Display;
 use ads_cnc::operation::Request;
 use ads_cnc_vectors::Hex;
 
-use super::probe::Probe;
 use crate::judge::{Describe, Evidence, Rule, Rules, Step, Stop};
+use crate::suite::kit::Probe;
 
 /// How often a value that does not stand still is read again.
-pub(super) const TRIES: usize = 3;
+pub(crate) const TRIES: usize = 3;
 
 /// What came of comparing a value, read before and after, with what was read in between.
-pub(super) enum Compared<B, R> {
+pub(crate) enum Compared<B, R> {
     /// The value could not be read.
     NoValue,
     /// In between there was no answer.
@@ -26,7 +26,7 @@ pub(super) enum Compared<B, R> {
 
 /// Compares what `other` reads with what `value` reads before and after it, up to the first time that
 /// `same` finds them the same.
-pub(super) fn compare<B: PartialEq, R>(
+pub(crate) fn compare<B: PartialEq, R>(
     probe: &mut Probe<'_>,
     mut value: impl FnMut(&mut Probe<'_>) -> Step<Option<B>>,
     mut other: impl FnMut(&mut Probe<'_>, &B) -> Step<Option<R>>,
@@ -51,14 +51,14 @@ pub(super) fn compare<B: PartialEq, R>(
 
 /// Two ways to the same value, to be judged by many such pairs.
 #[derive(Debug, Default)]
-pub(super) struct Steady {
+pub(crate) struct Steady {
     judged: bool,
     moved: Option<String>,
 }
 
 impl Steady {
     /// Judges what `other` reads by what `one` reads before and after it.
-    pub(super) fn same<'a, 'b>(
+    pub(crate) fn same<'a, 'b>(
         &mut self,
         probe: &mut Probe<'_>,
         rules: impl Rules,
@@ -82,7 +82,7 @@ impl Steady {
     }
 
     /// Judges what came of a comparison; `differs` says what differs.
-    pub(super) fn judge<B, R>(
+    pub(crate) fn judge<B, R>(
         &mut self,
         probe: &mut Probe<'_>,
         rules: impl Rules,
@@ -107,7 +107,7 @@ impl Steady {
     }
 
     /// Nothing was judged if nothing stood still.
-    pub(super) fn finish(self) -> Step {
+    pub(crate) fn finish(self) -> Step {
         match (self.judged, self.moved) {
             (false, Some(moved)) => Err(Stop::Inconclusive(moved)),
             _ => Ok(()),
@@ -121,7 +121,7 @@ const TRIES_OF_PARAMETERS: usize = 5;
 const FAILURES: usize = 3;
 
 /// One check that is not recorded yet.
-pub(super) struct Checked {
+pub(crate) struct Checked {
     rules: Vec<Rule>,
     kept: bool,
     expected: String,
@@ -131,7 +131,7 @@ pub(super) struct Checked {
 
 impl Checked {
     /// With the last call as its evidence.
-    pub(super) fn new(
+    pub(crate) fn new(
         probe: &Probe<'_>,
         rules: impl Rules,
         kept: bool,
@@ -159,7 +159,7 @@ fn answers(probe: &mut Probe<'_>, guards: &[Request<'_>]) -> Step<Option<Vec<Vec
 /// Judges what `act` finds, if the guards answer the same before and after it; it gets their
 /// answers. What fails is tried again: it has to fail every time. Where nothing stands still,
 /// nothing is judged.
-pub(super) fn steadily(
+pub(crate) fn steadily(
     probe: &mut Probe<'_>,
     guards: &[Request<'_>],
     mut act: impl FnMut(&mut Probe<'_>, &[Vec<u8>]) -> Step<Vec<Checked>>,

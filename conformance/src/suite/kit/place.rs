@@ -8,14 +8,13 @@ use ads_cnc::operation::{
 use ads_cnc::{CncString, Error, Handle};
 use ads_cnc_vectors::Hex;
 
-use super::probe::Probe;
-use super::raw_call::RawCall;
 use crate::judge::{Rule, Step, Stop};
+use crate::suite::kit::{Probe, RawCall};
 use crate::values::until_nul;
 
 /// A value by one way to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(crate) enum Place {
     Handle { channel: Channel, handle: Handle, indices: Vec<u32> },
     Name { channel: Channel, name: CncString },
     Axis { channel: Channel, axis: ChannelAxis, name: CncString },
@@ -24,7 +23,7 @@ pub(super) enum Place {
 }
 
 impl Place {
-    pub(super) fn read(&self) -> Result<Request<'_>, Error> {
+    pub(crate) fn read(&self) -> Result<Request<'_>, Error> {
         Ok(match self {
             Self::Handle { channel, handle, indices } => {
                 ReadByHandle::new(*channel, *handle, indices).into()
@@ -41,7 +40,7 @@ impl Place {
         })
     }
 
-    pub(super) fn write<'v>(&'v self, value: &'v [u8]) -> Result<Request<'v>, Error> {
+    pub(crate) fn write<'v>(&'v self, value: &'v [u8]) -> Result<Request<'v>, Error> {
         Ok(match self {
             Self::Handle { channel, handle, indices } => {
                 WriteByHandle::new(*channel, *handle, indices, value).into()
@@ -61,16 +60,16 @@ impl Place {
 }
 
 /// Why a case that writes is not applicable.
-pub(super) const NOTHING_WRITABLE: &str = "nothing of it may be written";
+pub(crate) const NOTHING_WRITABLE: &str = "nothing of it may be written";
 
 /// Whether a request has a form on the wire: a long value beside a long name has none.
-pub(super) fn is_sendable(request: &Request<'_>) -> bool {
+pub(crate) fn is_sendable(request: &Request<'_>) -> bool {
     RawCall::new(*request).is_ok()
 }
 
 /// The nearest other value: one bit of the first byte. A text gets another first character; one of
 /// a single byte has no room for that and its NUL.
-pub(super) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
+pub(crate) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
     if is_text && value.len() < 2 {
         return value.to_vec();
     }
@@ -90,22 +89,22 @@ pub(super) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
 }
 
 /// Texts are the same up to their first NUL.
-pub(super) fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
+pub(crate) fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
     one == other || is_text && until_nul(one) == until_nul(other)
 }
 
 /// What a write is judged by, and what it is about.
-pub(super) struct Trial<'t> {
-    pub(super) what: &'t str,
-    pub(super) rules: &'t [Rule],
-    pub(super) is_text: bool,
+pub(crate) struct Trial<'t> {
+    pub(crate) what: &'t str,
+    pub(crate) rules: &'t [Rule],
+    pub(crate) is_text: bool,
     /// By which the handle of a variable was asked for.
-    pub(super) name: Option<&'t CncString>,
+    pub(crate) name: Option<&'t CncString>,
 }
 
 impl Probe<'_> {
     /// What is there now; an answer is judged elsewhere.
-    pub(super) fn value_at(&mut self, place: &Place) -> Step<Option<Vec<u8>>> {
+    pub(crate) fn value_at(&mut self, place: &Place) -> Step<Option<Vec<u8>>> {
         match place.read() {
             Ok(read) => self.try_ask(read),
             Err(_) => Ok(None),
@@ -114,18 +113,18 @@ impl Probe<'_> {
 
     /// Whether a value changes by itself between two reads. A read without an answer does not show
     /// that.
-    pub(super) fn moves(&mut self, place: &Place, is_text: bool) -> Step<bool> {
+    pub(crate) fn moves(&mut self, place: &Place, is_text: bool) -> Step<bool> {
         let values = self.value_at(place)?.zip(self.value_at(place)?);
         Ok(values.is_some_and(|(first, second)| !same(&first, &second, is_text)))
     }
 
     /// Whether a value is as it was. A read without an answer does not show that.
-    pub(super) fn is_as_before(&mut self, place: &Place, was: &[u8], is_text: bool) -> Step<bool> {
+    pub(crate) fn is_as_before(&mut self, place: &Place, was: &[u8], is_text: bool) -> Step<bool> {
         Ok(self.value_at(place)?.is_some_and(|now| same(&now, was, is_text)))
     }
 
     /// Whether this place may be written, and is not to be left alone.
-    pub(super) fn may_write(&mut self, place: &Place, name: &str) -> Step<bool> {
+    pub(crate) fn may_write(&mut self, place: &Place, name: &str) -> Step<bool> {
         let left = self.session.profile.leaves(name);
         match place.write(&[]) {
             Ok(write) if !left => self.may(write),
@@ -134,7 +133,7 @@ impl Probe<'_> {
     }
 
     /// Writes a value that must be taken.
-    pub(super) fn put(&mut self, trial: &Trial<'_>, place: &Place, value: &[u8]) -> Step<bool> {
+    pub(crate) fn put(&mut self, trial: &Trial<'_>, place: &Place, value: &[u8]) -> Step<bool> {
         let Some(write) = place.write(value).ok().filter(is_sendable) else {
             let why = format!("{} of {} bytes cannot be written", trial.what, value.len());
             return Err(Stop::Inconclusive(why));
@@ -149,7 +148,7 @@ impl Probe<'_> {
 
     /// Writes another value, reads it back and puts the old one back, whatever came of it. While
     /// the other is there, `then` looks at it; it gets the old and the new.
-    pub(super) fn try_write(
+    pub(crate) fn try_write(
         &mut self,
         trial: &Trial<'_>,
         place: &Place,
@@ -213,7 +212,7 @@ impl Probe<'_> {
 
     /// Writes to what must refuse it the value that is there already; `sibling`, if there is one,
     /// takes what it holds.
-    pub(super) fn write_refused(
+    pub(crate) fn write_refused(
         &mut self,
         trial: &Trial<'_>,
         place: &Place,

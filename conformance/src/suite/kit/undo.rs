@@ -8,13 +8,10 @@ use ads_cnc::operation::{CountObjects, DescribeByName, HandleByName, ReadDescrip
 use ads_cnc::{Decode as _, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::OBJECTS_MAX;
-use super::place::{Place, Trial, same};
-use super::probe::Probe;
-use super::raw_call::RawCall;
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Entry;
 use crate::judge::{LeftChanged, Step, Stop};
+use crate::suite::kit::{OBJECTS_MAX, Place, Probe, RawCall, Trial, same};
 use crate::text::{Moment, escape};
 
 /// How often a value is written back.
@@ -68,17 +65,17 @@ impl Changes {
     }
 
     /// Whether a value is changed that is still to be restored.
-    pub(super) fn any_pending(&self) -> bool {
+    pub(crate) fn any_pending(&self) -> bool {
         self.last().is_some()
     }
 
     /// Nothing that is changed is restored any more.
-    pub(super) fn give_up(&self) {
+    pub(crate) fn give_up(&self) {
         self.all().iter_mut().for_each(|change| change.given_up = true);
     }
 
     /// Whether something could not be restored.
-    pub(super) fn any_given_up(&self) -> bool {
+    pub(crate) fn any_given_up(&self) -> bool {
         self.all().iter().any(|change| change.given_up)
     }
 
@@ -93,7 +90,7 @@ impl Changes {
     }
 
     /// What is there now, as far as anybody knows.
-    pub(super) fn is_now(&self, place: &Place, value: Option<&[u8]>) {
+    pub(crate) fn is_now(&self, place: &Place, value: Option<&[u8]>) {
         for change in self.all().iter_mut().filter(|change| change.place == *place) {
             change.is = value.map(<[u8]>::to_vec);
         }
@@ -114,7 +111,7 @@ impl Probe<'_> {
     /// Runs what changes the value at a place, and restores it, whatever comes of that. `restore`
     /// does so as a part of the case and says whether the value is as it was; if it is not, it is
     /// written back again.
-    pub(super) fn changing(
+    pub(crate) fn changing(
         &mut self,
         trial: &Trial<'_>,
         place: &Place,
@@ -156,7 +153,7 @@ impl Probe<'_> {
 
     /// Rejects a change, and any further request of a case that has changed a value, when the file that
     /// permits it expires before the value could be restored.
-    pub(super) fn check_time_to_restore(&self) -> Step {
+    pub(crate) fn check_time_to_restore(&self) -> Step {
         let client = &self.session.client;
         let target = client.target();
         // Each request may wait for a connection and for an answer.
@@ -171,7 +168,7 @@ impl Probe<'_> {
 
     /// Restores all that is changed, the last change first; also if the run is interrupted and if
     /// nothing more is asked of the target otherwise.
-    pub(super) fn put_back(&mut self) -> Step {
+    pub(crate) fn put_back(&mut self) -> Step {
         let mut all = Ok(());
         while let Some(change) = self.session.changes.last() {
             all = all.and(self.put_back_one(change));
@@ -180,7 +177,7 @@ impl Probe<'_> {
     }
 
     /// Tries again what could not be restored.
-    pub(super) fn put_back_rest(&mut self) {
+    pub(crate) fn put_back_rest(&mut self) {
         self.session.changes.all().iter_mut().for_each(|change| change.given_up = false);
         // What is left is shown.
         let _left = self.put_back();

@@ -3,16 +3,15 @@
 use ads_cnc::operation::Request;
 use ads_cnc_vectors::Level;
 
-use super::Probe;
 use crate::judge::{Rule, Step, Stop, Verdict};
-use crate::suite::raw_call::IntoRawCall;
+use crate::suite::kit::{IntoRawCall, Probe};
 
 impl Probe<'_> {
     /// Sends a request that must be rejected; `sibling` differs by the fault only and must not be.
     ///
     /// A success that gives no byte of data is taken for an error: it gives nothing of what is not
     /// there.
-    pub(in crate::suite) fn refuses<'a, 'b>(
+    pub(crate) fn refuses<'a, 'b>(
         &mut self,
         rule: impl Into<Rule>,
         what: &str,

@@ -8,17 +8,17 @@ use crate::judge::Step;
 
 /// A [`Call`] that owns its data.
 #[derive(Clone, Debug)]
-pub(super) struct RawCall {
-    pub(super) port: AmsPort,
-    pub(super) service: Service,
-    pub(super) index_group: IndexGroup,
-    pub(super) index_offset: IndexOffset,
-    pub(super) read_length: u32,
-    pub(super) data: Vec<u8>,
+pub(crate) struct RawCall {
+    pub(crate) port: AmsPort,
+    pub(crate) service: Service,
+    pub(crate) index_group: IndexGroup,
+    pub(crate) index_offset: IndexOffset,
+    pub(crate) read_length: u32,
+    pub(crate) data: Vec<u8>,
 }
 
 impl RawCall {
-    pub(super) fn new<'a>(request: impl Into<Request<'a>>) -> Step<Self> {
+    pub(crate) fn new<'a>(request: impl Into<Request<'a>>) -> Step<Self> {
         let request = request.into();
         let mut data = vec![0; request.encoded_len()];
         let Call { port, service, index_group, index_offset, read_length, data: encoded } =
@@ -29,20 +29,20 @@ impl RawCall {
     }
 
     /// The same but for a change.
-    pub(super) fn with(&self, change: impl FnOnce(&mut Self)) -> Self {
+    pub(crate) fn with(&self, change: impl FnOnce(&mut Self)) -> Self {
         let mut changed = self.clone();
         change(&mut changed);
         changed
     }
 
-    pub(super) fn call(&self) -> Call<'_> {
+    pub(crate) fn call(&self) -> Call<'_> {
         let Self { port, service, index_group, index_offset, read_length, ref data } = *self;
         Call { port, service, index_group, index_offset, read_length, data }
     }
 }
 
 /// What can be sent: a request, or one that was changed.
-pub(super) trait IntoRawCall<'a> {
+pub(crate) trait IntoRawCall<'a> {
     fn into_raw_call(self) -> Step<RawCall>;
 }
 

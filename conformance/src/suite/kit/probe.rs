@@ -11,8 +11,6 @@ use ads_cnc::address::Channel;
 use ads_cnc::operation::{Function, Request};
 use ads_cnc_vectors::Level;
 
-use super::raw_call::RawCall;
-use super::session::Session;
 use crate::deadline::Deadline;
 use crate::exchange::{Exchange, Fault, Violation};
 use crate::gate::Reason;
@@ -22,6 +20,8 @@ use crate::judge::{
 use crate::process::interrupt;
 use crate::profile::Claim;
 use crate::simulator::Cnc;
+use crate::suite::kit::RawCall;
+use crate::suite::session::Session;
 
 /// Requests in a row without an answer after which no more are sent.
 const SILENCES_MAX: usize = 8;
@@ -38,14 +38,14 @@ pub struct Probe<'s> {
     last: Option<Evidence>,
     asked: usize,
     /// Whether it was kept from asking, as the run is to end.
-    pub(super) interrupted: bool,
+    pub(crate) interrupted: bool,
     /// Why something that the file names is not written.
     doubt: Option<String>,
     deadline: Option<Deadline>,
 }
 
 impl<'s> Probe<'s> {
-    pub(super) fn new(session: &'s mut Session) -> Self {
+    pub(crate) fn new(session: &'s mut Session) -> Self {
         Self {
             session,
             record: Record::default(),
@@ -58,11 +58,11 @@ impl<'s> Probe<'s> {
     }
 
     /// Asks for nothing more after this.
-    pub(super) fn with_deadline(self, deadline: Option<Deadline>) -> Self {
+    pub(crate) fn with_deadline(self, deadline: Option<Deadline>) -> Self {
         Self { deadline, ..self }
     }
 
-    pub(super) fn into_findings(self) -> (Vec<Judgement>, usize) {
+    pub(crate) fn into_findings(self) -> (Vec<Judgement>, usize) {
         (self.record.judgements, self.record.checks)
     }
 
@@ -79,7 +79,7 @@ impl<'s> Probe<'s> {
     }
 
     /// Whether a request may be sent; of a write by handle the device confirms the handle first.
-    pub(super) fn may<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<bool> {
+    pub(crate) fn may<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<bool> {
         let request = request.into();
         if self.claims(request.function()) == Claim::No {
             return Ok(false);
@@ -95,7 +95,7 @@ impl<'s> Probe<'s> {
     }
 
     /// How the case ends: one that could not write what the file names did not run to its end.
-    pub(super) fn end(&mut self, step: Step) -> Step {
+    pub(crate) fn end(&mut self, step: Step) -> Step {
         match (self.doubt.take(), step) {
             (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::Refused(why)),
             (_, step) => step,
@@ -103,7 +103,7 @@ impl<'s> Probe<'s> {
     }
 
     /// The CNC itself, to do to it from within what nobody can ask for.
-    pub(super) fn cnc(&self) -> Step<Arc<Cnc>> {
+    pub(crate) fn cnc(&self) -> Step<Arc<Cnc>> {
         self.session.cnc.clone().or_not_applicable("the CNC is not in this process")
     }
 
@@ -164,7 +164,7 @@ impl<'s> Probe<'s> {
     }
 
     /// Takes over what other cases have found.
-    pub(super) fn take_over(&mut self, record: Record) {
+    pub(crate) fn take_over(&mut self, record: Record) {
         self.record.append(record);
     }
 
@@ -181,7 +181,7 @@ impl<'s> Probe<'s> {
     }
 
     /// Sends a call and keeps it as the evidence of the checks that follow.
-    pub(super) fn call(&mut self, request: &RawCall) -> Step<Exchange> {
+    pub(crate) fn call(&mut self, request: &RawCall) -> Step<Exchange> {
         self.target()?;
         let call = request.call();
         self.asked = self.asked.saturating_add(1);
@@ -205,7 +205,7 @@ impl<'s> Probe<'s> {
     }
 
     /// Whether there is a target left.
-    pub(super) fn target(&mut self) -> Step {
+    pub(crate) fn target(&mut self) -> Step {
         if interrupt::came() {
             self.interrupted = true;
             return Err(Stop::Interrupted);
@@ -223,7 +223,7 @@ impl<'s> Probe<'s> {
     }
 
     /// What came of a request.
-    pub(super) fn came(
+    pub(crate) fn came(
         &mut self,
         fault: Option<&Fault>,
         violations: &[Violation],
@@ -302,12 +302,12 @@ impl<'s> Probe<'s> {
     }
 
     /// The evidence of the last call.
-    pub(super) fn evidence(&self) -> Option<Evidence> {
+    pub(crate) fn evidence(&self) -> Option<Evidence> {
         self.last.clone()
     }
 
     /// Puts this evidence under the checks that follow.
-    pub(super) fn show(&mut self, evidence: Option<Evidence>) {
+    pub(crate) fn show(&mut self, evidence: Option<Evidence>) {
         self.last = evidence;
     }
 }
@@ -321,5 +321,14 @@ impl Checks for Probe<'_> {
         found: impl Describe,
     ) -> bool {
         Probe::check(self, rules, kept, expected, found)
+    }
+}
+
+/// An exchange that was not passed over in silence: whether it was done then nobody knows, and
+/// nothing of what follows can be held against it.
+pub(crate) fn heard(exchange: Exchange) -> Step<Exchange> {
+    match &exchange.outcome {
+        Err(fault @ Fault::Silence(_)) => Err(Stop::Inconclusive(format!("{exchange}: {fault}"))),
+        _ => Ok(exchange),
     }
 }
