@@ -133,17 +133,17 @@ fn reserved(probe: &mut Probe<'_>) -> Step {
 
 /// What is read of a variable of an axis in the ways there are.
 #[derive(PartialEq, Eq)]
-struct Seen {
+struct AxisReadings {
     by_place: Vec<u8>,
     by_handle: Vec<u8>,
 }
 
-fn seen(probe: &mut Probe<'_>, place: u32, handle: Handle) -> Step<Seen> {
+fn seen(probe: &mut Probe<'_>, place: u32, handle: Handle) -> Step<AxisReadings> {
     let channel = Channel::new(1)?;
     let axis = ChannelAxis::new(place)?;
     let by_place = AxisReadByName::new(channel, axis, NAME)?;
     let by_handle = ReadByHandle::new(channel, handle, U32List::EMPTY);
-    Ok(Seen {
+    Ok(AxisReadings {
         by_place: probe.try_ask(by_place)?.unwrap_or_default(),
         by_handle: probe.try_ask(by_handle)?.unwrap_or_default(),
     })
@@ -198,7 +198,7 @@ fn exchanged(probe: &mut Probe<'_>) -> Step {
 }
 
 /// By its name on the channel interface, and by the handle that it has there.
-fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, Seen)> {
+fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, AxisReadings)> {
     let name = format!("{NAME}.Z");
     let handle = probe.try_read::<Handle>(HandleByName::new(channel, &name)?)?;
     let by_name = probe.try_ask(ReadByName::new(channel, &name)?)?;
@@ -207,10 +207,10 @@ fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, S
         None => None,
     };
     let (by_place, by_handle) = (by_name.unwrap_or_default(), by_handle.unwrap_or_default());
-    Ok((handle, Seen { by_place, by_handle }))
+    Ok((handle, AxisReadings { by_place, by_handle }))
 }
 
-fn same(probe: &mut Probe<'_>, found: &Seen, expected: &Seen, what: &str) {
+fn same(probe: &mut Probe<'_>, found: &AxisReadings, expected: &AxisReadings, what: &str) {
     for (rule, found, expected) in [
         ("VAR-26", &found.by_place, &expected.by_place),
         ("VAR-10", &found.by_handle, &expected.by_handle),

@@ -68,7 +68,7 @@ fn tasks_apart(probe: &mut Probe<'_>) -> Step {
         let good = RawCall::new(request)?;
         for &port in ports {
             let what = format!("{} at port {}", request.function().spec().name, port.0);
-            probe.refuses("GEN-4", &what, &good.with(|call| call.port = port), &good)?;
+            probe.refuses("GEN-4", &what, good.with(|call| call.port = port), &good)?;
         }
     }
     applicable(any, "neither COM nor SDA is claimed")
@@ -140,12 +140,7 @@ fn no_channel_0(probe: &mut Probe<'_>) -> Step {
         AxisHandleByName { channel, axis, name: name.as_cnc_str().into() }.into();
     let good = RawCall::new(request)?;
     let offset = ads_cnc::address::IndexOffset::new(good.index_offset.get() & 0xFFFF);
-    probe.refuses(
-        "GEN-6",
-        "a name at place 0",
-        &good.with(|call| call.index_offset = offset),
-        &good,
-    )
+    probe.refuses("GEN-6", "a name at place 0", good.with(|call| call.index_offset = offset), &good)
 }
 
 /// Characters that a code page or a bit too few may have cost, and what stands in their place.

@@ -114,17 +114,17 @@ mod tests {
     use crate::net;
     use crate::profile::Profile;
     use crate::simulator::{Cnc, NET_ID, Server};
-    use crate::suite::kit::{Place, Trial};
+    use crate::suite::kit::{ValueAddress, WriteCheck};
 
     const NAME: &str = "V.E.vartest";
 
-    fn place() -> Place {
+    fn place() -> ValueAddress {
         let name = NAME.parse::<CncString>().unwrap();
-        Place::Name { channel: Channel::new(1).unwrap(), name }
+        ValueAddress::Name { channel: Channel::new(1).unwrap(), name }
     }
 
     fn panics(probe: &mut Probe<'_>) -> Step {
-        let trial = Trial { what: NAME, rules: &[], is_text: false, name: None };
+        let trial = WriteCheck { what: NAME, rules: &[], is_text: false, name: None };
         probe.try_write(&trial, &place(), |probe, before, new| {
             assert_eq!(probe.value_at(&place()).unwrap().as_deref(), Some(new));
             assert_ne!(before, new);

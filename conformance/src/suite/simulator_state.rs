@@ -3,7 +3,7 @@
 
 use ads_cnc::address::{ComGroup, ComTable};
 
-use super::kit::{self, Addresses, JudgedPlace, Object, Place, Probe, is_permuted};
+use super::kit::{self, Addresses, JudgedAddress, Object, Probe, ValueAddress, is_permuted};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
 use crate::simulator::{Held, Holder};
@@ -140,7 +140,7 @@ fn write(
     probe: &mut Probe<'_>,
     all: &[Held],
     held: &Held,
-    addresses: &[JudgedPlace],
+    addresses: &[JudgedAddress],
     value: &[u8],
 ) -> Step {
     let cnc = probe.cnc()?;
@@ -204,7 +204,7 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         let at = |object: &&Object| {
             places.iter().any(|(place, _)| {
                 let (group, offset) = (object.group, object.offset);
-                matches!(place, Place::Object { group: one, offset: other, .. }
+                matches!(place, ValueAddress::Object { group: one, offset: other, .. }
                     if (*one, *other) == (group, offset))
             })
         };

@@ -3,7 +3,7 @@
 use ads_cnc::VariableType;
 use ads_cnc_vectors::Hex;
 
-use super::kit::{Place, Probe, Trial, same};
+use super::kit::{Probe, ValueAddress, WriteCheck, same};
 use super::{Row, case};
 use crate::judge::{IfThere as _, Needs, Rule, Step, applicable, assumed};
 
@@ -17,11 +17,11 @@ pub(super) const CASES: &[Row] = &[
 const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
 
 /// Texts that may be written, by what names them.
-fn texts(probe: &mut Probe<'_>) -> Step<Vec<(Place, String)>> {
+fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
     let mut all = Vec::new();
     for object in probe.objects().if_applicable()?.unwrap_or_default() {
         if object.is_text() && object.writable {
-            all.push((object.place(), object.name.to_string()));
+            all.push((object.address(), object.name.to_string()));
         }
     }
     for channel in probe.channels()? {
@@ -34,7 +34,7 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(Place, String)>> {
             // Those of the Service Interface an NC program reads.
             let own = !name.to_string().starts_with("V.G.SERVICE.");
             let what = name.to_string();
-            (is_text && own).then_some((Place::Name { channel, name }, what))
+            (is_text && own).then_some((ValueAddress::Name { channel, name }, what))
         }));
     }
     Ok(all)
@@ -42,24 +42,25 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(Place, String)>> {
 
 fn written(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
-    for (place, what) in texts(probe)? {
-        if place.read().is_err() || !probe.may_write(&place, &what)? {
+    for (address, what) in texts(probe)? {
+        if address.read().is_err() || !probe.may_write(&address, &what)? {
             continue;
         }
-        let Some(before) = probe.value_at(&place)?.filter(|value| value.len() > 1) else {
+        let Some(before) = probe.value_at(&address)?.filter(|value| value.len() > 1) else {
             continue;
         };
         any = true;
         let rules = [Rule::from("GEN-3")];
-        let trial = Trial { what: &what, rules: &rules, is_text: true, name: None };
+        let trial = WriteCheck { what: &what, rules: &rules, is_text: true, name: None };
         probe.changing(
             &trial,
-            &place,
+            &address,
             &before,
-            |probe| characters(probe, &place, &what, before.len()),
+            |probe| characters(probe, &address, &what, before.len()),
             |probe| {
-                let taken = probe.put(&trial, &place, &before)?;
-                Ok(taken && probe.value_at(&place)?.is_some_and(|read| same(&read, &before, true)))
+                let taken = probe.put(&trial, &address, &before)?;
+                Ok(taken
+                    && probe.value_at(&address)?.is_some_and(|read| same(&read, &before, true)))
             },
         )?;
     }
@@ -67,7 +68,7 @@ fn written(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Writes all characters, as many as fit each time.
-fn characters(probe: &mut Probe<'_>, place: &Place, what: &str, size: usize) -> Step {
+fn characters(probe: &mut Probe<'_>, address: &ValueAddress, what: &str, size: usize) -> Step {
     let all: Vec<u8> = (0x80..=0xFF).filter(|byte| !UNASSIGNED.contains(byte)).collect();
     for (bytes, rule) in [(&all[..], Rule::from("GEN-3")), (&UNASSIGNED, assumed("GEN-3"))] {
         // One byte is left for the NUL.
@@ -75,7 +76,7 @@ fn characters(probe: &mut Probe<'_>, place: &Place, what: &str, size: usize) -> 
             // As long as what was there: a text of another length may be refused.
             let mut value = piece.to_vec();
             value.resize(size, 0);
-            is_read_again(probe, (place, what), rule, &value)?;
+            is_read_again(probe, (address, what), rule, &value)?;
         }
     }
     Ok(())
@@ -83,16 +84,16 @@ fn characters(probe: &mut Probe<'_>, place: &Place, what: &str, size: usize) -> 
 
 fn is_read_again(
     probe: &mut Probe<'_>,
-    (place, what): (&Place, &str),
+    (address, what): (&ValueAddress, &str),
     rule: Rule,
     value: &[u8],
 ) -> Step {
     // Which texts are taken is documented nowhere.
     let taken = [assumed("GEN-3")];
-    if !probe.put(&Trial { what, rules: &taken, is_text: true, name: None }, place, value)? {
+    if !probe.put(&WriteCheck { what, rules: &taken, is_text: true, name: None }, address, value)? {
         return Ok(());
     }
-    let read = probe.value_at(place)?.unwrap_or_default();
+    let read = probe.value_at(address)?.unwrap_or_default();
     let kept = same(&read, value, true);
     let expected = || format!("{} of {what}, as written", Hex(value.to_vec()));
     probe.check(rule, kept, expected, || Hex(read));

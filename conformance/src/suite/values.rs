@@ -48,7 +48,7 @@ fn compare_with_whole<'r>(
         let expected = part(&whole);
         let dimensions: &[u32] = if expected == whole { &variable.dimensions } else { &[] };
         let values = typed(variable, dimensions);
-        probe.show(evidence.map(|evidence| Evidence { values, ..evidence }));
+        probe.show(evidence.map(|evidence| Evidence { values, ..*evidence }));
         let words = || format!("{} of the whole of {name}", spaced(&expected));
         probe.check_reply(rules, false, &expected, words, || Hex(read));
     });

@@ -5,8 +5,8 @@ use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    NOTHING_WRITABLE, Place, Probe, Trial, axis_address, dynamic_among_variables, each_of_access,
-    handle_of, same, write_check,
+    NOTHING_WRITABLE, Probe, ValueAddress, WriteCheck, axis_address, dynamic_among_variables,
+    each_of_access, handle_of, same, write_check,
 };
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable, assumed};
@@ -30,29 +30,29 @@ pub(super) const CASES: &[Row] = &[
 fn by_handle(probe: &mut Probe<'_>) -> Step {
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let handle = handle_of(probe, channel, variable)?;
-        let place = Place::Handle { channel, handle, indices: Vec::new() };
+        let address = ValueAddress::Handle { channel, handle, indices: Vec::new() };
         let name = variable.name.text.to_string();
-        if !probe.may_write(&place, &name)? {
+        if !probe.may_write(&address, &name)? {
             return Ok(false);
         }
         let rules = ["VAR-12", "VAR-17", "VAR-6", "VAR-10"].map(Rule::from);
-        probe.try_write(&write_check(variable, &name, &rules), &place, |_, _, _| Ok(()))?;
+        probe.try_write(&write_check(variable, &name, &rules), &address, |_, _, _| Ok(()))?;
         Ok(true)
     })
 }
 
 fn by_name(probe: &mut Probe<'_>) -> Step {
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
-        let place = Place::Name { channel, name: variable.name.text.clone() };
+        let address = ValueAddress::Name { channel, name: variable.name.text.clone() };
         let name = variable.name.text.to_string();
-        if !probe.may_write(&place, &name)? {
+        if !probe.may_write(&address, &name)? {
             return Ok(false);
         }
         let handle = variable.handle;
-        let by_handle = Place::Handle { channel, handle, indices: Vec::new() };
+        let by_handle = ValueAddress::Handle { channel, handle, indices: Vec::new() };
         let rules = ["VAR-13", "VAR-17", "VAR-6"].map(Rule::from);
-        probe.try_write(&write_check(variable, &name, &rules), &place, |probe, _, new| {
-            let named = probe.value_at(&place)?.unwrap_or_default();
+        probe.try_write(&write_check(variable, &name, &rules), &address, |probe, _, new| {
+            let named = probe.value_at(&address)?.unwrap_or_default();
             let read = probe.value_at(&by_handle)?.unwrap_or_default();
             let is_text = variable.var_type == VariableType::STRING;
             let expected = || format!("{} of {name} by its handle", Hex(new.to_vec()));
@@ -71,7 +71,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
 fn each_of_axes(
     probe: &mut Probe<'_>,
     access: VariableAccess,
-    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, &Place, &str) -> Step,
+    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, &ValueAddress, &str) -> Step,
 ) -> Step {
     each_of_access(probe, access, |probe, channel, variable| {
         let Some(at) = axis_address(probe, channel, variable)? else { return Ok(false) };
@@ -87,7 +87,7 @@ fn each_of_axes(
 fn axis_variables(probe: &mut Probe<'_>) -> Step {
     let rules = ["VAR-26", "VAR-17"].map(Rule::from);
     each_of_axes(probe, VariableAccess::READ_WRITE, |probe, channel, variable, at, what| {
-        let named = Place::Name { channel, name: variable.name.text.clone() };
+        let named = ValueAddress::Name { channel, name: variable.name.text.clone() };
         probe.try_write(&write_check(variable, what, &rules), at, |probe, _, new| {
             let read = probe.value_at(&named)?.unwrap_or_default();
             let expected = || format!("{} of {}", Hex(new.to_vec()), variable.name.text);
@@ -110,14 +110,14 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
     let mut any = false;
     for name in names {
         let what = name.to_string();
-        let place = Place::Name { channel, name };
-        if probe.may_write(&place, &what)? {
+        let address = ValueAddress::Name { channel, name };
+        if probe.may_write(&address, &what)? {
             any = true;
             let rules = [assumed(rule)];
-            let trial = Trial { what: &what, rules: &rules, is_text: false, name: None };
-            probe.try_write(&trial, &place, |probe, _, new| {
+            let trial = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
+            probe.try_write(&trial, &address, |probe, _, new| {
                 // What is taken is there, though.
-                let read = probe.value_at(&place)?.unwrap_or_default();
+                let read = probe.value_at(&address)?.unwrap_or_default();
                 let expected = || format!("{} of {what}, as written", Hex(new.to_vec()));
                 probe.check(rule, read == new, expected, || Hex(read));
                 Ok(())

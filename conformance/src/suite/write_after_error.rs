@@ -6,7 +6,8 @@ use ads_cnc::sda::ElementText;
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    Known, NOTHING_WRITABLE, OF_PLACES, Place, Probe, another, is_sendable, writable_numbers,
+    NOTHING_WRITABLE, OF_PLACES, Probe, ValueAddress, WritableNumber, another, is_sendable,
+    writable_numbers,
 };
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable};
@@ -24,13 +25,16 @@ pub(super) const CASES: &[Row] = &[
 
 fn after_refusal(probe: &mut Probe<'_>) -> Step {
     for known in writable_numbers(probe)? {
-        let Known { channel, variable, value } = &known;
+        let WritableNumber { channel, variable, value } = &known;
         let unknown = WriteByName::new(*channel, "V.E.no such variable", value)?;
-        let handle =
-            Place::Handle { channel: *channel, handle: variable.handle, indices: Vec::new() };
-        for (id, place) in [("VAR-13", known.place()), ("VAR-12", handle)] {
+        let handle = ValueAddress::Handle {
+            channel: *channel,
+            handle: variable.handle,
+            indices: Vec::new(),
+        };
+        for (id, address) in [("VAR-13", known.address()), ("VAR-12", handle)] {
             let other = another(value, false);
-            let (good, back) = (place.write(&other), place.write(value));
+            let (good, back) = (address.write(&other), address.write(value));
             let (good, back) = (good?, back?);
             // As it is taken without a refusal before it.
             let taken = |probe: &mut Probe<'_>, request| -> Step<bool> {
@@ -48,9 +52,9 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
             let name = &variable.name.text;
             let expected = || format!("{name} written behind a refusal");
             probe.check([id, "ADS-2", "ADS-4"], done, expected, &exchange);
-            let after = probe.value_at(&place)?.unwrap_or_default();
+            let after = probe.value_at(&address)?.unwrap_or_default();
             // What never takes another value is judged elsewhere.
-            let (again, read) = (taken(probe, good)?, probe.value_at(&place)?);
+            let (again, read) = (taken(probe, good)?, probe.value_at(&address)?);
             if again && read.as_ref() == Some(&other) {
                 let expected = || format!("{} of {name}, as written", Hex(other.clone()));
                 probe.check([id, "ADS-2"], after == other, expected, || Hex(after.clone()));
@@ -65,24 +69,24 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
 fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
-        let (place, name) = (object.place(), object.name.to_string());
+        let (address, name) = (object.address(), object.name.to_string());
         let is_text = object.is_text();
         let is_tried = object.writable && !is_text && !probe.is_blank(&object);
-        if !is_tried || place.read().is_err() || !probe.may_write(&place, &name)? {
+        if !is_tried || address.read().is_err() || !probe.may_write(&address, &name)? {
             continue;
         }
-        let Some(value) = probe.value_at(&place)?.filter(|value| !value.is_empty()) else {
+        let Some(value) = probe.value_at(&address)?.filter(|value| !value.is_empty()) else {
             continue;
         };
         let other = another(&value, false);
         let longer = [&other[..], &[1]].concat();
         let shorter = (1..other.len()).filter_map(|len| other.get(..len));
         for data in shorter.chain([&longer[..]]) {
-            let Some(bad) = place.write(data).ok().filter(is_sendable) else { continue };
+            let Some(bad) = address.write(data).ok().filter(is_sendable) else { continue };
             any = true;
             let exchange = probe.send(bad)?;
             if exchange.is_error() {
-                let after = probe.value_at(&place)?.unwrap_or_default();
+                let after = probe.value_at(&address)?.unwrap_or_default();
                 let there = data.get(..after.len()).unwrap_or(data);
                 let kept = after == value || !after.starts_with(there);
                 let expected = || {
@@ -94,7 +98,7 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
                 };
                 probe.check("COM-5", kept, expected, || Hex(after));
             }
-            probe.send(place.write(&value)?)?;
+            probe.send(address.write(&value)?)?;
         }
     }
     applicable(any, NOTHING_WRITABLE)
@@ -107,7 +111,7 @@ fn may_be_a_number(type_name: &str) -> bool {
 
 /// Whether such a write is refused nobody says.
 fn empty_places(probe: &mut Probe<'_>) -> Step {
-    let mut all: Vec<(Place, String)> = Vec::new();
+    let mut all: Vec<(ValueAddress, String)> = Vec::new();
     let empty = probe.session.profile.empty_places.clone();
     for instance in probe.instances()? {
         let is_empty = empty.contains(&(instance.channel, instance.axis));
@@ -121,7 +125,7 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
                 && let Some(length) = probe.length_of(element)?
             {
                 let what = format!("element {} of {instance}", element.index_offset());
-                all.push((Place::Element { element, length }, what));
+                all.push((ValueAddress::Element { element, length }, what));
             }
         }
     }
@@ -130,28 +134,28 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
             object.list.parts().table == ComTable::Channel && object.group.get() & 0xFF00 == 0x0100;
         let number = may_be_a_number(&object.type_name.to_string());
         if object.writable && is_of_channel && !number && probe.is_blank(&object) {
-            all.push((object.place(), object.name.to_string()));
+            all.push((object.address(), object.name.to_string()));
         }
     }
     let mut any = false;
-    for (place, what) in all {
-        if place.read().is_err() || !probe.may_write(&place, &what)? {
+    for (address, what) in all {
+        if address.read().is_err() || !probe.may_write(&address, &what)? {
             continue;
         }
-        let Some(blank) = probe.value_at(&place)?.filter(|value| !value.is_empty()) else {
+        let Some(blank) = probe.value_at(&address)?.filter(|value| !value.is_empty()) else {
             continue;
         };
         any = true;
         let other = another(&blank, false);
-        probe.send(place.write(&other)?)?;
+        probe.send(address.write(&other)?)?;
         let evidence = probe.evidence();
-        let after = probe.value_at(&place)?.unwrap_or_default();
+        let after = probe.value_at(&address)?.unwrap_or_default();
         probe.show(evidence);
         let kept = after != other;
         let expected = || format!("{} of {what}, blank as before", Hex(blank.clone()));
         probe.check(Rule::from("SDA-11"), kept, expected, || Hex(after));
         if !kept {
-            probe.send(place.write(&blank)?)?;
+            probe.send(address.write(&blank)?)?;
         }
     }
     applicable(any, "no place is known to be empty")

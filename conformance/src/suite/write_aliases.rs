@@ -4,7 +4,9 @@
 use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
 
-use super::kit::{NOTHING_WRITABLE, Named, Place, Probe, Trial, elements_with_flag};
+use super::kit::{
+    NOTHING_WRITABLE, Probe, ValueAddress, WritableElement, WriteCheck, elements_with_flag,
+};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable};
 
@@ -21,15 +23,15 @@ pub(super) const CASES: &[Row] = &[
 fn objects_by_index(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
-        let (logical, what) = (object.place(), object.name.to_string());
+        let (logical, what) = (object.address(), object.name.to_string());
         if !object.writable || probe.is_blank(&object) || logical.read().is_err() {
             continue;
         }
         let Some(by_rank) = probe.object_by_rank(&object) else { continue };
-        let place = by_rank.place();
-        if place.read().is_err()
+        let address = by_rank.address();
+        if address.read().is_err()
             || !probe.may_write(&logical, &what)?
-            || !probe.may_write(&place, &what)?
+            || !probe.may_write(&address, &what)?
         {
             continue;
         }
@@ -43,10 +45,11 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         any = true;
         let rules = [Rule::from("ADR-12")];
         let is_text = object.is_text();
-        let trial = Trial { what: &format!("{what} by index"), rules: &rules, is_text, name: None };
-        probe.try_write(&trial, &place, |probe, _, _| {
-            let (read, number) = (probe.value_at(&place)?, probe.value_at(&logical)?);
-            let same = number == read || probe.value_at(&place)? != read;
+        let trial =
+            WriteCheck { what: &format!("{what} by index"), rules: &rules, is_text, name: None };
+        probe.try_write(&trial, &address, |probe, _, _| {
+            let (read, number) = (probe.value_at(&address)?, probe.value_at(&logical)?);
+            let same = number == read || probe.value_at(&address)? != read;
             let expected = || format!("{} of {what}, by number too", Hex(read.unwrap_or_default()));
             probe.check("ADR-12", same, expected, || Hex(number.unwrap_or_default()));
             Ok(())
@@ -60,7 +63,7 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let mut any = false;
     for one in elements_with_flag(probe, true)? {
-        let Named { instance, element, place, what, is_text } = &one;
+        let WritableElement { instance, element, address, what, is_text } = &one;
         let other = match instance.channel {
             _ if instance.class != Class::Hld || instance.axis == 0 => continue,
             0 => first,
@@ -71,13 +74,15 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
         let twin = all.iter().find(|one| (one.class, one.channel, one.axis) == at);
         let (start, at) = (instance.first.index_offset().get(), element.index_offset().get());
         let twin = twin.and_then(|twin| twin.first.nth(at.saturating_sub(start)).ok());
-        let (Some(element), Place::Element { length, .. }) = (twin, place) else { continue };
+        let (Some(element), ValueAddress::Element { length, .. }) = (twin, address) else {
+            continue;
+        };
         any = true;
-        let twin = Place::Element { element, length: *length };
-        let trial = Trial { what, rules: &[], is_text: *is_text, name: None };
-        probe.try_write(&trial, place, |probe, _, new| {
-            let (before, read) = (probe.value_at(place)?, probe.value_at(&twin)?);
-            let stood = probe.value_at(place)? == before && before.as_deref() == Some(new);
+        let twin = ValueAddress::Element { element, length: *length };
+        let trial = WriteCheck { what, rules: &[], is_text: *is_text, name: None };
+        probe.try_write(&trial, address, |probe, _, new| {
+            let (before, read) = (probe.value_at(address)?, probe.value_at(&twin)?);
+            let stood = probe.value_at(address)? == before && before.as_deref() == Some(new);
             let expected = || format!("{} of {what}, in the HLD of {other} too", Hex(new.to_vec()));
             let found = || Hex(read.clone().unwrap_or_default());
             probe.check("SDA-13", !stood || read == before, expected, found);
@@ -95,9 +100,9 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
         for name in cnc.written_by_name_only(channel.number()) {
             any = true;
             let (what, rules) = (name.to_string(), [Rule::from("VAR-18")]);
-            let place = Place::Name { channel, name };
-            let trial = Trial { what: &what, rules: &rules, is_text: false, name: None };
-            probe.try_write(&trial, &place, |_, _, _| Ok(()))?;
+            let address = ValueAddress::Name { channel, name };
+            let trial = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
+            probe.try_write(&trial, &address, |_, _, _| Ok(()))?;
         }
     }
     applicable(any, "there is no V.CYC that may be written")

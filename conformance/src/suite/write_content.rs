@@ -5,7 +5,8 @@ use ads_cnc::operation::{CountElements, Service};
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    NOTHING_WRITABLE, Named, Object, Place, Probe, RawCall, Trial, elements_with_flag,
+    NOTHING_WRITABLE, Object, Probe, RawCall, ValueAddress, WritableElement, WriteCheck,
+    elements_with_flag,
 };
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, applicable, assumed};
@@ -30,11 +31,11 @@ pub(super) const CASES: &[Row] = &[
 fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Object>> {
     let mut all = Vec::new();
     for object in probe.objects()? {
-        let place = object.place();
+        let address = object.address();
         if object.writable == is_writable
             && !probe.is_blank(&object)
-            && place.read().is_ok()
-            && probe.may_write(&place, &object.name.to_string())?
+            && address.read().is_ok()
+            && probe.may_write(&address, &object.name.to_string())?
         {
             all.push(object);
         }
@@ -48,21 +49,21 @@ fn objects(probe: &mut Probe<'_>) -> Step {
         let what = object.name.to_string();
         let is_text = object.is_text();
         let rules = ["COM-5", "COM-2"].map(Rule::from);
-        let trial = Trial { what: &what, rules: &rules, is_text, name: None };
-        probe.try_write(&trial, &object.place(), |_, _, _| Ok(()))?;
+        let trial = WriteCheck { what: &what, rules: &rules, is_text, name: None };
+        probe.try_write(&trial, &object.address(), |_, _, _| Ok(()))?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 fn read_only_objects(probe: &mut Probe<'_>) -> Step {
     let known = writable(probe, true)?.into_iter().find(|one| !one.is_text());
-    let known = known.as_ref().map(Object::place);
+    let known = known.as_ref().map(Object::address);
     let all = writable(probe, false)?;
     for object in &all {
         let what = object.name.to_string();
         let rules = ["COM-2".into()];
-        let trial = Trial { what: &what, rules: &rules, is_text: false, name: None };
-        probe.write_refused(&trial, &object.place(), known.as_ref())?;
+        let trial = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
+        probe.write_refused(&trial, &object.address(), known.as_ref())?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
@@ -72,21 +73,21 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     for one in &all {
         let twins = twins(probe, one)?;
         let rules = ["SDA-9".into()];
-        let trial = Trial { what: &one.what, rules: &rules, is_text: one.is_text, name: None };
+        let trial = WriteCheck { what: &one.what, rules: &rules, is_text: one.is_text, name: None };
         let mut taken = Vec::new();
-        probe.try_write(&trial, &one.place, |probe, _, new| {
-            for (rule, twin, place, before) in &twins {
-                let after = probe.value_at(place)?.unwrap_or_default();
+        probe.try_write(&trial, &one.address, |probe, _, new| {
+            for (rule, twin, address, before) in &twins {
+                let after = probe.value_at(address)?.unwrap_or_default();
                 if after == new && after != *before {
-                    taken.push((*rule, twin, place, before, probe.evidence()));
+                    taken.push((*rule, twin, address, before, probe.evidence()));
                 }
             }
             Ok(())
         })?;
         // What took the new value and has the old one again has taken both writes.
         let is_own = taken.is_empty();
-        for (rule, twin, place, before, evidence) in taken {
-            let again = probe.value_at(place)?;
+        for (rule, twin, address, before, evidence) in taken {
+            let again = probe.value_at(address)?;
             probe.show(evidence);
             let kept = again.as_ref() != Some(before);
             let expected = || format!("{} at a place of its own", one.what);
@@ -100,12 +101,12 @@ fn elements(probe: &mut Probe<'_>) -> Step {
 }
 
 /// Where else a write might go to: what is there, what it holds and how it is judged.
-type Twin = (Rule, String, Place, Vec<u8>);
+type Twin = (Rule, String, ValueAddress, Vec<u8>);
 
 /// The same element of the other instances of its class, and the other elements of its own. Of
 /// these one may well follow another on a machine.
-fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<Twin>> {
-    let Place::Element { length, .. } = one.place else { return Ok(Vec::new()) };
+fn twins(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Twin>> {
+    let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
     let number = at.saturating_sub(start);
     let beside = match probe.session.cnc {
@@ -131,9 +132,9 @@ fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<Twin>> {
         if probe.length_of(element)? != Some(length) {
             continue;
         }
-        let place = Place::Element { element, length };
-        if let Some(before) = probe.value_at(&place)? {
-            all.push((rule, what, place, before));
+        let address = ValueAddress::Element { element, length };
+        if let Some(before) = probe.value_at(&address)? {
+            all.push((rule, what, address, before));
         }
     }
     Ok(all)
@@ -142,22 +143,22 @@ fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<Twin>> {
 /// What is refused is not written either.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let all = elements_with_flag(probe, true)?;
-    for Named { place, what, .. } in all.iter().filter(|one| !one.is_text) {
-        let Some(value) = probe.value_at(place)?.filter(|value| !value.is_empty()) else {
+    for WritableElement { address, what, .. } in all.iter().filter(|one| !one.is_text) {
+        let Some(value) = probe.value_at(address)?.filter(|value| !value.is_empty()) else {
             continue;
         };
         let longer = [&value[..], &[0]].concat();
         for other in [&longer[..], value.get(1..).unwrap_or_default()] {
-            let Ok(write) = place.write(other) else { continue };
+            let Ok(write) = address.write(other) else { continue };
             let exchange = probe.send(write)?;
             let refused = exchange.is_error();
             let expected = || format!("an error for {} bytes of {what}", other.len());
             probe.check(assumed("SDA-8"), refused, expected, &exchange);
-            let after = probe.value_at(place)?.unwrap_or_default();
+            let after = probe.value_at(address)?.unwrap_or_default();
             let kept = !refused || after == value;
             let expected = || format!("{} of {what} still", Hex(value.clone()));
             probe.check("SDA-8", kept, expected, || Hex(after));
-            probe.send(place.write(&value)?)?;
+            probe.send(address.write(&value)?)?;
         }
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
@@ -165,12 +166,12 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
 
 fn read_only_elements(probe: &mut Probe<'_>) -> Step {
     let known = elements_with_flag(probe, true)?.into_iter().find(|one| !one.is_text);
-    let known = known.map(|known| known.place);
+    let known = known.map(|known| known.address);
     let all = elements_with_flag(probe, false)?;
-    for Named { place, what, .. } in &all {
+    for WritableElement { address, what, .. } in &all {
         let rules = ["SDA-9".into()];
-        let trial = Trial { what, rules: &rules, is_text: false, name: None };
-        probe.write_refused(&trial, place, known.as_ref())?;
+        let trial = WriteCheck { what, rules: &rules, is_text: false, name: None };
+        probe.write_refused(&trial, address, known.as_ref())?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }

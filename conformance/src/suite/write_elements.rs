@@ -4,7 +4,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::kit::{Place, Probe, each_of_access, handle_of, same, write_check};
+use super::kit::{Probe, ValueAddress, each_of_access, handle_of, same, write_check};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, assumed};
 
@@ -45,11 +45,11 @@ fn number_of(place: &[u32], dimensions: &[u32]) -> usize {
 fn elements(
     probe: &mut Probe<'_>,
     rules: impl Fn(&Description) -> Vec<Rule>,
-    place_of: impl Fn(&mut Probe<'_>, Channel, &Description, Vec<u32>) -> Step<Option<Place>>,
+    place_of: impl Fn(&mut Probe<'_>, Channel, &Description, Vec<u32>) -> Step<Option<ValueAddress>>,
 ) -> Step {
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let mut any = false;
-        let whole = Place::Handle { channel, handle: variable.handle, indices: Vec::new() };
+        let whole = ValueAddress::Handle { channel, handle: variable.handle, indices: Vec::new() };
         let arrays =
             if variable.dimensions.is_empty() { Vec::new() } else { ends(&variable.dimensions) };
         for indices in arrays {
@@ -97,7 +97,7 @@ fn by_handle(probe: &mut Probe<'_>) -> Step {
     let rules = |variable: &Description| of_order(variable, &["VAR-12"]);
     elements(probe, rules, |probe, channel, variable, indices| {
         let handle = handle_of(probe, channel, variable)?;
-        Ok(Some(Place::Handle { channel, handle, indices }))
+        Ok(Some(ValueAddress::Handle { channel, handle, indices }))
     })
 }
 
@@ -106,7 +106,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
     elements(probe, rules, |_, channel, variable, indices| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
         let name = path.and_then(|path| path.element(indices.as_slice().into()).ok());
-        Ok(name.map(|name| Place::Name { channel, name }))
+        Ok(name.map(|name| ValueAddress::Name { channel, name }))
     })
 }
 

@@ -6,8 +6,8 @@ use ads_cnc::{CncString, Description, Handle, U32List, VariableAccess, VariableT
 use ads_cnc_vectors::Hex;
 
 use super::kit::{
-    Known, Place, Probe, RawCall, Trial, another, each_of_access, handle_of, is_sendable,
-    require_taken, writable_numbers, write_check,
+    Probe, RawCall, ValueAddress, WritableNumber, WriteCheck, another, each_of_access, handle_of,
+    is_sendable, require_taken, writable_numbers, write_check,
 };
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Rule, Step, Stop};
@@ -26,7 +26,7 @@ pub(super) const CASES: &[Row] = &[
         "A write whose name has no end, or whose count of indices lies, writes nothing"),
 ];
 
-fn first(probe: &mut Probe<'_>) -> Step<Known> {
+fn first(probe: &mut Probe<'_>) -> Step<WritableNumber> {
     let first = writable_numbers(probe)?.into_iter().next();
     first.or_not_applicable("no number may be written")
 }
@@ -34,20 +34,20 @@ fn first(probe: &mut Probe<'_>) -> Step<Known> {
 /// Each way to every READ_ONLY variable.
 fn each_read_only(
     probe: &mut Probe<'_>,
-    mut judge: impl FnMut(&mut Probe<'_>, &Trial<'_>, &Place) -> Step,
+    mut judge: impl FnMut(&mut Probe<'_>, &WriteCheck<'_>, &ValueAddress) -> Step,
 ) -> Step {
     each_of_access(probe, VariableAccess::READ_ONLY, |probe, channel, variable| {
         let name = variable.name.text.to_string();
         let handle = handle_of(probe, channel, variable)?;
         let mut any = false;
-        for place in [
-            Place::Name { channel, name: variable.name.text.clone() },
-            Place::Handle { channel, handle, indices: Vec::new() },
+        for address in [
+            ValueAddress::Name { channel, name: variable.name.text.clone() },
+            ValueAddress::Handle { channel, handle, indices: Vec::new() },
         ] {
-            if probe.may_write(&place, &name)? {
+            if probe.may_write(&address, &name)? {
                 any = true;
                 let rules = [Rule::from("VAR-6")];
-                judge(probe, &write_check(variable, &name, &rules), &place)?;
+                judge(probe, &write_check(variable, &name, &rules), &address)?;
             }
         }
         Ok(any)
@@ -55,25 +55,27 @@ fn each_read_only(
 }
 
 fn read_only(probe: &mut Probe<'_>) -> Step {
-    let sibling = first(probe)?.place();
-    each_read_only(probe, |probe, trial, place| probe.write_refused(trial, place, Some(&sibling)))
+    let sibling = first(probe)?.address();
+    each_read_only(probe, |probe, trial, address| {
+        probe.write_refused(trial, address, Some(&sibling))
+    })
 }
 
 fn read_only_changed(probe: &mut Probe<'_>) -> Step {
-    each_read_only(probe, |probe, trial, place| {
-        let Some(before) = probe.value_at(place)?.filter(|value| !value.is_empty()) else {
+    each_read_only(probe, |probe, trial, address| {
+        let Some(before) = probe.value_at(address)?.filter(|value| !value.is_empty()) else {
             return Ok(());
         };
-        let moved = probe.value_at(place)?.as_ref() != Some(&before);
+        let moved = probe.value_at(address)?.as_ref() != Some(&before);
         let other = another(&before, trial.is_text);
-        let Some(write) = place.write(&other).ok().filter(is_sendable) else { return Ok(()) };
+        let Some(write) = address.write(&other).ok().filter(is_sendable) else { return Ok(()) };
         let exchange = probe.send(write)?;
         let refused = exchange.is_error();
         let expected = || format!("an error number for a write of {}", trial.what);
         probe.check("VAR-6", refused, expected, &exchange);
-        let after = probe.value_at(place)?.unwrap_or_default();
+        let after = probe.value_at(address)?.unwrap_or_default();
         // What moves by itself has not been written.
-        if after != before && (moved || probe.moves(place, false)?) {
+        if after != before && (moved || probe.moves(address, false)?) {
             return Ok(());
         }
         let expected = || format!("{} of {} as before", Hex(before.clone()), trial.what);
@@ -91,7 +93,7 @@ fn refused(
     rules: &[Rule],
     what: &str,
     (bad, good): (Request<'_>, Request<'_>),
-    watched: &Place,
+    watched: &ValueAddress,
 ) -> Step {
     let Ok(bad) = RawCall::new(bad) else { return Ok(()) };
     refused_call(probe, rules, what, (&bad, good), watched)
@@ -102,7 +104,7 @@ fn refused_call(
     rules: &[Rule],
     what: &str,
     (bad, good): (&RawCall, Request<'_>),
-    watched: &Place,
+    watched: &ValueAddress,
 ) -> Step {
     let Some(&rule) = rules.first() else { return Ok(()) };
     if !is_sendable(&good) {
@@ -126,7 +128,7 @@ fn refused_call(
 
 fn unknown(probe: &mut Probe<'_>) -> Step {
     let known = first(probe)?;
-    let (channel, watched, value) = (known.channel, known.place(), &known.value);
+    let (channel, watched, value) = (known.channel, known.address(), &known.value);
     let variables = probe.variables(channel)?;
     let is_free = |free: &u32| variables.iter().all(|one| one.handle.0 != *free);
     let good = known.by_handle(U32List::EMPTY, value);
@@ -169,7 +171,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
         let Description { handle, dimensions, var_type, name, .. } = variable;
         let &[count] = dimensions.as_slice() else { return Ok(false) };
         let by_name = |index: u32| format!("{}[{index}]", name.text).parse::<CncString>();
-        let first = Place::Handle { channel, handle: *handle, indices: vec![0] };
+        let first = ValueAddress::Handle { channel, handle: *handle, indices: vec![0] };
         if *var_type == VariableType::STRING
             || tried >= ARRAYS_MAX
             || !probe.may_write(&first, &name.text.to_string())?
@@ -177,18 +179,18 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
             return Ok(false);
         }
         tried = tried.saturating_add(1);
-        let whole = Place::Handle { channel, handle: *handle, indices: Vec::new() };
+        let whole = ValueAddress::Handle { channel, handle: *handle, indices: Vec::new() };
         let Some(value) = probe.value_at(&first)? else { return Ok(false) };
         let other = another(&value, false);
         let good = first.write(&value)?;
         let named = by_name(0)?;
-        let good_by_name = Place::Name { channel, name: named };
+        let good_by_name = ValueAddress::Name { channel, name: named };
         for beyond in probe.beyond(count) {
             let what = format!("a write to {}[{beyond}] of {count}", name.text);
-            let bad = Place::Handle { channel, handle: *handle, indices: vec![beyond] };
+            let bad = ValueAddress::Handle { channel, handle: *handle, indices: vec![beyond] };
             let bad = bad.write(&other)?;
             refused(probe, &["VAR-12".into()], &what, (bad, good), &whole)?;
-            let bad = Place::Name { channel, name: by_name(beyond)? };
+            let bad = ValueAddress::Name { channel, name: by_name(beyond)? };
             let bad = bad.write(&other)?;
             let good = good_by_name.write(&value)?;
             refused(probe, &["VAR-13".into()], &what, (bad, good), &whole)?;
@@ -199,7 +201,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
 
 fn bad_requests(probe: &mut Probe<'_>) -> Step {
     for known in writable_numbers(probe)? {
-        let watched = known.place();
+        let watched = known.address();
         // Without its end there is no name, and nothing that would be behind it.
         let good = known.by_name(&known.value);
         let call = RawCall::new(good)?;

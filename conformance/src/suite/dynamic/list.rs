@@ -14,7 +14,7 @@ use ads_cnc_vectors::Hex;
 use super::{PARAMETERS_MAX, each, nothing, number, prefix};
 use crate::judge::{Evidence, Step, Stop, assumed};
 use crate::profile::Claim;
-use crate::suite::kit::{Checked, KINDS, Probe, steadily};
+use crate::suite::kit::{KINDS, PendingCheck, Probe, steadily};
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
@@ -41,31 +41,36 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
 }
 
 /// What came of asking for the name of an index.
-struct Told {
+struct NameReply {
     index: u32,
     data: Option<Vec<u8>>,
     result: String,
     evidence: Option<Evidence>,
 }
 
-fn tell(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind, index: u32) -> Step<Told> {
+fn ask_name(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    kind: DynamicKind,
+    index: u32,
+) -> Step<NameReply> {
     let request = DynamicNameByIndex::new(channel, kind, index)?;
     let exchange = probe.send(request)?;
     let data = exchange.success().map(<[u8]>::to_vec);
-    Ok(Told { index, data, result: exchange.result(), evidence: probe.evidence() })
+    Ok(NameReply { index, data, result: exchange.result(), evidence: probe.evidence() })
 }
 
 /// What is told of a kind, while nobody makes or deletes a parameter.
-struct List {
+struct ParameterList {
     count: u32,
     /// Of each index, up to the first that is refused.
-    names: Vec<Told>,
-    beyond: Told,
+    names: Vec<NameReply>,
+    beyond: NameReply,
     /// An index that has another name if it is asked for in another order.
-    swayed: Option<Told>,
+    swayed: Option<NameReply>,
 }
 
-impl List {
+impl ParameterList {
     fn is_doubtful(&self) -> bool {
         let refused = self.names.iter().any(|told| told.data.is_none());
         refused || self.beyond.data.is_some() || self.swayed.is_some()
@@ -85,10 +90,10 @@ fn ahead(
     channel: Channel,
     kind: DynamicKind,
     count: u32,
-) -> Step<Vec<Told>> {
+) -> Step<Vec<NameReply>> {
     let mut all = Vec::new();
     for index in 1..=count.min(PARAMETERS_MAX) {
-        let one = tell(probe, channel, kind, index)?;
+        let one = ask_name(probe, channel, kind, index)?;
         let is_refused = one.data.is_none();
         all.push(one);
         if is_refused {
@@ -102,27 +107,31 @@ fn backwards(
     probe: &mut Probe<'_>,
     channel: Channel,
     kind: DynamicKind,
-    names: &[Told],
-) -> Step<Vec<Told>> {
+    names: &[NameReply],
+) -> Step<Vec<NameReply>> {
     let mut all = Vec::new();
     for one in names.iter().rev() {
-        all.push(tell(probe, channel, kind, one.index)?);
+        all.push(ask_name(probe, channel, kind, one.index)?);
     }
     all.reverse();
     Ok(all)
 }
 
-fn same(one: &[Told], other: &[Told]) -> bool {
+fn same(one: &[NameReply], other: &[NameReply]) -> bool {
     one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.data == other.data)
 }
 
 /// The list of a kind; none if it never stood.
-fn settled(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<Option<List>> {
-    let mut doubtful: Option<List> = None;
+fn settled(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    kind: DynamicKind,
+) -> Step<Option<ParameterList>> {
+    let mut doubtful: Option<ParameterList> = None;
     for _ in 0..TRIES {
         let count = number(probe, channel, kind)?;
         let names = ahead(probe, channel, kind, count)?;
-        let beyond = tell(probe, channel, kind, count.saturating_add(1))?;
+        let beyond = ask_name(probe, channel, kind, count.saturating_add(1))?;
         let back = backwards(probe, channel, kind, &names)?;
         let mut swayed = None;
         if !same(&names, &back) {
@@ -137,7 +146,7 @@ fn settled(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<O
         if number(probe, channel, kind)? != count {
             continue;
         }
-        let list = List { count, names, beyond, swayed };
+        let list = ParameterList { count, names, beyond, swayed };
         // What is wrong has to be so once more.
         if !list.is_doubtful() || doubtful.is_some_and(|before| before.is_same(&list)) {
             return Ok(Some(list));
@@ -167,8 +176,8 @@ pub(super) fn names(probe: &mut Probe<'_>) -> Step {
     }
 }
 
-fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &List) {
-    let List { count, names, beyond, swayed } = list;
+fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
+    let ParameterList { count, names, beyond, swayed } = list;
     let mut seen = HashSet::new();
     for told in names {
         probe.show(told.evidence.clone());
@@ -234,7 +243,7 @@ fn refused_of(
     what: &str,
     answers: &[Vec<u8>],
     bad: Request<'_>,
-) -> Step<Vec<Checked>> {
+) -> Step<Vec<PendingCheck>> {
     let now = answers.first().and_then(|data| DynamicCount::decode(data).ok());
     if now != Some(DynamicCount(count)) {
         return Ok(Vec::new());
@@ -243,7 +252,7 @@ fn refused_of(
     let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
     let refused = given.is_some_and(<[u8]>::is_empty);
     let expected = || format!("an error number for {what}");
-    Ok(vec![Checked::new(probe, "DYN-5", refused, expected, &exchange)])
+    Ok(vec![PendingCheck::new(probe, "DYN-5", refused, expected, &exchange)])
 }
 
 pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {

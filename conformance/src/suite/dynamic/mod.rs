@@ -13,7 +13,7 @@ use ads_cnc::{CncString, Decode as _};
 
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
-use crate::suite::kit::{Checked, IntoRawCall, Probe, steadily};
+use crate::suite::kit::{IntoRawCall, PendingCheck, Probe, steadily};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -125,6 +125,6 @@ fn refuses_still<'a>(
         let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
         let refused = given.is_some_and(<[u8]>::is_empty);
         let expected = || format!("an error number for {what}");
-        Ok(vec![Checked::new(probe, rule, refused, expected, &exchange)])
+        Ok(vec![PendingCheck::new(probe, rule, refused, expected, &exchange)])
     })
 }

@@ -11,7 +11,7 @@ use ads_cnc::{CncString, Decode as _, TextRef};
 use super::{PARAMETERS_MAX, each, first, number, prefix, refuses_still, told};
 use crate::exchange::Exchange;
 use crate::judge::{Step, Stop, assumed};
-use crate::suite::kit::{Checked, Probe, is_sendable, steadily};
+use crate::suite::kit::{PendingCheck, Probe, is_sendable, steadily};
 use crate::text::hex::spaced;
 
 /// Names from this length on are judged by how long a name may be, too.
@@ -42,7 +42,7 @@ fn value(
     kind: DynamicKind,
     index: u32,
     name: &CncString,
-) -> Step<Vec<Checked>> {
+) -> Step<Vec<PendingCheck>> {
     let text = TextRef::from(name.as_cnc_str());
     let by_name = Request::from(DynamicValueByName { channel, kind, name: text });
     let by_index = DynamicValueByIndex::new(channel, kind, index)?;
@@ -53,11 +53,12 @@ fn value(
         _ => &["DYN-3", "DYN-2"],
     };
     let expected = || format!("the value of {name}, as index {index} is called");
-    let mut checks = vec![Checked::new(probe, rules, named.success().is_some(), expected, &named)];
+    let mut checks =
+        vec![PendingCheck::new(probe, rules, named.success().is_some(), expected, &named)];
     let mut real = |probe: &Probe<'_>, rule: &'static str, exchange: &Exchange| {
         let is_real = exchange.success().is_some_and(|data| DynamicValue::decode(data).is_ok());
         let expected = || format!("a REAL64 of {name}");
-        checks.push(Checked::new(probe, rule, is_real, expected, exchange));
+        checks.push(PendingCheck::new(probe, rule, is_real, expected, exchange));
     };
     if named.success().is_some() {
         real(probe, "DYN-3", &named);
@@ -70,7 +71,13 @@ fn value(
     if let (Some(named), Some(indexed)) = (still, indexed.success()) {
         let expected = || format!("{} of {name}, at index {index} too", spaced(named));
         let found = || spaced(indexed);
-        checks.push(Checked::new(probe, ["DYN-3", "DYN-4"], named == indexed, expected, found));
+        checks.push(PendingCheck::new(
+            probe,
+            ["DYN-3", "DYN-4"],
+            named == indexed,
+            expected,
+            found,
+        ));
     }
     Ok(checks)
 }
@@ -155,7 +162,7 @@ fn same_by_rank(probe: &mut Probe<'_>, one: Request<'_>, other: Request<'_>) -> 
         let by_number = answers.first().map(Vec::as_slice);
         let expected = || format!("{}, by number", spaced(by_number.unwrap_or_default()));
         let same = exchange.success() == by_number;
-        Ok(vec![Checked::new(probe, ["ADR-1", "ADR-12"], same, expected, &exchange)])
+        Ok(vec![PendingCheck::new(probe, ["ADR-1", "ADR-12"], same, expected, &exchange)])
     })
 }
 

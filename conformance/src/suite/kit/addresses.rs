@@ -7,7 +7,7 @@ use ads_cnc::address::{
 
 use crate::judge::{IfThere as _, Rule, Step, assumed};
 use crate::simulator::{Held, Holder};
-use crate::suite::kit::{Instance, Object, Place, Probe};
+use crate::suite::kit::{Instance, Object, Probe, ValueAddress};
 
 /// What a target says itself of where things are, where no manual does.
 pub(crate) struct Addresses {
@@ -18,15 +18,15 @@ pub(crate) struct Addresses {
 }
 
 /// An address of a content, and by what rules it is one.
-pub(crate) type JudgedPlace = (Place, Vec<Rule>);
+pub(crate) type JudgedAddress = (ValueAddress, Vec<Rule>);
 
 fn rules(ids: &[&'static str]) -> Vec<Rule> {
     ids.iter().map(|&id| Rule::from(id)).collect()
 }
 
-fn object(held: &Held, group: IndexGroup, offset: IndexOffset) -> Step<Place> {
+fn object(held: &Held, group: IndexGroup, offset: IndexOffset) -> Step<ValueAddress> {
     let size = u32::try_from(held.value.len())?;
-    Ok(Place::Object { group, offset, size })
+    Ok(ValueAddress::Object { group, offset, size })
 }
 
 fn com(addressing: Addressing, table: ComTable, instance: u8) -> IndexGroup {
@@ -37,10 +37,10 @@ fn element(
     held: &Held,
     (addressing, class, instance): (Addressing, Class, u8),
     offset: IndexOffset,
-) -> Step<Place> {
+) -> Step<ValueAddress> {
     let length = u32::try_from(held.value.len())?;
     let group = ClassGroup { addressing, class, attribute: Attribute::Content, instance };
-    Ok(Place::Element { element: ElementAddress::new(group, offset), length })
+    Ok(ValueAddress::Element { element: ElementAddress::new(group, offset), length })
 }
 
 impl Addresses {
@@ -54,7 +54,7 @@ impl Addresses {
     }
 
     /// Each address of a content that a manual prints or the target says.
-    pub(crate) fn of(&self, held: &Held) -> Step<Vec<JudgedPlace>> {
+    pub(crate) fn of(&self, held: &Held) -> Step<Vec<JudgedAddress>> {
         use Addressing::{Index, Logical};
         let at = |stride, axis: u8| -> Step<IndexOffset> {
             Ok(IndexOffset::for_axis(stride, axis.into(), held.element)?)
@@ -142,7 +142,7 @@ impl Addresses {
     pub(crate) fn element(&self, held: &Held) -> Step<Option<ElementAddress>> {
         let first = self.of(held)?.into_iter().next();
         Ok(first.and_then(|(place, _)| match place {
-            Place::Element { element, .. } => Some(element),
+            ValueAddress::Element { element, .. } => Some(element),
             _ => None,
         }))
     }
@@ -156,8 +156,8 @@ impl Addresses {
         &self,
         channel: u8,
         logical: &[&'static str],
-        of: impl Fn(Addressing, u8) -> Step<Place>,
-    ) -> Step<Vec<JudgedPlace>> {
+        of: impl Fn(Addressing, u8) -> Step<ValueAddress>,
+    ) -> Step<Vec<JudgedAddress>> {
         let mut ranks = (1_u8..).zip(&self.channels);
         let Some((rank, _)) = ranks.find(|(_, number)| **number == u32::from(channel)) else {
             return Ok(Vec::new());

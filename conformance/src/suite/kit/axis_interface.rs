@@ -6,7 +6,7 @@ use ads_cnc::operation::AxisHandleByName;
 use ads_cnc::{CncString, Description, Handle, Kind, VariablePath};
 
 use crate::judge::Step;
-use crate::suite::kit::{Place, Probe};
+use crate::suite::kit::{Probe, ValueAddress};
 
 /// The most places of a channel that are looked at.
 pub(crate) const PLACES_MAX: u32 = 64;
@@ -49,13 +49,13 @@ pub(crate) fn axis_address(
     probe: &mut Probe<'_>,
     channel: Channel,
     variable: &Description,
-) -> Step<Option<Place>> {
+) -> Step<Option<ValueAddress>> {
     let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
     let path = path.filter(|path| path.axis().is_some());
     let Some(name) = path.and_then(|path| path.without_axis().ok()) else { return Ok(None) };
     let places = answering_places(probe, channel, &name)?;
     let own = places.into_iter().find(|at| at.handle == variable.handle);
-    Ok(own.map(|at| Place::Axis { channel, axis: at.axis, name }))
+    Ok(own.map(|at| ValueAddress::Axis { channel, axis: at.axis, name }))
 }
 
 /// The axis variables of a channel as described, with their names on the axis interface.

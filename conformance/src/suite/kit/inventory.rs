@@ -20,7 +20,7 @@ pub(crate) use variables::{KINDS, VARIABLES_MAX, name_of};
 use crate::explain::class_name;
 use crate::judge::{OrStop as _, Step, Stop};
 use crate::profile::Claim;
-use crate::suite::kit::{Place, Probe};
+use crate::suite::kit::{Probe, ValueAddress};
 
 /// The most objects of a list that are looked at, and elements of an instance.
 pub(crate) const OBJECTS_MAX: u32 = 10_000;
@@ -60,8 +60,8 @@ impl Object {
         ReadObject::new(self.group, self.offset, self.size).ok()
     }
 
-    pub(crate) const fn place(&self) -> Place {
-        Place::Object { group: self.group, offset: self.offset, size: self.size }
+    pub(crate) const fn address(&self) -> ValueAddress {
+        ValueAddress::Object { group: self.group, offset: self.offset, size: self.size }
     }
 
     pub(crate) fn is_text(&self) -> bool {

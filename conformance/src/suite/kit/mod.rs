@@ -9,14 +9,14 @@ mod each_variable;
 mod inventory;
 mod layout;
 mod object_list;
-mod place;
 mod probe;
 mod raw_call;
 mod steady;
 mod undo;
+mod value_address;
 mod writable;
 
-pub(crate) use addresses::{Addresses, JudgedPlace, is_permuted};
+pub(crate) use addresses::{Addresses, JudgedAddress, is_permuted};
 pub(crate) use axis_interface::{
     AxisHandle, PLACES_MAX, answering_places, axis_address, axis_names, axis_variables,
     name_on_axes,
@@ -34,13 +34,15 @@ pub(crate) use layout::{
 pub(crate) use object_list::{
     descriptors_one_by_one, known_object_count, object_count, read_descriptors,
 };
-pub(crate) use place::{NOTHING_WRITABLE, Place, Trial, another, is_sendable, same};
 pub use probe::Probe;
 pub(crate) use probe::heard;
 pub(crate) use raw_call::{IntoRawCall, RawCall};
-pub(crate) use steady::{Checked, Compared, Steady, compare, steadily};
+pub(crate) use steady::{Compared, PendingCheck, Steady, compare, steadily};
 pub use undo::Changes;
+pub(crate) use value_address::{
+    NOTHING_WRITABLE, ValueAddress, WriteCheck, another, is_sendable, same,
+};
 pub(crate) use writable::{
-    Known, Named, each_of_access, elements_with_flag, handle_of, is_of_service, is_taken,
-    require_taken, writable_numbers, write_check, write_value,
+    WritableElement, WritableNumber, each_of_access, elements_with_flag, handle_of, is_of_service,
+    is_taken, require_taken, writable_numbers, write_check, write_value,
 };

@@ -19,7 +19,7 @@ pub(crate) enum Compared<B, R> {
     NoAnswer,
     Same,
     /// It stood still the last time, and differed. The evidence is that of what was read in between.
-    Differs(B, R, Option<Evidence>),
+    Differs(B, R, Option<Box<Evidence>>),
     /// It did not stand still the last time.
     Moved,
 }
@@ -39,7 +39,7 @@ pub(crate) fn compare<B: PartialEq, R>(
         if same(&before, &read) {
             return Ok(Compared::Same);
         }
-        let evidence = probe.evidence();
+        let evidence = probe.evidence().map(Box::new);
         last = if value(probe)?.as_ref() == Some(&before) {
             Compared::Differs(before, read, evidence)
         } else {
@@ -88,7 +88,7 @@ impl Steady {
         rules: impl Rules,
         what: &impl Display,
         compared: Compared<B, R>,
-        differs: impl FnOnce(&mut Probe<'_>, &[Rule], (B, R, Option<Evidence>)),
+        differs: impl FnOnce(&mut Probe<'_>, &[Rule], (B, R, Option<Box<Evidence>>)),
     ) {
         let rules: Vec<Rule> = rules.rules().collect();
         self.judged |= !matches!(compared, Compared::NoValue | Compared::Moved);
@@ -121,7 +121,7 @@ const TRIES_OF_PARAMETERS: usize = 5;
 const FAILURES: usize = 3;
 
 /// One check that is not recorded yet.
-pub(crate) struct Checked {
+pub(crate) struct PendingCheck {
     rules: Vec<Rule>,
     kept: bool,
     expected: String,
@@ -129,7 +129,7 @@ pub(crate) struct Checked {
     evidence: Option<Evidence>,
 }
 
-impl Checked {
+impl PendingCheck {
     /// With the last call as its evidence.
     pub(crate) fn new(
         probe: &Probe<'_>,
@@ -162,7 +162,7 @@ fn answers(probe: &mut Probe<'_>, guards: &[Request<'_>]) -> Step<Option<Vec<Vec
 pub(crate) fn steadily(
     probe: &mut Probe<'_>,
     guards: &[Request<'_>],
-    mut act: impl FnMut(&mut Probe<'_>, &[Vec<u8>]) -> Step<Vec<Checked>>,
+    mut act: impl FnMut(&mut Probe<'_>, &[Vec<u8>]) -> Step<Vec<PendingCheck>>,
 ) -> Step {
     let (mut failed, mut failures) = (Vec::new(), 0_usize);
     for _ in 0..TRIES_OF_PARAMETERS {

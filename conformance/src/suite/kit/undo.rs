@@ -11,7 +11,7 @@ use ads_cnc_vectors::Hex;
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Entry;
 use crate::judge::{LeftChanged, Step, Stop};
-use crate::suite::kit::{OBJECTS_MAX, Place, Probe, RawCall, Trial, same};
+use crate::suite::kit::{OBJECTS_MAX, Probe, RawCall, ValueAddress, WriteCheck, same};
 use crate::text::{Moment, escape};
 
 /// How often a value is written back.
@@ -35,11 +35,11 @@ pub struct Changes(Arc<Mutex<Vec<Change>>>);
 /// A value that was changed.
 #[derive(Clone, Debug)]
 struct Change {
-    place: Place,
+    address: ValueAddress,
     /// Of a variable: by which its handle is asked for.
     name: Option<CncString>,
     /// Of a variable that is written by its handle: the other way to it.
-    by_name: Option<Place>,
+    by_name: Option<ValueAddress>,
     what: String,
     is_text: bool,
     was: Vec<u8>,
@@ -90,15 +90,15 @@ impl Changes {
     }
 
     /// What is there now, as far as anybody knows.
-    pub(crate) fn is_now(&self, place: &Place, value: Option<&[u8]>) {
-        for change in self.all().iter_mut().filter(|change| change.place == *place) {
+    pub(crate) fn is_now(&self, address: &ValueAddress, value: Option<&[u8]>) {
+        for change in self.all().iter_mut().filter(|change| change.address == *address) {
             change.is = value.map(<[u8]>::to_vec);
         }
     }
 
     /// The value at this place was seen as it was.
-    fn end(&self, place: &Place) {
-        self.all().retain(|change| change.place != *place);
+    fn end(&self, address: &ValueAddress) {
+        self.all().retain(|change| change.address != *address);
     }
 
     fn all(&self) -> MutexGuard<'_, Vec<Change>> {
@@ -113,23 +113,23 @@ impl Probe<'_> {
     /// written back again.
     pub(crate) fn changing(
         &mut self,
-        trial: &Trial<'_>,
-        place: &Place,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
         was: &[u8],
         change: impl FnOnce(&mut Self) -> Step,
         restore: impl FnOnce(&mut Self) -> Step<bool>,
     ) -> Step {
         self.check_time_to_restore()?;
-        let by_name = match (place, trial.name) {
-            (Place::Handle { channel, indices, .. }, Some(name)) => {
+        let by_name = match (address, trial.name) {
+            (ValueAddress::Handle { channel, indices, .. }, Some(name)) => {
                 let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
                 let name = format!("{name}{indices}").parse().ok();
-                name.map(|name| Place::Name { channel: *channel, name })
+                name.map(|name| ValueAddress::Name { channel: *channel, name })
             }
             _ => None,
         };
         self.session.changes.begin(Change {
-            place: place.clone(),
+            address: address.clone(),
             by_name,
             name: trial.name.cloned(),
             what: trial.what.to_owned(),
@@ -142,7 +142,7 @@ impl Probe<'_> {
         let changed = change(self);
         let restored = match restore(self) {
             Ok(true) => {
-                self.session.changes.end(place);
+                self.session.changes.end(address);
                 Ok(())
             }
             restored => restored.map(drop),
@@ -184,7 +184,7 @@ impl Probe<'_> {
     }
 
     fn put_back_one(&mut self, mut change: Change) -> Step {
-        let (changes, place) = (self.session.changes.clone(), change.place.clone());
+        let (changes, address) = (self.session.changes.clone(), change.address.clone());
         let mut written = false;
         for times in 0..=WRITES_MAX {
             if times > 1 {
@@ -192,12 +192,12 @@ impl Probe<'_> {
                 self.session.client.wait(pause);
                 // Its handle may lead to nothing any more, or not be confirmed again.
                 if let Some(by_name) = change.by_name.take() {
-                    change.place = by_name;
+                    change.address = by_name;
                 }
             }
             // A write whose answer was lost may have been done.
             let now = self.look(&change);
-            changes.is_now(&place, now.as_deref());
+            changes.is_now(&address, now.as_deref());
             let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
             // A value that changes by itself will not be as it was. Two reads show that.
             let moves = !is_same && written && now.is_some() && {
@@ -205,28 +205,28 @@ impl Probe<'_> {
                 values.is_some_and(|(now, next)| !same(now, &next, change.is_text))
             };
             if is_same || moves {
-                changes.end(&place);
+                changes.end(&address);
                 return Ok(());
             }
             if times < WRITES_MAX {
                 written |= self.write_back(&mut change);
             }
         }
-        for one in changes.all().iter_mut().filter(|one| one.place == place) {
+        for one in changes.all().iter_mut().filter(|one| one.address == address) {
             (one.given_up, one.refused) = (true, change.refused.clone());
         }
         Err(Stop::Inconclusive(format!("{} could not be restored", change.what)))
     }
 
     fn look(&mut self, change: &Change) -> Option<Vec<u8>> {
-        let exchange = self.insist(change.place.read().ok()?)?;
+        let exchange = self.insist(change.address.read().ok()?)?;
         exchange.success().map(<[u8]>::to_vec)
     }
 
     /// Whether it was taken.
     fn write_back(&mut self, change: &mut Change) -> bool {
         let send = |probe: &mut Self, change: &Change| {
-            change.place.write(&change.was).ok().and_then(|write| probe.insist(write))
+            change.address.write(&change.was).ok().and_then(|write| probe.insist(write))
         };
         let mut sent = send(self, change);
         if sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(Fault::Refused(_)))) {
@@ -243,13 +243,13 @@ impl Probe<'_> {
 
     /// Asks for what tells the gate that the place is what a file names.
     fn ask_again(&mut self, change: &mut Change) {
-        match (&change.place, change.name.clone()) {
-            (Place::Handle { channel, .. }, Some(name)) => {
+        match (&change.address, change.name.clone()) {
+            (ValueAddress::Handle { channel, .. }, Some(name)) => {
                 let (channel, name) = (*channel, name.as_cnc_str());
                 self.insist(HandleByName { channel, name: name.into() });
                 self.insist(DescribeByName { channel, name: name.into() });
             }
-            (Place::Object { .. }, _) => {
+            (ValueAddress::Object { .. }, _) => {
                 let allowed = self.session.client.gate().allowed();
                 let entries = allowed.map(|allowed| allowed.entries.clone()).unwrap_or_default();
                 for entry in entries {

@@ -10,7 +10,9 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, Description, Handle, U32List, VariableAccess, VariableType};
 
 use crate::judge::{Rule, Step, Stop, applicable};
-use crate::suite::kit::{Instance, NOTHING_WRITABLE, Place, Probe, Trial, is_sendable, name_of};
+use crate::suite::kit::{
+    Instance, NOTHING_WRITABLE, Probe, ValueAddress, WriteCheck, is_sendable, name_of,
+};
 
 /// What writing a variable of the Service Interface leads to has cases of its own.
 pub(crate) fn is_of_service(variable: &Description) -> bool {
@@ -38,9 +40,9 @@ pub(crate) fn write_check<'t>(
     variable: &'t Description,
     what: &'t str,
     rules: &'t [Rule],
-) -> Trial<'t> {
+) -> WriteCheck<'t> {
     let is_text = variable.var_type == VariableType::STRING;
-    Trial { what, rules, is_text, name: Some(&variable.name.text) }
+    WriteCheck { what, rules, is_text, name: Some(&variable.name.text) }
 }
 
 /// The handle of a name, asked for by it: a file that names it allows the handle then.
@@ -54,15 +56,15 @@ pub(crate) fn handle_of(
 }
 
 /// A variable with the value it has, to hold a refusal against.
-pub(crate) struct Known {
+pub(crate) struct WritableNumber {
     pub(crate) channel: Channel,
     pub(crate) variable: Description,
     pub(crate) value: Vec<u8>,
 }
 
-impl Known {
-    pub(crate) fn place(&self) -> Place {
-        Place::Name { channel: self.channel, name: self.variable.name.text.clone() }
+impl WritableNumber {
+    pub(crate) fn address(&self) -> ValueAddress {
+        ValueAddress::Name { channel: self.channel, name: self.variable.name.text.clone() }
     }
 
     pub(crate) fn name(&self) -> CncStr<'_> {
@@ -80,8 +82,8 @@ impl Known {
 
 /// Numbers that may be written, the first of each type; those that read as they are described, as
 /// anything else is judged elsewhere.
-pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<Known>> {
-    let mut all: Vec<Known> = Vec::new();
+pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber>> {
+    let mut all: Vec<WritableNumber> = Vec::new();
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {
             let is_number = variable.access == VariableAccess::READ_WRITE
@@ -89,13 +91,16 @@ pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<Known>> {
                 && variable.var_type != VariableType::STRING
                 && !is_of_service(&variable);
             let of_type = all.iter().any(|known| known.variable.var_type == variable.var_type);
-            let place = Place::Name { channel, name: variable.name.text.clone() };
-            if !is_number || of_type || !probe.may_write(&place, &variable.name.text.to_string())? {
+            let address = ValueAddress::Name { channel, name: variable.name.text.clone() };
+            if !is_number
+                || of_type
+                || !probe.may_write(&address, &variable.name.text.to_string())?
+            {
                 continue;
             }
-            let value = probe.value_at(&place)?.unwrap_or_default();
+            let value = probe.value_at(&address)?.unwrap_or_default();
             if u32::try_from(value.len()) == Ok(variable.size) {
-                all.push(Known { channel, variable, value });
+                all.push(WritableNumber { channel, variable, value });
             }
         }
     }
@@ -113,7 +118,7 @@ pub(crate) fn is_taken(
     let exchange = probe.send(request)?;
     if exchange.answer().is_none() {
         let expected = || format!("an answer to {what}");
-        probe.require(&[rule], false, expected, &exchange)?;
+        probe.require(rule, false, expected, &exchange)?;
     }
     Ok(exchange.success().is_some())
 }
@@ -128,16 +133,19 @@ pub(crate) fn require_taken(probe: &mut Probe<'_>, rule: Rule, good: Request<'_>
 }
 
 /// An element with its name and whether it is a text.
-pub(crate) struct Named {
+pub(crate) struct WritableElement {
     pub(crate) instance: Instance,
     pub(crate) element: ElementAddress,
-    pub(crate) place: Place,
+    pub(crate) address: ValueAddress,
     pub(crate) what: String,
     pub(crate) is_text: bool,
 }
 
 /// Elements that may be written, by what their flags say of that.
-pub(crate) fn elements_with_flag(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Named>> {
+pub(crate) fn elements_with_flag(
+    probe: &mut Probe<'_>,
+    is_writable: bool,
+) -> Step<Vec<WritableElement>> {
     let mut all = Vec::new();
     for instance in probe.instances()? {
         if probe.is_claimed_empty(&instance) {
@@ -155,7 +163,7 @@ fn named(
     instance: &Instance,
     element: ElementAddress,
     is_writable: bool,
-) -> Step<Option<Named>> {
+) -> Step<Option<WritableElement>> {
     let text = |probe: &mut Probe<'_>, request: Request<'static>| -> Step<String> {
         let text: Option<ElementText> = probe.try_read(request)?;
         Ok(text.map(|text| text.text.text.to_string()).unwrap_or_default())
@@ -165,20 +173,24 @@ fn named(
         return Ok(None);
     }
     let Some(length) = probe.length_of(element)? else { return Ok(None) };
-    let place = Place::Element { element, length };
+    let address = ValueAddress::Element { element, length };
     let name = text(probe, ReadElementName::new(element).into())?;
-    if place.read().is_err() || !probe.may_write(&place, &name)? {
+    if address.read().is_err() || !probe.may_write(&address, &name)? {
         return Ok(None);
     }
     let is_text = text(probe, ReadElementType::new(element).into())? == "STRING";
     let (what, instance) = (format!("{name} of {instance}"), instance.clone());
-    Ok(Some(Named { instance, element, place, what, is_text }))
+    Ok(Some(WritableElement { instance, element, address, what, is_text }))
 }
 
 /// Whether a value is taken.
-pub(crate) fn write_value(probe: &mut Probe<'_>, place: &Place, value: &[u8]) -> Step<bool> {
-    let Some(write) = place.write(value).ok().filter(is_sendable) else { return Ok(false) };
-    probe.session.changes.is_now(place, Some(value));
+pub(crate) fn write_value(
+    probe: &mut Probe<'_>,
+    address: &ValueAddress,
+    value: &[u8],
+) -> Step<bool> {
+    let Some(write) = address.write(value).ok().filter(is_sendable) else { return Ok(false) };
+    probe.session.changes.is_now(address, Some(value));
     let exchange = probe.send(write)?;
     Ok(exchange.success().is_some())
 }

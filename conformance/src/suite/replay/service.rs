@@ -57,19 +57,19 @@ fn steps<'c>(
     }
     let hosts = ids.iter().map(|(name, ids)| (*name, Host::new(ids))).collect();
     let (script, now) = (None, Duration::ZERO);
-    let mut scene = Scene { probe, cnc, given, channels, hosts, script, now };
+    let mut player = ServicePlayer { probe, cnc, given, channels, hosts, script, now };
     for step in &given.steps {
         if let Some(at) = step.at {
-            scene.now = Duration::from_millis(at);
+            player.now = Duration::from_millis(at);
         }
-        if let Some(fault) = scene.step(step)? {
+        if let Some(fault) = player.step(step)? {
             return Ok(Some((fault, &step.id)));
         }
     }
     Ok(None)
 }
 
-struct Scene<'s, 'p, 'c> {
+struct ServicePlayer<'s, 'p, 'c> {
     probe: &'s mut Probe<'p>,
     cnc: &'s Arc<Cnc>,
     given: &'c ServiceSequence,
@@ -79,7 +79,7 @@ struct Scene<'s, 'p, 'c> {
     now: Duration,
 }
 
-impl Scene<'_, '_, '_> {
+impl ServicePlayer<'_, '_, '_> {
     fn step(&mut self, step: &ServiceStep) -> Done<Option<&'static str>> {
         match step.action {
             ServiceAction::Read => {

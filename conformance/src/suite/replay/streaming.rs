@@ -14,10 +14,10 @@ use crate::judge::{Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Message, Pace, Program, ProgramConfig, Start, State};
 use crate::suite::kit::Probe;
-use crate::suite::stream::{HELD_MAX, Sent, send, send_until_taken};
+use crate::suite::stream::{HELD_MAX, StreamWrite, send, send_until_taken};
 
 /// Who plays, and before whom.
-struct Scene<'s, 'p> {
+struct StreamingPlayer<'s, 'p> {
     probe: &'s mut Probe<'p>,
     cnc: Arc<Cnc>,
     channel: Channel,
@@ -25,7 +25,7 @@ struct Scene<'s, 'p> {
     rules: &'s [&'static Requirement],
 }
 
-impl Scene<'_, '_> {
+impl StreamingPlayer<'_, '_> {
     fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Done<T> {
         Ok(self.cnc.with_program(self.channel.number(), then)?)
     }
@@ -35,7 +35,7 @@ impl Scene<'_, '_> {
     }
 
     /// Judges what the error number of a refusal says.
-    fn number(&mut self, rule: &'static str, ack: Ack, sent: &Sent) {
+    fn number(&mut self, rule: &'static str, ack: Ack, sent: &StreamWrite) {
         if self.rules.iter().any(|one| one.id == rule) {
             let expected = || format!("{ack:?} by its number");
             self.probe.check(assumed(rule), sent.assumed() == ack, expected, sent);
@@ -50,39 +50,39 @@ pub(super) fn run<'c>(
     rules: &[&'static Requirement],
 ) -> Done<Fault<'c>> {
     let (cnc, channel) = (probe.cnc()?, probe.channel()?);
-    let mut scene = Scene { probe, cnc, channel, rules };
-    let config = scene.with(|program| program.config().clone())?;
+    let mut player = StreamingPlayer { probe, cnc, channel, rules };
+    let config = player.with(|program| program.config().clone())?;
     if config.name.is_empty() {
         let why = format!("streaming is off in channel {}", channel.number());
         return Err(Stop::NotApplicable(why).into());
     }
-    scene.set(ProgramConfig { start: Start::ByHand, pace: Pace::Hold, ..config.clone() })?;
-    let done = steps(&mut scene, given);
-    scene.set(config)?;
+    player.set(ProgramConfig { start: Start::ByHand, pace: Pace::Hold, ..config.clone() })?;
+    let done = steps(&mut player, given);
+    player.set(config)?;
     done
 }
 
-fn steps<'c>(scene: &mut Scene<'_, '_>, given: &'c Streaming) -> Done<Fault<'c>> {
+fn steps<'c>(player: &mut StreamingPlayer<'_, '_>, given: &'c Streaming) -> Done<Fault<'c>> {
     let text = given.text.as_ref().map(Pieces::bytes);
     let sender = text.as_deref().map(|text| NcText::new(text).map(Sender::new));
     let mut sender = sender.transpose()?;
     for step in &given.steps {
         let fault = match step.action {
             StreamAction::Start => {
-                if let Err(error) = scene.with(|one| one.start(Duration::ZERO))? {
+                if let Err(error) = player.with(|one| one.start(Duration::ZERO))? {
                     return differs("the program starts", error);
                 }
                 None
             }
             StreamAction::Reset => {
-                scene.with(|program| program.reset(Duration::ZERO))?;
+                player.with(|program| program.reset(Duration::ZERO))?;
                 None
             }
-            StreamAction::Write => write(scene, &mut sender, step)?,
-            StreamAction::Take => take(scene, step)?,
+            StreamAction::Write => write(player, &mut sender, step)?,
+            StreamAction::Take => take(player, step)?,
         };
         if !matches!(fault, Some("outcome" | "overfull" | "not-started")) {
-            let held = scene.with(|program| program.held())?;
+            let held = player.with(|program| program.held())?;
             if held != step.held {
                 return differs(format!("{} bytes held after {}", step.held, step.id), held);
             }
@@ -98,7 +98,7 @@ fn steps<'c>(scene: &mut Scene<'_, '_>, given: &'c Streaming) -> Done<Fault<'c>>
 }
 
 fn write(
-    scene: &mut Scene<'_, '_>,
+    player: &mut StreamingPlayer<'_, '_>,
     sender: &mut Option<Sender<'_>>,
     step: &StreamStep,
 ) -> Done<Option<&'static str>> {
@@ -108,10 +108,10 @@ fn write(
         Some(sender) => sender.packet() == Some(&data),
         None => true,
     };
-    let held = scene.with(|program| program.held())?;
+    let held = player.with(|program| program.held())?;
     let sent = match stated {
-        StreamAck::Accepted => send_until_taken(scene.probe, scene.channel, &data)?,
-        StreamAck::Later | StreamAck::Refused => send(scene.probe, scene.channel, &data)?,
+        StreamAck::Accepted => send_until_taken(player.probe, player.channel, &data)?,
+        StreamAck::Later | StreamAck::Refused => send(player.probe, player.channel, &data)?,
     };
     // Whether it is taken, everybody sees. Whether a refusal is one for now or for good only what
     // was stated says: that its number tells is assumed.
@@ -125,8 +125,8 @@ fn write(
         (StreamAck::Accepted, _) if held.saturating_add(data.len()) > HELD_MAX => {
             return Ok(Some("overfull"));
         }
-        (StreamAck::Later, Ack::Busy) => scene.number("STM-6", Ack::Busy, &sent),
-        (StreamAck::Refused, Ack::Rejected) => scene.number("STM-2", Ack::Rejected, &sent),
+        (StreamAck::Later, Ack::Busy) => player.number("STM-6", Ack::Busy, &sent),
+        (StreamAck::Refused, Ack::Rejected) => player.number("STM-2", Ack::Rejected, &sent),
         _ => return differs(format!("{stated:?} in {}", step.id), sent),
     }
     if let Some(sender) = sender.as_mut().filter(|_| own) {
@@ -140,13 +140,13 @@ fn write(
 }
 
 /// Lets the decoder run for no time at all, in which it reads and runs what is there.
-fn take(scene: &Scene<'_, '_>, step: &StreamStep) -> Done<Option<&'static str>> {
-    let state = scene.with(|program| program.state())?;
+fn take(player: &StreamingPlayer<'_, '_>, step: &StreamStep) -> Done<Option<&'static str>> {
+    let state = player.with(|program| program.state())?;
     if !matches!(state, State::Running | State::Dry) {
         return Ok(Some("not-started"));
     }
     let stated = step.bytes.as_ref().ok_or_else(|| lacks("bytes"))?.bytes();
-    let (executed, state) = scene.with(|program| {
+    let (executed, state) = player.with(|program| {
         program.forget_executed();
         program.set_pace(Pace::Fast, Duration::ZERO);
         program.set_pace(Pace::Hold, Duration::ZERO);

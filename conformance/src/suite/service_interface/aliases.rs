@@ -17,7 +17,7 @@ fn handle_of(
     variable: ServiceVariable,
 ) -> Step<Option<Handle>> {
     let name = HandleByName::new(channel, variable.name())?;
-    Ok(probe.try_read::<Handle>(name)?)
+    probe.try_read(name)
 }
 
 /// Texts of any length, written one way and read the other.

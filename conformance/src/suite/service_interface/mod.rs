@@ -13,7 +13,7 @@ use ads_cnc_vectors::Hex;
 use crate::edition::Feature;
 use crate::judge::{Needs, Rule, Step, Stop, applicable, assumed};
 use crate::profile::{Claim, Section};
-use crate::suite::kit::{Place, Probe, Trial, heard};
+use crate::suite::kit::{Probe, ValueAddress, WriteCheck, heard};
 use crate::suite::{Row, case};
 use crate::values::until_nul;
 
@@ -167,10 +167,10 @@ fn restoring(
     change: impl FnOnce(&mut Probe<'_>) -> Step,
 ) -> Step {
     let name = variable.name().parse()?;
-    let place = Place::Name { channel, name };
+    let place = ValueAddress::Name { channel, name };
     let is_text = variable.var_type() == VariableType::STRING;
     let what = variable.name().to_string();
-    let trial = Trial { what: &what, rules: &[], is_text, name: None };
+    let trial = WriteCheck { what: &what, rules: &[], is_text, name: None };
     probe.changing(&trial, &place, was, change, |probe| {
         put(probe, channel, variable, was)?;
         probe.is_as_before(&place, was, is_text)

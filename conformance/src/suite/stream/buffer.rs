@@ -6,7 +6,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::Ack;
 
-use super::{Sent, comment, send, send_until_taken};
+use super::{StreamWrite, comment, send, send_until_taken};
 use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Pace, Program, ProgramConfig, Start, State};
@@ -21,7 +21,7 @@ pub(super) fn set_up(
     probe: &mut Probe<'_>,
     pace: Pace,
     start: Start,
-    then: impl FnOnce(&mut Probe<'_>, Channel, &Stage<'_>) -> Step,
+    then: impl FnOnce(&mut Probe<'_>, Channel, &StreamProgram<'_>) -> Step,
 ) -> Step {
     let channel = probe.channel()?;
     set_up_at(probe, channel, pace, start, then)
@@ -33,7 +33,7 @@ pub(super) fn set_up_at(
     channel: Channel,
     pace: Pace,
     start: Start,
-    then: impl FnOnce(&mut Probe<'_>, Channel, &Stage<'_>) -> Step,
+    then: impl FnOnce(&mut Probe<'_>, Channel, &StreamProgram<'_>) -> Step,
 ) -> Step {
     let cnc = probe.cnc()?;
     let number = channel.number();
@@ -43,18 +43,18 @@ pub(super) fn set_up_at(
     }
     let set = ProgramConfig { pace, start, ..config.clone() };
     cnc.set_program(number, set)?;
-    let done = then(probe, channel, &Stage { cnc: &cnc, number });
+    let done = then(probe, channel, &StreamProgram { cnc: &cnc, number });
     cnc.set_program(number, config)?;
     done
 }
 
 /// The program from within.
-pub(super) struct Stage<'c> {
+pub(super) struct StreamProgram<'c> {
     cnc: &'c Cnc,
     number: u8,
 }
 
-impl Stage<'_> {
+impl StreamProgram<'_> {
     pub(super) fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Step<T> {
         Ok(self.cnc.with_program(self.number, then)?)
     }
@@ -98,7 +98,7 @@ pub(super) fn taken(
     rules: &[&'static str],
     channel: Channel,
     data: &[u8],
-) -> Step<Sent> {
+) -> Step<StreamWrite> {
     let sent = send_until_taken(probe, channel, data)?;
     probe.check(rules, sent.is_taken(), || format!("{} bytes taken", data.len()), &sent);
     Ok(sent)

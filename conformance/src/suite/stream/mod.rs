@@ -7,7 +7,7 @@ mod words;
 mod write;
 
 pub(super) use buffer::HELD_MAX;
-pub(super) use write::{Sent, send, send_until_taken};
+pub(super) use write::{StreamWrite, send, send_until_taken};
 
 use std::time::{Duration, Instant};
 

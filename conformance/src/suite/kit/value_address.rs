@@ -14,7 +14,7 @@ use crate::values::until_nul;
 
 /// A value by one way to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum ValueAddress {
     Handle { channel: Channel, handle: Handle, indices: Vec<u32> },
     Name { channel: Channel, name: CncString },
     Axis { channel: Channel, axis: ChannelAxis, name: CncString },
@@ -22,7 +22,7 @@ pub(crate) enum Place {
     Element { element: ElementAddress, length: u32 },
 }
 
-impl Place {
+impl ValueAddress {
     pub(crate) fn read(&self) -> Result<Request<'_>, Error> {
         Ok(match self {
             Self::Handle { channel, handle, indices } => {
@@ -94,7 +94,7 @@ pub(crate) fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
 }
 
 /// What a write is judged by, and what it is about.
-pub(crate) struct Trial<'t> {
+pub(crate) struct WriteCheck<'t> {
     pub(crate) what: &'t str,
     pub(crate) rules: &'t [Rule],
     pub(crate) is_text: bool,
@@ -104,8 +104,8 @@ pub(crate) struct Trial<'t> {
 
 impl Probe<'_> {
     /// What is there now; an answer is judged elsewhere.
-    pub(crate) fn value_at(&mut self, place: &Place) -> Step<Option<Vec<u8>>> {
-        match place.read() {
+    pub(crate) fn value_at(&mut self, address: &ValueAddress) -> Step<Option<Vec<u8>>> {
+        match address.read() {
             Ok(read) => self.try_ask(read),
             Err(_) => Ok(None),
         }
@@ -113,32 +113,42 @@ impl Probe<'_> {
 
     /// Whether a value changes by itself between two reads. A read without an answer does not show
     /// that.
-    pub(crate) fn moves(&mut self, place: &Place, is_text: bool) -> Step<bool> {
-        let values = self.value_at(place)?.zip(self.value_at(place)?);
+    pub(crate) fn moves(&mut self, address: &ValueAddress, is_text: bool) -> Step<bool> {
+        let values = self.value_at(address)?.zip(self.value_at(address)?);
         Ok(values.is_some_and(|(first, second)| !same(&first, &second, is_text)))
     }
 
     /// Whether a value is as it was. A read without an answer does not show that.
-    pub(crate) fn is_as_before(&mut self, place: &Place, was: &[u8], is_text: bool) -> Step<bool> {
-        Ok(self.value_at(place)?.is_some_and(|now| same(&now, was, is_text)))
+    pub(crate) fn is_as_before(
+        &mut self,
+        address: &ValueAddress,
+        was: &[u8],
+        is_text: bool,
+    ) -> Step<bool> {
+        Ok(self.value_at(address)?.is_some_and(|now| same(&now, was, is_text)))
     }
 
     /// Whether this place may be written, and is not to be left alone.
-    pub(crate) fn may_write(&mut self, place: &Place, name: &str) -> Step<bool> {
+    pub(crate) fn may_write(&mut self, address: &ValueAddress, name: &str) -> Step<bool> {
         let left = self.session.profile.leaves(name);
-        match place.write(&[]) {
+        match address.write(&[]) {
             Ok(write) if !left => self.may(write),
             _ => Ok(false),
         }
     }
 
     /// Writes a value that must be taken.
-    pub(crate) fn put(&mut self, trial: &Trial<'_>, place: &Place, value: &[u8]) -> Step<bool> {
-        let Some(write) = place.write(value).ok().filter(is_sendable) else {
+    pub(crate) fn put(
+        &mut self,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
+        value: &[u8],
+    ) -> Step<bool> {
+        let Some(write) = address.write(value).ok().filter(is_sendable) else {
             let why = format!("{} of {} bytes cannot be written", trial.what, value.len());
             return Err(Stop::Inconclusive(why));
         };
-        self.session.changes.is_now(place, Some(value));
+        self.session.changes.is_now(address, Some(value));
         let exchange = self.send(write)?;
         let kept = exchange.success().is_some();
         let expected = || format!("{} takes {}", trial.what, Hex(value.to_vec()));
@@ -150,45 +160,45 @@ impl Probe<'_> {
     /// the other is there, `then` looks at it; it gets the old and the new.
     pub(crate) fn try_write(
         &mut self,
-        trial: &Trial<'_>,
-        place: &Place,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
         then: impl FnOnce(&mut Self, &[u8], &[u8]) -> Step,
     ) -> Step {
-        let Some(before) = self.value_at(place)?.filter(|value| !value.is_empty()) else {
+        let Some(before) = self.value_at(address)?.filter(|value| !value.is_empty()) else {
             return Ok(());
         };
-        if !place.write(&before).is_ok_and(|write| is_sendable(&write)) {
+        if !address.write(&before).is_ok_and(|write| is_sendable(&write)) {
             return Ok(());
         }
         let other = another(&before, trial.is_text);
         // What it holds it takes first: nothing is changed by that.
-        if !self.put(trial, place, &before)? {
+        if !self.put(trial, address, &before)? {
             return Ok(());
         }
         self.changing(
             trial,
-            place,
+            address,
             &before,
-            |probe| probe.change(trial, place, &before, &other, then),
-            |probe| probe.restore(trial, place, &before),
+            |probe| probe.change(trial, address, &before, &other, then),
+            |probe| probe.restore(trial, address, &before),
         )
     }
 
     fn change(
         &mut self,
-        trial: &Trial<'_>,
-        place: &Place,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
         before: &[u8],
         other: &[u8],
         then: impl FnOnce(&mut Self, &[u8], &[u8]) -> Step,
     ) -> Step {
-        if !self.put(trial, place, other)? {
+        if !self.put(trial, address, other)? {
             return Ok(());
         }
-        let after = self.value_at(place)?.unwrap_or_default();
+        let after = self.value_at(address)?.unwrap_or_default();
         let kept = same(&after, other, trial.is_text);
         // What moves by itself tells nothing of a write.
-        if !kept && self.moves(place, trial.is_text)? {
+        if !kept && self.moves(address, trial.is_text)? {
             return Ok(());
         }
         let expected = || format!("{} of {}, as written", Hex(other.to_vec()), trial.what);
@@ -197,12 +207,17 @@ impl Probe<'_> {
     }
 
     /// Whether the old value is there again, or one that moves by itself.
-    fn restore(&mut self, trial: &Trial<'_>, place: &Place, before: &[u8]) -> Step<bool> {
-        let taken = self.put(trial, place, before)?;
+    fn restore(
+        &mut self,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
+        before: &[u8],
+    ) -> Step<bool> {
+        let taken = self.put(trial, address, before)?;
         // A read without an answer shows nothing.
-        let Some(after) = self.value_at(place)? else { return Ok(false) };
+        let Some(after) = self.value_at(address)? else { return Ok(false) };
         let kept = same(&after, before, trial.is_text);
-        if !kept && self.moves(place, trial.is_text)? {
+        if !kept && self.moves(address, trial.is_text)? {
             return Ok(taken);
         }
         let expected = || format!("{} of {} again", Hex(before.to_vec()), trial.what);
@@ -214,9 +229,9 @@ impl Probe<'_> {
     /// takes what it holds.
     pub(crate) fn write_refused(
         &mut self,
-        trial: &Trial<'_>,
-        place: &Place,
-        sibling: Option<&Place>,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
+        sibling: Option<&ValueAddress>,
     ) -> Step {
         if let Some(sibling) = sibling {
             let Some(taken) = self.value_at(sibling)? else { return Ok(()) };
@@ -232,10 +247,10 @@ impl Probe<'_> {
                 return Err(Stop::Inconclusive(why));
             }
         }
-        let Some(before) = self.value_at(place)?.filter(|value| !value.is_empty()) else {
+        let Some(before) = self.value_at(address)?.filter(|value| !value.is_empty()) else {
             return Ok(());
         };
-        let Ok(write) = place.write(&before) else { return Ok(()) };
+        let Ok(write) = address.write(&before) else { return Ok(()) };
         if !is_sendable(&write) {
             return Ok(());
         }
