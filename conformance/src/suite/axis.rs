@@ -25,7 +25,7 @@ pub(super) const CASES: &[Row] = &[
     case("axis-unknown", &["VAR-26", "ADS-4"], Needs::Queries, unknown,
         "What no axis has is answered by an error on the axis interface"),
     case("axis-zero", &["VAR-26"], Needs::Malformed, zero,
-        "AxisVariable axis 0 the offsets of the axis interface are other functions"),
+        "At axis 0 the offsets of the axis interface are other functions"),
 ];
 
 /// Each place of each channel at which a variable with this name answers: with its handle.
