@@ -160,6 +160,11 @@ impl Exchange {
         self.answer().is_some_and(|answer| answer.success().is_none())
     }
 
+    /// Whether it was rejected: by an error, or by a success that gives nothing.
+    pub fn is_rejected(&self) -> bool {
+        self.answer().is_some_and(|answer| answer.success().is_none_or(<[u8]>::is_empty))
+    }
+
     /// What came of it, in a few words.
     pub fn result(&self) -> String {
         match &self.outcome {

@@ -10,7 +10,7 @@ use ads_cnc::{
 use super::kit::{Probe, VARIABLES_MAX, name_of};
 use super::{Row, case};
 use crate::edition::Feature;
-use crate::judge::{Needs, OrStop as _, Rule, Step, Stop, assumed, online};
+use crate::judge::{Needs, OrStop as _, Step, Stop, assumed, online};
 use crate::profile::Claim;
 
 #[rustfmt::skip]
@@ -140,11 +140,10 @@ fn unknown_described(probe: &mut Probe<'_>) -> Step {
     let known = variables.first().or_inconclusive("no variable")?;
     is_there(probe, channel, known)?;
     for name in ["V.E.no such variable", "V.E.", ""] {
-        let rule = Rule::from("VAR-28");
         let unknown = TextRef::new(name)?;
         let good = DescribeByName { channel, name: name_of(known) };
         let bad = DescribeByName { name: unknown, ..good };
-        probe.refuses(rule, &format!("the name {name:?}"), bad, good)?;
+        probe.refuses("VAR-28", &format!("the name {name:?}"), bad, good)?;
     }
     Ok(())
 }

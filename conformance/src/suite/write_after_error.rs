@@ -10,7 +10,7 @@ use super::kit::{
     writable_numbers,
 };
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, applicable};
+use crate::judge::{Needs, Step, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -153,7 +153,7 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
         probe.show(evidence);
         let kept = after != other;
         let expected = || format!("{} of {what}, blank as before", Hex(blank.clone()));
-        probe.check(Rule::from("SDA-11"), kept, expected, || Hex(after));
+        probe.check("SDA-11", kept, expected, || Hex(after));
         if !kept {
             probe.send(address.write(&blank)?)?;
         }

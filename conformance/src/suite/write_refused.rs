@@ -90,7 +90,7 @@ fn read_only_changed(probe: &mut Probe<'_>) -> Step {
 /// so that all is as it was.
 fn refused(
     probe: &mut Probe<'_>,
-    rules: &[Rule],
+    rules: &[&'static str],
     what: &str,
     (bad, good): (Request<'_>, Request<'_>),
     watched: &ValueAddress,
@@ -101,7 +101,7 @@ fn refused(
 
 fn refused_call(
     probe: &mut Probe<'_>,
-    rules: &[Rule],
+    rules: &[&'static str],
     what: &str,
     (bad, good): (&RawCall, Request<'_>),
     watched: &ValueAddress,
@@ -135,11 +135,10 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     if let Some(free) = [0, 1, u32::MAX].into_iter().find(is_free) {
         let bad = WriteByHandle::new(channel, Handle(free), U32List::EMPTY, value).into();
         let what = format!("a write to the handle {free:#x}");
-        let rules = ["ADS-4", "VAR-12"].map(Rule::from);
-        refused(probe, &rules, &what, (bad, good), &watched)?;
+        refused(probe, &["ADS-4", "VAR-12"], &what, (bad, good), &watched)?;
     }
     let bad = known.by_handle((&[0]).into(), value);
-    refused(probe, &["VAR-12".into()], "an index of no array", (bad, good), &watched)?;
+    refused(probe, &["VAR-12"], "an index of no array", (bad, good), &watched)?;
     let good = known.by_name(value);
     let text = known.name().to_string();
     let (longer, shorter) = (format!("{text}x"), text.get(..text.len().saturating_sub(1)));
@@ -154,12 +153,11 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         }
         let what = format!("a write to the name \"{unknown}\"");
         let bad = WriteByName { channel, name: unknown.as_cnc_str(), value: value.into() }.into();
-        let rules = ["ADS-4", "VAR-13"].map(Rule::from);
-        refused(probe, &rules, &what, (bad, good), &watched)?;
+        refused(probe, &["ADS-4", "VAR-13"], &what, (bad, good), &watched)?;
     }
     let element: CncString = format!("{text}[0]").parse()?;
     let bad = WriteByName { channel, name: element.as_cnc_str(), value: value.into() }.into();
-    refused(probe, &["VAR-13".into()], "an element of no array", (bad, good), &watched)
+    refused(probe, &["VAR-13"], "an element of no array", (bad, good), &watched)
 }
 
 /// The most arrays that are tried.
@@ -189,11 +187,11 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
             let what = format!("a write to {}[{beyond}] of {count}", name.text);
             let bad = ValueAddress::Handle { channel, handle: *handle, indices: vec![beyond] };
             let bad = bad.write(&other)?;
-            refused(probe, &["VAR-12".into()], &what, (bad, good), &whole)?;
+            refused(probe, &["VAR-12"], &what, (bad, good), &whole)?;
             let bad = ValueAddress::Name { channel, name: by_name(beyond)? };
             let bad = bad.write(&other)?;
             let good = good_by_name.write(&value)?;
-            refused(probe, &["VAR-13".into()], &what, (bad, good), &whole)?;
+            refused(probe, &["VAR-13"], &what, (bad, good), &whole)?;
         }
         Ok(true)
     })
@@ -210,7 +208,7 @@ fn bad_requests(probe: &mut Probe<'_>) -> Step {
             let data = [&name[..], &vec![b'A'; size]].concat();
             let what = format!("a write of {size} bytes to a name without NUL");
             let bad = call.with(|call| call.data = data);
-            refused_call(probe, &["VAR-13".into()], &what, (&bad, good), &watched)?;
+            refused_call(probe, &["VAR-13"], &what, (&bad, good), &watched)?;
         }
         let good = known.by_handle(U32List::EMPTY, &known.value);
         let call = RawCall::new(good)?;
@@ -221,8 +219,7 @@ fn bad_requests(probe: &mut Probe<'_>) -> Step {
                 .for_each(|four| four.copy_from_slice(&count.to_le_bytes()));
             let what = format!("a write with a count of {count:#x} indices");
             let bad = call.with(|call| call.data = data);
-            let rules = ["VAR-24", "VAR-12"].map(Rule::from);
-            refused_call(probe, &rules, &what, (&bad, good), &watched)?;
+            refused_call(probe, &["VAR-24", "VAR-12"], &what, (&bad, good), &watched)?;
         }
     }
     Ok(())

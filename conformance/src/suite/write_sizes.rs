@@ -128,9 +128,9 @@ impl WrongSizeWrite<'_> {
             return Ok(());
         }
         let of_size: Rule = if is_text { online("VAR-25") } else { way.id.into() };
-        require_taken(probe, way.id.into(), good)?;
+        require_taken(probe, way.id, good)?;
         let before = probe.value_at(watched)?;
-        let is_taken = is_taken(probe, way.id.into(), what, bad)?;
+        let is_taken = is_taken(probe, way.id, what, bad)?;
         let evidence = probe.evidence();
         let (read, after) = (probe.value_at(&way.address)?, probe.value_at(watched)?);
         probe.show(evidence);

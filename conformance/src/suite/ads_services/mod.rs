@@ -17,7 +17,7 @@ use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, Var
 use super::{Row, case};
 use crate::judge::{Needs, Step, applicable};
 use crate::profile::Claim;
-use crate::suite::kit::{Probe, Steady, name_of, number_of};
+use crate::suite::kit::{Probe, Steady, between, name_of, number_of};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -159,36 +159,44 @@ fn services_agree(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
-            for _ in 0..3 {
-                let count = |probe: &mut Probe<'_>| -> Step<Option<u32>> {
-                    let data = maybe(probe, CountDynamic::new(channel, kind))?;
-                    Ok(data.and_then(|data| DynamicCount::decode(&data).ok()).map(|count| count.0))
-                };
-                let Some(before) = count(probe)? else { break };
-                let has = |probe: &mut Probe<'_>, index: u32| -> Step<bool> {
-                    let name = DynamicNameByIndex::new(channel, kind, index)?;
-                    let name = maybe(probe, name)?.unwrap_or_default();
-                    Ok(name.first().is_some_and(|&first| first != 0))
-                };
-                let last = before == 0 || has(probe, before)?;
-                let beyond = match before.checked_add(1) {
-                    Some(beyond) => has(probe, beyond)?,
-                    None => false,
-                };
-                // A program may have made or deleted one meanwhile.
-                if count(probe)? != Some(before) {
-                    continue;
-                }
-                any = true;
-                let expected = || format!("a name of index {before}, if it is not 0, and no other");
-                let found = || format!("one: {last}, another behind it: {beyond}");
-                probe.check(rules, last && !beyond, expected, found);
-                break;
-            }
+            any |= names_agree(probe, rules, channel, kind)?;
         }
     }
     any |= elements_agree(probe, rules)?;
     applicable(any, "nothing is asked by both services")
+}
+
+/// How many parameters a Read says that there are, and which names a ReadWrite has. A program may
+/// make or delete one meanwhile.
+fn names_agree(
+    probe: &mut Probe<'_>,
+    rules: [&'static str; 2],
+    channel: Channel,
+    kind: DynamicKind,
+) -> Step<bool> {
+    let count = |probe: &mut Probe<'_>| -> Step<Option<u32>> {
+        let data = maybe(probe, CountDynamic::new(channel, kind))?;
+        Ok(data.and_then(|data| DynamicCount::decode(&data).ok()).map(|count| count.0))
+    };
+    let has = |probe: &mut Probe<'_>, index: u32| -> Step<bool> {
+        let name = maybe(probe, DynamicNameByIndex::new(channel, kind, index)?)?;
+        Ok(name.is_some_and(|name| name.first().is_some_and(|&first| first != 0)))
+    };
+    for _ in 0..3 {
+        let found = between(probe, count, |probe, &count| {
+            let last = count == 0 || has(probe, count)?;
+            let beyond = count.checked_add(1);
+            let beyond = beyond.map(|beyond| has(probe, beyond)).transpose()?;
+            Ok((count, last, beyond.unwrap_or_default()))
+        })?;
+        if let Some((count, last, beyond)) = found {
+            let expected = || format!("a name of index {count}, if it is not 0, and no other");
+            let found = || format!("one: {last}, another behind it: {beyond}");
+            probe.check(rules, last && !beyond, expected, found);
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// Where a ReadWrite says that the elements of an instance are, a Read finds them.

@@ -122,9 +122,7 @@ fn refuses_still<'a>(
     let count = CountDynamic::new(channel, kind).into();
     steadily(probe, &[count, good], |probe, _| {
         let exchange = probe.call(&bad)?;
-        let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
-        let refused = given.is_some_and(<[u8]>::is_empty);
         let expected = || format!("an error number for {what}");
-        Ok(vec![PendingCheck::new(probe, rule, refused, expected, &exchange)])
+        Ok(vec![PendingCheck::new(probe, rule, exchange.is_rejected(), expected, &exchange)])
     })
 }

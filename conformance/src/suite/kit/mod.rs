@@ -37,7 +37,7 @@ pub(crate) use object_list::{
 pub use probe::Probe;
 pub(crate) use probe::heard;
 pub(crate) use raw_call::{IntoRawCall, RawCall};
-pub(crate) use steady::{Compared, PendingCheck, Steady, compare, steadily};
+pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
 pub use undo::Changes;
 pub(crate) use value_address::{
     NOTHING_WRITABLE, ValueAddress, WriteCheck, another, is_sendable, same,

@@ -9,7 +9,7 @@ use crate::judge::{Describe, Evidence, Rule, Rules, Step, Stop};
 use crate::suite::kit::Probe;
 
 /// How often a value that does not stand still is read again.
-pub(crate) const TRIES: usize = 3;
+const TRIES: usize = 3;
 
 /// What came of comparing a value, read before and after, with what was read in between.
 pub(crate) enum Compared<B, R> {
@@ -115,6 +115,17 @@ impl Steady {
     }
 }
 
+/// What `act` finds between two equal readings of a guard; None if the guard moved, or was not read.
+pub(crate) fn between<G: PartialEq, T>(
+    probe: &mut Probe<'_>,
+    guard: impl Fn(&mut Probe<'_>) -> Step<Option<G>>,
+    act: impl FnOnce(&mut Probe<'_>, &G) -> Step<T>,
+) -> Step<Option<T>> {
+    let Some(before) = guard(probe)? else { return Ok(None) };
+    let found = act(probe, &before)?;
+    Ok((guard(probe)?.as_ref() == Some(&before)).then_some(found))
+}
+
 /// How often something is tried while parameters come and go.
 const TRIES_OF_PARAMETERS: usize = 5;
 /// In how many of them it has to fail, and in none be right.
@@ -151,11 +162,6 @@ impl PendingCheck {
     }
 }
 
-/// What these answer; None if one of them does not.
-fn answers(probe: &mut Probe<'_>, guards: &[Request<'_>]) -> Step<Option<Vec<Vec<u8>>>> {
-    guards.iter().map(|&guard| probe.try_ask(guard)).collect()
-}
-
 /// Judges what `act` finds, if the guards answer the same before and after it; it gets their
 /// answers. What fails is tried again: it has to fail every time. Where nothing stands still,
 /// nothing is judged.
@@ -164,23 +170,22 @@ pub(crate) fn steadily(
     guards: &[Request<'_>],
     mut act: impl FnMut(&mut Probe<'_>, &[Vec<u8>]) -> Step<Vec<PendingCheck>>,
 ) -> Step {
-    let (mut failed, mut failures) = (Vec::new(), 0_usize);
+    let answers = |probe: &mut Probe<'_>| -> Step<Option<Vec<Vec<u8>>>> {
+        guards.iter().map(|&guard| probe.try_ask(guard)).collect()
+    };
+    let mut failures = Vec::new();
     for _ in 0..TRIES_OF_PARAMETERS {
-        let Some(before) = answers(probe, guards)? else { continue };
-        let checks = act(probe, &before)?;
-        if answers(probe, guards)?.as_ref() != Some(&before) {
-            continue;
-        }
+        let checks = between(probe, answers, |probe, answers| act(probe, answers))?;
+        let Some(checks) = checks else { continue };
         if checks.iter().all(|check| check.kept) {
-            failed = checks;
-            failures = FAILURES;
-            break;
+            checks.into_iter().for_each(|check| check.record(probe));
+            return Ok(());
         }
-        failed = checks;
-        failures = failures.saturating_add(1);
+        failures.push(checks);
     }
-    if failures >= FAILURES {
-        failed.into_iter().for_each(|check| check.record(probe));
+    if failures.len() >= FAILURES {
+        let last = failures.pop().unwrap_or_default();
+        last.into_iter().for_each(|check| check.record(probe));
     }
     Ok(())
 }

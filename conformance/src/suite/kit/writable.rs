@@ -111,20 +111,24 @@ pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber
 /// Whether a request is taken; silence is no answer to anything, and judged by `rule`.
 pub(crate) fn is_taken(
     probe: &mut Probe<'_>,
-    rule: Rule,
+    rule: impl Into<Rule>,
     what: &str,
     request: Request<'_>,
 ) -> Step<bool> {
     let exchange = probe.send(request)?;
     if exchange.answer().is_none() {
         let expected = || format!("an answer to {what}");
-        probe.require(rule, false, expected, &exchange)?;
+        probe.require(rule.into(), false, expected, &exchange)?;
     }
     Ok(exchange.success().is_some())
 }
 
 /// What is refused must differ by its fault only from what is taken.
-pub(crate) fn require_taken(probe: &mut Probe<'_>, rule: Rule, good: Request<'_>) -> Step {
+pub(crate) fn require_taken(
+    probe: &mut Probe<'_>,
+    rule: impl Into<Rule>,
+    good: Request<'_>,
+) -> Step {
     if is_taken(probe, rule, "what differs by that alone", good)? {
         Ok(())
     } else {

@@ -155,7 +155,7 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
         let Some(mine) = mine.filter(|_| last > 0) else { continue };
         any = true;
         let axis = if mine < last { mine.saturating_add(1) } else { last };
-        is_there(probe, &["SDA-5".into()], class, 0, axis)?;
+        is_there(probe, &[Rule::from("SDA-5")], class, 0, axis)?;
     }
     applicable(any, "no class names an axis")
 }

@@ -72,10 +72,8 @@ impl Probe<'_> {
         request: impl Into<Request<'a>>,
     ) -> Step {
         let exchange = self.send(request)?;
-        let data = exchange.answer().map(|answer| answer.success().unwrap_or_default());
-        let refused = data.is_some_and(<[u8]>::is_empty);
         let expected = || format!("an error number for {what}");
-        self.check(rule.into(), refused, expected, &exchange);
+        self.check(rule.into(), exchange.is_rejected(), expected, &exchange);
         Ok(())
     }
 
