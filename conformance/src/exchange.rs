@@ -10,7 +10,7 @@ use ads_cnc::ads::{AdsError, AmsHeader, AmsPort};
 use ads_cnc::operation::{Call, Service};
 
 use crate::gate::Refusal;
-use crate::judge::Evidence;
+use crate::judge::{Describe, Evidence};
 
 /// One request and what came of it.
 #[derive(Debug)]
@@ -142,6 +142,21 @@ impl Exchange {
         self.outcome.as_ref().ok().map(|(answer, _)| answer)
     }
 
+    /// The data of a success; none if an error was answered, or nothing.
+    pub fn success(&self) -> Option<&[u8]> {
+        self.answer().and_then(Answer::success)
+    }
+
+    /// Whether an error was answered.
+    pub fn is_error(&self) -> bool {
+        self.answer().is_some_and(|answer| answer.success().is_none())
+    }
+
+    /// Whether it was rejected: by an error, or by a success that gives nothing.
+    pub fn is_rejected(&self) -> bool {
+        self.answer().is_some_and(|answer| answer.success().is_none_or(<[u8]>::is_empty))
+    }
+
     /// What came of it, in a few words.
     pub fn result(&self) -> String {
         match &self.outcome {
@@ -166,6 +181,13 @@ impl fmt::Display for Exchange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { port, service, index_group, index_offset, .. } = self;
         write!(f, "{service} {index_group}, {index_offset} at port {port}")
+    }
+}
+
+/// By what came of it.
+impl Describe for &Exchange {
+    fn describe(self) -> String {
+        self.result()
     }
 }
 

@@ -12,7 +12,8 @@ use super::frames::Span;
 use super::time::Time;
 use crate::exchange::Exchange;
 use crate::judge::{
-    Body, Case, Checks, Evidence, Needs, Outcome, Record, Rule, Stop, Subject, Verdict,
+    Body, Case, Checks, Describe, Evidence, Needs, Outcome, Record, Rule, Rules, Stop, Subject,
+    Verdict,
 };
 
 /// Declares [`Topic`].
@@ -246,15 +247,13 @@ pub(super) struct TopicRecord<'b> {
 }
 
 impl TopicRecord<'_> {
-    fn add(&mut self, rule: Rule, verdict: Verdict, expected: impl Display, found: impl Display) {
-        if let Some((_, record, _)) = &mut self.topic {
-            record.add(rule, verdict, expected, found, || Some(self.observation.evidence()));
-        }
-    }
-
     /// Something that may have been so or not: it was not captured.
     pub(super) fn open(&mut self, rule: impl Into<Rule>, found: impl Display) {
-        self.add(rule.into(), Verdict::Inconclusive, "all of it in the capture", found);
+        if let Some((_, record, _)) = &mut self.topic {
+            let (verdict, expected) = (Verdict::Inconclusive, "all of it in the capture");
+            let evidence = || Some(self.observation.evidence());
+            record.add(rule.into(), verdict, expected, || found, evidence);
+        }
     }
 
     /// Whether the case judges by this requirement.
@@ -264,24 +263,21 @@ impl TopicRecord<'_> {
 
     /// A check that was passed.
     pub(super) fn pass(&mut self, rule: impl Into<Rule>) {
-        self.check(rule, true, "", "");
+        self.check(rule.into(), true, "", "");
     }
 }
 
 impl Checks for TopicRecord<'_> {
     fn check(
         &mut self,
-        rule: impl Into<Rule>,
+        rules: impl Rules,
         kept: bool,
-        expected: impl Display,
-        found: impl Display,
+        expected: impl Describe,
+        found: impl Describe,
     ) -> bool {
-        let rule = rule.into();
-        let (expected, found) = match kept {
-            true => (String::new(), String::new()),
-            false => (expected.to_string(), found.to_string()),
-        };
-        self.add(rule, rule.verdict(kept), expected, found);
+        if let Some((_, record, _)) = &mut self.topic {
+            record.add_all(rules, kept, expected, found, || Some(self.observation.evidence()));
+        }
         kept
     }
 }

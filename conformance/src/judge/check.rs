@@ -1,8 +1,9 @@
 //! Checks: the rule of each, and what came of it.
 
+use std::error::Error;
 use std::fmt::Display;
 
-use ads_cnc_vectors::{Level, clause};
+use ads_cnc_vectors::{Hex, Level, clause};
 
 use super::{Evidence, Verdict};
 use crate::text::shorten;
@@ -24,6 +25,75 @@ pub enum Stop {
     Interrupted,
     /// The suite itself is wrong.
     Harness(String),
+}
+
+impl Stop {
+    /// The target has nothing to try this on.
+    pub(crate) fn not_applicable(why: impl Into<String>) -> Self {
+        Self::NotApplicable(why.into())
+    }
+
+    /// What came back does not tell.
+    pub(crate) fn inconclusive(why: impl Into<String>) -> Self {
+        Self::Inconclusive(why.into())
+    }
+}
+
+/// An error of what the suite builds for itself, such as a request that has no form on the wire: what
+/// a target sends is decoded to a verdict instead.
+impl<E: Error> From<E> for Stop {
+    fn from(error: E) -> Self {
+        Self::Harness(error.to_string())
+    }
+}
+
+/// The end of a case that goes through many things: not applicable if it had none of them to judge.
+pub(crate) fn applicable(any: bool, why: &str) -> Step {
+    if any { Ok(()) } else { Err(Stop::not_applicable(why)) }
+}
+
+/// What a case cannot do without.
+pub(crate) trait OrStop<T> {
+    /// Not applicable without it.
+    fn or_not_applicable(self, why: &str) -> Step<T>;
+
+    /// Inconclusive without it.
+    fn or_inconclusive(self, why: &str) -> Step<T>;
+}
+
+impl<T> OrStop<T> for Option<T> {
+    fn or_not_applicable(self, why: &str) -> Step<T> {
+        self.ok_or_else(|| Stop::not_applicable(why))
+    }
+
+    fn or_inconclusive(self, why: &str) -> Step<T> {
+        self.ok_or_else(|| Stop::inconclusive(why))
+    }
+}
+
+/// What a case can do without.
+pub(crate) trait IfThere<T> {
+    /// None where the target does not have it.
+    fn if_applicable(self) -> Step<Option<T>>;
+
+    /// None also where it could not be read, which other cases judge.
+    fn if_known(self) -> Step<Option<T>>;
+}
+
+impl<T> IfThere<T> for Step<T> {
+    fn if_applicable(self) -> Step<Option<T>> {
+        match self {
+            Err(Stop::NotApplicable(_)) => Ok(None),
+            step => step.map(Some),
+        }
+    }
+
+    fn if_known(self) -> Step<Option<T>> {
+        match self {
+            Err(Stop::Inconclusive(_)) => Ok(None),
+            step => step.if_applicable(),
+        }
+    }
 }
 
 /// A requirement at a level: that of the catalogue, or of an assumed part.
@@ -51,6 +121,73 @@ pub const fn assumed(id: &'static str) -> Rule {
 pub const fn online(id: &'static str) -> Rule {
     Rule { id, level: Some(Level::Should) }
 }
+
+/// The requirements that a check speaks for.
+pub trait Rules {
+    /// Each of them.
+    fn rules(self) -> impl Iterator<Item = Rule>;
+}
+
+impl Rules for Rule {
+    fn rules(self) -> impl Iterator<Item = Rule> {
+        [self].into_iter()
+    }
+}
+
+impl Rules for &'static str {
+    fn rules(self) -> impl Iterator<Item = Rule> {
+        [self.into()].into_iter()
+    }
+}
+
+impl<R: Into<Rule>, const N: usize> Rules for [R; N] {
+    fn rules(self) -> impl Iterator<Item = Rule> {
+        self.into_iter().map(Into::into)
+    }
+}
+
+impl<R: Into<Rule> + Copy> Rules for &[R] {
+    fn rules(self) -> impl Iterator<Item = Rule> {
+        self.iter().map(|&rule| rule.into())
+    }
+}
+
+impl<R: Into<Rule> + Copy, const N: usize> Rules for &[R; N] {
+    fn rules(self) -> impl Iterator<Item = Rule> {
+        self.as_slice().rules()
+    }
+}
+
+impl<R: Into<Rule> + Copy> Rules for &Vec<R> {
+    fn rules(self) -> impl Iterator<Item = Rule> {
+        self.as_slice().rules()
+    }
+}
+
+/// What was expected, or found, in words. Only a check that fails asks for them, so that a closure is
+/// called then.
+pub trait Describe {
+    /// The words.
+    fn describe(self) -> String;
+}
+
+impl<F: FnOnce() -> D, D: Display> Describe for F {
+    fn describe(self) -> String {
+        self().to_string()
+    }
+}
+
+macro_rules! describe {
+    ($($displayed:ty),+ $(,)?) => {$(
+        impl Describe for $displayed {
+            fn describe(self) -> String {
+                self.to_string()
+            }
+        }
+    )+};
+}
+
+describe! { &str, String, &String, Hex, u32, usize, ads_cnc::Error }
 
 /// One check of one requirement.
 #[derive(Clone, Debug)]
@@ -87,10 +224,10 @@ pub(crate) struct Record {
 pub(crate) trait Checks {
     fn check(
         &mut self,
-        rule: impl Into<Rule>,
+        rules: impl Rules,
         kept: bool,
-        expected: impl Display,
-        found: impl Display,
+        expected: impl Describe,
+        found: impl Describe,
     ) -> bool;
 }
 
@@ -106,13 +243,29 @@ impl Rule {
 }
 
 impl Record {
+    /// Adds checks that passed or failed together, one of each rule.
+    pub(crate) fn add_all(
+        &mut self,
+        rules: impl Rules,
+        kept: bool,
+        expected: impl Describe,
+        found: impl Describe,
+        evidence: impl Fn() -> Option<Evidence>,
+    ) {
+        let words = (!kept).then(|| (expected.describe(), found.describe()));
+        let (expected, found) = words.unwrap_or_default();
+        for rule in rules.rules() {
+            self.add(rule, rule.verdict(kept), expected.as_str(), found.as_str(), &evidence);
+        }
+    }
+
     /// Adds a check; of those that passed, and of many alike, the first are kept.
     pub(crate) fn add(
         &mut self,
         rule: Rule,
         verdict: Verdict,
-        expected: impl Display,
-        found: impl Display,
+        expected: impl Describe,
+        found: impl Describe,
         evidence: impl FnOnce() -> Option<Evidence>,
     ) {
         self.checks = self.checks.saturating_add(1);
@@ -128,10 +281,15 @@ impl Record {
             }
             return;
         }
-        let evidence = if passed { None } else { evidence() };
         let (requirement, level) = (rule.id, rule.level);
-        let (expected, found) =
-            (shorten(&expected.to_string(), TEXT_MAX), shorten(&found.to_string(), TEXT_MAX));
+        let (mut words, mut shown) = ((String::new(), String::new()), None);
+        if !passed {
+            let short = |text: String| shorten(&text, TEXT_MAX);
+            words = (short(expected.describe()), short(found.describe()));
+            shown = evidence();
+        }
+        let (expected, found) = words;
+        let evidence = shown;
         let judgement =
             Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
         self.judgements.push(judgement);

@@ -13,8 +13,8 @@ mod waivers;
 
 pub(crate) use case::in_catalogue;
 pub use case::{Body, Case, Needs, Subject};
-pub(crate) use check::{Checks, Record, TEXT_MAX};
-pub use check::{Judgement, Rule, Step, Stop, assumed, online};
+pub(crate) use check::{Checks, IfThere, OrStop, Record, TEXT_MAX, applicable};
+pub use check::{Describe, Judgement, Rule, Rules, Step, Stop, assumed, online};
 pub use evidence::Evidence;
 pub use left_changed::LeftChanged;
 pub(crate) use outcome::caught;

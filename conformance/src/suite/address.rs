@@ -3,15 +3,16 @@
 use ads_cnc::address::{Addressing, Channel, ComGroup, Group};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{
-    Call, CountObjects, CountVariables, DescribeByIndex, ReadDescriptors, Request, Service,
+    CountObjects, CountVariables, DescribeByIndex, ReadDescriptors, Request, Service,
 };
 use ads_cnc::{Decode as _, DescriptorsRef, Kind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::KINDS;
-use super::probe::{Probe, harness};
+use super::kit::{KINDS, Probe, RawCall};
 use super::{Row, case};
-use crate::judge::{Needs, Record, Rule, Step, Stop, assumed, online};
+use crate::exchange::Exchange;
+use crate::judge::{Needs, OrStop as _, Record, Step, Stop, assumed, online};
+use crate::text::hex::spaced;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -42,15 +43,14 @@ pub(super) const FRAME_CASES: &[Row] = &[
 fn com_object_access(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         // By its number, with the bit of logical addressing.
-        let rules = ["ADR-1", "ADR-3", "ADR-4", "GEN-4"].map(Rule::from);
-        let count = probe.ask_for(&rules, CountObjects::new(channel))?;
+        let rules = ["ADR-1", "ADR-3", "ADR-4", "GEN-4"];
+        let count = probe.ask(rules, CountObjects::new(channel))?;
         let none = ObjectCount::decode(&count) == Ok(ObjectCount(0));
-        let first = ReadDescriptors::new(channel, 1, 1).map_err(harness)?;
+        let first = ReadDescriptors::new(channel, 1, 1)?;
         let Some(first) = probe.try_ask(first)?.filter(|_| !none) else { continue };
         // Not the content of the element with the same number.
         let described = DescriptorsRef::decode(&first).is_ok_and(|list| list.len() == 1);
-        let found = Hex(first);
-        probe.check("ADR-4", described, "a description under 0x30000", found);
+        probe.check("ADR-4", described, "a description under 0x30000", || Hex(first));
     }
     Ok(())
 }
@@ -58,30 +58,16 @@ fn com_object_access(probe: &mut Probe<'_>) -> Step {
 fn decoder_group(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         // The group is stated, and that channels start at 1; that SDA has port 552 is online.
-        let rules = ["ADR-1", "ADR-5", "GEN-6"].map(Rule::from);
-        let rules = [&rules[..], &[online("GEN-4")]].concat();
-        probe.ask_for(&rules, CountVariables::new(channel, Kind::V_E))?;
+        let rules = ["ADR-1".into(), "ADR-5".into(), "GEN-6".into(), online("GEN-4")];
+        probe.ask(rules, CountVariables::new(channel, Kind::V_E))?;
     }
     Ok(())
 }
 
-impl Probe<'_> {
-    /// Rank and number of each claimed channel.
-    pub(super) fn ranks(&self) -> Step<Vec<(Channel, Channel)>> {
-        let channels = self.channels()?;
-        (1..)
-            .zip(channels)
-            .map(|(rank, channel)| Ok((Channel::by_index(rank).map_err(harness)?, channel)))
-            .collect()
-    }
-}
-
 /// What a channel is known by: its numbers, its first object and its first variables.
 fn known_by(channel: Channel) -> Step<Vec<Request<'static>>> {
-    let mut requests = vec![
-        CountObjects::new(channel).into(),
-        ReadDescriptors::new(channel, 1, 1).map_err(harness)?.into(),
-    ];
+    let mut requests =
+        vec![CountObjects::new(channel).into(), ReadDescriptors::new(channel, 1, 1)?.into()];
     for (_, kind) in KINDS {
         requests.push(CountVariables::new(channel, kind).into());
         let described = (0..8).map(|index| DescribeByIndex::new(channel, index, kind));
@@ -101,28 +87,31 @@ fn same_object(logical: &[u8], found: &[u8], rank: Channel) -> bool {
         && found == logical.with_content(content.0, content.1)
 }
 
-fn same_by_rank(probe: &mut Probe<'_>, rules: &[Rule], rank: Channel, number: Channel) -> Step {
+fn same_by_rank(
+    probe: &mut Probe<'_>,
+    rules: &[&'static str],
+    rank: Channel,
+    number: Channel,
+) -> Step {
     for (logical, by_index) in known_by(number)?.into_iter().zip(known_by(rank)?) {
         let function = logical.function().spec().name;
         let is_object = matches!(logical, Request::ReadDescriptors(_));
         let Some(logical) = probe.try_ask(logical)? else { continue };
         let exchange = probe.send(by_index)?;
-        let found = exchange.answer().and_then(|answer| answer.success());
+        let found = exchange.success();
         let same = found.is_some_and(|found| {
             found == logical || is_object && same_object(&logical, found, rank)
         });
-        let (by, expected) = (number.number(), Hex(logical.clone()));
-        let expected = format!("{function}: {expected}, the answer of channel {by}");
-        for &rule in rules {
-            probe.check_reply(rule, same, &logical, &expected, exchange.result());
-        }
+        let by = number.number();
+        let expected = || format!("{function}: {}, the answer of channel {by}", spaced(&logical));
+        probe.check_reply(rules, same, &logical, expected, &exchange);
     }
     Ok(())
 }
 
 fn logical_and_by_index(probe: &mut Probe<'_>) -> Step {
     for (rank, number) in probe.ranks()? {
-        same_by_rank(probe, &["ADR-1", "ADR-12"].map(Rule::from), rank, number)?;
+        same_by_rank(probe, &["ADR-1", "ADR-12"], rank, number)?;
     }
     Ok(())
 }
@@ -130,13 +119,10 @@ fn logical_and_by_index(probe: &mut Probe<'_>) -> Step {
 fn rank_among_active(probe: &mut Probe<'_>) -> Step {
     let ranks = probe.ranks()?;
     let gap = ranks.iter().find(|(rank, number)| rank.number() != number.number());
-    let Some(&(rank, number)) = gap else {
-        let why = "every channel's number is its rank";
-        return Err(Stop::NotApplicable(why.to_owned()));
-    };
-    same_by_rank(probe, &["ADR-11".into()], rank, number)?;
+    let &(rank, number) = gap.or_not_applicable("every channel's number is its rank")?;
+    same_by_rank(probe, &["ADR-11"], rank, number)?;
     // Its number is no rank: there are not so many channels.
-    let beyond = Channel::by_index(number.number().into()).map_err(harness)?;
+    let beyond = Channel::by_index(number.number().into())?;
     probe.refuses(
         "ADR-11",
         "a rank beyond the last channel",
@@ -150,13 +136,13 @@ fn rank_after_deactivation(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let all = probe.channels()?;
     if all.len() < 2 {
-        return Err(Stop::NotApplicable("there is but one channel".to_owned()));
+        return Err(Stop::not_applicable("there is but one channel"));
     }
     for &gone in &all {
         let left: Vec<Channel> = all.iter().filter(|one| **one != gone).copied().collect();
-        cnc.set_active(gone.number(), false).map_err(harness)?;
+        cnc.set_active(gone.number(), false)?;
         let judged = ranks_are(probe, &left);
-        cnc.set_active(gone.number(), true).map_err(harness)?;
+        cnc.set_active(gone.number(), true)?;
         judged?;
     }
     ranks_are(probe, &all)
@@ -167,15 +153,15 @@ fn ranks_are(probe: &mut Probe<'_>, channels: &[Channel]) -> Step {
     let mut last = None;
     for (rank, &number) in (1..).zip(channels) {
         let logical = probe.try_ask(CountVariables::new(number, Kind::V_E))?.is_some();
-        let expected = format!("channel {} by its number", number.number());
+        let expected = || format!("channel {} by its number", number.number());
         probe.check("ADR-11", logical, expected, "an error");
-        let rank = Channel::by_index(rank).map_err(harness)?;
-        same_by_rank(probe, &["ADR-11".into()], rank, number)?;
+        let rank = Channel::by_index(rank)?;
+        same_by_rank(probe, &["ADR-11"], rank, number)?;
         last = Some(rank);
     }
     let Some(last) = last else { return Ok(()) };
     let beyond = u32::from(last.number()).saturating_add(1);
-    let beyond = Channel::by_index(beyond).map_err(harness)?;
+    let beyond = Channel::by_index(beyond)?;
     probe.refuses(
         "ADR-11",
         "a rank beyond the last channel",
@@ -185,24 +171,20 @@ fn ranks_are(probe: &mut Probe<'_>, channels: &[Channel]) -> Step {
 }
 
 fn geo_answers_too(probe: &mut Probe<'_>) -> Step {
-    let request = Request::from(CountVariables::new(probe.channel()?, Kind::V_E));
-    let mut buf = [0; 256];
-    let sda = request.encode(&mut buf).map_err(harness)?;
-    let geo = Call { port: AmsPort::GEO, ..sda };
+    let sda = RawCall::new(CountVariables::new(probe.channel()?, Kind::V_E))?;
+    let geo = sda.with(|call| call.port = AmsPort::GEO);
     let by_sda = probe.call(&sda)?;
     let by_geo = probe.call(&geo)?;
-    let data = by_sda.answer().and_then(|answer| answer.data.clone());
-    let same = by_geo.answer().and_then(|answer| answer.data.clone()) == data && data.is_some();
-    probe.check(assumed("ADR-10"), same, by_sda.result(), by_geo.result());
+    let data = |exchange: &Exchange| exchange.answer().and_then(|answer| answer.data.clone());
+    let same = data(&by_geo) == data(&by_sda) && data(&by_sda).is_some();
+    probe.check(assumed("ADR-10"), same, &by_sda, &by_geo);
     Ok(())
 }
 
 fn absent_channel(probe: &mut Probe<'_>) -> Step {
-    let Some(number) = probe.session.profile.absent_channel else {
-        let why = "no channel is known to be absent";
-        return Err(Stop::NotApplicable(why.to_owned()));
-    };
-    let absent = Channel::new(number).map_err(harness)?;
+    let absent = probe.session.profile.absent_channel;
+    let number = absent.or_not_applicable("no channel is known to be absent")?;
+    let absent = Channel::new(number)?;
     let present = probe.channel()?;
     let what = format!("channel {number}, which is not configured");
     probe.refuses(
@@ -218,7 +200,7 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
     let broken = std::mem::take(&mut probe.session.broken);
     let answered = probe.session.answered.clone();
     if answered.is_empty() && broken.checks == 0 {
-        return Err(Stop::Inconclusive("no frame was answered".to_owned()));
+        return Err(Stop::inconclusive("no frame was answered"));
     }
     let mut judged = Record::default();
     for (requirement, services) in [
@@ -232,7 +214,7 @@ fn every_frame(probe: &mut Probe<'_>) -> Step {
         judged.append(broken.of(requirement));
         let carried = services.iter().any(|service| answered.contains(service));
         if !is_broken && carried {
-            probe.check(requirement, true, "", "");
+            probe.pass(requirement);
         }
     }
     probe.take_over(judged);
@@ -244,8 +226,7 @@ fn every_refusal(probe: &mut Probe<'_>) -> Step {
     let by_nothing = std::mem::take(&mut probe.session.refusals.by_nothing);
     if probe.session.refusals.by_number > 0 {
         // Whether a reply that is an error stops early or not, it was read as one.
-        probe.check("ADS-6", true, "", "");
-        probe.check("ADS-7", true, "", "");
+        probe.pass(["ADS-6", "ADS-7"]);
     }
     probe.take_over(by_nothing);
     Ok(())

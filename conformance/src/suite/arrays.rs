@@ -3,9 +3,7 @@
 use ads_cnc::Description;
 use ads_cnc::operation::{ReadByHandle, ReadByName};
 
-use super::layout::{brackets, element_name};
-use super::probe::Probe;
-use super::values::{each, each_array};
+use super::kit::{Probe, brackets, each_array, each_variable, element_name};
 use super::{Row, case};
 use crate::judge::{Needs, Step, assumed};
 
@@ -38,10 +36,8 @@ fn array_has_elements(probe: &mut Probe<'_>) -> Step {
         let whole_is_there = ask(probe, &[])?.is_some();
         let has_first = ask(probe, &first)?.is_some();
         if dimensions.len() == 1 && whole_is_there {
-            let expected = format!("element 0 of {name}, or no dimension", name = name.text);
-            for rule in ["VAR-4", "VAR-7"] {
-                probe.check(rule, has_first, &expected, "an error");
-            }
+            let expected = || format!("element 0 of {name}, or no dimension", name = name.text);
+            probe.check(["VAR-4", "VAR-7"], has_first, expected, "an error");
         }
         if !has_first {
             return Ok(());
@@ -49,7 +45,7 @@ fn array_has_elements(probe: &mut Probe<'_>) -> Step {
         for (axis, count) in dimensions.iter().enumerate() {
             let last = with(&first, axis, count.saturating_sub(1));
             let is_there = ask(probe, &last)?.is_some();
-            let expected = format!("{last:?} of the {dimensions:?} elements of {}", name.text);
+            let expected = || format!("{last:?} of the {dimensions:?} elements of {}", name.text);
             probe.check("VAR-4", is_there, expected, "an error");
         }
         Ok(())
@@ -90,7 +86,7 @@ fn index_out_of_bounds(probe: &mut Probe<'_>) -> Step {
 }
 
 fn number_of_indices(probe: &mut Probe<'_>) -> Step {
-    each(probe, |probe, channel, variable| {
+    each_variable(probe, |probe, channel, variable| {
         let m = variable.dimensions.len();
         let zeros = vec![0; m.saturating_add(1)];
         for n in [m.saturating_sub(1), m.saturating_add(1)] {

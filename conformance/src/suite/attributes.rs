@@ -1,18 +1,14 @@
 //! Cases of the attributes of elements: each in the group of its own.
 
-use ads_cnc::Decode;
-use ads_cnc::address::{Addressing, Channel, Class, ClassGroup, ElementAddress};
+use ads_cnc::address::Class;
 use ads_cnc::operation::{
-    ReadElement, ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit,
-    ReadElementWriteFlag, Request,
+    ReadElement, ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit, Request,
 };
 use ads_cnc::sda::{ElementLength, ElementText};
 
-use super::addresses::Addresses;
-use super::probe::Probe;
-use super::steady::Steady;
+use super::kit::{Addresses, Probe, Steady, attribute_reads, element_by_rank};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop};
+use crate::judge::{Needs, Step, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -31,15 +27,6 @@ fn is_type(name: &str) -> bool {
     types.contains(&name) || name == "STRING"
 }
 
-/// An attribute, if it is answered with what it is made of.
-fn read<T: for<'b> Decode<'b>>(
-    probe: &mut Probe<'_>,
-    request: impl Into<Request<'static>>,
-) -> Step<Option<T>> {
-    let data = probe.try_ask(request)?;
-    Ok(data.and_then(|data| T::decode(&data).ok()))
-}
-
 fn text(text: &ElementText) -> String {
     text.text.text.to_string()
 }
@@ -48,25 +35,26 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances()? {
         for element in instance.elements() {
             let at = format!("element {} of {instance}", element.index_offset());
-            let name: Option<ElementText> = read(probe, ReadElementName::new(element))?;
-            let unit: Option<ElementText> = read(probe, ReadElementUnit::new(element))?;
-            let of_type: Option<ElementText> = read(probe, ReadElementType::new(element))?;
+            let name: Option<ElementText> = probe.try_read(ReadElementName::new(element))?;
+            let unit: Option<ElementText> = probe.try_read(ReadElementUnit::new(element))?;
+            let of_type: Option<ElementText> = probe.try_read(ReadElementType::new(element))?;
             let Some(of_type) = of_type else { continue };
             let of_type = text(&of_type);
             for (attribute, group) in [(&name, "0x100"), (&unit, "0x400")] {
                 let Some(other) = attribute.as_ref().map(text) else { continue };
                 // Types may have other names than the manual's, but names are no types.
                 let swapped = is_type(&other) && !is_type(&of_type);
-                let found = format!("{other:?} at {group}, {of_type:?} at 0x200 for {at}");
+                let found = || format!("{other:?} at {group}, {of_type:?} at 0x200 for {at}");
                 probe.check("ADR-6", !swapped, "the type at 0x200", found);
             }
-            let length: Option<ElementLength> = read(probe, ReadElementLength::new(element))?;
+            let length: Option<ElementLength> = probe.try_read(ReadElementLength::new(element))?;
             let Some(length) = length.map(ElementLength::get) else { continue };
             let Ok(content) = ReadElement::new(element, length) else { continue };
             // That it is read at all is judged elsewhere.
             let Some(content) = probe.try_ask(content)? else { continue };
             let same = u32::try_from(content.len()) == Ok(length);
-            let found = format!("{length} at 0x300, a content of {} bytes for {at}", content.len());
+            let found =
+                || format!("{length} at 0x300, a content of {} bytes for {at}", content.len());
             probe.check("ADR-6", same, "the length of the content at 0x300", found);
         }
     }
@@ -74,29 +62,16 @@ fn attributes(probe: &mut Probe<'_>) -> Step {
 }
 
 fn by_index(probe: &mut Probe<'_>) -> Step {
-    let ranks: Vec<(u8, Channel)> = (1_u8..).zip(probe.channels()?).collect();
     let mut steady = Steady::default();
     for instance in probe.instances()? {
-        let mut ranks = ranks.iter();
-        let rank = ranks.find(|(_, channel)| u32::from(channel.number()) == instance.channel);
-        let (Some((rank, _)), false) = (rank, instance.class == Class::Spindle) else { continue };
+        let rank = probe.rank_of(instance.channel).filter(|_| instance.class != Class::Spindle);
+        let Some(rank) = rank else { continue };
         for element in std::iter::once(instance.first).chain(instance.elements()) {
-            let group = element.class_group();
-            let group = ClassGroup { addressing: Addressing::Index, instance: *rank, ..group };
-            let other = ElementAddress::new(group, element.index_offset());
-            let requests = |element| -> [Request<'static>; 5] {
-                [
-                    ReadElementName::new(element).into(),
-                    ReadElementType::new(element).into(),
-                    ReadElementLength::new(element).into(),
-                    ReadElementUnit::new(element).into(),
-                    ReadElementWriteFlag::new(element).into(),
-                ]
-            };
-            for (one, other) in requests(element).into_iter().zip(requests(other)) {
+            let by_rank = attribute_reads(element_by_rank(element, rank));
+            for (one, other) in attribute_reads(element).into_iter().zip(by_rank) {
                 let what = one.function().spec().name;
                 let what = format!("{what} {} of {instance}", element.index_offset());
-                steady.same(probe, &["ADR-1", "ADR-12"].map(Rule::from), &what, one, other)?;
+                steady.same(probe, ["ADR-1", "ADR-12"], what, one, other)?;
             }
         }
     }
@@ -118,7 +93,7 @@ fn within(probe: &mut Probe<'_>) -> Step {
             (ReadElementUnit::new(element).into(), held.unit.to_string(), "unit"),
         ];
         for (request, text_of, what) in &own {
-            let text_read: Option<ElementText> = read(probe, *request)?;
+            let text_read: Option<ElementText> = probe.try_read(*request)?;
             let Some(text_read) = text_read.as_ref().map(text) else { continue };
             // What it says in place of what it has is its own affair, unless that is another thing.
             let others = own.iter().filter(|(_, _, other)| other != what);
@@ -129,17 +104,14 @@ fn within(probe: &mut Probe<'_>) -> Step {
                     .any(|one| one.holder == held.holder && one.name.to_string() == text_read);
             let taken = others.any(|other| *other == text_read) || of_others;
             let kept = text_read == *text_of || text_read.is_empty() || !taken;
-            let found = format!("{text_read:?} for {at}");
-            probe.check("ADR-6", kept, format!("the {what} {text_of:?}"), found);
+            let found = || format!("{text_read:?} for {at}");
+            probe.check("ADR-6", kept, || format!("the {what} {text_of:?}"), found);
         }
-        let length: Option<ElementLength> = read(probe, ReadElementLength::new(element))?;
+        let length: Option<ElementLength> = probe.try_read(ReadElementLength::new(element))?;
         let length = length.map(ElementLength::get).and_then(|length| usize::try_from(length).ok());
         let (expected, found) =
             (format!("a length of {}", held.value.len()), format!("{length:?} for {at}"));
         probe.check("ADR-6", length == Some(held.value.len()), expected, found);
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("the CNC has no element".to_owned())),
-    }
+    applicable(any, "the CNC has no element")
 }

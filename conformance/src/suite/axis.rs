@@ -4,17 +4,17 @@ use std::collections::HashMap;
 
 use ads_cnc::address::{Channel, ChannelAxis};
 use ads_cnc::operation::{
-    AxisHandleByName, AxisReadByName, Call, HandleByName, ReadByHandle, ReadByName, Request,
+    AxisHandleByName, AxisReadByName, HandleByName, ReadByHandle, ReadByName, Request,
 };
-use ads_cnc::{CncString, Decode as _, Description, Handle, Kind, TextRef, U32List, VariablePath};
+use ads_cnc::{CncString, Decode as _, Description, Handle, TextRef, U32List};
 use ads_cnc_vectors::Hex;
 
-use super::axis_interface::{self, PLACES_MAX, answering};
-use super::probe::{Probe, harness};
-use super::steady::Steady;
-use super::variable::name_of;
+use super::kit::{
+    AxisHandle, PLACES_MAX, Probe, RawCall, Steady, answering_places, axis_names, axis_variables,
+    name_of,
+};
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop, assumed};
+use crate::judge::{Needs, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -28,67 +28,31 @@ pub(super) const CASES: &[Row] = &[
         "At axis 0 the offsets of the axis interface are other functions"),
 ];
 
-/// The axis variables of a channel as described, with their names on the axis interface.
-pub(super) fn described(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-) -> Step<Vec<(CncString, Description)>> {
-    let all = probe.variables(channel)?;
-    let of_axes = all.into_iter().filter_map(|variable| {
-        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
-        if path.kind() != Kind::V_A {
-            return None;
-        }
-        path.axis()?;
-        Some((path.without_axis().ok()?, variable))
-    });
-    Ok(of_axes.collect())
-}
-
 /// Each place of each channel at which a variable with this name answers: with its handle.
 fn each(
     probe: &mut Probe<'_>,
-    mut judge: impl FnMut(&mut Probe<'_>, At<'_>, &Description) -> Step,
+    mut judge: impl FnMut(&mut Probe<'_>, AxisVariable<'_>, &Description) -> Step,
 ) -> Step {
     let mut any = false;
     for channel in probe.channels()? {
-        let described = described(probe, channel)?;
+        let described = axis_variables(probe, channel)?;
         let by_handle: HashMap<u32, &(CncString, Description)> =
             described.iter().map(|one| (one.1.handle.0, one)).collect();
-        for name in names(&described) {
-            for axis_interface::At { axis, handle } in answering(probe, channel, name)? {
+        for name in axis_names(&described) {
+            for AxisHandle { axis, handle } in answering_places(probe, channel, name)? {
                 // Where no axis is nothing is described.
                 let Some((own, variable)) = by_handle.get(&handle.0) else { continue };
                 any = true;
-                let at = At { channel, axis, name, own };
+                let at = AxisVariable { channel, axis, name, own };
                 judge(probe, at, variable)?;
             }
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("the target describes no axis variable".to_owned())),
-    }
-}
-
-pub(super) fn names(described: &[(CncString, Description)]) -> Vec<&CncString> {
-    let mut names: Vec<&CncString> = described.iter().map(|(name, _)| name).collect();
-    names.sort_by_key(|name| name.as_bytes());
-    names.dedup();
-    names
-}
-
-/// The name on the axis interface of a variable that some axis has.
-pub(super) fn name_on_axes(variables: &[Description]) -> Option<CncString> {
-    variables.iter().find_map(|variable| {
-        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
-        let of_axis = path.kind() == Kind::V_A && path.axis().is_some();
-        of_axis.then(|| path.without_axis().ok()).flatten()
-    })
+    applicable(any, "the target describes no axis variable")
 }
 
 /// A variable on the axis interface.
-struct At<'a> {
+struct AxisVariable<'a> {
     channel: Channel,
     axis: ChannelAxis,
     /// The name it was asked for by.
@@ -97,7 +61,7 @@ struct At<'a> {
     own: &'a CncString,
 }
 
-impl std::fmt::Display for At<'_> {
+impl std::fmt::Display for AxisVariable<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} of place {}", self.name, self.axis.index())
     }
@@ -105,35 +69,38 @@ impl std::fmt::Display for At<'_> {
 
 fn handles(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        let described = described(probe, channel)?;
-        let first = ChannelAxis::new(1).map_err(harness)?;
+        let described = axis_variables(probe, channel)?;
+        let first = ChannelAxis::new(1)?;
         // An axis is at one place at least of a channel that describes one.
         let mut any = described.is_empty();
         let mut at_places: HashMap<u32, u32> = HashMap::new();
         for place in 1..=PLACES_MAX {
-            let axis = ChannelAxis::new(place).map_err(harness)?;
-            for name in names(&described) {
+            let axis = ChannelAxis::new(place)?;
+            for name in axis_names(&described) {
                 let request = AxisHandleByName { channel, axis, name: name.as_cnc_str().into() };
                 let Some(data) = probe.try_ask(request)? else { continue };
                 any = true;
                 let handle = Handle::decode(&data);
-                let found = format!("{} for {name} of place {place}", Hex(data));
+                let found = || format!("{} for {name} of place {place}", Hex(data));
                 probe.check("VAR-26", handle.is_ok(), "a handle of 4 bytes", found);
                 let Ok(Handle(handle)) = handle else { continue };
                 // It belongs to the place; what no axis is at may have any.
                 let known = described.iter().any(|(_, variable)| variable.handle.0 == handle);
                 let other = at_places.insert(handle, place);
                 let other = other.filter(|other| known && *other != place);
-                let found = format!("the handle {handle:#x} of place {place} and of {other:?}");
-                for rule in ["VAR-10", "VAR-26", "ADR-7"] {
-                    probe.check(rule, other.is_none(), "a handle of each place", &found);
-                }
+                let found = || format!("the handle {handle:#x} of place {place} and of {other:?}");
+                probe.check(
+                    ["VAR-10", "VAR-26", "ADR-7"],
+                    other.is_none(),
+                    "a handle of each place",
+                    found,
+                );
             }
             if !any && axis != first {
                 break;
             }
         }
-        let found = format!("none answers in channel {}", channel.number());
+        let found = || format!("none answers in channel {}", channel.number());
         probe.check("VAR-26", any, "handles by name on the axis interface", found);
         // That there is but one handle is said nowhere.
         let handles = described.iter().map(|(_, variable)| variable.handle.0);
@@ -142,16 +109,14 @@ fn handles(probe: &mut Probe<'_>) -> Step {
             // The place it belongs to is one of those counted from 1.
             let name = &variable.name.text;
             let has_place = !is_one_number || at_places.contains_key(&variable.handle.0);
-            let expected = format!("a place from 1 on with the handle of {name}");
-            for rule in ["VAR-26", "GEN-6"] {
-                probe.check(rule, has_place, &expected, "none has it");
-            }
+            let expected = || format!("a place from 1 on with the handle of {name}");
+            probe.check(["VAR-26", "GEN-6"], has_place, expected, "none has it");
         }
     }
     each(probe, |probe, at, variable| {
-        let found = format!("that of {} for {at}", variable.name.text);
+        let found = || format!("that of {} for {at}", variable.name.text);
         let same = at.own == at.name;
-        probe.check("VAR-26", same, format!("the handle of a {}", at.name), &found);
+        probe.check("VAR-26", same, || format!("the handle of a {}", at.name), found);
         probe.check("VAR-10", same, "a handle of this variable", found);
         Ok(())
     })
@@ -160,28 +125,19 @@ fn handles(probe: &mut Probe<'_>) -> Step {
 fn values(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     each(probe, |probe, at, variable| {
-        let At { channel, axis, name, .. } = at;
+        let AxisVariable { channel, axis, name, .. } = at;
         let request = AxisReadByName { channel, axis, name: name.as_cnc_str().into() };
         let value = probe.ask("VAR-26", request)?;
         if variable.var_type.element_size().is_some() {
             let sized = u32::try_from(value.len()) == Ok(variable.size);
-            let found = format!("{} bytes of {at}", value.len());
-            probe.check("VAR-26", sized, format!("its {} bytes", variable.size), found);
+            let found = || format!("{} bytes of {at}", value.len());
+            probe.check("VAR-26", sized, || format!("its {} bytes", variable.size), found);
         }
-        let what = at.to_string();
         let by_name = ReadByName { channel, name: name_of(variable) };
-        steady.same_part(
-            probe,
-            &["VAR-26".into()],
-            &what,
-            by_name.into(),
-            request.into(),
-            <[u8]>::to_vec,
-        )?;
+        steady.same(probe, "VAR-26", &at, by_name, request)?;
         // That handles of this interface are used there is assumed.
         let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
-        let rules = [assumed("VAR-10")];
-        steady.same_part(probe, &rules, &what, by_handle.into(), request.into(), <[u8]>::to_vec)
+        steady.same(probe, assumed("VAR-10"), &at, by_handle, request)
     })?;
     steady.finish()
 }
@@ -197,8 +153,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     let handle = |axis, name| AxisHandleByName { channel, axis, name };
     let read = |axis, name| AxisReadByName { channel, axis, name };
     for unknown in ["V.A.no such variable", "V.A.", ""] {
-        let (what, bad) =
-            (format!("the name {unknown:?}"), TextRef::new(unknown).map_err(harness)?);
+        let (what, bad) = (format!("the name {unknown:?}"), TextRef::new(unknown)?);
         probe.refuses("ADS-4", &what, handle(axis, bad), handle(axis, good))?;
         probe.refuses("ADS-4", &what, read(axis, bad), read(axis, good))?;
     }
@@ -213,7 +168,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
     probe.refuses("VAR-26", &what, of_channel(good), of_channel(with_axis))?;
     let of_channel = |name| ReadByName { channel, name };
     probe.refuses("VAR-26", &what, of_channel(good), of_channel(with_axis))?;
-    let far = ChannelAxis::new(0xFFFF).map_err(harness)?;
+    let far = ChannelAxis::new(0xFFFF)?;
     let what = "a place that no channel has";
     probe.refuses("VAR-26", what, handle(far, good), handle(axis, good))?;
     probe.refuses("VAR-26", what, read(far, good), read(axis, good))
@@ -221,19 +176,19 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
 
 fn zero(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, at, _| {
-        let At { channel, axis, name, .. } = at;
+        let AxisVariable { channel, axis, name, .. } = at;
         let name = TextRef::from(name.as_cnc_str());
         let requests: [Request<'_>; 2] = [
             AxisHandleByName { channel, axis, name }.into(),
             AxisReadByName { channel, axis, name }.into(),
         ];
         for request in requests {
-            let mut buf = [0; 256];
-            let good = request.encode(&mut buf).map_err(harness)?;
+            let good = RawCall::new(request)?;
             let offset = good.index_offset.get() & 0xFFFF;
-            let bad = Call { index_offset: ads_cnc::address::IndexOffset::new(offset), ..good };
+            let bad =
+                good.with(|call| call.index_offset = ads_cnc::address::IndexOffset::new(offset));
             let what = format!("a name at offset {offset:#x}, without an axis");
-            probe.refused("VAR-26", &what, &bad, &good)?;
+            probe.refuses("VAR-26", &what, &bad, &good)?;
         }
         Ok(())
     })

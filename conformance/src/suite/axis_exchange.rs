@@ -3,10 +3,7 @@
 use ads_cnc::address::{AxisStride, Channel, ChannelAxis, Class, PlatformAxis};
 use ads_cnc::operation::{AxisHandleByName, ObjectList, ReadElement, Request};
 
-use super::content::read_of;
-use super::inventory::OF_PLACES;
-use super::probe::{Probe, harness};
-use super::sda::length_of;
+use super::kit::{OF_PLACES, Probe};
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop};
 
@@ -49,7 +46,7 @@ fn contents(
             continue;
         }
         for element in instance.elements() {
-            let Some(length) = length_of(probe, element)? else { continue };
+            let Some(length) = probe.length_of(element)? else { continue };
             let Ok(read) = ReadElement::new(element, length) else { continue };
             all.push(still(probe, read)?);
         }
@@ -63,7 +60,7 @@ fn objects(probe: &mut Probe<'_>, list: ObjectList, axis: Option<u32>) -> Step<V
     let mut all = Vec::new();
     for object in probe.objects()?.iter().filter(|object| object.list == list) {
         let at = object.offset.axis_and_element(AxisStride::X10000).map_or(0, |(axis, _)| axis);
-        let Some(read) = read_of(object).filter(|_| axis.is_none_or(|axis| axis == at)) else {
+        let Some(read) = object.read().filter(|_| axis.is_none_or(|axis| axis == at)) else {
             continue;
         };
         all.push(still(probe, read)?);
@@ -78,8 +75,9 @@ const OF_PLATFORM: [Class; 2] = [Class::PositionController, Class::Hld];
 fn exchange(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     if (cnc.axis_at(1, 2), cnc.axis_at(1, 3)) != (2, 3) {
-        let why = "the places 2 and 3 of channel 1 have not the axes 2 and 3";
-        return Err(Stop::NotApplicable(why.to_owned()));
+        return Err(Stop::not_applicable(
+            "the places 2 and 3 of channel 1 have not the axes 2 and 3",
+        ));
     }
     let places = |probe: &mut Probe<'_>, place| -> Step<Vec<Content>> {
         let mut all = contents(probe, &OF_PLACES, 1, place)?;
@@ -92,23 +90,22 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
         all.extend(contents(probe, &OF_PLATFORM, 0, 3)?);
         all.extend(contents(probe, &[Class::Hld], 1, 3)?);
         for place in [2, 3] {
-            let list = ObjectList::from(PlatformAxis::new(place).map_err(harness)?);
+            let list = ObjectList::from(PlatformAxis::new(place)?);
             all.extend(objects(probe, list, None)?);
         }
         Ok(all)
     };
     let handle_of = |probe: &mut Probe<'_>| {
-        let (channel, axis) =
-            (Channel::new(1).map_err(harness)?, ChannelAxis::new(2).map_err(harness)?);
-        probe.try_ask(AxisHandleByName::new(channel, axis, "V.A.WCS").map_err(harness)?)
+        let (channel, axis) = (Channel::new(1)?, ChannelAxis::new(2)?);
+        probe.try_ask(AxisHandleByName::new(channel, axis, "V.A.WCS")?)
     };
     let (before, of_platform, handle) = (places(probe, 3)?, platform(probe)?, handle_of(probe)?);
     if cnc.exchange_axis(1, 2, 3).is_err() {
-        return Err(Stop::NotApplicable("channel 1 has no axis 3 to be exchanged".to_owned()));
+        return Err(Stop::not_applicable("channel 1 has no axis 3 to be exchanged"));
     }
     let after = (places(probe, 2), places(probe, 3), platform(probe), handle_of(probe));
     // In the order in which they do not get into each other's way.
-    cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3)).map_err(harness)?;
+    cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3))?;
     let (second, third, platform_after, handle_after) = after;
     if let Some(moved) = alike(&before, &second?) {
         probe.check("ADR-13", moved, "the values of axis 3 at place 2 now", "others");
@@ -127,8 +124,8 @@ fn exchange(probe: &mut Probe<'_>) -> Step {
     );
     probe.check("VAR-10", same, expected, "another");
     match alike(&before, &places(probe, 3)?) {
-        Some(back) => probe.require(&["ADR-13".into()], back, "axis 3 at place 3 again", "others"),
-        None => Err(Stop::Inconclusive("no axis stands still".to_owned())),
+        Some(back) => probe.require("ADR-13", back, "axis 3 at place 3 again", "others"),
+        None => Err(Stop::inconclusive("no axis stands still")),
     }
 }
 

@@ -4,17 +4,17 @@ use std::collections::HashSet;
 
 use ads_cnc::address::{Channel, ChannelAxis, IndexOffset};
 use ads_cnc::operation::{
-    AxisHandleByName, AxisReadByName, Call, HandleByName, ReadByHandle, ReadByName, Request,
+    AxisHandleByName, AxisReadByName, HandleByName, ReadByHandle, ReadByName, Request,
 };
-use ads_cnc::{CncString, Decode as _, Description, Handle, TextRef, U32List};
+use ads_cnc::{CncString, Description, Handle, TextRef, U32List};
 use ads_cnc_vectors::Hex;
 
-use super::axis::{described, names};
-use super::axis_interface::{At, answering};
-use super::probe::{Probe, harness};
-use super::variable::name_of;
+use super::kit::{
+    AxisHandle, Compared, Probe, RawCall, answering_places, axis_names, axis_variables, compare,
+    name_of,
+};
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop, assumed};
+use crate::judge::{Needs, Step, Stop, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -31,41 +31,31 @@ pub(super) const CASES: &[Row] = &[
 fn places(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for channel in probe.channels()? {
-        let described = described(probe, channel)?;
+        let described = axis_variables(probe, channel)?;
         let handles: HashSet<u32> = described.iter().map(|one| one.1.handle.0).collect();
-        for name in names(&described) {
+        for name in axis_names(&described) {
             any = true;
-            let places = answering(probe, channel, name)?;
+            let places = answering_places(probe, channel, name)?;
             let own: Vec<&Description> =
                 described.iter().filter(|one| one.0 == *name).map(|one| &one.1).collect();
-            let found = format!("{} places of channel {}", places.len(), channel.number());
-            let expected = format!("a place for each {name} of {} axes", own.len());
-            for rule in ["VAR-26", "GEN-6"] {
-                probe.check(rule, places.len() >= own.len(), &expected, &found);
-            }
+            let found = || format!("{} places of channel {}", places.len(), channel.number());
+            let expected = || format!("a place for each {name} of {} axes", own.len());
+            probe.check(["VAR-26", "GEN-6"], places.len() >= own.len(), expected, found);
             // An axis is at one place. Where none is, handles are nobody's.
             let mut seen = HashSet::new();
             for at in places.iter().filter(|at| handles.contains(&at.handle.0)) {
-                let found = format!("{:?} of place {} too", at.handle, at.axis.index());
-                let expected = format!("another handle at each place for {name}");
+                let found = || format!("{:?} of place {} too", at.handle, at.axis.index());
+                let expected = || format!("another handle at each place for {name}");
                 let own = seen.insert(at.handle.0);
-                for rule in ["VAR-10", "VAR-26"] {
-                    probe.check(rule, own, &expected, &found);
-                }
+                probe.check(["VAR-10", "VAR-26"], own, expected, found);
             }
             for variable in own {
                 at_a_place(probe, channel, name, variable, &places)?;
             }
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("the target describes no axis variable".to_owned())),
-    }
+    applicable(any, "the target describes no axis variable")
 }
-
-/// How often a value that does not stand still is looked for again.
-const TRIES: usize = 3;
 
 /// The value with the axis's name behind it is that of one of the places.
 fn at_a_place(
@@ -73,86 +63,87 @@ fn at_a_place(
     channel: Channel,
     name: &CncString,
     variable: &Description,
-    places: &[At],
+    places: &[AxisHandle],
 ) -> Step {
     let by_name = ReadByName { channel, name: name_of(variable) };
-    for _ in 0..TRIES {
-        let Some(before) = probe.try_ask(by_name)? else { return Ok(()) };
+    let find = |probe: &mut Probe<'_>, value: &Vec<u8>| -> Step<Option<bool>> {
         for at in places {
             let name = name.as_cnc_str().into();
             let read = probe.try_ask(AxisReadByName { channel, axis: at.axis, name })?;
-            if read.as_ref() == Some(&before) {
-                probe.check("VAR-26", true, "", "");
-                return Ok(());
+            if read.as_ref() == Some(value) {
+                return Ok(Some(true));
             }
         }
-        if probe.try_ask(by_name)?.as_ref() == Some(&before) {
-            let expected = format!("{} of {} at a place", Hex(before), variable.name.text);
-            let found = format!("other values at all {} places", places.len());
+        Ok(Some(false))
+    };
+    match compare(probe, |probe| probe.try_ask(by_name), find, |_, is_found| *is_found)? {
+        Compared::Same => probe.pass("VAR-26"),
+        Compared::Differs(value, ..) => {
+            let expected = || format!("{} of {} at a place", Hex(value), variable.name.text);
+            let found = || format!("other values at all {} places", places.len());
             probe.check("VAR-26", false, expected, found);
-            return Ok(());
         }
+        Compared::NoValue | Compared::NoAnswer | Compared::Moved => {}
     }
     Ok(())
 }
 
 /// A name that answers at a place where an axis is, with its handle there.
-fn one(probe: &mut Probe<'_>) -> Step<(Channel, At, CncString)> {
+fn one(probe: &mut Probe<'_>) -> Step<(Channel, AxisHandle, CncString)> {
     for channel in probe.channels()? {
-        let described = described(probe, channel)?;
+        let described = axis_variables(probe, channel)?;
         let handles: HashSet<u32> = described.iter().map(|one| one.1.handle.0).collect();
-        for name in names(&described) {
-            let mut places = answering(probe, channel, name)?.into_iter();
+        for name in axis_names(&described) {
+            let mut places = answering_places(probe, channel, name)?.into_iter();
             if let Some(at) = places.rfind(|at| handles.contains(&at.handle.0)) {
                 return Ok((channel, at, name.clone()));
             }
         }
     }
-    Err(Stop::NotApplicable("no axis variable is on the axis interface".to_owned()))
+    Err(Stop::not_applicable("no axis variable is on the axis interface"))
 }
 
 /// What there is of places that are not there is not said, but that it is no axis.
 fn too_far(probe: &mut Probe<'_>) -> Step {
-    let (channel, At { axis, handle }, name) = one(probe)?;
+    let (channel, AxisHandle { axis, handle }, name) = one(probe)?;
     for bit in [0x100_u32, 0x200, 0x1000, 0x4000, 0x8000] {
-        let far = ChannelAxis::new(u32::from(axis.index()) | bit).map_err(harness)?;
+        let far = ChannelAxis::new(u32::from(axis.index()) | bit)?;
         let request = AxisHandleByName { channel, axis: far, name: name.as_cnc_str().into() };
-        let given = probe.try_ask(request)?.and_then(|data| Handle::decode(&data).ok());
-        let expected = format!("not the handle of place {} at {}", axis.index(), far.index());
-        probe.check("VAR-26", given != Some(handle), expected, format!("{handle:?}"));
+        let given = probe.try_read::<Handle>(request)?;
+        let expected = || format!("not the handle of place {} at {}", axis.index(), far.index());
+        probe.check("VAR-26", given != Some(handle), expected, || format!("{handle:?}"));
     }
     Ok(())
 }
 
 fn reserved(probe: &mut Probe<'_>) -> Step {
-    let (channel, At { axis, .. }, name) = one(probe)?;
+    let (channel, AxisHandle { axis, .. }, name) = one(probe)?;
     let name = TextRef::from(name.as_cnc_str());
     let request = Request::from(AxisReadByName { channel, axis, name });
-    let mut buf = [0; 256];
-    let good = request.encode(&mut buf).map_err(harness)?;
+    let good = RawCall::new(request)?;
     let of_place = good.index_offset.get() & 0xFFFF_0000;
     for function in 7..=9 {
         let offset = IndexOffset::new(of_place | function);
         let what = format!("a name at offset {:#x}", offset.get());
-        let bad = Call { index_offset: offset, ..good };
-        probe.refused("VAR-26", &what, &bad, &good)?;
+        let bad = good.with(|call| call.index_offset = offset);
+        probe.refuses("VAR-26", &what, &bad, &good)?;
     }
     Ok(())
 }
 
 /// What is read of a variable of an axis in the ways there are.
 #[derive(PartialEq, Eq)]
-struct Seen {
+struct AxisReadings {
     by_place: Vec<u8>,
     by_handle: Vec<u8>,
 }
 
-fn seen(probe: &mut Probe<'_>, place: u32, handle: Handle) -> Step<Seen> {
-    let channel = Channel::new(1).map_err(harness)?;
-    let axis = ChannelAxis::new(place).map_err(harness)?;
-    let by_place = AxisReadByName::new(channel, axis, NAME).map_err(harness)?;
+fn seen(probe: &mut Probe<'_>, place: u32, handle: Handle) -> Step<AxisReadings> {
+    let channel = Channel::new(1)?;
+    let axis = ChannelAxis::new(place)?;
+    let by_place = AxisReadByName::new(channel, axis, NAME)?;
     let by_handle = ReadByHandle::new(channel, handle, U32List::EMPTY);
-    Ok(Seen {
+    Ok(AxisReadings {
         by_place: probe.try_ask(by_place)?.unwrap_or_default(),
         by_handle: probe.try_ask(by_handle)?.unwrap_or_default(),
     })
@@ -164,28 +155,28 @@ const NAME: &str = "V.A.WCS";
 /// the third the axis 3, Z.
 fn exchanged(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
-    let channel = Channel::new(1).map_err(harness)?;
+    let channel = Channel::new(1)?;
     let mut handles = Vec::new();
     for place in [2, 3] {
-        let axis = ChannelAxis::new(place).map_err(harness)?;
-        let request = AxisHandleByName::new(channel, axis, NAME).map_err(harness)?;
-        let handle = probe.try_ask(request)?.and_then(|data| Handle::decode(&data).ok());
+        let axis = ChannelAxis::new(place)?;
+        let request = AxisHandleByName::new(channel, axis, NAME)?;
+        let handle = probe.try_read::<Handle>(request)?;
         handles.extend(handle);
     }
     let &[second, third] = handles.as_slice() else {
-        return Err(Stop::NotApplicable("channel 1 has no third axis".to_owned()));
+        return Err(Stop::not_applicable("channel 1 has no third axis"));
     };
     let (of_y, of_z) = (seen(probe, 2, second)?, seen(probe, 3, third)?);
     if cnc.exchange_axis(1, 2, 3).is_err() {
-        return Err(Stop::NotApplicable("channel 1 has no axis 3 to be exchanged".to_owned()));
+        return Err(Stop::not_applicable("channel 1 has no axis 3 to be exchanged"));
     }
     let one_moved = seen(probe, 2, second);
     let left = seen(probe, 3, third);
     let named = of_axis_z(probe, channel);
-    let swapped = cnc.exchange_axis(1, 3, 2).map_err(harness);
+    let swapped = cnc.exchange_axis(1, 3, 2);
     let both = (seen(probe, 2, second), seen(probe, 3, third));
     // In the order in which they do not get into each other's way.
-    cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3)).map_err(harness)?;
+    cnc.exchange_axis(1, 2, 2).and_then(|()| cnc.exchange_axis(1, 3, 3))?;
     swapped?;
     same(probe, &one_moved?, &of_z, "axis 3 at place 2");
     same(probe, &both.0?, &of_z, "axis 3 at place 2, and axis 2 at place 3");
@@ -193,39 +184,38 @@ fn exchanged(probe: &mut Probe<'_>) -> Step {
     // What is read where no axis is, is assumed; not so that no axis is at two places.
     let (left, found) = (left?.by_place, Hex(of_z.by_place.clone()));
     let gone = left != of_z.by_place;
-    probe.check("VAR-26", gone, "axis 3 no more at place 3", format!("{found} there still"));
+    probe.check("VAR-26", gone, "axis 3 no more at place 3", || format!("{found} there still"));
     let (handle, value) = named?;
     // That both interfaces have the same handles is assumed.
-    let expected = format!("{second:?} of place 2 for {NAME}.Z");
-    probe.check(assumed("VAR-10"), handle == Some(second), expected, format!("{handle:?}"));
-    let expected = format!("{found} of {NAME}.Z");
+    let expected = || format!("{second:?} of place 2 for {NAME}.Z");
+    probe.check(assumed("VAR-10"), handle == Some(second), expected, || format!("{handle:?}"));
+    let expected = || format!("{found} of {NAME}.Z");
     for (rule, value) in [("VAR-26", value.by_place), ("VAR-10", value.by_handle)] {
-        probe.check(rule, value == of_z.by_place, &expected, Hex(value));
+        probe.check(rule, value == of_z.by_place, expected, || Hex(value));
     }
     let back = seen(probe, 3, third)? == of_z && seen(probe, 2, second)? == of_y;
-    probe.require(&["VAR-26".into()], back, "all axes where they were", "others")
+    probe.require("VAR-26", back, "all axes where they were", "others")
 }
 
 /// By its name on the channel interface, and by the handle that it has there.
-fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, Seen)> {
+fn of_axis_z(probe: &mut Probe<'_>, channel: Channel) -> Step<(Option<Handle>, AxisReadings)> {
     let name = format!("{NAME}.Z");
-    let handle = probe.try_ask(HandleByName::new(channel, &name).map_err(harness)?)?;
-    let handle = handle.and_then(|data| Handle::decode(&data).ok());
-    let by_name = probe.try_ask(ReadByName::new(channel, &name).map_err(harness)?)?;
+    let handle = probe.try_read::<Handle>(HandleByName::new(channel, &name)?)?;
+    let by_name = probe.try_ask(ReadByName::new(channel, &name)?)?;
     let by_handle = match handle {
         Some(handle) => probe.try_ask(ReadByHandle::new(channel, handle, U32List::EMPTY))?,
         None => None,
     };
     let (by_place, by_handle) = (by_name.unwrap_or_default(), by_handle.unwrap_or_default());
-    Ok((handle, Seen { by_place, by_handle }))
+    Ok((handle, AxisReadings { by_place, by_handle }))
 }
 
-fn same(probe: &mut Probe<'_>, found: &Seen, expected: &Seen, what: &str) {
+fn same(probe: &mut Probe<'_>, found: &AxisReadings, expected: &AxisReadings, what: &str) {
     for (rule, found, expected) in [
         ("VAR-26", &found.by_place, &expected.by_place),
         ("VAR-10", &found.by_handle, &expected.by_handle),
     ] {
-        let shown = format!("{} of {what}", Hex(expected.clone()));
-        probe.check(rule, found == expected, shown, Hex(found.clone()));
+        let shown = || format!("{} of {what}", Hex(expected.clone()));
+        probe.check(rule, found == expected, shown, || Hex(found.clone()));
     }
 }

@@ -1,22 +1,14 @@
 //! Cases of the order of the bytes of numbers.
 
-use ads_cnc::address::{Channel, Class, Group, IndexGroup};
-use ads_cnc::dynamic::{DynamicCount, DynamicKind};
-use ads_cnc::operation::{
-    CountDynamic, CountElements, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex,
-    DynamicValueByIndex, DynamicValueByName, HandleByName, ObjectList, ReadByName, ReadDescriptors,
-    ReadElementName, Request,
-};
-use ads_cnc::sda::ElementCount;
-use ads_cnc::{Decode, Handle, Kind, ObjectCount, VariableCount};
+use ads_cnc::Handle;
+use ads_cnc::address::{Class, Group, IndexGroup};
+use ads_cnc::dynamic::DynamicKind;
+use ads_cnc::operation::{DynamicValueByIndex, DynamicValueByName, HandleByName, ReadByName};
 use ads_cnc_vectors::Hex;
 
-use super::describe_by_name::kinds;
-use super::inventory::Instance;
-use super::probe::{Probe, harness};
-use super::variable::name_of;
+use super::kit::{Counted, Probe, is_permuted, name_of};
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop};
+use crate::judge::{IfThere as _, Needs, Step};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -28,100 +20,20 @@ pub(super) const CASES: &[Row] = &[
         "Values of variables and parameters come with their lowest byte first"),
 ];
 
-/// Something that is counted, and can be asked for by its number from 1.
-#[derive(Clone, Debug)]
-pub(super) enum Counted {
-    Objects(ObjectList),
-    Variables(Channel, &'static str, Kind<'static>),
-    Parameters(Channel, DynamicKind),
-    Elements(Instance),
-}
-
-impl std::fmt::Display for Counted {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Objects(list) => write!(f, "objects of {}", list.parts().index_group()),
-            Self::Variables(channel, kind, _) => {
-                write!(f, "{kind} of channel {}", channel.number())
-            }
-            Self::Parameters(channel, kind) => {
-                write!(f, "{kind:?} of channel {}", channel.number())
-            }
-            Self::Elements(instance) => write!(f, "elements of {instance}"),
-        }
-    }
-}
-
-impl Counted {
-    /// How many there are, as the target says.
-    pub(super) fn number(&self, probe: &mut Probe<'_>) -> Step<Option<u32>> {
-        fn read<T: for<'b> Decode<'b>>(
-            probe: &mut Probe<'_>,
-            request: Request<'_>,
-            get: fn(T) -> u32,
-        ) -> Step<Option<u32>> {
-            let data = probe.try_ask(request)?;
-            Ok(data.and_then(|data| T::decode(&data).ok()).map(get))
-        }
-        match self {
-            Self::Objects(list) => {
-                read(probe, CountObjects::new(*list).into(), |count: ObjectCount| count.0)
-            }
-            Self::Variables(channel, _, kind) => {
-                let request = CountVariables::new(*channel, *kind);
-                read(probe, request.into(), |count: VariableCount| count.0)
-            }
-            Self::Parameters(channel, kind) => {
-                let request = CountDynamic::new(*channel, *kind);
-                read(probe, request.into(), |count: DynamicCount| count.0)
-            }
-            Self::Elements(instance) => match CountElements::new(instance.first) {
-                Ok(request) => read(probe, request.into(), |count: ElementCount| count.0),
-                Err(_) => Ok(None),
-            },
-        }
-    }
-
-    /// Whether there is one with this number.
-    fn has(&self, probe: &mut Probe<'_>, number: u32) -> Step<bool> {
-        let request: Option<Request<'_>> = match self {
-            Self::Objects(list) => ReadDescriptors::new(*list, number, 1).ok().map(Into::into),
-            Self::Variables(channel, _, kind) => {
-                let index = number.checked_sub(1);
-                index.map(|index| DescribeByIndex::new(*channel, index, *kind).into())
-            }
-            Self::Parameters(channel, kind) => {
-                DynamicNameByIndex::new(*channel, *kind, number).ok().map(Into::into)
-            }
-            Self::Elements(instance) => {
-                let element = instance.first.nth(number).ok();
-                element.map(|element| ReadElementName::new(element).into())
-            }
-        };
-        let Some(request) = request else { return Ok(false) };
-        Ok(probe.try_ask(request)?.is_some_and(|data| !data.is_empty()))
-    }
-}
-
 /// Everything that is claimed to be counted.
 fn counted(probe: &mut Probe<'_>) -> Step<Vec<Counted>> {
     let mut all: Vec<Counted> = probe.lists()?.into_iter().map(Counted::Objects).collect();
     for channel in probe.channels()? {
-        let listed = kinds(probe).into_iter();
+        let listed = probe.kinds().into_iter();
         all.extend(listed.map(|(name, kind)| Counted::Variables(channel, name, kind)));
         all.extend(DynamicKind::ALL.map(|kind| Counted::Parameters(channel, kind)));
     }
-    match probe.instances() {
-        Ok(instances) => all.extend(instances.into_iter().map(Counted::Elements)),
-        Err(Stop::NotApplicable(_)) => {}
-        Err(stop) => return Err(stop),
-    }
+    let instances = probe.instances().if_applicable()?.unwrap_or_default();
+    all.extend(instances.into_iter().map(Counted::Elements));
     let mut claimed = Vec::new();
     for one in all {
-        match one.number(probe) {
-            Ok(_) => claimed.push(one),
-            Err(Stop::NotApplicable(_)) => {}
-            Err(stop) => return Err(stop),
+        if one.number(probe).if_applicable()?.is_some() {
+            claimed.push(one);
         }
     }
     Ok(claimed)
@@ -136,23 +48,18 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         let swapped = !one.has(probe, number)? && one.has(probe, from_behind)?;
-        let found = format!("{number:#x}, where the last is number {from_behind:#x}");
-        probe.check("GEN-1", !swapped, format!("the number of {one}"), found);
+        let found = || format!("{number:#x}, where the last is number {from_behind:#x}");
+        probe.check("GEN-1", !swapped, || format!("the number of {one}"), found);
     }
     for channel in probe.channels()? {
-        let variables = match probe.variables(channel) {
-            Ok(variables) => variables,
-            Err(Stop::NotApplicable(_) | Stop::Inconclusive(_)) => continue,
-            Err(stop) => return Err(stop),
-        };
-        for variable in variables {
+        for variable in probe.variables(channel).if_known()?.unwrap_or_default() {
             let name = name_of(&variable);
-            let Some(data) = probe.try_ask(HandleByName { channel, name })? else { continue };
-            let Ok(handle) = Handle::decode(&data) else { continue };
+            let handle: Option<Handle> = probe.try_read(HandleByName { channel, name })?;
+            let Some(handle) = handle else { continue };
             let known = variable.handle.0;
             let swapped = handle.0 != known && handle.0.swap_bytes() == known;
-            let expected = format!("{:?} of {}", variable.handle, variable.name.text);
-            probe.check("GEN-1", !swapped, expected, format!("{handle:?}"));
+            let expected = || format!("{:?} of {}", variable.handle, variable.name.text);
+            probe.check("GEN-1", !swapped, expected, || format!("{handle:?}"));
         }
     }
     Ok(())
@@ -161,66 +68,39 @@ fn number_order(probe: &mut Probe<'_>) -> Step {
 /// A number that makes no sense, but does from behind.
 fn in_order(probe: &mut Probe<'_>, what: &str, number: u32, makes_sense: impl Fn(u32) -> bool) {
     let swapped = !makes_sense(number) && makes_sense(number.swap_bytes());
-    let found = format!("{number:#x} for {what}");
+    let found = || format!("{number:#x} for {what}");
     probe.check("GEN-1", !swapped, "the lowest byte first", found);
 }
 
 fn field_order(probe: &mut Probe<'_>) -> Step {
-    let nothing = |stop| match stop {
-        Stop::NotApplicable(_) | Stop::Inconclusive(_) => Ok(()),
-        stop => Err(stop),
-    };
-    match probe.objects() {
-        Ok(objects) => {
-            let is_com = |group| matches!(IndexGroup::new(group).parts(), Some(Group::Com(_)));
-            for object in objects {
-                let name = object.name.to_string();
-                in_order(probe, &format!("the group of {name}"), object.group.get(), is_com);
-                let size = format!("the size of {name}");
-                in_order(probe, &size, object.size, |size| size <= 0x00FF_FFFF);
-            }
-        }
-        Err(stop) => nothing(stop)?,
+    let is_com = |group| matches!(IndexGroup::new(group).parts(), Some(Group::Com(_)));
+    for object in probe.objects().if_known()?.unwrap_or_default() {
+        let name = object.name.to_string();
+        in_order(probe, &format!("the group of {name}"), object.group.get(), is_com);
+        let size = format!("the size of {name}");
+        in_order(probe, &size, object.size, |size| size <= 0x00FF_FFFF);
     }
     for channel in probe.channels()? {
-        match probe.variables(channel) {
-            Ok(variables) => {
-                for one in variables {
-                    let name = one.name.text.to_string();
-                    let of_type = format!("the type of {name}");
-                    in_order(probe, &of_type, one.var_type.0, |code| (1..=9).contains(&code));
-                    let access = format!("the access of {name}");
-                    in_order(probe, &access, one.access.0, |code| (1..=2).contains(&code));
-                    let size = format!("the size of {name}");
-                    in_order(probe, &size, one.size, |size| size <= 0x00FF_FFFF);
-                }
-            }
-            Err(stop) => nothing(stop)?,
+        for one in probe.variables(channel).if_known()?.unwrap_or_default() {
+            let name = one.name.text.to_string();
+            let of_type = format!("the type of {name}");
+            in_order(probe, &of_type, one.var_type.0, |code| (1..=9).contains(&code));
+            let access = format!("the access of {name}");
+            in_order(probe, &access, one.access.0, |code| (1..=2).contains(&code));
+            let size = format!("the size of {name}");
+            in_order(probe, &size, one.size, |size| size <= 0x00FF_FFFF);
         }
         let number = u32::from(channel.number());
-        match probe.address_of(Class::Decoder, number, 0) {
-            Ok(Some(address)) => {
-                let of_class = |group| {
-                    matches!(IndexGroup::new(group).parts(), Some(Group::Class(_))) || group == 0
-                };
-                let what = format!("the group of the decoder of channel {number}");
-                in_order(probe, &what, address.index_group.get(), of_class);
-            }
-            Ok(None) => {}
-            Err(stop) => nothing(stop)?,
+        let address = probe.address_of(Class::Decoder, number, 0).if_known()?.flatten();
+        if let Some(address) = address {
+            let of_class = |group| {
+                matches!(IndexGroup::new(group).parts(), Some(Group::Class(_))) || group == 0
+            };
+            let what = format!("the group of the decoder of channel {number}");
+            in_order(probe, &what, address.index_group.get(), of_class);
         }
     }
     Ok(())
-}
-
-/// The same bytes in another order.
-pub(super) fn is_permuted(one: &[u8], other: &[u8]) -> bool {
-    let sorted = |bytes: &[u8]| {
-        let mut bytes = bytes.to_vec();
-        bytes.sort_unstable();
-        bytes
-    };
-    one != other && sorted(one) == sorted(other)
 }
 
 /// Other bytes than those held are another matter.
@@ -229,8 +109,8 @@ fn order(probe: &mut Probe<'_>, what: &str, size: usize, held: &[u8], read: Opti
     let mut pairs = held.chunks(size).zip(read.chunks(size));
     let permuted = pairs.any(|(one, other)| is_permuted(one, other));
     if held == read || permuted {
-        let expected = format!("{} of {what}", Hex(held.to_vec()));
-        probe.check("GEN-1", !permuted, expected, Hex(read));
+        let expected = || format!("{} of {what}", Hex(held.to_vec()));
+        probe.check("GEN-1", !permuted, expected, || Hex(read));
     }
 }
 
@@ -258,7 +138,7 @@ fn value_order(probe: &mut Probe<'_>) -> Step {
         let held = parameter.value.to_le_bytes();
         let read = probe.try_ask(DynamicValueByName { channel, kind, name })?;
         order(probe, &what, held.len(), &held, read);
-        let by_index = DynamicValueByIndex::new(channel, kind, *index).map_err(harness)?;
+        let by_index = DynamicValueByIndex::new(channel, kind, *index)?;
         let read = probe.try_ask(by_index)?;
         order(probe, &what, held.len(), &held, read);
     }

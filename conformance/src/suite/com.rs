@@ -4,12 +4,11 @@ use std::collections::HashSet;
 
 use ads_cnc::address::{Access, ComGroup, ComTable, Group};
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, Request};
-use ads_cnc::{Decode, DescriptorRef, Descriptors, DescriptorsRef, ObjectCount};
+use ads_cnc::{Decode, DescriptorRef, DescriptorsRef, ObjectCount};
 
-use super::inventory::OBJECTS_MAX;
-use super::probe::{Probe, harness};
+use super::kit::{OBJECTS_MAX, Probe, RawCall, known_object_count, read_descriptors};
 use super::{Row, case};
-use crate::judge::{Checks, Needs, Step, Stop, assumed, online};
+use crate::judge::{Checks, IfThere as _, Needs, Step, applicable, assumed, online};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -24,52 +23,6 @@ pub(super) const CASES: &[Row] = &[
     case("com-odd-length", &["COM-3"], Needs::Queries, odd_length,
         "A read length that is no multiple of 84 gives one descriptor"),
 ];
-
-/// Asks for descriptors and takes at most as many as were asked for.
-fn read(
-    probe: &mut Probe<'_>,
-    rule: &'static str,
-    list: ObjectList,
-    first: u32,
-    count: u32,
-) -> Step<Descriptors> {
-    let request = ReadDescriptors::new(list, first, count).map_err(harness)?;
-    probe.read(rule, request)
-}
-
-/// Every descriptor by a read of its own: that several come together is judged elsewhere.
-pub(super) fn one_by_one(
-    probe: &mut Probe<'_>,
-    rule: &'static str,
-    list: ObjectList,
-    number: u32,
-) -> Step<Descriptors> {
-    let mut all = Descriptors::default();
-    for first in 1..=number {
-        let one = read(probe, rule, list, first, 1)?;
-        one.as_ref().iter().for_each(|object| all.push(object.to_owned()));
-    }
-    Ok(all)
-}
-
-pub(super) fn number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
-    let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
-    if number == 0 {
-        return Err(Stop::NotApplicable("the list has no object".to_owned()));
-    }
-    Ok(number.min(OBJECTS_MAX))
-}
-
-/// As [`number`], where it is not this case that judges it.
-pub(super) fn known_number(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
-    let exchange = probe.send(CountObjects::new(list))?;
-    let data = exchange.answer().and_then(|answer| answer.success()).unwrap_or_default();
-    match ObjectCount::decode(data) {
-        Ok(ObjectCount(number)) if number > 0 => Ok(number.min(OBJECTS_MAX)),
-        Ok(_) => Err(Stop::NotApplicable("the list has no object".to_owned())),
-        Err(_) => Err(Stop::Inconclusive("the number of objects could not be read".to_owned())),
-    }
-}
 
 /// The platform's list and those of the channels; what of it is not there is judged elsewhere.
 fn lists(probe: &mut Probe<'_>) -> Step<Vec<ObjectList>> {
@@ -92,25 +45,25 @@ fn count(probe: &mut Probe<'_>) -> Step {
         // Whichever of the two is wrong, the number or the list: they are one statement.
         for rule in ["COM-1", "COM-2"] {
             if asked == 0 {
-                let first = ReadDescriptors::new(list, 1, 1).map_err(harness)?;
+                let first = ReadDescriptors::new(list, 1, 1)?;
                 probe.refuses_alone(rule, "the first of no object", first)?;
                 continue;
             }
-            let last = ReadDescriptors::new(list, asked, 1).map_err(harness)?;
+            let last = ReadDescriptors::new(list, asked, 1)?;
             let there = probe.try_ask(last)?;
             let there = there.is_some_and(|data| DescriptorsRef::decode(&data).is_ok());
-            let expected = format!("object {asked}, as {at} has {number}");
+            let expected = || format!("object {asked}, as {at} has {number}");
             if !probe.check(rule, there, expected, "no descriptor") || asked < number {
                 continue;
             }
             let beyond = ReadDescriptors::new(list, number.saturating_add(1), 1);
             let what = format!("the object behind the last of {number}");
-            probe.refuses(rule, &what, beyond.map_err(harness)?, last)?;
+            probe.refuses(rule, &what, beyond?, last)?;
         }
         // They are static, and nothing that was asked meanwhile changes that.
         let again: ObjectCount = probe.read("COM-1", CountObjects::new(list))?;
-        let found = format!("{} objects of {at}", again.0);
-        probe.check("COM-1", again.0 == number, format!("{number} as before"), found);
+        let found = || format!("{} objects of {at}", again.0);
+        probe.check("COM-1", again.0 == number, || format!("{number} as before"), found);
     }
     Ok(())
 }
@@ -119,21 +72,22 @@ fn descriptors(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let list = ObjectList::from(channel);
         let mut ids = HashSet::new();
-        for first in 1..=known_number(probe, list)? {
-            let one = read(probe, "COM-2", list, first, 1)?;
+        for first in 1..=known_object_count(probe, list)? {
+            let one = read_descriptors(probe, "COM-2", list, first, 1)?;
             let Some(object) = one.as_ref().get(0) else { continue };
             let id = object.id();
-            probe.check("COM-2", ids.insert(id), "an ID no other object has", format!("ID {id}"));
+            probe
+                .check("COM-2", ids.insert(id), "an ID no other object has", || format!("ID {id}"));
             descriptor_holds_together(probe, object);
             // Objects are static.
-            let again = read(probe, "COM-2", list, first, 1)?;
+            let again = read_descriptors(probe, "COM-2", list, first, 1)?;
             let what = |one: DescriptorRef<'_>| {
                 let at = (one.index_group(), one.index_offset());
                 (one.id(), one.size(), at, one.name().to_string(), one.type_name().to_string())
             };
             let same = again.as_ref().get(0).map(what) == Some(what(object));
-            let found = format!("another for number {first} the second time");
-            probe.check("COM-2", same, format!("the descriptor of ID {id} again"), found);
+            let found = || format!("another for number {first} the second time");
+            probe.check("COM-2", same, || format!("the descriptor of ID {id} again"), found);
         }
     }
     Ok(())
@@ -148,40 +102,34 @@ pub(crate) fn descriptor_holds_together(probe: &mut impl Checks, object: Descrip
     probe.check(rule, !type_name.is_empty(), "the name of a type", "an empty type");
     if let Some(size) = object.type_size() {
         let whole = object.size() > 0 && object.size().checked_rem(size) == Some(0);
-        let expected = format!("a multiple of the {size} bytes of {type_name}");
-        let found = format!("size {} of {name}", object.size());
+        let expected = || format!("a multiple of the {size} bytes of {type_name}");
+        let found = || format!("size {} of {name}", object.size());
         probe.check(online("GEN-5"), whole, expected, found);
     }
     let group = object.index_group();
     let content =
         matches!(group.parts(), Some(Group::Com(ComGroup { access: Access::Element, .. })));
     let expected = "the group of an element of COM, 0x120100 or 0x120200 and the like";
-    probe.check(assumed("COM-5"), content, expected, format!("group {group} of {name}"));
+    probe.check(assumed("COM-5"), content, expected, || format!("group {group} of {name}"));
     let access = object.write_access().0;
     let expected = "write access 0 or 1";
-    probe.check(assumed("COM-2"), access <= 1, expected, format!("{access} of {name}"));
+    probe.check(assumed("COM-2"), access <= 1, expected, || format!("{access} of {name}"));
 }
 
 fn in_sequence(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for list in lists(probe)? {
-        match known_number(probe, list) {
-            Ok(number) => sequence(probe, list, number)?,
-            Err(Stop::NotApplicable(_)) => continue,
-            Err(stop) => return Err(stop),
-        }
+        let Some(number) = known_object_count(probe, list).if_applicable()? else { continue };
+        sequence(probe, list, number)?;
         any = true;
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no list has an object".to_owned())),
-    }
+    applicable(any, "no list has an object")
 }
 
 fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
     let mut singles = Vec::new();
     for first in 1..=number {
-        let request = ReadDescriptors::new(list, first, 1).map_err(harness)?;
+        let request = ReadDescriptors::new(list, first, 1)?;
         singles.push(probe.ask("COM-3", request)?);
     }
     let half = number.div_ceil(2);
@@ -197,10 +145,11 @@ fn sequence(probe: &mut Probe<'_>, list: ObjectList, number: u32) -> Step {
         let together = probe.ask("COM-3", request)?;
         let alone = singles.iter().skip(usize_of(skip)).take(usize_of(count));
         let alone: Vec<u8> = alone.flatten().copied().collect();
-        let expected = format!("{count} descriptors from {first} on, as they read one by one");
-        let found = match together.len() == alone.len() {
-            true => "other bytes".to_owned(),
-            false => format!("{} bytes instead of {}", together.len(), alone.len()),
+        let expected = || format!("{count} descriptors from {first} on, as they read one by one");
+        let found = if together.len() == alone.len() {
+            "other bytes".to_owned()
+        } else {
+            format!("{} bytes instead of {}", together.len(), alone.len())
         };
         probe.check("COM-3", together == alone, expected, found);
     }
@@ -213,33 +162,32 @@ fn usize_of(number: u32) -> usize {
 
 fn end_of_list(probe: &mut Probe<'_>) -> Step {
     let list = ObjectList::from(probe.channel()?);
-    let number = known_number(probe, list)?;
-    let request = ReadDescriptors::new(list, number, 3).map_err(harness)?;
+    let number = known_object_count(probe, list)?;
+    let request = ReadDescriptors::new(list, number, 3)?;
     let exchange = probe.send(request)?;
-    let data = exchange.answer().and_then(|answer| answer.success());
+    let data = exchange.success();
     let given = data.and_then(|data| DescriptorsRef::decode(data).ok()).map(|list| list.len());
     let expected = "the one descriptor there is";
-    probe.check(assumed("COM-3"), given == Some(1), expected, exchange.result());
+    probe.check(assumed("COM-3"), given == Some(1), expected, &exchange);
     probe.refuses(
         "COM-2",
         "an object behind the last",
-        ReadDescriptors::new(list, number.saturating_add(1), 2).map_err(harness)?,
-        ReadDescriptors::new(list, number, 1).map_err(harness)?,
+        ReadDescriptors::new(list, number.saturating_add(1), 2)?,
+        ReadDescriptors::new(list, number, 1)?,
     )
 }
 
 fn odd_length(probe: &mut Probe<'_>) -> Step {
     let list = ObjectList::from(probe.channel()?);
-    known_number(probe, list)?;
-    let request = Request::from(ReadDescriptors::new(list, 1, 1).map_err(harness)?);
-    let mut buf = [0; 0];
-    let one = request.encode(&mut buf).map_err(harness)?;
+    known_object_count(probe, list)?;
+    let request = Request::from(ReadDescriptors::new(list, 1, 1)?);
+    let one = RawCall::new(request)?;
     for read_length in [85, 100, 167, 169] {
-        let exchange = probe.call(&ads_cnc::operation::Call { read_length, ..one })?;
-        let data = exchange.answer().and_then(|answer| answer.success());
+        let exchange = probe.call(&one.with(|call| call.read_length = read_length))?;
+        let data = exchange.success();
         let kept = data.is_some_and(|data| data.len() == ads_cnc::limits::DESCRIPTOR_LEN);
-        let expected = format!("one descriptor for a read length of {read_length}");
-        probe.check(assumed("COM-3"), kept, expected, exchange.result());
+        let expected = || format!("one descriptor for a read length of {read_length}");
+        probe.check(assumed("COM-3"), kept, expected, &exchange);
     }
     Ok(())
 }

@@ -4,11 +4,10 @@ use std::collections::HashMap;
 
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, DescribeByIndex, DescribeExtended, ReadByName};
-use ads_cnc::{Decode as _, Description, ExtendedReply, Kind, VariableAccess, VariableCount};
+use ads_cnc::{Description, ExtendedReply, Kind, VariableAccess, VariableCount};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::VARIABLES_MAX;
-use super::probe::Probe;
+use super::kit::{Probe, VARIABLES_MAX};
 use super::{Row, case};
 use crate::judge::{Needs, Step};
 use crate::simulator::Configured;
@@ -27,12 +26,12 @@ fn as_configured(probe: &mut Probe<'_>) -> Step {
         let (external, global) = cnc.model().configured(channel.number().into());
         for (kind, configured) in [(Kind::V_E, external), (Kind::V_G, global)] {
             let found = listed(probe, channel, kind)?;
-            let number = format!("{} of channel {}", configured.len(), channel.number());
+            let number = || format!("{} of channel {}", configured.len(), channel.number());
             let same = found.len() == configured.len();
             probe.check("VAR-2", same, number, found.len());
             for one in &configured {
                 let found = found.get(&one.name.to_string());
-                let expected = format!("a description of {}", one.name);
+                let expected = || format!("a description of {}", one.name);
                 probe.check("VAR-3", found.is_some(), expected, "none");
                 let Some((described, extended)) = found else { continue };
                 holds(probe, one, described);
@@ -47,8 +46,8 @@ fn as_configured(probe: &mut Probe<'_>) -> Step {
                 if one.access == VariableAccess::READ_ONLY {
                     let name = one.name.as_cnc_str().into();
                     let value = probe.try_ask(ReadByName { channel, name })?.unwrap_or_default();
-                    let expected = format!("{} of {}", Hex(one.value.clone()), one.name);
-                    probe.check("VAR-14", value == one.value, expected, Hex(value));
+                    let expected = || format!("{} of {}", Hex(one.value.clone()), one.name);
+                    probe.check("VAR-14", value == one.value, expected, || Hex(value));
                 }
             }
         }
@@ -60,14 +59,13 @@ type Described = HashMap<String, (Description, Option<ExtendedReply>)>;
 
 /// What is described, by its name, with what the same index has beside it.
 fn listed(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<Described> {
-    let count = probe.try_ask(CountVariables::new(channel, kind))?.unwrap_or_default();
-    let count = VariableCount::decode(&count).map_or(0, |count| count.0.min(VARIABLES_MAX));
+    let count: Option<VariableCount> = probe.try_read(CountVariables::new(channel, kind))?;
     let mut all = HashMap::new();
-    for index in 0..count {
-        let data = probe.try_ask(DescribeByIndex::new(channel, index, kind))?;
-        let Some(Ok(found)) = data.map(|data| Description::decode(&data)) else { continue };
-        let data = probe.try_ask(DescribeExtended::new(channel, index, kind))?;
-        let extended = data.and_then(|data| ExtendedReply::decode(&data).ok());
+    for index in 0..count.map_or(0, |count| count.0.min(VARIABLES_MAX)) {
+        let found: Option<Description> =
+            probe.try_read(DescribeByIndex::new(channel, index, kind))?;
+        let Some(found) = found else { continue };
+        let extended = probe.try_read(DescribeExtended::new(channel, index, kind))?;
         all.insert(found.name.text.to_string(), (found, extended));
     }
     Ok(all)
@@ -75,17 +73,17 @@ fn listed(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<Descr
 
 fn holds(probe: &mut Probe<'_>, one: &Configured, found: &Description) {
     let name = &one.name;
-    let expected = format!("{:?} of {name}", one.var_type);
+    let expected = || format!("{:?} of {name}", one.var_type);
     let same = found.var_type == one.var_type;
-    probe.check("VAR-5", same, expected, format!("{:?}", found.var_type));
-    let expected = format!("{:?} of {name}", one.access);
+    probe.check("VAR-5", same, expected, || format!("{:?}", found.var_type));
+    let expected = || format!("{:?} of {name}", one.access);
     let same = found.access == one.access;
-    probe.check("VAR-6", same, expected, format!("{:?}", found.access));
-    let expected = format!("{} bytes of {name}", one.size);
+    probe.check("VAR-6", same, expected, || format!("{:?}", found.access));
+    let expected = || format!("{} bytes of {name}", one.size);
     let same = usize::try_from(found.size) == Ok(one.size);
     probe.check("VAR-8", same, expected, found.size);
-    let expected = format!("{:?} of {name}", one.dimensions);
+    let expected = || format!("{:?} of {name}", one.dimensions);
     let rule = if one.dimensions.is_empty() { "VAR-7" } else { "VAR-4" };
     let same = found.dimensions == one.dimensions;
-    probe.check(rule, same, expected, format!("{:?}", found.dimensions));
+    probe.check(rule, same, expected, || format!("{:?}", found.dimensions));
 }

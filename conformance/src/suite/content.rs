@@ -2,16 +2,14 @@
 
 use std::collections::HashSet;
 
-use ads_cnc::address::{Addressing, ComGroup, ComTable, Group};
-use ads_cnc::operation::{CountObjects, ReadDescriptors, ReadElementName, ReadObject, Request};
+use ads_cnc::address::{ComGroup, ComTable, Group};
+use ads_cnc::operation::{CountObjects, ReadDescriptors, ReadElementName, ReadObject};
 use ads_cnc::{Descriptors, ErrorKind, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::{OBJECTS_MAX, Object};
-use super::probe::{Probe, harness};
-use super::steady::Steady;
+use super::kit::{OBJECTS_MAX, Object, Probe, RawCall, Steady};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{IfThere as _, Needs, OrStop as _, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -29,36 +27,29 @@ pub(super) const CASES: &[Row] = &[
         "Everything that is counted can be listed, each thing once"),
 ];
 
-/// The read of an object's content; none of the program stream, of which no read is documented.
-pub(super) fn read_of(object: &Object) -> Option<ReadObject> {
-    ReadObject::new(object.group, object.offset, object.size).ok()
-}
-
 fn content(probe: &mut Probe<'_>) -> Step {
     for object in probe.objects()? {
-        let rules = ["COM-5", "COM-2"].map(Rule::from);
+        let rules = ["COM-5", "COM-2"];
         let read = match ReadObject::new(object.group, object.offset, object.size) {
             Ok(read) => read,
             Err(error) => {
                 // Of the program stream no read is documented.
                 let stream = error.kind() == ErrorKind::Function;
                 let place = format!("{}, {}", object.group, object.offset);
-                let found = format!("{} bytes of {} at {place}: {error}", object.size, object.name);
-                probe.check("COM-2", stream, "a content that can be read", &found);
-                probe.check("COM-5", stream, "a content that can be read", found);
+                let found =
+                    || format!("{} bytes of {} at {place}: {error}", object.size, object.name);
+                probe.check(rules, stream, "a content that can be read", found);
                 continue;
             }
         };
-        let content = probe.ask_for(&rules, read)?;
-        let found = format!("{} bytes of {}", content.len(), object.name);
+        let content = probe.ask(rules, read)?;
+        let found = || format!("{} bytes of {}", content.len(), object.name);
         let sized = u32::try_from(content.len()) == Ok(object.size);
-        let expected = format!("the {} bytes of its descriptor", object.size);
-        for rule in rules {
-            probe.check(rule, sized, &expected, &found);
-        }
+        let expected = || format!("the {} bytes of its descriptor", object.size);
+        probe.check(rules, sized, expected, found);
         if object.type_name.as_cnc_str() == "BOOL" {
             let bit = matches!(*content, [0 | 1]);
-            let found = format!("{content:?} of {}", object.name);
+            let found = || format!("{content:?} of {}", object.name);
             probe.check(assumed("GEN-5"), bit, "a BOOL of 0 or 1", found);
         }
     }
@@ -69,7 +60,7 @@ fn content(probe: &mut Probe<'_>) -> Step {
 fn room(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
-        if read_of(&object).is_none() {
+        if object.read().is_none() {
             continue;
         }
         for more in [1, 7, 64] {
@@ -77,72 +68,52 @@ fn room(probe: &mut Probe<'_>) -> Step {
             let Ok(read) = ReadObject::new(object.group, object.offset, size) else { continue };
             let Some(content) = probe.try_ask(read)? else { continue };
             any = true;
-            let expected = format!("the {} bytes of {}", object.size, object.name);
-            let found = format!("{} bytes in a room of {size}", content.len());
+            let expected = || format!("the {} bytes of {}", object.size, object.name);
+            let found = || format!("{} bytes in a room of {size}", content.len());
             let sized = u32::try_from(content.len()) == Ok(object.size);
-            for rule in ["COM-2", "COM-5"] {
-                probe.check(rule, sized, &expected, &found);
-            }
+            probe.check(["COM-2", "COM-5"], sized, expected, found);
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no content is read with more room".to_owned())),
-    }
+    applicable(any, "no content is read with more room")
 }
 
-/// The same place by the rank of its channel; none if it is not a channel's.
-fn by_index(probe: &Probe<'_>, object: &Object) -> Option<ReadObject> {
-    let Some(Group::Com(com)) = object.group.parts() else { return None };
-    let (ComTable::Channel, Addressing::Logical) = (com.table, com.addressing) else { return None };
-    let channels = &probe.session.profile.channels;
-    let rank =
-        (1_u8..).zip(channels.iter()).find(|(_, channel)| **channel == u32::from(com.instance));
-    let group = ComGroup { addressing: Addressing::Index, instance: rank?.0, ..com };
-    ReadObject::new(group.index_group(), object.offset, object.size).ok()
+fn is_of_channel(object: &Object) -> bool {
+    let com = object.group.parts();
+    matches!(com, Some(Group::Com(ComGroup { table: ComTable::Channel, instance: 1.., .. })))
 }
 
 fn content_by_index(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     let mut any = false;
-    for object in probe.objects()? {
-        let (Some(one), Some(other)) = (read_of(&object), by_index(probe, &object)) else {
-            continue;
-        };
+    for object in probe.objects()?.into_iter().filter(is_of_channel) {
+        let by_rank = probe.object_by_rank(&object).and_then(|other| other.read());
+        let (Some(one), Some(other)) = (object.read(), by_rank) else { continue };
         any = true;
-        let rules = ["ADR-1", "ADR-12"].map(Rule::from);
-        steady.same(probe, &rules, &object.name.to_string(), one, other.into())?;
+        steady.same(probe, ["ADR-1", "ADR-12"], &object.name, one, other)?;
     }
-    match any {
-        true => steady.finish(),
-        false => Err(Stop::NotApplicable("no object is in the group of a channel".to_owned())),
-    }
+    applicable(any, "no object is in the group of a channel")?;
+    steady.finish()
 }
 
 fn places(probe: &mut Probe<'_>) -> Step {
     let mut seen = HashSet::new();
     for object in probe.objects()? {
         let place = (object.list, object.group, object.offset);
-        let found = format!("{} at {}, {} again", object.name, object.group, object.offset);
+        let found = || format!("{} at {}, {} again", object.name, object.group, object.offset);
         let own = seen.insert(place);
-        for rule in ["COM-2", "COM-5"] {
-            probe.check(rule, own, "a place of its own", &found);
-        }
+        probe.check(["COM-2", "COM-5"], own, "a place of its own", found);
     }
     Ok(())
 }
 
 fn read_lengths(probe: &mut Probe<'_>) -> Step {
     let all = probe.objects()?;
-    let read = all.iter().filter(|one| one.size > 1).find_map(read_of);
-    let read = read.ok_or(Stop::NotApplicable("no object has two bytes".to_owned()))?;
-    let request = Request::from(read);
-    let mut buf = [0; 0];
-    let good = request.encode(&mut buf).map_err(harness)?;
+    let read = all.iter().filter(|one| one.size > 1).find_map(Object::read);
+    let good = RawCall::new(read.or_not_applicable("no object has two bytes")?)?;
     for read_length in [0, good.read_length.saturating_sub(1)] {
         let what = format!("a read length of {read_length} for {} bytes", good.read_length);
-        let bad = ads_cnc::operation::Call { read_length, ..good };
-        probe.refused(assumed("ADS-1"), &what, &bad, &good)?;
+        let bad = good.with(|call| call.read_length = read_length);
+        probe.refuses(assumed("ADS-1"), &what, bad, &good)?;
     }
     Ok(())
 }
@@ -159,30 +130,25 @@ fn everything(probe: &mut Probe<'_>) -> Step {
         let count = count.min(OBJECTS_MAX);
         let mut ids = HashSet::new();
         for first in 1..=count {
-            let one = ReadDescriptors::new(list, first, 1).map_err(harness)?;
+            let one = ReadDescriptors::new(list, first, 1)?;
             let one: Descriptors = probe.read(rule, one)?;
             let id = one.as_ref().get(0).map(|object| object.id());
-            let found = format!("the object {id:?} again, as number {first} of {count}");
+            let found = || format!("the object {id:?} again, as number {first} of {count}");
             probe.check(rule, id.is_some_and(|id| ids.insert(id)), "another object", found);
         }
     }
-    let instances = match probe.instances() {
-        Ok(instances) => instances,
-        Err(Stop::NotApplicable(_)) => Vec::new(),
-        Err(stop) => return Err(stop),
-    };
-    for instance in instances {
+    for instance in probe.instances().if_applicable()?.unwrap_or_default() {
         let mut places = HashSet::new();
         for element in instance.elements() {
             let name = probe.ask("OBJ-1", ReadElementName::new(element))?;
-            let found = format!("{} of {instance}", Hex(name.clone()));
+            let found = || format!("{} of {instance}", Hex(name.clone()));
             let named = name.first().is_some_and(|&byte| byte != 0);
             probe.check("OBJ-1", named, "an element with a name", found);
             places.insert(element);
         }
         let listed = u32::try_from(places.len()) == Ok(instance.count.min(OBJECTS_MAX));
-        let found = format!("{} of {instance}", places.len());
-        probe.check("OBJ-1", listed, format!("{} elements", instance.count), found);
+        let found = || format!("{} of {instance}", places.len());
+        probe.check("OBJ-1", listed, || format!("{} elements", instance.count), found);
     }
     Ok(())
 }

@@ -3,16 +3,14 @@
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{CountVariables, DescribeByName, DescribeExtended};
 use ads_cnc::{
-    Decode as _, Description, DescriptionByName, ExtendedReply, Kind, Synchronisation, TextRef,
-    Validity, VariableCount,
+    Description, DescriptionByName, ExtendedReply, Kind, Synchronisation, TextRef, Validity,
+    VariableCount,
 };
 
-use super::inventory::{KINDS, VARIABLES_MAX};
-use super::probe::{Probe, harness};
-use super::variable::name_of;
+use super::kit::{Probe, VARIABLES_MAX, name_of};
 use super::{Row, case};
 use crate::edition::Feature;
-use crate::judge::{Needs, Rule, Step, Stop, assumed, online};
+use crate::judge::{Needs, OrStop as _, Step, Stop, assumed, online};
 use crate::profile::Claim;
 
 #[rustfmt::skip]
@@ -27,22 +25,15 @@ pub(super) const CASES: &[Row] = &[
         "A name nobody has is described by an error"),
 ];
 
-/// The kinds that the target lists.
-pub(super) fn kinds(probe: &Probe<'_>) -> Vec<(&'static str, Kind<'static>)> {
-    let profile = &probe.session.profile;
-    KINDS.into_iter().filter(|(_, kind)| profile.has_kind(*kind)).collect()
-}
-
 /// How many variables of a kind there are; that is judged elsewhere.
 fn count(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
-    let data = probe.try_ask(CountVariables::new(channel, kind))?;
-    let count = data.and_then(|data| VariableCount::decode(&data).ok());
+    let count = probe.try_read::<VariableCount>(CountVariables::new(channel, kind))?;
     Ok(count.map_or(0, |count| count.0.min(VARIABLES_MAX)))
 }
 
 fn extended(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
+        for (name, kind) in probe.kinds() {
             for index in 0..count(probe, channel, kind)? {
                 let request = DescribeExtended::new(channel, index, kind);
                 let at = format!("index {index} of {name}");
@@ -59,15 +50,15 @@ fn extended(probe: &mut Probe<'_>) -> Step {
 }
 
 fn of_external(probe: &mut Probe<'_>, reply: &ExtendedReply, at: &str) {
-    let found = format!("nothing for {at}");
+    let found = || format!("nothing for {at}");
     probe.check("VAR-15", reply.0.is_some(), "an extended description", found);
     let Some(extended) = reply.0 else { return };
     let known = [Synchronisation::NO_SYNC, Synchronisation::SYNCHRONIZED];
-    let found = format!("{} for {at}", extended.synchronisation.0);
+    let found = || format!("{} for {at}", extended.synchronisation.0);
     let kept = known.contains(&extended.synchronisation);
     probe.check("VAR-15", kept, "a synchronisation of 1 or 2", found);
     let known = [Validity::CHANNEL, Validity::GLOBAL];
-    let found = format!("{} for {at}", extended.validity.0);
+    let found = || format!("{} for {at}", extended.validity.0);
     probe.check("VAR-15", known.contains(&extended.validity), "a validity of 1 or 2", found);
 }
 
@@ -76,16 +67,16 @@ fn of_others(probe: &mut Probe<'_>, request: DescribeExtended<'_>, at: &str) -> 
     let exchange = probe.send(request)?;
     let data = exchange.answer().and_then(|answer| answer.data.clone());
     let empty = data.is_none_or(|data| data.is_empty());
-    let expected = format!("no data for {at}");
-    probe.check("VAR-16", empty && exchange.answer().is_some(), &expected, exchange.result());
-    let success = exchange.answer().is_some_and(|answer| answer.success().is_some());
-    probe.check(assumed("VAR-16"), success, "the result 0", exchange.result());
+    let expected = || format!("no data for {at}");
+    probe.check("VAR-16", empty && exchange.answer().is_some(), expected, &exchange);
+    let success = exchange.success().is_some();
+    probe.check(assumed("VAR-16"), success, "the result 0", &exchange);
     Ok(())
 }
 
 fn extended_beyond(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
+        for (name, kind) in probe.kinds() {
             let count = count(probe, channel, kind)?;
             let Some(last) = count.checked_sub(1) else { continue };
             for beyond in probe.beyond(count) {
@@ -97,8 +88,8 @@ fn extended_beyond(probe: &mut Probe<'_>) -> Step {
                 }
                 // No more than nothing can be given of it.
                 let given = probe.try_ask(describe(beyond))?.unwrap_or_default();
-                let found = format!("{} bytes", given.len());
-                probe.check("VAR-3", given.is_empty(), format!("nothing for {what}"), found);
+                let found = || format!("{} bytes", given.len());
+                probe.check("VAR-3", given.is_empty(), || format!("nothing for {what}"), found);
             }
         }
     }
@@ -133,11 +124,11 @@ fn described_by_name(probe: &mut Probe<'_>) -> Step {
             let kept = (described.var_type, described.access, described.size)
                 == (variable.var_type, variable.access, variable.size)
                 && described.dimensions == variable.dimensions;
-            let expected = format!("the description of {name} by its index");
-            probe.check("VAR-28", kept, expected, format!("{described:?}"));
+            let expected = || format!("the description of {name} by its index");
+            probe.check("VAR-28", kept, expected, || format!("{described:?}"));
             let same = described.handle == variable.handle;
-            let expected = format!("{:?} of {name}", variable.handle);
-            probe.check(online("VAR-28"), same, expected, format!("{:?}", described.handle));
+            let expected = || format!("{:?} of {name}", variable.handle);
+            probe.check(online("VAR-28"), same, expected, || format!("{:?}", described.handle));
         }
     }
     Ok(())
@@ -146,14 +137,13 @@ fn described_by_name(probe: &mut Probe<'_>) -> Step {
 fn unknown_described(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
-    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let known = variables.first().or_inconclusive("no variable")?;
     is_there(probe, channel, known)?;
     for name in ["V.E.no such variable", "V.E.", ""] {
-        let rule = Rule::from("VAR-28");
-        let unknown = TextRef::new(name).map_err(harness)?;
+        let unknown = TextRef::new(name)?;
         let good = DescribeByName { channel, name: name_of(known) };
         let bad = DescribeByName { name: unknown, ..good };
-        probe.refuses(rule, &format!("the name {name:?}"), bad, good)?;
+        probe.refuses("VAR-28", &format!("the name {name:?}"), bad, good)?;
     }
     Ok(())
 }

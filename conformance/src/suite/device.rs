@@ -3,7 +3,7 @@
 use ads_cnc::ads::{AdsState, DeviceInfoReply, DeviceStateReply};
 use ads_cnc::operation::Task;
 
-use super::probe::Probe;
+use super::kit::Probe;
 use super::{Row, case};
 use crate::client::{Inquired, Inquiry, Said};
 use crate::judge::{Evidence, Needs, Step};
@@ -35,7 +35,7 @@ fn device_info(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, info: DeviceInfoReply| {
         let name = until_nul(&info.name);
         let is_text = !name.is_empty() && !name.iter().any(u8::is_ascii_control);
-        probe.check(DeviceInfoReply::CLAUSE, is_text, "a name", format!("{:02x?}", info.name));
+        probe.check(DeviceInfoReply::CLAUSE, is_text, "a name", || format!("{:02x?}", info.name));
         Ok(())
     })
 }
@@ -56,14 +56,14 @@ fn as_it_is(probe: &mut Probe<'_>) -> Step {
         probe.check(
             DeviceInfoReply::CLAUSE,
             own,
-            format!("{:?}", simulator::INFO),
-            format!("{info:?}"),
+            || format!("{:?}", simulator::INFO),
+            || format!("{info:?}"),
         );
         Ok(())
     })?;
     each(probe, |probe, state: DeviceStateReply| {
         let own = (state.ads_state, state.device_state) == (AdsState::RUN, 0);
-        probe.check(DeviceStateReply::CLAUSE, own, "RUN, and 0", format!("{state:?}"));
+        probe.check(DeviceStateReply::CLAUSE, own, "RUN, and 0", || format!("{state:?}"));
         Ok(())
     })
 }
@@ -81,7 +81,7 @@ fn each<R: Inquiry>(
         let (expected, found) = (format!("a {}", R::STREAM.layout().name), inquired.result());
         match inquired.outcome {
             Ok(Said::Reply(reply)) => {
-                probe.check(R::CLAUSE, true, "", "");
+                probe.pass(R::CLAUSE);
                 then(probe, reply)?;
             }
             _ => {

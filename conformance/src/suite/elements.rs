@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use ads_cnc::address::{Addressing, Channel, Class, ClassGroup, ElementAddress};
+use ads_cnc::address::{Class, ElementAddress};
 use ads_cnc::operation::{
     CountElements, ReadElement, ReadElementLength, ReadElementName, ReadElementType,
     ReadElementUnit, ReadElementWriteFlag, Request,
@@ -10,12 +10,12 @@ use ads_cnc::operation::{
 use ads_cnc::sda::{ElementLength, ElementText, ElementWriteFlag};
 use ads_cnc::{Decode, ErrorKind};
 
-use super::inventory::{Instance, OF_PLACES, number_of};
-use super::probe::{Probe, harness};
-use super::sda::{length_of, type_and_length};
-use super::steady::Steady;
+use super::kit::{
+    Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank, number_of,
+};
+use super::sda::type_and_length;
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{Needs, OrStop as _, Step, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -44,7 +44,7 @@ where
     T: for<'b> Decode<'b>,
 {
     let value = probe.read(rule, request)?;
-    probe.check("ADR-6", true, "", "");
+    probe.pass("ADR-6");
     Ok(value)
 }
 
@@ -53,45 +53,55 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     let (mut alone, mut with_first) = (None, None);
     for instance in probe.instances()? {
         let first = instance.first;
-        let data = probe.ask("SDA-4", CountElements::new(first).map_err(harness)?)?;
-        probe.check("ADR-6", true, "", "");
-        let found = format!("{} bytes for the number of {instance}", data.len());
-        probe.check(assumed("SDA-4"), data.len() == 4, "a number of 4 bytes", &found);
+        let data = probe.ask("SDA-4", CountElements::new(first)?)?;
+        probe.pass("ADR-6");
+        let found = || format!("{} bytes for the number of {instance}", data.len());
+        probe.check(assumed("SDA-4"), data.len() == 4, "a number of 4 bytes", found);
         let told = number_of(&data);
-        probe.check("SDA-4", told.is_some(), "a number", &found);
+        probe.check("SDA-4", told.is_some(), "a number", found);
         let same = told == Some(instance.told);
-        let found = format!("{told:?} elements of {instance}");
-        probe.check("SDA-4", same, format!("{}, as before", instance.told), found);
+        let found = || format!("{told:?} elements of {instance}");
+        probe.check("SDA-4", same, || format!("{}, as before", instance.told), found);
         let count = instance.count;
         match (instance.counts_itself(), instance.told) {
             (true, _) => with_first = Some((instance.to_string(), probe.evidence())),
             (false, 1..) => alone = Some(instance.to_string()),
             (false, 0) => {}
         }
-        let found = format!("{count} elements of {instance}");
+        let found = || format!("{count} elements of {instance}");
         probe.check("SDA-4", count <= 0xFFFF, "no more than an offset has room for", found);
         let name: ElementText = attribute(probe, "SDA-4", ReadElementName::new(first))?;
         let name = name.text.text.to_string();
-        let found = format!("{name:?} of {instance}");
+        let found = || format!("{name:?} of {instance}");
         // What a place without an axis is called nobody says, nor what has nothing else to name.
         let is_bare = count == 0 || probe.is_claimed_empty(&instance);
         let rule = if is_bare { assumed("SDA-4") } else { "SDA-4".into() };
-        probe.check(rule, !name.is_empty(), "the name of the instance", &found);
+        probe.check(rule, !name.is_empty(), "the name of the instance", found);
         let rule = assumed("SDA-4");
         // Axes of the platform are in several HLDs.
         let shared = instance.class == Class::Hld && instance.axis > 0;
         if !shared {
-            probe.check(rule, names.insert((instance.channel, name)), "a name of its own", found);
+            probe.check(
+                rule,
+                names.insert((instance.channel, name.clone())),
+                "a name of its own",
+                found,
+            );
         }
         ends(probe, &instance, count)?;
     }
     // Whether element 0 is counted is assumed, but not that of one it is and of another not.
     if let Some((with_first, evidence)) = with_first {
         probe.show(evidence);
-        let found = format!("one more for {with_first}");
+        let found = || format!("one more for {with_first}");
         let rule = if alone.is_some() { "SDA-4".into() } else { assumed("SDA-4") };
         let like = alone.map(|alone| format!(", as for {alone}")).unwrap_or_default();
-        probe.check(rule, false, format!("the number of elements behind the first{like}"), found);
+        probe.check(
+            rule,
+            false,
+            || format!("the number of elements behind the first{like}"),
+            found,
+        );
     }
     Ok(())
 }
@@ -107,21 +117,14 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
     // Of a place without an axis the number may be blank as all its contents.
     let rule = if at_place && count == 0 { assumed("SDA-4") } else { "SDA-4".into() };
     let what = format!("element {} of {instance}, which has {count}", beyond.index_offset());
-    let pairs: [(Request<'_>, Request<'_>); 5] = [
-        (ReadElementName::new(beyond).into(), ReadElementName::new(last).into()),
-        (ReadElementType::new(beyond).into(), ReadElementType::new(last).into()),
-        (ReadElementLength::new(beyond).into(), ReadElementLength::new(last).into()),
-        (ReadElementUnit::new(beyond).into(), ReadElementUnit::new(last).into()),
-        (ReadElementWriteFlag::new(beyond).into(), ReadElementWriteFlag::new(last).into()),
-    ];
-    for (beyond, last) in pairs {
+    for (beyond, last) in attribute_reads(beyond).into_iter().zip(attribute_reads(last)) {
         // The first of all need not have them all.
         if count > 0 || probe.try_ask(last)?.is_some() {
             probe.refuses(rule, &what, beyond, last)?;
         }
     }
     // Among the decoder's contents are functions, of which not all are known.
-    let Some(length) = length_of(probe, last)?.filter(|_| instance.class != Class::Decoder) else {
+    let Some(length) = probe.length_of(last)?.filter(|_| instance.class != Class::Decoder) else {
         return Ok(());
     };
     let (Ok(beyond), Ok(last)) = (ReadElement::new(beyond, length), ReadElement::new(last, length))
@@ -137,15 +140,15 @@ fn ends(probe: &mut Probe<'_>, instance: &Instance, count: u32) -> Step {
 fn first_element(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances()? {
         let first = instance.first;
-        let number = probe.try_ask(CountElements::new(first).map_err(harness)?)?;
+        let number = probe.try_ask(CountElements::new(first)?)?;
         let Some(number) = number else { continue };
         let length = probe.try_ask(ReadElementLength::new(first))?;
         probe.check(assumed("SDA-4"), length.is_some(), "a length of the number", "an error");
         let length = length.and_then(|data| ElementLength::decode(&data).ok());
         if let Some(length) = length {
             let same = u32::try_from(number.len()) == Ok(length.get());
-            let found = format!("a length of {} for element 0 of {instance}", length.get());
-            let expected = format!("the {} bytes of the number", number.len());
+            let found = || format!("a length of {} for element 0 of {instance}", length.get());
+            let expected = || format!("the {} bytes of the number", number.len());
             probe.check("SDA-8", same, expected, found);
         }
         let requests: [Request<'_>; 3] = [
@@ -155,7 +158,7 @@ fn first_element(probe: &mut Probe<'_>) -> Step {
         ];
         for request in requests {
             let answered = probe.try_ask(request)?.is_some();
-            let expected = format!("{} of element 0", request.function().spec().name);
+            let expected = || format!("{} of element 0", request.function().spec().name);
             probe.check(assumed("SDA-4"), answered, expected, "an error");
         }
     }
@@ -176,8 +179,7 @@ fn each(
 
 fn attributes(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances()? {
-        let of_instance = probe.try_ask(ReadElementName::new(instance.first))?;
-        let of_instance = of_instance.and_then(|data| ElementText::decode(&data).ok());
+        let of_instance = probe.try_read::<ElementText>(ReadElementName::new(instance.first))?;
         for element in instance.elements() {
             attributes_of(probe, &instance, of_instance.as_ref(), element)?;
         }
@@ -194,32 +196,31 @@ fn attributes_of(
     let text = |text: &ElementText| text.text.text.to_string();
     let name: ElementText = attribute(probe, "SDA-6", ReadElementName::new(element))?;
     let at = format!("element {} of {instance}", element.index_offset());
-    let found = format!("{:?} of {at}", text(&name));
-    probe.check("SDA-6", !text(&name).is_empty(), "a name", &found);
+    let found = || format!("{:?} of {at}", text(&name));
+    probe.check("SDA-6", !text(&name).is_empty(), "a name", found);
     let is_own = of_instance.is_none_or(|of_instance| text(of_instance) != text(&name));
-    probe.check("SDA-4", is_own, "another name than the instance's, which element 0 has", &found);
+    probe.check("SDA-4", is_own, "another name than the instance's, which element 0 has", found);
     let ty: ElementText = attribute(probe, "SDA-7", ReadElementType::new(element))?;
     let length: ElementLength = attribute(probe, "SDA-8", ReadElementLength::new(element))?;
     let unit: ElementText = attribute(probe, "SDA-6", ReadElementUnit::new(element))?;
     let flag = probe.try_ask(ReadElementWriteFlag::new(element))?;
-    probe.check("ADR-6", flag.is_some(), format!("a write flag of {at}"), "an error");
+    probe.check("ADR-6", flag.is_some(), || format!("a write flag of {at}"), "an error");
     let flag: ElementWriteFlag = attribute(probe, "SDA-9", ReadElementWriteFlag::new(element))?;
     for one in [&name, &unit, &ty] {
         let readable = !text(one).chars().any(char::is_control);
-        let found = format!("{:?} of {at}", text(one));
+        let found = || format!("{:?} of {at}", text(one));
         probe.check(assumed("GEN-3"), readable, "CP1252 characters", found);
     }
     type_and_length(probe, &text(&ty), length.get(), &at);
-    let found = format!("{} of {at}", flag.0);
+    let found = || format!("{} of {at}", flag.0);
     probe.check(assumed("SDA-9"), flag.0 <= 1, "a write flag of 0 or 1", found);
     Ok(())
 }
 
 fn content(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, instance, element| {
-        let Some(length) = length_of(probe, element)? else { return Ok(()) };
-        let ty = probe.try_ask(ReadElementType::new(element))?;
-        let ty = ty.and_then(|data| ElementText::decode(&data).ok());
+        let Some(length) = probe.length_of(element)? else { return Ok(()) };
+        let ty = probe.try_read::<ElementText>(ReadElementType::new(element))?;
         let type_name = ty.map(|ty| ty.text.text.to_string()).unwrap_or_default();
         let at = format!("element {} of {instance}", element.index_offset());
         let read = match ReadElement::new(element, length) {
@@ -227,19 +228,18 @@ fn content(probe: &mut Probe<'_>) -> Step {
             Err(error) => {
                 // At some offsets of the decoder functions are (SDA-12).
                 let function = error.kind() == ErrorKind::Function;
-                let found = format!("{length} bytes of {at}");
+                let found = || format!("{length} bytes of {at}");
                 probe.check("SDA-8", function, "no more bytes than a frame carries", found);
                 return Ok(());
             }
         };
-        let rules = ["SDA-8", "ADR-6"].map(Rule::from);
-        let content = probe.ask_for(&rules, read)?;
-        let found = format!("{} bytes of {at}", content.len());
+        let content = probe.ask(["SDA-8", "ADR-6"], read)?;
+        let found = || format!("{} bytes of {at}", content.len());
         let sized = u32::try_from(content.len()) == Ok(length);
-        probe.check("SDA-8", sized, format!("the {length} bytes it says to have"), found);
+        probe.check("SDA-8", sized, || format!("the {length} bytes it says to have"), found);
         if type_name == "BOOLEAN" {
             let bit = matches!(*content, [0 | 1]);
-            let found = format!("{content:?} of {at}");
+            let found = || format!("{content:?} of {at}");
             probe.check(assumed("GEN-5"), bit, "a BOOLEAN of 0 or 1", found);
         }
         Ok(())
@@ -247,35 +247,21 @@ fn content(probe: &mut Probe<'_>) -> Step {
 }
 
 fn content_by_index(probe: &mut Probe<'_>) -> Step {
-    let ranks: Vec<(u8, Channel)> = (1_u8..).zip(probe.channels()?).collect();
     let mut steady = Steady::default();
     each(probe, |probe, instance, element| {
-        let rank =
-            ranks.iter().find(|(_, channel)| u32::from(channel.number()) == instance.channel);
-        let (Some((rank, _)), false) = (rank, instance.class == Class::Spindle) else {
-            return Ok(());
-        };
-        let group =
-            ClassGroup { addressing: Addressing::Index, instance: *rank, ..element.class_group() };
-        let by_index = ElementAddress::new(group, element.index_offset());
-        let Some(length) = length_of(probe, element)? else { return Ok(()) };
-        let rules = ["ADR-1", "ADR-12"].map(Rule::from);
+        let rank = probe.rank_of(instance.channel).filter(|_| instance.class != Class::Spindle);
+        let Some(rank) = rank else { return Ok(()) };
+        let by_index = element_by_rank(element, rank);
+        let Some(length) = probe.length_of(element)? else { return Ok(()) };
+        let rules = ["ADR-1", "ADR-12"];
         let what = format!("element {} of {instance}", element.index_offset());
-        let attributes = |element| -> [Request<'static>; 5] {
-            [
-                ReadElementName::new(element).into(),
-                ReadElementType::new(element).into(),
-                ReadElementLength::new(element).into(),
-                ReadElementUnit::new(element).into(),
-                ReadElementWriteFlag::new(element).into(),
-            ]
-        };
-        for (one, other) in attributes(element).into_iter().zip(attributes(by_index)) {
+        let pairs = attribute_reads(element).into_iter().zip(attribute_reads(by_index));
+        for (one, other) in pairs {
             let what = format!("{} of {what}", one.function().spec().name);
-            steady.same(probe, &rules, &what, one, other)?;
+            steady.same(probe, rules, what, one, other)?;
         }
         match (ReadElement::new(element, length), ReadElement::new(by_index, length)) {
-            (Ok(one), Ok(other)) => steady.same(probe, &rules, &what, one, other.into()),
+            (Ok(one), Ok(other)) => steady.same(probe, rules, what, one, other),
             _ => Ok(()),
         }
     })?;
@@ -285,17 +271,16 @@ fn content_by_index(probe: &mut Probe<'_>) -> Step {
 fn read_lengths(probe: &mut Probe<'_>) -> Step {
     let all = probe.instances()?;
     let one = all.iter().find_map(|one| one.elements().next());
-    let element = one.ok_or(Stop::NotApplicable("no instance has an element".to_owned()))?;
-    let Some(length) = length_of(probe, element)? else { return Ok(()) };
+    let element = one.or_not_applicable("no instance has an element")?;
+    let Some(length) = probe.length_of(element)? else { return Ok(()) };
     let requests: [Request<'_>; 2] =
         [ReadElementLength::new(element).into(), ReadElementWriteFlag::new(element).into()];
     let content = ReadElement::new(element, length).ok().map(Request::from);
     for request in requests.into_iter().chain(content) {
-        let mut buf = [0; 0];
-        let good = request.encode(&mut buf).map_err(harness)?;
-        let bad = ads_cnc::operation::Call { read_length: 0, ..good };
+        let good = RawCall::new(request)?;
+        let bad = good.with(|call| call.read_length = 0);
         let what = format!("a read length of 0 for {}", request.function().spec().name);
-        probe.refused(assumed("ADS-1"), &what, &bad, &good)?;
+        probe.refuses(assumed("ADS-1"), &what, bad, &good)?;
     }
     Ok(())
 }

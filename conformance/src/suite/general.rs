@@ -4,18 +4,16 @@
 use ads_cnc::address::{Channel, ChannelAxis, Class, IndexGroup};
 use ads_cnc::ads::{AdsError, AmsPort};
 use ads_cnc::operation::{
-    AxisHandleByName, Call, CountObjects, CountVariables, FindInstance, HandleByName, ReadByHandle,
+    AxisHandleByName, CountObjects, CountVariables, FindInstance, HandleByName, ReadByHandle,
     ReadElementName, ReadElementUnit, Request,
 };
 use ads_cnc::sda::{ElementText, ObjectAddress};
-use ads_cnc::{CncString, Decode as _, Kind, U32List, VariableType};
+use ads_cnc::{CncString, Kind, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::addresses::Addresses;
-use super::probe::{Probe, harness};
-use super::variable::name_of;
+use super::kit::{Addresses, Probe, RawCall, name_of, name_on_axes};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed, online};
+use crate::judge::{IfThere as _, Needs, Rule, Step, applicable, assumed, online};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -45,17 +43,13 @@ fn ports_answer(probe: &mut Probe<'_>) -> Step {
         let of_com = CountObjects::new(channel).into();
         let of_class = FindInstance::new(Class::Decoder, channel.number().into(), 0).into();
         let request: Request<'_> = if port == AmsPort::COM { of_com } else { of_class };
-        let mut buf = vec![0; request.encoded_len()];
-        let call = request.encode(&mut buf).map_err(harness)?;
-        let exchange = match probe.call(&Call { port, ..call }) {
-            Err(Stop::NotApplicable(_)) => continue,
-            exchange => exchange?,
-        };
+        let call = RawCall::new(request)?.with(|call| call.port = port);
+        let Some(exchange) = probe.call(&call).if_applicable()? else { continue };
         let nobody = exchange.answer().is_some_and(|answer| {
             [answer.ams_error, answer.result].contains(&AdsError::TARGET_PORT_NOT_FOUND)
         });
         // What is claimed has to be there, however little is documented of its number.
-        probe.check("GEN-4", !nobody, format!("a task at port {}", port.0), exchange.result());
+        probe.check("GEN-4", !nobody, || format!("a task at port {}", port.0), &exchange);
     }
     Ok(())
 }
@@ -71,17 +65,13 @@ fn tasks_apart(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         any = true;
-        let mut buf = vec![0; request.encoded_len()];
-        let good = request.encode(&mut buf).map_err(harness)?;
+        let good = RawCall::new(request)?;
         for &port in ports {
             let what = format!("{} at port {}", request.function().spec().name, port.0);
-            probe.refused("GEN-4", &what, &Call { port, ..good }, &good)?;
+            probe.refuses("GEN-4", &what, good.with(|call| call.port = port), &good)?;
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("neither COM nor SDA is claimed".to_owned())),
-    }
+    applicable(any, "neither COM nor SDA is claimed")
 }
 
 /// BOOLEAN's size is printed, those of the others follow from help pages.
@@ -95,13 +85,13 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
             let Some(size) = variable.var_type.element_size() else { continue };
             let whole = variable.dimensions.iter().fold(size, |all, &n| all.saturating_mul(n));
             let (rule, name) = (rule_of(variable.var_type), &variable.name.text);
-            let expected = format!("{whole} bytes for {:?}", variable.var_type);
-            let found = format!("{} bytes of {name}", variable.size);
-            probe.check(rule, variable.size == whole, &expected, found);
+            let expected = || format!("{whole} bytes for {:?}", variable.var_type);
+            let found = || format!("{} bytes of {name}", variable.size);
+            probe.check(rule, variable.size == whole, expected, found);
             let read = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
             // That it is read at all is judged elsewhere.
             let Some(value) = probe.try_ask(read)? else { continue };
-            let found = format!("{} bytes of {name} read", value.len());
+            let found = || format!("{} bytes of {name} read", value.len());
             probe.check(rule, u32::try_from(value.len()) == Ok(whole), expected, found);
         }
     }
@@ -111,10 +101,7 @@ fn type_sizes(probe: &mut Probe<'_>) -> Step {
 fn numbering(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     let find = |probe: &mut Probe<'_>, class, channel| -> Step<Option<ObjectAddress>> {
-        match probe.address_of(class, channel, 0) {
-            Err(Stop::NotApplicable(_)) => Ok(None),
-            address => address,
-        }
+        Ok(probe.address_of(class, channel, 0).if_applicable()?.flatten())
     };
     // Of SDA is said that it has the decoder.
     let first = u32::from(probe.channel()?.number());
@@ -124,47 +111,36 @@ fn numbering(probe: &mut Probe<'_>) -> Step {
         any = true;
         let zero = find(probe, Class::Decoder, 0)?;
         let none = zero.is_none_or(|zero| zero == ObjectAddress::NONE);
-        let found = format!("{zero:?}, that of channel {first} being {there:?}");
+        let found = || format!("{zero:?}, that of channel {first} being {there:?}");
         probe.check("GEN-6", none, "no decoder of a channel 0", found);
     }
     if probe.session.profile.spindles.is_some_and(|spindles| spindles > 0) {
         any = true;
         let zero = find(probe, Class::Spindle, 0)?;
         let there = zero.is_some_and(|zero| zero != ObjectAddress::NONE);
-        for rule in ["GEN-6", "ADR-2"] {
-            let found = format!("{zero:?}");
-            probe.check(rule, there, "a first spindle with the index 0", found);
-        }
+        let found = || format!("{zero:?}");
+        probe.check(["GEN-6", "ADR-2"], there, "a first spindle with the index 0", found);
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("the target names no instance".to_owned())),
-    }
+    applicable(any, "the target names no instance")
 }
 
 fn no_channel_0(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let request: Request<'_> = CountVariables::new(channel, Kind::V_E).into();
-    let mut buf = vec![0; request.encoded_len()];
-    let good = request.encode(&mut buf).map_err(harness)?;
+    let good = RawCall::new(request)?;
     for group in [0x12_2300, 0x02_2300] {
-        let bad = Call { index_group: IndexGroup::new(group), ..good };
+        let bad = good.with(|call| call.index_group = IndexGroup::new(group));
         let what = format!("the variables of channel 0 in group {group:#x}");
-        probe.refused("GEN-6", &what, &bad, &good)?;
+        probe.refuses("GEN-6", &what, &bad, &good)?;
     }
-    let variables = match probe.variables(channel) {
-        Ok(variables) => variables,
-        Err(Stop::NotApplicable(_) | Stop::Inconclusive(_)) => return Ok(()),
-        Err(stop) => return Err(stop),
-    };
-    let Some(name) = super::axis::name_on_axes(&variables) else { return Ok(()) };
-    let axis = ChannelAxis::new(1).map_err(harness)?;
+    let Some(variables) = probe.variables(channel).if_known()? else { return Ok(()) };
+    let Some(name) = name_on_axes(&variables) else { return Ok(()) };
+    let axis = ChannelAxis::new(1)?;
     let request: Request<'_> =
         AxisHandleByName { channel, axis, name: name.as_cnc_str().into() }.into();
-    let mut buf = vec![0; request.encoded_len()];
-    let good = request.encode(&mut buf).map_err(harness)?;
+    let good = RawCall::new(request)?;
     let offset = ads_cnc::address::IndexOffset::new(good.index_offset.get() & 0xFFFF);
-    probe.refused("GEN-6", "a name at place 0", &Call { index_offset: offset, ..good }, &good)
+    probe.refuses("GEN-6", "a name at place 0", good.with(|call| call.index_offset = offset), &good)
 }
 
 /// Characters that a code page or a bit too few may have cost, and what stands in their place.
@@ -188,17 +164,14 @@ fn names_found(probe: &mut Probe<'_>) -> Step {
             any = true;
             let by_name = HandleByName { channel, name: name_of(&variable) };
             let found = probe.try_ask(by_name)?.is_some();
-            let expected = format!("a handle of {}", variable.name.text);
+            let expected = || format!("a handle of {}", variable.name.text);
             probe.check("GEN-3", found, expected, "the name is not found");
             // What looks like UTF-8 may be meant.
             let text = Hex(name.to_vec());
             probe.check(assumed("GEN-3"), !is_utf_8(name), "one byte a character", text);
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no name has a character beyond ASCII".to_owned())),
-    }
+    applicable(any, "no name has a character beyond ASCII")
 }
 
 /// The same text but for characters beyond ASCII. Another text altogether is no matter of
@@ -223,8 +196,8 @@ fn text<'r>(probe: &mut Probe<'_>, held: &CncString, read: impl Iterator<Item = 
     let wrong = read.iter().find(|read| is_miswritten(bytes, read));
     let kept = read.contains(&bytes);
     if kept || wrong.is_some() {
-        let expected = format!("{held}: {}", Hex(bytes.to_vec()));
-        let found = Hex(wrong.copied().unwrap_or_default().to_vec());
+        let expected = || format!("{held}: {}", Hex(bytes.to_vec()));
+        let found = || Hex(wrong.copied().unwrap_or_default().to_vec());
         probe.check("GEN-3", kept, expected, found);
     }
 }
@@ -242,8 +215,7 @@ fn names_within(probe: &mut Probe<'_>) -> Step {
         let of_name: Request<'_> = ReadElementName::new(element).into();
         let of_unit = ReadElementUnit::new(element).into();
         for (held, request) in [(&held.name, of_name), (&held.unit, of_unit)] {
-            let read = probe.try_ask(request)?.unwrap_or_default();
-            let read = ElementText::decode(&read).ok();
+            let read = probe.try_read::<ElementText>(request)?;
             text(probe, held, read.iter().map(|read| read.text.text.as_bytes()));
         }
     }
@@ -251,12 +223,8 @@ fn names_within(probe: &mut Probe<'_>) -> Step {
         if !is_telling(variable.name.as_bytes()) || !claimed.contains(&variable.channel) {
             continue;
         }
-        let channel = Channel::new(variable.channel.into()).map_err(harness)?;
-        let described = match probe.variables(channel) {
-            Ok(described) => described,
-            Err(Stop::NotApplicable(_) | Stop::Inconclusive(_)) => continue,
-            Err(stop) => return Err(stop),
-        };
+        let channel = Channel::new(variable.channel.into())?;
+        let Some(described) = probe.variables(channel).if_known()? else { continue };
         text(probe, &variable.name, described.iter().map(|one| one.name.text.as_bytes()));
     }
     Ok(())

@@ -7,11 +7,9 @@ use ads_cnc::operation::{HandleByName, ReadByHandle, ReadByName};
 use ads_cnc::{Decode as _, Description, Handle, Kind, TextRef, U32List, VariablePath};
 use ads_cnc_vectors::Hex;
 
-use super::probe::{Probe, harness};
-use super::steady::Steady;
-use super::variable::name_of;
+use super::kit::{Probe, Steady, name_of};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{Needs, OrStop as _, Step, Stop, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -38,19 +36,14 @@ fn described(probe: &mut Probe<'_>) -> Step {
             let by_handle = whole(channel, variable.handle);
             let by_name = ReadByName { channel, name: name_of(&variable) };
             let answered = probe.try_ask(by_handle)?.is_some();
-            let expected = format!("an answer to the handle {what} is described with");
-            for rule in ["VAR-4", "VAR-10"] {
-                probe.check(rule, answered, &expected, "an error");
-            }
+            let expected = || format!("an answer to the handle {what} is described with");
+            probe.check(["VAR-4", "VAR-10"], answered, expected, "an error");
             let exchange = probe.send(by_name)?;
-            let named = exchange.answer().is_some_and(|answer| answer.success().is_some());
-            for rule in ["VAR-4", "VAR-9"] {
-                let expected = format!("an answer to the name {what}");
-                probe.check(rule, named, expected, exchange.result());
-            }
+            let named = exchange.success().is_some();
+            let expected = || format!("an answer to the name {what}");
+            probe.check(["VAR-4", "VAR-9"], named, expected, &exchange);
             if answered && named {
-                let rules = ["VAR-4", "VAR-10"].map(Rule::from);
-                steady.same(probe, &rules, &what, by_handle, by_name.into())?;
+                steady.same(probe, ["VAR-4", "VAR-10"], &what, by_handle, by_name)?;
             }
         }
     }
@@ -59,10 +52,10 @@ fn described(probe: &mut Probe<'_>) -> Step {
 
 /// The handle of a name, which has to have one.
 fn handle_of(probe: &mut Probe<'_>, channel: Channel, name: TextRef<'_>) -> Step<Option<Handle>> {
-    let rules = ["VAR-9", "VAR-10"].map(Rule::from);
-    let data = probe.ask_for(&rules, HandleByName { channel, name })?;
+    let rules = ["VAR-9", "VAR-10"];
+    let data = probe.ask(rules, HandleByName { channel, name })?;
     let handle = Handle::decode(&data);
-    probe.require(&rules, handle.is_ok(), "a handle of four bytes", Hex(data))?;
+    probe.require(rules, handle.is_ok(), "a handle of four bytes", || Hex(data))?;
     Ok(handle.ok())
 }
 
@@ -74,16 +67,17 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             let name = name_of(variable);
             let Some(handle) = handle_of(probe, channel, name)? else { continue };
             // That there is but one handle is said nowhere: what counts is what it reads.
-            let expected = format!("the description's {:?} for {}", variable.handle, name.text());
+            let expected =
+                || format!("the description's {:?} for {}", variable.handle, name.text());
             let rule = assumed("VAR-10");
-            probe.check(rule, handle == variable.handle, expected, format!("{handle:?}"));
-            let found = format!("{handle:?} of {} again", name.text());
+            probe.check(rule, handle == variable.handle, expected, || format!("{handle:?}"));
+            let found = || format!("{handle:?} of {} again", name.text());
             probe.check(rule, handles.insert(handle), "a handle of its own", found);
             let read = probe.ask("VAR-10", whole(channel, handle))?;
             let sized = u32::try_from(read.len()) == Ok(variable.size)
                 || variable.var_type.element_size().is_none();
-            let found = format!("{} bytes of {}", read.len(), name.text());
-            probe.check("VAR-10", sized, format!("its {} bytes", variable.size), found);
+            let found = || format!("{} bytes of {}", read.len(), name.text());
+            probe.check("VAR-10", sized, || format!("its {} bytes", variable.size), found);
         }
     }
     Ok(())
@@ -94,15 +88,14 @@ fn stays(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for variable in probe.readable(channel)? {
             let asked = HandleByName { channel, name: name_of(&variable) };
-            let data = probe.try_ask(asked)?;
-            let handle = data.and_then(|data| Handle::decode(&data).ok());
+            let handle = probe.try_read::<Handle>(asked)?;
             all.extend(handle.map(|handle| (channel, variable, handle)));
         }
-        let unknown = TextRef::new("V.E.no such variable").map_err(harness)?;
+        let unknown = TextRef::new("V.E.no such variable")?;
         probe.try_ask(HandleByName { channel, name: unknown })?;
     }
     if all.is_empty() {
-        return Err(Stop::Inconclusive("no name has a handle".to_owned()));
+        return Err(Stop::inconclusive("no name has a handle"));
     }
     let mut steady = Steady::default();
     for (channel, variable, handle) in &all {
@@ -110,12 +103,11 @@ fn stays(probe: &mut Probe<'_>) -> Step {
         // Twice each, as one that is used up by the first read is none.
         for time in ["once", "again"] {
             let read = probe.try_ask(by_handle)?.is_some();
-            let expected = format!("{} read by its handle {time}", variable.name.text);
+            let expected = || format!("{} read by its handle {time}", variable.name.text);
             probe.check("VAR-10", read, expected, "an error");
         }
         let by_name = ReadByName { channel, name: name_of(variable) };
-        let what = variable.name.text.to_string();
-        steady.same(probe, &["VAR-10".into()], &what, by_handle, by_name.into())?;
+        steady.same(probe, "VAR-10", &variable.name.text, by_handle, by_name)?;
     }
     steady.finish()
 }
@@ -133,7 +125,7 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         path.is_ok_and(|path| path.kind() == Kind::V_A)
     };
     let known = variables.iter().find(|one| !is_of_axis(one)).or(variables.first());
-    let known = known.ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let known = known.or_inconclusive("no variable")?;
     let near = [0x80_0000, 0x8000_0000].map(|bit| known.handle.0 ^ bit);
     let numbers = [0, 1, 0x7FFF_FFFF, u32::MAX].into_iter().chain(near);
     for number in numbers.filter(|number| !taken.contains(number)) {

@@ -6,14 +6,14 @@
 use ads_cnc::address::{Class, IndexGroup, IndexOffset};
 use ads_cnc::ads::AmsPort;
 use ads_cnc::operation::{
-    Call, CountObjects, CountVariables, DescribeByIndex, Function, GroupRule, HandleByName,
-    ObjectList, ReadByHandle, ReadByName, ReadDescriptors, Request, Service,
+    CountObjects, CountVariables, DescribeByIndex, Function, GroupRule, HandleByName, ObjectList,
+    ReadByHandle, ReadByName, ReadDescriptors, Request, Service,
 };
 use ads_cnc::{Kind, TextRef, U32List};
 
-use super::probe::{Probe, harness};
+use super::kit::{Probe, RawCall};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{Needs, OrStop as _, Rule, Step, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -36,23 +36,17 @@ pub(super) const CASES: &[Row] = &[
 /// A good request, and how it is spoilt.
 struct Spoilt<'p, 's> {
     probe: &'p mut Probe<'s>,
-    good: Vec<u8>,
-    call: Call<'static>,
+    good: RawCall,
 }
 
 impl<'p, 's> Spoilt<'p, 's> {
     fn new<'a>(probe: &'p mut Probe<'s>, request: impl Into<Request<'a>>) -> Step<Self> {
-        let request = request.into();
-        let mut good = vec![0; request.encoded_len()];
-        let call = request.encode(&mut good).map_err(harness)?;
-        let call = Call { data: &[], ..call };
-        Ok(Self { probe, good, call })
+        Ok(Self { probe, good: RawCall::new(request)? })
     }
 
     /// Sends other data in place of the good.
     fn data(&mut self, rule: impl Into<Rule>, what: &str, data: &[u8]) -> Step {
-        let sibling = Call { data: &self.good, ..self.call };
-        self.probe.refused(rule, what, &Call { data, ..self.call }, &sibling)
+        self.call(rule, what, |call| call.data = data.to_vec())
     }
 
     /// Sends data in which count and indices do not fit each other: as long as the count says it
@@ -63,11 +57,13 @@ impl<'p, 's> Spoilt<'p, 's> {
     }
 
     /// Sends the good data elsewhere or otherwise.
-    fn call(&mut self, rule: impl Into<Rule>, what: &str, spoil: impl Fn(&mut Call<'_>)) -> Step {
-        let sibling = Call { data: &self.good, ..self.call };
-        let mut call = sibling;
-        spoil(&mut call);
-        self.probe.refused(rule, what, &call, &sibling)
+    fn call(
+        &mut self,
+        rule: impl Into<Rule>,
+        what: &str,
+        spoil: impl FnOnce(&mut RawCall),
+    ) -> Step {
+        self.probe.refuses(rule, what, self.good.with(spoil), &self.good)
     }
 }
 
@@ -91,7 +87,7 @@ fn bad_kind(probe: &mut Probe<'_>) -> Step {
 fn bad_index_kind(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let mut spoilt = Spoilt::new(probe, DescribeByIndex::new(channel, 0, Kind::V_E))?;
-    let good = spoilt.good.clone();
+    let good = spoilt.good.data.clone();
     for len in 0..good.len() {
         let what = format!("the request cut to {len} bytes");
         spoilt.data(assumed("VAR-3"), &what, good.get(..len).unwrap_or_default())?;
@@ -104,14 +100,14 @@ fn bad_index_kind(probe: &mut Probe<'_>) -> Step {
 fn bad_name(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
-    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let known = variables.first().or_inconclusive("no variable")?;
     let text = known.name.text.as_cnc_str();
     let field = TextRef::from(text);
     let requests: [Request<'_>; 2] =
         [HandleByName { channel, name: field }.into(), ReadByName { channel, name: field }.into()];
     for request in requests {
         let mut spoilt = Spoilt::new(probe, request)?;
-        let good = spoilt.good.clone();
+        let good = spoilt.good.data.clone();
         let open = good.split_last().map(|(_, open)| open.to_vec()).unwrap_or_default();
         let behind = [&good, &b"x"[..]].concat();
         let long = [&good[..], &vec![0; 257_usize.saturating_sub(good.len())]].concat();
@@ -147,10 +143,10 @@ fn bad_handle_header(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
     let array = variables.iter().find(|variable| variable.dimensions.len() == 1);
-    let array = array.ok_or(Stop::NotApplicable("no variable is an array".to_owned()))?;
+    let array = array.or_not_applicable("no variable is an array")?;
     let request = ReadByHandle::new(channel, array.handle, U32List::from(&[0]));
     let mut spoilt = Spoilt::new(probe, request)?;
-    let good = spoilt.good.clone();
+    let good = spoilt.good.data.clone();
     for len in 0..good.len() {
         let what = format!("the header cut to {len} bytes");
         let data = good.get(..len).unwrap_or_default();
@@ -228,7 +224,7 @@ fn bad_service(probe: &mut Probe<'_>) -> Step {
             call.service = service;
             // A Read has no room for any.
             if service == Service::Read {
-                call.data = &[];
+                call.data.clear();
             }
         })?;
     }
@@ -243,8 +239,7 @@ fn bad_service(probe: &mut Probe<'_>) -> Step {
 fn bad_read_length(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let list = ObjectList::from(channel);
-    let one = ReadDescriptors::new(list, 1, 1).map_err(harness)?;
-    let mut spoilt = Spoilt::new(probe, one)?;
+    let mut spoilt = Spoilt::new(probe, ReadDescriptors::new(list, 1, 1)?)?;
     for length in [0, 4, 83] {
         let what = format!("a read length of {length} for a descriptor");
         spoilt.call(assumed("COM-3"), &what, |call| call.read_length = length)?;

@@ -1,13 +1,11 @@
 //! The suite: what it tries, in which order, and what comes of it.
 
 mod address;
-mod addresses;
 mod ads_services;
 mod arrays;
 mod attributes;
 mod axis;
 mod axis_exchange;
-mod axis_interface;
 mod axis_place;
 mod byte_order;
 mod com;
@@ -19,26 +17,21 @@ mod dynamic;
 mod elements;
 mod general;
 mod handles;
-mod inventory;
-mod layout;
+mod kit;
 mod malformed;
 mod names;
 mod needs;
 mod no_padding;
-mod place;
 mod platform;
 mod printed;
-mod probe;
 pub mod replay;
 mod run;
 mod sda;
 mod service_interface;
 mod session;
 mod simulator_state;
-mod steady;
 mod stream;
 mod texts;
-mod undo;
 mod values;
 mod variable;
 mod variable_lookup;
@@ -53,10 +46,9 @@ mod write_sizes;
 mod write_texts;
 
 pub(crate) use com::descriptor_holds_together;
-pub use probe::Probe;
+pub use kit::{Changes, Probe};
 pub use run::run;
 pub use session::Session;
-pub use undo::Changes;
 pub(crate) use variable::holds_together;
 
 use crate::judge::{Body, Case, Needs, Step, Subject, codec_cases, in_catalogue};

@@ -1,19 +1,11 @@
 //! Cases of names: what they are made of, and what is reached by name only.
 
-use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
-use ads_cnc::limits::DYNAMIC_NAME_MAX;
-use ads_cnc::operation::{
-    CountDynamic, DynamicNameByIndex, DynamicValueByName, HandleByName, ReadByName,
-};
-use ads_cnc::{CncString, Decode as _, TextRef, VariablePath, VariableType};
+use ads_cnc::operation::{DynamicValueByName, HandleByName, ReadByName};
+use ads_cnc::{CncString, TextRef, VariablePath, VariableType};
 
-use super::probe::{Probe, harness};
-use super::steady::Steady;
-use super::variable::name_of;
+use super::kit::{Probe, Steady, dynamic_among_variables, name_of};
 use super::{Row, case};
-use crate::edition::{Edition, Feature};
-use crate::judge::{Needs, Step, Stop, assumed};
-use crate::profile::Claim;
+use crate::judge::{Needs, OrStop as _, Step, Stop, applicable, assumed};
 use crate::values::until_nul;
 
 #[rustfmt::skip]
@@ -33,11 +25,11 @@ fn paths(probe: &mut Probe<'_>) -> Step {
         for variable in probe.variables(channel)? {
             let name = &variable.name.text;
             let path = VariablePath::from_text(name.as_cnc_str());
-            let found = match &path {
-                Ok(_) => format!("{name}"),
+            let found = || match &path {
+                Ok(_) => name.to_string(),
                 Err(error) => format!("{name}: {error}"),
             };
-            probe.check("VAR-20", path.is_ok(), "a name of structures and indices", &found);
+            probe.check("VAR-20", path.is_ok(), "a name of structures and indices", found);
             let Ok(path) = path else { continue };
             // An array at a leaf is one thing: its elements are not listed.
             let whole = path.elements().is_empty();
@@ -51,68 +43,26 @@ fn paths(probe: &mut Probe<'_>) -> Step {
 fn known(probe: &mut Probe<'_>) -> Step<CncString> {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
-    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let known = variables.first().or_inconclusive("no variable")?;
     Ok(known.name.text.clone())
 }
 
 fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let names = probe.session.profile.by_name_only.clone();
     if names.is_empty() {
-        let why = "no variable is known that is by name only; a profile can name one".to_owned();
-        return Err(Stop::NotApplicable(why));
+        return Err(Stop::not_applicable(
+            "no variable is known that is by name only; a profile can name one",
+        ));
     }
     let (channel, known) = (probe.channel()?, known(probe)?);
     for name in names.iter() {
-        let name = TextRef::new(name).map_err(harness)?;
+        let name = TextRef::new(name)?;
         probe.ask("VAR-18", ReadByName { channel, name })?;
         let good = HandleByName { channel, name: known.as_cnc_str().into() };
         let what = format!("the handle of {}", name.text());
         probe.refuses("VAR-18", &what, HandleByName { channel, name }, good)?;
     }
     Ok(())
-}
-
-/// The names of V.P, V.L and V.S that there are at the moment.
-fn dynamic(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
-    let channel = probe.channel()?;
-    let mut all = Vec::new();
-    for kind in DynamicKind::ALL.into_iter().filter(|kind| *kind != DynamicKind::P) {
-        let Some(data) = probe.try_ask(CountDynamic::new(channel, kind))? else { continue };
-        let count = DynamicCount::decode(&data).map_or(0, |count| count.0.min(64));
-        for index in 1..=count {
-            let request = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
-            let data = probe.try_ask(request)?.unwrap_or_default();
-            let name = DynamicName::decode(&data).ok().map(|name| name.name.text);
-            // One that leaves no room for its NUL cannot be asked for.
-            let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
-            all.extend(name.map(|name| (kind, name)));
-        }
-    }
-    Ok(all)
-}
-
-/// The V.P, V.L and V.S that are among the variables too, by edition and version.
-pub(super) fn dynamic_among_variables(
-    probe: &mut Probe<'_>,
-) -> Step<Vec<(DynamicKind, CncString)>> {
-    let profile = &probe.session.profile;
-    let lacks = |why: &str| Err(Stop::NotApplicable(why.to_owned()));
-    if profile.edition != Edition::German {
-        return lacks("the edition has V.P, V.L and V.S among the parameters only");
-    }
-    let claim = profile.has(Feature::DynamicVariables);
-    if claim == Claim::No {
-        return lacks("the version has V.P, V.L and V.S among the parameters only");
-    }
-    let (channel, all) = (probe.channel()?, dynamic(probe)?);
-    let Some((_, name)) = all.first() else {
-        return lacks("there is no V.P, V.L or V.S at the moment");
-    };
-    let by_name = ReadByName { channel, name: name.as_cnc_str().into() };
-    if claim == Claim::Open && probe.try_ask(by_name)?.is_none() {
-        return lacks("the target has no V.P, V.L or V.S here, which come with a version");
-    }
-    Ok(all)
 }
 
 fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
@@ -123,15 +73,7 @@ fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {
         let name = TextRef::from(name.as_cnc_str());
         let by_name = ReadByName { channel, name };
         let one = DynamicValueByName { channel, kind: *kind, name };
-        let what = name.text().to_string();
-        steady.same_part(
-            probe,
-            &["VAR-19".into()],
-            &what,
-            one.into(),
-            by_name.into(),
-            <[u8]>::to_vec,
-        )?;
+        steady.same(probe, "VAR-19", name.text(), one, by_name)?;
         let good = HandleByName { channel, name: known.as_cnc_str().into() };
         let what = format!("the handle of {}", name.text());
         probe.refuses("VAR-18", &what, HandleByName { channel, name }, good)?;
@@ -149,18 +91,15 @@ fn texts(probe: &mut Probe<'_>) -> Step {
             any = true;
             let value = probe.try_ask(ReadByName { channel, name: name_of(&variable) })?;
             let Some(value) = value else { continue };
-            let found = format!("{} bytes of {}", value.len(), variable.name.text);
+            let found = || format!("{} bytes of {}", value.len(), variable.name.text);
             let fits = u32::try_from(value.len()).is_ok_and(|len| len <= variable.size);
-            let expected = format!("at most the {} bytes it is described with", variable.size);
+            let expected = || format!("at most the {} bytes it is described with", variable.size);
             probe.check(assumed("VAR-22"), fits, expected, found);
             let text = until_nul(&value);
             let readable = text.iter().all(|&byte| byte >= b' ' || byte == b'\t');
-            let found = format!("{text:02x?} of {}", variable.name.text);
+            let found = || format!("{text:02x?} of {}", variable.name.text);
             probe.check(assumed("VAR-22"), readable, "characters up to the first NUL", found);
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no variable is a STRING".to_owned())),
-    }
+    applicable(any, "no variable is a STRING")
 }

@@ -3,13 +3,9 @@
 use ads_cnc::operation::{DescribeByIndex, ReadDescriptors};
 use ads_cnc::{Decode as _, Description, DescriptorRef, DescriptorsRef};
 
-use super::byte_order::Counted;
-use super::describe_by_name::kinds;
-use super::inventory::OBJECTS_MAX;
-use super::inventory::VARIABLES_MAX;
-use super::probe::{Probe, harness};
+use super::kit::{Counted, OBJECTS_MAX, Probe, VARIABLES_MAX};
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop};
+use crate::judge::{Needs, Step, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -44,14 +40,14 @@ fn packed(probe: &mut Probe<'_>) -> Step {
     for list in probe.lists()? {
         let Ok(Some(number)) = Counted::Objects(list).number(probe) else { continue };
         for first in 1..=number.min(OBJECTS_MAX) {
-            let one = ReadDescriptors::new(list, first, 1).map_err(harness)?;
+            let one = ReadDescriptors::new(list, first, 1)?;
             let Some(bytes) = probe.try_ask(one)? else { break };
             any = true;
             descriptor_is_packed(probe, &bytes);
         }
     }
     for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
+        for (name, kind) in probe.kinds() {
             let counted = Counted::Variables(channel, name, kind);
             let Ok(Some(number)) = counted.number(probe) else { continue };
             for index in 0..number.min(VARIABLES_MAX) {
@@ -62,10 +58,7 @@ fn packed(probe: &mut Probe<'_>) -> Step {
             }
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing is described".to_owned())),
-    }
+    applicable(any, "nothing is described")
 }
 
 fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
@@ -73,15 +66,14 @@ fn descriptor_is_packed(probe: &mut Probe<'_>, bytes: &[u8]) {
         DescriptorsRef::decode(bytes).ok().and_then(|list| list.get(0)).is_some_and(judge)
     };
     // An unknown type is none of the manual's, but a type.
-    let shift = match object(bytes, |one| one.name().is_empty() && one.type_name().is_empty()) {
-        true => unpacked(bytes, 52, |bytes| {
-            let mut bytes = bytes.to_vec();
-            bytes.resize(ads_cnc::limits::DESCRIPTOR_LEN, 0);
-            object(&bytes, |one| has_type(one) && !one.name().is_empty())
-        }),
-        false => None,
+    let is_unpacked = object(bytes, |one| one.name().is_empty() && one.type_name().is_empty());
+    let makes_sense = |bytes: &[u8]| {
+        let mut bytes = bytes.to_vec();
+        bytes.resize(ads_cnc::limits::DESCRIPTOR_LEN, 0);
+        object(&bytes, |one| has_type(one) && !one.name().is_empty())
     };
-    let found = format!("{} bytes more in between", shift.unwrap_or_default());
+    let shift = if is_unpacked { unpacked(bytes, 52, makes_sense) } else { None };
+    let found = || format!("{} bytes more in between", shift.unwrap_or_default());
     probe.check("GEN-2", shift.is_none(), "name and type at bytes 20 and 52", found);
 }
 
@@ -90,16 +82,18 @@ fn description_is_packed(probe: &mut Probe<'_>, bytes: &[u8], kind: &str) {
         let name = one.name.text.to_string();
         name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'))
     };
-    let decoded = Description::decode(bytes);
-    let shift = match decoded.is_ok_and(|one| of_kind(&one)) {
-        true => None,
-        false => unpacked(bytes, bytes.len(), |bytes| {
-            Description::decode(bytes)
-                .is_ok_and(|one| of_kind(&one) && one.var_type.name().is_some())
-        }),
+    let makes_sense = |bytes: &[u8]| {
+        Description::decode(bytes).is_ok_and(|one| of_kind(&one) && one.var_type.name().is_some())
     };
-    let found = format!("{} bytes more in between", shift.unwrap_or_default());
-    probe.check("GEN-2", shift.is_none(), format!("a name of {kind} behind the dimensions"), found);
+    let is_of_kind = Description::decode(bytes).is_ok_and(|one| of_kind(&one));
+    let shift = if is_of_kind { None } else { unpacked(bytes, bytes.len(), makes_sense) };
+    let found = || format!("{} bytes more in between", shift.unwrap_or_default());
+    probe.check(
+        "GEN-2",
+        shift.is_none(),
+        || format!("a name of {kind} behind the dimensions"),
+        found,
+    );
 }
 
 /// How many bytes too many stand somewhere before `end`, so that the stream makes sense without

@@ -8,13 +8,11 @@ use ads_cnc::address::{
 use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors, ReadObject};
 use ads_cnc::{Decode as _, Descriptors, ObjectCount};
 
-use super::com::{known_number, number, one_by_one};
-use super::content::read_of;
-use super::inventory::{OBJECTS_MAX, Object};
-use super::probe::{Probe, harness};
-use super::steady::Steady;
+use super::kit::{
+    OBJECTS_MAX, Object, Probe, Steady, descriptors_one_by_one, known_object_count, object_count,
+};
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop, assumed};
+use crate::judge::{Needs, Step, Stop, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -29,8 +27,8 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 fn platform_objects(probe: &mut Probe<'_>) -> Step {
-    let platform = number(probe, ObjectList::PLATFORM).map_err(|stop| match stop {
-        Stop::NotApplicable(_) => Stop::NotApplicable("the platform has no object".to_owned()),
+    let platform = object_count(probe, ObjectList::PLATFORM).map_err(|stop| match stop {
+        Stop::NotApplicable(_) => Stop::not_applicable("the platform has no object"),
         other => other,
     });
     let platform = match platform {
@@ -41,19 +39,19 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
         }
         other => other?,
     };
-    let own = one_by_one(probe, "COM-4", ObjectList::PLATFORM, platform)?;
-    let first = Channel::new(1).map_err(harness)?;
-    let all = known_number(probe, first.into())?;
-    let listed = one_by_one(probe, "COM-4", first.into(), all)?;
+    let own = descriptors_one_by_one(probe, "COM-4", ObjectList::PLATFORM, platform)?;
+    let first = Channel::new(1)?;
+    let all = known_object_count(probe, first.into())?;
+    let listed = descriptors_one_by_one(probe, "COM-4", first.into(), all)?;
     let names: HashSet<String> =
         listed.as_ref().iter().map(|object| object.name().to_string()).collect();
     for object in own.as_ref().iter() {
         let name = object.name().to_string();
         let expected = "each of the platform's objects in the list of channel 1";
-        let found = format!("{name} is not in it");
+        let found = || format!("{name} is not in it");
         probe.check("COM-4", names.contains(&name), expected, found);
         let com = matches!(object.index_group().parts(), Some(Group::Com(_)));
-        probe.check(assumed("ADR-3"), com, "a group of COM", object.index_group());
+        probe.check(assumed("ADR-3"), com, "a group of COM", || object.index_group());
     }
     Ok(())
 }
@@ -61,30 +59,30 @@ fn platform_objects(probe: &mut Probe<'_>) -> Step {
 fn platform_axes(probe: &mut Probe<'_>) -> Step {
     let axes = probe.session.profile.platform_axes;
     if axes == 0 {
-        return Err(Stop::NotApplicable("no platform axis is claimed".to_owned()));
+        return Err(Stop::not_applicable("no platform axis is claimed"));
     }
     let mut seen: HashSet<u32> = HashSet::new();
     for place in 1..=axes {
-        let axis = PlatformAxis::new(place).map_err(harness)?;
+        let axis = PlatformAxis::new(place)?;
         let data = probe.ask(assumed("COM-7"), CountObjects::new(axis))?;
         let number = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
         let expected = "the axis's objects";
-        probe.check(assumed("COM-7"), number > 0, expected, format!("{number} objects"));
+        probe.check(assumed("COM-7"), number > 0, expected, || format!("{number} objects"));
         if number == 0 {
             continue;
         }
-        let objects: Descriptors = probe
-            .read(assumed("COM-7"), ReadDescriptors::new(axis, 1, number).map_err(harness)?)?;
+        let objects: Descriptors =
+            probe.read(assumed("COM-7"), ReadDescriptors::new(axis, 1, number)?)?;
         let ids: Vec<u32> = objects.as_ref().iter().map(|object| object.id()).collect();
         let own = ids.iter().all(|&id| seen.insert(id));
-        let found = format!("IDs {ids:?}, some of them of another axis");
-        probe.check(assumed("COM-7"), own, format!("objects of axis {place} alone"), found);
+        let found = || format!("IDs {ids:?}, some of them of another axis");
+        probe.check(assumed("COM-7"), own, || format!("objects of axis {place} alone"), found);
         for object in objects.as_ref().iter() {
             let group = object.index_group();
             let of_axes =
                 matches!(group.parts(), Some(Group::Com(ComGroup { table: ComTable::Axis, .. })));
             let expected = "content in a group of platform axes";
-            probe.check(assumed("ADR-3"), of_axes, expected, group);
+            probe.check(assumed("ADR-3"), of_axes, expected, || group);
         }
     }
     Ok(())
@@ -98,29 +96,25 @@ fn platform_content(probe: &mut Probe<'_>) -> Step {
     let mut steady = Steady::default();
     let mut any = false;
     for object in of(ObjectList::PLATFORM) {
-        let Some(one) = read_of(object) else { continue };
+        let Some(one) = object.read() else { continue };
         any = true;
         let what = object.name.to_string();
         let same = |one: &&Object| one.name == object.name && one.size == object.size;
-        if let Some(other) = of(first).find(same).and_then(read_of) {
-            steady.same(probe, &["COM-4".into()], &what, one, other.into())?;
+        if let Some(other) = of(first).find(same).and_then(Object::read) {
+            steady.same(probe, "COM-4", &what, one, other)?;
         }
         // And at its own offset in the groups of both.
         for list in [ObjectList::PLATFORM, first] {
             let group = ComGroup { access: Access::Element, ..list.parts() }.index_group();
-            let there = ReadObject::new(group, object.offset, object.size).map_err(harness)?;
+            let there = ReadObject::new(group, object.offset, object.size)?;
             let answered = probe.try_ask(there)?.is_some();
-            for rule in ["COM-4", "ADR-3"] {
-                let expected = format!("{what} in group {group}");
-                probe.check(rule, answered, expected, "an error");
-            }
-            steady.same(probe, &["COM-4".into()], &what, one, there.into())?;
+            let expected = || format!("{what} in group {group}");
+            probe.check(["COM-4", "ADR-3"], answered, expected, "an error");
+            steady.same(probe, "COM-4", &what, one, there)?;
         }
     }
-    match any {
-        true => steady.finish(),
-        false => Err(Stop::NotApplicable("the platform has no object".to_owned())),
-    }
+    applicable(any, "the platform has no object")?;
+    steady.finish()
 }
 
 /// What the manuals print.
@@ -139,20 +133,20 @@ fn printed_content_address(probe: &mut Probe<'_>) -> Step {
         // One of another form of the address has its content here too.
         let read = |size| ReadObject::new(group, offset, size);
         let described = named.and_then(|object| read(object.size).ok());
-        let read = described.map_or_else(|| read(8).map_err(harness), Ok)?;
+        let read = described.map_or_else(|| read(8), Ok)?;
         let exchange = probe.send(read)?;
-        let answered = exchange.answer().and_then(|answer| answer.success());
+        let answered = exchange.success();
         let answered = answered.is_some_and(|content| !content.is_empty());
-        let expected = format!("content of the {what} at ({group}, {offset})");
-        probe.check("COM-6", answered, expected, exchange.result());
+        let expected = || format!("content of the {what} at ({group}, {offset})");
+        probe.check("COM-6", answered, expected, &exchange);
     }
-    let list = ObjectList::from(Channel::new(1).map_err(harness)?);
-    let number = known_number(probe, list)?;
-    let listed = one_by_one(probe, "COM-6", list, number)?;
+    let list = ObjectList::from(Channel::new(1)?);
+    let number = known_object_count(probe, list)?;
+    let listed = descriptors_one_by_one(probe, "COM-6", list, number)?;
     let printed = "mc_command_single_block_w";
     let object = listed.as_ref().iter().find(|object| object.name() == printed);
     let address = object.map(|object| (object.index_group().get(), object.index_offset().get()));
-    let expected = format!("{printed} at (0x120101, 0x1)");
-    probe.check("COM-6", address == Some((0x12_0101, 1)), expected, format!("{address:#x?}"));
+    let expected = || format!("{printed} at (0x120101, 0x1)");
+    probe.check("COM-6", address == Some((0x12_0101, 1)), expected, || format!("{address:#x?}"));
     Ok(())
 }

@@ -2,11 +2,12 @@
 
 use ads_cnc::address::{Group, IndexGroup, IndexOffset};
 use ads_cnc::layout::Stream;
-use ads_cnc::operation::{Call, Service, Task};
+use ads_cnc::operation::{Service, Task};
 use ads_cnc_vectors::{Direction, Hex, ProvenanceKind, Vector, vector, vectors};
 
-use super::probe::{Probe, harness};
+use super::kit::{Probe, RawCall};
 use crate::judge::{Body, Case, Evidence, Needs, Rule, Step, Stop, case_of, typed};
+use crate::text::hex::spaced;
 
 /// One example contradicts another of the same variable (E-27): no CNC answers both.
 const CONTRADICTED: &str = "value-printed-name-element";
@@ -27,8 +28,9 @@ pub(super) fn cases() -> Vec<Case> {
 /// Sends a printed request and holds the reply against the printed one.
 pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     if reply.id == CONTRADICTED {
-        let why = "contradicted by the example of the whole array (E-27), which is answered";
-        return Err(Stop::NotApplicable(why.to_owned()));
+        return Err(Stop::not_applicable(
+            "contradicted by the example of the whole array (E-27), which is answered",
+        ));
     }
     let lacks = |what: &str| Stop::Harness(format!("{} has no {what}", reply.id));
     let context = &reply.context;
@@ -38,25 +40,25 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
     let expected = reply.bytes();
     let read = context.service == Some(ads_cnc_vectors::Service::Read);
     let data = if read { Vec::new() } else { request.bytes() };
-    let length = u32::try_from(expected.len()).map_err(harness)?;
+    let length = u32::try_from(expected.len())?;
     let stream = Stream::by_name(&reply.stream).ok_or_else(|| lacks("stream"))?;
     let index_group = IndexGroup::new(group);
     let task = match index_group.parts() {
         Some(Group::Com(_)) => Task::Com,
         _ => Task::Sda,
     };
-    let call = Call {
+    let call = RawCall {
         port: task.port(),
         service: if read { Service::Read } else { Service::ReadWrite },
         index_group,
         index_offset: IndexOffset::new(offset),
         read_length: if read { length } else { stream.layout().max },
-        data: &data,
+        data,
     };
     let exchange = probe.call(&call)?;
     let values = typed(context);
     probe.show(probe.evidence().map(|evidence| Evidence { values, ..evidence }));
-    let received = exchange.answer().and_then(|answer| answer.success());
+    let received = exchange.success();
     let found = received.map_or_else(|| exchange.result(), |bytes| Hex(bytes.to_vec()).to_string());
     let wrong = wrong_requirements(reply, stream, &expected, received);
     for id in reply.cited().into_iter().map(|one| one.id.as_str()) {
@@ -66,7 +68,7 @@ pub(super) fn ask(probe: &mut Probe<'_>, reply: &'static Vector) -> Step {
             Some(bytes) if bytes != expected => !wrong.contains(&id),
             received => received.is_some(),
         };
-        let printed = format!("{} as printed", Hex(expected.clone()));
+        let printed = || format!("{} as printed", spaced(&expected));
         probe.check_reply(rule, kept, &expected, printed, &found);
     }
     Ok(())

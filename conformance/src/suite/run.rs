@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use super::probe::Probe;
+use super::kit::Probe;
 use super::session::Session;
 use super::{Try, printed, replay, rows};
 use crate::deadline::Deadline;
@@ -27,18 +27,12 @@ pub fn run(
 ) -> Vec<Outcome> {
     let (codec, target): (Vec<Case>, Vec<Case>) =
         cases.into_iter().partition(|case| case.needs == Needs::Codec);
-    let mut outcomes = match codec.is_empty() {
-        true => Vec::new(),
-        false => {
-            let mut own = testee::Own { defect: defect.cloned() };
-            testee::judge(
-                &mut own,
-                codec,
-                Terms { seed, subject: Subject::Codec, edition: None, strict: true },
-            )
-            .outcomes
-        }
-    };
+    let mut outcomes = Vec::new();
+    if !codec.is_empty() {
+        let mut own = testee::Own { defect: defect.cloned() };
+        let terms = Terms { seed, subject: Subject::Codec, edition: None, strict: true };
+        outcomes = testee::judge(&mut own, codec, terms).outcomes;
+    }
     outcomes.extend(target.into_iter().map(|case| {
         let run = TRIES.get(case.id.as_str()).copied();
         one(case, run, session.as_deref_mut())
@@ -114,17 +108,17 @@ mod tests {
     use crate::net;
     use crate::profile::Profile;
     use crate::simulator::{Cnc, NET_ID, Server};
-    use crate::suite::place::{Place, Trial};
+    use crate::suite::kit::{ValueAddress, WriteCheck};
 
     const NAME: &str = "V.E.vartest";
 
-    fn place() -> Place {
+    fn place() -> ValueAddress {
         let name = NAME.parse::<CncString>().unwrap();
-        Place::Name { channel: Channel::new(1).unwrap(), name }
+        ValueAddress::Name { channel: Channel::new(1).unwrap(), name }
     }
 
     fn panics(probe: &mut Probe<'_>) -> Step {
-        let trial = Trial { what: NAME, rules: &[], is_text: false, name: None };
+        let trial = WriteCheck { what: NAME, rules: &[], is_text: false, name: None };
         probe.try_write(&trial, &place(), |probe, before, new| {
             assert_eq!(probe.value_at(&place()).unwrap().as_deref(), Some(new));
             assert_ne!(before, new);

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use ads_cnc::Description;
 use ads_cnc::operation::Service;
 
-use super::inventory::Inventory;
-use super::undo::Changes;
+use super::kit::{Changes, Inventory};
 use crate::client::Client;
 use crate::deadline::Deadline;
 use crate::judge::Record;

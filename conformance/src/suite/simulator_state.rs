@@ -2,16 +2,12 @@
 //! content another value, so that none passes for another.
 
 use ads_cnc::address::{ComGroup, ComTable};
-use ads_cnc_vectors::Hex;
 
-use super::addresses::{Addresses, At};
-use super::byte_order::is_permuted;
-use super::inventory::Object;
-use super::place::{self, Place};
-use super::probe::Probe;
+use super::kit::{self, Addresses, JudgedAddress, Object, Probe, ValueAddress, is_permuted};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
 use crate::simulator::{Held, Holder};
+use crate::text::hex::spaced;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -67,7 +63,7 @@ fn value(held: &Held, number: u32, round: u32) -> Vec<u8> {
 }
 
 fn same(held: &Held, one: &[u8], other: &[u8]) -> bool {
-    place::same(one, other, held.type_name == "STRING")
+    kit::same(one, other, held.type_name == "STRING")
 }
 
 /// Judges a value that was read or is held now. One with its bytes in another order is of the
@@ -81,14 +77,13 @@ fn judge(
 ) {
     let kept = found.is_some_and(|found| same(held, expected, found));
     let permuted = is_number(held) && found.is_some_and(|found| is_permuted(expected, found));
-    let what = format!("{} of {} ({:?})", Hex(expected.to_vec()), held.name, held.holder);
-    let shown = found.map_or_else(|| result.to_owned(), |found| Hex(found.to_vec()).to_string());
+    let what = || format!("{} of {} ({:?})", spaced(expected), held.name, held.holder);
+    let shown = || found.map_or_else(|| result.to_owned(), spaced);
     if is_number(held) && found.is_some_and(|found| found.len() == expected.len()) {
-        probe.check("GEN-1", !permuted, &what, &shown);
+        probe.check("GEN-1", !permuted, what, shown);
     }
-    for &rule in rules.iter().filter(|rule| !permuted || rule.id == "COM-5") {
-        probe.check(rule, kept, &what, &shown);
-    }
+    let rules = rules.iter().filter(|rule| !permuted || rule.id == "COM-5").copied();
+    probe.check(&rules.collect::<Vec<_>>(), kept, what, shown);
 }
 
 /// Every content with its values over the rounds; they are put back whatever comes of it.
@@ -96,7 +91,7 @@ fn is_read(probe: &mut Probe<'_>) -> Step {
     let cnc = probe.cnc()?;
     let all = cnc.held();
     if all.is_empty() {
-        return Err(Stop::NotApplicable("the CNC holds nothing".to_owned()));
+        return Err(Stop::not_applicable("the CNC holds nothing"));
     }
     let addresses = Addresses::new(probe)?;
     let mut done = Ok(());
@@ -118,7 +113,7 @@ fn read(probe: &mut Probe<'_>, addresses: &Addresses, held: &Held, value: &[u8])
         // Of the program stream, and where functions are, nothing is read.
         let Ok(request) = place.read() else { continue };
         let exchange = probe.send(request)?;
-        let found = exchange.answer().and_then(|answer| answer.success());
+        let found = exchange.success();
         judge(probe, &rules, held, (value, found), &exchange.result());
     }
     Ok(())
@@ -130,9 +125,10 @@ fn is_held(probe: &mut Probe<'_>) -> Step {
     let addresses = Addresses::new(probe)?;
     let mut done = Ok(());
     for (number, held) in (1..).zip(&all).filter(|(_, held)| held.writable) {
-        let value = match is_bit(held) {
-            true => held.value.iter().map(|bit| bit ^ 1).collect(),
-            false => value(held, number, 0),
+        let value = if is_bit(held) {
+            held.value.iter().map(|bit| bit ^ 1).collect()
+        } else {
+            value(held, number, 0)
         };
         done = done.and_then(|()| write(probe, &all, held, &addresses.of(held)?, &value));
         all.iter().for_each(|held| cnc.hold(held, &held.value));
@@ -140,7 +136,13 @@ fn is_held(probe: &mut Probe<'_>) -> Step {
     done
 }
 
-fn write(probe: &mut Probe<'_>, all: &[Held], held: &Held, addresses: &[At], value: &[u8]) -> Step {
+fn write(
+    probe: &mut Probe<'_>,
+    all: &[Held],
+    held: &Held,
+    addresses: &[JudgedAddress],
+    value: &[u8],
+) -> Step {
     let cnc = probe.cnc()?;
     for (place, rules) in addresses {
         // The two homes of platform data are read.
@@ -151,7 +153,7 @@ fn write(probe: &mut Probe<'_>, all: &[Held], held: &Held, addresses: &[At], val
         }
         let exchange = probe.send(request)?;
         // That what may be written is taken is judged elsewhere.
-        if exchange.answer().is_none_or(|answer| answer.success().is_none()) {
+        if exchange.success().is_none() {
             continue;
         }
         let mut others = Vec::new();
@@ -162,11 +164,9 @@ fn write(probe: &mut Probe<'_>, all: &[Held], held: &Held, addresses: &[At], val
                 others.push(format!("{} ({:?})", now.name, now.holder));
             }
         }
-        let expected = format!("no change but that of {} ({:?})", held.name, held.holder);
+        let expected = || format!("no change but that of {} ({:?})", held.name, held.holder);
         let found = others.join(", ");
-        for &rule in &rules {
-            probe.check(rule, others.is_empty(), &expected, &found);
-        }
+        probe.check(&rules, others.is_empty(), expected, found);
         all.iter().for_each(|held| cnc.hold(held, &held.value));
     }
     Ok(())
@@ -192,8 +192,8 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         let mine = |object: &&Object| is_list_of(held.holder, object.list.parts());
         // What instances there are is judged elsewhere.
         if let Some(count) = addresses.count(held) {
-            let expected = format!("element {} of {:?}", held.element, held.holder);
-            let found = format!("{count} elements");
+            let expected = || format!("element {} of {:?}", held.element, held.holder);
+            let found = || format!("{count} elements");
             probe.check("OBJ-1", held.element <= count, expected, found);
         }
         // That platform axes have lists is assumed; what is not claimed has none.
@@ -204,24 +204,27 @@ fn is_described(probe: &mut Probe<'_>) -> Step {
         let at = |object: &&Object| {
             places.iter().any(|(place, _)| {
                 let (group, offset) = (object.group, object.offset);
-                matches!(place, Place::Object { group: one, offset: other, .. }
+                matches!(place, ValueAddress::Object { group: one, offset: other, .. }
                     if (*one, *other) == (group, offset))
             })
         };
         let listed = objects.iter().filter(mine).find(at);
         let what = format!("{} ({:?})", held.name, held.holder);
-        for rule in ["COM-2", "OBJ-1"] {
-            probe.check(rule, listed.is_some(), format!("{what} in its list"), "it is not");
-        }
+        probe.check(
+            ["COM-2", "OBJ-1"],
+            listed.is_some(),
+            || format!("{what} in its list"),
+            "it is not",
+        );
         let Some(object) = listed else { continue };
         let sized = u32::try_from(held.value.len()) == Ok(object.size);
-        let expected = format!("{} bytes of {what}", held.value.len());
-        probe.check("COM-2", sized, expected, format!("{} bytes", object.size));
+        let expected = || format!("{} bytes of {what}", held.value.len());
+        probe.check("COM-2", sized, expected, || format!("{} bytes", object.size));
         // It may have another name there, but not another's, nor half of its own.
         let taken = all.iter().any(|one| one.name == object.name);
         let cut = held.name.as_bytes().starts_with(object.name.as_bytes());
         let named = object.name == held.name || !taken && !cut;
-        probe.check("COM-2", named, format!("the name of {what}"), &object.name);
+        probe.check("COM-2", named, || format!("the name of {what}"), || &object.name);
     }
     Ok(())
 }

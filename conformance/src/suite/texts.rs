@@ -3,10 +3,9 @@
 use ads_cnc::VariableType;
 use ads_cnc_vectors::Hex;
 
-use super::place::{Place, Trial, same};
-use super::probe::Probe;
+use super::kit::{Probe, ValueAddress, WriteCheck, same};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{IfThere as _, Needs, Rule, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -18,23 +17,15 @@ pub(super) const CASES: &[Row] = &[
 const UNASSIGNED: [u8; 5] = [0x81, 0x8D, 0x8F, 0x90, 0x9D];
 
 /// Texts that may be written, by what names them.
-fn texts(probe: &mut Probe<'_>) -> Step<Vec<(Place, String)>> {
+fn texts(probe: &mut Probe<'_>) -> Step<Vec<(ValueAddress, String)>> {
     let mut all = Vec::new();
-    match probe.objects() {
-        Ok(objects) => all.extend(objects.into_iter().filter_map(|object| {
-            let is_text = object.type_name.as_cnc_str() == "STRING" && object.writable;
-            let (group, offset, size) = (object.group, object.offset, object.size);
-            is_text.then(|| (Place::Object { group, offset, size }, object.name.to_string()))
-        })),
-        Err(Stop::NotApplicable(_)) => {}
-        Err(stop) => return Err(stop),
+    for object in probe.objects().if_applicable()?.unwrap_or_default() {
+        if object.is_text() && object.writable {
+            all.push((object.address(), object.name.to_string()));
+        }
     }
     for channel in probe.channels()? {
-        let variables = match probe.variables(channel) {
-            Ok(variables) => variables,
-            Err(Stop::NotApplicable(_) | Stop::Inconclusive(_)) => continue,
-            Err(stop) => return Err(stop),
-        };
+        let variables = probe.variables(channel).if_known()?.unwrap_or_default();
         all.extend(variables.into_iter().filter_map(|variable| {
             let is_text = variable.var_type == VariableType::STRING
                 && variable.dimensions.is_empty()
@@ -43,7 +34,7 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(Place, String)>> {
             // Those of the Service Interface an NC program reads.
             let own = !name.to_string().starts_with("V.G.SERVICE.");
             let what = name.to_string();
-            (is_text && own).then_some((Place::Name { channel, name }, what))
+            (is_text && own).then_some((ValueAddress::Name { channel, name }, what))
         }));
     }
     Ok(all)
@@ -51,35 +42,33 @@ fn texts(probe: &mut Probe<'_>) -> Step<Vec<(Place, String)>> {
 
 fn written(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
-    for (place, what) in texts(probe)? {
-        if place.read().is_err() || !probe.may_write(&place, &what)? {
+    for (address, what) in texts(probe)? {
+        if address.read().is_err() || !probe.may_write(&address, &what)? {
             continue;
         }
-        let Some(before) = probe.value_at(&place)?.filter(|value| value.len() > 1) else {
+        let Some(before) = probe.value_at(&address)?.filter(|value| value.len() > 1) else {
             continue;
         };
         any = true;
         let rules = [Rule::from("GEN-3")];
-        let trial = Trial { what: &what, rules: &rules, is_text: true, name: None };
+        let trial = WriteCheck { what: &what, rules: &rules, is_text: true, name: None };
         probe.changing(
             &trial,
-            &place,
+            &address,
             &before,
-            |probe| characters(probe, &place, &what, before.len()),
+            |probe| characters(probe, &address, &what, before.len()),
             |probe| {
-                let taken = probe.put(&trial, &place, &before)?;
-                Ok(taken && probe.value_at(&place)?.is_some_and(|read| same(&read, &before, true)))
+                let taken = probe.put(&trial, &address, &before)?;
+                Ok(taken
+                    && probe.value_at(&address)?.is_some_and(|read| same(&read, &before, true)))
             },
         )?;
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no text may be written".to_owned())),
-    }
+    applicable(any, "no text may be written")
 }
 
 /// Writes all characters, as many as fit each time.
-fn characters(probe: &mut Probe<'_>, place: &Place, what: &str, size: usize) -> Step {
+fn characters(probe: &mut Probe<'_>, address: &ValueAddress, what: &str, size: usize) -> Step {
     let all: Vec<u8> = (0x80..=0xFF).filter(|byte| !UNASSIGNED.contains(byte)).collect();
     for (bytes, rule) in [(&all[..], Rule::from("GEN-3")), (&UNASSIGNED, assumed("GEN-3"))] {
         // One byte is left for the NUL.
@@ -87,7 +76,7 @@ fn characters(probe: &mut Probe<'_>, place: &Place, what: &str, size: usize) -> 
             // As long as what was there: a text of another length may be refused.
             let mut value = piece.to_vec();
             value.resize(size, 0);
-            is_read_again(probe, (place, what), rule, &value)?;
+            is_read_again(probe, (address, what), rule, &value)?;
         }
     }
     Ok(())
@@ -95,18 +84,18 @@ fn characters(probe: &mut Probe<'_>, place: &Place, what: &str, size: usize) -> 
 
 fn is_read_again(
     probe: &mut Probe<'_>,
-    (place, what): (&Place, &str),
+    (address, what): (&ValueAddress, &str),
     rule: Rule,
     value: &[u8],
 ) -> Step {
     // Which texts are taken is documented nowhere.
     let taken = [assumed("GEN-3")];
-    if !probe.put(&Trial { what, rules: &taken, is_text: true, name: None }, place, value)? {
+    if !probe.put(&WriteCheck { what, rules: &taken, is_text: true, name: None }, address, value)? {
         return Ok(());
     }
-    let read = probe.value_at(place)?.unwrap_or_default();
+    let read = probe.value_at(address)?.unwrap_or_default();
     let kept = same(&read, value, true);
-    let expected = format!("{} of {what}, as written", Hex(value.to_vec()));
-    probe.check(rule, kept, expected, Hex(read));
+    let expected = || format!("{} of {what}, as written", Hex(value.to_vec()));
+    probe.check(rule, kept, expected, || Hex(read));
     Ok(())
 }

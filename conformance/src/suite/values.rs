@@ -5,15 +5,14 @@ use ads_cnc::operation::{ReadByHandle, ReadByName, Request};
 use ads_cnc::{Description, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::layout::{
-    brackets, element_count, element_name, element_size, order, part, places_tried,
+use super::kit::{
+    Compared, Probe, Steady, brackets, compare, each_array, each_variable, element_count,
+    element_name, name_of, order, part, places_tried, same,
 };
-use super::place::same;
-use super::probe::Probe;
-use super::variable::name_of;
 use super::{Row, case};
 use crate::explain::{Values, type_by_name};
-use crate::judge::{Evidence, Needs, Rule, Step, Stop};
+use crate::judge::{Evidence, Needs, Rule, Step, applicable};
+use crate::text::hex::spaced;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -29,74 +28,31 @@ pub(super) const CASES: &[Row] = &[
         "A text is no longer than one can be declared"),
 ];
 
-/// How often a value that does not stand still is read again.
-const TRIES: usize = 3;
-
-/// Compares what a request reads with what a whole variable, read before and after it, makes
-/// expected. A machine moves: only a value that stands still meanwhile is judged.
-struct Steady {
-    judged: bool,
-    moved: Option<String>,
-}
-
-impl Steady {
-    const fn new() -> Self {
-        Self { judged: false, moved: None }
-    }
-
-    fn compare(
-        &mut self,
-        probe: &mut Probe<'_>,
-        rule: Rule,
-        (channel, variable): (Channel, &Description),
-        request: Request<'_>,
-        part: impl Fn(&[u8]) -> Vec<u8>,
-    ) -> Step {
-        let name = &variable.name.text;
-        let mut differs = None;
-        for _ in 0..TRIES {
-            let before = probe.ask("VAR-14", whole(channel, variable))?;
-            let Some(read) = probe.try_ask(request)? else {
-                self.judged = true;
-                let what = format!("an answer of {name}");
-                probe.check(rule, false, what, "an error");
-                return Ok(());
-            };
-            if part(&before) == read {
-                self.judged = true;
-                probe.check(rule, true, "", "");
-                return Ok(());
-            }
-            let evidence = probe.evidence();
-            if probe.ask("VAR-14", whole(channel, variable))? == before {
-                differs = Some((before, read, evidence));
-            } else {
-                differs = None;
-            }
-        }
-        match differs {
-            // Each time it stood still before and after, and read otherwise in between.
-            Some((before, read, evidence)) => {
-                self.judged = true;
-                let expected = part(&before);
-                let dimensions: &[u32] =
-                    if expected == before { &variable.dimensions } else { &[] };
-                let values = typed(variable, dimensions);
-                probe.show(evidence.map(|evidence| Evidence { values, ..evidence }));
-                let words = format!("{} of the whole of {name}", Hex(expected.clone()));
-                probe.check_reply(rule, false, &expected, words, Hex(read));
-            }
-            None => self.moved = Some(format!("{name} does not stand still")),
-        }
-        Ok(())
-    }
-
-    fn finish(self) -> Step {
-        match (self.judged, self.moved) {
-            (false, Some(moved)) => Err(Stop::Inconclusive(moved)),
-            _ => Ok(()),
-        }
-    }
+/// Judges what a request reads by what the whole variable, read before and after it, makes expected.
+fn compare_with_whole<'r>(
+    steady: &mut Steady,
+    probe: &mut Probe<'_>,
+    rule: impl Into<Rule>,
+    (channel, variable): (Channel, &Description),
+    request: impl Into<Request<'r>>,
+    part: impl Fn(&[u8]) -> Vec<u8>,
+) -> Step {
+    let (request, name) = (request.into(), &variable.name.text);
+    let compared = compare(
+        probe,
+        |probe| probe.ask("VAR-14", whole(channel, variable)).map(Some),
+        |probe, _| probe.try_ask(request),
+        |whole, read| part(whole) == *read,
+    )?;
+    steady.judge(probe, rule.into(), name, compared, |probe, rules, (whole, read, evidence)| {
+        let expected = part(&whole);
+        let dimensions: &[u32] = if expected == whole { &variable.dimensions } else { &[] };
+        let values = typed(variable, dimensions);
+        probe.show(evidence.map(|evidence| Evidence { values, ..*evidence }));
+        let words = || format!("{} of the whole of {name}", spaced(&expected));
+        probe.check_reply(rules, false, &expected, words, || Hex(read));
+    });
+    Ok(())
 }
 
 /// How a report reads the value of a variable.
@@ -105,97 +61,62 @@ fn typed(variable: &Description, dimensions: &[u32]) -> Values {
     Values { ty, dimensions: dimensions.to_vec() }
 }
 
-/// Every variable of every channel.
-pub(super) fn each(
-    probe: &mut Probe<'_>,
-    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step,
-) -> Step {
-    for channel in probe.channels()? {
-        for variable in probe.readable(channel)? {
-            judge(probe, channel, &variable)?;
-        }
-    }
-    Ok(())
-}
-
-/// Every array.
-pub(super) fn each_array(
-    probe: &mut Probe<'_>,
-    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, usize) -> Step,
-) -> Step {
-    let mut any = false;
-    each(probe, |probe, channel, variable| match element_size(variable) {
-        Some(size) if !variable.dimensions.is_empty() => {
-            any = true;
-            judge(probe, channel, variable, size)
-        }
-        _ => Ok(()),
-    })?;
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no variable is an array".to_owned())),
-    }
-}
-
 fn whole(channel: Channel, variable: &Description) -> ReadByHandle<'static> {
     ReadByHandle::new(channel, variable.handle, U32List::EMPTY)
 }
 
 fn whole_by_handle(probe: &mut Probe<'_>) -> Step {
-    each(probe, |probe, channel, variable| {
+    each_variable(probe, |probe, channel, variable| {
         let value = probe.ask("VAR-11", whole(channel, variable))?;
         let name = &variable.name.text;
         let expected = "at most 2048 bytes";
-        let found = format!("{} bytes of {name}", value.len());
-        probe.check("VAR-14", value.len() <= 2048, expected, &found);
+        let found = || format!("{} bytes of {name}", value.len());
+        probe.check("VAR-14", value.len() <= 2048, expected, found);
         if variable.var_type.element_size().is_some() {
             let same = u32::try_from(value.len()) == Ok(variable.size);
-            let expected = format!("the {} bytes of its description", variable.size);
-            for rule in ["VAR-8", "VAR-14"] {
-                probe.check(rule, same, &expected, &found);
-            }
+            let expected = || format!("the {} bytes of its description", variable.size);
+            probe.check(["VAR-8", "VAR-14"], same, expected, found);
         }
         Ok(())
     })
 }
 
 fn whole_by_name(probe: &mut Probe<'_>) -> Step {
-    let mut steady = Steady::new();
-    each(probe, |probe, channel, variable| {
+    let mut steady = Steady::default();
+    each_variable(probe, |probe, channel, variable| {
         let request = ReadByName { channel, name: name_of(variable) };
         if variable.var_type.element_size().is_some()
             && let Some(value) = probe.try_ask(request)?
         {
             let same = u32::try_from(value.len()) == Ok(variable.size);
-            let expected = format!("the {} bytes of its description", variable.size);
-            let found = format!("{} bytes of {}", value.len(), variable.name.text);
-            for rule in ["VAR-14", "GEN-2"] {
-                probe.check(rule, same, &expected, &found);
-            }
+            let expected = || format!("the {} bytes of its description", variable.size);
+            let found = || format!("{} bytes of {}", value.len(), variable.name.text);
+            probe.check(["VAR-14", "GEN-2"], same, expected, found);
         }
         let at = (channel, variable);
-        steady.compare(probe, "VAR-9".into(), at, request.into(), <[u8]>::to_vec)
+        compare_with_whole(&mut steady, probe, "VAR-9", at, request, <[u8]>::to_vec)
     })?;
     steady.finish()
 }
 
 fn elements_by_handle(probe: &mut Probe<'_>) -> Step {
-    let mut steady = Steady::new();
+    let mut steady = Steady::default();
     each_array(probe, |probe, channel, variable, size| {
         for (number, place) in places_tried(&variable.dimensions) {
             let indices = place.as_slice();
             let request = ReadByHandle::new(channel, variable.handle, indices);
             if variable.var_type.element_size().is_some() {
                 let element = probe.ask("VAR-11", request)?;
-                let found = format!("{} bytes of {} {place:?}", element.len(), variable.name.text);
+                let found =
+                    || format!("{} bytes of {} {place:?}", element.len(), variable.name.text);
                 let sized = element.len() == size;
-                probe.check("VAR-14", sized, format!("{size} bytes of one element"), found);
+                probe.check("VAR-14", sized, || format!("{size} bytes of one element"), found);
             }
             if let ([_], VariableType::STRING) = (&place[..], variable.var_type) {
                 text_by_name(probe, channel, variable, &place)?;
             }
             let (at, part) = ((channel, variable), part(number, size));
-            steady.compare(probe, order(variable), at, request.into(), part)?;
+            compare_with_whole(&mut steady, probe, order(variable), at, request, part)?;
         }
         Ok(())
     })?;
@@ -212,22 +133,25 @@ fn text_by_name(
     let Some(name) = element_name(variable, place)? else { return Ok(()) };
     let by_name = ReadByName { channel, name: name.as_cnc_str().into() };
     let by_handle = ReadByHandle::new(channel, variable.handle, place);
-    for left in (0..TRIES).rev() {
-        let (before, read) = (probe.try_ask(by_name)?, probe.try_ask(by_handle)?);
-        let (Some(before), Some(read)) = (before, read) else { return Ok(()) };
-        let kept = same(&read, &before, true);
-        let stood = probe.try_ask(by_name)?.as_ref() == Some(&before);
-        if kept || stood && left == 0 {
-            let expected = format!("{} of {name}, by handle too", Hex(before));
-            probe.check("VAR-11", kept, expected, Hex(read));
-            return Ok(());
+    let compared = compare(
+        probe,
+        |probe| probe.try_ask(by_name),
+        |probe, _| probe.try_ask(by_handle),
+        |named, handled| same(handled, named, true),
+    )?;
+    match compared {
+        Compared::Same => probe.pass("VAR-11"),
+        Compared::Differs(named, handled, _) => {
+            let expected = || format!("{} of {name}, by handle too", Hex(named));
+            probe.check("VAR-11", false, expected, || Hex(handled));
         }
+        Compared::NoValue | Compared::NoAnswer | Compared::Moved => {}
     }
     Ok(())
 }
 
 fn elements_by_name(probe: &mut Probe<'_>) -> Step {
-    let mut steady = Steady::new();
+    let mut steady = Steady::default();
     each_array(probe, |probe, channel, variable, size| {
         for (number, place) in places_tried(&variable.dimensions) {
             let Some(name) = element_name(variable, &place)? else { continue };
@@ -235,12 +159,12 @@ fn elements_by_name(probe: &mut Probe<'_>) -> Step {
             if variable.var_type.element_size().is_some()
                 && let Some(element) = probe.try_ask(request)?
             {
-                let found = format!("{} bytes of {name}", element.len());
+                let found = || format!("{} bytes of {name}", element.len());
                 let sized = element.len() == size;
-                probe.check("VAR-14", sized, format!("{size} bytes of one element"), found);
+                probe.check("VAR-14", sized, || format!("{size} bytes of one element"), found);
             }
             let (at, part) = ((channel, variable), part(number, size));
-            steady.compare(probe, brackets(variable), at, request.into(), part)?;
+            compare_with_whole(&mut steady, probe, brackets(variable), at, request, part)?;
         }
         Ok(())
     })?;
@@ -249,18 +173,15 @@ fn elements_by_name(probe: &mut Probe<'_>) -> Step {
 
 fn string_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
-    each(probe, |probe, _, variable| {
+    each_variable(probe, |probe, _, variable| {
         if variable.var_type == VariableType::STRING {
             any = true;
             let texts = element_count(&variable.dimensions);
             let one = variable.size.checked_div(texts).unwrap_or(0);
-            let found = format!("{one} bytes for each text of {}", variable.name.text);
+            let found = || format!("{one} bytes for each text of {}", variable.name.text);
             probe.check("VAR-25", (1..=800).contains(&one), "1 to 800 bytes", found);
         }
         Ok(())
     })?;
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no variable is a STRING".to_owned())),
-    }
+    applicable(any, "no variable is a STRING")
 }

@@ -12,11 +12,9 @@ use ads_cnc::{
     VariableType,
 };
 
-use super::describe_by_name::kinds;
-use super::inventory::{KINDS, VARIABLES_MAX};
-use super::probe::{Probe, harness};
+use super::kit::{KINDS, Probe, VARIABLES_MAX, name_of};
 use super::{Row, case};
-use crate::judge::{Checks, Needs, Rule, Step, Stop, assumed};
+use crate::judge::{Checks, Needs, OrStop as _, Step, Stop, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -38,26 +36,25 @@ pub(super) const CASES: &[Row] = &[
 
 /// How many variables of a kind there are, which has to be said.
 fn number(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>) -> Step<u32> {
-    let rules = ["VAR-1", "VAR-2"].map(Rule::from);
-    let data = probe.ask_for(&rules, CountVariables::new(channel, kind))?;
+    let data = probe.ask(["VAR-1", "VAR-2"], CountVariables::new(channel, kind))?;
     let count = VariableCount::decode(&data);
-    let found = format!("{} bytes", data.len());
-    probe.require(&["VAR-2".into()], count.is_ok(), "a number of 4 bytes", found)?;
-    count.map(|VariableCount(number)| number).map_err(harness)
+    let found = || format!("{} bytes", data.len());
+    probe.require("VAR-2", count.is_ok(), "a number of 4 bytes", found)?;
+    Ok(count?.0)
 }
 
 fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let mut sum = 0_u32;
-        for (_, kind) in kinds(probe) {
+        for (_, kind) in probe.kinds() {
             sum = sum.saturating_add(number(probe, channel, kind)?);
         }
         let VariableCount(all) = probe.read("VAR-1", CountVariables::new(channel, Kind::ALL))?;
-        let found = format!("{all} of channel {}", channel.number());
+        let found = || format!("{all} of channel {}", channel.number());
         // What is not claimed is not counted here, but may well be there.
-        let whole = kinds(probe).len() == KINDS.len();
+        let whole = probe.kinds().len() == KINDS.len();
         let kept = if whole { all == sum } else { all >= sum };
-        probe.check("VAR-1", kept, format!("{sum} variables of all kinds"), found);
+        probe.check("VAR-1", kept, || format!("{sum} variables of all kinds"), found);
         if !probe.session.client.gate().lets_malformed_pass() {
             continue;
         }
@@ -66,14 +63,14 @@ fn count(probe: &mut Probe<'_>) -> Step {
         let exchange = probe.send(CountVariables::new(channel, absent))?;
         let data = exchange.answer().and_then(|answer| answer.success().map(<[u8]>::to_vec));
         let same = data.as_deref() == Some(&all.to_le_bytes());
-        probe.check(assumed("VAR-1"), same, format!("{all} as for one NUL"), exchange.result());
+        probe.check(assumed("VAR-1"), same, || format!("{all} as for one NUL"), &exchange);
     }
     Ok(())
 }
 
 fn descriptions(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
+        for (name, kind) in probe.kinds() {
             let number = number(probe, channel, kind)?.min(VARIABLES_MAX);
             let mut names = HashSet::new();
             let mut all = Vec::new();
@@ -82,7 +79,7 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
                 let variable: Description = probe.read("VAR-4", request)?;
                 holds_together(probe, &variable, name);
                 let unique = names.insert(variable.name.text.clone());
-                let found = format!("{} again at index {index}", variable.name.text);
+                let found = || format!("{} again at index {index}", variable.name.text);
                 probe.check("VAR-3", unique, "another variable at each index", found);
                 all.push(variable);
             }
@@ -97,11 +94,13 @@ fn descriptions(probe: &mut Probe<'_>) -> Step {
 fn again(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>, all: &[Description]) -> Step {
     let indexed: Vec<(u32, &Description)> = (0..).zip(all).collect();
     for (index, first) in indexed.into_iter().rev() {
-        let request = || DescribeByIndex::new(channel, index, kind);
-        let read = |data: Option<Vec<u8>>| data.and_then(|data| Description::decode(&data).ok());
-        let same = read(probe.try_ask(request())?).as_ref() == Some(first);
-        if same || read(probe.try_ask(request())?).as_ref() == Some(first) {
-            let expected = format!("{} at index {index} again", first.name.text);
+        let mut is_first = || -> Step<bool> {
+            let read = probe.try_read(DescribeByIndex::new(channel, index, kind))?;
+            Ok(read.as_ref() == Some(first))
+        };
+        let same = is_first()?;
+        if same || is_first()? {
+            let expected = || format!("{} at index {index} again", first.name.text);
             probe.check("VAR-3", same, expected, "another description");
         }
     }
@@ -112,46 +111,47 @@ fn again(probe: &mut Probe<'_>, channel: Channel, kind: Kind<'_>, all: &[Descrip
 pub(crate) fn holds_together(probe: &mut impl Checks, variable: &Description, kind: &str) {
     let name = variable.name.text.to_string();
     let of_kind = name.strip_prefix(kind).is_some_and(|rest| rest.starts_with('.'));
-    probe.check("VAR-3", of_kind, format!("a name of {kind}"), format!("{name:?}"));
+    probe.check("VAR-3", of_kind, || format!("a name of {kind}"), || format!("{name:?}"));
     let askable = name.chars().count() < TEXT_MAX;
-    probe.check("VAR-9", askable, "a name of at most 255 characters", format!("{name:?}"));
+    probe.check("VAR-9", askable, "a name of at most 255 characters", || format!("{name:?}"));
     let readable = !name.chars().any(char::is_control);
-    probe.check(assumed("GEN-3"), readable, "a name of CP1252 characters", format!("{name:?}"));
+    probe.check(assumed("GEN-3"), readable, "a name of CP1252 characters", || format!("{name:?}"));
     let known = variable.var_type.name().is_some();
     let expected = "a type from 1 to 9";
-    probe.check("VAR-5", known, expected, format!("{} of {name}", variable.var_type.0));
+    probe.check("VAR-5", known, expected, || format!("{} of {name}", variable.var_type.0));
     let access = variable.access;
     let known = matches!(access, VariableAccess::READ_ONLY | VariableAccess::READ_WRITE);
-    probe.check("VAR-6", known, "access 1 or 2", format!("{} of {name}", access.0));
+    probe.check("VAR-6", known, "access 1 or 2", || format!("{} of {name}", access.0));
     let empty = variable.dimensions.contains(&0);
-    let found = format!("{:?} of {name}", variable.dimensions);
-    probe.check("VAR-4", !empty, "at least one element in each dimension", &found);
+    let found = || format!("{:?} of {name}", variable.dimensions);
+    probe.check("VAR-4", !empty, "at least one element in each dimension", found);
     probe.check("VAR-7", !empty, "no dimension where there is no array", found);
     let Description { var_type, access, .. } = variable;
     // As they stand they mean nothing, and would the other way round.
     let exchanged = !(1..=2).contains(&access.0)
         && VariableType(access.0).name().is_some()
         && (1..=2).contains(&var_type.0);
-    let found = format!("{} and {} of {name}", var_type.0, access.0);
+    let found = || format!("{} and {} of {name}", var_type.0, access.0);
     probe.check("VAR-4", !exchanged, "the type, and behind it the access", found);
     let Some(size) = variable.var_type.element_size() else { return };
     if variable.dimensions.is_empty() {
         let one = variable.size < size.saturating_mul(2);
-        let found = format!("{} bytes of {name}", variable.size);
+        let found = || format!("{} bytes of {name}", variable.size);
         probe.check("VAR-7", one, "one element where there is no dimension", found);
     }
     let whole = variable.dimensions.iter().fold(size, |size, &n| size.saturating_mul(n));
-    let expected = format!("{whole} bytes for {:?} {:?}", variable.dimensions, variable.var_type);
-    let found = format!("{} bytes of {name}", variable.size);
+    let expected =
+        || format!("{whole} bytes for {:?} {:?}", variable.dimensions, variable.var_type);
+    let found = || format!("{} bytes of {name}", variable.size);
     probe.check("VAR-8", variable.size == whole, expected, found);
     // A size read in the wrong order of bytes is the first to leave all limits.
     let plausible = variable.size <= 0x00FF_FFFF;
-    probe.check("GEN-1", plausible, "a little-endian size", format!("{:#x}", variable.size));
+    probe.check("GEN-1", plausible, "a little-endian size", || format!("{:#x}", variable.size));
 }
 
 fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        for (_, kind) in kinds(probe) {
+        for (_, kind) in probe.kinds() {
             let number = number(probe, channel, kind)?;
             let Some(last) = number.checked_sub(1) else {
                 let first = DescribeByIndex::new(channel, 0, kind);
@@ -173,19 +173,20 @@ fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
 
 fn other_channel(probe: &mut Probe<'_>) -> Step {
     let Some(absent) = probe.session.profile.absent_channel else {
-        let why = "no channel is known that is not there; a profile can name one".to_owned();
-        return Err(Stop::NotApplicable(why));
+        return Err(Stop::not_applicable(
+            "no channel is known that is not there; a profile can name one",
+        ));
     };
-    let (channel, absent) = (probe.channel()?, Channel::new(absent).map_err(harness)?);
+    let (channel, absent) = (probe.channel()?, Channel::new(absent)?);
     let what = format!("channel {}", absent.number());
-    for (_, kind) in kinds(probe).into_iter().chain([("", Kind::ALL)]) {
+    for (_, kind) in probe.kinds().into_iter().chain([("", Kind::ALL)]) {
         let count = |channel| CountVariables::new(channel, kind);
         probe.refuses("VAR-2", &what, count(absent), count(channel))?;
     }
     let variables = probe.variables(channel)?;
     let Some(known) = variables.first() else { return Ok(()) };
     let kind = VariablePath::from_text(known.name.text.as_cnc_str()).map(|path| path.kind());
-    if let Some((_, kind)) = kinds(probe).into_iter().find(|(_, one)| Ok(*one) == kind) {
+    if let Some((_, kind)) = probe.kinds().into_iter().find(|(_, one)| Ok(*one) == kind) {
         let first = |channel| DescribeByIndex::new(channel, 0, kind);
         probe.refuses("VAR-3", &what, first(absent), first(channel))?;
     }
@@ -193,11 +194,6 @@ fn other_channel(probe: &mut Probe<'_>) -> Step {
     probe.refuses("VAR-14", &what, read(absent), read(channel))?;
     let read = |channel| ReadByHandle::new(channel, known.handle, U32List::EMPTY);
     probe.refuses("VAR-14", &what, read(absent), read(channel))
-}
-
-/// The name of a description, as a request carries it.
-pub(super) fn name_of(variable: &Description) -> TextRef<'_> {
-    variable.name.text.as_cnc_str().into()
 }
 
 /// The structures that a leaf is in: `V.E.a`, `V.E.a[0]` and `V.E.a[0].b` of `V.E.a[0].b.c`.
@@ -237,7 +233,7 @@ fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
                 }
                 any = true;
                 let what = format!("the structure {structure}");
-                let (name, good) = (TextRef::new(structure).map_err(harness)?, name_of(leaf));
+                let (name, good) = (TextRef::new(structure)?, name_of(leaf));
                 let handle = |name| HandleByName { channel, name };
                 probe.refuses("VAR-20", &what, handle(name), handle(good))?;
                 let read = |name| ReadByName { channel, name };
@@ -245,16 +241,13 @@ fn structures_are_resolved(probe: &mut Probe<'_>) -> Step {
             }
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no variable is part of a structure".to_owned())),
-    }
+    applicable(any, "no variable is part of a structure")
 }
 
 fn padded_name(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
-    let variable = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let variable = variables.first().or_inconclusive("no variable")?;
     let text = variable.name.text.as_cnc_str();
     let plain = HandleByName { channel, name: text.into() };
     let zeros = [0; 256];
@@ -275,7 +268,7 @@ fn same(probe: &mut Probe<'_>, rule: &'static str, plain: Request<'_>, odd: Requ
         exchange.answer().and_then(|answer| answer.success().map(<[u8]>::to_vec))
     };
     let kept = data(&exchange).is_some() && data(&exchange) == data(&expected);
-    probe.check(assumed(rule), kept, "the same answer as without padding", exchange.result());
+    probe.check(assumed(rule), kept, "the same answer as without padding", &exchange);
     Ok(())
 }
 

@@ -8,10 +8,9 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{CncStr, CncString, Description, TextRef};
 use ads_cnc_vectors::Hex;
 
-use super::probe::{Probe, harness};
-use super::variable::name_of;
+use super::kit::{Probe, name_of};
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop};
+use crate::judge::{Needs, OrStop as _, Step, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -26,10 +25,10 @@ pub(super) const CASES: &[Row] = &[
 fn unknown_name(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let variables = probe.variables(channel)?;
-    let known = variables.first().ok_or(Stop::Inconclusive("no variable".to_owned()))?;
+    let known = variables.first().or_inconclusive("no variable")?;
     let known = name_of(known);
     for name in ["V.E.no such variable", "V.E.", "V.X.a", "no kind", ""] {
-        let (what, name) = (format!("the name {name:?}"), TextRef::new(name).map_err(harness)?);
+        let (what, name) = (format!("the name {name:?}"), TextRef::new(name)?);
         let (handle, good) =
             (HandleByName { channel, name }, HandleByName { channel, name: known });
         probe.refuses("ADS-4", &what, handle, good)?;
@@ -38,10 +37,13 @@ fn unknown_name(probe: &mut Probe<'_>) -> Step {
         // A success is a handle, and not a variable's that is not there.
         let given = probe.try_ask(handle)?;
         let none = given.is_none();
-        for rule in ["VAR-9", "VAR-10"] {
-            let found = Hex(given.clone().unwrap_or_default());
-            probe.check(rule, none, format!("no handle for {what}"), format!("{found} for it"));
-        }
+        let found = || Hex(given.clone().unwrap_or_default());
+        probe.check(
+            ["VAR-9", "VAR-10"],
+            none,
+            || format!("no handle for {what}"),
+            || format!("{} for it", found()),
+        );
     }
     Ok(())
 }
@@ -130,13 +132,10 @@ fn known_types(probe: &mut Probe<'_>) -> Step {
             let name = variable.name.text.to_string();
             let Some(of_service) = ServiceVariable::by_name(&name) else { continue };
             any = true;
-            let expected = format!("the type {:?} of {name}", of_service.var_type());
-            let found = format!("{:?}", variable.var_type);
+            let expected = || format!("the type {:?} of {name}", of_service.var_type());
+            let found = || format!("{:?}", variable.var_type);
             probe.check("VAR-5", variable.var_type == of_service.var_type(), expected, found);
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no variable has a type that is documented".to_owned())),
-    }
+    applicable(any, "no variable has a type that is documented")
 }

@@ -1,18 +1,15 @@
 //! Cases that write variables, and undo it.
 
 use ads_cnc::address::Channel;
-use ads_cnc::operation::HandleByName;
-use ads_cnc::service::ServiceVariable;
-use ads_cnc::{CncString, Decode as _, Description, Handle, VariableAccess, VariableType};
+use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::axis_interface::place_of;
-use super::names::dynamic_among_variables;
-use super::place::{Place, Trial, same};
-use super::probe::{Probe, harness};
-use super::variable::name_of;
+use super::kit::{
+    NOTHING_WRITABLE, Probe, ValueAddress, WriteCheck, axis_address, dynamic_among_variables,
+    each_of_access, handle_of, same, write_check,
+};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{Needs, Rule, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -30,81 +27,40 @@ pub(super) const CASES: &[Row] = &[
         "V.P, V.L and V.S are written among the variables, by name"),
 ];
 
-/// What writing a variable of the Service Interface leads to has cases of its own.
-pub(super) fn is_of_service(variable: &Description) -> bool {
-    ServiceVariable::by_name(&variable.name.text.to_string()).is_some()
-}
-
-/// Every variable of this access of every channel.
-pub(super) fn each(
-    probe: &mut Probe<'_>,
-    access: VariableAccess,
-    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step<bool>,
-) -> Step {
-    let mut any = false;
-    for channel in probe.channels()? {
-        for variable in probe.variables(channel)? {
-            if variable.access == access && !is_of_service(&variable) {
-                any |= judge(probe, channel, &variable)?;
-            }
-        }
-    }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
-    }
-}
-
-pub(super) fn trial<'t>(variable: &'t Description, what: &'t str, rules: &'t [Rule]) -> Trial<'t> {
-    let is_text = variable.var_type == VariableType::STRING;
-    Trial { what, rules, is_text, name: Some(&variable.name.text) }
-}
-
-/// The handle of a name, asked for by it: a file that names it allows the handle then.
-pub(super) fn handle_of(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-    variable: &Description,
-) -> Step<Handle> {
-    let data = probe.try_ask(HandleByName { channel, name: name_of(variable) })?;
-    let handle = data.and_then(|data| Handle::decode(&data).ok());
-    Ok(handle.unwrap_or(variable.handle))
-}
-
 fn by_handle(probe: &mut Probe<'_>) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let handle = handle_of(probe, channel, variable)?;
-        let place = Place::Handle { channel, handle, indices: Vec::new() };
+        let address = ValueAddress::Handle { channel, handle, indices: Vec::new() };
         let name = variable.name.text.to_string();
-        if !probe.may_write(&place, &name)? {
+        if !probe.may_write(&address, &name)? {
             return Ok(false);
         }
         let rules = ["VAR-12", "VAR-17", "VAR-6", "VAR-10"].map(Rule::from);
-        probe.try_write(&trial(variable, &name, &rules), &place, |_, _, _| Ok(()))?;
+        probe.try_write(&write_check(variable, &name, &rules), &address, |_, _, _| Ok(()))?;
         Ok(true)
     })
 }
 
 fn by_name(probe: &mut Probe<'_>) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
-        let place = Place::Name { channel, name: variable.name.text.clone() };
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+        let address = ValueAddress::Name { channel, name: variable.name.text.clone() };
         let name = variable.name.text.to_string();
-        if !probe.may_write(&place, &name)? {
+        if !probe.may_write(&address, &name)? {
             return Ok(false);
         }
         let handle = variable.handle;
-        let by_handle = Place::Handle { channel, handle, indices: Vec::new() };
+        let by_handle = ValueAddress::Handle { channel, handle, indices: Vec::new() };
         let rules = ["VAR-13", "VAR-17", "VAR-6"].map(Rule::from);
-        probe.try_write(&trial(variable, &name, &rules), &place, |probe, _, new| {
-            let named = probe.value_at(&place)?.unwrap_or_default();
+        probe.try_write(&write_check(variable, &name, &rules), &address, |probe, _, new| {
+            let named = probe.value_at(&address)?.unwrap_or_default();
             let read = probe.value_at(&by_handle)?.unwrap_or_default();
             let is_text = variable.var_type == VariableType::STRING;
-            let expected = format!("{} of {name} by its handle", Hex(new.to_vec()));
+            let expected = || format!("{} of {name} by its handle", Hex(new.to_vec()));
             let kept = same(&read, new, is_text);
-            probe.check("VAR-13", kept, &expected, Hex(read.clone()));
+            probe.check("VAR-13", kept, expected, || Hex(read.clone()));
             // What the name gives by now the handle has to give as well.
             let kept = kept || !same(&named, new, is_text);
-            probe.check("VAR-14", kept, expected, Hex(read));
+            probe.check("VAR-14", kept, expected, || Hex(read));
             Ok(())
         })?;
         Ok(true)
@@ -115,10 +71,10 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
 fn each_of_axes(
     probe: &mut Probe<'_>,
     access: VariableAccess,
-    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, &Place, &str) -> Step,
+    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description, &ValueAddress, &str) -> Step,
 ) -> Step {
-    each(probe, access, |probe, channel, variable| {
-        let Some(at) = place_of(probe, channel, variable)? else { return Ok(false) };
+    each_of_access(probe, access, |probe, channel, variable| {
+        let Some(at) = axis_address(probe, channel, variable)? else { return Ok(false) };
         let what = format!("{} on the axis interface", variable.name.text);
         if !probe.may_write(&at, &what)? {
             return Ok(false);
@@ -131,11 +87,11 @@ fn each_of_axes(
 fn axis_variables(probe: &mut Probe<'_>) -> Step {
     let rules = ["VAR-26", "VAR-17"].map(Rule::from);
     each_of_axes(probe, VariableAccess::READ_WRITE, |probe, channel, variable, at, what| {
-        let named = Place::Name { channel, name: variable.name.text.clone() };
-        probe.try_write(&trial(variable, what, &rules), at, |probe, _, new| {
+        let named = ValueAddress::Name { channel, name: variable.name.text.clone() };
+        probe.try_write(&write_check(variable, what, &rules), at, |probe, _, new| {
             let read = probe.value_at(&named)?.unwrap_or_default();
-            let expected = format!("{} of {}", Hex(new.to_vec()), variable.name.text);
-            probe.check("VAR-26", read == new, expected, Hex(read));
+            let expected = || format!("{} of {}", Hex(new.to_vec()), variable.name.text);
+            probe.check("VAR-26", read == new, expected, || Hex(read));
             Ok(())
         })
     })
@@ -144,7 +100,7 @@ fn axis_variables(probe: &mut Probe<'_>) -> Step {
 fn axis_read_only(probe: &mut Probe<'_>) -> Step {
     let rules = ["VAR-6", "VAR-26"].map(Rule::from);
     each_of_axes(probe, VariableAccess::READ_ONLY, |probe, _, variable, at, what| {
-        probe.write_refused(&trial(variable, what, &rules), at, None)
+        probe.write_refused(&write_check(variable, what, &rules), at, None)
     })
 }
 
@@ -154,30 +110,27 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
     let mut any = false;
     for name in names {
         let what = name.to_string();
-        let place = Place::Name { channel, name };
-        if probe.may_write(&place, &what)? {
+        let address = ValueAddress::Name { channel, name };
+        if probe.may_write(&address, &what)? {
             any = true;
             let rules = [assumed(rule)];
-            let trial = Trial { what: &what, rules: &rules, is_text: false, name: None };
-            probe.try_write(&trial, &place, |probe, _, new| {
+            let trial = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
+            probe.try_write(&trial, &address, |probe, _, new| {
                 // What is taken is there, though.
-                let read = probe.value_at(&place)?.unwrap_or_default();
-                let expected = format!("{} of {what}, as written", Hex(new.to_vec()));
-                probe.check(rule, read == new, expected, Hex(read));
+                let read = probe.value_at(&address)?.unwrap_or_default();
+                let expected = || format!("{} of {what}, as written", Hex(new.to_vec()));
+                probe.check(rule, read == new, expected, || Hex(read));
                 Ok(())
             })?;
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
-    }
+    applicable(any, NOTHING_WRITABLE)
 }
 
 fn by_name_only(probe: &mut Probe<'_>) -> Step {
     let names = probe.session.profile.by_name_only.clone();
     let names: Result<Vec<CncString>, _> = names.iter().map(|name| name.parse()).collect();
-    by_names(probe, "VAR-18", names.map_err(harness)?)
+    by_names(probe, "VAR-18", names?)
 }
 
 fn dynamic_by_name(probe: &mut Probe<'_>) -> Step {

@@ -1,19 +1,16 @@
 //! Cases of writes that were refused: nothing of them is there, and the next one is done.
 
-use ads_cnc::Decode as _;
 use ads_cnc::address::ComTable;
 use ads_cnc::operation::{ReadElementType, WriteByName};
 use ads_cnc::sda::ElementText;
 use ads_cnc_vectors::Hex;
 
-use super::inventory::OF_PLACES;
-use super::place::{Place, another, is_sendable};
-use super::probe::{Probe, harness};
-use super::sda::length_of;
-use super::write_content::{is_blank, nothing, place_of};
-use super::write_refused::{Known, writable};
+use super::kit::{
+    NOTHING_WRITABLE, OF_PLACES, Probe, ValueAddress, WritableNumber, another, is_sendable,
+    writable_numbers,
+};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop};
+use crate::judge::{Needs, Step, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -27,15 +24,18 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 fn after_refusal(probe: &mut Probe<'_>) -> Step {
-    for known in writable(probe)? {
-        let Known { channel, variable, value } = &known;
-        let unknown = WriteByName::new(*channel, "V.E.no such variable", value).map_err(harness)?;
-        let handle =
-            Place::Handle { channel: *channel, handle: variable.handle, indices: Vec::new() };
-        for (id, place) in [("VAR-13", known.place()), ("VAR-12", handle)] {
+    for known in writable_numbers(probe)? {
+        let WritableNumber { channel, variable, value } = &known;
+        let unknown = WriteByName::new(*channel, "V.E.no such variable", value)?;
+        let handle = ValueAddress::Handle {
+            channel: *channel,
+            handle: variable.handle,
+            indices: Vec::new(),
+        };
+        for (id, address) in [("VAR-13", known.address()), ("VAR-12", handle)] {
             let other = another(value, false);
-            let (good, back) = (place.write(&other), place.write(value));
-            let (good, back) = (good.map_err(harness)?, back.map_err(harness)?);
+            let (good, back) = (address.write(&other), address.write(value));
+            let (good, back) = (good?, back?);
             // As it is taken without a refusal before it.
             let taken = |probe: &mut Probe<'_>, request| -> Step<bool> {
                 Ok(probe.try_ask(request)?.is_some())
@@ -48,20 +48,16 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
                 continue;
             }
             let exchange = probe.send(good)?;
-            let done = exchange.answer().is_some_and(|answer| answer.success().is_some());
+            let done = exchange.success().is_some();
             let name = &variable.name.text;
-            for rule in [id, "ADS-2", "ADS-4"] {
-                let expected = format!("{name} written behind a refusal");
-                probe.check(rule, done, expected, exchange.result());
-            }
-            let after = probe.value_at(&place)?.unwrap_or_default();
+            let expected = || format!("{name} written behind a refusal");
+            probe.check([id, "ADS-2", "ADS-4"], done, expected, &exchange);
+            let after = probe.value_at(&address)?.unwrap_or_default();
             // What never takes another value is judged elsewhere.
-            let (again, read) = (taken(probe, good)?, probe.value_at(&place)?);
+            let (again, read) = (taken(probe, good)?, probe.value_at(&address)?);
             if again && read.as_ref() == Some(&other) {
-                let expected = format!("{} of {name}, as written", Hex(other.clone()));
-                for rule in [id, "ADS-2"] {
-                    probe.check(rule, after == other, &expected, Hex(after.clone()));
-                }
+                let expected = || format!("{} of {name}, as written", Hex(other.clone()));
+                probe.check([id, "ADS-2"], after == other, expected, || Hex(after.clone()));
             }
             taken(probe, back)?;
         }
@@ -73,37 +69,39 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
 fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
-        let (place, name) = (place_of(&object), object.name.to_string());
-        let is_text = object.type_name.as_cnc_str() == "STRING";
-        let is_tried = object.writable && !is_text && !is_blank(probe, &object);
-        if !is_tried || place.read().is_err() || !probe.may_write(&place, &name)? {
+        let (address, name) = (object.address(), object.name.to_string());
+        let is_text = object.is_text();
+        let is_tried = object.writable && !is_text && !probe.is_blank(&object);
+        if !is_tried || address.read().is_err() || !probe.may_write(&address, &name)? {
             continue;
         }
-        let Some(value) = probe.value_at(&place)?.filter(|value| !value.is_empty()) else {
+        let Some(value) = probe.value_at(&address)?.filter(|value| !value.is_empty()) else {
             continue;
         };
         let other = another(&value, false);
         let longer = [&other[..], &[1]].concat();
         let shorter = (1..other.len()).filter_map(|len| other.get(..len));
         for data in shorter.chain([&longer[..]]) {
-            let Some(bad) = place.write(data).ok().filter(is_sendable) else { continue };
+            let Some(bad) = address.write(data).ok().filter(is_sendable) else { continue };
             any = true;
             let exchange = probe.send(bad)?;
-            if exchange.answer().is_some_and(|answer| answer.success().is_none()) {
-                let after = probe.value_at(&place)?.unwrap_or_default();
+            if exchange.is_error() {
+                let after = probe.value_at(&address)?.unwrap_or_default();
                 let there = data.get(..after.len()).unwrap_or(data);
                 let kept = after == value || !after.starts_with(there);
-                let expected = format!(
-                    "{} of {name}, as {} bytes were refused",
-                    Hex(value.clone()),
-                    data.len()
-                );
-                probe.check("COM-5", kept, expected, Hex(after));
+                let expected = || {
+                    format!(
+                        "{} of {name}, as {} bytes were refused",
+                        Hex(value.clone()),
+                        data.len()
+                    )
+                };
+                probe.check("COM-5", kept, expected, || Hex(after));
             }
-            probe.send(place.write(&value).map_err(harness)?)?;
+            probe.send(address.write(&value)?)?;
         }
     }
-    nothing(any)
+    applicable(any, NOTHING_WRITABLE)
 }
 
 /// By an integer the place may get an axis: its logical number is written there.
@@ -113,7 +111,7 @@ fn may_be_a_number(type_name: &str) -> bool {
 
 /// Whether such a write is refused nobody says.
 fn empty_places(probe: &mut Probe<'_>) -> Step {
-    let mut all: Vec<(Place, String)> = Vec::new();
+    let mut all: Vec<(ValueAddress, String)> = Vec::new();
     let empty = probe.session.profile.empty_places.clone();
     for instance in probe.instances()? {
         let is_empty = empty.contains(&(instance.channel, instance.axis));
@@ -121,13 +119,13 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         for element in instance.elements() {
-            let ty = probe.try_ask(ReadElementType::new(element))?.unwrap_or_default();
-            let ty = ElementText::decode(&ty).map(|ty| ty.text.text.to_string());
+            let ty: Option<ElementText> = probe.try_read(ReadElementType::new(element))?;
+            let ty = ty.map(|ty| ty.text.text.to_string());
             if !may_be_a_number(&ty.unwrap_or_default())
-                && let Some(length) = length_of(probe, element)?
+                && let Some(length) = probe.length_of(element)?
             {
                 let what = format!("element {} of {instance}", element.index_offset());
-                all.push((Place::Element { element, length }, what));
+                all.push((ValueAddress::Element { element, length }, what));
             }
         }
     }
@@ -135,33 +133,30 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
         let is_of_channel =
             object.list.parts().table == ComTable::Channel && object.group.get() & 0xFF00 == 0x0100;
         let number = may_be_a_number(&object.type_name.to_string());
-        if object.writable && is_of_channel && !number && is_blank(probe, &object) {
-            all.push((place_of(&object), object.name.to_string()));
+        if object.writable && is_of_channel && !number && probe.is_blank(&object) {
+            all.push((object.address(), object.name.to_string()));
         }
     }
     let mut any = false;
-    for (place, what) in all {
-        if place.read().is_err() || !probe.may_write(&place, &what)? {
+    for (address, what) in all {
+        if address.read().is_err() || !probe.may_write(&address, &what)? {
             continue;
         }
-        let Some(blank) = probe.value_at(&place)?.filter(|value| !value.is_empty()) else {
+        let Some(blank) = probe.value_at(&address)?.filter(|value| !value.is_empty()) else {
             continue;
         };
         any = true;
         let other = another(&blank, false);
-        probe.send(place.write(&other).map_err(harness)?)?;
+        probe.send(address.write(&other)?)?;
         let evidence = probe.evidence();
-        let after = probe.value_at(&place)?.unwrap_or_default();
+        let after = probe.value_at(&address)?.unwrap_or_default();
         probe.show(evidence);
         let kept = after != other;
-        let expected = format!("{} of {what}, blank as before", Hex(blank.clone()));
-        probe.check(Rule::from("SDA-11"), kept, expected, Hex(after));
+        let expected = || format!("{} of {what}, blank as before", Hex(blank.clone()));
+        probe.check("SDA-11", kept, expected, || Hex(after));
         if !kept {
-            probe.send(place.write(&blank).map_err(harness)?)?;
+            probe.send(address.write(&blank)?)?;
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no place is known to be empty".to_owned())),
-    }
+    applicable(any, "no place is known to be empty")
 }

@@ -1,15 +1,14 @@
 //! Cases of what is written one way and read another: by number and by rank, with a channel and
 //! without.
 
-use ads_cnc::address::{Class, ComTable, IndexGroup};
+use ads_cnc::address::Class;
 use ads_cnc_vectors::Hex;
 
-use super::inventory::Object;
-use super::place::{Place, Trial};
-use super::probe::{Probe, harness};
-use super::write_content::{Named, flagged, is_blank, nothing, place_of};
+use super::kit::{
+    NOTHING_WRITABLE, Probe, ValueAddress, WritableElement, WriteCheck, elements_with_flag,
+};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop};
+use crate::judge::{Needs, Rule, Step, applicable};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -21,35 +20,18 @@ pub(super) const CASES: &[Row] = &[
         "V.CYC that can be written within is written by its name"),
 ];
 
-/// The group of an object without the bit of logical addressing: channels are counted there.
-fn by_index(probe: &Probe<'_>, object: &Object) -> Step<Option<IndexGroup>> {
-    const LOGICAL: u32 = 0x10_0000;
-    let group = object.group.get();
-    let (base, instance) = (group & 0xFFFF_FF00, group & 0xFF);
-    if !matches!(base, 0x12_0100 | 0x12_0200) {
-        return Ok(None);
-    }
-    let is_channel = object.list.parts().table == ComTable::Channel && base == 0x12_0100;
-    let mut ranks = (1_u32..).zip(probe.channels()?);
-    let rank = match is_channel && instance > 0 {
-        true => ranks.find(|(_, one)| u32::from(one.number()) == instance).map(|(rank, _)| rank),
-        false => Some(instance),
-    };
-    Ok(rank.map(|rank| IndexGroup::new((base & !LOGICAL) | rank)))
-}
-
 fn objects_by_index(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
     for object in probe.objects()? {
-        let (logical, what) = (place_of(&object), object.name.to_string());
-        if !object.writable || is_blank(probe, &object) || logical.read().is_err() {
+        let (logical, what) = (object.address(), object.name.to_string());
+        if !object.writable || probe.is_blank(&object) || logical.read().is_err() {
             continue;
         }
-        let Some(group) = by_index(probe, &object)? else { continue };
-        let place = Place::Object { group, offset: object.offset, size: object.size };
-        if place.read().is_err()
+        let Some(by_rank) = probe.object_by_rank(&object) else { continue };
+        let address = by_rank.address();
+        if address.read().is_err()
             || !probe.may_write(&logical, &what)?
-            || !probe.may_write(&place, &what)?
+            || !probe.may_write(&address, &what)?
         {
             continue;
         }
@@ -57,30 +39,31 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         let Some(value) = probe.value_at(&logical)?.filter(|value| !value.is_empty()) else {
             continue;
         };
-        if probe.try_ask(logical.write(&value).map_err(harness)?)?.is_none() {
+        if probe.try_ask(logical.write(&value)?)?.is_none() {
             continue;
         }
         any = true;
         let rules = [Rule::from("ADR-12")];
-        let is_text = object.type_name.as_cnc_str() == "STRING";
-        let trial = Trial { what: &format!("{what} by index"), rules: &rules, is_text, name: None };
-        probe.try_write(&trial, &place, |probe, _, _| {
-            let (read, number) = (probe.value_at(&place)?, probe.value_at(&logical)?);
-            let same = number == read || probe.value_at(&place)? != read;
-            let expected = format!("{} of {what}, by number too", Hex(read.unwrap_or_default()));
-            probe.check("ADR-12", same, expected, Hex(number.unwrap_or_default()));
+        let is_text = object.is_text();
+        let trial =
+            WriteCheck { what: &format!("{what} by index"), rules: &rules, is_text, name: None };
+        probe.try_write(&trial, &address, |probe, _, _| {
+            let (read, number) = (probe.value_at(&address)?, probe.value_at(&logical)?);
+            let same = number == read || probe.value_at(&address)? != read;
+            let expected = || format!("{} of {what}, by number too", Hex(read.unwrap_or_default()));
+            probe.check("ADR-12", same, expected, || Hex(number.unwrap_or_default()));
             Ok(())
         })?;
     }
-    nothing(any)
+    applicable(any, NOTHING_WRITABLE)
 }
 
 fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());
     let all = probe.instances()?;
     let mut any = false;
-    for one in flagged(probe, true)? {
-        let Named { instance, element, place, what, is_text } = &one;
+    for one in elements_with_flag(probe, true)? {
+        let WritableElement { instance, element, address, what, is_text } = &one;
         let other = match instance.channel {
             _ if instance.class != Class::Hld || instance.axis == 0 => continue,
             0 => first,
@@ -91,23 +74,22 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
         let twin = all.iter().find(|one| (one.class, one.channel, one.axis) == at);
         let (start, at) = (instance.first.index_offset().get(), element.index_offset().get());
         let twin = twin.and_then(|twin| twin.first.nth(at.saturating_sub(start)).ok());
-        let (Some(element), Place::Element { length, .. }) = (twin, place) else { continue };
+        let (Some(element), ValueAddress::Element { length, .. }) = (twin, address) else {
+            continue;
+        };
         any = true;
-        let twin = Place::Element { element, length: *length };
-        let trial = Trial { what, rules: &[], is_text: *is_text, name: None };
-        probe.try_write(&trial, place, |probe, _, new| {
-            let (before, read) = (probe.value_at(place)?, probe.value_at(&twin)?);
-            let stood = probe.value_at(place)? == before && before.as_deref() == Some(new);
-            let expected = format!("{} of {what}, in the HLD of {other} too", Hex(new.to_vec()));
-            let found = Hex(read.clone().unwrap_or_default());
+        let twin = ValueAddress::Element { element, length: *length };
+        let trial = WriteCheck { what, rules: &[], is_text: *is_text, name: None };
+        probe.try_write(&trial, address, |probe, _, new| {
+            let (before, read) = (probe.value_at(address)?, probe.value_at(&twin)?);
+            let stood = probe.value_at(address)? == before && before.as_deref() == Some(new);
+            let expected = || format!("{} of {what}, in the HLD of {other} too", Hex(new.to_vec()));
+            let found = || Hex(read.clone().unwrap_or_default());
             probe.check("SDA-13", !stood || read == before, expected, found);
             Ok(())
         })?;
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no axis of the HLD may be written".to_owned())),
-    }
+    applicable(any, "no axis of the HLD may be written")
 }
 
 /// The interface reads and writes them; which of them may be written the CNC knows.
@@ -118,13 +100,10 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
         for name in cnc.written_by_name_only(channel.number()) {
             any = true;
             let (what, rules) = (name.to_string(), [Rule::from("VAR-18")]);
-            let place = Place::Name { channel, name };
-            let trial = Trial { what: &what, rules: &rules, is_text: false, name: None };
-            probe.try_write(&trial, &place, |_, _, _| Ok(()))?;
+            let address = ValueAddress::Name { channel, name };
+            let trial = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
+            probe.try_write(&trial, &address, |_, _, _| Ok(()))?;
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("there is no V.CYC that may be written".to_owned())),
-    }
+    applicable(any, "there is no V.CYC that may be written")
 }

@@ -1,19 +1,15 @@
 //! Cases that write COM objects and elements of SDA and GEO, and undo it.
 
-use ads_cnc::Decode as _;
-use ads_cnc::address::{AxisStride, Class, ElementAddress, IndexOffset};
-use ads_cnc::operation::{
-    CountElements, ReadElementName, ReadElementType, ReadElementWriteFlag, Request,
-};
-use ads_cnc::sda::{ElementText, ElementWriteFlag};
+use ads_cnc::address::Class;
+use ads_cnc::operation::{CountElements, Service};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::{Instance, Object};
-use super::place::{Place, Trial};
-use super::probe::{Probe, harness};
-use super::sda::length_of;
+use super::kit::{
+    NOTHING_WRITABLE, Object, Probe, RawCall, ValueAddress, WritableElement, WriteCheck,
+    elements_with_flag,
+};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{Needs, Rule, Step, applicable, assumed};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -31,39 +27,15 @@ pub(super) const CASES: &[Row] = &[
         "The number of elements of an instance takes no value"),
 ];
 
-pub(super) fn nothing(any: bool) -> Step {
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
-    }
-}
-
-pub(super) fn place_of(object: &Object) -> Place {
-    Place::Object { group: object.group, offset: object.offset, size: object.size }
-}
-
-/// Whether an object is at a place where no axis is: what is written there nobody has.
-pub(super) fn is_blank(probe: &Probe<'_>, object: &Object) -> bool {
-    let parts = object.list.parts();
-    let at = |offset: IndexOffset, place: u32| {
-        let strides = [AxisStride::X1000, AxisStride::X10000];
-        let mut split = strides.iter().filter_map(|&stride| offset.axis_and_element(stride).ok());
-        split.any(|(axis, element)| axis == place && element > 0)
-    };
-    let empty = probe.session.profile.empty_places.iter();
-    let mut own = empty.filter(|(channel, _)| *channel == u32::from(parts.instance));
-    own.any(|&(_, place)| at(object.offset, place))
-}
-
 /// Objects that may be written, by what their descriptors say of that.
 fn writable(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Object>> {
     let mut all = Vec::new();
     for object in probe.objects()? {
-        let place = place_of(&object);
+        let address = object.address();
         if object.writable == is_writable
-            && !is_blank(probe, &object)
-            && place.read().is_ok()
-            && probe.may_write(&place, &object.name.to_string())?
+            && !probe.is_blank(&object)
+            && address.read().is_ok()
+            && probe.may_write(&address, &object.name.to_string())?
         {
             all.push(object);
         }
@@ -75,116 +47,66 @@ fn objects(probe: &mut Probe<'_>) -> Step {
     let all = writable(probe, true)?;
     for object in &all {
         let what = object.name.to_string();
-        let is_text = object.type_name.as_cnc_str() == "STRING";
+        let is_text = object.is_text();
         let rules = ["COM-5", "COM-2"].map(Rule::from);
-        let trial = Trial { what: &what, rules: &rules, is_text, name: None };
-        probe.try_write(&trial, &place_of(object), |_, _, _| Ok(()))?;
+        let trial = WriteCheck { what: &what, rules: &rules, is_text, name: None };
+        probe.try_write(&trial, &object.address(), |_, _, _| Ok(()))?;
     }
-    nothing(!all.is_empty())
+    applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 fn read_only_objects(probe: &mut Probe<'_>) -> Step {
-    let known =
-        writable(probe, true)?.into_iter().find(|one| one.type_name.as_cnc_str() != "STRING");
-    let known = known.as_ref().map(place_of);
+    let known = writable(probe, true)?.into_iter().find(|one| !one.is_text());
+    let known = known.as_ref().map(Object::address);
     let all = writable(probe, false)?;
     for object in &all {
         let what = object.name.to_string();
         let rules = ["COM-2".into()];
-        let trial = Trial { what: &what, rules: &rules, is_text: false, name: None };
-        probe.write_refused(&trial, &place_of(object), known.as_ref())?;
+        let trial = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
+        probe.write_refused(&trial, &object.address(), known.as_ref())?;
     }
-    nothing(!all.is_empty())
-}
-
-/// An element with its name and whether it is a text.
-pub(super) struct Named {
-    pub(super) instance: Instance,
-    pub(super) element: ElementAddress,
-    pub(super) place: Place,
-    pub(super) what: String,
-    pub(super) is_text: bool,
-}
-
-/// Elements that may be written, by what their flags say of that.
-pub(super) fn flagged(probe: &mut Probe<'_>, is_writable: bool) -> Step<Vec<Named>> {
-    let mut all = Vec::new();
-    for instance in probe.instances()? {
-        if probe.is_claimed_empty(&instance) {
-            continue;
-        }
-        for element in instance.elements() {
-            all.extend(named(probe, &instance, element, is_writable)?);
-        }
-    }
-    Ok(all)
-}
-
-fn named(
-    probe: &mut Probe<'_>,
-    instance: &Instance,
-    element: ElementAddress,
-    is_writable: bool,
-) -> Step<Option<Named>> {
-    let text = |probe: &mut Probe<'_>, request: Request<'static>| -> Step<String> {
-        let data = probe.try_ask(request)?.unwrap_or_default();
-        Ok(ElementText::decode(&data).map(|text| text.text.text.to_string()).unwrap_or_default())
-    };
-    let flag = probe.try_ask(ReadElementWriteFlag::new(element))?.unwrap_or_default();
-    let flag = ElementWriteFlag::decode(&flag).map(ElementWriteFlag::is_writable);
-    if flag != Ok(is_writable) {
-        return Ok(None);
-    }
-    let Some(length) = length_of(probe, element)? else { return Ok(None) };
-    let place = Place::Element { element, length };
-    let name = text(probe, ReadElementName::new(element).into())?;
-    if place.read().is_err() || !probe.may_write(&place, &name)? {
-        return Ok(None);
-    }
-    let is_text = text(probe, ReadElementType::new(element).into())? == "STRING";
-    let (what, instance) = (format!("{name} of {instance}"), instance.clone());
-    Ok(Some(Named { instance, element, place, what, is_text }))
+    applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 fn elements(probe: &mut Probe<'_>) -> Step {
-    let all = flagged(probe, true)?;
+    let all = elements_with_flag(probe, true)?;
     for one in &all {
         let twins = twins(probe, one)?;
         let rules = ["SDA-9".into()];
-        let trial = Trial { what: &one.what, rules: &rules, is_text: one.is_text, name: None };
+        let trial = WriteCheck { what: &one.what, rules: &rules, is_text: one.is_text, name: None };
         let mut taken = Vec::new();
-        probe.try_write(&trial, &one.place, |probe, _, new| {
-            for (rule, twin, place, before) in &twins {
-                let after = probe.value_at(place)?.unwrap_or_default();
+        probe.try_write(&trial, &one.address, |probe, _, new| {
+            for (rule, twin, address, before) in &twins {
+                let after = probe.value_at(address)?.unwrap_or_default();
                 if after == new && after != *before {
-                    taken.push((*rule, twin, place, before, probe.evidence()));
+                    taken.push((*rule, twin, address, before, probe.evidence()));
                 }
             }
             Ok(())
         })?;
         // What took the new value and has the old one again has taken both writes.
         let is_own = taken.is_empty();
-        for (rule, twin, place, before, evidence) in taken {
-            let again = probe.value_at(place)?;
+        for (rule, twin, address, before, evidence) in taken {
+            let again = probe.value_at(address)?;
             probe.show(evidence);
             let kept = again.as_ref() != Some(before);
-            let expected = format!("{} at a place of its own", one.what);
-            probe.check(rule, kept, expected, format!("written in {twin} too"));
+            let expected = || format!("{} at a place of its own", one.what);
+            probe.check(rule, kept, expected, || format!("written in {twin} too"));
         }
         if is_own && !twins.is_empty() {
-            probe.check("SDA-1", true, "", "");
+            probe.pass("SDA-1");
         }
     }
-    nothing(!all.is_empty())
+    applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 /// Where else a write might go to: what is there, what it holds and how it is judged.
-type Twin = (Rule, String, Place, Vec<u8>);
+type Twin = (Rule, String, ValueAddress, Vec<u8>);
 
 /// The same element of the other instances of its class, and the other elements of its own. Of
 /// these one may well follow another on a machine.
-fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<Twin>> {
-    let Place::Element { length, .. } = one.place else { return Ok(Vec::new()) };
+fn twins(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Twin>> {
+    let ValueAddress::Element { length, .. } = one.address else { return Ok(Vec::new()) };
     let (at, start) = (one.element.index_offset().get(), one.instance.first.index_offset().get());
     let number = at.saturating_sub(start);
     let beside = match probe.session.cnc {
@@ -207,12 +129,12 @@ fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<Twin>> {
     }
     let mut all = Vec::new();
     for (rule, what, element) in others {
-        if length_of(probe, element)? != Some(length) {
+        if probe.length_of(element)? != Some(length) {
             continue;
         }
-        let place = Place::Element { element, length };
-        if let Some(before) = probe.value_at(&place)? {
-            all.push((rule, what, place, before));
+        let address = ValueAddress::Element { element, length };
+        if let Some(before) = probe.value_at(&address)? {
+            all.push((rule, what, address, before));
         }
     }
     Ok(all)
@@ -220,53 +142,51 @@ fn twins(probe: &mut Probe<'_>, one: &Named) -> Step<Vec<Twin>> {
 
 /// What is refused is not written either.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
-    let all = flagged(probe, true)?;
-    for Named { place, what, .. } in all.iter().filter(|one| !one.is_text) {
-        let Some(value) = probe.value_at(place)?.filter(|value| !value.is_empty()) else {
+    let all = elements_with_flag(probe, true)?;
+    for WritableElement { address, what, .. } in all.iter().filter(|one| !one.is_text) {
+        let Some(value) = probe.value_at(address)?.filter(|value| !value.is_empty()) else {
             continue;
         };
         let longer = [&value[..], &[0]].concat();
         for other in [&longer[..], value.get(1..).unwrap_or_default()] {
-            let Ok(write) = place.write(other) else { continue };
+            let Ok(write) = address.write(other) else { continue };
             let exchange = probe.send(write)?;
-            let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
-            let expected = format!("an error for {} bytes of {what}", other.len());
-            probe.check(assumed("SDA-8"), refused, expected, exchange.result());
-            let after = probe.value_at(place)?.unwrap_or_default();
+            let refused = exchange.is_error();
+            let expected = || format!("an error for {} bytes of {what}", other.len());
+            probe.check(assumed("SDA-8"), refused, expected, &exchange);
+            let after = probe.value_at(address)?.unwrap_or_default();
             let kept = !refused || after == value;
-            let expected = format!("{} of {what} still", Hex(value.clone()));
-            probe.check("SDA-8", kept, expected, Hex(after));
-            probe.send(place.write(&value).map_err(harness)?)?;
+            let expected = || format!("{} of {what} still", Hex(value.clone()));
+            probe.check("SDA-8", kept, expected, || Hex(after));
+            probe.send(address.write(&value)?)?;
         }
     }
-    nothing(!all.is_empty())
+    applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 fn read_only_elements(probe: &mut Probe<'_>) -> Step {
-    let known = flagged(probe, true)?.into_iter().find(|one| !one.is_text);
-    let known = known.map(|known| known.place);
-    let all = flagged(probe, false)?;
-    for Named { place, what, .. } in &all {
+    let known = elements_with_flag(probe, true)?.into_iter().find(|one| !one.is_text);
+    let known = known.map(|known| known.address);
+    let all = elements_with_flag(probe, false)?;
+    for WritableElement { address, what, .. } in &all {
         let rules = ["SDA-9".into()];
-        let trial = Trial { what, rules: &rules, is_text: false, name: None };
-        probe.write_refused(&trial, place, known.as_ref())?;
+        let trial = WriteCheck { what, rules: &rules, is_text: false, name: None };
+        probe.write_refused(&trial, address, known.as_ref())?;
     }
-    nothing(!all.is_empty())
+    applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
 
 /// Written as content of the first element, which it shares its address with.
 fn number_of_elements(probe: &mut Probe<'_>) -> Step {
     for instance in probe.instances()? {
-        let request = Request::from(CountElements::new(instance.first).map_err(harness)?);
-        let mut buf = [0; 0];
-        let count = request.encode(&mut buf).map_err(harness)?;
-        let data = instance.count.to_le_bytes();
-        let service = ads_cnc::operation::Service::Write;
-        let call = ads_cnc::operation::Call { service, read_length: 0, data: &data, ..count };
-        let exchange = probe.call(&call)?;
-        let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
-        let expected = format!("an error number for a write of the number of {instance}");
-        probe.check("SDA-4", refused, expected, exchange.result());
+        let write = RawCall::new(CountElements::new(instance.first)?)?.with(|call| {
+            (call.service, call.read_length) = (Service::Write, 0);
+            call.data = instance.count.to_le_bytes().to_vec();
+        });
+        let exchange = probe.call(&write)?;
+        let refused = exchange.is_error();
+        let expected = || format!("an error number for a write of the number of {instance}");
+        probe.check("SDA-4", refused, expected, &exchange);
     }
     Ok(())
 }

@@ -4,9 +4,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess, VariablePath, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::place::{Place, same};
-use super::probe::Probe;
-use super::write::{each, handle_of, trial};
+use super::kit::{Probe, ValueAddress, each_of_access, handle_of, same, write_check};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, assumed};
 
@@ -47,11 +45,11 @@ fn number_of(place: &[u32], dimensions: &[u32]) -> usize {
 fn elements(
     probe: &mut Probe<'_>,
     rules: impl Fn(&Description) -> Vec<Rule>,
-    place_of: impl Fn(&mut Probe<'_>, Channel, &Description, Vec<u32>) -> Step<Option<Place>>,
+    place_of: impl Fn(&mut Probe<'_>, Channel, &Description, Vec<u32>) -> Step<Option<ValueAddress>>,
 ) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let mut any = false;
-        let whole = Place::Handle { channel, handle: variable.handle, indices: Vec::new() };
+        let whole = ValueAddress::Handle { channel, handle: variable.handle, indices: Vec::new() };
         let arrays =
             if variable.dimensions.is_empty() { Vec::new() } else { ends(&variable.dimensions) };
         for indices in arrays {
@@ -64,16 +62,15 @@ fn elements(
             any = true;
             let before = probe.value_at(&whole)?.unwrap_or_default();
             let rules = rules(variable);
-            let trial = trial(variable, &name, &rules);
+            let trial = write_check(variable, &name, &rules);
             probe.try_write(&trial, &place, |probe, old, new| {
                 // Wherever it lies, and whoever allows it: what it takes there it gives there.
                 let read = probe.value_at(&place)?.unwrap_or_default();
                 let is_text = variable.var_type == VariableType::STRING;
                 let kept = same(&read, new, is_text);
-                for rule in trial.rules.iter().map(|rule| Rule::from(rule.id)) {
-                    let expected = format!("{} of {name}, as written", Hex(new.to_vec()));
-                    probe.check(rule, kept, expected, Hex(read.clone()));
-                }
+                let expected = || format!("{} of {name}, as written", Hex(new.to_vec()));
+                let stated: Vec<Rule> = trial.rules.iter().map(|rule| rule.id.into()).collect();
+                probe.check(&stated, kept, expected, || Hex(read.clone()));
                 // The one element, at its place of the whole, and nothing else.
                 let mut expected = before.clone();
                 let size = old.len();
@@ -81,10 +78,8 @@ fn elements(
                 let part = expected.get_mut(start..start.saturating_add(size));
                 part.unwrap_or_default().iter_mut().zip(new).for_each(|(byte, new)| *byte = *new);
                 let after = probe.value_at(&whole)?.unwrap_or_default();
-                for &rule in trial.rules {
-                    let shown = Hex(expected.clone());
-                    probe.check(rule, after == expected, shown, Hex(after.clone()));
-                }
+                let shown = || Hex(expected.clone());
+                probe.check(trial.rules, after == expected, shown, || Hex(after.clone()));
                 Ok(())
             })?;
         }
@@ -102,7 +97,7 @@ fn by_handle(probe: &mut Probe<'_>) -> Step {
     let rules = |variable: &Description| of_order(variable, &["VAR-12"]);
     elements(probe, rules, |probe, channel, variable, indices| {
         let handle = handle_of(probe, channel, variable)?;
-        Ok(Some(Place::Handle { channel, handle, indices }))
+        Ok(Some(ValueAddress::Handle { channel, handle, indices }))
     })
 }
 
@@ -111,7 +106,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
     elements(probe, rules, |_, channel, variable, indices| {
         let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
         let name = path.and_then(|path| path.element(indices.as_slice().into()).ok());
-        Ok(name.map(|name| Place::Name { channel, name }))
+        Ok(name.map(|name| ValueAddress::Name { channel, name }))
     })
 }
 

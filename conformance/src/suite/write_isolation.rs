@@ -5,11 +5,7 @@ use ads_cnc::address::Channel;
 use ads_cnc::{Description, VariableAccess};
 use ads_cnc_vectors::Hex;
 
-use super::axis_interface::place_of;
-use super::layout::element_count;
-use super::place::{Place, is_sendable};
-use super::probe::Probe;
-use super::write::is_of_service;
+use super::kit::{Probe, ValueAddress, axis_address, element_count, is_of_service, write_value};
 use super::{Row, case};
 use crate::judge::{Evidence, Needs, Rule, Step, Stop};
 
@@ -24,41 +20,41 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 /// A variable, the value of it at the start, and the one it should have.
-struct One {
+struct WatchedVariable {
     channel: Channel,
     variable: Description,
     start: Vec<u8>,
     value: Vec<u8>,
     /// Where else it can be written.
-    at: Option<Place>,
-    seen: Vec<Seen>,
+    at: Option<ValueAddress>,
+    seen: Vec<Reading>,
 }
 
 /// What was read of a variable at some time.
-struct Seen {
+struct Reading {
     expected: Vec<u8>,
     read: Vec<u8>,
     evidence: Option<Evidence>,
 }
 
-impl One {
-    fn named(&self) -> Place {
-        Place::Name { channel: self.channel, name: self.variable.name.text.clone() }
+impl WatchedVariable {
+    fn named(&self) -> ValueAddress {
+        ValueAddress::Name { channel: self.channel, name: self.variable.name.text.clone() }
     }
 
-    fn handled(&self) -> Place {
+    fn handled(&self) -> ValueAddress {
         let handle = self.variable.handle;
-        Place::Handle { channel: self.channel, handle, indices: Vec::new() }
+        ValueAddress::Handle { channel: self.channel, handle, indices: Vec::new() }
     }
 }
 
 /// All that has a value, and one that stands still: what moves by itself is not changed by a write.
-fn all(probe: &mut Probe<'_>) -> Step<Vec<One>> {
+fn all(probe: &mut Probe<'_>) -> Step<Vec<WatchedVariable>> {
     let mut all = Vec::new();
     for channel in probe.channels()? {
         for variable in probe.variables(channel)? {
             let (start, value, seen) = (Vec::new(), Vec::new(), Vec::new());
-            let mut one = One { channel, variable, start, value, at: None, seen };
+            let mut one = WatchedVariable { channel, variable, start, value, at: None, seen };
             if let Some(value) = probe.value_at(&one.handled())? {
                 (one.start, one.value) = (value.clone(), value);
                 all.push(one);
@@ -72,10 +68,10 @@ fn all(probe: &mut Probe<'_>) -> Step<Vec<One>> {
             still.push(one);
         }
     }
-    match still.is_empty() {
-        true => Err(Stop::Inconclusive("no variable stands still".to_owned())),
-        false => Ok(still),
+    if still.is_empty() {
+        return Err(Stop::inconclusive("no variable stands still"));
     }
+    Ok(still)
 }
 
 /// Another value, in which every byte is another if the type allows it.
@@ -114,10 +110,10 @@ fn other_value(variable: &Description, value: &[u8], salt: usize) -> Vec<u8> {
 /// Writes each in this order, the last first if `backwards`, and then reads all.
 fn pass(
     probe: &mut Probe<'_>,
-    all: &mut [One],
+    all: &mut [WatchedVariable],
     (backwards, salt): (bool, usize),
-    by: impl Fn(&One) -> Option<Place>,
-    look: impl Fn(&One) -> Place,
+    by: impl Fn(&WatchedVariable) -> Option<ValueAddress>,
+    look: impl Fn(&WatchedVariable) -> ValueAddress,
 ) -> Step {
     let mut order: Vec<usize> = (0..all.len()).collect();
     if backwards {
@@ -131,7 +127,7 @@ fn pass(
         }
         let Some(place) = by(one) else { continue };
         let value = other_value(&one.variable, &one.value, salt.wrapping_add(number));
-        if write(probe, &place, &value)? {
+        if write_value(probe, &place, &value)? {
             one.value = value;
         }
     }
@@ -143,18 +139,18 @@ fn pass(
         if read != one.value && probe.moves(&place, false)? {
             continue;
         }
-        one.seen.push(Seen { expected: one.value.clone(), read, evidence });
+        one.seen.push(Reading { expected: one.value.clone(), read, evidence });
     }
     Ok(())
 }
 
 /// Whether it may be the same one as that of another channel: with the same name, and never
 /// another value.
-fn is_shared(all: &[One], one: &One) -> bool {
-    let reads = |one: &One| -> Vec<Vec<u8>> {
+fn is_shared(all: &[WatchedVariable], one: &WatchedVariable) -> bool {
+    let reads = |one: &WatchedVariable| -> Vec<Vec<u8>> {
         one.seen.iter().map(|seen| seen.read.clone()).chain([one.start.clone()]).collect()
     };
-    let same = |other: &One| {
+    let same = |other: &WatchedVariable| {
         other.channel != one.channel
             && other.variable.name.text == one.variable.name.text
             && reads(other) == reads(one)
@@ -163,43 +159,36 @@ fn is_shared(all: &[One], one: &One) -> bool {
 }
 
 /// Each has what was written to it last, and no other has.
-fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[One]) {
+fn judge(probe: &mut Probe<'_>, rule: Rule, all: &[WatchedVariable]) {
     for one in all {
         let wrong = one.seen.iter().filter(|seen| seen.expected != seen.read);
         let mut wrong = wrong.filter(|_| !is_shared(all, one)).peekable();
         if wrong.peek().is_none() {
-            probe.check(rule, true, "", "");
+            probe.pass(rule);
         }
         for seen in wrong {
             let (name, channel) = (&one.variable.name.text, one.channel.number());
-            let expected = format!("{} of {name} of channel {channel}", Hex(seen.expected.clone()));
+            let expected =
+                || format!("{} of {name} of channel {channel}", Hex(seen.expected.clone()));
             probe.show(seen.evidence.clone());
-            probe.check(rule, false, expected, Hex(seen.read.clone()));
+            probe.check(rule, false, expected, || Hex(seen.read.clone()));
         }
     }
 }
 
-/// Whether a value is taken.
-pub(super) fn write(probe: &mut Probe<'_>, place: &Place, value: &[u8]) -> Step<bool> {
-    let Some(write) = place.write(value).ok().filter(is_sendable) else { return Ok(false) };
-    probe.session.changes.is_now(place, Some(value));
-    let exchange = probe.send(write)?;
-    Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
-}
-
 /// Puts everything back, by whichever way takes it.
-fn restore(probe: &mut Probe<'_>, rule: Rule, all: &mut [One]) -> Step {
+fn restore(probe: &mut Probe<'_>, rule: Rule, all: &mut [WatchedVariable]) -> Step {
     for one in all.iter_mut().filter(|one| one.start != one.value) {
         let ways = [one.at.clone(), Some(one.handled()), Some(one.named())];
         for place in ways.into_iter().flatten() {
             let start = one.start.clone();
-            if write(probe, &place, &start)? && probe.value_at(&place)? == Some(start) {
+            if write_value(probe, &place, &start)? && probe.value_at(&place)? == Some(start) {
                 one.value = one.start.clone();
                 break;
             }
         }
         let (name, kept) = (&one.variable.name.text, one.value == one.start);
-        let expected = format!("{} of {name} again", Hex(one.start.clone()));
+        let expected = || format!("{} of {name} again", Hex(one.start.clone()));
         probe.check(rule, kept, expected, "another value");
     }
     Ok(())
@@ -210,9 +199,9 @@ fn restore(probe: &mut Probe<'_>, rule: Rule, all: &mut [One]) -> Step {
 fn both_ways(
     probe: &mut Probe<'_>,
     rule: Rule,
-    mut all: Vec<One>,
-    by: impl Fn(&One) -> Option<Place>,
-    look: impl Fn(&One) -> Place,
+    mut all: Vec<WatchedVariable>,
+    by: impl Fn(&WatchedVariable) -> Option<ValueAddress>,
+    look: impl Fn(&WatchedVariable) -> ValueAddress,
 ) -> Step {
     let mut tried = Ok(());
     for (backwards, salt) in [(false, 1), (true, 1001)] {
@@ -225,23 +214,23 @@ fn both_ways(
 
 fn by_name(probe: &mut Probe<'_>) -> Step {
     let all = all(probe)?;
-    both_ways(probe, "VAR-13".into(), all, |one| Some(one.named()), One::handled)
+    both_ways(probe, "VAR-13".into(), all, |one| Some(one.named()), WatchedVariable::handled)
 }
 
 fn by_handle(probe: &mut Probe<'_>) -> Step {
     let all = all(probe)?;
-    both_ways(probe, "VAR-12".into(), all, |one| Some(one.handled()), One::named)
+    both_ways(probe, "VAR-12".into(), all, |one| Some(one.handled()), WatchedVariable::named)
 }
 
 fn of_axes(probe: &mut Probe<'_>) -> Step {
     let mut all = all(probe)?;
     for one in &mut all {
-        one.at = place_of(probe, one.channel, &one.variable)?;
+        one.at = axis_address(probe, one.channel, &one.variable)?;
     }
     if all.iter().all(|one| one.at.is_none()) {
-        return Err(Stop::NotApplicable("no axis variable is on the axis interface".to_owned()));
+        return Err(Stop::not_applicable("no axis variable is on the axis interface"));
     }
-    both_ways(probe, "VAR-26".into(), all, |one| one.at.clone(), One::handled)
+    both_ways(probe, "VAR-26".into(), all, |one| one.at.clone(), WatchedVariable::handled)
 }
 
 #[cfg(test)]

@@ -1,16 +1,16 @@
 //! Cases of writes that are no good: what is refused is not done either, and what is taken is
 //! what is there afterwards.
 
-use ads_cnc::address::Channel;
-use ads_cnc::operation::{Call, Request, WriteByHandle, WriteByName};
-use ads_cnc::{CncStr, CncString, Description, Handle, U32List, VariableAccess, VariableType};
+use ads_cnc::operation::{Request, WriteByHandle, WriteByName};
+use ads_cnc::{CncString, Description, Handle, U32List, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::place::{Place, Trial, another, is_sendable};
-use super::probe::{Probe, harness};
-use super::write::{each, handle_of, is_of_service, trial};
+use super::kit::{
+    Probe, RawCall, ValueAddress, WritableNumber, WriteCheck, another, each_of_access, handle_of,
+    is_sendable, require_taken, writable_numbers, write_check,
+};
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop};
+use crate::judge::{Needs, OrStop as _, Rule, Step, Stop};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -26,80 +26,28 @@ pub(super) const CASES: &[Row] = &[
         "A write whose name has no end, or whose count of indices lies, writes nothing"),
 ];
 
-/// A variable with the value it has, to hold a refusal against.
-pub(super) struct Known {
-    pub(super) channel: Channel,
-    pub(super) variable: Description,
-    pub(super) value: Vec<u8>,
-}
-
-impl Known {
-    pub(super) fn place(&self) -> Place {
-        Place::Name { channel: self.channel, name: self.variable.name.text.clone() }
-    }
-
-    fn name(&self) -> CncStr<'_> {
-        self.variable.name.text.as_cnc_str()
-    }
-
-    fn by_handle<'v>(&self, indices: U32List<'v>, value: &'v [u8]) -> Request<'v> {
-        WriteByHandle::new(self.channel, self.variable.handle, indices, value).into()
-    }
-
-    fn by_name<'v>(&'v self, value: &'v [u8]) -> Request<'v> {
-        WriteByName { channel: self.channel, name: self.name(), value: value.into() }.into()
-    }
-}
-
-/// Numbers that may be written, the first of each type; those that read as they are described, as
-/// anything else is judged elsewhere.
-pub(super) fn writable(probe: &mut Probe<'_>) -> Step<Vec<Known>> {
-    let mut all: Vec<Known> = Vec::new();
-    for channel in probe.channels()? {
-        for variable in probe.variables(channel)? {
-            let is_number = variable.access == VariableAccess::READ_WRITE
-                && variable.dimensions.is_empty()
-                && variable.var_type != VariableType::STRING
-                && !is_of_service(&variable);
-            let of_type = all.iter().any(|known| known.variable.var_type == variable.var_type);
-            let place = Place::Name { channel, name: variable.name.text.clone() };
-            if !is_number || of_type || !probe.may_write(&place, &variable.name.text.to_string())? {
-                continue;
-            }
-            let value = probe.value_at(&place)?.unwrap_or_default();
-            if u32::try_from(value.len()) == Ok(variable.size) {
-                all.push(Known { channel, variable, value });
-            }
-        }
-    }
-    match all.is_empty() {
-        true => Err(Stop::NotApplicable("no number may be written".to_owned())),
-        false => Ok(all),
-    }
-}
-
-fn first(probe: &mut Probe<'_>) -> Step<Known> {
-    let first = writable(probe)?.into_iter().next();
-    first.ok_or(Stop::NotApplicable("no number may be written".to_owned()))
+fn first(probe: &mut Probe<'_>) -> Step<WritableNumber> {
+    let first = writable_numbers(probe)?.into_iter().next();
+    first.or_not_applicable("no number may be written")
 }
 
 /// Each way to every READ_ONLY variable.
 fn each_read_only(
     probe: &mut Probe<'_>,
-    mut judge: impl FnMut(&mut Probe<'_>, &Trial<'_>, &Place) -> Step,
+    mut judge: impl FnMut(&mut Probe<'_>, &WriteCheck<'_>, &ValueAddress) -> Step,
 ) -> Step {
-    each(probe, VariableAccess::READ_ONLY, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_ONLY, |probe, channel, variable| {
         let name = variable.name.text.to_string();
         let handle = handle_of(probe, channel, variable)?;
         let mut any = false;
-        for place in [
-            Place::Name { channel, name: variable.name.text.clone() },
-            Place::Handle { channel, handle, indices: Vec::new() },
+        for address in [
+            ValueAddress::Name { channel, name: variable.name.text.clone() },
+            ValueAddress::Handle { channel, handle, indices: Vec::new() },
         ] {
-            if probe.may_write(&place, &name)? {
+            if probe.may_write(&address, &name)? {
                 any = true;
                 let rules = [Rule::from("VAR-6")];
-                judge(probe, &trial(variable, &name, &rules), &place)?;
+                judge(probe, &write_check(variable, &name, &rules), &address)?;
             }
         }
         Ok(any)
@@ -107,126 +55,96 @@ fn each_read_only(
 }
 
 fn read_only(probe: &mut Probe<'_>) -> Step {
-    let sibling = first(probe)?.place();
-    each_read_only(probe, |probe, trial, place| probe.write_refused(trial, place, Some(&sibling)))
-}
-
-fn read_only_changed(probe: &mut Probe<'_>) -> Step {
-    each_read_only(probe, |probe, trial, place| {
-        let Some(before) = probe.value_at(place)?.filter(|value| !value.is_empty()) else {
-            return Ok(());
-        };
-        let moved = probe.value_at(place)?.as_ref() != Some(&before);
-        let other = another(&before, trial.is_text);
-        let Some(write) = place.write(&other).ok().filter(is_sendable) else { return Ok(()) };
-        let exchange = probe.send(write)?;
-        let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
-        let expected = format!("an error number for a write of {}", trial.what);
-        probe.check("VAR-6", refused, expected, exchange.result());
-        let after = probe.value_at(place)?.unwrap_or_default();
-        // What moves by itself has not been written.
-        if after != before && (moved || probe.moves(place, false)?) {
-            return Ok(());
-        }
-        let expected = format!("{} of {} as before", Hex(before.clone()), trial.what);
-        probe
-            .check("VAR-6", after == before, expected, Hex(after))
-            .then_some(())
-            .ok_or(Stop::Judged)
+    let sibling = first(probe)?.address();
+    each_read_only(probe, |probe, trial, address| {
+        probe.write_refused(trial, address, Some(&sibling))
     })
 }
 
-/// Whether a request is taken; silence is no answer to anything, and judged by `rule`.
-pub(super) fn taken(
-    probe: &mut Probe<'_>,
-    rule: Rule,
-    what: &str,
-    request: Request<'_>,
-) -> Step<bool> {
-    let exchange = probe.send(request)?;
-    if exchange.answer().is_none() {
-        let expected = format!("an answer to {what}");
-        probe.require(&[rule], false, expected, exchange.result())?;
-    }
-    Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
-}
-
-/// What is refused must differ by its fault only from what is taken.
-pub(super) fn taken_first(probe: &mut Probe<'_>, rule: Rule, good: Request<'_>) -> Step {
-    match taken(probe, rule, "what differs by that alone", good)? {
-        true => Ok(()),
-        false => {
-            let why = "what differs by that alone is refused too".to_owned();
-            Err(Stop::Inconclusive(why))
+fn read_only_changed(probe: &mut Probe<'_>) -> Step {
+    each_read_only(probe, |probe, trial, address| {
+        let Some(before) = probe.value_at(address)?.filter(|value| !value.is_empty()) else {
+            return Ok(());
+        };
+        let moved = probe.value_at(address)?.as_ref() != Some(&before);
+        let other = another(&before, trial.is_text);
+        let Some(write) = address.write(&other).ok().filter(is_sendable) else { return Ok(()) };
+        let exchange = probe.send(write)?;
+        let refused = exchange.is_error();
+        let expected = || format!("an error number for a write of {}", trial.what);
+        probe.check("VAR-6", refused, expected, &exchange);
+        let after = probe.value_at(address)?.unwrap_or_default();
+        // What moves by itself has not been written.
+        if after != before && (moved || probe.moves(address, false)?) {
+            return Ok(());
         }
-    }
+        let expected = || format!("{} of {} as before", Hex(before.clone()), trial.what);
+        probe
+            .check("VAR-6", after == before, expected, || Hex(after))
+            .then_some(())
+            .ok_or(Stop::Judged)
+    })
 }
 
 /// Sends a write that must be refused and have no effect on `watched`; then the good one again,
 /// so that all is as it was.
 fn refused(
     probe: &mut Probe<'_>,
-    rules: &[Rule],
+    rules: &[&'static str],
     what: &str,
     (bad, good): (Request<'_>, Request<'_>),
-    watched: &Place,
+    watched: &ValueAddress,
 ) -> Step {
-    let mut buf = vec![0; bad.encoded_len()];
-    let Ok(call) = bad.encode(&mut buf) else { return Ok(()) };
-    refused_call(probe, rules, what, (&call, good), watched)
+    let Ok(bad) = RawCall::new(bad) else { return Ok(()) };
+    refused_call(probe, rules, what, (&bad, good), watched)
 }
 
 fn refused_call(
     probe: &mut Probe<'_>,
-    rules: &[Rule],
+    rules: &[&'static str],
     what: &str,
-    (bad, good): (&Call<'_>, Request<'_>),
-    watched: &Place,
+    (bad, good): (&RawCall, Request<'_>),
+    watched: &ValueAddress,
 ) -> Step {
     let Some(&rule) = rules.first() else { return Ok(()) };
     if !is_sendable(&good) {
         return Ok(());
     }
-    taken_first(probe, rule, good)?;
+    require_taken(probe, rule, good)?;
     let before = probe.value_at(watched)?;
     let exchange = probe.call(bad)?;
-    let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
-    for &rule in rules {
-        let expected = format!("an error number for {what}");
-        probe.check(rule, refused, expected, exchange.result());
-    }
+    let refused = exchange.is_error();
+    let expected = || format!("an error number for {what}");
+    probe.check(rules, refused, expected, &exchange);
     let after = probe.value_at(watched)?;
     if after != before && probe.moves(watched, false)? {
         return probe.send(good).map(drop);
     }
-    for &rule in rules {
-        let same = after == before;
-        let found = Hex(after.clone().unwrap_or_default());
-        probe.check(rule, same, format!("the value of before {what}"), found);
-    }
+    let same = after == before;
+    let found = || Hex(after.clone().unwrap_or_default());
+    probe.check(rules, same, || format!("the value of before {what}"), found);
     probe.send(good).map(drop)
 }
 
 fn unknown(probe: &mut Probe<'_>) -> Step {
     let known = first(probe)?;
-    let (channel, watched, value) = (known.channel, known.place(), &known.value);
+    let (channel, watched, value) = (known.channel, known.address(), &known.value);
     let variables = probe.variables(channel)?;
     let is_free = |free: &u32| variables.iter().all(|one| one.handle.0 != *free);
     let good = known.by_handle(U32List::EMPTY, value);
     if let Some(free) = [0, 1, u32::MAX].into_iter().find(is_free) {
         let bad = WriteByHandle::new(channel, Handle(free), U32List::EMPTY, value).into();
         let what = format!("a write to the handle {free:#x}");
-        let rules = ["ADS-4", "VAR-12"].map(Rule::from);
-        refused(probe, &rules, &what, (bad, good), &watched)?;
+        refused(probe, &["ADS-4", "VAR-12"], &what, (bad, good), &watched)?;
     }
     let bad = known.by_handle((&[0]).into(), value);
-    refused(probe, &["VAR-12".into()], "an index of no array", (bad, good), &watched)?;
+    refused(probe, &["VAR-12"], "an index of no array", (bad, good), &watched)?;
     let good = known.by_name(value);
     let text = known.name().to_string();
     let (longer, shorter) = (format!("{text}x"), text.get(..text.len().saturating_sub(1)));
     let near = [longer.as_str(), shorter.unwrap_or_default()];
     for unknown in ["V.E.no such variable", ""].into_iter().chain(near) {
-        let unknown: CncString = unknown.parse().map_err(harness)?;
+        let unknown: CncString = unknown.parse()?;
         let is_there =
             |one: &Description| one.name.text.as_bytes().eq_ignore_ascii_case(unknown.as_bytes());
         // Whether upper and lower case are told apart is not said.
@@ -235,12 +153,11 @@ fn unknown(probe: &mut Probe<'_>) -> Step {
         }
         let what = format!("a write to the name \"{unknown}\"");
         let bad = WriteByName { channel, name: unknown.as_cnc_str(), value: value.into() }.into();
-        let rules = ["ADS-4", "VAR-13"].map(Rule::from);
-        refused(probe, &rules, &what, (bad, good), &watched)?;
+        refused(probe, &["ADS-4", "VAR-13"], &what, (bad, good), &watched)?;
     }
-    let element: CncString = format!("{text}[0]").parse().map_err(harness)?;
+    let element: CncString = format!("{text}[0]").parse()?;
     let bad = WriteByName { channel, name: element.as_cnc_str(), value: value.into() }.into();
-    refused(probe, &["VAR-13".into()], "an element of no array", (bad, good), &watched)
+    refused(probe, &["VAR-13"], "an element of no array", (bad, good), &watched)
 }
 
 /// The most arrays that are tried.
@@ -248,11 +165,11 @@ const ARRAYS_MAX: usize = 16;
 
 fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
     let mut tried = 0_usize;
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let Description { handle, dimensions, var_type, name, .. } = variable;
         let &[count] = dimensions.as_slice() else { return Ok(false) };
         let by_name = |index: u32| format!("{}[{index}]", name.text).parse::<CncString>();
-        let first = Place::Handle { channel, handle: *handle, indices: vec![0] };
+        let first = ValueAddress::Handle { channel, handle: *handle, indices: vec![0] };
         if *var_type == VariableType::STRING
             || tried >= ARRAYS_MAX
             || !probe.may_write(&first, &name.text.to_string())?
@@ -260,52 +177,49 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
             return Ok(false);
         }
         tried = tried.saturating_add(1);
-        let whole = Place::Handle { channel, handle: *handle, indices: Vec::new() };
+        let whole = ValueAddress::Handle { channel, handle: *handle, indices: Vec::new() };
         let Some(value) = probe.value_at(&first)? else { return Ok(false) };
         let other = another(&value, false);
-        let good = first.write(&value).map_err(harness)?;
-        let named = by_name(0).map_err(harness)?;
-        let good_by_name = Place::Name { channel, name: named };
+        let good = first.write(&value)?;
+        let named = by_name(0)?;
+        let good_by_name = ValueAddress::Name { channel, name: named };
         for beyond in probe.beyond(count) {
             let what = format!("a write to {}[{beyond}] of {count}", name.text);
-            let bad = Place::Handle { channel, handle: *handle, indices: vec![beyond] };
-            let bad = bad.write(&other).map_err(harness)?;
-            refused(probe, &["VAR-12".into()], &what, (bad, good), &whole)?;
-            let bad = Place::Name { channel, name: by_name(beyond).map_err(harness)? };
-            let bad = bad.write(&other).map_err(harness)?;
-            let good = good_by_name.write(&value).map_err(harness)?;
-            refused(probe, &["VAR-13".into()], &what, (bad, good), &whole)?;
+            let bad = ValueAddress::Handle { channel, handle: *handle, indices: vec![beyond] };
+            let bad = bad.write(&other)?;
+            refused(probe, &["VAR-12"], &what, (bad, good), &whole)?;
+            let bad = ValueAddress::Name { channel, name: by_name(beyond)? };
+            let bad = bad.write(&other)?;
+            let good = good_by_name.write(&value)?;
+            refused(probe, &["VAR-13"], &what, (bad, good), &whole)?;
         }
         Ok(true)
     })
 }
 
 fn bad_requests(probe: &mut Probe<'_>) -> Step {
-    for known in writable(probe)? {
-        let watched = known.place();
+    for known in writable_numbers(probe)? {
+        let watched = known.address();
         // Without its end there is no name, and nothing that would be behind it.
         let good = known.by_name(&known.value);
-        let mut buf = vec![0; good.encoded_len()];
-        let call = good.encode(&mut buf).map_err(harness)?;
+        let call = RawCall::new(good)?;
         let name: Vec<u8> = known.name().bytes().collect();
         for size in [known.value.len(), 4, 8] {
             let data = [&name[..], &vec![b'A'; size]].concat();
             let what = format!("a write of {size} bytes to a name without NUL");
-            let bad = Call { data: &data, ..call };
-            refused_call(probe, &["VAR-13".into()], &what, (&bad, good), &watched)?;
+            let bad = call.with(|call| call.data = data);
+            refused_call(probe, &["VAR-13"], &what, (&bad, good), &watched)?;
         }
         let good = known.by_handle(U32List::EMPTY, &known.value);
-        let mut buf = vec![0; good.encoded_len()];
-        let call = good.encode(&mut buf).map_err(harness)?;
+        let call = RawCall::new(good)?;
         for count in [0x4000_0000_u32, 0x8000_0001, u32::MAX] {
             let mut data = call.data.to_vec();
             data.get_mut(4..8)
                 .into_iter()
                 .for_each(|four| four.copy_from_slice(&count.to_le_bytes()));
             let what = format!("a write with a count of {count:#x} indices");
-            let bad = Call { data: &data, ..call };
-            let rules = ["VAR-24", "VAR-12"].map(Rule::from);
-            refused_call(probe, &rules, &what, (&bad, good), &watched)?;
+            let bad = call.with(|call| call.data = data);
+            refused_call(probe, &["VAR-24", "VAR-12"], &what, (&bad, good), &watched)?;
         }
     }
     Ok(())

@@ -4,11 +4,10 @@ use ads_cnc::address::Channel;
 use ads_cnc::{CncString, Description, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::axis_interface::place_of;
-use super::place::{Place, another, is_sendable};
-use super::probe::{Probe, harness};
-use super::write::{each, is_of_service};
-use super::write_refused::{taken, taken_first};
+use super::kit::{
+    Probe, ValueAddress, another, axis_address, each_of_access, is_of_service, is_sendable,
+    is_taken, require_taken,
+};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, assumed, online};
 
@@ -19,30 +18,39 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 /// A way to a value, and the clause that says what a write by it has.
-struct Way {
+struct WriteAddress {
     id: &'static str,
-    place: Place,
+    address: ValueAddress,
 }
 
-fn ways(probe: &mut Probe<'_>, channel: Channel, variable: &Description) -> Step<Vec<Way>> {
+fn ways(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    variable: &Description,
+) -> Step<Vec<WriteAddress>> {
     let (name, handle) = (&variable.name.text, variable.handle);
-    let by_name = |name: CncString| Way { id: "VAR-13", place: Place::Name { channel, name } };
-    let by_handle =
-        |indices| Way { id: "VAR-12", place: Place::Handle { channel, handle, indices } };
+    let by_name = |name: CncString| WriteAddress {
+        id: "VAR-13",
+        address: ValueAddress::Name { channel, name },
+    };
+    let by_handle = |indices| WriteAddress {
+        id: "VAR-12",
+        address: ValueAddress::Handle { channel, handle, indices },
+    };
     let mut all = vec![by_handle(Vec::new()), by_name(name.clone())];
     if variable.dimensions.len() == 1 {
         all.push(by_handle(vec![0]));
-        all.push(by_name(format!("{name}[0]").parse().map_err(harness)?));
+        all.push(by_name(format!("{name}[0]").parse()?));
     }
-    let of_axis = place_of(probe, channel, variable)?;
-    all.extend(of_axis.map(|place| Way { id: "VAR-26", place }));
+    let of_axis = axis_address(probe, channel, variable)?;
+    all.extend(of_axis.map(|address| WriteAddress { id: "VAR-26", address }));
     Ok(all)
 }
 
 /// Of each type the first variable and the first array, and whatever an axis has.
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let mut tried = Vec::new();
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let is_of_axis = variable.name.text.as_bytes().starts_with(b"V.A.");
         let sort = (variable.var_type, variable.dimensions.len(), is_of_axis);
         if is_of_service(variable) || tried.contains(&sort) || variable.dimensions.len() > 1 {
@@ -50,7 +58,7 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
         }
         let mut any = false;
         for way in ways(probe, channel, variable)? {
-            if probe.may_write(&way.place, &variable.name.text.to_string())? {
+            if probe.may_write(&way.address, &variable.name.text.to_string())? {
                 any = true;
                 of_way(probe, channel, variable, &way)?;
             }
@@ -62,12 +70,17 @@ fn wrong_size(probe: &mut Probe<'_>) -> Step {
     })
 }
 
-fn of_way(probe: &mut Probe<'_>, channel: Channel, variable: &Description, way: &Way) -> Step {
+fn of_way(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    variable: &Description,
+    way: &WriteAddress,
+) -> Step {
     let is_text = variable.var_type == VariableType::STRING;
-    let Some(value) = probe.value_at(&way.place)?.filter(|value| !value.is_empty()) else {
+    let Some(value) = probe.value_at(&way.address)?.filter(|value| !value.is_empty()) else {
         return Ok(());
     };
-    let whole = Place::Handle { channel, handle: variable.handle, indices: Vec::new() };
+    let whole = ValueAddress::Handle { channel, handle: variable.handle, indices: Vec::new() };
     // Other bytes from the first on: a part of them that is written shows.
     let other = if is_text { vec![b'x'; value.len()] } else { another(&value, false) };
     let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());
@@ -84,7 +97,8 @@ fn of_way(probe: &mut Probe<'_>, channel: Channel, variable: &Description, way: 
     for data in all {
         if data.len() != value.len() && !sizes.contains(&data.len()) {
             sizes.push(data.len());
-            let sent = Sent { way, watched: &whole, is_text, value: &value, other: &data };
+            let sent =
+                WrongSizeWrite { way, watched: &whole, is_text, value: &value, other: &data };
             let what =
                 format!("{} bytes for {} of {}", data.len(), value.len(), variable.name.text);
             sent.judge(probe, &what)?;
@@ -94,45 +108,45 @@ fn of_way(probe: &mut Probe<'_>, channel: Channel, variable: &Description, way: 
 }
 
 /// A value of another size, on its way.
-struct Sent<'a> {
-    way: &'a Way,
-    watched: &'a Place,
+struct WrongSizeWrite<'a> {
+    way: &'a WriteAddress,
+    watched: &'a ValueAddress,
     is_text: bool,
     value: &'a [u8],
     other: &'a [u8],
 }
 
-impl Sent<'_> {
+impl WrongSizeWrite<'_> {
     /// That it is refused is assumed. An error that has written something is none, and a success
     /// has written what was sent, as far as that goes: of more bytes a variable cannot have it.
     /// How much a text holds is known from help pages only.
     fn judge(&self, probe: &mut Probe<'_>, what: &str) -> Step {
         let Self { way, watched, is_text, value, other } = *self;
-        let (bad, good) = (way.place.write(other), way.place.write(value));
+        let (bad, good) = (way.address.write(other), way.address.write(value));
         let (Ok(bad), Ok(good)) = (bad, good) else { return Ok(()) };
         if !is_sendable(&bad) || !is_sendable(&good) {
             return Ok(());
         }
         let of_size: Rule = if is_text { online("VAR-25") } else { way.id.into() };
-        taken_first(probe, way.id.into(), good)?;
+        require_taken(probe, way.id, good)?;
         let before = probe.value_at(watched)?;
-        let is_taken = taken(probe, way.id.into(), what, bad)?;
+        let is_taken = is_taken(probe, way.id, what, bad)?;
         let evidence = probe.evidence();
-        let (read, after) = (probe.value_at(&way.place)?, probe.value_at(watched)?);
+        let (read, after) = (probe.value_at(&way.address)?, probe.value_at(watched)?);
         probe.show(evidence);
         let rule = if is_text { of_size } else { assumed(way.id) };
-        probe.check(rule, !is_taken, format!("an error number for {what}"), "a success");
+        probe.check(rule, !is_taken, || format!("an error number for {what}"), "a success");
         if is_taken {
             let read = read.unwrap_or_default();
-            let expected = format!("an error, or {what} read back");
-            probe.check(of_size, read.starts_with(other), expected, Hex(read));
+            let expected = || format!("an error, or {what} read back");
+            probe.check(of_size, read.starts_with(other), expected, || Hex(read));
         } else {
             // What moves by itself has not been written.
             if after != before && probe.moves(watched, false)? {
                 return probe.send(good).map(drop);
             }
-            let expected = format!("the value of before {what}");
-            let shown = Hex(after.clone().unwrap_or_default());
+            let expected = || format!("the value of before {what}");
+            let shown = || Hex(after.clone().unwrap_or_default());
             probe.check(way.id, after == before, expected, shown);
         }
         probe.send(good).map(drop)

@@ -3,10 +3,7 @@
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use super::place::{Place, Trial};
-use super::probe::Probe;
-use super::write::each;
-use super::write_isolation::write;
+use super::kit::{Probe, ValueAddress, WriteCheck, each_of_access, write_value};
 use super::{Row, case};
 use crate::judge::{Needs, Step, online};
 use crate::values::until_nul;
@@ -18,37 +15,40 @@ pub(super) const CASES: &[Row] = &[
 ];
 
 fn texts(probe: &mut Probe<'_>) -> Step {
-    each(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
+    each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let name = variable.name.text.clone();
         if variable.var_type != VariableType::STRING || !variable.dimensions.is_empty() {
             return Ok(false);
         }
         let mut any = false;
-        for (id, place) in [
-            ("VAR-13", Place::Name { channel, name: name.clone() }),
-            ("VAR-12", Place::Handle { channel, handle: variable.handle, indices: Vec::new() }),
+        for (id, address) in [
+            ("VAR-13", ValueAddress::Name { channel, name: name.clone() }),
+            (
+                "VAR-12",
+                ValueAddress::Handle { channel, handle: variable.handle, indices: Vec::new() },
+            ),
         ] {
-            if !probe.may_write(&place, &name.to_string())? {
+            if !probe.may_write(&address, &name.to_string())? {
                 continue;
             }
-            let Some(before) = probe.value_at(&place)?.filter(|value| !value.is_empty()) else {
+            let Some(before) = probe.value_at(&address)?.filter(|value| !value.is_empty()) else {
                 continue;
             };
             any = true;
             let what = name.to_string();
-            let trial = Trial { what: &what, rules: &[], is_text: true, name: Some(&name) };
+            let trial = WriteCheck { what: &what, rules: &[], is_text: true, name: Some(&name) };
             probe.changing(
                 &trial,
-                &place,
+                &address,
                 &before,
-                |probe| of_lengths(probe, id, &place, (&name, variable.size)),
+                |probe| of_lengths(probe, id, &address, (&name, variable.size)),
                 |probe| {
-                    write(probe, &place, &before)?;
+                    write_value(probe, &address, &before)?;
                     // A read without an answer shows nothing.
-                    let Some(after) = probe.value_at(&place)? else { return Ok(false) };
+                    let Some(after) = probe.value_at(&address)? else { return Ok(false) };
                     let kept = until_nul(&after) == until_nul(&before);
-                    let expected = format!("{} of {name} again", Hex(before.clone()));
-                    Ok(probe.check(id, kept, expected, Hex(after)))
+                    let expected = || format!("{} of {name} again", Hex(before.clone()));
+                    Ok(probe.check(id, kept, expected, || Hex(after)))
                 },
             )?;
         }
@@ -60,7 +60,7 @@ fn texts(probe: &mut Probe<'_>) -> Step {
 fn of_lengths(
     probe: &mut Probe<'_>,
     id: &'static str,
-    place: &Place,
+    address: &ValueAddress,
     (name, size): (&CncString, u32),
 ) -> Step {
     let size = usize::try_from(size).unwrap_or_default().min(800);
@@ -69,20 +69,20 @@ fn of_lengths(
         value.push(0);
         // As many bytes as it is described with: that fewer are taken is assumed.
         value.resize(size.max(1), 0);
-        let taken = write(probe, place, &value)?;
-        let expected = format!("{name} takes a text of {len} characters");
+        let taken = write_value(probe, address, &value)?;
+        let expected = || format!("{name} takes a text of {len} characters");
         probe.check(online("VAR-25"), taken, expected, "an error");
         if !taken {
             continue;
         }
-        let read = probe.value_at(place)?.unwrap_or_default();
+        let read = probe.value_at(address)?.unwrap_or_default();
         let same = until_nul(&read) == until_nul(&value);
-        let expected = format!("{len} characters of {name}, as written");
-        let found = format!("{} bytes: {}", read.len(), Hex(read.clone()));
-        probe.check(id, same, &expected, &found);
+        let expected = || format!("{len} characters of {name}, as written");
+        let found = || format!("{} bytes: {}", read.len(), Hex(read.clone()));
+        probe.check(id, same, expected, found);
         probe.check(online("VAR-25"), same, expected, found);
     }
-    shorter(probe, id, place, (name, size))
+    shorter(probe, id, address, (name, size))
 }
 
 /// A text without what its variable has room for behind it: that it is taken is assumed. Then it
@@ -90,17 +90,20 @@ fn of_lengths(
 fn shorter(
     probe: &mut Probe<'_>,
     id: &'static str,
-    place: &Place,
+    address: &ValueAddress,
     (name, size): (&CncString, usize),
 ) -> Step {
     let mut longest = vec![b'y'; size.saturating_sub(1)];
     longest.push(0);
     let short = b"zz\0".get(..size.min(3)).unwrap_or_default();
-    if short.last() != Some(&0) || !write(probe, place, &longest)? || !write(probe, place, short)? {
+    if short.last() != Some(&0)
+        || !write_value(probe, address, &longest)?
+        || !write_value(probe, address, short)?
+    {
         return Ok(());
     }
-    let read = probe.value_at(place)?.unwrap_or_default();
-    let expected = format!("{:?} of {name}, as written", "zz");
-    probe.check(id, until_nul(&read) == until_nul(short), expected, Hex(read));
+    let read = probe.value_at(address)?.unwrap_or_default();
+    let expected = || format!("{:?} of {name}, as written", "zz");
+    probe.check(id, until_nul(&read) == until_nul(short), expected, || Hex(read));
     Ok(())
 }

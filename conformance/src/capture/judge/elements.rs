@@ -70,7 +70,7 @@ impl Bench<'_> {
             }
             (Request::ReadElementWriteFlag(_), Some(Reply::ElementWriteFlag(flag))) => {
                 element.writable = Some(flag.is_writable());
-                page.check(assumed("SDA-9"), flag.0 <= 1, "a write flag of 0 or 1", flag.0);
+                page.check(assumed("SDA-9"), flag.0 <= 1, "a write flag of 0 or 1", || flag.0);
                 return;
             }
             (Request::ReadElement(_), Some(Reply::Content(content))) => {

@@ -48,7 +48,7 @@ pub(super) fn service<'e>(
             Some(answer)
         }
         Err(fault) => {
-            page.check(clause, false, "what the service gives", fault);
+            page.check(clause, false, "what the service gives", || fault);
             None
         }
     }

@@ -117,7 +117,7 @@ fn wrong_service(
         return Some(format!("{service} {index_group}, {index_offset} at {port}"));
     }
     let mut page = records.on(Topic::of_request(function), observation);
-    page.check(spec.clause, false, format!("{} for {}", spec.service, spec.name), refusal);
+    page.check(spec.clause, false, format!("{} for {}", spec.service, spec.name), || refusal);
     None
 }
 

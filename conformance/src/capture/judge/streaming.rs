@@ -72,7 +72,7 @@ impl Bench<'_> {
                 let rule = if rule == "STM-5" { "STM-4" } else { rule };
                 let is_line = matches!(error.kind(), LineErrorKind::TooLong { .. });
                 let expected = if is_line { "lines of at most 990 characters" } else { "ASCII" };
-                page.check(rule, false, expected, error);
+                page.check(rule, false, expected, || error);
             }
         }
         let now = observation.time();
@@ -103,7 +103,7 @@ impl Bench<'_> {
                             // Behind an end comes the next program, or what is left of it.
                             _ => continue,
                         };
-                        page.check(clause, false, "what a stream may have", finding);
+                        page.check(clause, false, "what a stream may have", || finding);
                     }
                 }
             }

@@ -2,17 +2,15 @@
 
 use ads_cnc::dynamic::DynamicKind;
 use ads_cnc::operation::{
-    Call, CountDynamic, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex,
-    ReadByName, Request,
+    CountDynamic, CountObjects, CountVariables, DescribeByIndex, DynamicNameByIndex, ReadByName,
+    Request,
 };
 use ads_cnc::{Kind, VariableType};
 
 use super::maybe;
-use crate::judge::{Step, Stop};
+use crate::judge::{Step, applicable};
 use crate::profile::Claim;
-use crate::suite::describe_by_name::kinds;
-use crate::suite::probe::{Probe, harness};
-use crate::suite::variable::name_of;
+use crate::suite::kit::{Probe, RawCall, name_of};
 use crate::wire_service::clause;
 
 /// TCP may cut a frame anywhere: its length says where it ends.
@@ -29,15 +27,12 @@ pub(super) fn in_pieces(probe: &mut Probe<'_>) -> Step {
             let exchange = probe.send(request);
             probe.session.client.set_piece(None);
             let exchange = exchange?;
-            let same = exchange.answer().and_then(|answer| answer.success()) == Some(&whole[..]);
-            let expected = format!("the same to a frame in pieces of {piece} bytes");
-            probe.check("ADS-5", same, expected, exchange.result());
+            let same = exchange.success() == Some(&whole[..]);
+            let expected = || format!("the same to a frame in pieces of {piece} bytes");
+            probe.check("ADS-5", same, expected, &exchange);
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing to be asked is claimed".to_owned())),
-    }
+    applicable(any, "nothing to be asked is claimed")
 }
 
 /// Whether a reply's length follows from what is documented, or a text ends where it ends.
@@ -52,10 +47,10 @@ pub(super) fn asked_for(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
             lengths_of(probe, CountDynamic::new(channel, kind).into(), Extent::Fixed("DYN-1"))?;
-            let name = DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?;
+            let name = DynamicNameByIndex::new(channel, kind, 1)?;
             lengths_of(probe, name.into(), Extent::Open)?;
         }
-        for (_, kind) in kinds(probe) {
+        for (_, kind) in probe.kinds() {
             let count = CountVariables::new(channel, kind);
             lengths_of(probe, count.into(), Extent::Fixed("VAR-2"))?;
             for index in 0..2 {
@@ -78,37 +73,34 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     if probe.claims(request.function()) != Claim::Yes {
         return Ok(());
     }
-    let mut buf = vec![0; request.encoded_len()];
-    let call = request.encode(&mut buf).map_err(harness)?;
+    let call = RawCall::new(request)?;
     let rule = clause(call.service);
     let Some(whole) = maybe(probe, request)?.filter(|data| !data.is_empty()) else {
         return Ok(());
     };
     let there = u32::try_from(whole.len()).unwrap_or(u32::MAX);
     let answer = |probe: &mut Probe<'_>, read_length: u32| -> Step<Option<Option<usize>>> {
-        let call = Call { read_length, ..call };
+        let call = call.with(|call| call.read_length = read_length);
         // The gate may let no other lengths pass.
-        if probe.session.client.check(&call).is_err() {
+        if probe.session.client.check(&call.call()).is_err() {
             return Ok(None);
         }
         let exchange = probe.call(&call)?;
-        Ok(Some(exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::len)))
+        Ok(Some(exchange.success().map(<[u8]>::len)))
     };
     let what = request.function().spec().name;
     // Of a text that ends with the reply the CNC may want room for a NUL.
     if let Extent::Fixed(own) = extent
         && let Some(found) = answer(probe, there)?
     {
-        let expected = format!("{there} bytes of {what}, as many as are asked for");
-        for rule in [rule, own] {
-            probe.check(rule, found == Some(whole.len()), &expected, format!("{found:?}"));
-        }
+        let expected = || format!("{there} bytes of {what}, as many as are asked for");
+        probe.check([rule, own], found == Some(whole.len()), expected, || format!("{found:?}"));
     }
     // What it gives instead of an error, if it gives anything, fits.
     if let Some(found) = answer(probe, there.saturating_sub(1))? {
         let fits = found.is_none_or(|len| len < whole.len());
-        let expected = format!("fewer than {there} bytes of {what}");
-        probe.check(rule, fits, expected, format!("{found:?}"));
+        let expected = || format!("fewer than {there} bytes of {what}");
+        probe.check(rule, fits, expected, || format!("{found:?}"));
     }
     let Extent::Fixed(own) = extent else { return Ok(()) };
     if !probe.session.client.gate().lets_malformed_pass() {
@@ -117,10 +109,8 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
     // Nothing is behind what there is.
     if let Some(found) = answer(probe, there.saturating_add(5))? {
         let fits = found.is_none_or(|len| len <= whole.len());
-        let expected = format!("{there} bytes of {what}, or an error");
-        for rule in [rule, own] {
-            probe.check(rule, fits, &expected, format!("{found:?}"));
-        }
+        let expected = || format!("{there} bytes of {what}, or an error");
+        probe.check([rule, own], fits, expected, || format!("{found:?}"));
     }
     // Where much room is taken, a byte less of it makes no difference.
     let much = there.saturating_add(0x1_0000);
@@ -128,10 +118,8 @@ fn lengths_of(probe: &mut Probe<'_>, request: Request<'_>, extent: Extent) -> St
         && let Some(Some(len)) = answer(probe, much)?
         && let Some(found) = answer(probe, much.saturating_sub(1))?
     {
-        let expected = format!("{len} bytes of {what}, as with more room");
-        for rule in [rule, "ADS-4"] {
-            probe.check(rule, found == Some(len), &expected, format!("{found:?}"));
-        }
+        let expected = || format!("{len} bytes of {what}, as with more room");
+        probe.check([rule, "ADS-4"], found == Some(len), expected, || format!("{found:?}"));
     }
     Ok(())
 }

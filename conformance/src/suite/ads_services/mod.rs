@@ -14,15 +14,10 @@ use ads_cnc::operation::{
 };
 use ads_cnc::{Decode as _, Description, ObjectCount, U32List, VariableCount, VariableType};
 
-use super::describe_by_name::kinds;
-use super::inventory::number_of;
-use super::probe::{Probe, harness};
-use super::sda::length_of;
-use super::steady::Steady;
-use super::variable::name_of;
 use super::{Row, case};
-use crate::judge::{Needs, Rule, Step, Stop};
+use crate::judge::{Needs, Step, applicable};
 use crate::profile::Claim;
+use crate::suite::kit::{Probe, Steady, between, name_of, number_of};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -57,9 +52,9 @@ fn some<'a>(
         return Ok(None);
     }
     let exchange = probe.send(request)?;
-    let data = exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec);
-    let expected = format!("{} by {}", request.function().spec().name, exchange.service);
-    probe.check(rule, data.is_some(), expected, exchange.result());
+    let data = exchange.success().map(<[u8]>::to_vec);
+    let expected = || format!("{} by {}", request.function().spec().name, exchange.service);
+    probe.check(rule, data.is_some(), expected, &exchange);
     Ok(data)
 }
 
@@ -86,9 +81,9 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
         let count = number(&data).min(SOME);
         let mut all: Vec<Vec<u8>> = Vec::new();
         for index in 1..=count {
-            let one = ReadDescriptors::new(list, index, 1).map_err(harness)?;
+            let one = ReadDescriptors::new(list, index, 1)?;
             let Some(one) = some(probe, RULE, one)? else { break };
-            let found = format!("{} bytes at offset {index}", one.len());
+            let found = || format!("{} bytes at offset {index}", one.len());
             probe.check(RULE, one.len() == DESCRIPTOR_LEN, "84 bytes", found);
             let other = !all.contains(&one);
             probe.check(RULE, other, "another descriptor at each offset", "the same again");
@@ -106,7 +101,7 @@ fn read_addresses(probe: &mut Probe<'_>) -> Step {
         for kind in DynamicKind::ALL {
             let count = some(probe, RULE, CountDynamic::new(channel, kind))?;
             let Some(count) = count else { continue };
-            let found = format!("{} bytes of a number", count.len());
+            let found = || format!("{} bytes of a number", count.len());
             probe.check(RULE, DynamicCount::decode(&count).is_ok(), "4 bytes", found);
         }
     }
@@ -118,18 +113,18 @@ fn read_write_addresses(probe: &mut Probe<'_>) -> Step {
     const RULE: &str = "ADS-3";
     let mut steady = Steady::default();
     for channel in probe.channels()? {
-        for (name, kind) in kinds(probe) {
+        for (name, kind) in probe.kinds() {
             let data = some(probe, RULE, CountVariables::new(channel, kind))?;
             let Some(data) = data else { continue };
             let count = VariableCount::decode(&data);
-            let found = format!("{} bytes for {name}", data.len());
+            let found = || format!("{} bytes for {name}", data.len());
             probe.check(RULE, count.is_ok(), "a number of 4 bytes", found);
             let mut all = Vec::new();
             for index in 0..count.map_or(0, |count| count.0.min(SOME)) {
                 let one = some(probe, RULE, DescribeByIndex::new(channel, index, kind))?;
                 let Some(one) = one else { continue };
                 let other = !all.contains(&one);
-                let found = format!("the same again at index {index} of {name}");
+                let found = || format!("the same again at index {index} of {name}");
                 probe.check(RULE, other, "another variable at each index", found);
                 // That those of axes are used there is assumed.
                 if let Some(one) = Description::decode(&one).ok().filter(|_| name != "V.A") {
@@ -153,58 +148,59 @@ fn same_by_handle(
     if variable.var_type == VariableType::STRING || !claimed {
         return Ok(());
     }
-    let by_name = Request::from(ReadByName { channel, name: name_of(variable) });
+    let by_name = ReadByName { channel, name: name_of(variable) };
     let by_handle = ReadByHandle::new(channel, variable.handle, U32List::EMPTY);
-    let what = variable.name.text.to_string();
-    steady.same_part(probe, &["ADS-3".into()], &what, by_name, by_handle.into(), <[u8]>::to_vec)
+    steady.same(probe, "ADS-3", &variable.name.text, by_name, by_handle)
 }
 
 /// Numbers that a Read gives, and what is there by a ReadWrite.
 fn services_agree(probe: &mut Probe<'_>) -> Step {
-    let rules: [Rule; 2] = ["ADS-1".into(), "ADS-3".into()];
+    let rules = ["ADS-1", "ADS-3"];
     let mut any = false;
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
-            for _ in 0..3 {
-                let count = |probe: &mut Probe<'_>| -> Step<Option<u32>> {
-                    let data = maybe(probe, CountDynamic::new(channel, kind))?;
-                    Ok(data.and_then(|data| DynamicCount::decode(&data).ok()).map(|count| count.0))
-                };
-                let Some(before) = count(probe)? else { break };
-                let has = |probe: &mut Probe<'_>, index: u32| -> Step<bool> {
-                    let name = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
-                    let name = maybe(probe, name)?.unwrap_or_default();
-                    Ok(name.first().is_some_and(|&first| first != 0))
-                };
-                let last = before == 0 || has(probe, before)?;
-                let beyond = match before.checked_add(1) {
-                    Some(beyond) => has(probe, beyond)?,
-                    None => false,
-                };
-                // A program may have made or deleted one meanwhile.
-                if count(probe)? != Some(before) {
-                    continue;
-                }
-                any = true;
-                for rule in rules {
-                    let expected =
-                        format!("a name of index {before}, if it is not 0, and no other");
-                    let found = format!("one: {last}, another behind it: {beyond}");
-                    probe.check(rule, last && !beyond, expected, found);
-                }
-                break;
-            }
+            any |= names_agree(probe, rules, channel, kind)?;
         }
     }
-    any |= elements_agree(probe, &rules)?;
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing is asked by both services".to_owned())),
+    any |= elements_agree(probe, rules)?;
+    applicable(any, "nothing is asked by both services")
+}
+
+/// How many parameters a Read says that there are, and which names a ReadWrite has. A program may
+/// make or delete one meanwhile.
+fn names_agree(
+    probe: &mut Probe<'_>,
+    rules: [&'static str; 2],
+    channel: Channel,
+    kind: DynamicKind,
+) -> Step<bool> {
+    let count = |probe: &mut Probe<'_>| -> Step<Option<u32>> {
+        let data = maybe(probe, CountDynamic::new(channel, kind))?;
+        Ok(data.and_then(|data| DynamicCount::decode(&data).ok()).map(|count| count.0))
+    };
+    let has = |probe: &mut Probe<'_>, index: u32| -> Step<bool> {
+        let name = maybe(probe, DynamicNameByIndex::new(channel, kind, index)?)?;
+        Ok(name.is_some_and(|name| name.first().is_some_and(|&first| first != 0)))
+    };
+    for _ in 0..3 {
+        let found = between(probe, count, |probe, &count| {
+            let last = count == 0 || has(probe, count)?;
+            let beyond = count.checked_add(1);
+            let beyond = beyond.map(|beyond| has(probe, beyond)).transpose()?;
+            Ok((count, last, beyond.unwrap_or_default()))
+        })?;
+        if let Some((count, last, beyond)) = found {
+            let expected = || format!("a name of index {count}, if it is not 0, and no other");
+            let found = || format!("one: {last}, another behind it: {beyond}");
+            probe.check(rules, last && !beyond, expected, found);
+            return Ok(true);
+        }
     }
+    Ok(false)
 }
 
 /// Where a ReadWrite says that the elements of an instance are, a Read finds them.
-fn elements_agree(probe: &mut Probe<'_>, rules: &[Rule]) -> Step<bool> {
+fn elements_agree(probe: &mut Probe<'_>, rules: [&'static str; 2]) -> Step<bool> {
     let mut any = false;
     let functions = [Function::FindInstance, Function::ReadElementLength];
     if functions.iter().any(|one| probe.claims(*one) != Claim::Yes) {
@@ -219,18 +215,16 @@ fn elements_agree(probe: &mut Probe<'_>, rules: &[Rule]) -> Step<bool> {
             let data = maybe(probe, count)?;
             let count = data.as_deref().and_then(number_of);
             any = true;
-            for &rule in rules {
-                let expected = "a number of elements where the object address says";
-                probe.check(rule, count.is_some(), expected, format!("{data:02x?}"));
-            }
+            let expected = "a number of elements where the object address says";
+            probe.check(rules, count.is_some(), expected, || format!("{data:02x?}"));
             for place in 1..=count.unwrap_or_default().min(SOME) {
                 let Ok(element) = first.nth(place) else { break };
-                let Some(length) = length_of(probe, element)? else { continue };
+                let Some(length) = probe.length_of(element)? else { continue };
                 let Ok(read) = ReadElement::new(element, length) else { continue };
                 let Some(data) = maybe(probe, read)? else { continue };
-                let found = format!("{} bytes", data.len());
+                let found = || format!("{} bytes", data.len());
                 let same = u32::try_from(data.len()).is_ok_and(|len| len == length);
-                probe.check("ADS-1", same, format!("{length} bytes, as its length says"), found);
+                probe.check("ADS-1", same, || format!("{length} bytes, as its length says"), found);
             }
         }
     }

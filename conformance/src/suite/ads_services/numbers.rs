@@ -1,11 +1,12 @@
 //! Error numbers, byte by byte.
 
 use ads_cnc::Kind;
+use ads_cnc::address::IndexOffset;
 use ads_cnc::ads::{AdsError, AmsPort};
-use ads_cnc::operation::{Call, CountObjects, CountVariables, Request, WriteByName};
+use ads_cnc::operation::{CountObjects, CountVariables, Request, WriteByName};
 
 use crate::judge::Step;
-use crate::suite::probe::{Probe, harness};
+use crate::suite::kit::{Probe, RawCall};
 
 /// Which number it is nobody says, so any other is right too: but not the same one with its bytes
 /// in reverse order.
@@ -14,36 +15,34 @@ pub(super) fn of_errors(probe: &mut Probe<'_>) -> Step {
     let channel = probe.channel()?;
     let requests: [Request<'_>; 3] = [
         CountObjects::new(channel).into(),
-        WriteByName::new(channel, "V.E.nobody_has_this", &[0; 4]).map_err(harness)?.into(),
+        WriteByName::new(channel, "V.E.nobody_has_this", &[0; 4])?.into(),
         CountVariables::new(channel, Kind::V_E).into(),
     ];
     for request in requests {
-        let mut buf = vec![0; request.encoded_len()];
-        let good = request.encode(&mut buf).map_err(harness)?;
+        let good = RawCall::new(request)?;
         // No object, variable or function is there.
-        let index_offset = match request {
-            Request::WriteByName(_) => good.index_offset,
-            _ => ads_cnc::address::IndexOffset::new(0xFFFF),
+        let bad = match request {
+            Request::WriteByName(_) => good,
+            _ => good.with(|call| call.index_offset = IndexOffset::new(0xFFFF)),
         };
-        let call = Call { index_offset, ..good };
-        let Err(own) = cnc.answer(&call) else { continue };
-        let found = number(probe, &call)?;
+        let Err(own) = cnc.answer(&bad.call()) else { continue };
+        let found = number(probe, &bad)?;
         let turned = own.0.swap_bytes();
-        let expected = format!("{own:#x}, or another");
-        probe.check("ADS-4", found.is_none_or(|found| found.0 != turned), expected, shown(found));
+        let expected = || format!("{own:#x}, or another");
+        probe
+            .check("ADS-4", found.is_none_or(|found| found.0 != turned), expected, || shown(found));
     }
-    let mut buf = [0; 256];
-    let good = Request::from(CountVariables::new(channel, Kind::V_E));
-    let call = Call { port: AmsPort(1), ..good.encode(&mut buf).map_err(harness)? };
+    let good = RawCall::new(CountVariables::new(channel, Kind::V_E))?;
+    let call = good.with(|call| call.port = AmsPort(1));
     let found = number(probe, &call)?;
     let turned = AdsError::TARGET_PORT_NOT_FOUND.0.swap_bytes();
     let expected = "an error, its lowest byte first";
-    probe.check("ADS-5", found.is_none_or(|found| found.0 != turned), expected, shown(found));
+    probe.check("ADS-5", found.is_none_or(|found| found.0 != turned), expected, || shown(found));
     Ok(())
 }
 
 /// The error of either header.
-fn number(probe: &mut Probe<'_>, call: &Call<'_>) -> Step<Option<AdsError>> {
+fn number(probe: &mut Probe<'_>, call: &RawCall) -> Step<Option<AdsError>> {
     let exchange = probe.call(call)?;
     let errors = exchange.answer().map(|answer| [answer.ams_error, answer.result]);
     Ok(errors.into_iter().flatten().find(|error| !error.is_ok()))

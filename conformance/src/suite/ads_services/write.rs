@@ -3,11 +3,8 @@
 use ads_cnc::{CncString, VariableAccess, VariableType};
 use ads_cnc_vectors::Hex;
 
-use crate::judge::{Rule, Step, Stop};
-use crate::suite::place::{Place, Trial};
-use crate::suite::probe::Probe;
-use crate::suite::write::is_of_service;
-use crate::suite::write_content::is_blank;
+use crate::judge::{Rule, Step, applicable};
+use crate::suite::kit::{NOTHING_WRITABLE, Probe, ValueAddress, WriteCheck, is_of_service};
 
 /// So many of each kind are tried.
 const SOME: usize = 3;
@@ -20,48 +17,43 @@ pub(super) fn arrives(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         let Ok(variables) = probe.variables(channel) else { continue };
         let written = variables.iter().filter(|one| one.access == VariableAccess::READ_WRITE);
-        let mut tried: Vec<(Place, CncString)> = Vec::new();
+        let mut tried: Vec<(ValueAddress, CncString)> = Vec::new();
         for variable in written.filter(|one| !is_of_service(one)) {
             let name = variable.name.text.clone();
-            let place = Place::Name { channel, name: name.clone() };
-            if tried.len() >= SOME || !probe.may_write(&place, &name.to_string())? {
+            let address = ValueAddress::Name { channel, name: name.clone() };
+            if tried.len() >= SOME || !probe.may_write(&address, &name.to_string())? {
                 continue;
             }
             let is_text = variable.var_type == VariableType::STRING;
-            let neighbour = tried.last().map(|(place, _)| place.clone());
-            at(probe, &place, &name.to_string(), is_text, neighbour.as_ref())?;
-            tried.push((place, name));
+            let neighbour = tried.last().map(|(address, _)| address.clone());
+            at(probe, &address, &name.to_string(), is_text, neighbour.as_ref())?;
+            tried.push((address, name));
         }
         any |= !tried.is_empty();
     }
     any |= objects(probe)?;
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("nothing of it may be written".to_owned())),
-    }
+    applicable(any, NOTHING_WRITABLE)
 }
 
 fn objects(probe: &mut Probe<'_>) -> Step<bool> {
     let Ok(objects) = probe.objects() else { return Ok(false) };
     let mut tried = 0_usize;
-    for object in
-        objects.iter().filter(|one| one.writable && one.type_name.as_cnc_str() != "STRING")
-    {
+    for object in objects.iter().filter(|one| one.writable && !one.is_text()) {
         let (group, offset, size) = (object.group, object.offset, object.size);
-        let place = Place::Object { group, offset, size };
+        let address = ValueAddress::Object { group, offset, size };
         let name = object.name.to_string();
         // At a place without an axis nothing is written: its content is blank.
         let of_axis = offset.get() >= 0x1000;
-        let filled = match place.read() {
-            Ok(read) if !is_blank(probe, object) && probe.may(read)? => {
-                probe.value_at(&place)?.is_some_and(|was| !of_axis || any(&was))
+        let filled = match address.read() {
+            Ok(read) if !probe.is_blank(object) && probe.may(read)? => {
+                probe.value_at(&address)?.is_some_and(|was| !of_axis || any(&was))
             }
             _ => false,
         };
-        if tried >= SOME || !filled || !probe.may_write(&place, &name)? {
+        if tried >= SOME || !filled || !probe.may_write(&address, &name)? {
             continue;
         }
-        at(probe, &place, &name, false, None)?;
+        at(probe, &address, &name, false, None)?;
         tried = tried.saturating_add(1);
     }
     Ok(tried > 0)
@@ -73,10 +65,10 @@ fn any(value: &[u8]) -> bool {
 
 fn at(
     probe: &mut Probe<'_>,
-    place: &Place,
+    address: &ValueAddress,
     what: &str,
     is_text: bool,
-    neighbour: Option<&Place>,
+    neighbour: Option<&ValueAddress>,
 ) -> Step {
     let rules: [Rule; 1] = [RULE.into()];
     let look = |probe: &mut Probe<'_>| match neighbour {
@@ -85,8 +77,8 @@ fn at(
     };
     let (before, mut meanwhile) = (look(probe)?, None);
     probe.try_write(
-        &Trial { what, rules: &rules, is_text, name: None },
-        place,
+        &WriteCheck { what, rules: &rules, is_text, name: None },
+        address,
         |probe, _, _| {
             meanwhile = look(probe)?;
             Ok(())
@@ -97,8 +89,8 @@ fn at(
     if let (Some(before), Some(meanwhile)) = (&before, meanwhile)
         && after.as_ref() == Some(before)
     {
-        let expected = format!("{} beside {what}, as before", Hex(before.clone()));
-        probe.check(RULE, meanwhile == *before, expected, Hex(meanwhile));
+        let expected = || format!("{} beside {what}, as before", Hex(before.clone()));
+        probe.check(RULE, meanwhile == *before, expected, || Hex(meanwhile));
     }
     Ok(())
 }

@@ -7,10 +7,10 @@ use ads_cnc::operation::{DynamicNameByIndex, DynamicValueByIndex, DynamicValueBy
 
 use ads_cnc_vectors::Hex;
 
-use super::super::probe::{Probe, harness};
 use super::{number, prefix};
 use crate::judge::Step;
 use crate::simulator::Cnc;
+use crate::suite::kit::Probe;
 
 /// More than a byte has numbers.
 const MANY: u32 = 300;
@@ -27,7 +27,7 @@ pub(super) fn come_and_go(probe: &mut Probe<'_>) -> Step {
         }
         let Some(channel) = none else { continue };
         let judged = stages(probe, &cnc, channel, kind);
-        cnc.set_parameters(channel.number(), kind, &[]).map_err(harness)?;
+        cnc.set_parameters(channel.number(), kind, &[])?;
         judged?;
         let gone = number(probe, channel, kind)?;
         probe.check("DYN-1", gone == 0, "0, as all are deleted", gone);
@@ -55,7 +55,7 @@ fn one(kind: DynamicKind, place: u32) -> (String, f64) {
 
 fn set(cnc: &Cnc, channel: Channel, kind: DynamicKind, all: &[(String, f64)]) -> Step {
     let all: Vec<(&str, f64)> = all.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-    cnc.set_parameters(channel.number(), kind, &all).map_err(harness)
+    Ok(cnc.set_parameters(channel.number(), kind, &all)?)
 }
 
 fn stages(probe: &mut Probe<'_>, cnc: &Cnc, channel: Channel, kind: DynamicKind) -> Step {
@@ -67,7 +67,7 @@ fn stages(probe: &mut Probe<'_>, cnc: &Cnc, channel: Channel, kind: DynamicKind)
     set(cnc, channel, kind, &all)?;
     listed(probe, channel, kind, &all)?;
     let (gone, there) = (gone.0, all.first().map(|(name, _)| name.clone()).unwrap_or_default());
-    let by_name = |name| DynamicValueByName::new(channel, kind, name).map_err(harness);
+    let by_name = |name| DynamicValueByName::new(channel, kind, name);
     let what = format!("{gone}, which is deleted");
     probe.refuses("DYN-3", &what, by_name(&gone)?, by_name(&there)?)?;
     // And one comes in front.
@@ -83,40 +83,38 @@ fn listed(
     kind: DynamicKind,
     all: &[(String, f64)],
 ) -> Step {
-    let count = u32::try_from(all.len()).map_err(harness)?;
+    let count = u32::try_from(all.len())?;
     let found = number(probe, channel, kind)?;
     probe.check("DYN-1", found == count, count, found);
     for index in [1, 2, 10, 11, 127, 128, 255, 256, 257, count] {
         let place = usize::try_from(index).ok().and_then(|index| index.checked_sub(1));
         let Some((name, value)) = place.and_then(|place| all.get(place)) else { continue };
-        let by_index = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+        let by_index = DynamicNameByIndex::new(channel, kind, index)?;
         let data = probe.try_ask(by_index)?.unwrap_or_default();
         let told = DynamicName::decode(&data).map(|name| name.name.text.to_string());
         let told = told.unwrap_or_default();
-        let found = format!("{told:?} at index {index} of {count}");
+        let found = || format!("{told:?} at index {index} of {count}");
         let same = told == *name;
-        for rule in ["DYN-2", "DYN-5"] {
-            probe.check(rule, same, format!("{name:?}"), &found);
-        }
+        probe.check(["DYN-2", "DYN-5"], same, || format!("{name:?}"), found);
         // A refusal leaves nothing behind.
         let beyond = DynamicNameByIndex::new(channel, kind, count.saturating_add(1));
-        probe.try_ask(beyond.map_err(harness)?)?;
+        probe.try_ask(beyond?)?;
         let again = probe.try_ask(by_index)?.unwrap_or_default();
-        let found = Hex(again.clone());
-        let expected = format!("{name:?} behind an index that was refused");
+        let found = || Hex(again.clone());
+        let expected = || format!("{name:?} behind an index that was refused");
         probe.check("DYN-2", again == data, expected, found);
-        let by_name = DynamicValueByName::new(channel, kind, name).map_err(harness)?;
+        let by_name = DynamicValueByName::new(channel, kind, name)?;
         let by_name = value_of(probe.try_ask(by_name)?);
-        let found = format!("{by_name:?} of {name:?}");
+        let found = || format!("{by_name:?} of {name:?}");
         let same = by_name == Some(*value);
-        probe.check("DYN-3", same, value, &found);
+        probe.check("DYN-3", same, || value, found);
         if name.len() > 20 {
-            probe.check("DYN-6", told == *name && same, format!("{value} of {name:?}"), &found);
+            probe.check("DYN-6", told == *name && same, || format!("{value} of {name:?}"), found);
         }
-        let by_index = DynamicValueByIndex::new(channel, kind, index).map_err(harness)?;
+        let by_index = DynamicValueByIndex::new(channel, kind, index)?;
         let by_index = value_of(probe.try_ask(by_index)?);
-        let found = format!("{by_index:?} at index {index}");
-        probe.check("DYN-4", by_index == Some(*value), value, found);
+        let found = || format!("{by_index:?} at index {index}");
+        probe.check("DYN-4", by_index == Some(*value), || value, found);
     }
     Ok(())
 }

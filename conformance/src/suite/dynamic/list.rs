@@ -11,27 +11,22 @@ use ads_cnc::operation::{
 };
 use ads_cnc_vectors::Hex;
 
-use super::super::inventory::KINDS;
-use super::super::probe::{Probe, harness};
-use super::steady::{Checked, steadily};
 use super::{PARAMETERS_MAX, each, nothing, number, prefix};
-use crate::judge::{Evidence, Rule, Step, Stop, assumed};
+use crate::judge::{Evidence, Step, Stop, assumed};
 use crate::profile::Claim;
+use crate::suite::kit::{KINDS, PendingCheck, Probe, steadily};
 
 pub(super) fn count(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
-        let rules = ["DYN-1", "SDA-12"].map(Rule::from);
+        let rules = ["DYN-1", "SDA-12"];
         for kind in DynamicKind::ALL {
-            let data = probe.ask_for(&rules, CountDynamic::new(channel, kind))?;
+            let data = probe.ask(rules, CountDynamic::new(channel, kind))?;
             let count = DynamicCount::decode(&data);
-            let found = format!("{} bytes for {}", data.len(), prefix(kind));
+            let found = || format!("{} bytes for {}", data.len(), prefix(kind));
+            probe.check(rules, count.is_ok(), "a number of 4 bytes", found);
             // A number in the wrong order of bytes is the first to leave all limits.
             let plausible = count.is_ok_and(|count| count.0 <= 0x00FF_FFFF);
-            for rule in rules {
-                probe.check(rule, count.is_ok(), "a number of 4 bytes", &found);
-                let found = format!("{count:?}");
-                probe.check(rule, plausible, "a number of parameters", found);
-            }
+            probe.check(rules, plausible, "a number of parameters", || format!("{count:?}"));
         }
         // Other functions of the decoder are in its group too.
         if probe.claims(Function::CountVariables) == Claim::Yes {
@@ -46,31 +41,36 @@ pub(super) fn count(probe: &mut Probe<'_>) -> Step {
 }
 
 /// What came of asking for the name of an index.
-struct Told {
+struct NameReply {
     index: u32,
     data: Option<Vec<u8>>,
     result: String,
     evidence: Option<Evidence>,
 }
 
-fn tell(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind, index: u32) -> Step<Told> {
-    let request = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+fn ask_name(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    kind: DynamicKind,
+    index: u32,
+) -> Step<NameReply> {
+    let request = DynamicNameByIndex::new(channel, kind, index)?;
     let exchange = probe.send(request)?;
-    let data = exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec);
-    Ok(Told { index, data, result: exchange.result(), evidence: probe.evidence() })
+    let data = exchange.success().map(<[u8]>::to_vec);
+    Ok(NameReply { index, data, result: exchange.result(), evidence: probe.evidence() })
 }
 
 /// What is told of a kind, while nobody makes or deletes a parameter.
-struct List {
+struct ParameterList {
     count: u32,
     /// Of each index, up to the first that is refused.
-    names: Vec<Told>,
-    beyond: Told,
+    names: Vec<NameReply>,
+    beyond: NameReply,
     /// An index that has another name if it is asked for in another order.
-    swayed: Option<Told>,
+    swayed: Option<NameReply>,
 }
 
-impl List {
+impl ParameterList {
     fn is_doubtful(&self) -> bool {
         let refused = self.names.iter().any(|told| told.data.is_none());
         refused || self.beyond.data.is_some() || self.swayed.is_some()
@@ -90,10 +90,10 @@ fn ahead(
     channel: Channel,
     kind: DynamicKind,
     count: u32,
-) -> Step<Vec<Told>> {
+) -> Step<Vec<NameReply>> {
     let mut all = Vec::new();
     for index in 1..=count.min(PARAMETERS_MAX) {
-        let one = tell(probe, channel, kind, index)?;
+        let one = ask_name(probe, channel, kind, index)?;
         let is_refused = one.data.is_none();
         all.push(one);
         if is_refused {
@@ -107,27 +107,31 @@ fn backwards(
     probe: &mut Probe<'_>,
     channel: Channel,
     kind: DynamicKind,
-    names: &[Told],
-) -> Step<Vec<Told>> {
+    names: &[NameReply],
+) -> Step<Vec<NameReply>> {
     let mut all = Vec::new();
     for one in names.iter().rev() {
-        all.push(tell(probe, channel, kind, one.index)?);
+        all.push(ask_name(probe, channel, kind, one.index)?);
     }
     all.reverse();
     Ok(all)
 }
 
-fn same(one: &[Told], other: &[Told]) -> bool {
+fn same(one: &[NameReply], other: &[NameReply]) -> bool {
     one.len() == other.len() && one.iter().zip(other).all(|(one, other)| one.data == other.data)
 }
 
 /// The list of a kind; none if it never stood.
-fn settled(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<Option<List>> {
-    let mut doubtful: Option<List> = None;
+fn settled(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    kind: DynamicKind,
+) -> Step<Option<ParameterList>> {
+    let mut doubtful: Option<ParameterList> = None;
     for _ in 0..TRIES {
         let count = number(probe, channel, kind)?;
         let names = ahead(probe, channel, kind, count)?;
-        let beyond = tell(probe, channel, kind, count.saturating_add(1))?;
+        let beyond = ask_name(probe, channel, kind, count.saturating_add(1))?;
         let back = backwards(probe, channel, kind, &names)?;
         let mut swayed = None;
         if !same(&names, &back) {
@@ -142,7 +146,7 @@ fn settled(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<O
         if number(probe, channel, kind)? != count {
             continue;
         }
-        let list = List { count, names, beyond, swayed };
+        let list = ParameterList { count, names, beyond, swayed };
         // What is wrong has to be so once more.
         if !list.is_doubtful() || doubtful.is_some_and(|before| before.is_same(&list)) {
             return Ok(Some(list));
@@ -172,43 +176,39 @@ pub(super) fn names(probe: &mut Probe<'_>) -> Step {
     }
 }
 
-fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &List) {
-    let List { count, names, beyond, swayed } = list;
+fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &ParameterList) {
+    let ParameterList { count, names, beyond, swayed } = list;
     let mut seen = HashSet::new();
     for told in names {
         probe.show(told.evidence.clone());
-        let expected = format!("a name of index {} of {count} of {}", told.index, prefix(kind));
+        let expected = || format!("a name of index {} of {count} of {}", told.index, prefix(kind));
         // The number may be wrong as well as the range; of the first, the function too.
         let rules: &[&str] = match told.index {
             1 => &["DYN-1", "DYN-5", "SDA-12", "DYN-2"],
             _ => &["DYN-1", "DYN-5", "SDA-12"],
         };
-        for &rule in rules {
-            probe.check(rule, told.data.is_some(), &expected, &told.result);
-        }
+        probe.check(rules, told.data.is_some(), expected, &told.result);
         let Some(data) = &told.data else { continue };
-        let found = format!("{} bytes of index {}", data.len(), told.index);
-        let expected = format!("at most {DYNAMIC_NAME_MAX} bytes");
-        probe.check("DYN-6", data.len() <= DYNAMIC_NAME_MAX, expected, &found);
+        let found = || format!("{} bytes of index {}", data.len(), told.index);
+        let expected = || format!("at most {DYNAMIC_NAME_MAX} bytes");
+        probe.check("DYN-6", data.len() <= DYNAMIC_NAME_MAX, expected, found);
         let name = DynamicName::decode(data);
         if !probe.check("DYN-2", name.is_ok(), "a name", found) {
             continue;
         }
         let name = name.map(|name| name.name.text.to_string()).unwrap_or_default();
-        let found = format!("{name:?} at index {}", told.index);
+        let found = || format!("{name:?} at index {}", told.index);
         let ended = name.chars().count() < DYNAMIC_NAME_MAX;
-        probe.check(assumed("DYN-6"), ended, "a name with room for its NUL", &found);
+        probe.check(assumed("DYN-6"), ended, "a name with room for its NUL", found);
         let of_kind = is_of(kind, &name);
-        probe.check("DYN-2", of_kind, format!("a name of {}", prefix(kind)), &found);
-        let own = seen.insert(name);
-        for rule in ["DYN-2", "DYN-5"] {
-            probe.check(rule, own, "another at each index", &found);
-        }
+        probe.check("DYN-2", of_kind, || format!("a name of {}", prefix(kind)), found);
+        let own = seen.insert(name.clone());
+        probe.check(["DYN-2", "DYN-5"], own, "another at each index", found);
     }
     if let Some(other) = swayed {
         probe.show(other.evidence.clone());
-        let found = format!("{}, asked for backwards", other.result);
-        let expected = format!("the name of index {}, whatever was asked before", other.index);
+        let found = || format!("{}, asked for backwards", other.result);
+        let expected = || format!("the name of index {}, whatever was asked before", other.index);
         probe.check("DYN-2", false, expected, found);
     }
     // Whoever has one more than it says to have tells its name.
@@ -217,8 +217,8 @@ fn judge(probe: &mut Probe<'_>, kind: DynamicKind, list: &List) {
     let name = DynamicName::decode(data).map(|name| name.name.text.to_string());
     let another = name.is_ok_and(|name| is_of(kind, &name) && !seen.contains(&name));
     let is_whole = *count <= PARAMETERS_MAX;
-    let expected = format!("{} of {} in all", count, prefix(kind));
-    let found = format!("index {} is {}", beyond.index, Hex(data.to_vec()));
+    let expected = || format!("{} of {} in all", count, prefix(kind));
+    let found = || format!("index {} is {}", beyond.index, Hex(data.to_vec()));
     probe.check("DYN-1", !(another && is_whole), expected, found);
 }
 
@@ -243,24 +243,22 @@ fn refused_of(
     what: &str,
     answers: &[Vec<u8>],
     bad: Request<'_>,
-) -> Step<Vec<Checked>> {
+) -> Step<Vec<PendingCheck>> {
     let now = answers.first().and_then(|data| DynamicCount::decode(data).ok());
     if now != Some(DynamicCount(count)) {
         return Ok(Vec::new());
     }
     let exchange = probe.send(bad)?;
-    let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
-    let refused = given.is_some_and(<[u8]>::is_empty);
-    let expected = format!("an error number for {what}");
-    Ok(vec![Checked::new(probe, "DYN-5", refused, expected, exchange.result())])
+    let expected = || format!("an error number for {what}");
+    Ok(vec![PendingCheck::new(probe, "DYN-5", exchange.is_rejected(), expected, &exchange)])
 }
 
 pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
     for channel in probe.channels()? {
         for kind in DynamicKind::ALL {
             let first: [Request<'_>; 2] = [
-                DynamicNameByIndex::new(channel, kind, 1).map_err(harness)?.into(),
-                DynamicValueByIndex::new(channel, kind, 1).map_err(harness)?.into(),
+                DynamicNameByIndex::new(channel, kind, 1)?.into(),
+                DynamicValueByIndex::new(channel, kind, 1)?.into(),
             ];
             let what = format!("index 1 of no {}", prefix(kind));
             for first in first {
@@ -276,8 +274,8 @@ pub(super) fn index_beyond_last(probe: &mut Probe<'_>) -> Step {
             return Ok(());
         }
         let requests = |index| -> Step<[Request<'_>; 2]> {
-            let name = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
-            let value = DynamicValueByIndex::new(channel, kind, index).map_err(harness)?;
+            let name = DynamicNameByIndex::new(channel, kind, index)?;
+            let value = DynamicValueByIndex::new(channel, kind, index)?;
             Ok([name.into(), value.into()])
         };
         for beyond in beyond(probe, count) {

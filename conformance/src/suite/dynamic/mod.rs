@@ -3,19 +3,17 @@
 mod change;
 mod list;
 mod malformed;
-mod steady;
 mod value;
 
 use ads_cnc::address::Channel;
 use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
 use ads_cnc::limits::DYNAMIC_NAME_MAX;
-use ads_cnc::operation::{Call, CountDynamic, DynamicNameByIndex, Request};
+use ads_cnc::operation::{CountDynamic, DynamicNameByIndex, Request};
 use ads_cnc::{CncString, Decode as _};
 
-use super::probe::{Probe, harness};
 use super::{Row, case};
 use crate::judge::{Needs, Rule, Step, Stop};
-use steady::Checked;
+use crate::suite::kit::{IntoRawCall, PendingCheck, Probe, steadily};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -58,8 +56,7 @@ const fn prefix(kind: DynamicKind) -> &'static str {
 
 /// How many there are, if the target says; that is judged elsewhere.
 fn number(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<u32> {
-    let data = probe.try_ask(CountDynamic::new(channel, kind))?;
-    let count = data.and_then(|data| DynamicCount::decode(&data).ok());
+    let count = probe.try_read::<DynamicCount>(CountDynamic::new(channel, kind))?;
     Ok(count.map_or(0, |count| count.0))
 }
 
@@ -82,7 +79,7 @@ fn each(
 }
 
 fn nothing() -> Stop {
-    Stop::NotApplicable("there is no parameter at the moment".to_owned())
+    Stop::not_applicable("there is no parameter at the moment")
 }
 
 /// The names of a kind that are told, without those that are not; that is judged elsewhere.
@@ -94,7 +91,7 @@ fn told(
 ) -> Step<Vec<(u32, CncString)>> {
     let mut all = Vec::new();
     for index in 1..=count {
-        let request = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+        let request = DynamicNameByIndex::new(channel, kind, index)?;
         // Where one is not there, none is behind it.
         let Some(data) = probe.try_ask(request)? else { break };
         let name = DynamicName::decode(&data).ok().map(|name| name.name.text);
@@ -112,36 +109,20 @@ fn first(probe: &mut Probe<'_>, channel: Channel, kind: DynamicKind) -> Step<Cnc
     first.map(|(_, name)| name).ok_or_else(lacks)
 }
 
-/// Sends what must be refused, beside a request that differs by the fault only and is answered.
-fn refuses_still(
-    probe: &mut Probe<'_>,
-    rule: impl Into<Rule>,
-    what: &str,
-    at: (Channel, DynamicKind),
-    bad: Request<'_>,
-    good: Request<'_>,
-) -> Step {
-    let mut buf = vec![0; bad.encoded_len()];
-    let bad = bad.encode(&mut buf).map_err(harness)?;
-    refused_still(probe, rule, what, at, &bad, good)
-}
-
-/// As [`refuses_still`], for what is no request.
-fn refused_still(
+/// Sends what must be rejected, beside a request that differs by the fault only and is answered.
+fn refuses_still<'a>(
     probe: &mut Probe<'_>,
     rule: impl Into<Rule>,
     what: &str,
     (channel, kind): (Channel, DynamicKind),
-    bad: &Call<'_>,
+    bad: impl IntoRawCall<'a>,
     good: Request<'_>,
 ) -> Step {
-    let rule = rule.into();
+    let (rule, bad) = (rule.into(), bad.into_raw_call()?);
     let count = CountDynamic::new(channel, kind).into();
-    steady::steadily(probe, &[count, good], |probe, _| {
-        let exchange = probe.call(bad)?;
-        let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
-        let refused = given.is_some_and(<[u8]>::is_empty);
-        let expected = format!("an error number for {what}");
-        Ok(vec![Checked::new(probe, rule, refused, expected, exchange.result())])
+    steadily(probe, &[count, good], |probe, _| {
+        let exchange = probe.call(&bad)?;
+        let expected = || format!("an error number for {what}");
+        Ok(vec![PendingCheck::new(probe, rule, exchange.is_rejected(), expected, &exchange)])
     })
 }

@@ -7,12 +7,12 @@ use ads_cnc::operation::{
     CountDynamic, DynamicNameByIndex, DynamicValueByIndex, DynamicValueByName, Request,
 };
 use ads_cnc::{CncString, Decode as _, TextRef};
-use ads_cnc_vectors::Hex;
 
-use super::super::probe::{Probe, harness};
-use super::steady::{Checked, steadily};
 use super::{PARAMETERS_MAX, each, first, number, prefix, refuses_still, told};
+use crate::exchange::Exchange;
 use crate::judge::{Step, Stop, assumed};
+use crate::suite::kit::{PendingCheck, Probe, is_sendable, steadily};
+use crate::text::hex::spaced;
 
 /// Names from this length on are judged by how long a name may be, too.
 const LONG: usize = 20;
@@ -21,7 +21,7 @@ pub(super) fn values(probe: &mut Probe<'_>) -> Step {
     each(probe, |probe, channel, kind, count| {
         // Backwards: what an index means does not depend on what was asked before.
         for index in (1..=count).rev() {
-            let by_index = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
+            let by_index = DynamicNameByIndex::new(channel, kind, index)?;
             steadily(probe, &[by_index.into()], |probe, answers| {
                 let name = answers.first().and_then(|data| DynamicName::decode(data).ok());
                 let name = name.map(|name| name.name.text);
@@ -42,44 +42,42 @@ fn value(
     kind: DynamicKind,
     index: u32,
     name: &CncString,
-) -> Step<Vec<Checked>> {
+) -> Step<Vec<PendingCheck>> {
     let text = TextRef::from(name.as_cnc_str());
     let by_name = Request::from(DynamicValueByName { channel, kind, name: text });
-    let by_index = DynamicValueByIndex::new(channel, kind, index).map_err(harness)?;
-    let mut checks = Vec::new();
-    let read = |probe: &mut Probe<'_>, request| -> Step<(Option<Vec<u8>>, String)> {
-        let exchange = probe.send(request)?;
-        let data = exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec);
-        Ok((data, exchange.result()))
-    };
-    let (named, result) = read(probe, by_name)?;
+    let by_index = DynamicValueByIndex::new(channel, kind, index)?;
+    let named = probe.send(by_name)?;
     // As it is told it has to be found.
     let rules: &[&str] = match name.as_bytes().len() {
         LONG.. => &["DYN-3", "DYN-2", "DYN-6"],
         _ => &["DYN-3", "DYN-2"],
     };
-    for &rule in rules {
-        let expected = format!("the value of {name}, as index {index} is called");
-        checks.push(Checked::new(probe, rule, named.is_some(), expected, &result));
-    }
-    let mut real = |probe: &Probe<'_>, rule, data: &Option<Vec<u8>>, result: &str| {
-        let is_real = data.as_ref().is_some_and(|data| DynamicValue::decode(data).is_ok());
-        checks.push(Checked::new(probe, rule, is_real, format!("a REAL64 of {name}"), result));
+    let expected = || format!("the value of {name}, as index {index} is called");
+    let mut checks =
+        vec![PendingCheck::new(probe, rules, named.success().is_some(), expected, &named)];
+    let mut real = |probe: &Probe<'_>, rule: &'static str, exchange: &Exchange| {
+        let is_real = exchange.success().is_some_and(|data| DynamicValue::decode(data).is_ok());
+        let expected = || format!("a REAL64 of {name}");
+        checks.push(PendingCheck::new(probe, rule, is_real, expected, exchange));
     };
-    if named.is_some() {
-        real(probe, "DYN-3", &named, &result);
+    if named.success().is_some() {
+        real(probe, "DYN-3", &named);
     }
-    let (indexed, result) = read(probe, by_index.into())?;
-    real(probe, "DYN-4", &indexed, &result);
-    let (named_again, _) = read(probe, by_name)?;
+    let indexed = probe.send(by_index)?;
+    real(probe, "DYN-4", &indexed);
     // A value that moves is held against nothing.
-    let still = named.filter(|named| named_again.as_ref() == Some(named));
-    if let (Some(named), Some(indexed)) = (still, indexed) {
-        for rule in ["DYN-3", "DYN-4"] {
-            let expected = format!("{} of {name}, at index {index} too", Hex(named.clone()));
-            let found = Hex(indexed.clone());
-            checks.push(Checked::new(probe, rule, named == indexed, expected, found));
-        }
+    let named_again = probe.try_ask(by_name)?;
+    let still = named.success().filter(|named| named_again.as_deref() == Some(named));
+    if let (Some(named), Some(indexed)) = (still, indexed.success()) {
+        let expected = || format!("{} of {name}, at index {index} too", spaced(named));
+        let found = || spaced(indexed);
+        checks.push(PendingCheck::new(
+            probe,
+            ["DYN-3", "DYN-4"],
+            named == indexed,
+            expected,
+            found,
+        ));
     }
     Ok(checks)
 }
@@ -109,13 +107,12 @@ pub(super) fn unknown_name(probe: &mut Probe<'_>) -> Step {
         for unknown in unknown {
             let is_there = names.iter().any(|(_, name)| name.to_string() == unknown);
             let Ok(bad) = DynamicValueByName::new(channel, kind, &unknown) else { continue };
-            let mut buf = [0; 256];
             // One with no room for its end is another case's.
-            if is_there || Request::from(bad).encode(&mut buf).is_err() {
+            if is_there || !is_sendable(&bad.into()) {
                 continue;
             }
             let what = format!("the name {unknown:?}");
-            refuses_still(probe, "DYN-3", &what, (channel, kind), bad.into(), good.into())?;
+            refuses_still(probe, "DYN-3", &what, (channel, kind), bad, good.into())?;
         }
         Ok(())
     })
@@ -129,7 +126,7 @@ pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
             let what = format!("{known} among the {}", prefix(other));
             let bad = DynamicValueByName { kind: other, ..good };
             let rule = assumed("DYN-3");
-            refuses_still(probe, rule, &what, (channel, kind), bad.into(), good.into())?;
+            refuses_still(probe, rule, &what, (channel, kind), bad, good.into())?;
         }
         Ok(())
     })
@@ -137,8 +134,7 @@ pub(super) fn kinds_apart(probe: &mut Probe<'_>) -> Step {
 
 /// Each function by the channel's rank, beside the same by its number.
 pub(super) fn by_rank(probe: &mut Probe<'_>) -> Step {
-    for (rank, channel) in (1_u32..).zip(probe.channels()?) {
-        let rank = Channel::by_index(rank).map_err(harness)?;
+    for (rank, channel) in probe.ranks()? {
         for kind in DynamicKind::ALL {
             let count = |channel| CountDynamic::new(channel, kind).into();
             same_by_rank(probe, count(channel), count(rank))?;
@@ -146,9 +142,8 @@ pub(super) fn by_rank(probe: &mut Probe<'_>) -> Step {
             for (index, name) in told(probe, channel, kind, count)? {
                 let text = TextRef::from(name.as_cnc_str());
                 let of = |channel| -> Step<[Request<'_>; 3]> {
-                    let name = DynamicNameByIndex::new(channel, kind, index).map_err(harness)?;
-                    let by_index =
-                        DynamicValueByIndex::new(channel, kind, index).map_err(harness)?;
+                    let name = DynamicNameByIndex::new(channel, kind, index)?;
+                    let by_index = DynamicValueByIndex::new(channel, kind, index)?;
                     let by_name = DynamicValueByName { channel, kind, name: text };
                     Ok([name.into(), by_index.into(), by_name.into()])
                 };
@@ -164,14 +159,10 @@ pub(super) fn by_rank(probe: &mut Probe<'_>) -> Step {
 fn same_by_rank(probe: &mut Probe<'_>, one: Request<'_>, other: Request<'_>) -> Step {
     steadily(probe, &[one], |probe, answers| {
         let exchange = probe.send(other)?;
-        let by_rank = exchange.answer().and_then(|answer| answer.success());
         let by_number = answers.first().map(Vec::as_slice);
-        let expected = Hex(by_number.unwrap_or_default().to_vec());
-        let check = |rule| {
-            let kept = by_rank == by_number;
-            Checked::new(probe, rule, kept, format!("{expected}, by number"), exchange.result())
-        };
-        Ok(["ADR-1", "ADR-12"].map(check).into())
+        let expected = || format!("{}, by number", spaced(by_number.unwrap_or_default()));
+        let same = exchange.success() == by_number;
+        Ok(vec![PendingCheck::new(probe, ["ADR-1", "ADR-12"], same, expected, &exchange)])
     })
 }
 

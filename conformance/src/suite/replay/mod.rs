@@ -12,7 +12,7 @@ pub use streaming::{StreamActor, play as play_stream, take};
 use ads_cnc_vectors::{Given, Sequence, SequenceExpect, sequences};
 
 use crate::judge::{Body, Case, Needs, Step, Stop, Subject};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 
 /// What a client or a service does, which the suite itself is here.
 const NOT_THE_TARGETS: [&str; 5] = ["STM-17", "SVC-2", "SVC-5", "SVC-7", "SVC-13"];
@@ -52,6 +52,13 @@ impl From<Stop> for Otherwise {
     }
 }
 
+/// What the simulated CNC rejects from within is a mistake of the suite.
+impl<E: std::error::Error> From<E> for Otherwise {
+    fn from(error: E) -> Self {
+        Self::Stop(error.into())
+    }
+}
+
 pub type Done<T> = Result<T, Otherwise>;
 
 /// A step that does not go as stated.
@@ -82,11 +89,10 @@ pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
         Err(Otherwise::Differs(expected, found)) => (false, expected, found),
         Err(Otherwise::Stop(stop)) => return Err(stop),
     };
-    let cited = sequence.cited().into_iter();
-    for id in cited.map(|one| one.id.as_str()).filter(|id| !NOT_THE_TARGETS.contains(id)) {
-        // The embedded CNC does what is assumed too.
-        probe.check(id, kept, &expected, &found);
-    }
+    // The embedded CNC does what is assumed too.
+    let cited = sequence.cited().into_iter().map(|one| one.id.as_str());
+    let cited: Vec<&str> = cited.filter(|id| !NOT_THE_TARGETS.contains(id)).collect();
+    probe.check(&cited, kept, expected, found);
     Ok(())
 }
 

@@ -10,7 +10,6 @@ use ads_cnc_vectors::{Pieces, ServiceAction, ServiceSequence, ServiceStep};
 use super::{Done, Fault, differs, lacks};
 use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
 use crate::simulator::program::{Outcome, Repeat, Request, Script, ScriptConfig, Wait};
-use crate::suite::probe::harness;
 
 /// The interfaces of a CNC's channels, by number, and the program that asks.
 pub trait ServiceActor {
@@ -64,7 +63,7 @@ impl Asking for Script {
 pub fn play<'c>(actor: &mut impl ServiceActor, given: &'c ServiceSequence) -> Done<Fault<'c>> {
     let mut ids: BTreeMap<&str, [ServiceId; 1]> = BTreeMap::new();
     for (name, service) in &given.services {
-        ids.insert(name, [ServiceId::new(&service.uuid).map_err(harness)?]);
+        ids.insert(name, [ServiceId::new(&service.uuid)?]);
     }
     let hosts = ids.iter().map(|(name, ids)| (*name, Host::new(ids))).collect();
     let mut scene = Scene { actor, given, hosts, program: None, now: Duration::ZERO };
@@ -214,7 +213,7 @@ impl<A: ServiceActor> Scene<'_, '_, A> {
             return differs("a request to answer", "none");
         };
         let host = self.hosts.get_mut(step.actor.as_str()).ok_or_else(|| lacks("service"))?;
-        let answer = CncStr::from_bytes(&response).map_err(harness)?;
+        let answer = CncStr::from_bytes(&response)?;
         if let Err(error) = host.answer(answer, state) {
             return Ok(Some(fault_class(error.kind())));
         }

@@ -7,7 +7,6 @@ use ads_cnc_vectors::{Pieces, StreamAck, StreamAction, StreamError, StreamStep, 
 
 use super::{Done, Fault, differs, lacks};
 use crate::simulator::program::{Message, Pace, Program, State};
-use crate::suite::probe::harness;
 
 /// A CNC that a program is streamed to.
 pub trait StreamActor {
@@ -40,7 +39,7 @@ pub trait StreamActor {
 pub fn play<'c>(actor: &mut impl StreamActor, given: &'c Streaming) -> Done<Fault<'c>> {
     let text = given.text.as_ref().map(Pieces::bytes);
     let sender = text.as_deref().map(|text| NcText::new(text).map(Sender::new));
-    let mut sender = sender.transpose().map_err(harness)?;
+    let mut sender = sender.transpose()?;
     let mut now = Duration::ZERO;
     for step in &given.steps {
         now = step.at.map_or(now, Duration::from_millis);
@@ -87,7 +86,7 @@ fn write(
         _ => return differs(format!("{stated:?} in {}", step.id), format!("{ack:?}")),
     }
     if let Some(sender) = sender.as_mut().filter(|_| own) {
-        sender.acknowledge(ack).map_err(harness)?;
+        sender.acknowledge(ack)?;
     }
     Ok(match (own, ack) {
         (false, _) => Some("order"),

@@ -14,16 +14,11 @@ use super::service::{ServiceActor, fault_class, script};
 use super::streaming::StreamActor;
 use super::{Done, Fault, differs, service, streaming};
 use crate::judge::{Step, Stop, assumed};
+use crate::simulator::Cnc;
 use crate::simulator::program::service::{CallError, ServiceInterface};
 use crate::simulator::program::{Pace, Program, ProgramConfig, Request, Script, Start};
-use crate::simulator::{Cnc, ControlError};
-use crate::suite::probe::{Probe, harness};
-use crate::suite::stream::{HELD_MAX, Sent, heard, send, send_until_taken};
-
-/// What the simulated CNC refuses to have done to it is a mistake of the suite.
-fn within<T>(done: Result<T, ControlError>) -> Done<T> {
-    done.map_err(|error| harness(error).into())
-}
+use crate::suite::kit::{Probe, heard};
+use crate::suite::stream::{HELD_MAX, StreamWrite, send, send_until_taken};
 
 /// Plays a sequence of the Service Interface, and leaves the interfaces as at the start.
 pub(super) fn service<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {
@@ -48,7 +43,7 @@ impl Services<'_, '_> {
     fn reset(&self) -> Done<()> {
         let mut all = self.channels.iter();
         let reset = |one: &Channel| self.cnc.with_service(one.number(), |service| service.reset());
-        within(all.try_for_each(reset))
+        Ok(all.try_for_each(reset)?)
     }
 
     /// The channel of a step: the first is the first that has the interface, whatever its number.
@@ -56,7 +51,7 @@ impl Services<'_, '_> {
         let before = usize::try_from(place).ok().and_then(|place| place.checked_sub(1));
         let channel = before.and_then(|before| self.channels.get(before)).copied();
         let why = || format!("there are not {place} channels with a Service Interface");
-        channel.ok_or_else(|| Stop::NotApplicable(why()))
+        channel.ok_or_else(|| Stop::not_applicable(why()))
     }
 }
 
@@ -69,9 +64,9 @@ impl ServiceActor for Services<'_, '_> {
 
     fn read(&mut self, channel: u32, variable: ServiceVariable) -> Done<Vec<u8>> {
         let channel = self.channel(channel)?;
-        let request = ReadByName::new(channel, variable.name()).map_err(harness)?;
+        let request = ReadByName::new(channel, variable.name())?;
         let exchange = heard(self.probe.send(request)?)?;
-        let value = exchange.answer().and_then(|answer| answer.success());
+        let value = exchange.success();
         let mut value = value.unwrap_or_default().to_vec();
         if variable.var_type() == VariableType::STRING {
             let filled = value.iter().rposition(|&byte| byte != 0);
@@ -87,9 +82,9 @@ impl ServiceActor for Services<'_, '_> {
         value: &[u8],
     ) -> Done<Option<&'static str>> {
         let channel = self.channel(channel)?;
-        let request = WriteByName::new(channel, variable.name(), value).map_err(harness)?;
+        let request = WriteByName::new(channel, variable.name(), value)?;
         let exchange = heard(self.probe.send(request)?)?;
-        let taken = exchange.answer().is_some_and(|answer| answer.success().is_some());
+        let taken = exchange.success().is_some();
         // Which of the faults it is, an error number does not tell: the bytes do.
         let error = || ServiceInterface::new().write(variable, value).err();
         let fault = || error().map_or("outcome", |error| fault_class(error.kind()));
@@ -97,7 +92,7 @@ impl ServiceActor for Services<'_, '_> {
     }
 
     fn with(&mut self, channel: u32, then: impl FnOnce(&mut ServiceInterface)) -> Done<()> {
-        within(self.cnc.with_service(self.channel(channel)?.number(), then))
+        Ok(self.cnc.with_service(self.channel(channel)?.number(), then)?)
     }
 }
 
@@ -130,17 +125,17 @@ struct Stream<'s, 'p> {
 
 impl Stream<'_, '_> {
     fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Done<T> {
-        within(self.cnc.with_program(self.channel.number(), then))
+        Ok(self.cnc.with_program(self.channel.number(), then)?)
     }
 
     fn set(&self, config: ProgramConfig) -> Done<()> {
-        within(self.cnc.set_program(self.channel.number(), config))
+        Ok(self.cnc.set_program(self.channel.number(), config)?)
     }
 
     /// Judges what the error number of a refusal says.
-    fn number(&mut self, rule: &'static str, ack: Ack, sent: &Sent) {
+    fn number(&mut self, rule: &'static str, ack: Ack, sent: &StreamWrite) {
         if self.rules.iter().any(|one| one.id == rule) {
-            let expected = format!("{ack:?} by its number");
+            let expected = || format!("{ack:?} by its number");
             self.probe.check(assumed(rule), sent.assumed() == ack, expected, sent);
         }
     }

@@ -6,14 +6,12 @@ use ads_cnc::Decode as _;
 use ads_cnc::address::{
     Addressing, Attribute, AxisStride, Class, ClassGroup, ElementAddress, IndexOffset,
 };
-use ads_cnc::operation::{Call, FindInstance, Request};
+use ads_cnc::operation::{CountElements, FindInstance};
 use ads_cnc::sda::ObjectAddress;
 
-use super::super::inventory::OF_PLACES;
-use super::super::probe::{Probe, harness};
-use super::super::steady::Steady;
 use crate::explain::class_name;
-use crate::judge::{Rule, Step, Stop, assumed};
+use crate::judge::{Rule, Step, applicable, assumed};
+use crate::suite::kit::{OF_PLACES, Probe, RawCall, Steady, element_by_rank};
 
 pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
     let mut seen = HashSet::new();
@@ -21,22 +19,22 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
         let ClassGroup { addressing, class, attribute, instance } = one.first.class_group();
         let group = one.first.group(Attribute::Content);
         let of_class = class == one.class && attribute == Attribute::Content;
-        let expected = format!("the content group of the {}", class_name(one.class));
-        let found = format!("{group} for {one}");
-        probe.check("ADR-5", of_class, expected, &found);
+        let expected = || format!("the content group of the {}", class_name(one.class));
+        let found = || format!("{group} for {one}");
+        probe.check("ADR-5", of_class, expected, found);
         let same = u32::from(instance) == one.channel;
         let rule = if one.class == Class::Spindle { "ADR-2" } else { "ADR-5" };
-        probe.check(rule, same, format!("the group of instance {}", one.channel), &found);
+        probe.check(rule, same, || format!("the group of instance {}", one.channel), found);
         if one.class == Class::Spindle {
             let by_index = addressing == Addressing::Index;
-            probe.check("ADR-2", by_index, "a group without the logical bit", &found);
+            probe.check("ADR-2", by_index, "a group without the logical bit", found);
         } else {
             let logical = addressing == Addressing::Logical;
-            probe.check("ADR-5", logical, "a group with the logical bit, as asked", &found);
+            probe.check("ADR-5", logical, "a group with the logical bit, as asked", found);
         }
         offset(probe, one.class, one.axis, one.first);
         let own = seen.insert((group, one.first.index_offset()));
-        let found = format!("{found}, which another instance has too");
+        let found = || format!("{}, which another instance has too", found());
         probe.check("SDA-1", own, "a place of its own", found);
     }
     // Whoever says one place of several instances is not asked further: that behind the last.
@@ -46,19 +44,19 @@ pub(super) fn object_address(probe: &mut Probe<'_>) -> Step {
             continue;
         };
         let own = beyond != ObjectAddress::from(one.first) || one.class == Class::Spindle;
-        let found = format!("{beyond:?} for the axis behind {one} too");
+        let found = || format!("{beyond:?} for the axis behind {one} too");
         probe.check("SDA-1", own, "a place of its own", found);
     }
     // In another order, each is where it was.
     for one in probe.instances()?.iter().rev() {
         let again = probe.address_of(one.class, one.channel, one.axis)?;
         let first = ObjectAddress::from(one.first);
-        let found = format!("{again:?} of {one}");
-        probe.check("SDA-1", again == Some(first), format!("{first:?}, as before"), found);
+        let found = || format!("{again:?} of {one}");
+        probe.check("SDA-1", again == Some(first), || format!("{first:?}, as before"), found);
     }
     let spindle = probe.address_of(Class::Spindle, 0, 0)?;
     if spindle.is_some_and(|address| address != ObjectAddress::NONE) {
-        probe.check("GEN-6", true, "", "");
+        probe.pass("GEN-6");
     }
     Ok(())
 }
@@ -73,46 +71,35 @@ fn offset(probe: &mut Probe<'_>, class: Class, axis: u32, first: ElementAddress)
         _ => (assumed("ADR-7"), vec![of(AxisStride::X10000), of(AxisStride::X1000)]),
     };
     let shown: Vec<String> = expected.iter().flatten().map(ToString::to_string).collect();
-    let found = format!("offset {offset} of the {}, axis {axis}", class_name(class));
+    let found = || format!("offset {offset} of the {}, axis {axis}", class_name(class));
     probe.check(rule, expected.contains(&Some(offset)), shown.join(" or "), found);
 }
 
 pub(super) fn address_by_index(probe: &mut Probe<'_>) -> Step {
     let mut any = false;
-    for (rank, channel) in (1_u32..).zip(probe.channels()?) {
+    for (rank, channel) in (1_u8..).zip(probe.channels()?) {
         for class in OF_PLACES.into_iter().chain([Class::Hld]) {
             let number = channel.number().into();
             let Some(logical) = probe.address_of(class, number, 0)? else { continue };
             let Ok(Some(first)) = logical.first_element() else { continue };
             any = true;
-            let group = ClassGroup {
-                addressing: Addressing::Index,
-                instance: u8::try_from(rank).map_err(harness)?,
-                ..first.class_group()
-            };
-            let by_index = ElementAddress::new(group, first.index_offset());
-            let request = Request::from(FindInstance::new(class, rank, 0).by_index());
+            let by_index = element_by_rank(first, rank);
             // That objects are asked for by rank too is not said of this function.
-            let exchange = probe.send(request)?;
-            let data = exchange.answer().and_then(|answer| answer.success());
-            let found = data.and_then(|data| ObjectAddress::decode(data).ok());
+            let exchange = probe.send(FindInstance::new(class, rank.into(), 0).by_index())?;
+            let found = exchange.success().and_then(|data| ObjectAddress::decode(data).ok());
             let same = found == Some(ObjectAddress::from(by_index)) || found == Some(logical);
             let expected =
-                format!("{} or the address by number", by_index.group(Attribute::Content));
-            probe.check(assumed("SDA-1"), same, expected, exchange.result());
+                || format!("{} or the address by number", by_index.group(Attribute::Content));
+            probe.check(assumed("SDA-1"), same, expected, &exchange);
             let mut steady = Steady::default();
-            let rules = ["ADR-1", "ADR-12"].map(Rule::from);
             let what =
                 format!("the number of elements of the {} of channel {number}", class_name(class));
-            let count = |address| ads_cnc::operation::CountElements::new(address).map_err(harness);
-            steady.same(probe, &rules, &what, count(first)?, count(by_index)?.into())?;
+            let (one, other) = (CountElements::new(first)?, CountElements::new(by_index)?);
+            steady.same(probe, ["ADR-1", "ADR-12"], what, one, other)?;
             steady.finish()?;
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("the target names no instance".to_owned())),
-    }
+    applicable(any, "the target names no instance")
 }
 
 /// A question of another length, and a read length that does not hold the answer.
@@ -122,17 +109,14 @@ pub(super) fn bad_queries(probe: &mut Probe<'_>) -> Step {
         if !probe.instances()?.iter().any(|one| one.class == class) {
             continue;
         }
-        let request = Request::from(FindInstance::new(class, first, 0));
-        let mut buf = [0; 8];
-        let good = request.encode(&mut buf).map_err(harness)?;
-        let longer = [good.data, &[0]].concat();
-        let shorter = good.data.get(..4).unwrap_or_default();
-        for data in [&longer[..], shorter, &[]] {
-            let what = format!("{} bytes for channel and axis", data.len());
-            probe.refused(assumed("SDA-1"), &what, &Call { data, ..good }, &good)?;
+        let good = RawCall::new(FindInstance::new(class, first, 0))?;
+        for len in [9, 4, 0] {
+            let what = format!("{len} bytes for channel and axis");
+            let bad = good.with(|call| call.data.resize(len, 0));
+            probe.refuses(assumed("SDA-1"), &what, bad, &good)?;
         }
-        let short = Call { read_length: 7, ..good };
-        probe.refused(assumed("SDA-1"), "a read length of 7 for an address", &short, &good)?;
+        let short = good.with(|call| call.read_length = 7);
+        probe.refuses(assumed("SDA-1"), "a read length of 7 for an address", short, &good)?;
     }
     Ok(())
 }

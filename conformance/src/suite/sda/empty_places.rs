@@ -2,22 +2,18 @@
 
 use std::sync::Arc;
 
-use ads_cnc::address::{AxisStride, Class, ElementAddress, Group, IndexOffset};
+use ads_cnc::address::{Class, ElementAddress, Group};
 use ads_cnc::operation::{CountElements, ObjectList, ReadElement};
 use ads_cnc_vectors::Hex;
 
-use super::super::content::read_of;
-use super::super::inventory::{Instance, OBJECTS_MAX, OF_PLACES};
-use super::super::probe::{Probe, harness};
-use super::length_of;
 use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
+use crate::suite::kit::{Instance, OBJECTS_MAX, OF_PLACES, Probe};
 
 pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
     let places = probe.session.profile.empty_places.clone();
     if places.is_empty() {
-        let why = "no place is known to be empty; a profile can name one".to_owned();
-        return Err(Stop::NotApplicable(why));
+        return Err(Stop::not_applicable("no place is known to be empty; a profile can name one"));
     }
     let all = probe.instances()?;
     for &(channel, place) in places.iter() {
@@ -40,7 +36,7 @@ pub(super) fn empty_place(probe: &mut Probe<'_>) -> Step {
 
 /// The content of an element; nothing of what is none.
 fn content(probe: &mut Probe<'_>, element: ElementAddress) -> Step<Option<Vec<u8>>> {
-    let Some(length) = length_of(probe, element)? else { return Ok(None) };
+    let Some(length) = probe.length_of(element)? else { return Ok(None) };
     match ReadElement::new(element, length) {
         Ok(read) => probe.try_ask(read),
         Err(_) => Ok(None),
@@ -53,7 +49,7 @@ fn is_blank(bytes: &[u8]) -> bool {
 
 fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance]) -> Step {
     // How many elements there are is content, too.
-    probe.ask("SDA-11", CountElements::new(one.first).map_err(harness)?)?;
+    probe.ask("SDA-11", CountElements::new(one.first)?)?;
     let count = occupied.iter().map(|other| other.count).chain([one.count]).max();
     for place in 1..=count.unwrap_or_default().min(OBJECTS_MAX) {
         let Ok(element) = one.first.nth(place) else { continue };
@@ -62,7 +58,7 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
             let Ok(other) = other.first.nth(place) else { continue };
             theirs.extend(content(probe, other)?);
         }
-        let length = match length_of(probe, element)? {
+        let length = match probe.length_of(element)? {
             Some(length) => Some(length),
             None => theirs.first().and_then(|bytes| u32::try_from(bytes.len()).ok()),
         };
@@ -70,34 +66,25 @@ fn blank_elements(probe: &mut Probe<'_>, one: &Instance, occupied: &[&Instance])
             continue;
         };
         let content = probe.ask("SDA-11", read)?;
-        let found = format!("{} of element {place} of {one}", Hex(content.clone()));
+        let found = || format!("{} of element {place} of {one}", Hex(content.clone()));
         // What zeros are for one axis, others are for another: blank is what no axis has.
         let of_axis = !is_blank(&content) && theirs.contains(&content);
-        probe.check("SDA-11", !of_axis, "blank, not what an axis has elsewhere", &found);
+        probe.check("SDA-11", !of_axis, "blank, not what an axis has elsewhere", found);
         probe.check(assumed("SDA-11"), is_blank(&content), "zeros", found);
     }
     Ok(())
-}
-
-/// Whether an offset is at this place: the objects of a channel's axes have a stride that only
-/// their descriptors tell.
-fn is_at(offset: IndexOffset, place: u32) -> bool {
-    let strides = [AxisStride::X1000, AxisStride::X10000];
-    let mut split = strides.iter().filter_map(|&stride| offset.axis_and_element(stride).ok());
-    split.any(|(axis, element)| axis == place && element > 0)
 }
 
 fn blank_objects(probe: &mut Probe<'_>, channel: u32, place: u32) -> Step {
     let list = ObjectList::from(probe.channel_of(channel)?);
     for object in probe.objects()?.into_iter().filter(|one| one.list == list) {
         let is_com = matches!(object.group.parts(), Some(Group::Com(_)));
-        let (true, true, Some(read)) = (is_at(object.offset, place), is_com, read_of(&object))
-        else {
+        let (true, true, Some(read)) = (object.is_at(place), is_com, object.read()) else {
             continue;
         };
         let content = probe.ask("SDA-11", read)?;
-        let expected = format!("zeros of {} at place {place} of channel {channel}", object.name);
-        probe.check(assumed("SDA-11"), is_blank(&content), expected, Hex(content));
+        let expected = || format!("zeros of {} at place {place} of channel {channel}", object.name);
+        probe.check(assumed("SDA-11"), is_blank(&content), expected, || Hex(content));
     }
     Ok(())
 }
@@ -120,12 +107,12 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     };
     let before = at(probe, one, mine)?;
     let objects = numbers_of(probe, one, mine)?;
-    let none = || Stop::NotApplicable("nothing is the number of an axis".to_owned());
+    let none = || Stop::not_applicable("nothing is the number of an axis");
     if before.is_empty() && objects.is_empty() {
         return Err(none());
     }
     // The axis of the other channel comes here: an element that follows is the axis's number.
-    cnc.exchange_axis(one, 1, theirs).map_err(harness)?;
+    cnc.exchange_axis(one, 1, theirs)?;
     let moved = (at(probe, one, theirs), numbers_of(probe, one, theirs));
     let blank = blank_at(probe, other.into(), 1, &before);
     restore(&cnc)?;
@@ -136,27 +123,26 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
     }
     let is_number = |(element, _): &&(Found, Vec<u8>)| numbers.contains(element);
     for ((class, element), content) in blank?.iter().filter(is_number) {
-        let found = format!("{} of element {element} of {class:?}", Hex(content.clone()));
+        let found = || format!("{} of element {element} of {class:?}", Hex(content.clone()));
         probe.check("SDA-11", is_blank(content), "0 where the axis was", found);
     }
     for &(channel, place) in probe.session.profile.empty_places.clone().iter() {
         for ((class, element), content) in blank_at(probe, channel, place, &numbers)? {
-            let found = format!("{} of element {element} of {class:?}", Hex(content.clone()));
-            let expected = format!("0 at place {place} of channel {channel}");
+            let found = || format!("{} of element {element} of {class:?}", Hex(content.clone()));
+            let expected = || format!("0 at place {place} of channel {channel}");
             probe.check("SDA-11", is_blank(&content), expected, found);
         }
     }
     let list = ObjectList::from(probe.channel_of(one.into())?);
     for object in probe.objects()?.into_iter().filter(|object| object.list == list) {
         let name = object.name.to_string();
-        let (true, false, Some(read)) =
-            (of_com.contains(&name), is_at(object.offset, 1), read_of(&object))
+        let (true, false, Some(read)) = (of_com.contains(&name), object.is_at(1), object.read())
         else {
             continue;
         };
         let content = probe.ask("SDA-11", read)?;
-        let expected = format!("0 of {name} at {}", object.offset);
-        probe.check("SDA-11", is_blank(&content), expected, Hex(content));
+        let expected = || format!("0 of {name} at {}", object.offset);
+        probe.check("SDA-11", is_blank(&content), expected, || Hex(content));
     }
     Ok(())
 }
@@ -164,7 +150,7 @@ pub(super) fn axis_number(probe: &mut Probe<'_>) -> Step {
 /// In the order in which they do not get into each other's way.
 fn restore(cnc: &Arc<Cnc>) -> Step {
     for (channel, axis) in CHANNELS {
-        cnc.exchange_axis(channel, 1, axis).map_err(harness)?;
+        cnc.exchange_axis(channel, 1, axis)?;
     }
     Ok(())
 }
@@ -217,7 +203,7 @@ fn numbers_of(probe: &mut Probe<'_>, channel: u8, number: u32) -> Step<Vec<Strin
     let number = u64::from(number).to_le_bytes();
     let mut all = Vec::new();
     for object in probe.objects()?.into_iter().filter(|object| object.list == list) {
-        let (true, Some(read)) = (is_at(object.offset, 1), read_of(&object)) else { continue };
+        let (true, Some(read)) = (object.is_at(1), object.read()) else { continue };
         let content = probe.try_ask(read)?.unwrap_or_default();
         if !content.is_empty() && number.starts_with(&content) {
             all.push(object.name.to_string());

@@ -6,14 +6,8 @@ mod platform;
 mod range;
 mod types;
 
-use ads_cnc::Decode as _;
-use ads_cnc::address::ElementAddress;
-use ads_cnc::operation::ReadElementLength;
-use ads_cnc::sda::ElementLength;
-
-use super::probe::Probe;
 use super::{Row, case};
-use crate::judge::{Needs, Step};
+use crate::judge::Needs;
 
 pub(super) use types::type_and_length;
 
@@ -41,9 +35,3 @@ pub(super) const CASES: &[Row] = &[
     case("sda-axis-number", &["SDA-11"], Needs::Embedded, empty_places::axis_number,
         "The logical axis number of a place is that of its axis, and 0 without one"),
 ];
-
-/// The length of an element, as it says itself.
-pub(super) fn length_of(probe: &mut Probe<'_>, element: ElementAddress) -> Step<Option<u32>> {
-    let data = probe.try_ask(ReadElementLength::new(element))?;
-    Ok(data.and_then(|data| ElementLength::decode(&data).ok()).map(ElementLength::get))
-}

@@ -3,10 +3,8 @@
 use ads_cnc::address::Class;
 use ads_cnc::operation::ReadElement;
 
-use super::super::probe::Probe;
-use super::super::steady::Steady;
-use super::length_of;
 use crate::judge::{Step, Stop};
+use crate::suite::kit::{Probe, Steady};
 
 pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
     let first = u32::from(probe.channel()?.number());
@@ -19,24 +17,22 @@ pub(super) fn platform_axes_of_hld(probe: &mut Probe<'_>) -> Step {
     };
     let (platform, own) = (of(0), of(first));
     if platform.is_empty() {
-        return Err(Stop::NotApplicable("the HLD names no axis of the platform".to_owned()));
+        return Err(Stop::not_applicable("the HLD names no axis of the platform"));
     }
     let mut steady = Steady::default();
     for axis in &platform {
         let mine = own.iter().find(|one| one.axis == axis.axis);
-        let expected = format!("axis {} under channel {first} as under channel 0", axis.axis);
-        for rule in ["SDA-5", "SDA-13"] {
-            probe.check(rule, mine.is_some(), &expected, "no such instance");
-        }
+        let expected = || format!("axis {} under channel {first} as under channel 0", axis.axis);
+        probe.check(["SDA-5", "SDA-13"], mine.is_some(), expected, "no such instance");
         let Some(mine) = mine else { continue };
-        let counts = format!("{} elements, of {axis} {}", mine.count, axis.count);
+        let counts = || format!("{} elements, of {axis} {}", mine.count, axis.count);
         probe.check("SDA-13", mine.count == axis.count, "the same elements", counts);
         for (one, other) in axis.elements().zip(mine.elements()) {
-            let Some(length) = length_of(probe, one)? else { continue };
+            let Some(length) = probe.length_of(one)? else { continue };
             let read = |address| ReadElement::new(address, length);
             let (Ok(read_one), Ok(read_other)) = (read(one), read(other)) else { continue };
             let what = format!("element {} of {axis}", one.index_offset());
-            steady.same(probe, &["SDA-13".into()], &what, read_one, read_other.into())?;
+            steady.same(probe, "SDA-13", what, read_one, read_other)?;
         }
     }
     steady.finish()

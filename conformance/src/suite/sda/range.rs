@@ -6,44 +6,41 @@ use ads_cnc::operation::{CountElements, FindInstance, Request};
 use ads_cnc::sda::ObjectAddress;
 use ads_cnc_vectors::Hex;
 
-use super::super::inventory::{INSTANCES_MAX, Instance, OF_PLACES};
-use super::super::probe::{Probe, harness};
 use crate::explain::class_name;
-use crate::judge::{Rule, Step, Stop, assumed};
+use crate::judge::{Rule, Step, applicable, assumed};
+use crate::suite::kit::{INSTANCES_MAX, Instance, OF_PLACES, Probe};
 
 /// Asks for what has to be there. Another task may serve a class: who refuses to say is not judged
 /// but for the decoder, which SDA has.
 fn is_there(probe: &mut Probe<'_>, rules: &[Rule], class: Class, channel: u32, axis: u32) -> Step {
     let request = Request::from(FindInstance::new(class, channel, axis));
     let exchange = probe.send(request)?;
-    let data = exchange.answer().and_then(|answer| answer.success());
+    let data = exchange.success();
     if data.is_none() && class != Class::Decoder {
         return Ok(());
     }
     let address = data.and_then(|data| ObjectAddress::decode(data).ok());
     let first = address.and_then(|address| address.first_element().ok()).flatten();
-    let expected = format!("the {} ({channel}, {axis}) in a group of its class", class_name(class));
-    let found = match address {
+    let expected =
+        || format!("the {} ({channel}, {axis}) in a group of its class", class_name(class));
+    let found = || match address {
         Some(address) => format!("{}, {}", address.index_group, address.index_offset),
         None => exchange.result(),
     };
-    for &rule in rules {
-        probe.check(rule, first.is_some(), &expected, &found);
-    }
+    probe.check(rules, first.is_some(), expected, found);
     if let Some(first) = first {
         let group = first.class_group();
         let same = (group.class, u32::from(group.instance)) == (class, channel);
         let expected =
-            format!("the {} ({channel}, {axis}) in a group of its own", class_name(class));
+            || format!("the {} ({channel}, {axis}) in a group of its own", class_name(class));
         probe.check("SDA-1", same, expected, found);
         // What is there is read there, its number of elements first of all.
-        let count = CountElements::new(first).map_err(harness)?;
+        let count = CountElements::new(first)?;
         let exchange = probe.send(count)?;
-        let read = exchange.answer().is_some_and(|answer| answer.success().is_some());
-        let expected = format!("the elements of the {} ({channel}, {axis})", class_name(class));
-        for &rule in rules.iter().filter(|rule| rule.id == "SDA-5") {
-            probe.check(rule, read, &expected, exchange.result());
-        }
+        let read = exchange.success().is_some();
+        let expected = || format!("the elements of the {} ({channel}, {axis})", class_name(class));
+        let of_range: Vec<Rule> = rules.iter().filter(|rule| rule.id == "SDA-5").copied().collect();
+        probe.check(&of_range, read, expected, &exchange);
     }
     Ok(())
 }
@@ -63,7 +60,7 @@ fn is_nowhere(
 ) -> Step {
     let request = Request::from(FindInstance::new(class, channel, axis));
     let exchange = probe.send(request)?;
-    let data = exchange.answer().and_then(|answer| answer.success());
+    let data = exchange.success();
     let Some(data) = data else {
         // By an error instead: that the result is 0 is assumed.
         let found = exchange.result();
@@ -72,14 +69,12 @@ fn is_nowhere(
     };
     let address = ObjectAddress::decode(data);
     let none = address == Ok(ObjectAddress::NONE);
-    let expected = format!("(0, 0) for the {} ({channel}, {axis})", class_name(class));
-    let found = Hex(data.to_vec());
-    probe.check("SDA-2", none, &expected, &found);
+    let expected = || format!("(0, 0) for the {} ({channel}, {axis})", class_name(class));
+    let found = || Hex(data.to_vec());
+    probe.check("SDA-2", none, expected, found);
     // An instance is found where there can be none.
     let is_found = address.is_ok_and(|address| matches!(address.first_element(), Ok(Some(_))));
-    for &rule in rules {
-        probe.check(rule, !is_found, &expected, &found);
-    }
+    probe.check(rules, !is_found, expected, found);
     Ok(())
 }
 
@@ -160,12 +155,9 @@ pub(super) fn axes_agree(probe: &mut Probe<'_>) -> Step {
         let Some(mine) = mine.filter(|_| last > 0) else { continue };
         any = true;
         let axis = if mine < last { mine.saturating_add(1) } else { last };
-        is_there(probe, &["SDA-5".into()], class, 0, axis)?;
+        is_there(probe, &[Rule::from("SDA-5")], class, 0, axis)?;
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no class names an axis".to_owned())),
-    }
+    applicable(any, "no class names an axis")
 }
 
 /// Every class has an end, whatever is configured.
@@ -222,11 +214,11 @@ pub(super) fn far(probe: &mut Probe<'_>) -> Step {
             let group = one.first.class_group();
             for bit in [0x100_0000, 0x8000_0000_u32] {
                 let offset = IndexOffset::new(one.first.index_offset().get() | bit);
-                let there = CountElements::new(one.first).map_err(harness)?;
+                let there = CountElements::new(one.first)?;
                 let far = CountElements::new(ElementAddress::new(group, offset));
                 let what = format!("an axis {:#x} beyond {one}", bit >> 16);
                 for rule in ["ADR-7", "SDA-5"] {
-                    probe.refuses(rule, &what, far.map_err(harness)?, there)?;
+                    probe.refuses(rule, &what, far?, there)?;
                 }
             }
         }

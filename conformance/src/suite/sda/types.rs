@@ -1,7 +1,7 @@
 //! The types of elements, by their names.
 
-use super::super::probe::Probe;
 use crate::judge::{Rule, assumed, online};
+use crate::suite::kit::Probe;
 
 /// The bytes of a type, and whether the manuals say them or only help pages do. The tables of
 /// dynamic parameters print those of UNS32 and REAL64, an example that of BOOLEAN.
@@ -24,10 +24,7 @@ fn rule_of(type_name: &str) -> Rule {
     let is_alike = digits.is_some_and(|digits| {
         digits.len() == 2 && digits.bytes().all(|byte| byte.is_ascii_digit())
     });
-    match is_alike || type_name == "STRING" {
-        true => assumed("SDA-7"),
-        false => "SDA-7".into(),
-    }
+    if is_alike || type_name == "STRING" { assumed("SDA-7") } else { "SDA-7".into() }
 }
 
 /// Judges the type and the length of an element, which have to go together.
@@ -38,24 +35,23 @@ pub(in super::super) fn type_and_length(
     at: &str,
 ) {
     let known = size_of(type_name);
-    let found = format!("{type_name:?} of {at}");
+    let found = || format!("{type_name:?} of {at}");
     let is_known = known.is_some() || type_name == "STRING";
     probe.check(rule_of(type_name), is_known, "one of the types of the manual", found);
-    let found = format!("{length} bytes of {at}, {type_name}");
+    let found = || format!("{length} bytes of {at}, {type_name}");
     let Some((size, is_printed)) = known else {
         probe.check(assumed("SDA-8"), length > 0, "a number of bytes", found);
         return;
     };
-    let expected = format!("the {size} bytes of {type_name}");
+    let expected = || format!("the {size} bytes of {type_name}");
     // A value of its type has that many bytes, or the type is another.
-    let rules = match is_printed {
-        true => ["SDA-7", "SDA-8"].map(Rule::from),
-        false => ["SDA-7", "SDA-8"].map(online),
+    let [of_name, of_length] = if is_printed {
+        ["SDA-7", "SDA-8"].map(Rule::from)
+    } else {
+        ["SDA-7", "SDA-8"].map(online)
     };
     let of_type = if type_name == "BOOLEAN" { "GEN-5".into() } else { online("GEN-5") };
-    for rule in rules.into_iter().chain([of_type]) {
-        probe.check(rule, length == size, &expected, &found);
-    }
+    probe.check([of_name, of_length, of_type], length == size, expected, found);
     probe.check("SDA-8", length > 0, "a number of bytes", found);
 }
 

@@ -3,12 +3,12 @@
 use ads_cnc::address::Channel;
 use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{Decode as _, Handle, U32List};
+use ads_cnc::{Handle, U32List};
 use ads_cnc_vectors::Hex;
 
 use super::{NONE, ONE, WIDE, channels, get, put, within, within_at};
-use crate::judge::{Step, Stop};
-use crate::suite::probe::{Probe, harness};
+use crate::judge::{Step, applicable};
+use crate::suite::kit::Probe;
 use crate::values::until_nul;
 
 fn handle_of(
@@ -16,8 +16,8 @@ fn handle_of(
     channel: Channel,
     variable: ServiceVariable,
 ) -> Step<Option<Handle>> {
-    let name = HandleByName::new(channel, variable.name()).map_err(harness)?;
-    Ok(probe.try_ask(name)?.and_then(|data| Handle::decode(&data).ok()))
+    let name = HandleByName::new(channel, variable.name())?;
+    probe.try_read(name)
 }
 
 /// Texts of any length, written one way and read the other.
@@ -30,18 +30,18 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
                 let letters = (b'a'..=b'z').cycle().skip(len);
                 let value: Vec<u8> = letters.take(len).chain([0]).collect();
                 let name = variable.name();
-                let expected = format!("{len} characters of {name} by its handle");
+                let expected = || format!("{len} characters of {name} by its handle");
                 put(probe, channel, variable, &value)?;
                 let read = ReadByHandle::new(channel, handle, U32List::EMPTY);
                 let read = probe.try_ask(read)?.unwrap_or_default();
                 let same = until_nul(&read) == until_nul(&value);
-                probe.check("SVC-1", same, &expected, Hex(read));
+                probe.check("SVC-1", same, expected, || Hex(read));
                 put(probe, channel, variable, b"\0")?;
                 let write = WriteByHandle::new(channel, handle, U32List::EMPTY, &value);
                 probe.send(write)?;
                 let read = get(probe, channel, variable)?;
                 let same = until_nul(&read) == until_nul(&value);
-                probe.check("SVC-1", same, expected, Hex(read));
+                probe.check("SVC-1", same, expected, || Hex(read));
             }
         }
         Ok(())
@@ -68,7 +68,7 @@ pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
                     for (variable, value) in held {
                         let done =
                             cnc.with_service(number, |service| service.write(variable, value));
-                        done.map_err(harness)?.map_err(harness)?;
+                        done??;
                     }
                 }
                 let others: [(ServiceVariable, &[u8]); 5] = [
@@ -82,25 +82,22 @@ pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
                     put(probe, answered, written, value)?;
                     for (variable, value) in held {
                         let read = get(probe, asking, variable)?;
-                        let expected = format!(
-                            "{} of {} in channel {}, whatever is written in channel {}",
-                            Hex(value.to_vec()),
-                            variable.name(),
-                            asking.number(),
-                            answered.number()
-                        );
+                        let expected = || {
+                            format!(
+                                "{} of {} in channel {}, whatever is written in channel {}",
+                                Hex(value.to_vec()),
+                                variable.name(),
+                                asking.number(),
+                                answered.number()
+                            )
+                        };
                         let same = until_nul(&read) == until_nul(value);
-                        for rule in ["SVC-1", "SVC-4"] {
-                            probe.check(rule, same, &expected, Hex(read.clone()));
-                        }
+                        probe.check(["SVC-1", "SVC-4"], same, expected, || Hex(read.clone()));
                     }
                 }
                 Ok(())
             })
         })?;
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("one channel has the Service Interface".to_owned())),
-    }
+    applicable(any, "one channel has the Service Interface")
 }

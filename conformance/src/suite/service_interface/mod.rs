@@ -11,11 +11,9 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc_vectors::Hex;
 
 use crate::edition::Feature;
-use crate::judge::{Needs, Rule, Step, Stop, assumed};
+use crate::judge::{Needs, Rule, Step, Stop, applicable, assumed};
 use crate::profile::{Claim, Section};
-use crate::suite::place::{Place, Trial};
-use crate::suite::probe::{Probe, harness};
-use crate::suite::stream::heard;
+use crate::suite::kit::{Probe, ValueAddress, WriteCheck, heard};
 use crate::suite::{Row, case};
 use crate::values::until_nul;
 
@@ -48,7 +46,7 @@ pub(super) const CASES: &[Row] = &[
 /// answer.
 pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
     let profile = &probe.session.profile;
-    let lacks = |why: &str| Err(Stop::NotApplicable(why.to_owned()));
+    let lacks = |why| Err(Stop::not_applicable(why));
     if !profile.has_section(Section::Service) {
         return lacks("the profile does not claim the Service Interface");
     }
@@ -59,7 +57,7 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
             let mut there = Vec::new();
             for channel in probe.channels()? {
                 let name = ServiceVariable::RequestState.name();
-                let state = ReadByName::new(channel, name).map_err(harness)?;
+                let state = ReadByName::new(channel, name)?;
                 let described = probe.variables(channel).unwrap_or_default();
                 let mut names = described.iter().map(|one| one.name.text.to_string());
                 let described = names.any(|name| ServiceVariable::by_name(&name).is_some());
@@ -67,9 +65,10 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
                     there.push(channel);
                 }
             }
-            match there.is_empty() {
-                true => lacks("no channel has the Service Interface, which comes with a version"),
-                false => Ok(there),
+            if there.is_empty() {
+                lacks("no channel has the Service Interface, which comes with a version")
+            } else {
+                Ok(there)
             }
         }
     }
@@ -78,20 +77,19 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
 fn variables(probe: &mut Probe<'_>) -> Step {
     let version = probe.session.profile.cnc_version;
     let since = version.map(|version| version.has(Feature::ServiceInterface));
-    let of_version = since.filter(|answer| answer.available).map(|answer| match answer.assumed {
-        true => assumed("SVC-11"),
-        false => "SVC-11".into(),
-    });
+    let of_version = since
+        .filter(|answer| answer.available)
+        .map(|answer| if answer.assumed { assumed("SVC-11") } else { "SVC-11".into() });
     for channel in channels(probe)? {
         let described = probe.variables(channel)?;
         for variable in ServiceVariable::ALL {
             let name = variable.name();
             let mut rules: Vec<Rule> = vec!["SVC-1".into()];
             rules.extend(of_version);
-            let request = ReadByName::new(channel, name).map_err(harness)?;
-            let value = probe.ask_for(&rules, request)?;
-            probe.ask_for(&rules, HandleByName::new(channel, name).map_err(harness)?)?;
-            let found = format!("{} bytes of {name}", value.len());
+            let request = ReadByName::new(channel, name)?;
+            let value = probe.ask(&rules, request)?;
+            probe.ask(&rules, HandleByName::new(channel, name)?)?;
+            let found = || format!("{} bytes of {name}", value.len());
             if variable.var_type() == VariableType::UNS32 {
                 probe.check("SVC-1", value.len() == 4, "a state of 4 bytes", found);
             } else {
@@ -100,8 +98,8 @@ fn variables(probe: &mut Probe<'_>) -> Step {
             }
             let own = described.iter().find(|one| one.name.text.as_cnc_str() == name);
             let Some(own) = own else { continue };
-            let found = format!("{:?} of {name}", own.var_type);
-            let expected = format!("{:?}", variable.var_type());
+            let found = || format!("{:?} of {name}", own.var_type);
+            let expected = || format!("{:?}", variable.var_type());
             probe.check("SVC-1", own.var_type == variable.var_type(), expected, found);
         }
     }
@@ -109,9 +107,9 @@ fn variables(probe: &mut Probe<'_>) -> Step {
 }
 
 fn get(probe: &mut Probe<'_>, channel: Channel, variable: ServiceVariable) -> Step<Vec<u8>> {
-    let request = ReadByName::new(channel, variable.name()).map_err(harness)?;
+    let request = ReadByName::new(channel, variable.name())?;
     let exchange = heard(probe.send(request)?)?;
-    let value = exchange.answer().and_then(|answer| answer.success());
+    let value = exchange.success();
     Ok(value.unwrap_or_default().to_vec())
 }
 
@@ -121,9 +119,9 @@ fn put(
     variable: ServiceVariable,
     value: &[u8],
 ) -> Step<bool> {
-    let request = WriteByName::new(channel, variable.name(), value).map_err(harness)?;
+    let request = WriteByName::new(channel, variable.name(), value)?;
     let exchange = heard(probe.send(request)?)?;
-    Ok(exchange.answer().is_some_and(|answer| answer.success().is_some()))
+    Ok(exchange.success().is_some())
 }
 
 const ONE: [u8; 4] = [1, 0, 0, 0];
@@ -134,7 +132,7 @@ const WIDE: [u8; 4] = [0x63, 0x12, 0x34, 0x56];
 fn response(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{RequestState, Response, ResponseState};
     let may = |probe: &mut Probe<'_>, channel: Channel| -> Step<bool> {
-        probe.may(WriteByName::new(channel, Response.name(), b"\0").map_err(harness)?)
+        probe.may(WriteByName::new(channel, Response.name(), b"\0")?)
     };
     let mut any = false;
     for channel in channels(probe)? {
@@ -143,13 +141,13 @@ fn response(probe: &mut Probe<'_>) -> Step {
         }
         any = true;
         if get(probe, channel, RequestState)? != NONE {
-            let why = "a program is asking a service: it is left alone".to_owned();
-            return Err(Stop::Inconclusive(why));
+            return Err(Stop::inconclusive("a program is asking a service: it is left alone"));
         }
         let before = (get(probe, channel, Response)?, get(probe, channel, ResponseState)?);
         if before.0.is_empty() || before.1.is_empty() {
-            let why = "the response could not be read, so it could not be restored".to_owned();
-            return Err(Stop::Inconclusive(why));
+            return Err(Stop::inconclusive(
+                "the response could not be read, so it could not be restored",
+            ));
         }
         // The response is restored first: the state tells a program that it is there.
         restoring(probe, (channel, ResponseState, &before.1), |probe| {
@@ -157,12 +155,9 @@ fn response(probe: &mut Probe<'_>) -> Step {
         })?;
         let after = (get(probe, channel, Response)?, get(probe, channel, ResponseState)?);
         let same = (until_nul(&after.0), &after.1) == (until_nul(&before.0), &before.1);
-        probe.check("SVC-1", same, "the old response again", format!("{after:02x?}"));
+        probe.check("SVC-1", same, "the old response again", || format!("{after:02x?}"));
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("no service may be answered for".to_owned())),
-    }
+    applicable(any, "no service may be answered for")
 }
 
 /// Does what changes a variable, and restores what was there.
@@ -171,11 +166,11 @@ fn restoring(
     (channel, variable, was): (Channel, ServiceVariable, &[u8]),
     change: impl FnOnce(&mut Probe<'_>) -> Step,
 ) -> Step {
-    let name = variable.name().parse().map_err(harness)?;
-    let place = Place::Name { channel, name };
+    let name = variable.name().parse()?;
+    let place = ValueAddress::Name { channel, name };
     let is_text = variable.var_type() == VariableType::STRING;
     let what = variable.name().to_string();
-    let trial = Trial { what: &what, rules: &[], is_text, name: None };
+    let trial = WriteCheck { what: &what, rules: &[], is_text, name: None };
     probe.changing(&trial, &place, was, change, |probe| {
         put(probe, channel, variable, was)?;
         probe.is_as_before(&place, was, is_text)
@@ -189,20 +184,20 @@ fn answer(probe: &mut Probe<'_>, channel: Channel) -> Step {
     probe.check("SVC-1", taken, "a response taken", "an error");
     let read = get(probe, channel, Response)?;
     let same = until_nul(&read) == b"nobody asked";
-    probe.check("SVC-1", same, "the response as written", Hex(read));
+    probe.check("SVC-1", same, "the response as written", || Hex(read));
     // Any number: it is between the program and the service.
     for state in [ONE, WIDE, [0, 0, 0, 0x80]] {
         let taken = put(probe, channel, ResponseState, &state)?;
         probe.check("SVC-1", taken, "a response state taken", "an error");
         let read = get(probe, channel, ResponseState)?;
-        probe.check("SVC-1", read == state, Hex(state.to_vec()), Hex(read));
+        probe.check("SVC-1", read == state, || Hex(state.to_vec()), || Hex(read));
     }
     let read = get(probe, channel, RequestState)?;
-    probe.check("SVC-4", read == NONE, "no request any more", Hex(read));
+    probe.check("SVC-4", read == NONE, "no request any more", || Hex(read));
     // Any write of it does, over ADS too: assumed.
     put(probe, channel, RequestState, &NONE)?;
     let read = get(probe, channel, ResponseState)?;
-    probe.check(assumed("SVC-3"), read == NONE, "the response state taken back", Hex(read));
+    probe.check(assumed("SVC-3"), read == NONE, "the response state taken back", || Hex(read));
     Ok(())
 }
 
@@ -212,7 +207,7 @@ fn within(
     probe: &mut Probe<'_>,
     then: impl FnOnce(&mut Probe<'_>, Channel, &crate::simulator::Cnc) -> Step,
 ) -> Step {
-    let lacks = || Stop::NotApplicable("no channel has the Service Interface".to_owned());
+    let lacks = || Stop::not_applicable("no channel has the Service Interface");
     let channel = channels(probe)?.into_iter().next().ok_or_else(lacks)?;
     within_at(probe, channel, then)
 }
@@ -226,41 +221,41 @@ fn within_at(
     let cnc = probe.cnc()?;
     let number = channel.number();
     // What asks there of itself asks nothing meanwhile.
-    let script = cnc.with_script(number, |script| script.cloned()).map_err(harness)?;
+    let script = cnc.with_script(number, |script| script.cloned())?;
     let empty = || -> Step {
-        cnc.set_script(number, None).map_err(harness)?;
-        cnc.with_service(number, |service| service.reset()).map_err(harness)
+        cnc.set_script(number, None)?;
+        Ok(cnc.with_service(number, |service| service.reset())?)
     };
     empty()?;
     let done = then(probe, channel, &cnc);
     empty()?;
-    cnc.set_script(number, script).map_err(harness)?;
+    cnc.set_script(number, script)?;
     done
 }
 
 fn asked(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Response, ResponseState};
     within(probe, |probe, channel, cnc| {
-        let write = |variable, value: &[u8]| {
+        let write = |variable, value: &[u8]| -> Step {
             let written =
                 cnc.with_service(channel.number(), |service| service.write(variable, value));
-            written.map_err(harness)?.map_err(harness)
+            Ok(written??)
         };
         write(Request, b"1\0")?;
         write(RequestState, &ONE)?;
         put(probe, channel, Response, b"one\0")?;
         let read = get(probe, channel, RequestState)?;
         let expected = "the request until it is answered";
-        probe.check(assumed("SVC-4"), read == ONE, expected, Hex(read));
+        probe.check(assumed("SVC-4"), read == ONE, expected, || Hex(read));
         put(probe, channel, ResponseState, &ONE)?;
         // When that is, is assumed; that it is, is not.
         let read = get(probe, channel, RequestState)?;
-        probe.check(assumed("SVC-4"), read == NONE, "the request is over", Hex(read));
+        probe.check(assumed("SVC-4"), read == NONE, "the request is over", || Hex(read));
         write(RequestState, &[2, 0, 0, 0])?;
         let read = get(probe, channel, ResponseState)?;
-        probe.check("SVC-3", read == NONE, "the last response state taken back", Hex(read));
+        probe.check("SVC-3", read == NONE, "the last response state taken back", || Hex(read));
         let read = get(probe, channel, RequestState)?;
-        probe.check("SVC-3", read == [2, 0, 0, 0], "the new request", Hex(read));
+        probe.check("SVC-3", read == [2, 0, 0, 0], "the new request", || Hex(read));
         Ok(())
     })
 }

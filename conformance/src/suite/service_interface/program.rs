@@ -10,32 +10,32 @@ use ads_cnc_vectors::Hex;
 use super::{NONE, get, put, within};
 use crate::judge::{Step, Stop};
 use crate::simulator::program::{Outcome, Repeat, Script, ScriptConfig, ScriptState};
-use crate::suite::probe::{Probe, harness};
+use crate::suite::kit::Probe;
 use crate::values::until_nul;
 
 /// Looks at the variables after each step of a program.
 pub(super) fn asks_last(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Uuid};
     within(probe, |probe, channel, cnc| {
-        let config = ScriptConfig::square_root().map_err(harness)?;
-        let Some(asked) = config.requests.first().cloned() else {
-            return Err(harness("no request"));
-        };
-        let mut script = cnc.as_run(Script::new(config).map_err(harness)?);
+        let config = ScriptConfig::square_root()?;
+        let asked = config.requests.first().cloned();
+        let asked = asked.ok_or_else(|| Stop::Harness("no request".to_owned()))?;
+        let mut script = cnc.as_run(Script::new(config)?);
         // Remains of another request.
         for (variable, value) in [(Uuid, &b"other\0"[..]), (Request, b"other\0")] {
             let done = cnc.with_service(channel.number(), |one| one.write(variable, value));
-            done.map_err(harness)?.map_err(harness)?;
+            done??;
         }
         while script.state() == ScriptState::Asking(0) {
             let stepped =
                 cnc.with_service(channel.number(), |service| script.step(Duration::ZERO, service));
-            stepped.map_err(harness)?;
+            stepped?;
             let state = get(probe, channel, RequestState)?;
             let (uuid, request) = (get(probe, channel, Uuid)?, get(probe, channel, Request)?);
             let own = CncStr::from_bytes(until_nul(&uuid)).and_then(ServiceId::from_text);
             let same = until_nul(&request) == asked.text.as_bytes() && own == Ok(asked.uuid);
-            let found = format!("state {}, {} of {}", Hex(state.clone()), Hex(request), Hex(uuid));
+            let found =
+                || format!("state {}, {} of {}", Hex(state.clone()), Hex(request), Hex(uuid));
             let expected = "no request before it is all there";
             probe.check("SVC-12", same || state == NONE, expected, found);
         }
@@ -48,16 +48,16 @@ const PATIENCE: Duration = Duration::from_secs(1);
 
 pub(super) fn square_root(probe: &mut Probe<'_>) -> Step {
     within(probe, |probe, channel, cnc| {
-        let config = ScriptConfig::square_root().map_err(harness)?;
+        let config = ScriptConfig::square_root()?;
         let ids: Vec<_> = config.requests.iter().map(|request| request.uuid).collect();
         let (repeat, pause) = (Repeat::Times(1), Duration::ZERO);
         let cycle = Duration::from_micros(100);
         let script = Script::new(ScriptConfig { repeat, pause, cycle, ..config });
-        cnc.set_script(channel.number(), Some(script.map_err(harness)?)).map_err(harness)?;
+        cnc.set_script(channel.number(), Some(script?))?;
         let state = || cnc.with_script(channel.number(), |script| script.map(|one| one.state()));
         let begun = Instant::now();
         let mut host = Host::new(&ids);
-        while state().map_err(harness)? != Some(ScriptState::Finished) {
+        while state()? != Some(ScriptState::Finished) {
             if begun.elapsed() > PATIENCE {
                 probe.check("SVC-6", false, "a program with its answers", "one that waits on");
                 return Ok(());
@@ -69,17 +69,19 @@ pub(super) fn square_root(probe: &mut Probe<'_>) -> Step {
                 script.into_iter().flat_map(|script| script.answers().cloned().collect::<Vec<_>>());
             answers.map(|answer| answer.outcome).collect::<Vec<_>>()
         });
-        let text = |text: &str| text.parse().map_err(harness);
         let expected = vec![
-            Outcome::Response { state: 1, text: text("1.732051")? },
-            Outcome::Response { state: 99, text: text(NEGATIVE)? },
+            Outcome::Response { state: 1, text: "1.732051".parse()? },
+            Outcome::Response { state: 99, text: NEGATIVE.parse()? },
         ];
-        let found = answers.map_err(harness)?;
-        for rule in ["SVC-6", "SVC-8", "SVC-9"] {
-            probe.check(rule, found == expected, format!("{expected:?}"), format!("{found:?}"));
-        }
+        let found = answers?;
+        probe.check(
+            ["SVC-6", "SVC-8", "SVC-9"],
+            found == expected,
+            || format!("{expected:?}"),
+            || format!("{found:?}"),
+        );
         let read = get(probe, channel, ServiceVariable::RequestState)?;
-        probe.check("SVC-4", read == NONE, "no request any more", Hex(read));
+        probe.check("SVC-4", read == NONE, "no request any more", || Hex(read));
         Ok(())
     })
 }
@@ -92,7 +94,7 @@ fn serve(probe: &mut Probe<'_>, channel: Channel, host: &mut Host<'_>) -> Step {
         HostStep::Read(variable) => {
             let value = get(probe, channel, variable)?;
             let read = host.read(&value);
-            probe.check("SVC-6", read.is_ok(), "a value that fits", Hex(value));
+            probe.check("SVC-6", read.is_ok(), "a value that fits", || Hex(value));
             if read.is_err() {
                 return Err(Stop::Judged);
             }
@@ -107,10 +109,10 @@ fn serve(probe: &mut Probe<'_>, channel: Channel, host: &mut Host<'_>) -> Step {
             // With the state there are UUID and request: they were written before it.
             let (request, known) = (request.to_string(), ["3", "-3"]);
             let whole = known.contains(&request.as_str()) && request_state == 1;
-            let found = format!("{request:?}, state {request_state}");
+            let found = || format!("{request:?}, state {request_state}");
             probe.check("SVC-12", whole, "3 or -3, with state 1", found);
             let (answer, state) = if request == "3" { ("1.732051", 1) } else { (NEGATIVE, 99) };
-            host.answer(CncStr::new(answer).map_err(harness)?, state).map_err(harness)?;
+            host.answer(CncStr::new(answer)?, state)?;
         }
         _ => host.poll(),
     }

@@ -2,12 +2,12 @@
 
 use ads_cnc::operation::{HandleByName, ReadByHandle, WriteByHandle};
 use ads_cnc::service::ServiceVariable;
-use ads_cnc::{Decode as _, Handle, U32List, VariableType};
+use ads_cnc::{Handle, U32List, VariableType};
 use ads_cnc_vectors::Hex;
 
 use super::{NONE, WIDE, get, put, within};
 use crate::judge::Step;
-use crate::suite::probe::{Probe, harness};
+use crate::suite::kit::Probe;
 use crate::values::until_nul;
 
 pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
@@ -19,13 +19,13 @@ pub(super) fn longest(probe: &mut Probe<'_>) -> Step {
             let taken = put(probe, channel, variable, &value)?;
             probe.check("SVC-1", taken, "127 characters and a NUL taken", "an error");
             let read = get(probe, channel, variable)?;
-            probe.check("SVC-1", read == value, "128 bytes as written", Hex(read));
+            probe.check("SVC-1", read == value, "128 bytes as written", || Hex(read));
             let mut longer = vec![b'y'; 128];
             longer.push(0);
             let taken = put(probe, channel, variable, &longer)?;
             probe.check("SVC-1", !taken, "129 bytes refused", "taken");
             let read = get(probe, channel, variable)?;
-            probe.check("SVC-1", read == value, "what was there before", Hex(read));
+            probe.check("SVC-1", read == value, "what was there before", || Hex(read));
         }
         Ok(())
     })
@@ -50,10 +50,10 @@ pub(super) fn texts(probe: &mut Probe<'_>) -> Step {
                 value.push(0);
                 let taken = put(probe, channel, variable, &value)?;
                 let what = format!("{len} characters of {}", variable.name());
-                probe.check("SVC-1", taken, format!("{what} taken"), "an error");
+                probe.check("SVC-1", taken, || format!("{what} taken"), "an error");
                 let read = get(probe, channel, variable)?;
                 let same = until_nul(&read) == until_nul(&value);
-                probe.check("SVC-1", same, format!("{what} as written"), Hex(read));
+                probe.check("SVC-1", same, || format!("{what} as written"), || Hex(read));
             }
         }
         Ok(())
@@ -83,8 +83,8 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
                 let is_text = one.var_type() == VariableType::STRING;
                 let same = read == *written || is_text && until_nul(&read) == until_nul(written);
                 let rule = if *one == ResponseState { "SVC-3" } else { "SVC-1" };
-                let expected = format!("{} of {}", Hex(written.clone()), one.name());
-                probe.check(rule, same, expected, Hex(read));
+                let expected = || format!("{} of {}", Hex(written.clone()), one.name());
+                probe.check(rule, same, expected, || Hex(read));
             }
         }
         // Reading takes nothing back, nor does what is written besides.
@@ -92,25 +92,25 @@ pub(super) fn apart(probe: &mut Probe<'_>) -> Step {
             put(probe, channel, Request, value)?;
             put(probe, channel, Uuid, &[UUID, b"\0"].concat())?;
             let read = get(probe, channel, ResponseState)?;
-            probe.check("SVC-3", read == WIDE, "the response state until the next", Hex(read));
+            probe.check("SVC-3", read == WIDE, "the response state until the next", || Hex(read));
         }
         for (variable, _) in all {
-            let name = HandleByName::new(channel, variable.name()).map_err(harness)?;
-            let handle = probe.try_ask(name)?.and_then(|data| Handle::decode(&data).ok());
+            let name = HandleByName::new(channel, variable.name())?;
+            let handle = probe.try_read::<Handle>(name)?;
             let Some(handle) = handle else { continue };
             let by_name = get(probe, channel, variable)?;
             let request = ReadByHandle::new(channel, handle, U32List::EMPTY);
             let by_handle = probe.try_ask(request)?.unwrap_or_default();
             let same = until_nul(&by_handle) == until_nul(&by_name);
-            let expected = format!("{} of {}", Hex(by_name), variable.name());
-            probe.check("SVC-1", same, expected, Hex(by_handle));
+            let expected = || format!("{} of {}", Hex(by_name), variable.name());
+            probe.check("SVC-1", same, expected, || Hex(by_handle));
             // And the other way round.
             if variable == Response {
                 let write = WriteByHandle::new(channel, handle, U32List::EMPTY, b"by handle\0");
                 probe.send(write)?;
                 let read = get(probe, channel, variable)?;
                 let same = until_nul(&read) == b"by handle";
-                probe.check("SVC-1", same, "what was written by handle", Hex(read));
+                probe.check("SVC-1", same, "what was written by handle", || Hex(read));
             }
         }
         Ok(())

@@ -6,11 +6,11 @@ use ads_cnc::address::Channel;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::Ack;
 
-use super::{Sent, comment, send, send_until_taken};
+use super::{StreamWrite, comment, send, send_until_taken};
 use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Pace, Program, ProgramConfig, Start, State};
-use crate::suite::probe::{Probe, harness};
+use crate::suite::kit::Probe;
 
 /// The most bytes that the interface holds.
 pub(in crate::suite) const HELD_MAX: usize = 4094;
@@ -21,7 +21,7 @@ pub(super) fn set_up(
     probe: &mut Probe<'_>,
     pace: Pace,
     start: Start,
-    then: impl FnOnce(&mut Probe<'_>, Channel, &Stage<'_>) -> Step,
+    then: impl FnOnce(&mut Probe<'_>, Channel, &StreamProgram<'_>) -> Step,
 ) -> Step {
     let channel = probe.channel()?;
     set_up_at(probe, channel, pace, start, then)
@@ -33,30 +33,30 @@ pub(super) fn set_up_at(
     channel: Channel,
     pace: Pace,
     start: Start,
-    then: impl FnOnce(&mut Probe<'_>, Channel, &Stage<'_>) -> Step,
+    then: impl FnOnce(&mut Probe<'_>, Channel, &StreamProgram<'_>) -> Step,
 ) -> Step {
     let cnc = probe.cnc()?;
     let number = channel.number();
-    let config = cnc.with_program(number, |program| program.config().clone()).map_err(harness)?;
+    let config = cnc.with_program(number, |program| program.config().clone())?;
     if config.name.is_empty() {
         return Err(Stop::NotApplicable(format!("streaming is off in channel {number}")));
     }
     let set = ProgramConfig { pace, start, ..config.clone() };
-    cnc.set_program(number, set).map_err(harness)?;
-    let done = then(probe, channel, &Stage { cnc: &cnc, number });
-    cnc.set_program(number, config).map_err(harness)?;
+    cnc.set_program(number, set)?;
+    let done = then(probe, channel, &StreamProgram { cnc: &cnc, number });
+    cnc.set_program(number, config)?;
     done
 }
 
 /// The program from within.
-pub(super) struct Stage<'c> {
+pub(super) struct StreamProgram<'c> {
     cnc: &'c Cnc,
     number: u8,
 }
 
-impl Stage<'_> {
+impl StreamProgram<'_> {
     pub(super) fn with<T>(&self, then: impl FnOnce(&mut Program) -> T) -> Step<T> {
-        self.cnc.with_program(self.number, then).map_err(harness)
+        Ok(self.cnc.with_program(self.number, then)?)
     }
 
     pub(super) fn pace(&self, pace: Pace) -> Step {
@@ -79,7 +79,7 @@ impl Stage<'_> {
     pub(super) fn start(&self, probe: &mut Probe<'_>) -> Step {
         let started = self.with(|program| program.start(Duration::ZERO))?;
         let found = started.as_ref().err().map(ToString::to_string).unwrap_or_default();
-        probe.require(&["STM-14".into()], started.is_ok(), "a program that starts now", found)
+        probe.require("STM-14", started.is_ok(), "a program that starts now", found)
     }
 }
 
@@ -89,9 +89,7 @@ pub(super) fn expect<T: PartialEq + std::fmt::Debug>(
     expected: T,
     found: T,
 ) {
-    for &rule in rules {
-        probe.check(rule, found == expected, format!("{expected:?}"), format!("{found:?}"));
-    }
+    probe.check(rules, found == expected, || format!("{expected:?}"), || format!("{found:?}"));
 }
 
 /// Sends what has to be taken.
@@ -100,11 +98,9 @@ pub(super) fn taken(
     rules: &[&'static str],
     channel: Channel,
     data: &[u8],
-) -> Step<Sent> {
+) -> Step<StreamWrite> {
     let sent = send_until_taken(probe, channel, data)?;
-    for &rule in rules {
-        probe.check(rule, sent.is_taken(), format!("{} bytes taken", data.len()), &sent);
-    }
+    probe.check(rules, sent.is_taken(), || format!("{} bytes taken", data.len()), &sent);
     Ok(sent)
 }
 
@@ -115,7 +111,7 @@ pub(super) fn too_long(probe: &mut Probe<'_>) -> Step {
         for held in [0, most.len()] {
             for len in [993, 993, 994, 1024, 1984, 2048, HELD_MAX, 4096] {
                 let sent = send(probe, channel, &comment(len))?;
-                let expected = format!("{len} bytes refused");
+                let expected = || format!("{len} bytes refused");
                 probe.check("STM-2", sent.is_refused(), expected, &sent);
                 // That it is told by its number is assumed.
                 let good = sent.assumed() == Ack::Rejected;

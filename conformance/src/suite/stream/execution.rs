@@ -3,9 +3,9 @@
 use ads_cnc::address::Channel;
 
 use super::buffer::{expect, set_up, set_up_at, taken};
-use crate::judge::Step;
+use crate::judge::{Step, Stop};
 use crate::simulator::program::{Pace, Start, State};
-use crate::suite::probe::{Probe, harness};
+use crate::suite::kit::Probe;
 
 /// Each channel by its number, and by its rank.
 pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
@@ -47,14 +47,16 @@ pub(super) fn as_written(probe: &mut Probe<'_>) -> Step {
         }
         expect(probe, &["STM-7"], all.repeat(2), stage.executed()?);
         let state = stage.state()?;
-        probe.check("STM-4", state == State::Dry, "lines that all were run", format!("{state:?}"));
+        probe.check("STM-4", state == State::Dry, "lines that all were run", || {
+            format!("{state:?}")
+        });
         Ok(())
     })
 }
 
 /// So slow that nothing is run meanwhile.
 fn slow() -> Step<Pace> {
-    Pace::lines_per_second(1).ok_or_else(|| harness("a pace of one line a second"))
+    Pace::lines_per_second(1).ok_or_else(|| Stop::Harness("a pace of one line a second".into()))
 }
 
 pub(super) fn at_once(probe: &mut Probe<'_>) -> Step {
@@ -85,10 +87,10 @@ pub(super) fn behind_end(probe: &mut Probe<'_>) -> Step {
             taken(probe, &["STM-10"], channel, next)?;
             stage.pace(Pace::Fast)?;
             let ended = matches!(stage.state()?, State::Ended(_));
-            probe.require(&["STM-10".into()], ended, format!("{end} ends it"), "no end")?;
+            probe.require("STM-10", ended, || format!("{end} ends it"), "no end")?;
             let before = stage.executed()?;
             let lost = !before.windows(2).any(|two| two == b"X2" || two == b"Y1");
-            probe.check("STM-10", lost, "nothing run behind it", format!("{before:02x?}"));
+            probe.check("STM-10", lost, "nothing run behind it", || format!("{before:02x?}"));
             expect(probe, &["STM-10"], next.len(), stage.held()?);
             stage.start(probe)?;
             let all = [before, next.to_vec()].concat();

@@ -2,9 +2,9 @@
 
 use super::buffer::{HELD_MAX, expect, set_up, set_up_at, taken};
 use super::{comment, send};
-use crate::judge::{Step, Stop};
+use crate::judge::{Step, applicable};
 use crate::simulator::program::{Pace, Start};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 
 /// Packets that fill an interface.
 const FILLING: [usize; 5] = [992, 992, 992, 992, 126];
@@ -34,10 +34,7 @@ pub(super) fn channels(probe: &mut Probe<'_>) -> Step {
             })?;
         }
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable("there is one channel".to_owned())),
-    }
+    applicable(any, "there is one channel")
 }
 
 /// Packets of several lines that do not fit, though some of their lines would.

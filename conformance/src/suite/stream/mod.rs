@@ -7,7 +7,7 @@ mod words;
 mod write;
 
 pub(super) use buffer::HELD_MAX;
-pub(super) use write::{Sent, heard, send, send_until_taken};
+pub(super) use write::{StreamWrite, send, send_until_taken};
 
 use std::time::{Duration, Instant};
 
@@ -16,9 +16,9 @@ use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::RETRY_AFTER;
 
-use super::probe::{Probe, harness};
 use super::{Row, case};
-use crate::judge::{Needs, Step, Stop};
+use crate::judge::{Needs, Step, Stop, applicable};
+use crate::suite::kit::Probe;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
@@ -87,15 +87,13 @@ fn object(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         any = true;
-        let found = format!("{} at {}, {}", object.name, object.group, object.offset);
-        let expected = format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
+        let found = || format!("{} at {}, {}", object.name, object.group, object.offset);
+        let expected =
+            || format!("{NAME} at {:#x}, {OFFSET:#x}", groups.iter().max().unwrap_or(&0));
         probe.check("STM-1", here && named, expected, found);
         probe.check("STM-1", object.writable, "write access", "none");
     }
-    match any {
-        true => Ok(()),
-        false => Err(Stop::NotApplicable(format!("no list names {NAME}"))),
-    }
+    applicable(any, &format!("no list names {NAME}"))
 }
 
 /// How long a device may take before it has read what it holds.
@@ -117,12 +115,12 @@ fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
             if let Some(cnc) = &probe.session.cnc {
                 let config = cnc.with_program(channel.number(), |one| one.config().clone());
                 let set_up = config.and_then(|config| cnc.set_program(channel.number(), config));
-                set_up.map_err(harness)?;
+                set_up?;
             }
             return Ok(channel);
         }
     }
-    Err(Stop::NotApplicable("no stream may be written".to_owned()))
+    Err(Stop::not_applicable("no stream may be written"))
 }
 
 /// Writes until it is taken; how often it was refused before. None if it is not, though there is
@@ -132,9 +130,10 @@ fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
 fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u32>> {
     let (begun, mut waited, mut refused) = (Instant::now(), Duration::ZERO, 0_u32);
     // Of the embedded CNC it is known how fast it is.
-    let (wait, patience) = match probe.session.cnc.is_some() {
-        true => (Duration::from_millis(5), Duration::from_millis(300)),
-        false => (RETRY_AFTER, PATIENCE),
+    let (wait, patience) = if probe.session.cnc.is_some() {
+        (Duration::from_millis(5), Duration::from_millis(300))
+    } else {
+        (RETRY_AFTER, PATIENCE)
     };
     loop {
         let sent = send(probe, channel, data)?;
@@ -145,7 +144,7 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
             let room = match &probe.session.cnc {
                 Some(cnc) => {
                     let held = cnc.with_program(channel.number(), |program| program.held());
-                    held.map_err(harness)?.saturating_add(data.len()) <= HELD_MAX
+                    held?.saturating_add(data.len()) <= HELD_MAX
                 }
                 None => false,
             };
@@ -160,10 +159,8 @@ fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u3
 
 fn taken(probe: &mut Probe<'_>, rules: &[&'static str], at: Channel, data: &[u8]) -> Step {
     let taken = write(probe, at, data)?;
-    for &rule in rules {
-        let expected = format!("{} bytes of whole lines taken", data.len());
-        probe.check(rule, taken.is_some(), expected, "refused while there is room");
-    }
+    let expected = || format!("{} bytes of whole lines taken", data.len());
+    probe.check(rules, taken.is_some(), expected, "refused while there is room");
     Ok(())
 }
 
@@ -171,9 +168,8 @@ fn whole_lines(probe: &mut Probe<'_>) -> Step {
     let channel = channel(probe)?;
     let lines = b"; comment\r\n(a second line)\r\n\r\n";
     taken(probe, &["STM-1", "STM-4", "STM-7"], channel, lines)?;
-    let ranks = (1_u32..).zip(probe.channels()?);
-    let rank = ranks.filter(|(_, one)| *one == channel).map(|(rank, _)| rank).next();
-    let by_index = Channel::by_index(rank.unwrap_or(1)).map_err(harness)?;
+    let rank = probe.ranks()?.into_iter().find(|(_, one)| *one == channel);
+    let Some((by_index, _)) = rank else { return Ok(()) };
     if probe.may(WriteProgramStream::new(by_index, b"\r\n"))? {
         taken(probe, &["STM-1"], by_index, lines)?;
     }

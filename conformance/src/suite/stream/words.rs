@@ -4,7 +4,7 @@ use super::buffer::{expect, set_up, taken};
 use super::send_until_taken;
 use crate::judge::{Rule, Step};
 use crate::simulator::program::{Pace, Start, State};
-use crate::suite::probe::Probe;
+use crate::suite::kit::Probe;
 
 pub(super) fn forbidden_words(probe: &mut Probe<'_>) -> Step {
     for word in [
@@ -25,8 +25,8 @@ pub(super) fn forbidden_words(probe: &mut Probe<'_>) -> Step {
             send_until_taken(probe, channel, format!("{word}\r\nX3\r\n").as_bytes())?;
             let state = stage.state()?;
             let aborted = matches!(state, State::Aborted(_));
-            let found = format!("{state:?}");
-            probe.check("STM-8", aborted, format!("{word} ends streaming"), found);
+            let found = || format!("{state:?}");
+            probe.check("STM-8", aborted, || format!("{word} ends streaming"), found);
             // And nothing behind it is run.
             let executed = stage.executed()?;
             let behind = executed.windows(2).any(|two| two == b"X3");
@@ -66,10 +66,8 @@ fn ends_streaming(probe: &mut Probe<'_>, rules: &[&'static str], text: &str, end
         let state = stage.state()?;
         let kept = matches!(state, State::Aborted(_)) == ends && (ends || state == State::Dry);
         let expected = if ends { "the end of streaming" } else { "every line run" };
-        for &rule in rules {
-            let (expected, found) = (format!("{expected}: {text:?}"), format!("{state:?}"));
-            probe.check(rule, kept, expected, found);
-        }
+        let (expected, found) = (format!("{expected}: {text:?}"), format!("{state:?}"));
+        probe.check(rules, kept, expected, found);
         Ok(())
     })
 }
@@ -121,8 +119,8 @@ pub(super) fn ends(probe: &mut Probe<'_>) -> Step {
             let kept = (matches!(state, State::Ended(_)), behind) == (ends, !ends);
             let expected = if ends { "ends the program" } else { "is a line as any" };
             let rule = if line.contains(['(', ';']) && !ends { "STM-9" } else { "STM-10" };
-            let found = format!("{state:?}, the line behind it run: {behind}");
-            probe.check(rule, kept, format!("{line} {expected}"), found);
+            let found = || format!("{state:?}, the line behind it run: {behind}");
+            probe.check(rule, kept, || format!("{line} {expected}"), found);
             Ok(())
         })?;
     }

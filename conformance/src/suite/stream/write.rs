@@ -5,24 +5,23 @@ use std::time::Duration;
 
 use ads_cnc::address::Channel;
 use ads_cnc::ads::AdsError;
-use ads_cnc::operation::{Call, Request, WriteProgramStream};
+use ads_cnc::operation::WriteProgramStream;
 use ads_cnc::streaming::Ack;
 
-use crate::exchange::{Exchange, Fault};
-use crate::judge::{Step, Stop};
-use crate::suite::probe::{Probe, harness};
+use crate::judge::{Describe, Step};
+use crate::suite::kit::{Probe, RawCall, heard};
 
 /// How a write was answered. Which error number means that it is refused for now, and which that it
 /// is for good, is documented nowhere: what they are taken for is assumed.
 #[derive(Debug)]
-pub(in crate::suite) struct Sent {
+pub(in crate::suite) struct StreamWrite {
     /// The error of either header; none if the write was taken.
     error: Option<AdsError>,
     answered: bool,
     shown: String,
 }
 
-impl Sent {
+impl StreamWrite {
     pub(in crate::suite) const fn is_taken(&self) -> bool {
         self.answered && self.error.is_none()
     }
@@ -42,18 +41,15 @@ impl Sent {
     }
 }
 
-impl fmt::Display for Sent {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.shown)
+impl Describe for &StreamWrite {
+    fn describe(self) -> String {
+        self.to_string()
     }
 }
 
-/// An exchange that was not passed over in silence: whether it was done then nobody knows, and
-/// nothing of what follows can be held against it.
-pub(in crate::suite) fn heard(exchange: Exchange) -> Step<Exchange> {
-    match &exchange.outcome {
-        Err(fault @ Fault::Silence(_)) => Err(Stop::Inconclusive(format!("{exchange}: {fault}"))),
-        _ => Ok(exchange),
+impl fmt::Display for StreamWrite {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.shown)
     }
 }
 
@@ -66,7 +62,7 @@ pub(in crate::suite) fn send_until_taken(
     probe: &mut Probe<'_>,
     channel: Channel,
     data: &[u8],
-) -> Step<Sent> {
+) -> Step<StreamWrite> {
     let mut sent = send(probe, channel, data)?;
     for _ in 1..TRIES {
         if !sent.is_refused() {
@@ -79,14 +75,16 @@ pub(in crate::suite) fn send_until_taken(
 }
 
 /// Sends bytes to the stream as they are, whether a client may or not.
-pub(in crate::suite) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Sent> {
-    let request = Request::from(WriteProgramStream::new(channel, b"\r\n"));
-    let mut buf = [0; 2];
-    let whole = request.encode(&mut buf).map_err(harness)?;
-    let exchange = heard(probe.call(&Call { data, ..whole })?)?;
+pub(in crate::suite) fn send(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    data: &[u8],
+) -> Step<StreamWrite> {
+    let lines = RawCall::new(WriteProgramStream::new(channel, b"\r\n"))?;
+    let exchange = heard(probe.call(&lines.with(|call| call.data = data.to_vec()))?)?;
     let answer = exchange.answer();
     let errors = answer.map(|answer| [answer.ams_error, answer.result]);
-    Ok(Sent {
+    Ok(StreamWrite {
         error: errors.into_iter().flatten().find(|error| !error.is_ok()),
         answered: answer.is_some(),
         shown: exchange.result(),

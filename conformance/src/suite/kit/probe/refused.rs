@@ -1,29 +1,29 @@
 //! What a target must not answer, beside what it must.
 
-use ads_cnc::operation::{Call, Request};
+use ads_cnc::operation::Request;
 use ads_cnc_vectors::Level;
 
-use super::{Probe, harness};
 use crate::judge::{Rule, Step, Stop, Verdict};
+use crate::suite::kit::{IntoRawCall, Probe};
 
 impl Probe<'_> {
-    /// Sends a call that must be refused; `sibling` differs by the fault only and must not be.
+    /// Sends a request that must be rejected; `sibling` differs by the fault only and must not be.
     ///
-    /// A success that gives no byte of data is taken for a refusal: it gives nothing of what is
-    /// not there.
-    pub fn refused(
+    /// A success that gives no byte of data is taken for an error: it gives nothing of what is not
+    /// there.
+    pub(crate) fn refuses<'a, 'b>(
         &mut self,
         rule: impl Into<Rule>,
         what: &str,
-        call: &Call<'_>,
-        sibling: &Call<'_>,
+        request: impl IntoRawCall<'a>,
+        sibling: impl IntoRawCall<'b>,
     ) -> Step {
         let rule = rule.into();
-        let accepted = self.call(sibling)?;
-        let is_vacuous = accepted.answer().is_none_or(|answer| answer.success().is_none());
-        let (sibling, shown) = (accepted.result(), self.last.clone());
-        let exchange = self.call(call)?;
-        let expected = format!("an error number for {what}");
+        let (request, sibling) = (request.into_raw_call()?, sibling.into_raw_call()?);
+        let accepted = self.call(&sibling)?;
+        let (is_vacuous, shown) = (accepted.success().is_none(), self.last.clone());
+        let exchange = self.call(&request)?;
+        let expected = || format!("an error number for {what}");
         let given = exchange.answer().map(|answer| answer.success().unwrap_or_default());
         match given {
             Some([]) if is_vacuous => {
@@ -34,11 +34,12 @@ impl Probe<'_> {
                     None => Verdict::HarnessError,
                 };
                 self.last = shown;
-                let found = format!("what differs by that alone is refused too: {sibling}");
-                self.record(rule, verdict, format!("{expected} only"), found);
+                let found =
+                    || format!("what differs by that alone is refused too: {}", accepted.result());
+                self.record(rule, verdict, || format!("{} only", expected()), found);
             }
             Some(data) => {
-                if exchange.answer().is_some_and(|answer| answer.success().is_none()) {
+                if exchange.is_error() {
                     let refusals = &mut self.session.refusals;
                     refusals.by_number = refusals.by_number.saturating_add(1);
                 } else if data.is_empty() && rule.level == Some(Level::Must) {
@@ -48,34 +49,18 @@ impl Probe<'_> {
                     let verdict = rule.verdict(false);
                     by_nothing.add(rule, verdict, "an error number", found, || last.clone());
                 }
-                self.check(rule, data.is_empty(), expected, exchange.result());
+                self.check(rule, data.is_empty(), expected, &exchange);
             }
             None => {
                 // Silence is no way to refuse, however little is documented of the request.
                 let rule = Rule { id: rule.id, level: Some(Level::Must) };
-                self.check(rule, false, expected, exchange.result());
+                self.check(rule, false, expected, &exchange);
                 if self.session.silences > 1 {
                     return Err(Stop::Judged);
                 }
             }
         }
         Ok(())
-    }
-
-    /// As [`refused`](Self::refused), for two operations.
-    pub fn refuses<'a, 'b>(
-        &mut self,
-        rule: impl Into<Rule>,
-        what: &str,
-        request: impl Into<Request<'a>>,
-        sibling: impl Into<Request<'b>>,
-    ) -> Step {
-        let (request, sibling) = (request.into(), sibling.into());
-        let mut buf = vec![0; request.encoded_len()];
-        let mut sibling_buf = vec![0; sibling.encoded_len()];
-        let call = request.encode(&mut buf).map_err(harness)?;
-        let sibling = sibling.encode(&mut sibling_buf).map_err(harness)?;
-        self.refused(rule, what, &call, &sibling)
     }
 
     /// Sends a request for what cannot be there, as there is nothing at all: what is there for a
@@ -87,9 +72,8 @@ impl Probe<'_> {
         request: impl Into<Request<'a>>,
     ) -> Step {
         let exchange = self.send(request)?;
-        let data = exchange.answer().map(|answer| answer.success().unwrap_or_default());
-        let refused = data.is_some_and(<[u8]>::is_empty);
-        self.check(rule, refused, format!("an error number for {what}"), exchange.result());
+        let expected = || format!("an error number for {what}");
+        self.check(rule.into(), exchange.is_rejected(), expected, &exchange);
         Ok(())
     }
 

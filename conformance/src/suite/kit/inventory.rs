@@ -2,79 +2,125 @@
 
 mod variables;
 
-use ads_cnc::address::{Channel, Class, ElementAddress, PlatformAxis};
+use ads_cnc::address::{
+    Addressing, AxisStride, Channel, Class, ClassGroup, ComGroup, ComTable, ElementAddress, Group,
+    PlatformAxis,
+};
 use ads_cnc::limits::DESCRIPTOR_LEN;
 use ads_cnc::operation::{
     CountElements, CountObjects, FindInstance, Function, ObjectList, ReadDescriptors,
-    ReadElementName, Request,
+    ReadElementLength, ReadElementName, ReadElementType, ReadElementUnit, ReadElementWriteFlag,
+    ReadObject, Request,
 };
 use ads_cnc::sda::{ElementCount, ElementLength, ObjectAddress};
 use ads_cnc::{CncString, Decode, DescriptorsRef, ObjectCount};
 
-pub(super) use variables::{KINDS, VARIABLES_MAX};
+pub(crate) use variables::{KINDS, VARIABLES_MAX, name_of};
 
-use super::probe::{Probe, harness};
 use crate::explain::class_name;
-use crate::judge::{Step, Stop};
+use crate::judge::{OrStop as _, Step, Stop};
 use crate::profile::Claim;
+use crate::suite::kit::{Probe, ValueAddress};
 
 /// The most objects of a list that are looked at, and elements of an instance.
-pub(super) const OBJECTS_MAX: u32 = 10_000;
+pub(crate) const OBJECTS_MAX: u32 = 10_000;
 /// The most axes and spindles that are looked for.
-pub(super) const INSTANCES_MAX: u32 = 255;
+pub(crate) const INSTANCES_MAX: u32 = 255;
 
 /// How many in a row may be unreadable before no more are looked for: a number that a target gives
 /// may be any.
 const GAPS_MAX: u32 = 8;
 
 /// Classes with an instance for each channel, and one for each place of it.
-pub(super) const OF_PLACES: [Class; 3] =
+pub(crate) const OF_PLACES: [Class; 3] =
     [Class::Interpolator, Class::Decoder, Class::PathPreparation];
 
 /// What is known of a target; nothing before a case asks.
 #[derive(Debug, Default)]
-pub(super) struct Inventory {
+pub(crate) struct Inventory {
     objects: Option<Vec<Object>>,
     instances: Option<Vec<Instance>>,
 }
 
 /// An object of the COM task.
 #[derive(Clone, Debug)]
-pub(super) struct Object {
-    pub(super) list: ObjectList,
-    pub(super) name: CncString,
-    pub(super) type_name: CncString,
-    pub(super) size: u32,
-    pub(super) writable: bool,
-    pub(super) group: ads_cnc::address::IndexGroup,
-    pub(super) offset: ads_cnc::address::IndexOffset,
+pub(crate) struct Object {
+    pub(crate) list: ObjectList,
+    pub(crate) name: CncString,
+    pub(crate) type_name: CncString,
+    pub(crate) size: u32,
+    pub(crate) writable: bool,
+    pub(crate) group: ads_cnc::address::IndexGroup,
+    pub(crate) offset: ads_cnc::address::IndexOffset,
+}
+
+impl Object {
+    /// The read of its content; none of the program stream, of which no read is documented.
+    pub(crate) fn read(&self) -> Option<ReadObject> {
+        ReadObject::new(self.group, self.offset, self.size).ok()
+    }
+
+    pub(crate) const fn address(&self) -> ValueAddress {
+        ValueAddress::Object { group: self.group, offset: self.offset, size: self.size }
+    }
+
+    pub(crate) fn is_text(&self) -> bool {
+        self.type_name.as_cnc_str() == "STRING"
+    }
+
+    /// Whether it is of the axis at this place: the objects of a channel's axes have a stride that
+    /// only their descriptors tell.
+    pub(crate) fn is_at(&self, place: u32) -> bool {
+        let strides = [AxisStride::X1000, AxisStride::X10000];
+        let mut split =
+            strides.iter().filter_map(|&stride| self.offset.axis_and_element(stride).ok());
+        split.any(|(axis, element)| axis == place && element > 0)
+    }
 }
 
 /// An instance of a class, by what it was asked for.
 #[derive(Clone, Debug)]
-pub(super) struct Instance {
-    pub(super) class: Class,
-    pub(super) channel: u32,
-    pub(super) axis: u32,
-    pub(super) first: ElementAddress,
+pub(crate) struct Instance {
+    pub(crate) class: Class,
+    pub(crate) channel: u32,
+    pub(crate) axis: u32,
+    pub(crate) first: ElementAddress,
     /// How many elements it says to have.
-    pub(super) told: u32,
+    pub(crate) told: u32,
     /// How many it means, without that which says how many: whether that is counted nobody says.
-    pub(super) count: u32,
+    pub(crate) count: u32,
     /// How many of them are looked at.
     reached: u32,
 }
 
 impl Instance {
     /// Whether its number counts the element that says it.
-    pub(super) const fn counts_itself(&self) -> bool {
+    pub(crate) const fn counts_itself(&self) -> bool {
         self.told > self.count
     }
 
     /// Its elements, without that which says how many there are.
-    pub(super) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
+    pub(crate) fn elements(&self) -> impl Iterator<Item = ElementAddress> + '_ {
         (1..=self.reached).map_while(|place| self.first.nth(place).ok())
     }
+}
+
+/// The attributes of an element.
+pub(crate) fn attribute_reads(element: ElementAddress) -> [Request<'static>; 5] {
+    [
+        ReadElementName::new(element).into(),
+        ReadElementType::new(element).into(),
+        ReadElementLength::new(element).into(),
+        ReadElementUnit::new(element).into(),
+        ReadElementWriteFlag::new(element).into(),
+    ]
+}
+
+/// The same element of the channel with this rank.
+pub(crate) fn element_by_rank(element: ElementAddress, rank: u8) -> ElementAddress {
+    let group =
+        ClassGroup { addressing: Addressing::Index, instance: rank, ..element.class_group() };
+    ElementAddress::new(group, element.index_offset())
 }
 
 impl std::fmt::Display for Instance {
@@ -84,31 +130,70 @@ impl std::fmt::Display for Instance {
 }
 
 /// A number of elements. Its width nobody says: a narrower one is read as that of a length is.
-pub(super) fn number_of(data: &[u8]) -> Option<u32> {
+pub(crate) fn number_of(data: &[u8]) -> Option<u32> {
     let count = ElementCount::decode(data).map(|count| count.0);
     count.or_else(|_| ElementLength::decode(data).map(ElementLength::get)).ok()
 }
 
 impl Probe<'_> {
+    /// Rank and number of each claimed channel.
+    pub(crate) fn ranks(&self) -> Step<Vec<(Channel, Channel)>> {
+        let ranked = (1..).zip(self.channels()?);
+        ranked.map(|(rank, channel)| Ok((Channel::by_index(rank)?, channel))).collect()
+    }
+
+    /// The rank of the channel with this number.
+    pub(crate) fn rank_of(&self, number: u32) -> Option<u8> {
+        let channels = self.session.profile.channels.iter();
+        (1..).zip(channels).find(|(_, channel)| **channel == number).map(|(rank, _)| rank)
+    }
+
+    /// The same object where channels are counted by rank; None if its group is no logical one. The
+    /// platform and its axes have the same number there.
+    pub(crate) fn object_by_rank(&self, object: &Object) -> Option<Object> {
+        let Some(Group::Com(com)) = object.group.parts() else { return None };
+        let instance = match (com.table, com.instance) {
+            (ComTable::Channel, 1..) => self.rank_of(com.instance.into())?,
+            (_, instance) => instance,
+        };
+        let by_rank = ComGroup { addressing: Addressing::Index, instance, ..com };
+        (com.addressing == Addressing::Logical)
+            .then(|| Object { group: by_rank.index_group(), ..object.clone() })
+    }
+
+    /// Whether an object is of a place of its channel that the profile says to be without an axis: what
+    /// is written there nobody has.
+    pub(crate) fn is_blank(&self, object: &Object) -> bool {
+        let channel = u32::from(object.list.parts().instance);
+        let empty = self.session.profile.empty_places.iter();
+        empty.filter(|at| at.0 == channel).any(|at| object.is_at(at.1))
+    }
+
+    /// The length of an element, as it says itself.
+    pub(crate) fn length_of(&mut self, element: ElementAddress) -> Step<Option<u32>> {
+        let length: Option<ElementLength> = self.try_read(ReadElementLength::new(element))?;
+        Ok(length.map(ElementLength::get))
+    }
+
     /// The object lists of the platform, the channels and the platform axes that are claimed.
-    pub(super) fn lists(&self) -> Step<Vec<ObjectList>> {
+    pub(crate) fn lists(&self) -> Step<Vec<ObjectList>> {
         let channels = self.channels()?.into_iter().map(ObjectList::from);
         let axes = (1..=self.session.profile.platform_axes).map(PlatformAxis::new);
         let axes: Result<Vec<_>, _> = axes.map(|axis| axis.map(ObjectList::from)).collect();
         let platform = std::iter::once(ObjectList::PLATFORM);
-        Ok(platform.chain(channels).chain(axes.map_err(harness)?).collect())
+        Ok(platform.chain(channels).chain(axes?).collect())
     }
 
     /// Every object of all lists. What cannot be read is judged elsewhere, and left out here.
-    pub(super) fn objects(&mut self) -> Step<Vec<Object>> {
+    pub(crate) fn objects(&mut self) -> Step<Vec<Object>> {
         if self.session.inventory.objects.is_none() {
             let mut all = Vec::new();
             for list in self.lists()? {
-                let Some(data) = self.try_ask(CountObjects::new(list))? else { continue };
-                let count = ObjectCount::decode(&data).map_or(0, |count| count.0.min(OBJECTS_MAX));
+                let count: Option<ObjectCount> = self.try_read(CountObjects::new(list))?;
+                let count = count.map_or(0, |count| count.0.min(OBJECTS_MAX));
                 let mut gaps = 0_u32;
                 for first in 1..=count {
-                    let one = ReadDescriptors::new(list, first, 1).map_err(harness)?;
+                    let one = ReadDescriptors::new(list, first, 1)?;
                     let data = self.try_ask(one)?.filter(|data| data.len() == DESCRIPTOR_LEN);
                     let data = data.unwrap_or_default();
                     let object = DescriptorsRef::decode(&data).ok();
@@ -133,24 +218,21 @@ impl Probe<'_> {
             }
             self.session.inventory.objects = Some(all);
         }
-        match self.session.inventory.objects.as_deref() {
-            Some([]) | None => Err(Stop::NotApplicable("the target has no object".to_owned())),
-            Some(all) => Ok(all.to_vec()),
-        }
+        let all = self.session.inventory.objects.clone();
+        all.filter(|all| !all.is_empty()).or_not_applicable("the target has no object")
     }
 
     /// Whether an instance is at a place that the profile says to be without an axis.
-    pub(super) fn is_claimed_empty(&self, instance: &Instance) -> bool {
+    pub(crate) fn is_claimed_empty(&self, instance: &Instance) -> bool {
         let at = (instance.channel, instance.axis);
         OF_PLACES.contains(&instance.class) && self.session.profile.empty_places.contains(&at)
     }
 
     /// Every instance that the target says to have. Whether it says so rightly is judged
     /// elsewhere.
-    pub(super) fn instances(&mut self) -> Step<Vec<Instance>> {
+    pub(crate) fn instances(&mut self) -> Step<Vec<Instance>> {
         if self.claims(Function::FindInstance) == Claim::No {
-            let why = "the profile does not claim object addresses".to_owned();
-            return Err(Stop::NotApplicable(why));
+            return Err(Stop::not_applicable("the profile does not claim object addresses"));
         }
         if self.session.inventory.instances.is_none() {
             let mut all = Vec::new();
@@ -171,10 +253,8 @@ impl Probe<'_> {
             }
             self.session.inventory.instances = Some(all);
         }
-        match self.session.inventory.instances.as_deref() {
-            Some([]) | None => Err(Stop::NotApplicable("the target names no instance".to_owned())),
-            Some(all) => Ok(all.to_vec()),
-        }
+        let all = self.session.inventory.instances.clone();
+        all.filter(|all| !all.is_empty()).or_not_applicable("the target names no instance")
     }
 
     /// The axes of a channel from this one on, up to the first that is not there.
@@ -223,9 +303,10 @@ impl Probe<'_> {
         }
         let (mut reached, mut gaps) = (0, 0_u32);
         for place in 1..count {
-            match self.is_named(first, place)? {
-                true => (reached, gaps) = (place, 0),
-                false => gaps = gaps.saturating_add(1),
+            if self.is_named(first, place)? {
+                (reached, gaps) = (place, 0);
+            } else {
+                gaps = gaps.saturating_add(1);
             }
             if gaps >= GAPS_MAX {
                 break;
@@ -242,19 +323,17 @@ impl Probe<'_> {
     }
 
     /// What the target says of where an instance is; nothing if it refuses.
-    pub(super) fn address_of(
+    pub(crate) fn address_of(
         &mut self,
         class: Class,
         channel: u32,
         axis: u32,
     ) -> Step<Option<ObjectAddress>> {
-        let request = Request::from(FindInstance::new(class, channel, axis));
-        let data = self.try_ask(request)?;
-        Ok(data.and_then(|data| ObjectAddress::decode(&data).ok()))
+        self.try_read(FindInstance::new(class, channel, axis))
     }
 
     /// The channel with this number.
-    pub(super) fn channel_of(&self, number: u32) -> Step<Channel> {
-        Channel::new(number).map_err(harness)
+    pub(crate) fn channel_of(&self, number: u32) -> Step<Channel> {
+        Ok(Channel::new(number)?)
     }
 }

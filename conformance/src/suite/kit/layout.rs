@@ -4,16 +4,15 @@ use ads_cnc::limits::TEXT_MAX;
 use ads_cnc::{CncString, Description, VariableType};
 use ads_cnc_vectors::Level;
 
-use super::probe::harness;
 use crate::judge::{Rule, Step, assumed};
 
 /// How many elements an array has; of what is none, one.
-pub(super) fn element_count(dimensions: &[u32]) -> u32 {
+pub(crate) fn element_count(dimensions: &[u32]) -> u32 {
     dimensions.iter().fold(1, |all, &n| all.saturating_mul(n))
 }
 
 /// Bytes of one element; a text of an array has its share of the whole.
-pub(super) fn element_size(variable: &Description) -> Option<usize> {
+pub(crate) fn element_size(variable: &Description) -> Option<usize> {
     let share =
         variable.size.checked_div(element_count(&variable.dimensions)).filter(|size| *size > 0);
     usize::try_from(variable.var_type.element_size().or(share)?).ok()
@@ -28,7 +27,7 @@ fn tried(number: usize, count: usize) -> bool {
 }
 
 /// The places of an array that are tried, and which element of the whole each is.
-pub(super) fn places_tried(
+pub(crate) fn places_tried(
     dimensions: &[u32],
 ) -> impl Iterator<Item = (usize, Vec<u32>)> + use<'_> {
     let count = usize::try_from(element_count(dimensions)).unwrap_or(usize::MAX);
@@ -59,18 +58,18 @@ fn places(dimensions: &[u32]) -> impl Iterator<Item = Vec<u32>> + use<'_> {
 
 /// The order in more dimensions is assumed, and how texts lie in an array; that of one dimension
 /// of numbers is printed.
-pub(super) fn order(variable: &Description) -> Rule {
+pub(crate) fn order(variable: &Description) -> Rule {
     let texts = variable.var_type == VariableType::STRING;
     if variable.dimensions.len() > 1 || texts { assumed("VAR-21") } else { "VAR-14".into() }
 }
 
 /// The bytes of one element in those of the whole array.
-pub(super) fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
+pub(crate) fn part(number: usize, size: usize) -> impl Fn(&[u8]) -> Vec<u8> {
     move |whole| whole.chunks(size).nth(number).unwrap_or_default().to_vec()
 }
 
 /// More than one pair of brackets is assumed, and how texts lie in an array.
-pub(super) fn brackets(variable: &Description) -> Rule {
+pub(crate) fn brackets(variable: &Description) -> Rule {
     match order(variable).level {
         Some(Level::Info) => assumed("VAR-20"),
         _ => "VAR-20".into(),
@@ -78,9 +77,9 @@ pub(super) fn brackets(variable: &Description) -> Rule {
 }
 
 /// A variable's name with indices behind it; none if that is too long to be asked for.
-pub(super) fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>> {
+pub(crate) fn element_name(variable: &Description, place: &[u32]) -> Step<Option<CncString>> {
     let mut name = variable.name.text.to_string();
     place.iter().for_each(|index| name.push_str(&format!("[{index}]")));
-    let name: CncString = name.parse().map_err(harness)?;
+    let name: CncString = name.parse()?;
     Ok(Some(name).filter(|name| name.as_bytes().len() < TEXT_MAX))
 }

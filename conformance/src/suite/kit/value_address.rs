@@ -8,13 +8,13 @@ use ads_cnc::operation::{
 use ads_cnc::{CncString, Error, Handle};
 use ads_cnc_vectors::Hex;
 
-use super::probe::Probe;
 use crate::judge::{Rule, Step, Stop};
+use crate::suite::kit::{Probe, RawCall};
 use crate::values::until_nul;
 
 /// A value by one way to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(crate) enum ValueAddress {
     Handle { channel: Channel, handle: Handle, indices: Vec<u32> },
     Name { channel: Channel, name: CncString },
     Axis { channel: Channel, axis: ChannelAxis, name: CncString },
@@ -22,8 +22,8 @@ pub(super) enum Place {
     Element { element: ElementAddress, length: u32 },
 }
 
-impl Place {
-    pub(super) fn read(&self) -> Result<Request<'_>, Error> {
+impl ValueAddress {
+    pub(crate) fn read(&self) -> Result<Request<'_>, Error> {
         Ok(match self {
             Self::Handle { channel, handle, indices } => {
                 ReadByHandle::new(*channel, *handle, indices).into()
@@ -40,7 +40,7 @@ impl Place {
         })
     }
 
-    pub(super) fn write<'v>(&'v self, value: &'v [u8]) -> Result<Request<'v>, Error> {
+    pub(crate) fn write<'v>(&'v self, value: &'v [u8]) -> Result<Request<'v>, Error> {
         Ok(match self {
             Self::Handle { channel, handle, indices } => {
                 WriteByHandle::new(*channel, *handle, indices, value).into()
@@ -59,15 +59,17 @@ impl Place {
     }
 }
 
+/// Why a case that writes is not applicable.
+pub(crate) const NOTHING_WRITABLE: &str = "nothing of it may be written";
+
 /// Whether a request has a form on the wire: a long value beside a long name has none.
-pub(super) fn is_sendable(request: &Request<'_>) -> bool {
-    let mut buf = vec![0; request.encoded_len()];
-    request.encode(&mut buf).is_ok()
+pub(crate) fn is_sendable(request: &Request<'_>) -> bool {
+    RawCall::new(*request).is_ok()
 }
 
 /// The nearest other value: one bit of the first byte. A text gets another first character; one of
 /// a single byte has no room for that and its NUL.
-pub(super) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
+pub(crate) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
     if is_text && value.len() < 2 {
         return value.to_vec();
     }
@@ -87,23 +89,23 @@ pub(super) fn another(value: &[u8], is_text: bool) -> Vec<u8> {
 }
 
 /// Texts are the same up to their first NUL.
-pub(super) fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
+pub(crate) fn same(one: &[u8], other: &[u8], is_text: bool) -> bool {
     one == other || is_text && until_nul(one) == until_nul(other)
 }
 
 /// What a write is judged by, and what it is about.
-pub(super) struct Trial<'t> {
-    pub(super) what: &'t str,
-    pub(super) rules: &'t [Rule],
-    pub(super) is_text: bool,
+pub(crate) struct WriteCheck<'t> {
+    pub(crate) what: &'t str,
+    pub(crate) rules: &'t [Rule],
+    pub(crate) is_text: bool,
     /// By which the handle of a variable was asked for.
-    pub(super) name: Option<&'t CncString>,
+    pub(crate) name: Option<&'t CncString>,
 }
 
 impl Probe<'_> {
     /// What is there now; an answer is judged elsewhere.
-    pub(super) fn value_at(&mut self, place: &Place) -> Step<Option<Vec<u8>>> {
-        match place.read() {
+    pub(crate) fn value_at(&mut self, address: &ValueAddress) -> Step<Option<Vec<u8>>> {
+        match address.read() {
             Ok(read) => self.try_ask(read),
             Err(_) => Ok(None),
         }
@@ -111,143 +113,151 @@ impl Probe<'_> {
 
     /// Whether a value changes by itself between two reads. A read without an answer does not show
     /// that.
-    pub(super) fn moves(&mut self, place: &Place, is_text: bool) -> Step<bool> {
-        let values = self.value_at(place)?.zip(self.value_at(place)?);
+    pub(crate) fn moves(&mut self, address: &ValueAddress, is_text: bool) -> Step<bool> {
+        let values = self.value_at(address)?.zip(self.value_at(address)?);
         Ok(values.is_some_and(|(first, second)| !same(&first, &second, is_text)))
     }
 
     /// Whether a value is as it was. A read without an answer does not show that.
-    pub(super) fn is_as_before(&mut self, place: &Place, was: &[u8], is_text: bool) -> Step<bool> {
-        Ok(self.value_at(place)?.is_some_and(|now| same(&now, was, is_text)))
+    pub(crate) fn is_as_before(
+        &mut self,
+        address: &ValueAddress,
+        was: &[u8],
+        is_text: bool,
+    ) -> Step<bool> {
+        Ok(self.value_at(address)?.is_some_and(|now| same(&now, was, is_text)))
     }
 
     /// Whether this place may be written, and is not to be left alone.
-    pub(super) fn may_write(&mut self, place: &Place, name: &str) -> Step<bool> {
+    pub(crate) fn may_write(&mut self, address: &ValueAddress, name: &str) -> Step<bool> {
         let left = self.session.profile.leaves(name);
-        match place.write(&[]) {
+        match address.write(&[]) {
             Ok(write) if !left => self.may(write),
             _ => Ok(false),
         }
     }
 
     /// Writes a value that must be taken.
-    pub(super) fn put(&mut self, trial: &Trial<'_>, place: &Place, value: &[u8]) -> Step<bool> {
-        let Some(write) = place.write(value).ok().filter(is_sendable) else {
+    pub(crate) fn put(
+        &mut self,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
+        value: &[u8],
+    ) -> Step<bool> {
+        let Some(write) = address.write(value).ok().filter(is_sendable) else {
             let why = format!("{} of {} bytes cannot be written", trial.what, value.len());
             return Err(Stop::Inconclusive(why));
         };
-        self.session.changes.is_now(place, Some(value));
+        self.session.changes.is_now(address, Some(value));
         let exchange = self.send(write)?;
-        let kept = exchange.answer().is_some_and(|answer| answer.success().is_some());
-        for &rule in trial.rules {
-            let expected = format!("{} takes {}", trial.what, Hex(value.to_vec()));
-            self.check(rule, kept, expected, exchange.result());
-        }
+        let kept = exchange.success().is_some();
+        let expected = || format!("{} takes {}", trial.what, Hex(value.to_vec()));
+        self.check(trial.rules, kept, expected, &exchange);
         Ok(kept)
     }
 
     /// Writes another value, reads it back and puts the old one back, whatever came of it. While
     /// the other is there, `then` looks at it; it gets the old and the new.
-    pub(super) fn try_write(
+    pub(crate) fn try_write(
         &mut self,
-        trial: &Trial<'_>,
-        place: &Place,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
         then: impl FnOnce(&mut Self, &[u8], &[u8]) -> Step,
     ) -> Step {
-        let Some(before) = self.value_at(place)?.filter(|value| !value.is_empty()) else {
+        let Some(before) = self.value_at(address)?.filter(|value| !value.is_empty()) else {
             return Ok(());
         };
-        if !place.write(&before).is_ok_and(|write| is_sendable(&write)) {
+        if !address.write(&before).is_ok_and(|write| is_sendable(&write)) {
             return Ok(());
         }
         let other = another(&before, trial.is_text);
         // What it holds it takes first: nothing is changed by that.
-        if !self.put(trial, place, &before)? {
+        if !self.put(trial, address, &before)? {
             return Ok(());
         }
         self.changing(
             trial,
-            place,
+            address,
             &before,
-            |probe| probe.change(trial, place, &before, &other, then),
-            |probe| probe.restore(trial, place, &before),
+            |probe| probe.change(trial, address, &before, &other, then),
+            |probe| probe.restore(trial, address, &before),
         )
     }
 
     fn change(
         &mut self,
-        trial: &Trial<'_>,
-        place: &Place,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
         before: &[u8],
         other: &[u8],
         then: impl FnOnce(&mut Self, &[u8], &[u8]) -> Step,
     ) -> Step {
-        if !self.put(trial, place, other)? {
+        if !self.put(trial, address, other)? {
             return Ok(());
         }
-        let after = self.value_at(place)?.unwrap_or_default();
+        let after = self.value_at(address)?.unwrap_or_default();
         let kept = same(&after, other, trial.is_text);
         // What moves by itself tells nothing of a write.
-        if !kept && self.moves(place, trial.is_text)? {
+        if !kept && self.moves(address, trial.is_text)? {
             return Ok(());
         }
-        for &rule in trial.rules {
-            let expected = format!("{} of {}, as written", Hex(other.to_vec()), trial.what);
-            self.check(rule, kept, expected, Hex(after.clone()));
-        }
+        let expected = || format!("{} of {}, as written", Hex(other.to_vec()), trial.what);
+        self.check(trial.rules, kept, expected, || Hex(after.clone()));
         then(self, before, other)
     }
 
     /// Whether the old value is there again, or one that moves by itself.
-    fn restore(&mut self, trial: &Trial<'_>, place: &Place, before: &[u8]) -> Step<bool> {
-        let taken = self.put(trial, place, before)?;
+    fn restore(
+        &mut self,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
+        before: &[u8],
+    ) -> Step<bool> {
+        let taken = self.put(trial, address, before)?;
         // A read without an answer shows nothing.
-        let Some(after) = self.value_at(place)? else { return Ok(false) };
+        let Some(after) = self.value_at(address)? else { return Ok(false) };
         let kept = same(&after, before, trial.is_text);
-        if !kept && self.moves(place, trial.is_text)? {
+        if !kept && self.moves(address, trial.is_text)? {
             return Ok(taken);
         }
-        for &rule in trial.rules {
-            let expected = format!("{} of {} again", Hex(before.to_vec()), trial.what);
-            self.check(rule, kept, expected, Hex(after.clone()));
-        }
+        let expected = || format!("{} of {} again", Hex(before.to_vec()), trial.what);
+        self.check(trial.rules, kept, expected, || Hex(after.clone()));
         Ok(kept)
     }
 
     /// Writes to what must refuse it the value that is there already; `sibling`, if there is one,
     /// takes what it holds.
-    pub(super) fn write_refused(
+    pub(crate) fn write_refused(
         &mut self,
-        trial: &Trial<'_>,
-        place: &Place,
-        sibling: Option<&Place>,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
+        sibling: Option<&ValueAddress>,
     ) -> Step {
         if let Some(sibling) = sibling {
             let Some(taken) = self.value_at(sibling)? else { return Ok(()) };
             let Some(write) = sibling.write(&taken).ok().filter(is_sendable) else {
-                let why = "nothing to hold it against has a value that can be written".to_owned();
-                return Err(Stop::Inconclusive(why));
+                return Err(Stop::inconclusive(
+                    "nothing to hold it against has a value that can be written",
+                ));
             };
             let exchange = self.send(write)?;
-            if exchange.answer().is_none_or(|answer| answer.success().is_none()) {
+            if exchange.success().is_none() {
                 // Whether writable things take a value is judged by those cases.
                 let why = format!("nothing to hold it against is written: {}", exchange.result());
                 return Err(Stop::Inconclusive(why));
             }
         }
-        let Some(before) = self.value_at(place)?.filter(|value| !value.is_empty()) else {
+        let Some(before) = self.value_at(address)?.filter(|value| !value.is_empty()) else {
             return Ok(());
         };
-        let Ok(write) = place.write(&before) else { return Ok(()) };
+        let Ok(write) = address.write(&before) else { return Ok(()) };
         if !is_sendable(&write) {
             return Ok(());
         }
         let exchange = self.send(write)?;
-        let refused = exchange.answer().is_some_and(|answer| answer.success().is_none());
-        for &rule in trial.rules {
-            let expected = format!("an error number for a write of {}", trial.what);
-            self.check(rule, refused, expected, exchange.result());
-        }
+        let refused = exchange.is_error();
+        let expected = || format!("an error number for a write of {}", trial.what);
+        self.check(trial.rules, refused, expected, &exchange);
         Ok(())
     }
 }

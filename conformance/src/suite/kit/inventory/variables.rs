@@ -3,25 +3,35 @@
 use ads_cnc::address::Channel;
 use ads_cnc::limits::{TEXT_MAX, VARIABLE_MAX};
 use ads_cnc::operation::{CountVariables, DescribeByIndex, Request};
-use ads_cnc::{Decode, Description, Kind, VariableCount};
+use ads_cnc::{Decode, Description, Kind, TextRef, VariableCount};
 
-use crate::judge::{Step, Stop};
-use crate::suite::describe_by_name;
-use crate::suite::probe::Probe;
+use crate::judge::{Step, Stop, applicable};
+use crate::suite::kit::Probe;
 
 /// The most variables of a kind that are looked at.
-pub(in crate::suite) const VARIABLES_MAX: u32 = 10_000;
+pub(crate) const VARIABLES_MAX: u32 = 10_000;
 
 /// The kinds that can be enumerated.
-pub(in crate::suite) const KINDS: [(&str, Kind<'static>); 3] =
+pub(crate) const KINDS: [(&str, Kind<'static>); 3] =
     [("V.G", Kind::V_G), ("V.E", Kind::V_E), ("V.A", Kind::V_A)];
 
+/// The name of a description, as a request carries it.
+pub(crate) fn name_of(variable: &Description) -> TextRef<'_> {
+    variable.name.text.as_cnc_str().into()
+}
+
 impl Probe<'_> {
+    /// The kinds that the target lists.
+    pub(crate) fn kinds(&self) -> Vec<(&'static str, Kind<'static>)> {
+        let profile = &self.session.profile;
+        KINDS.into_iter().filter(|(_, kind)| profile.has_kind(*kind)).collect()
+    }
+
     /// Every description of a channel. A case that judges descriptions reads them itself; here
     /// one that cannot be read only means that nothing can be built on it.
-    pub(in crate::suite) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
+    pub(crate) fn variables(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = Vec::new();
-        for (name, kind) in describe_by_name::kinds(self) {
+        for (name, kind) in self.kinds() {
             let key = (u32::from(channel.number()), name);
             if !self.session.variables.contains_key(&key) {
                 let described = self.describe(channel, kind)?;
@@ -29,14 +39,12 @@ impl Probe<'_> {
             }
             all.extend(self.session.variables.get(&key).into_iter().flatten().cloned());
         }
-        match all.is_empty() {
-            true => Err(Stop::NotApplicable("the target has no variable".to_owned())),
-            false => Ok(all),
-        }
+        applicable(!all.is_empty(), "the target has no variable")?;
+        Ok(all)
     }
 
     /// Those whose whole value an answer has room for.
-    pub(in crate::suite) fn readable(&mut self, channel: Channel) -> Step<Vec<Description>> {
+    pub(crate) fn readable(&mut self, channel: Channel) -> Step<Vec<Description>> {
         let mut all = self.variables(channel)?;
         let fits = |size: u32| usize::try_from(size).is_ok_and(|size| size <= VARIABLE_MAX);
         all.retain(|variable| fits(variable.size));
@@ -63,10 +71,9 @@ impl Probe<'_> {
         T: for<'b> Decode<'b>,
     {
         let exchange = self.send(request)?;
-        let data = exchange.answer().and_then(|answer| answer.success());
         let what = T::STREAM.layout().name;
         let lacks = |why: String| Stop::Inconclusive(format!("no {what} to go by: {why}"));
-        T::decode(data.ok_or_else(|| lacks(exchange.result()))?)
+        T::decode(exchange.success().ok_or_else(|| lacks(exchange.result()))?)
             .map_err(|error| lacks(error.to_string()))
     }
 }

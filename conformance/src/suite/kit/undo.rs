@@ -14,12 +14,10 @@ use ads_cnc::operation::{CountObjects, DescribeByName, HandleByName, ReadDescrip
 use ads_cnc::{Decode as _, ObjectCount};
 use ads_cnc_vectors::Hex;
 
-use super::inventory::OBJECTS_MAX;
-use super::place::{Place, Trial, same};
-use super::probe::Probe;
 use crate::exchange::{Exchange, Fault};
 use crate::gate::Entry;
 use crate::judge::{LeftChanged, Step, Stop};
+use crate::suite::kit::{OBJECTS_MAX, Probe, RawCall, ValueAddress, WriteCheck, same};
 use crate::text::{Moment, escape};
 
 /// How often a value is written back.
@@ -43,11 +41,11 @@ pub struct Changes(Arc<Mutex<Vec<Change>>>);
 /// A value that was changed.
 #[derive(Clone, Debug)]
 struct Change {
-    place: Place,
+    address: ValueAddress,
     /// Of a variable: by which its handle is asked for.
     name: Option<CncString>,
     /// Of a variable that is written by its handle: the other way to it.
-    by_name: Option<Place>,
+    by_name: Option<ValueAddress>,
     what: String,
     is_text: bool,
     was: Vec<u8>,
@@ -73,17 +71,17 @@ impl Changes {
     }
 
     /// Whether a value is changed that is still to be restored.
-    pub(super) fn any_pending(&self) -> bool {
+    pub(crate) fn any_pending(&self) -> bool {
         self.last().is_some()
     }
 
     /// Nothing that is changed is restored any more.
-    pub(super) fn give_up(&self) {
+    pub(crate) fn give_up(&self) {
         self.all().iter_mut().for_each(|change| change.given_up = true);
     }
 
     /// Whether something could not be restored.
-    pub(super) fn any_given_up(&self) -> bool {
+    pub(crate) fn any_given_up(&self) -> bool {
         self.all().iter().any(|change| change.given_up)
     }
 
@@ -98,15 +96,15 @@ impl Changes {
     }
 
     /// What is there now, as far as anybody knows.
-    pub(super) fn is_now(&self, place: &Place, value: Option<&[u8]>) {
-        for change in self.all().iter_mut().filter(|change| change.place == *place) {
+    pub(crate) fn is_now(&self, address: &ValueAddress, value: Option<&[u8]>) {
+        for change in self.all().iter_mut().filter(|change| change.address == *address) {
             change.is = value.map(<[u8]>::to_vec);
         }
     }
 
     /// The value at this place was seen as it was.
-    fn end(&self, place: &Place) {
-        self.all().retain(|change| change.place != *place);
+    fn end(&self, address: &ValueAddress) {
+        self.all().retain(|change| change.address != *address);
     }
 
     fn all(&self) -> MutexGuard<'_, Vec<Change>> {
@@ -119,25 +117,25 @@ impl Probe<'_> {
     /// Runs what changes the value at a place, and restores it, whatever comes of that. `restore`
     /// does so as a part of the case and says whether the value is as it was; if it is not, it is
     /// written back again.
-    pub(super) fn changing(
+    pub(crate) fn changing(
         &mut self,
-        trial: &Trial<'_>,
-        place: &Place,
+        trial: &WriteCheck<'_>,
+        address: &ValueAddress,
         was: &[u8],
         change: impl FnOnce(&mut Self) -> Step,
         restore: impl FnOnce(&mut Self) -> Step<bool>,
     ) -> Step {
         self.check_time_to_restore()?;
-        let by_name = match (place, trial.name) {
-            (Place::Handle { channel, indices, .. }, Some(name)) => {
+        let by_name = match (address, trial.name) {
+            (ValueAddress::Handle { channel, indices, .. }, Some(name)) => {
                 let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
                 let name = format!("{name}{indices}").parse().ok();
-                name.map(|name| Place::Name { channel: *channel, name })
+                name.map(|name| ValueAddress::Name { channel: *channel, name })
             }
             _ => None,
         };
         self.session.changes.begin(Change {
-            place: place.clone(),
+            address: address.clone(),
             by_name,
             name: trial.name.cloned(),
             what: trial.what.to_owned(),
@@ -150,7 +148,7 @@ impl Probe<'_> {
         let changed = change(self);
         let restored = match restore(self) {
             Ok(true) => {
-                self.session.changes.end(place);
+                self.session.changes.end(address);
                 Ok(())
             }
             restored => restored.map(drop),
@@ -161,7 +159,7 @@ impl Probe<'_> {
 
     /// Rejects a change, and any further request of a case that has changed a value, when the file that
     /// permits it expires before the value could be restored.
-    pub(super) fn check_time_to_restore(&self) -> Step {
+    pub(crate) fn check_time_to_restore(&self) -> Step {
         let client = &self.session.client;
         let target = client.target();
         // Each request may wait for a connection and for an answer.
@@ -176,7 +174,7 @@ impl Probe<'_> {
 
     /// Restores all that is changed, the last change first; also if the run is interrupted and if
     /// nothing more is asked of the target otherwise.
-    pub(super) fn put_back(&mut self) -> Step {
+    pub(crate) fn put_back(&mut self) -> Step {
         let mut all = Ok(());
         while let Some(change) = self.session.changes.last() {
             all = all.and(self.put_back_one(change));
@@ -185,14 +183,14 @@ impl Probe<'_> {
     }
 
     /// Tries again what could not be restored.
-    pub(super) fn put_back_rest(&mut self) {
+    pub(crate) fn put_back_rest(&mut self) {
         self.session.changes.all().iter_mut().for_each(|change| change.given_up = false);
         // What is left is shown.
         let _left = self.put_back();
     }
 
     fn put_back_one(&mut self, mut change: Change) -> Step {
-        let (changes, place) = (self.session.changes.clone(), change.place.clone());
+        let (changes, address) = (self.session.changes.clone(), change.address.clone());
         let mut written = false;
         for times in 0..=WRITES_MAX {
             if times > 1 {
@@ -200,12 +198,12 @@ impl Probe<'_> {
                 self.session.client.wait(pause);
                 // Its handle may lead to nothing any more, or not be confirmed again.
                 if let Some(by_name) = change.by_name.take() {
-                    change.place = by_name;
+                    change.address = by_name;
                 }
             }
             // A write whose answer was lost may have been done.
             let now = self.look(&change);
-            changes.is_now(&place, now.as_deref());
+            changes.is_now(&address, now.as_deref());
             let is_same = now.as_ref().is_some_and(|now| same(now, &change.was, change.is_text));
             // A value that changes by itself will not be as it was. Two reads show that.
             let moves = !is_same && written && now.is_some() && {
@@ -213,28 +211,28 @@ impl Probe<'_> {
                 values.is_some_and(|(now, next)| !same(now, &next, change.is_text))
             };
             if is_same || moves {
-                changes.end(&place);
+                changes.end(&address);
                 return Ok(());
             }
             if times < WRITES_MAX {
                 written |= self.write_back(&mut change);
             }
         }
-        for one in changes.all().iter_mut().filter(|one| one.place == place) {
+        for one in changes.all().iter_mut().filter(|one| one.address == address) {
             (one.given_up, one.refused) = (true, change.refused.clone());
         }
         Err(Stop::Inconclusive(format!("{} could not be restored", change.what)))
     }
 
     fn look(&mut self, change: &Change) -> Option<Vec<u8>> {
-        let exchange = self.insist(change.place.read().ok()?)?;
-        exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec)
+        let exchange = self.insist(change.address.read().ok()?)?;
+        exchange.success().map(<[u8]>::to_vec)
     }
 
     /// Whether it was taken.
     fn write_back(&mut self, change: &mut Change) -> bool {
         let send = |probe: &mut Self, change: &Change| {
-            change.place.write(&change.was).ok().and_then(|write| probe.insist(write))
+            change.address.write(&change.was).ok().and_then(|write| probe.insist(write))
         };
         let mut sent = send(self, change);
         if sent.as_ref().is_some_and(|sent| matches!(sent.outcome, Err(Fault::Refused(_)))) {
@@ -246,25 +244,25 @@ impl Probe<'_> {
             Some(Err(Fault::Refused(why))) => Some(why.to_string()),
             _ => None,
         };
-        sent.is_some_and(|sent| sent.answer().is_some_and(|answer| answer.success().is_some()))
+        sent.is_some_and(|sent| sent.success().is_some())
     }
 
     /// Asks for what tells the gate that the place is what a file names.
     fn ask_again(&mut self, change: &mut Change) {
-        match (&change.place, change.name.clone()) {
-            (Place::Handle { channel, .. }, Some(name)) => {
+        match (&change.address, change.name.clone()) {
+            (ValueAddress::Handle { channel, .. }, Some(name)) => {
                 let (channel, name) = (*channel, name.as_cnc_str());
                 self.insist(HandleByName { channel, name: name.into() });
                 self.insist(DescribeByName { channel, name: name.into() });
             }
-            (Place::Object { .. }, _) => {
+            (ValueAddress::Object { .. }, _) => {
                 let allowed = self.session.client.gate().allowed();
                 let entries = allowed.map(|allowed| allowed.entries.clone()).unwrap_or_default();
                 for entry in entries {
                     let Entry::Object { list, .. } = entry else { continue };
                     let list = list.list();
                     let Some(count) = self.insist(CountObjects::new(list)) else { continue };
-                    let count = count.answer().and_then(|answer| answer.success());
+                    let count = count.success();
                     let count = count.and_then(|data| ObjectCount::decode(data).ok());
                     for first in 1..=count.map_or(0, |count| count.0.min(OBJECTS_MAX)) {
                         if let Ok(one) = ReadDescriptors::new(list, first, 1) {
@@ -279,10 +277,8 @@ impl Probe<'_> {
 
     /// Sends a request, whatever ends the case or the run otherwise.
     fn insist<'a>(&mut self, request: impl Into<Request<'a>>) -> Option<Exchange> {
-        let request = request.into();
-        let mut buf = vec![0; request.encoded_len()];
-        let call = request.encode(&mut buf).ok()?;
+        let request = RawCall::new(request).ok()?;
         self.session.frames = self.session.frames.saturating_add(1);
-        Some(self.session.client.call(&call))
+        Some(self.session.client.call(&request.call()))
     }
 }

@@ -3,16 +3,16 @@
 use ads_cnc::CncString;
 use ads_cnc::operation::{DescribeByName, Function, HandleByName, Request};
 
-use super::{Probe, harness};
 use crate::exchange::Fault;
 use crate::gate::{Doubt, Reason, Refusal};
 use crate::judge::Step;
 use crate::profile::Claim;
+use crate::suite::kit::{Probe, RawCall};
 
 impl Probe<'_> {
     /// Asks for what confirms the handle of a write: descriptions of the channel if this connection
     /// has not seen them, and the handle of the name that they give it to.
-    pub(super) fn confirm_handle(&mut self, request: &Request<'_>) -> Step {
+    pub(crate) fn confirm_handle(&mut self, request: &Request<'_>) -> Step {
         let Request::WriteByHandle(op) = request else { return Ok(()) };
         if self.check_gate(request)?.is_ok() {
             return Ok(());
@@ -52,10 +52,8 @@ impl Probe<'_> {
 
     /// Whether a request could be sent, and why the gate rejects it if that is why not. Nothing is
     /// sent.
-    pub(super) fn check_gate(&self, request: &Request<'_>) -> Step<Result<(), Option<Refusal>>> {
-        let mut buf = vec![0; request.encoded_len()];
-        let call = request.encode(&mut buf).map_err(harness)?;
-        match self.session.client.check(&call) {
+    pub(crate) fn check_gate(&self, request: &Request<'_>) -> Step<Result<(), Option<Refusal>>> {
+        match self.session.client.check(&RawCall::new(*request)?.call()) {
             Ok(()) => Ok(Ok(())),
             Err(Fault::Refused(refusal)) => Ok(Err(Some(*refusal))),
             Err(_) => Ok(Err(None)),

@@ -8,17 +8,20 @@ use std::sync::Arc;
 
 use ads_cnc::Decode;
 use ads_cnc::address::Channel;
-use ads_cnc::operation::{Call, Function, Request};
+use ads_cnc::operation::{Function, Request};
 use ads_cnc_vectors::Level;
 
-use super::session::Session;
 use crate::deadline::Deadline;
 use crate::exchange::{Exchange, Fault, Violation};
 use crate::gate::Reason;
-use crate::judge::{Checks, Evidence, Judgement, Record, Rule, Step, Stop, Verdict};
+use crate::judge::{
+    Checks, Describe, Evidence, Judgement, OrStop as _, Record, Rule, Rules, Step, Stop, Verdict,
+};
 use crate::process::interrupt;
 use crate::profile::Claim;
 use crate::simulator::Cnc;
+use crate::suite::kit::RawCall;
+use crate::suite::session::Session;
 
 /// Requests in a row without an answer after which no more are sent.
 const SILENCES_MAX: usize = 8;
@@ -35,14 +38,14 @@ pub struct Probe<'s> {
     last: Option<Evidence>,
     asked: usize,
     /// Whether it was kept from asking, as the run is to end.
-    pub(super) interrupted: bool,
+    pub(crate) interrupted: bool,
     /// Why something that the file names is not written.
     doubt: Option<String>,
     deadline: Option<Deadline>,
 }
 
 impl<'s> Probe<'s> {
-    pub(super) fn new(session: &'s mut Session) -> Self {
+    pub(crate) fn new(session: &'s mut Session) -> Self {
         Self {
             session,
             record: Record::default(),
@@ -55,28 +58,28 @@ impl<'s> Probe<'s> {
     }
 
     /// Asks for nothing more after this.
-    pub(super) fn with_deadline(self, deadline: Option<Deadline>) -> Self {
+    pub(crate) fn with_deadline(self, deadline: Option<Deadline>) -> Self {
         Self { deadline, ..self }
     }
 
-    pub(super) fn into_findings(self) -> (Vec<Judgement>, usize) {
+    pub(crate) fn into_findings(self) -> (Vec<Judgement>, usize) {
         (self.record.judgements, self.record.checks)
     }
 
     /// The channels the target claims, by number.
     pub fn channels(&self) -> Step<Vec<Channel>> {
         let numbers = &self.session.profile.channels;
-        numbers.iter().map(|&number| Channel::new(number).map_err(harness)).collect()
+        numbers.iter().map(|&number| Ok(Channel::new(number)?)).collect()
     }
 
     /// The first channel.
     pub fn channel(&self) -> Step<Channel> {
         let first = self.channels()?.into_iter().next();
-        first.ok_or(Stop::NotApplicable("the target claims no channel".into()))
+        first.or_not_applicable("the target claims no channel")
     }
 
     /// Whether a request may be sent; of a write by handle the device confirms the handle first.
-    pub(super) fn may<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<bool> {
+    pub(crate) fn may<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<bool> {
         let request = request.into();
         if self.claims(request.function()) == Claim::No {
             return Ok(false);
@@ -92,7 +95,7 @@ impl<'s> Probe<'s> {
     }
 
     /// How the case ends: one that could not write what the file names did not run to its end.
-    pub(super) fn end(&mut self, step: Step) -> Step {
+    pub(crate) fn end(&mut self, step: Step) -> Step {
         match (self.doubt.take(), step) {
             (Some(why), Ok(()) | Err(Stop::NotApplicable(_))) => Err(Stop::Refused(why)),
             (_, step) => step,
@@ -100,9 +103,8 @@ impl<'s> Probe<'s> {
     }
 
     /// The CNC itself, to do to it from within what nobody can ask for.
-    pub(super) fn cnc(&self) -> Step<Arc<Cnc>> {
-        let cnc = self.session.cnc.clone();
-        cnc.ok_or_else(|| Stop::NotApplicable("the CNC is not in this process".to_owned()))
+    pub(crate) fn cnc(&self) -> Step<Arc<Cnc>> {
+        self.session.cnc.clone().or_not_applicable("the CNC is not in this process")
     }
 
     /// Whether the target claims a function.
@@ -110,33 +112,40 @@ impl<'s> Probe<'s> {
         self.session.profile.claims(function)
     }
 
-    /// Judges one check.
+    /// Judges a check, for each of the rules. The words are formatted if it fails.
     pub fn check(
         &mut self,
-        rule: impl Into<Rule>,
+        rules: impl Rules,
         kept: bool,
-        expected: impl Display,
-        found: impl Display,
+        expected: impl Describe,
+        found: impl Describe,
     ) -> bool {
-        let rule = rule.into();
-        self.record(rule, rule.verdict(kept), expected, found);
+        // What was not asked for any more is no fault of the target.
+        if !self.interrupted {
+            self.record.add_all(rules, kept, expected, found, || self.last.clone());
+        }
         kept
+    }
+
+    /// A check that passed.
+    pub fn pass(&mut self, rules: impl Rules) {
+        self.check(rules, true, "", "");
     }
 
     /// As [`check`](Self::check), where the data of the reply is known to the byte: the evidence
     /// shows both.
     pub fn check_reply(
         &mut self,
-        rule: impl Into<Rule>,
+        rules: impl Rules,
         kept: bool,
         reply: &[u8],
-        expected: impl Display,
-        found: impl Display,
+        expected: impl Describe,
+        found: impl Describe,
     ) -> bool {
         if let Some(last) = self.last.as_mut().filter(|_| !kept) {
             last.expect(reply);
         }
-        let kept = self.check(rule, kept, expected, found);
+        self.check(rules, kept, expected, found);
         if let Some(last) = &mut self.last {
             last.expected = None;
         }
@@ -146,19 +155,16 @@ impl<'s> Probe<'s> {
     /// As [`check`](Self::check), and there is nothing to go on with if it fails.
     pub fn require(
         &mut self,
-        rules: &[Rule],
+        rules: impl Rules,
         kept: bool,
-        expected: impl Display,
-        found: impl Display,
+        expected: impl Describe,
+        found: impl Describe,
     ) -> Step {
-        for &rule in rules {
-            self.check(rule, kept, &expected, &found);
-        }
-        if kept { Ok(()) } else { Err(Stop::Judged) }
+        if self.check(rules, kept, expected, found) { Ok(()) } else { Err(Stop::Judged) }
     }
 
     /// Takes over what other cases have found.
-    pub(super) fn take_over(&mut self, record: Record) {
+    pub(crate) fn take_over(&mut self, record: Record) {
         self.record.append(record);
     }
 
@@ -166,20 +172,18 @@ impl<'s> Probe<'s> {
         &mut self,
         rule: Rule,
         verdict: Verdict,
-        expected: impl Display,
-        found: impl Display,
+        expected: impl Describe,
+        found: impl Describe,
     ) {
-        if self.interrupted {
-            // What was not asked for any more is no fault of the target.
-            return;
+        if !self.interrupted {
+            self.record.add(rule, verdict, expected, found, || self.last.clone());
         }
-        let last = &self.last;
-        self.record.add(rule, verdict, expected, found, || last.clone());
     }
 
     /// Sends a call and keeps it as the evidence of the checks that follow.
-    pub fn call(&mut self, call: &Call<'_>) -> Step<Exchange> {
+    pub(crate) fn call(&mut self, request: &RawCall) -> Step<Exchange> {
         self.target()?;
+        let call = request.call();
         self.asked = self.asked.saturating_add(1);
         if self.asked > REQUESTS_MAX {
             let why =
@@ -191,7 +195,7 @@ impl<'s> Probe<'s> {
             let why = format!("the profile does not claim {}", function.spec().name);
             return Err(Stop::NotApplicable(why));
         }
-        let exchange = self.session.client.call(call);
+        let exchange = self.session.client.call(&call);
         let fault = exchange.outcome.as_ref().err();
         self.came(fault, &exchange.violations, &exchange, Evidence::from(&exchange))?;
         if fault.is_none() && !self.session.answered.contains(&call.service) {
@@ -201,7 +205,7 @@ impl<'s> Probe<'s> {
     }
 
     /// Whether there is a target left.
-    pub(super) fn target(&mut self) -> Step {
+    pub(crate) fn target(&mut self) -> Step {
         if interrupt::came() {
             self.interrupted = true;
             return Err(Stop::Interrupted);
@@ -219,7 +223,7 @@ impl<'s> Probe<'s> {
     }
 
     /// What came of a request.
-    pub(super) fn came(
+    pub(crate) fn came(
         &mut self,
         fault: Option<&Fault>,
         violations: &[Violation],
@@ -253,42 +257,34 @@ impl<'s> Probe<'s> {
     pub fn send<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<Exchange> {
         let request = request.into();
         self.confirm_handle(&request)?;
-        let mut buf = vec![0; request.encoded_len()];
-        let call = request.encode(&mut buf).map_err(harness)?;
-        self.call(&call)
+        self.call(&RawCall::new(request)?)
     }
 
     /// Sends an operation that must be answered, and returns the data.
-    pub fn ask<'a>(
-        &mut self,
-        rule: impl Into<Rule>,
-        request: impl Into<Request<'a>>,
-    ) -> Step<Vec<u8>> {
-        self.ask_for(&[rule.into()], request)
-    }
-
-    /// As [`ask`](Self::ask), where an answer speaks for several requirements.
-    pub fn ask_for<'a>(
-        &mut self,
-        rules: &[Rule],
-        request: impl Into<Request<'a>>,
-    ) -> Step<Vec<u8>> {
+    pub fn ask<'a>(&mut self, rules: impl Rules, request: impl Into<Request<'a>>) -> Step<Vec<u8>> {
         let request = request.into();
         let exchange = self.send(request)?;
-        let data = exchange.answer().and_then(|answer| answer.success());
-        let named = self.session.profile.names(request.function());
+        let mut rules: Vec<Rule> = rules.rules().collect();
         // What is claimed by its name must work, whatever is documented of it.
-        let level = |rule: &Rule| if named { Some(Level::Must) } else { rule.level };
-        let rules: Vec<Rule> =
-            rules.iter().map(|rule| Rule { level: level(rule), ..*rule }).collect();
-        self.require(&rules, data.is_some(), "an answer", exchange.result())?;
+        if self.session.profile.names(request.function()) {
+            rules.iter_mut().for_each(|rule| rule.level = Some(Level::Must));
+        }
+        let data = exchange.success();
+        self.require(&rules[..], data.is_some(), "an answer", &exchange)?;
         Ok(data.unwrap_or_default().to_vec())
     }
 
     /// Sends an operation and returns the data if it is answered; that it need not be.
     pub fn try_ask<'a>(&mut self, request: impl Into<Request<'a>>) -> Step<Option<Vec<u8>>> {
-        let exchange = self.send(request)?;
-        Ok(exchange.answer().and_then(|answer| answer.success()).map(<[u8]>::to_vec))
+        Ok(self.send(request)?.success().map(<[u8]>::to_vec))
+    }
+
+    /// As [`try_ask`](Self::try_ask), and None too if the data is not the stream `T`.
+    pub fn try_read<'a, T>(&mut self, request: impl Into<Request<'a>>) -> Step<Option<T>>
+    where
+        T: for<'b> Decode<'b>,
+    {
+        Ok(self.send(request)?.success().and_then(|data| T::decode(data).ok()))
     }
 
     /// As [`ask`](Self::ask), and the data must be the stream `T`.
@@ -298,40 +294,41 @@ impl<'s> Probe<'s> {
     {
         let rule = rule.into();
         let data = self.ask(rule, request)?;
-        match T::decode(&data) {
-            Ok(value) => Ok(value),
-            Err(error) => {
-                let expected = format!("a {}", T::STREAM.layout().name);
-                self.require(&[rule], false, expected, error)?;
-                Err(Stop::Judged)
-            }
-        }
+        T::decode(&data).map_err(|error| {
+            let expected = || format!("a {}", T::STREAM.layout().name);
+            self.check(rule, false, expected, || error);
+            Stop::Judged
+        })
     }
 
     /// The evidence of the last call.
-    pub(super) fn evidence(&self) -> Option<Evidence> {
+    pub(crate) fn evidence(&self) -> Option<Evidence> {
         self.last.clone()
     }
 
     /// Puts this evidence under the checks that follow.
-    pub(super) fn show(&mut self, evidence: Option<Evidence>) {
+    pub(crate) fn show(&mut self, evidence: Option<Evidence>) {
         self.last = evidence;
     }
-}
-
-/// What the suite builds for itself has to encode.
-pub(super) fn harness(error: impl Display) -> Stop {
-    Stop::Harness(error.to_string())
 }
 
 impl Checks for Probe<'_> {
     fn check(
         &mut self,
-        rule: impl Into<Rule>,
+        rules: impl Rules,
         kept: bool,
-        expected: impl Display,
-        found: impl Display,
+        expected: impl Describe,
+        found: impl Describe,
     ) -> bool {
-        Probe::check(self, rule, kept, expected, found)
+        Probe::check(self, rules, kept, expected, found)
+    }
+}
+
+/// An exchange that was not passed over in silence: whether it was done then nobody knows, and
+/// nothing of what follows can be held against it.
+pub(crate) fn heard(exchange: Exchange) -> Step<Exchange> {
+    match &exchange.outcome {
+        Err(fault @ Fault::Silence(_)) => Err(Stop::Inconclusive(format!("{exchange}: {fault}"))),
+        _ => Ok(exchange),
     }
 }

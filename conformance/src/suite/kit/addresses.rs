@@ -5,14 +5,12 @@ use ads_cnc::address::{
     ElementAddress, IndexGroup, IndexOffset,
 };
 
-use super::inventory::{Instance, Object};
-use super::place::Place;
-use super::probe::{Probe, harness};
-use crate::judge::{Rule, Step, Stop, assumed};
+use crate::judge::{IfThere as _, Rule, Step, assumed};
 use crate::simulator::{Held, Holder};
+use crate::suite::kit::{Instance, Object, Probe, ValueAddress};
 
 /// What a target says itself of where things are, where no manual does.
-pub(super) struct Addresses {
+pub(crate) struct Addresses {
     /// Of the channels, in the order of their ranks.
     channels: Vec<u32>,
     objects: Vec<Object>,
@@ -20,15 +18,15 @@ pub(super) struct Addresses {
 }
 
 /// An address of a content, and by what rules it is one.
-pub(super) type At = (Place, Vec<Rule>);
+pub(crate) type JudgedAddress = (ValueAddress, Vec<Rule>);
 
 fn rules(ids: &[&'static str]) -> Vec<Rule> {
     ids.iter().map(|&id| Rule::from(id)).collect()
 }
 
-fn object(held: &Held, group: IndexGroup, offset: IndexOffset) -> Step<Place> {
-    let size = u32::try_from(held.value.len()).map_err(harness)?;
-    Ok(Place::Object { group, offset, size })
+fn object(held: &Held, group: IndexGroup, offset: IndexOffset) -> Step<ValueAddress> {
+    let size = u32::try_from(held.value.len())?;
+    Ok(ValueAddress::Object { group, offset, size })
 }
 
 fn com(addressing: Addressing, table: ComTable, instance: u8) -> IndexGroup {
@@ -39,34 +37,27 @@ fn element(
     held: &Held,
     (addressing, class, instance): (Addressing, Class, u8),
     offset: IndexOffset,
-) -> Step<Place> {
-    let length = u32::try_from(held.value.len()).map_err(harness)?;
+) -> Step<ValueAddress> {
+    let length = u32::try_from(held.value.len())?;
     let group = ClassGroup { addressing, class, attribute: Attribute::Content, instance };
-    Ok(Place::Element { element: ElementAddress::new(group, offset), length })
-}
-
-/// What is not there or not claimed says nothing.
-fn any<T>(found: Step<Vec<T>>) -> Step<Vec<T>> {
-    match found {
-        Err(Stop::NotApplicable(_)) => Ok(Vec::new()),
-        found => found,
-    }
+    Ok(ValueAddress::Element { element: ElementAddress::new(group, offset), length })
 }
 
 impl Addresses {
-    pub(super) fn new(probe: &mut Probe<'_>) -> Step<Self> {
+    pub(crate) fn new(probe: &mut Probe<'_>) -> Step<Self> {
         Ok(Self {
             channels: probe.session.profile.channels.to_vec(),
-            objects: any(probe.objects())?,
-            instances: any(probe.instances())?,
+            // What is not there or not claimed says nothing.
+            objects: probe.objects().if_applicable()?.unwrap_or_default(),
+            instances: probe.instances().if_applicable()?.unwrap_or_default(),
         })
     }
 
     /// Each address of a content that a manual prints or the target says.
-    pub(super) fn of(&self, held: &Held) -> Step<Vec<At>> {
+    pub(crate) fn of(&self, held: &Held) -> Step<Vec<JudgedAddress>> {
         use Addressing::{Index, Logical};
-        let at = |stride, axis: u8| {
-            IndexOffset::for_axis(stride, axis.into(), held.element).map_err(harness)
+        let at = |stride, axis: u8| -> Step<IndexOffset> {
+            Ok(IndexOffset::for_axis(stride, axis.into(), held.element)?)
         };
         let own = at(AxisStride::X10000, 0)?;
         match held.holder {
@@ -148,15 +139,15 @@ impl Addresses {
     }
 
     /// The element that a content is, if it is one, at its first address.
-    pub(super) fn element(&self, held: &Held) -> Step<Option<ElementAddress>> {
+    pub(crate) fn element(&self, held: &Held) -> Step<Option<ElementAddress>> {
         let first = self.of(held)?.into_iter().next();
         Ok(first.and_then(|(place, _)| match place {
-            Place::Element { element, .. } => Some(element),
+            ValueAddress::Element { element, .. } => Some(element),
             _ => None,
         }))
     }
 
-    pub(super) fn objects(&self) -> &[Object] {
+    pub(crate) fn objects(&self) -> &[Object] {
         &self.objects
     }
 
@@ -165,8 +156,8 @@ impl Addresses {
         &self,
         channel: u8,
         logical: &[&'static str],
-        of: impl Fn(Addressing, u8) -> Step<Place>,
-    ) -> Step<Vec<At>> {
+        of: impl Fn(Addressing, u8) -> Step<ValueAddress>,
+    ) -> Step<Vec<JudgedAddress>> {
         let mut ranks = (1_u8..).zip(&self.channels);
         let Some((rank, _)) = ranks.find(|(_, number)| **number == u32::from(channel)) else {
             return Ok(Vec::new());
@@ -178,7 +169,7 @@ impl Addresses {
     }
 
     /// How many elements the target says that there are where this one is.
-    pub(super) fn count(&self, held: &Held) -> Option<u32> {
+    pub(crate) fn count(&self, held: &Held) -> Option<u32> {
         let found = match held.holder {
             Holder::OfChannel { class, channel } => self.instance(class, channel, 0),
             Holder::OfAxis { class, axis } => self.instance(class, 0, axis),
@@ -202,4 +193,14 @@ impl Addresses {
 
 fn plus(first: IndexOffset, held: &Held) -> Step<IndexOffset> {
     Ok(IndexOffset::new(first.get().saturating_add(held.element)))
+}
+
+/// The same bytes in another order.
+pub(crate) fn is_permuted(one: &[u8], other: &[u8]) -> bool {
+    let sorted = |bytes: &[u8]| {
+        let mut bytes = bytes.to_vec();
+        bytes.sort_unstable();
+        bytes
+    };
+    one != other && sorted(one) == sorted(other)
 }

@@ -1,0 +1,92 @@
+//! Where variables are on the axis interface: at which places a name answers, and by which a variable
+//! is reached.
+
+use ads_cnc::address::{Channel, ChannelAxis};
+use ads_cnc::operation::AxisHandleByName;
+use ads_cnc::{CncString, Description, Handle, Kind, VariablePath};
+
+use crate::judge::Step;
+use crate::suite::kit::{Probe, ValueAddress};
+
+/// The most places of a channel that are looked at.
+pub(crate) const PLACES_MAX: u32 = 64;
+/// The most places without an axis in between: such a place need not answer.
+const GAP_MAX: u32 = 4;
+
+/// A place at which a name answers.
+pub(crate) struct AxisHandle {
+    pub(crate) axis: ChannelAxis,
+    pub(crate) handle: Handle,
+}
+
+/// All places of a channel at which a name answers with a handle.
+pub(crate) fn answering_places(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    name: &CncString,
+) -> Step<Vec<AxisHandle>> {
+    let mut all = Vec::new();
+    let mut gap = 0_u32;
+    for place in 1..=PLACES_MAX {
+        let axis = ChannelAxis::new(place)?;
+        let name = name.as_cnc_str().into();
+        match probe.try_read::<Handle>(AxisHandleByName { channel, axis, name })? {
+            Some(handle) => {
+                all.push(AxisHandle { axis, handle });
+                gap = 0;
+            }
+            None => gap = gap.saturating_add(1),
+        }
+        if gap > GAP_MAX {
+            break;
+        }
+    }
+    Ok(all)
+}
+
+/// The place at which a variable of an axis has the handle that it is described with.
+pub(crate) fn axis_address(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    variable: &Description,
+) -> Step<Option<ValueAddress>> {
+    let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok();
+    let path = path.filter(|path| path.axis().is_some());
+    let Some(name) = path.and_then(|path| path.without_axis().ok()) else { return Ok(None) };
+    let places = answering_places(probe, channel, &name)?;
+    let own = places.into_iter().find(|at| at.handle == variable.handle);
+    Ok(own.map(|at| ValueAddress::Axis { channel, axis: at.axis, name }))
+}
+
+/// The axis variables of a channel as described, with their names on the axis interface.
+pub(crate) fn axis_variables(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+) -> Step<Vec<(CncString, Description)>> {
+    let all = probe.variables(channel)?;
+    let of_axes = all.into_iter().filter_map(|variable| {
+        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
+        if path.kind() != Kind::V_A {
+            return None;
+        }
+        path.axis()?;
+        Some((path.without_axis().ok()?, variable))
+    });
+    Ok(of_axes.collect())
+}
+
+pub(crate) fn axis_names(described: &[(CncString, Description)]) -> Vec<&CncString> {
+    let mut names: Vec<&CncString> = described.iter().map(|(name, _)| name).collect();
+    names.sort_by_key(|name| name.as_bytes());
+    names.dedup();
+    names
+}
+
+/// The name on the axis interface of a variable that some axis has.
+pub(crate) fn name_on_axes(variables: &[Description]) -> Option<CncString> {
+    variables.iter().find_map(|variable| {
+        let path = VariablePath::from_text(variable.name.text.as_cnc_str()).ok()?;
+        let of_axis = path.kind() == Kind::V_A && path.axis().is_some();
+        of_axis.then(|| path.without_axis().ok()).flatten()
+    })
+}

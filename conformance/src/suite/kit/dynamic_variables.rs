@@ -1,0 +1,52 @@
+//! Dynamic parameters that are among the variables, too.
+
+use ads_cnc::CncString;
+use ads_cnc::dynamic::{DynamicCount, DynamicKind, DynamicName};
+use ads_cnc::limits::DYNAMIC_NAME_MAX;
+use ads_cnc::operation::{CountDynamic, DynamicNameByIndex, ReadByName};
+
+use crate::edition::{Edition, Feature};
+use crate::judge::{Step, Stop};
+use crate::profile::Claim;
+use crate::suite::kit::Probe;
+
+/// The names of V.P, V.L and V.S that there are at the moment.
+fn dynamic_names(probe: &mut Probe<'_>) -> Step<Vec<(DynamicKind, CncString)>> {
+    let channel = probe.channel()?;
+    let mut all = Vec::new();
+    for kind in DynamicKind::ALL.into_iter().filter(|kind| *kind != DynamicKind::P) {
+        let count: Option<DynamicCount> = probe.try_read(CountDynamic::new(channel, kind))?;
+        for index in 1..=count.map_or(0, |count| count.0.min(64)) {
+            let request = DynamicNameByIndex::new(channel, kind, index)?;
+            let name = probe.try_read::<DynamicName>(request)?.map(|name| name.name.text);
+            // One that leaves no room for its NUL cannot be asked for.
+            let name = name.filter(|name| name.as_bytes().len() < DYNAMIC_NAME_MAX);
+            all.extend(name.map(|name| (kind, name)));
+        }
+    }
+    Ok(all)
+}
+
+/// The V.P, V.L and V.S that are among the variables too, by edition and version.
+pub(crate) fn dynamic_among_variables(
+    probe: &mut Probe<'_>,
+) -> Step<Vec<(DynamicKind, CncString)>> {
+    let profile = &probe.session.profile;
+    let lacks = |why| Err(Stop::not_applicable(why));
+    if profile.edition != Edition::German {
+        return lacks("the edition has V.P, V.L and V.S among the parameters only");
+    }
+    let claim = profile.has(Feature::DynamicVariables);
+    if claim == Claim::No {
+        return lacks("the version has V.P, V.L and V.S among the parameters only");
+    }
+    let (channel, all) = (probe.channel()?, dynamic_names(probe)?);
+    let Some((_, name)) = all.first() else {
+        return lacks("there is no V.P, V.L or V.S at the moment");
+    };
+    let by_name = ReadByName { channel, name: name.as_cnc_str().into() };
+    if claim == Claim::Open && probe.try_ask(by_name)?.is_none() {
+        return lacks("the target has no V.P, V.L or V.S here, which come with a version");
+    }
+    Ok(all)
+}

@@ -1,0 +1,48 @@
+//! What cases are made of: asking, judging, finding what a target has, and restoring what is
+//! written.
+
+mod addresses;
+mod axis_interface;
+mod counted;
+mod dynamic_variables;
+mod each_variable;
+mod inventory;
+mod layout;
+mod object_list;
+mod probe;
+mod raw_call;
+mod steady;
+mod undo;
+mod value_address;
+mod writable;
+
+pub(crate) use addresses::{Addresses, JudgedAddress, is_permuted};
+pub(crate) use axis_interface::{
+    AxisHandle, PLACES_MAX, answering_places, axis_address, axis_names, axis_variables,
+    name_on_axes,
+};
+pub(crate) use counted::Counted;
+pub(crate) use dynamic_variables::dynamic_among_variables;
+pub(crate) use each_variable::{each_array, each_variable};
+pub(crate) use inventory::{
+    INSTANCES_MAX, Instance, Inventory, KINDS, OBJECTS_MAX, OF_PLACES, Object, VARIABLES_MAX,
+    attribute_reads, element_by_rank, name_of, number_of,
+};
+pub(crate) use layout::{
+    brackets, element_count, element_name, element_size, order, part, places_tried,
+};
+pub(crate) use object_list::{
+    descriptors_one_by_one, known_object_count, object_count, read_descriptors,
+};
+pub use probe::Probe;
+pub(crate) use probe::heard;
+pub(crate) use raw_call::{IntoRawCall, RawCall};
+pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
+pub use undo::Changes;
+pub(crate) use value_address::{
+    NOTHING_WRITABLE, ValueAddress, WriteCheck, another, is_sendable, same,
+};
+pub(crate) use writable::{
+    WritableElement, WritableNumber, each_of_access, elements_with_flag, handle_of, is_of_service,
+    is_taken, require_taken, writable_numbers, write_check, write_value,
+};

@@ -1,0 +1,53 @@
+//! The objects of one list of COM.
+
+use ads_cnc::operation::{CountObjects, ObjectList, ReadDescriptors};
+use ads_cnc::{Decode as _, Descriptors, ObjectCount};
+
+use crate::judge::{Step, Stop};
+use crate::suite::kit::{OBJECTS_MAX, Probe};
+
+pub(crate) fn object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
+    let ObjectCount(number) = probe.read("COM-1", CountObjects::new(list))?;
+    if number == 0 {
+        return Err(Stop::not_applicable("the list has no object"));
+    }
+    Ok(number.min(OBJECTS_MAX))
+}
+
+/// As [`number`], where it is not this case that judges it.
+pub(crate) fn known_object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
+    let exchange = probe.send(CountObjects::new(list))?;
+    let data = exchange.success().unwrap_or_default();
+    match ObjectCount::decode(data) {
+        Ok(ObjectCount(number)) if number > 0 => Ok(number.min(OBJECTS_MAX)),
+        Ok(_) => Err(Stop::not_applicable("the list has no object")),
+        Err(_) => Err(Stop::inconclusive("the number of objects could not be read")),
+    }
+}
+
+/// Asks for descriptors and takes at most as many as were asked for.
+pub(crate) fn read_descriptors(
+    probe: &mut Probe<'_>,
+    rule: &'static str,
+    list: ObjectList,
+    first: u32,
+    count: u32,
+) -> Step<Descriptors> {
+    let request = ReadDescriptors::new(list, first, count)?;
+    probe.read(rule, request)
+}
+
+/// Every descriptor by a read of its own: that several come together is judged elsewhere.
+pub(crate) fn descriptors_one_by_one(
+    probe: &mut Probe<'_>,
+    rule: &'static str,
+    list: ObjectList,
+    number: u32,
+) -> Step<Descriptors> {
+    let mut all = Descriptors::default();
+    for first in 1..=number {
+        let one = read_descriptors(probe, rule, list, first, 1)?;
+        one.as_ref().iter().for_each(|object| all.push(object.to_owned()));
+    }
+    Ok(all)
+}

@@ -1,0 +1,65 @@
+//! Requests as they go over the wire, to be changed before they are sent.
+
+use ads_cnc::address::{IndexGroup, IndexOffset};
+use ads_cnc::ads::AmsPort;
+use ads_cnc::operation::{Call, Request, Service};
+
+use crate::judge::Step;
+
+/// A [`Call`] that owns its data.
+#[derive(Clone, Debug)]
+pub(crate) struct RawCall {
+    pub(crate) port: AmsPort,
+    pub(crate) service: Service,
+    pub(crate) index_group: IndexGroup,
+    pub(crate) index_offset: IndexOffset,
+    pub(crate) read_length: u32,
+    pub(crate) data: Vec<u8>,
+}
+
+impl RawCall {
+    pub(crate) fn new<'a>(request: impl Into<Request<'a>>) -> Step<Self> {
+        let request = request.into();
+        let mut data = vec![0; request.encoded_len()];
+        let Call { port, service, index_group, index_offset, read_length, data: encoded } =
+            request.encode(&mut data)?;
+        let len = encoded.len();
+        data.truncate(len);
+        Ok(Self { port, service, index_group, index_offset, read_length, data })
+    }
+
+    /// The same but for a change.
+    pub(crate) fn with(&self, change: impl FnOnce(&mut Self)) -> Self {
+        let mut changed = self.clone();
+        change(&mut changed);
+        changed
+    }
+
+    pub(crate) fn call(&self) -> Call<'_> {
+        let Self { port, service, index_group, index_offset, read_length, ref data } = *self;
+        Call { port, service, index_group, index_offset, read_length, data }
+    }
+}
+
+/// What can be sent: a request, or one that was changed.
+pub(crate) trait IntoRawCall<'a> {
+    fn into_raw_call(self) -> Step<RawCall>;
+}
+
+impl<'a, R: Into<Request<'a>>> IntoRawCall<'a> for R {
+    fn into_raw_call(self) -> Step<RawCall> {
+        RawCall::new(self)
+    }
+}
+
+impl<'a> IntoRawCall<'a> for RawCall {
+    fn into_raw_call(self) -> Step<RawCall> {
+        Ok(self)
+    }
+}
+
+impl<'a> IntoRawCall<'a> for &RawCall {
+    fn into_raw_call(self) -> Step<RawCall> {
+        Ok(self.clone())
+    }
+}

@@ -1,0 +1,200 @@
+//! What may be written, and whether it is taken.
+
+use ads_cnc::address::{Channel, ElementAddress};
+use ads_cnc::operation::{
+    HandleByName, ReadElementName, ReadElementType, ReadElementWriteFlag, Request, WriteByHandle,
+    WriteByName,
+};
+use ads_cnc::sda::{ElementText, ElementWriteFlag};
+use ads_cnc::service::ServiceVariable;
+use ads_cnc::{CncStr, Description, Handle, U32List, VariableAccess, VariableType};
+
+use crate::judge::{Rule, Step, Stop, applicable};
+use crate::suite::kit::{
+    Instance, NOTHING_WRITABLE, Probe, ValueAddress, WriteCheck, is_sendable, name_of,
+};
+
+/// What writing a variable of the Service Interface leads to has cases of its own.
+pub(crate) fn is_of_service(variable: &Description) -> bool {
+    ServiceVariable::by_name(&variable.name.text.to_string()).is_some()
+}
+
+/// Every variable of this access of every channel.
+pub(crate) fn each_of_access(
+    probe: &mut Probe<'_>,
+    access: VariableAccess,
+    mut judge: impl FnMut(&mut Probe<'_>, Channel, &Description) -> Step<bool>,
+) -> Step {
+    let mut any = false;
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            if variable.access == access && !is_of_service(&variable) {
+                any |= judge(probe, channel, &variable)?;
+            }
+        }
+    }
+    applicable(any, NOTHING_WRITABLE)
+}
+
+pub(crate) fn write_check<'t>(
+    variable: &'t Description,
+    what: &'t str,
+    rules: &'t [Rule],
+) -> WriteCheck<'t> {
+    let is_text = variable.var_type == VariableType::STRING;
+    WriteCheck { what, rules, is_text, name: Some(&variable.name.text) }
+}
+
+/// The handle of a name, asked for by it: a file that names it allows the handle then.
+pub(crate) fn handle_of(
+    probe: &mut Probe<'_>,
+    channel: Channel,
+    variable: &Description,
+) -> Step<Handle> {
+    let handle = probe.try_read::<Handle>(HandleByName { channel, name: name_of(variable) })?;
+    Ok(handle.unwrap_or(variable.handle))
+}
+
+/// A variable with the value it has, to hold a refusal against.
+pub(crate) struct WritableNumber {
+    pub(crate) channel: Channel,
+    pub(crate) variable: Description,
+    pub(crate) value: Vec<u8>,
+}
+
+impl WritableNumber {
+    pub(crate) fn address(&self) -> ValueAddress {
+        ValueAddress::Name { channel: self.channel, name: self.variable.name.text.clone() }
+    }
+
+    pub(crate) fn name(&self) -> CncStr<'_> {
+        self.variable.name.text.as_cnc_str()
+    }
+
+    pub(crate) fn by_handle<'v>(&self, indices: U32List<'v>, value: &'v [u8]) -> Request<'v> {
+        WriteByHandle::new(self.channel, self.variable.handle, indices, value).into()
+    }
+
+    pub(crate) fn by_name<'v>(&'v self, value: &'v [u8]) -> Request<'v> {
+        WriteByName { channel: self.channel, name: self.name(), value: value.into() }.into()
+    }
+}
+
+/// Numbers that may be written, the first of each type; those that read as they are described, as
+/// anything else is judged elsewhere.
+pub(crate) fn writable_numbers(probe: &mut Probe<'_>) -> Step<Vec<WritableNumber>> {
+    let mut all: Vec<WritableNumber> = Vec::new();
+    for channel in probe.channels()? {
+        for variable in probe.variables(channel)? {
+            let is_number = variable.access == VariableAccess::READ_WRITE
+                && variable.dimensions.is_empty()
+                && variable.var_type != VariableType::STRING
+                && !is_of_service(&variable);
+            let of_type = all.iter().any(|known| known.variable.var_type == variable.var_type);
+            let address = ValueAddress::Name { channel, name: variable.name.text.clone() };
+            if !is_number
+                || of_type
+                || !probe.may_write(&address, &variable.name.text.to_string())?
+            {
+                continue;
+            }
+            let value = probe.value_at(&address)?.unwrap_or_default();
+            if u32::try_from(value.len()) == Ok(variable.size) {
+                all.push(WritableNumber { channel, variable, value });
+            }
+        }
+    }
+    applicable(!all.is_empty(), "no number may be written")?;
+    Ok(all)
+}
+
+/// Whether a request is taken; silence is no answer to anything, and judged by `rule`.
+pub(crate) fn is_taken(
+    probe: &mut Probe<'_>,
+    rule: impl Into<Rule>,
+    what: &str,
+    request: Request<'_>,
+) -> Step<bool> {
+    let exchange = probe.send(request)?;
+    if exchange.answer().is_none() {
+        let expected = || format!("an answer to {what}");
+        probe.require(rule.into(), false, expected, &exchange)?;
+    }
+    Ok(exchange.success().is_some())
+}
+
+/// What is refused must differ by its fault only from what is taken.
+pub(crate) fn require_taken(
+    probe: &mut Probe<'_>,
+    rule: impl Into<Rule>,
+    good: Request<'_>,
+) -> Step {
+    if is_taken(probe, rule, "what differs by that alone", good)? {
+        Ok(())
+    } else {
+        Err(Stop::inconclusive("what differs by that alone is refused too"))
+    }
+}
+
+/// An element with its name and whether it is a text.
+pub(crate) struct WritableElement {
+    pub(crate) instance: Instance,
+    pub(crate) element: ElementAddress,
+    pub(crate) address: ValueAddress,
+    pub(crate) what: String,
+    pub(crate) is_text: bool,
+}
+
+/// Elements that may be written, by what their flags say of that.
+pub(crate) fn elements_with_flag(
+    probe: &mut Probe<'_>,
+    is_writable: bool,
+) -> Step<Vec<WritableElement>> {
+    let mut all = Vec::new();
+    for instance in probe.instances()? {
+        if probe.is_claimed_empty(&instance) {
+            continue;
+        }
+        for element in instance.elements() {
+            all.extend(named(probe, &instance, element, is_writable)?);
+        }
+    }
+    Ok(all)
+}
+
+fn named(
+    probe: &mut Probe<'_>,
+    instance: &Instance,
+    element: ElementAddress,
+    is_writable: bool,
+) -> Step<Option<WritableElement>> {
+    let text = |probe: &mut Probe<'_>, request: Request<'static>| -> Step<String> {
+        let text: Option<ElementText> = probe.try_read(request)?;
+        Ok(text.map(|text| text.text.text.to_string()).unwrap_or_default())
+    };
+    let flag: Option<ElementWriteFlag> = probe.try_read(ReadElementWriteFlag::new(element))?;
+    if flag.map(ElementWriteFlag::is_writable) != Some(is_writable) {
+        return Ok(None);
+    }
+    let Some(length) = probe.length_of(element)? else { return Ok(None) };
+    let address = ValueAddress::Element { element, length };
+    let name = text(probe, ReadElementName::new(element).into())?;
+    if address.read().is_err() || !probe.may_write(&address, &name)? {
+        return Ok(None);
+    }
+    let is_text = text(probe, ReadElementType::new(element).into())? == "STRING";
+    let (what, instance) = (format!("{name} of {instance}"), instance.clone());
+    Ok(Some(WritableElement { instance, element, address, what, is_text }))
+}
+
+/// Whether a value is taken.
+pub(crate) fn write_value(
+    probe: &mut Probe<'_>,
+    address: &ValueAddress,
+    value: &[u8],
+) -> Step<bool> {
+    let Some(write) = address.write(value).ok().filter(is_sendable) else { return Ok(false) };
+    probe.session.changes.is_now(address, Some(value));
+    let exchange = probe.send(write)?;
+    Ok(exchange.success().is_some())
+}
