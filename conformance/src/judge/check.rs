@@ -52,7 +52,6 @@ pub const fn online(id: &'static str) -> Rule {
     Rule { id, level: Some(Level::Should) }
 }
 
-/// One check of one requirement.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     pub requirement: &'static str,
@@ -75,7 +74,6 @@ const KEPT: usize = 3;
 /// The most characters that are kept of what was expected, and of what was found.
 pub(crate) const TEXT_MAX: usize = 1024;
 
-/// The checks of one case.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Record {
     pub(crate) judgements: Vec<Judgement>,

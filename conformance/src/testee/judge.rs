@@ -29,14 +29,11 @@ pub struct Terms<'t> {
     pub strict: bool,
 }
 
-/// What came of a testee.
 #[derive(Debug)]
 pub struct Judged {
-    /// What it says of itself.
     pub hello: Option<Hello>,
     /// Of each case, and of the protocol.
     pub outcomes: Vec<Outcome>,
-    /// Questions asked.
     pub asked: usize,
     /// How often it had to be started anew.
     pub restarts: usize,

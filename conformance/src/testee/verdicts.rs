@@ -27,7 +27,6 @@ pub(super) struct Verdicts<'v> {
     pub(super) gone: Option<Stop>,
 }
 
-/// What came of one question.
 struct Check {
     verdict: Verdict,
     /// The most that it can mean.
