@@ -186,7 +186,6 @@ impl Client {
         &self.gate
     }
 
-    /// Whom it asks.
     pub const fn target(&self) -> &Target {
         &self.target
     }
@@ -386,7 +385,6 @@ impl Client {
     }
 }
 
-/// The whole frame of a call.
 pub(crate) fn frame(header: AmsHeader, call: &Call<'_>) -> Result<Vec<u8>, Fault> {
     whole(header, &call.encode_to_vec().map_err(Fault::Unsendable)?)
 }

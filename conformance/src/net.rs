@@ -109,7 +109,6 @@ pub(crate) fn rehearse(addr: SocketAddr, timeout: Duration) -> io::Result<TcpStr
 
 /// The other end of a [`Wire`]: a socket, or a CNC of this process.
 pub trait Peer: fmt::Debug + Send {
-    /// Takes bytes.
     fn send(&mut self, bytes: &[u8]) -> io::Result<()>;
 
     /// Gives the bytes that have arrived, waiting for at most `timeout`; 0 bytes at the end.
@@ -155,7 +154,6 @@ impl Wire {
         Self { peer, local: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)) }
     }
 
-    /// The address of this end.
     pub const fn local(&self) -> SocketAddr {
         self.local
     }

@@ -227,7 +227,6 @@ impl TopicRecords {
         }
     }
 
-    /// What came of each case.
     pub(super) fn finish(self) -> Vec<Outcome> {
         let outcomes = self.records.into_iter().map(|(case, record, notes)| {
             let Record { judgements, checks } = record;

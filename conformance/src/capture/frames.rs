@@ -8,7 +8,6 @@ use ads_cnc::{Decode as _, Error};
 
 use super::tcp::Mark;
 
-/// What comes out.
 #[derive(Debug)]
 pub(super) enum Found {
     /// A whole frame.

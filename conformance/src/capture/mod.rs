@@ -56,7 +56,6 @@ use crate::judge::Outcome;
 
 pub const AMS_TCP_PORT: u16 = 48898;
 
-/// What is looked for.
 #[derive(Debug)]
 pub struct Options {
     /// TCP ports.
@@ -71,7 +70,6 @@ impl Default for Options {
     }
 }
 
-/// What came of a capture.
 #[derive(Debug)]
 pub struct Checked {
     pub outcomes: Vec<Outcome>,
@@ -154,7 +152,6 @@ enum Step<'s> {
     Event(Event, &'s Table),
 }
 
-/// Reads a file to its end.
 fn read(
     input: impl Read + Send,
     table: &mut Table,

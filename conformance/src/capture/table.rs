@@ -33,7 +33,6 @@ pub(super) struct Way {
     pub(super) to: SocketAddr,
 }
 
-/// What comes out.
 #[derive(Debug)]
 pub(super) enum Event {
     Frame(Vec<u8>, Way, Span),
@@ -78,7 +77,6 @@ struct Connection {
     packet: u64,
 }
 
-/// All connections.
 #[derive(Debug)]
 pub(super) struct Table {
     ports: Ports,
@@ -96,7 +94,6 @@ impl Table {
         Self { ports, open, connections: 0, held: 0, segments: 0, repeated: 0, early: 0 }
     }
 
-    /// Connections so far.
     pub(super) const fn connections(&self) -> u64 {
         self.connections
     }
@@ -126,7 +123,6 @@ impl Table {
         }
     }
 
-    /// Takes a segment.
     pub(super) fn push(&mut self, segment: &Segment<'_>, mark: Mark, out: &mut Vec<Event>) {
         self.segments = self.segments.saturating_add(1);
         let key = key(segment.from, segment.to);

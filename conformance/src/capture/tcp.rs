@@ -30,7 +30,6 @@ pub(super) struct Mark {
     pub(super) acknowledged: Option<u64>,
 }
 
-/// What comes out.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Piece<'a> {
     /// The next bytes.

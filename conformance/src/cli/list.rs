@@ -7,7 +7,6 @@ use serde::Serialize;
 use crate::judge::{Case, Needs, Plan, Subject};
 use crate::text::json;
 
-/// A case.
 #[derive(Debug, Serialize)]
 pub(super) struct Listed {
     id: String,

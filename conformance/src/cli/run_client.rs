@@ -38,7 +38,6 @@ pub(super) struct ClientArgs {
     client_timeout: u64,
 }
 
-/// What came of a client.
 pub(super) struct OfClient {
     pub(super) target: TargetReport,
     pub(super) outcomes: Vec<Outcome>,

@@ -16,7 +16,6 @@ const STDERR_SHOWN: usize = 4000;
 /// The most characters of a name that are shown.
 const SAID_MAX: usize = 200;
 
-/// What came of a testee.
 pub(super) struct OfTestee {
     pub(super) target: TargetReport,
     pub(super) outcomes: Vec<Outcome>,

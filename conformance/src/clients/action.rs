@@ -4,7 +4,6 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// A word of the vocabulary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Word {
     pub name: &'static str,

@@ -24,14 +24,11 @@ use crate::simulator::Cnc;
 /// Deaths and silences in a row after which no more is tried.
 const LOST_MAX: usize = 12;
 
-/// What came of a client.
 #[derive(Debug)]
 pub struct Judged {
-    /// What it says of itself.
     pub hello: Option<Hello>,
     /// Of each scenario, and of the protocol.
     pub outcomes: Vec<Outcome>,
-    /// Requests it sent.
     pub requests: usize,
 }
 

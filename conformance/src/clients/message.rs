@@ -9,7 +9,6 @@ use serde_json::{Value, json};
 use super::Action;
 use crate::text::shorten;
 
-/// Version of the protocol.
 pub const PROTOCOL: u32 = 1;
 
 /// What a client says of itself.
@@ -25,7 +24,6 @@ pub struct Hello {
     pub stays: bool,
 }
 
-/// Who a client is.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Identity {

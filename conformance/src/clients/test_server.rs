@@ -123,7 +123,6 @@ impl std::fmt::Display for Beyond {
 #[derive(Debug)]
 pub struct TestServer {
     acceptor: net::Acceptor,
-    /// What is played.
     run: Arc<Mutex<Option<Arc<Run>>>>,
 }
 
@@ -146,7 +145,6 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl TestServer {
-    /// Listens.
     pub fn new(addr: SocketAddr) -> io::Result<Self> {
         let run: Arc<Mutex<Option<Arc<Run>>>> = Arc::default();
         let playing = Arc::clone(&run);

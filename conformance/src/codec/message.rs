@@ -4,7 +4,6 @@ use ads_cnc_vectors::{Context, Fields, Type};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 
-/// Version of the protocol.
 pub const PROTOCOL: u32 = 1;
 
 use crate::text::{hex::compact, shorten};
@@ -14,14 +13,10 @@ use crate::text::{hex::compact, shorten};
 #[serde(tag = "cmd", rename_all = "lowercase")]
 pub enum Command {
     /// The first line.
-    Hello {
-        /// Version of the protocol.
-        protocol: u32,
-    },
+    Hello { protocol: u32 },
     Case {
         /// Number of the case in this run.
         seq: u64,
-        /// What is asked.
         #[serde(flatten)]
         question: Box<Question>,
     },
@@ -29,7 +24,6 @@ pub enum Command {
     Bye,
 }
 
-/// What a testee is asked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Question {
     /// `decode`, `encode`, `packets`, `check`, or one that does not exist.
@@ -117,15 +111,12 @@ impl Known {
 /// The answer to `hello`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Hello {
-    /// Version of the protocol.
     pub protocol: u32,
-    /// Who answers.
     pub testee: Identity,
     /// What it can do.
     pub capabilities: Capabilities,
 }
 
-/// Who answers.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
     pub name: String,

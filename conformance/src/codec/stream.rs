@@ -169,7 +169,6 @@ fn field(row: &FieldSpec, context: &Context, json: &Json) -> Result<Value, Refus
     Ok(Value::One(tagged))
 }
 
-/// The type of this name.
 fn kind(name: &str) -> Result<Type, Refused> {
     from_value(name.into()).map_err(unfit)
 }

@@ -59,7 +59,6 @@ pub struct Explanation {
     pub parts: Vec<Part>,
 }
 
-/// What came of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
@@ -137,7 +136,6 @@ pub struct Row {
     pub below: bool,
 }
 
-/// Something wrong.
 #[derive(Clone, Debug, Serialize)]
 pub struct Fault {
     /// Its class, as in vectors; `nc-line` and `nc-word` for NC text.

@@ -59,7 +59,6 @@ pub enum Kind {
 
 named! { Kind: Codec "codec", Cnc "cnc", Different "different", }
 
-/// How it is done.
 #[derive(Clone, Debug)]
 enum How {
     Field(Defect),

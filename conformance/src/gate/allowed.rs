@@ -117,7 +117,6 @@ pub enum Entry {
     Service(Channel),
 }
 
-/// A list of COM objects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum List {
     /// Of the platform.

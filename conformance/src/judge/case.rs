@@ -19,11 +19,9 @@ pub struct Case {
     pub requirements: Vec<&'static str>,
     /// What it asks of the target beyond a first channel.
     pub needs: Needs,
-    /// How it is done.
     pub body: Body,
 }
 
-/// Who is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Subject {

@@ -189,7 +189,6 @@ macro_rules! describe {
 
 describe! { &str, String, &String, Hex, u32, usize, ads_cnc::Error }
 
-/// One check of one requirement.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     pub requirement: &'static str,
@@ -212,7 +211,6 @@ const KEPT: usize = 3;
 /// The most characters that are kept of what was expected, and of what was found.
 pub(crate) const TEXT_MAX: usize = 1024;
 
-/// The checks of one case.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Record {
     pub(crate) judgements: Vec<Judgement>,

@@ -4,12 +4,10 @@ use std::panic::{self, AssertUnwindSafe};
 
 use super::{Case, Judgement, Stop, Verdict};
 
-/// What came of a case.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     pub case: Case,
     pub verdicts: Vec<RequirementVerdict>,
-    /// Checks made.
     pub checks: usize,
     /// Why it did not run, or not to its end.
     pub note: Option<String>,

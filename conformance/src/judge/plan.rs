@@ -144,7 +144,6 @@ impl Plan {
         self.cases.splice(0..0, carriers);
     }
 
-    /// The cases that are judged.
     pub fn selected(&self) -> impl Iterator<Item = &Case> {
         self.cases
             .iter()

@@ -24,7 +24,6 @@ pub struct Object {
     pub name: CncString,
     /// Where its value is.
     pub place: Place,
-    /// The type of its value.
     pub ty: Type,
     /// Its unit, if it has one.
     pub unit: Option<CncString>,

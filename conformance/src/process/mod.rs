@@ -47,7 +47,6 @@ static RUNNING: Mutex<Vec<Weak<Shared>>> = Mutex::new(Vec::new());
 pub struct Running(Arc<Shared>);
 
 impl Running {
-    /// Starts a command.
     pub fn start(command: Command) -> io::Result<Self> {
         let mut command = CommandWrap::from(command);
         #[cfg(unix)]

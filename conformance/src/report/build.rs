@@ -32,7 +32,6 @@ pub struct About {
     pub profile: Option<Profile>,
     /// Known failures.
     pub waivers: Waivers,
-    /// Frames exchanged.
     pub frames: usize,
     /// Values that were changed and could not be restored.
     pub left_changed: Vec<LeftChanged>,

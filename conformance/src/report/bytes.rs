@@ -13,7 +13,6 @@ pub struct BytesReport {
     /// The stream they are; none if no table describes them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stream: Option<String>,
-    /// How many.
     pub length: usize,
     /// The fields in their order; together they are all of the bytes.
     pub fields: Vec<FieldReport>,

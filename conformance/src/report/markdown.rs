@@ -9,7 +9,6 @@ use crate::judge::{Exit, Verdict, WaiverReport};
 /// The most characters of failures: a comment at GitHub has at most 65 536.
 const FAILURES_MAX: usize = 48_000;
 
-/// Writes the report as Markdown.
 pub fn to_markdown(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     let Report { suite, vectors, time, editions, seed, only, target, profile, .. } = report;
     let verdict = if report.exit() == Exit::Success { "passed" } else { "not passed" };

@@ -29,7 +29,6 @@ pub use model::{
     RequirementReport, SubjectReport, TargetReport, Totals,
 };
 
-/// Writes the report as JSON.
 pub fn to_json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     json::write(report, out)
 }

@@ -25,9 +25,7 @@ pub struct Report {
     /// Values that were changed and could not be restored.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_changed: Vec<LeftChanged>,
-    /// Version of the suite.
     pub suite: String,
-    /// Version of the vectors.
     pub vectors: String,
     /// When the run began, in UTC.
     pub time: String,
@@ -44,9 +42,7 @@ pub struct Report {
     pub waivers: Vec<WaiverReport>,
     /// The exit code this run ends with.
     pub exit_code: u8,
-    /// Checks made.
     pub checks: usize,
-    /// Frames exchanged.
     pub frames: usize,
     /// Cases that were not selected; they are not among the cases.
     pub left_out: usize,
@@ -56,7 +52,6 @@ pub struct Report {
     pub cases: Vec<CaseReport>,
 }
 
-/// Who was judged.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TargetReport {
@@ -116,7 +111,6 @@ pub struct AreaReport {
     pub area: String,
     /// Verdicts of its requirements, each once and by its gravest.
     pub totals: Totals,
-    /// The requirements, in their order.
     pub requirements: Vec<RequirementReport>,
 }
 
@@ -149,7 +143,6 @@ pub struct CaseReport {
     pub waived: bool,
     /// The verdict on each of its requirements.
     pub requirements: Vec<RequirementReport>,
-    /// Checks made.
     pub checks: usize,
     /// Why it did not run, or not to its end.
     #[serde(default, skip_serializing_if = "Option::is_none")]

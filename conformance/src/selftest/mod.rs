@@ -27,7 +27,6 @@ use detection::{Checked, Scope};
 
 pub use show::print;
 
-/// Who is tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Group {
@@ -57,7 +56,6 @@ pub struct Tried {
     pub what: String,
     /// What it breaks; nothing if it does nothing wrong.
     pub targets: Vec<String>,
-    /// Requirements that failed.
     pub failed: Vec<String>,
     pub result: Outcomes,
     /// Of one that survives: why it may.

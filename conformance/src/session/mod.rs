@@ -326,7 +326,6 @@ impl Session {
         self.client.is_dry()
     }
 
-    /// Whom it asks.
     pub const fn target(&self) -> &Target {
         self.client.target()
     }

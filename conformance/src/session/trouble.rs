@@ -44,14 +44,12 @@ pub enum Trouble {
     Ads {
         /// What it was asked.
         function: Function,
-        /// The error number.
         error: AdsError,
     },
     /// The device says nothing of itself.
     Device {
         /// The command's name: ReadDeviceInfo or ReadState.
         command: &'static str,
-        /// The error number.
         error: AdsError,
     },
     /// The reply does not hold together.

@@ -7,7 +7,6 @@ use ads_cnc::{CncStr, CncString};
 
 use super::model::Parameter;
 
-/// A parameter and what became of it.
 #[derive(Clone, Debug)]
 pub(super) struct ParameterState {
     pub(super) is: Parameter,

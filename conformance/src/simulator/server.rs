@@ -27,7 +27,6 @@ pub const CONNECTION_BYTES_MAX: usize = connection::HELD_MAX;
 /// Bytes of the stack of a connection's thread.
 const STACK: usize = 1024 * 1024;
 
-/// How a server serves.
 #[derive(Clone, Copy, Debug)]
 pub struct ServerOptions {
     /// The AMS NetId it answers for.

@@ -15,7 +15,6 @@ use super::program::{Policy, Program, Script};
 /// Contents, in the order of what they belong to.
 pub(super) type Values = Vec<Vec<u8>>;
 
-/// The state of a CNC.
 #[derive(Debug)]
 pub(super) struct State {
     /// In the model's order.

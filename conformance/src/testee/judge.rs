@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::describe::describe;
 use super::plan::{Asked, Purpose, plan};
 use super::protocol_rules::ProtocolRules;
-use super::verdicts::{Reactions, Verdicts};
+use super::verdicts::{Reactions, Terms, Verdicts};
 use super::{Reaction, Testee};
 use crate::codec::message::{Answer, Hello};
 use crate::judge::{Case, Outcome, Stop, Subject, Verdict, caught};
@@ -17,26 +17,11 @@ const LOST_MAX: usize = 12;
 /// The most memory that answers may take together, in bytes; those to all vectors take a part of it.
 const ANSWERS_MAX: usize = 32 << 20;
 
-/// How a testee is asked.
-#[derive(Clone, Copy, Debug)]
-pub struct Terms<'t> {
-    pub seed: u32,
-    /// As whom it is judged.
-    pub subject: Subject,
-    /// The edition it is judged by, if one was chosen.
-    pub edition: Option<&'t str>,
-    /// Whether what is assumed is required too, as it is of this project's own codec.
-    pub strict: bool,
-}
-
-/// What came of a testee.
 #[derive(Debug)]
 pub struct Judged {
-    /// What it says of itself.
     pub hello: Option<Hello>,
     /// Of each case, and of the protocol.
     pub outcomes: Vec<Outcome>,
-    /// Questions asked.
     pub asked: usize,
     /// How often it had to be started anew.
     pub restarts: usize,

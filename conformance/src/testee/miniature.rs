@@ -6,7 +6,6 @@ use crate::codec::message::{
 };
 use crate::text::named;
 
-/// A testee that misbehaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Miniature {
     /// Accepts everything.
@@ -65,7 +64,6 @@ impl Miniature {
         })
     }
 
-    /// What it says of itself.
     pub fn hello(self, own: &Own) -> Hello {
         let mut hello = own.hello();
         hello.testee.name = format!("miniature {}", self.name());
@@ -124,7 +122,6 @@ impl Miniature {
     }
 }
 
-/// What a miniature does.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Act {
     /// Says a line.

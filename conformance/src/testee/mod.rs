@@ -20,11 +20,12 @@ pub use crate::codec::message::{
 };
 pub use crate::process::LINE_MAX;
 pub use check::{Finding, check_protocol};
-pub use judge::{Judged, Terms, judge};
+pub use judge::{Judged, judge};
 pub use miniature::{Act, Miniature};
 pub use own::Own;
 pub use plan::questions;
 pub use process::{Process, answered, greeted};
+pub use verdicts::Terms;
 
 /// Who is judged by the golden vectors.
 pub trait Testee {

@@ -13,7 +13,6 @@ use crate::faults::{Defect, Seed};
 /// The codec's answers, with a defect if that is asked for.
 #[derive(Clone, Debug, Default)]
 pub struct Own {
-    /// What it does wrong.
     pub defect: Option<Seed>,
 }
 

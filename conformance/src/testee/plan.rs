@@ -96,7 +96,6 @@ fn made_up(number: u64, edition: &str) -> Asked {
     Asked { purpose: Purpose::MadeUp, question }
 }
 
-/// What a case asks.
 pub fn questions(case: &Case, edition: &str) -> Vec<Question> {
     match &case.body {
         Body::Vector(vector) => of_vector(vector, edition),

@@ -5,13 +5,24 @@ use std::collections::HashMap;
 use ads_cnc_vectors::{Expect, Level, Sequence, SequenceExpect, Vector, sequence, vector};
 
 use super::describe::{describe, evidence};
-use super::judge::Terms;
 use super::plan::{forms, questions};
 use super::{Reaction, compare};
 use crate::codec::message::{Answer, Hello, Output, Question};
-use crate::judge::{Body, Case, Evidence, Judgement, Outcome, Stop, TEXT_MAX, Verdict};
+use crate::judge::{Body, Case, Evidence, Judgement, Outcome, Stop, Subject, TEXT_MAX, Verdict};
 use crate::show::show;
 use crate::text::{hex::compact, shorten};
+
+/// How a testee is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Terms<'t> {
+    pub seed: u32,
+    /// As whom it is judged.
+    pub subject: Subject,
+    /// The edition it is judged by, if one was chosen.
+    pub edition: Option<&'t str>,
+    /// Whether what is assumed is required too, as it is of this project's own codec.
+    pub strict: bool,
+}
 
 /// The answers to the questions of a case, by op.
 pub(super) type Reactions = HashMap<(usize, String), Reaction>;
@@ -27,7 +38,6 @@ pub(super) struct Verdicts<'v> {
     pub(super) gone: Option<Stop>,
 }
 
-/// What came of one question.
 struct Check {
     verdict: Verdict,
     /// The most that it can mean.

@@ -83,7 +83,6 @@ impl Cnc {
     }
 }
 
-/// Judges traffic.
 #[derive(Debug)]
 pub(super) struct Judge {
     records: TopicRecords,

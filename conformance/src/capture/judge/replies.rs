@@ -67,7 +67,6 @@ fn short_error(
     }
 }
 
-/// Judges the data of a reply.
 pub(super) fn judge(
     bench: &mut Bench<'_>,
     observation: &Observation<'_>,

@@ -31,7 +31,6 @@ use check::Checked;
 use progress::Progress;
 use send::{End, Retry, Sending};
 
-/// The most bytes of a program.
 const PROGRAM_MAX: u64 = 256 * 1024 * 1024;
 
 /// Sends an NC program to the program stream of a channel. This moves the machine.

@@ -139,7 +139,6 @@ fn range(first: usize, last: usize) -> String {
     }
 }
 
-/// Acknowledges the packet that is out.
 pub(super) fn acknowledge(sender: &mut Sender<'_>, ack: Ack) -> Result<(), Trouble> {
     sender.acknowledge(ack).map_err(|error| Trouble::Internal(error.to_string()))
 }

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-/// A seeded defect of a client.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Defect {
     /// `client.no-nul`.

@@ -22,12 +22,10 @@ use wire::Wire;
 /// This project's client, in this process.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ReferenceClient {
-    /// What it does wrong.
     pub flaw: Option<Flaw>,
 }
 
 impl ReferenceClient {
-    /// What it says of itself.
     pub fn hello() -> Hello {
         Hello {
             protocol: PROTOCOL,

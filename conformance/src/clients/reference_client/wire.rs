@@ -18,7 +18,6 @@ use crate::simulator::DATA_MAX;
 /// How long it waits for a reply.
 const TIMEOUT: Duration = Duration::from_secs(3);
 
-/// A connection.
 pub(super) struct Wire {
     stream: TcpStream,
     header: AmsHeader,

@@ -98,7 +98,6 @@ impl Walk<'_> {
     }
 }
 
-/// A variable as it is described.
 fn row(list: List, channel: Channel, variable: &DescriptionRef<'_>) -> Object {
     let name = CncString::from(variable.name.text());
     Object {

@@ -70,9 +70,7 @@ impl Mode {
 pub struct Detection {
     /// How it came out.
     pub result: Found,
-    /// The requirements that fail.
     pub requirements: BTreeSet<String>,
-    /// The cases that fail.
     pub cases: BTreeSet<String>,
 }
 

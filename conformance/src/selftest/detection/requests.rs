@@ -64,7 +64,6 @@ const NAMES: [&str; 12] = [
 /// How many requests of a function are also sent malformed.
 const MALFORMED_EACH: usize = 6;
 
-/// A variable that was found.
 #[derive(Clone)]
 struct Variable {
     channel: Channel,

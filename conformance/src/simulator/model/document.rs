@@ -3,7 +3,6 @@
 use serde::Deserialize;
 use toml::{Spanned, Value};
 
-/// The file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(super) struct Document {

@@ -79,7 +79,6 @@ pub(super) struct ChannelModel {
     pub(super) list_of_first: Descriptors,
 }
 
-/// A platform axis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct AxisModel {
     /// Instance identifier, in names of V.A on the channel interface.

@@ -82,7 +82,6 @@ pub(super) const OBJECT: &[Named] = &[
     named("STRING", Scalar::String),
 ];
 
-/// The type of this name.
 pub(super) fn find(types: &'static [Named], name: &str) -> Result<&'static Named, String> {
     types.iter().find(|known| known.name == name).ok_or_else(|| {
         let known: Vec<&str> = types.iter().map(|known| known.name).collect();

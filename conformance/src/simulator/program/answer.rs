@@ -22,7 +22,6 @@ pub struct Answer {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
     Response {
-        /// The response state.
         state: u32,
         text: CncString,
     },

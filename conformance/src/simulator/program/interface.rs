@@ -76,7 +76,6 @@ impl StreamingInterface {
         self.len = 0;
     }
 
-    /// Bytes held.
     pub const fn len(&self) -> usize {
         self.len
     }

@@ -68,10 +68,8 @@ pub(crate) trait Buffer: fmt::Debug + Send {
     /// A line without CR LF.
     fn read(&mut self) -> Result<Vec<u8>, LineError>;
 
-    /// Bytes held.
     fn len(&self) -> usize;
 
-    /// Forgets them.
     fn clear(&mut self);
 }
 

@@ -24,7 +24,6 @@ pub enum State {
 pub struct Message {
     /// Number of the error; none for loops and jumps back, whose numbers are not documented.
     pub number: Option<u32>,
-    /// Name of the program.
     pub file: String,
     /// The line since the start of the program, from 1.
     pub line: u32,

@@ -79,11 +79,7 @@ pub enum CallStep<'a> {
         until: Option<Duration>,
     },
     /// The service has answered.
-    Done {
-        /// The response state.
-        state: u32,
-        response: CncStr<'a>,
-    },
+    Done { state: u32, response: CncStr<'a> },
     /// There was no response within the longest wait. The request stands until the next one.
     TimedOut,
 }

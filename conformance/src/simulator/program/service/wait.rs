@@ -54,7 +54,6 @@ pub struct SysServiceWait {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LongestWait {
-    /// How long.
     pub time: Duration,
     /// ID of the timer in the CNC that measures it; the machines here are told the time.
     pub timer: u32,
@@ -161,10 +160,7 @@ pub enum WaitStep {
         until: Option<Duration>,
     },
     /// There is a response, of this state.
-    Done {
-        /// The response state.
-        state: u32,
-    },
+    Done { state: u32 },
     /// There was none within the longest wait.
     TimedOut,
 }
