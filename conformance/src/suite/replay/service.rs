@@ -17,12 +17,12 @@ use crate::simulator::program::service::{CallError, CallStep, ServiceInterface};
 use crate::simulator::program::{
     Outcome, Repeat, Request, Script, ScriptConfig, ScriptState, Wait,
 };
-use crate::suite::kit::{Probe, heard};
+use crate::suite::kit::{Probe, heard, service_channels};
 
 /// Goes through the steps up to the first at fault, and leaves the interfaces as at the start.
 pub(super) fn run<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {
     let cnc = probe.cnc()?;
-    let channels = crate::suite::service_interface::channels(probe)?;
+    let channels = service_channels(probe)?;
     for step in &given.steps {
         channel_of(&channels, step)?;
     }

@@ -13,8 +13,7 @@ use super::{Done, Fault, differs, lacks};
 use crate::judge::{Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Message, Pace, Program, ProgramConfig, Start, State};
-use crate::suite::kit::Probe;
-use crate::suite::stream::{HELD_MAX, StreamWrite, send, send_until_taken};
+use crate::suite::kit::{HELD_MAX, Probe, StreamWrite, send, send_until_taken};
 
 /// Who plays, and before whom.
 struct StreamingPlayer<'s, 'p> {
