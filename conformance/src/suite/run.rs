@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::LazyLock;
 
-use super::kit::Probe;
-use super::session::Session;
+use super::kit::{Probe, Session};
+
 use super::{Try, printed, replay, rows};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
