@@ -1,5 +1,5 @@
-//! What cases are made of: asking, judging, finding what a target has, and restoring what is
-//! written.
+//! The tools of the cases: they ask a target, judge its answers, list what it has, and restore what
+//! was written.
 
 mod addresses;
 mod axis_interface;
