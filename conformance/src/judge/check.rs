@@ -39,25 +39,25 @@ impl Stop {
     }
 }
 
-/// An error of what the suite builds for itself, such as a request that has no form on the wire: what
-/// a target sends is decoded to a verdict instead.
+/// An error that a case returns with `?` is the suite's own, such as a request that has no form on the
+/// wire. A reply that cannot be decoded is a failed check, or None, but never such an error.
 impl<E: Error> From<E> for Stop {
     fn from(error: E) -> Self {
         Self::Harness(error.to_string())
     }
 }
 
-/// The end of a case that goes through many things: not applicable if it had none of them to judge.
+/// Ends a case as not applicable unless it judged anything.
 pub(crate) fn applicable(any: bool, why: &str) -> Step {
     if any { Ok(()) } else { Err(Stop::not_applicable(why)) }
 }
 
-/// What a case cannot do without.
+/// Ends a case that lacks a value.
 pub(crate) trait OrStop<T> {
-    /// Not applicable without it.
+    /// The value, or the case is not applicable.
     fn or_not_applicable(self, why: &str) -> Step<T>;
 
-    /// Inconclusive without it.
+    /// The value, or the case is inconclusive.
     fn or_inconclusive(self, why: &str) -> Step<T>;
 }
 
@@ -71,12 +71,13 @@ impl<T> OrStop<T> for Option<T> {
     }
 }
 
-/// What a case can do without.
+/// Goes on with a case that lacks a value.
 pub(crate) trait IfThere<T> {
-    /// None where the target does not have it.
+    /// The value, or None where the target does not have it.
     fn if_applicable(self) -> Step<Option<T>>;
 
-    /// None also where it could not be read, which other cases judge.
+    /// The value, or None where the target does not have it or it could not be read: other cases judge
+    /// that.
     fn if_known(self) -> Step<Option<T>>;
 }
 
@@ -122,7 +123,7 @@ pub const fn online(id: &'static str) -> Rule {
     Rule { id, level: Some(Level::Should) }
 }
 
-/// The requirements that a check speaks for.
+/// The requirements of one check.
 pub trait Rules {
     /// Each of them.
     fn rules(self) -> impl Iterator<Item = Rule>;
@@ -164,10 +165,9 @@ impl<R: Into<Rule> + Copy> Rules for &Vec<R> {
     }
 }
 
-/// What was expected, or found, in words. Only a check that fails asks for them, so that a closure is
-/// called then.
+/// What a check expected, or found. Only a check that fails formats it: for a pass no closure is called.
 pub trait Describe {
-    /// The words.
+    /// As a report shows it.
     fn describe(self) -> String;
 }
 
@@ -241,7 +241,7 @@ impl Rule {
 }
 
 impl Record {
-    /// Adds checks that passed or failed together, one of each rule.
+    /// Adds one check of several rules.
     pub(crate) fn add_all(
         &mut self,
         rules: impl Rules,
@@ -280,14 +280,12 @@ impl Record {
             return;
         }
         let (requirement, level) = (rule.id, rule.level);
-        let (mut words, mut shown) = ((String::new(), String::new()), None);
-        if !passed {
+        let (expected, found, evidence) = if passed {
+            (String::new(), String::new(), None)
+        } else {
             let short = |text: String| shorten(&text, TEXT_MAX);
-            words = (short(expected.describe()), short(found.describe()));
-            shown = evidence();
-        }
-        let (expected, found) = words;
-        let evidence = shown;
+            (short(expected.describe()), short(found.describe()), evidence())
+        };
         let judgement =
             Judgement { requirement, level, verdict, expected, found, evidence, more: 0 };
         self.judgements.push(judgement);

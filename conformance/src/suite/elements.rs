@@ -12,8 +12,8 @@ use ads_cnc::{Decode, ErrorKind};
 
 use super::kit::{
     Instance, OF_PLACES, Probe, RawCall, Steady, attribute_reads, element_by_rank, number_of,
+    type_and_length,
 };
-use super::sda::type_and_length;
 use super::{Row, case};
 use crate::judge::{Needs, OrStop as _, Step, assumed};
 

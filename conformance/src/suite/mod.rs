@@ -28,7 +28,6 @@ pub mod replay;
 mod run;
 mod sda;
 mod service_interface;
-mod session;
 mod simulator_state;
 mod stream;
 mod texts;
@@ -46,9 +45,8 @@ mod write_sizes;
 mod write_texts;
 
 pub(crate) use com::descriptor_holds_together;
-pub use kit::{Changes, Probe};
+pub use kit::{Changes, Probe, Session};
 pub use run::run;
-pub use session::Session;
 pub(crate) use variable::holds_together;
 
 use crate::judge::{Body, Case, Needs, Step, Subject, codec_cases, in_catalogue};

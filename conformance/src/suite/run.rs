@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-use super::kit::Probe;
-use super::session::Session;
+use super::kit::{Probe, Session};
+
 use super::{Try, printed, replay, rows};
 use crate::deadline::Deadline;
 use crate::faults::Seed;
@@ -118,8 +118,8 @@ mod tests {
     }
 
     fn panics(probe: &mut Probe<'_>) -> Step {
-        let trial = WriteCheck { what: NAME, rules: &[], is_text: false, name: None };
-        probe.try_write(&trial, &place(), |probe, before, new| {
+        let write_check = WriteCheck { what: NAME, rules: &[], is_text: false, name: None };
+        probe.try_write(&write_check, &place(), |probe, before, new| {
             assert_eq!(probe.value_at(&place()).unwrap().as_deref(), Some(new));
             assert_ne!(before, new);
             panic!("in a case")

@@ -51,14 +51,14 @@ fn written(probe: &mut Probe<'_>) -> Step {
         };
         any = true;
         let rules = [Rule::from("GEN-3")];
-        let trial = WriteCheck { what: &what, rules: &rules, is_text: true, name: None };
+        let write_check = WriteCheck { what: &what, rules: &rules, is_text: true, name: None };
         probe.changing(
-            &trial,
+            &write_check,
             &address,
             &before,
             |probe| characters(probe, &address, &what, before.len()),
             |probe| {
-                let taken = probe.put(&trial, &address, &before)?;
+                let taken = probe.put(&write_check, &address, &before)?;
                 Ok(taken
                     && probe.value_at(&address)?.is_some_and(|read| same(&read, &before, true)))
             },

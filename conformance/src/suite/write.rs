@@ -30,7 +30,7 @@ pub(super) const CASES: &[Row] = &[
 fn by_handle(probe: &mut Probe<'_>) -> Step {
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let handle = handle_of(probe, channel, variable)?;
-        let address = ValueAddress::Handle { channel, handle, indices: Vec::new() };
+        let address = ValueAddress::of_handle(channel, handle);
         let name = variable.name.text.to_string();
         if !probe.may_write(&address, &name)? {
             return Ok(false);
@@ -49,7 +49,7 @@ fn by_name(probe: &mut Probe<'_>) -> Step {
             return Ok(false);
         }
         let handle = variable.handle;
-        let by_handle = ValueAddress::Handle { channel, handle, indices: Vec::new() };
+        let by_handle = ValueAddress::of_handle(channel, handle);
         let rules = ["VAR-13", "VAR-17", "VAR-6"].map(Rule::from);
         probe.try_write(&write_check(variable, &name, &rules), &address, |probe, _, new| {
             let named = probe.value_at(&address)?.unwrap_or_default();
@@ -114,8 +114,8 @@ fn by_names(probe: &mut Probe<'_>, rule: &'static str, names: Vec<CncString>) ->
         if probe.may_write(&address, &what)? {
             any = true;
             let rules = [assumed(rule)];
-            let trial = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
-            probe.try_write(&trial, &address, |probe, _, new| {
+            let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
+            probe.try_write(&write_check, &address, |probe, _, new| {
                 // What is taken is there, though.
                 let read = probe.value_at(&address)?.unwrap_or_default();
                 let expected = || format!("{} of {what}, as written", Hex(new.to_vec()));

@@ -27,11 +27,7 @@ fn after_refusal(probe: &mut Probe<'_>) -> Step {
     for known in writable_numbers(probe)? {
         let WritableNumber { channel, variable, value } = &known;
         let unknown = WriteByName::new(*channel, "V.E.no such variable", value)?;
-        let handle = ValueAddress::Handle {
-            channel: *channel,
-            handle: variable.handle,
-            indices: Vec::new(),
-        };
+        let handle = ValueAddress::of_handle(*channel, variable.handle);
         for (id, address) in [("VAR-13", known.address()), ("VAR-12", handle)] {
             let other = another(value, false);
             let (good, back) = (address.write(&other), address.write(value));
@@ -75,7 +71,7 @@ fn objects_of_wrong_size(probe: &mut Probe<'_>) -> Step {
         if !is_tried || address.read().is_err() || !probe.may_write(&address, &name)? {
             continue;
         }
-        let Some(value) = probe.value_at(&address)?.filter(|value| !value.is_empty()) else {
+        let Some(value) = probe.filled_value_at(&address)? else {
             continue;
         };
         let other = another(&value, false);
@@ -142,7 +138,7 @@ fn empty_places(probe: &mut Probe<'_>) -> Step {
         if address.read().is_err() || !probe.may_write(&address, &what)? {
             continue;
         }
-        let Some(blank) = probe.value_at(&address)?.filter(|value| !value.is_empty()) else {
+        let Some(blank) = probe.filled_value_at(&address)? else {
             continue;
         };
         any = true;

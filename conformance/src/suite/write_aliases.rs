@@ -36,7 +36,7 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
             continue;
         }
         // What is not taken by number either is judged elsewhere.
-        let Some(value) = probe.value_at(&logical)?.filter(|value| !value.is_empty()) else {
+        let Some(value) = probe.filled_value_at(&logical)? else {
             continue;
         };
         if probe.try_ask(logical.write(&value)?)?.is_none() {
@@ -45,9 +45,9 @@ fn objects_by_index(probe: &mut Probe<'_>) -> Step {
         any = true;
         let rules = [Rule::from("ADR-12")];
         let is_text = object.is_text();
-        let trial =
+        let write_check =
             WriteCheck { what: &format!("{what} by index"), rules: &rules, is_text, name: None };
-        probe.try_write(&trial, &address, |probe, _, _| {
+        probe.try_write(&write_check, &address, |probe, _, _| {
             let (read, number) = (probe.value_at(&address)?, probe.value_at(&logical)?);
             let same = number == read || probe.value_at(&address)? != read;
             let expected = || format!("{} of {what}, by number too", Hex(read.unwrap_or_default()));
@@ -79,8 +79,8 @@ fn axes_of_hld(probe: &mut Probe<'_>) -> Step {
         };
         any = true;
         let twin = ValueAddress::Element { element, length: *length };
-        let trial = WriteCheck { what, rules: &[], is_text: *is_text, name: None };
-        probe.try_write(&trial, address, |probe, _, new| {
+        let write_check = WriteCheck { what, rules: &[], is_text: *is_text, name: None };
+        probe.try_write(&write_check, address, |probe, _, new| {
             let (before, read) = (probe.value_at(address)?, probe.value_at(&twin)?);
             let stood = probe.value_at(address)? == before && before.as_deref() == Some(new);
             let expected = || format!("{} of {what}, in the HLD of {other} too", Hex(new.to_vec()));
@@ -101,8 +101,8 @@ fn by_name_only(probe: &mut Probe<'_>) -> Step {
             any = true;
             let (what, rules) = (name.to_string(), [Rule::from("VAR-18")]);
             let address = ValueAddress::Name { channel, name };
-            let trial = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
-            probe.try_write(&trial, &address, |_, _, _| Ok(()))?;
+            let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
+            probe.try_write(&write_check, &address, |_, _, _| Ok(()))?;
         }
     }
     applicable(any, "there is no V.CYC that may be written")

@@ -49,8 +49,8 @@ fn objects(probe: &mut Probe<'_>) -> Step {
         let what = object.name.to_string();
         let is_text = object.is_text();
         let rules = ["COM-5", "COM-2"].map(Rule::from);
-        let trial = WriteCheck { what: &what, rules: &rules, is_text, name: None };
-        probe.try_write(&trial, &object.address(), |_, _, _| Ok(()))?;
+        let write_check = WriteCheck { what: &what, rules: &rules, is_text, name: None };
+        probe.try_write(&write_check, &object.address(), |_, _, _| Ok(()))?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
@@ -62,8 +62,8 @@ fn read_only_objects(probe: &mut Probe<'_>) -> Step {
     for object in &all {
         let what = object.name.to_string();
         let rules = ["COM-2".into()];
-        let trial = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
-        probe.write_refused(&trial, &object.address(), known.as_ref())?;
+        let write_check = WriteCheck { what: &what, rules: &rules, is_text: false, name: None };
+        probe.write_refused(&write_check, &object.address(), known.as_ref())?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }
@@ -73,9 +73,10 @@ fn elements(probe: &mut Probe<'_>) -> Step {
     for one in &all {
         let twins = twins(probe, one)?;
         let rules = ["SDA-9".into()];
-        let trial = WriteCheck { what: &one.what, rules: &rules, is_text: one.is_text, name: None };
+        let write_check =
+            WriteCheck { what: &one.what, rules: &rules, is_text: one.is_text, name: None };
         let mut taken = Vec::new();
-        probe.try_write(&trial, &one.address, |probe, _, new| {
+        probe.try_write(&write_check, &one.address, |probe, _, new| {
             for (rule, twin, address, before) in &twins {
                 let after = probe.value_at(address)?.unwrap_or_default();
                 if after == new && after != *before {
@@ -144,7 +145,7 @@ fn twins(probe: &mut Probe<'_>, one: &WritableElement) -> Step<Vec<Twin>> {
 fn wrong_size(probe: &mut Probe<'_>) -> Step {
     let all = elements_with_flag(probe, true)?;
     for WritableElement { address, what, .. } in all.iter().filter(|one| !one.is_text) {
-        let Some(value) = probe.value_at(address)?.filter(|value| !value.is_empty()) else {
+        let Some(value) = probe.filled_value_at(address)? else {
             continue;
         };
         let longer = [&value[..], &[0]].concat();
@@ -170,8 +171,8 @@ fn read_only_elements(probe: &mut Probe<'_>) -> Step {
     let all = elements_with_flag(probe, false)?;
     for WritableElement { address, what, .. } in &all {
         let rules = ["SDA-9".into()];
-        let trial = WriteCheck { what, rules: &rules, is_text: false, name: None };
-        probe.write_refused(&trial, address, known.as_ref())?;
+        let write_check = WriteCheck { what, rules: &rules, is_text: false, name: None };
+        probe.write_refused(&write_check, address, known.as_ref())?;
     }
     applicable(!all.is_empty(), NOTHING_WRITABLE)
 }

@@ -49,7 +49,7 @@ fn elements(
 ) -> Step {
     each_of_access(probe, VariableAccess::READ_WRITE, |probe, channel, variable| {
         let mut any = false;
-        let whole = ValueAddress::Handle { channel, handle: variable.handle, indices: Vec::new() };
+        let whole = ValueAddress::of_handle(channel, variable.handle);
         let arrays =
             if variable.dimensions.is_empty() { Vec::new() } else { ends(&variable.dimensions) };
         for indices in arrays {
@@ -62,14 +62,15 @@ fn elements(
             any = true;
             let before = probe.value_at(&whole)?.unwrap_or_default();
             let rules = rules(variable);
-            let trial = write_check(variable, &name, &rules);
-            probe.try_write(&trial, &place, |probe, old, new| {
+            let write_check = write_check(variable, &name, &rules);
+            probe.try_write(&write_check, &place, |probe, old, new| {
                 // Wherever it lies, and whoever allows it: what it takes there it gives there.
                 let read = probe.value_at(&place)?.unwrap_or_default();
                 let is_text = variable.var_type == VariableType::STRING;
                 let kept = same(&read, new, is_text);
                 let expected = || format!("{} of {name}, as written", Hex(new.to_vec()));
-                let stated: Vec<Rule> = trial.rules.iter().map(|rule| rule.id.into()).collect();
+                let stated: Vec<Rule> =
+                    write_check.rules.iter().map(|rule| rule.id.into()).collect();
                 probe.check(&stated, kept, expected, || Hex(read.clone()));
                 // The one element, at its place of the whole, and nothing else.
                 let mut expected = before.clone();
@@ -79,7 +80,7 @@ fn elements(
                 part.unwrap_or_default().iter_mut().zip(new).for_each(|(byte, new)| *byte = *new);
                 let after = probe.value_at(&whole)?.unwrap_or_default();
                 let shown = || Hex(expected.clone());
-                probe.check(trial.rules, after == expected, shown, || Hex(after.clone()));
+                probe.check(write_check.rules, after == expected, shown, || Hex(after.clone()));
                 Ok(())
             })?;
         }

@@ -44,7 +44,7 @@ impl WatchedVariable {
 
     fn handled(&self) -> ValueAddress {
         let handle = self.variable.handle;
-        ValueAddress::Handle { channel: self.channel, handle, indices: Vec::new() }
+        ValueAddress::of_handle(self.channel, handle)
     }
 }
 

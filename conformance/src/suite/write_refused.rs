@@ -42,7 +42,7 @@ fn each_read_only(
         let mut any = false;
         for address in [
             ValueAddress::Name { channel, name: variable.name.text.clone() },
-            ValueAddress::Handle { channel, handle, indices: Vec::new() },
+            ValueAddress::of_handle(channel, handle),
         ] {
             if probe.may_write(&address, &name)? {
                 any = true;
@@ -56,29 +56,29 @@ fn each_read_only(
 
 fn read_only(probe: &mut Probe<'_>) -> Step {
     let sibling = first(probe)?.address();
-    each_read_only(probe, |probe, trial, address| {
-        probe.write_refused(trial, address, Some(&sibling))
+    each_read_only(probe, |probe, write_check, address| {
+        probe.write_refused(write_check, address, Some(&sibling))
     })
 }
 
 fn read_only_changed(probe: &mut Probe<'_>) -> Step {
-    each_read_only(probe, |probe, trial, address| {
-        let Some(before) = probe.value_at(address)?.filter(|value| !value.is_empty()) else {
+    each_read_only(probe, |probe, write_check, address| {
+        let Some(before) = probe.filled_value_at(address)? else {
             return Ok(());
         };
         let moved = probe.value_at(address)?.as_ref() != Some(&before);
-        let other = another(&before, trial.is_text);
+        let other = another(&before, write_check.is_text);
         let Some(write) = address.write(&other).ok().filter(is_sendable) else { return Ok(()) };
         let exchange = probe.send(write)?;
         let refused = exchange.is_error();
-        let expected = || format!("an error number for a write of {}", trial.what);
+        let expected = || format!("an error number for a write of {}", write_check.what);
         probe.check("VAR-6", refused, expected, &exchange);
         let after = probe.value_at(address)?.unwrap_or_default();
         // What moves by itself has not been written.
         if after != before && (moved || probe.moves(address, false)?) {
             return Ok(());
         }
-        let expected = || format!("{} of {} as before", Hex(before.clone()), trial.what);
+        let expected = || format!("{} of {} as before", Hex(before.clone()), write_check.what);
         probe
             .check("VAR-6", after == before, expected, || Hex(after))
             .then_some(())
@@ -177,7 +177,7 @@ fn out_of_bounds(probe: &mut Probe<'_>) -> Step {
             return Ok(false);
         }
         tried = tried.saturating_add(1);
-        let whole = ValueAddress::Handle { channel, handle: *handle, indices: Vec::new() };
+        let whole = ValueAddress::of_handle(channel, *handle);
         let Some(value) = probe.value_at(&first)? else { return Ok(false) };
         let other = another(&value, false);
         let good = first.write(&value)?;

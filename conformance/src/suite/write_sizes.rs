@@ -77,10 +77,10 @@ fn of_way(
     way: &WriteAddress,
 ) -> Step {
     let is_text = variable.var_type == VariableType::STRING;
-    let Some(value) = probe.value_at(&way.address)?.filter(|value| !value.is_empty()) else {
+    let Some(value) = probe.filled_value_at(&way.address)? else {
         return Ok(());
     };
-    let whole = ValueAddress::Handle { channel, handle: variable.handle, indices: Vec::new() };
+    let whole = ValueAddress::of_handle(channel, variable.handle);
     // Other bytes from the first on: a part of them that is written shows.
     let other = if is_text { vec![b'x'; value.len()] } else { another(&value, false) };
     let size = variable.var_type.element_size().and_then(|size| usize::try_from(size).ok());

@@ -23,22 +23,20 @@ fn texts(probe: &mut Probe<'_>) -> Step {
         let mut any = false;
         for (id, address) in [
             ("VAR-13", ValueAddress::Name { channel, name: name.clone() }),
-            (
-                "VAR-12",
-                ValueAddress::Handle { channel, handle: variable.handle, indices: Vec::new() },
-            ),
+            ("VAR-12", ValueAddress::of_handle(channel, variable.handle)),
         ] {
             if !probe.may_write(&address, &name.to_string())? {
                 continue;
             }
-            let Some(before) = probe.value_at(&address)?.filter(|value| !value.is_empty()) else {
+            let Some(before) = probe.filled_value_at(&address)? else {
                 continue;
             };
             any = true;
             let what = name.to_string();
-            let trial = WriteCheck { what: &what, rules: &[], is_text: true, name: Some(&name) };
+            let write_check =
+                WriteCheck { what: &what, rules: &[], is_text: true, name: Some(&name) };
             probe.changing(
-                &trial,
+                &write_check,
                 &address,
                 &before,
                 |probe| of_lengths(probe, id, &address, (&name, variable.size)),

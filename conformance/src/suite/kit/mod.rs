@@ -1,17 +1,21 @@
-//! What cases are made of: asking, judging, finding what a target has, and restoring what is
-//! written.
+//! The tools of the cases: they ask a target, judge its answers, list what it has, and restore what
+//! was written.
 
 mod addresses;
 mod axis_interface;
 mod counted;
 mod dynamic_variables;
 mod each_variable;
+mod element_type;
 mod inventory;
 mod layout;
 mod object_list;
 mod probe;
 mod raw_call;
+mod service_channels;
+mod session;
 mod steady;
+mod stream_write;
 mod undo;
 mod value_address;
 mod writable;
@@ -24,6 +28,7 @@ pub(crate) use axis_interface::{
 pub(crate) use counted::Counted;
 pub(crate) use dynamic_variables::dynamic_among_variables;
 pub(crate) use each_variable::{each_array, each_variable};
+pub(crate) use element_type::type_and_length;
 pub(crate) use inventory::{
     INSTANCES_MAX, Instance, Inventory, KINDS, OBJECTS_MAX, OF_PLACES, Object, VARIABLES_MAX,
     attribute_reads, element_by_rank, name_of, number_of,
@@ -37,7 +42,10 @@ pub(crate) use object_list::{
 pub use probe::Probe;
 pub(crate) use probe::heard;
 pub(crate) use raw_call::{IntoRawCall, RawCall};
+pub(crate) use service_channels::service_channels;
+pub use session::Session;
 pub(crate) use steady::{Compared, PendingCheck, Steady, between, compare, steadily};
+pub(crate) use stream_write::{HELD_MAX, StreamWrite, send, send_until_taken};
 pub use undo::Changes;
 pub(crate) use value_address::{
     NOTHING_WRITABLE, ValueAddress, WriteCheck, another, is_sendable, same,

@@ -14,7 +14,7 @@ pub(crate) fn object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32>
     Ok(number.min(OBJECTS_MAX))
 }
 
-/// As [`number`], where it is not this case that judges it.
+/// As [`object_count`], where it is not this case that judges it.
 pub(crate) fn known_object_count(probe: &mut Probe<'_>, list: ObjectList) -> Step<u32> {
     let exchange = probe.send(CountObjects::new(list))?;
     let data = exchange.success().unwrap_or_default();

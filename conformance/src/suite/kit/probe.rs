@@ -20,8 +20,7 @@ use crate::judge::{
 use crate::process::interrupt;
 use crate::profile::Claim;
 use crate::simulator::Cnc;
-use crate::suite::kit::RawCall;
-use crate::suite::session::Session;
+use crate::suite::kit::{RawCall, Session};
 
 /// Requests in a row without an answer after which no more are sent.
 const SILENCES_MAX: usize = 8;

@@ -41,7 +41,7 @@ impl RawCall {
     }
 }
 
-/// What can be sent: a request, or one that was changed.
+/// A request, or one that was changed.
 pub(crate) trait IntoRawCall<'a> {
     fn into_raw_call(self) -> Step<RawCall>;
 }

@@ -11,21 +11,21 @@ use crate::suite::kit::Probe;
 /// How often a value that does not stand still is read again.
 const TRIES: usize = 3;
 
-/// What came of comparing a value, read before and after, with what was read in between.
+/// The result of comparing a value, read before and after, with another reading in between.
 pub(crate) enum Compared<B, R> {
     /// The value could not be read.
     NoValue,
     /// In between there was no answer.
     NoAnswer,
     Same,
-    /// It stood still the last time, and differed. The evidence is that of what was read in between.
+    /// It stood still the last time, and differed. The evidence is that of the reading in between.
     Differs(B, R, Option<Box<Evidence>>),
     /// It did not stand still the last time.
     Moved,
 }
 
-/// Compares what `other` reads with what `value` reads before and after it, up to the first time that
-/// `same` finds them the same.
+/// Compares what `other` reads with what `value` reads before and after it, at most [`TRIES`] times,
+/// until `same` finds them the same.
 pub(crate) fn compare<B: PartialEq, R>(
     probe: &mut Probe<'_>,
     mut value: impl FnMut(&mut Probe<'_>) -> Step<Option<B>>,

@@ -119,14 +119,14 @@ impl Probe<'_> {
     /// written back again.
     pub(crate) fn changing(
         &mut self,
-        trial: &WriteCheck<'_>,
+        write_check: &WriteCheck<'_>,
         address: &ValueAddress,
         was: &[u8],
         change: impl FnOnce(&mut Self) -> Step,
         restore: impl FnOnce(&mut Self) -> Step<bool>,
     ) -> Step {
         self.check_time_to_restore()?;
-        let by_name = match (address, trial.name) {
+        let by_name = match (address, write_check.name) {
             (ValueAddress::Handle { channel, indices, .. }, Some(name)) => {
                 let indices: String = indices.iter().map(|index| format!("[{index}]")).collect();
                 let name = format!("{name}{indices}").parse().ok();
@@ -137,9 +137,9 @@ impl Probe<'_> {
         self.session.changes.begin(Change {
             address: address.clone(),
             by_name,
-            name: trial.name.cloned(),
-            what: trial.what.to_owned(),
-            is_text: trial.is_text,
+            name: write_check.name.cloned(),
+            what: write_check.what.to_owned(),
+            is_text: write_check.is_text,
             was: was.to_vec(),
             is: None,
             refused: None,

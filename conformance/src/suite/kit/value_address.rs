@@ -23,6 +23,11 @@ pub(crate) enum ValueAddress {
 }
 
 impl ValueAddress {
+    /// The whole variable with a handle.
+    pub(crate) const fn of_handle(channel: Channel, handle: Handle) -> Self {
+        Self::Handle { channel, handle, indices: Vec::new() }
+    }
+
     pub(crate) fn read(&self) -> Result<Request<'_>, Error> {
         Ok(match self {
             Self::Handle { channel, handle, indices } => {
@@ -111,6 +116,11 @@ impl Probe<'_> {
         }
     }
 
+    /// What is there now, if it is not empty: what could be written back.
+    pub(crate) fn filled_value_at(&mut self, address: &ValueAddress) -> Step<Option<Vec<u8>>> {
+        Ok(self.value_at(address)?.filter(|value| !value.is_empty()))
+    }
+
     /// Whether a value changes by itself between two reads. A read without an answer does not show
     /// that.
     pub(crate) fn moves(&mut self, address: &ValueAddress, is_text: bool) -> Step<bool> {
@@ -140,19 +150,19 @@ impl Probe<'_> {
     /// Writes a value that must be taken.
     pub(crate) fn put(
         &mut self,
-        trial: &WriteCheck<'_>,
+        write_check: &WriteCheck<'_>,
         address: &ValueAddress,
         value: &[u8],
     ) -> Step<bool> {
         let Some(write) = address.write(value).ok().filter(is_sendable) else {
-            let why = format!("{} of {} bytes cannot be written", trial.what, value.len());
+            let why = format!("{} of {} bytes cannot be written", write_check.what, value.len());
             return Err(Stop::Inconclusive(why));
         };
         self.session.changes.is_now(address, Some(value));
         let exchange = self.send(write)?;
         let kept = exchange.success().is_some();
-        let expected = || format!("{} takes {}", trial.what, Hex(value.to_vec()));
-        self.check(trial.rules, kept, expected, &exchange);
+        let expected = || format!("{} takes {}", write_check.what, Hex(value.to_vec()));
+        self.check(write_check.rules, kept, expected, &exchange);
         Ok(kept)
     }
 
@@ -160,68 +170,68 @@ impl Probe<'_> {
     /// the other is there, `then` looks at it; it gets the old and the new.
     pub(crate) fn try_write(
         &mut self,
-        trial: &WriteCheck<'_>,
+        write_check: &WriteCheck<'_>,
         address: &ValueAddress,
         then: impl FnOnce(&mut Self, &[u8], &[u8]) -> Step,
     ) -> Step {
-        let Some(before) = self.value_at(address)?.filter(|value| !value.is_empty()) else {
+        let Some(before) = self.filled_value_at(address)? else {
             return Ok(());
         };
         if !address.write(&before).is_ok_and(|write| is_sendable(&write)) {
             return Ok(());
         }
-        let other = another(&before, trial.is_text);
+        let other = another(&before, write_check.is_text);
         // What it holds it takes first: nothing is changed by that.
-        if !self.put(trial, address, &before)? {
+        if !self.put(write_check, address, &before)? {
             return Ok(());
         }
         self.changing(
-            trial,
+            write_check,
             address,
             &before,
-            |probe| probe.change(trial, address, &before, &other, then),
-            |probe| probe.restore(trial, address, &before),
+            |probe| probe.change(write_check, address, &before, &other, then),
+            |probe| probe.restore(write_check, address, &before),
         )
     }
 
     fn change(
         &mut self,
-        trial: &WriteCheck<'_>,
+        write_check: &WriteCheck<'_>,
         address: &ValueAddress,
         before: &[u8],
         other: &[u8],
         then: impl FnOnce(&mut Self, &[u8], &[u8]) -> Step,
     ) -> Step {
-        if !self.put(trial, address, other)? {
+        if !self.put(write_check, address, other)? {
             return Ok(());
         }
         let after = self.value_at(address)?.unwrap_or_default();
-        let kept = same(&after, other, trial.is_text);
+        let kept = same(&after, other, write_check.is_text);
         // What moves by itself tells nothing of a write.
-        if !kept && self.moves(address, trial.is_text)? {
+        if !kept && self.moves(address, write_check.is_text)? {
             return Ok(());
         }
-        let expected = || format!("{} of {}, as written", Hex(other.to_vec()), trial.what);
-        self.check(trial.rules, kept, expected, || Hex(after.clone()));
+        let expected = || format!("{} of {}, as written", Hex(other.to_vec()), write_check.what);
+        self.check(write_check.rules, kept, expected, || Hex(after.clone()));
         then(self, before, other)
     }
 
     /// Whether the old value is there again, or one that moves by itself.
     fn restore(
         &mut self,
-        trial: &WriteCheck<'_>,
+        write_check: &WriteCheck<'_>,
         address: &ValueAddress,
         before: &[u8],
     ) -> Step<bool> {
-        let taken = self.put(trial, address, before)?;
+        let taken = self.put(write_check, address, before)?;
         // A read without an answer shows nothing.
         let Some(after) = self.value_at(address)? else { return Ok(false) };
-        let kept = same(&after, before, trial.is_text);
-        if !kept && self.moves(address, trial.is_text)? {
+        let kept = same(&after, before, write_check.is_text);
+        if !kept && self.moves(address, write_check.is_text)? {
             return Ok(taken);
         }
-        let expected = || format!("{} of {} again", Hex(before.to_vec()), trial.what);
-        self.check(trial.rules, kept, expected, || Hex(after.clone()));
+        let expected = || format!("{} of {} again", Hex(before.to_vec()), write_check.what);
+        self.check(write_check.rules, kept, expected, || Hex(after.clone()));
         Ok(kept)
     }
 
@@ -229,7 +239,7 @@ impl Probe<'_> {
     /// takes what it holds.
     pub(crate) fn write_refused(
         &mut self,
-        trial: &WriteCheck<'_>,
+        write_check: &WriteCheck<'_>,
         address: &ValueAddress,
         sibling: Option<&ValueAddress>,
     ) -> Step {
@@ -247,7 +257,7 @@ impl Probe<'_> {
                 return Err(Stop::Inconclusive(why));
             }
         }
-        let Some(before) = self.value_at(address)?.filter(|value| !value.is_empty()) else {
+        let Some(before) = self.filled_value_at(address)? else {
             return Ok(());
         };
         let Ok(write) = address.write(&before) else { return Ok(()) };
@@ -256,8 +266,8 @@ impl Probe<'_> {
         }
         let exchange = self.send(write)?;
         let refused = exchange.is_error();
-        let expected = || format!("an error number for a write of {}", trial.what);
-        self.check(trial.rules, refused, expected, &exchange);
+        let expected = || format!("an error number for a write of {}", write_check.what);
+        self.check(write_check.rules, refused, expected, &exchange);
         Ok(())
     }
 }

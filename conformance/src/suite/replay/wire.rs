@@ -17,12 +17,13 @@ use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::service::{CallError, ServiceInterface};
 use crate::simulator::program::{Pace, Program, ProgramConfig, Request, Script, Start};
-use crate::suite::kit::{Probe, heard};
-use crate::suite::stream::{HELD_MAX, StreamWrite, send, send_until_taken};
+use crate::suite::kit::{
+    HELD_MAX, Probe, StreamWrite, heard, send, send_until_taken, service_channels,
+};
 
 /// Plays a sequence of the Service Interface, and leaves the interfaces as at the start.
 pub(super) fn service<'c>(probe: &mut Probe<'_>, given: &'c ServiceSequence) -> Done<Fault<'c>> {
-    let (cnc, channels) = (probe.cnc()?, crate::suite::service_interface::channels(probe)?);
+    let (cnc, channels) = (probe.cnc()?, service_channels(probe)?);
     let mut actor = Services { probe, cnc, channels };
     for step in &given.steps {
         actor.channel(step.channel.unwrap_or(1))?;

@@ -4,12 +4,9 @@ mod address;
 mod empty_places;
 mod platform;
 mod range;
-mod types;
 
 use super::{Row, case};
 use crate::judge::Needs;
-
-pub(super) use types::type_and_length;
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

@@ -6,9 +6,9 @@ use ads_cnc::service::ServiceVariable;
 use ads_cnc::{Handle, U32List};
 use ads_cnc_vectors::Hex;
 
-use super::{NONE, ONE, WIDE, channels, get, put, within, within_at};
+use super::{NONE, ONE, WIDE, get, put, within, within_at};
 use crate::judge::{Step, applicable};
-use crate::suite::kit::Probe;
+use crate::suite::kit::{Probe, service_channels};
 use crate::values::until_nul;
 
 fn handle_of(
@@ -51,7 +51,7 @@ pub(super) fn by_handle(probe: &mut Probe<'_>) -> Step {
 /// A service answers in one channel, while a program asks in another.
 pub(super) fn channels_apart(probe: &mut Probe<'_>) -> Step {
     use ServiceVariable::{Request, RequestState, Response, ResponseState, Uuid};
-    let all = channels(probe)?;
+    let all = service_channels(probe)?;
     let mut any = false;
     for &asking in &all {
         let Some(&answered) = all.iter().find(|other| **other != asking) else { continue };

@@ -12,8 +12,7 @@ use ads_cnc_vectors::Hex;
 
 use crate::edition::Feature;
 use crate::judge::{Needs, Rule, Step, Stop, applicable, assumed};
-use crate::profile::{Claim, Section};
-use crate::suite::kit::{Probe, ValueAddress, WriteCheck, heard};
+use crate::suite::kit::{Probe, ValueAddress, WriteCheck, heard, service_channels};
 use crate::suite::{Row, case};
 use crate::values::until_nul;
 
@@ -42,45 +41,13 @@ pub(super) const CASES: &[Row] = &[
         "A program asks for square roots, waits, and has the answers of the service"),
 ];
 
-/// The channels that have the interface: all, if it is claimed; else those that describe it, or
-/// answer.
-pub(super) fn channels(probe: &mut Probe<'_>) -> Step<Vec<Channel>> {
-    let profile = &probe.session.profile;
-    let lacks = |why| Err(Stop::not_applicable(why));
-    if !profile.has_section(Section::Service) {
-        return lacks("the profile does not claim the Service Interface");
-    }
-    match profile.has(Feature::ServiceInterface) {
-        Claim::Yes => probe.channels(),
-        Claim::No => lacks("the version has no Service Interface"),
-        Claim::Open => {
-            let mut there = Vec::new();
-            for channel in probe.channels()? {
-                let name = ServiceVariable::RequestState.name();
-                let state = ReadByName::new(channel, name)?;
-                let described = probe.variables(channel).unwrap_or_default();
-                let mut names = described.iter().map(|one| one.name.text.to_string());
-                let described = names.any(|name| ServiceVariable::by_name(&name).is_some());
-                if described || probe.try_ask(state)?.is_some() {
-                    there.push(channel);
-                }
-            }
-            if there.is_empty() {
-                lacks("no channel has the Service Interface, which comes with a version")
-            } else {
-                Ok(there)
-            }
-        }
-    }
-}
-
 fn variables(probe: &mut Probe<'_>) -> Step {
     let version = probe.session.profile.cnc_version;
     let since = version.map(|version| version.has(Feature::ServiceInterface));
     let of_version = since
         .filter(|answer| answer.available)
         .map(|answer| if answer.assumed { assumed("SVC-11") } else { "SVC-11".into() });
-    for channel in channels(probe)? {
+    for channel in service_channels(probe)? {
         let described = probe.variables(channel)?;
         for variable in ServiceVariable::ALL {
             let name = variable.name();
@@ -135,7 +102,7 @@ fn response(probe: &mut Probe<'_>) -> Step {
         probe.may(WriteByName::new(channel, Response.name(), b"\0")?)
     };
     let mut any = false;
-    for channel in channels(probe)? {
+    for channel in service_channels(probe)? {
         if !may(probe, channel)? {
             continue;
         }
@@ -170,8 +137,8 @@ fn restoring(
     let place = ValueAddress::Name { channel, name };
     let is_text = variable.var_type() == VariableType::STRING;
     let what = variable.name().to_string();
-    let trial = WriteCheck { what: &what, rules: &[], is_text, name: None };
-    probe.changing(&trial, &place, was, change, |probe| {
+    let write_check = WriteCheck { what: &what, rules: &[], is_text, name: None };
+    probe.changing(&write_check, &place, was, change, |probe| {
         put(probe, channel, variable, was)?;
         probe.is_as_before(&place, was, is_text)
     })
@@ -208,7 +175,7 @@ fn within(
     then: impl FnOnce(&mut Probe<'_>, Channel, &crate::simulator::Cnc) -> Step,
 ) -> Step {
     let lacks = || Stop::not_applicable("no channel has the Service Interface");
-    let channel = channels(probe)?.into_iter().next().ok_or_else(lacks)?;
+    let channel = service_channels(probe)?.into_iter().next().ok_or_else(lacks)?;
     within_at(probe, channel, then)
 }
 

@@ -6,14 +6,11 @@ use ads_cnc::address::Channel;
 use ads_cnc::limits::STREAM_PACKET_MAX;
 use ads_cnc::streaming::Ack;
 
-use super::{StreamWrite, comment, send, send_until_taken};
+use super::comment;
 use crate::judge::{Step, Stop, assumed};
 use crate::simulator::Cnc;
 use crate::simulator::program::{Pace, Program, ProgramConfig, Start, State};
-use crate::suite::kit::Probe;
-
-/// The most bytes that the interface holds.
-pub(in crate::suite) const HELD_MAX: usize = 4094;
+use crate::suite::kit::{HELD_MAX, Probe, StreamWrite, send, send_until_taken};
 
 /// Sets the streaming program of the first channel up, does something with it, and leaves it as it
 /// was.

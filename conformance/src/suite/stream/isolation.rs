@@ -1,10 +1,10 @@
 //! Room: each channel has its own, and what is refused takes none of it.
 
-use super::buffer::{HELD_MAX, expect, set_up, set_up_at, taken};
-use super::{comment, send};
+use super::buffer::{expect, set_up, set_up_at, taken};
+use super::comment;
 use crate::judge::{Step, applicable};
 use crate::simulator::program::{Pace, Start};
-use crate::suite::kit::Probe;
+use crate::suite::kit::{HELD_MAX, Probe, send};
 
 /// Packets that fill an interface.
 const FILLING: [usize; 5] = [992, 992, 992, 992, 126];

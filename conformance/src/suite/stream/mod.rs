@@ -4,10 +4,6 @@ mod buffer;
 mod execution;
 mod isolation;
 mod words;
-mod write;
-
-pub(super) use buffer::HELD_MAX;
-pub(super) use write::{StreamWrite, send, send_until_taken};
 
 use std::time::{Duration, Instant};
 
@@ -18,7 +14,7 @@ use ads_cnc::streaming::RETRY_AFTER;
 
 use super::{Row, case};
 use crate::judge::{Needs, Step, Stop, applicable};
-use crate::suite::kit::Probe;
+use crate::suite::kit::{HELD_MAX, Probe, send};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[

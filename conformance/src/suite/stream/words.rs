@@ -1,10 +1,9 @@
 //! Words that end streaming, and words that do not.
 
 use super::buffer::{expect, set_up, taken};
-use super::send_until_taken;
 use crate::judge::{Rule, Step};
 use crate::simulator::program::{Pace, Start, State};
-use crate::suite::kit::Probe;
+use crate::suite::kit::{Probe, send_until_taken};
 
 pub(super) fn forbidden_words(probe: &mut Probe<'_>) -> Step {
     for word in [

@@ -28,12 +28,7 @@ fn rule_of(type_name: &str) -> Rule {
 }
 
 /// Judges the type and the length of an element, which have to go together.
-pub(in super::super) fn type_and_length(
-    probe: &mut Probe<'_>,
-    type_name: &str,
-    length: u32,
-    at: &str,
-) {
+pub(crate) fn type_and_length(probe: &mut Probe<'_>, type_name: &str, length: u32, at: &str) {
     let known = size_of(type_name);
     let found = || format!("{type_name:?} of {at}");
     let is_known = known.is_some() || type_name == "STRING";

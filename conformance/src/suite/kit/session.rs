@@ -6,12 +6,12 @@ use std::sync::Arc;
 use ads_cnc::Description;
 use ads_cnc::operation::Service;
 
-use super::kit::{Changes, Inventory};
 use crate::client::Client;
 use crate::deadline::Deadline;
 use crate::judge::Record;
 use crate::profile::Profile;
 use crate::simulator::Cnc;
+use crate::suite::kit::{Changes, Inventory};
 
 /// The connection, and what has been learnt of the target so far.
 #[derive(Debug)]
@@ -21,36 +21,36 @@ pub struct Session {
     /// What the target claims.
     pub profile: Profile,
     /// Descriptions of the variables of each kind and channel.
-    pub(super) variables: BTreeMap<(u32, &'static str), Vec<Description>>,
+    pub(in crate::suite) variables: BTreeMap<(u32, &'static str), Vec<Description>>,
     /// What is known of its objects and elements.
-    pub(super) inventory: Inventory,
+    pub(in crate::suite) inventory: Inventory,
     /// The CNC itself, if it is in this process.
-    pub(super) cnc: Option<Arc<Cnc>>,
+    pub(in crate::suite) cnc: Option<Arc<Cnc>>,
     /// Requests sent.
     pub frames: usize,
     /// Services that were answered.
-    pub(super) answered: Vec<Service>,
+    pub(in crate::suite) answered: Vec<Service>,
     /// Requests in a row that were not.
-    pub(super) silences: usize,
+    pub(in crate::suite) silences: usize,
     /// Why nothing more is to be had of the target.
-    pub(super) gone: Option<String>,
+    pub(in crate::suite) gone: Option<String>,
     /// What frames themselves broke.
-    pub(super) broken: Record,
+    pub(in crate::suite) broken: Record,
     /// After which only cases that write come to their end.
-    pub(super) deadline: Option<Deadline>,
+    pub(in crate::suite) deadline: Option<Deadline>,
     /// What came of requests that had to be refused.
-    pub(super) refusals: Refusals,
+    pub(in crate::suite) refusals: Refusals,
     /// Values that are not as they were.
-    pub(super) changes: Changes,
+    pub(in crate::suite) changes: Changes,
 }
 
 /// How a target refuses.
 #[derive(Debug, Default)]
-pub(super) struct Refusals {
+pub(in crate::suite) struct Refusals {
     /// By an error number, in whichever header.
-    pub(super) by_number: usize,
+    pub(in crate::suite) by_number: usize,
     /// By a success without data.
-    pub(super) by_nothing: Record,
+    pub(in crate::suite) by_nothing: Record,
 }
 
 impl Session {

@@ -11,10 +11,13 @@ use ads_cnc::streaming::Ack;
 use crate::judge::{Describe, Step};
 use crate::suite::kit::{Probe, RawCall, heard};
 
+/// The most bytes that the interface of a stream holds.
+pub(crate) const HELD_MAX: usize = 4094;
+
 /// How a write was answered. Which error number means that it is refused for now, and which that it
 /// is for good, is documented nowhere: what they are taken for is assumed.
 #[derive(Debug)]
-pub(in crate::suite) struct StreamWrite {
+pub(crate) struct StreamWrite {
     /// The error of either header; none if the write was taken.
     error: Option<AdsError>,
     answered: bool,
@@ -22,17 +25,17 @@ pub(in crate::suite) struct StreamWrite {
 }
 
 impl StreamWrite {
-    pub(in crate::suite) const fn is_taken(&self) -> bool {
+    pub(crate) const fn is_taken(&self) -> bool {
         self.answered && self.error.is_none()
     }
 
     /// By an error: silence refuses nothing.
-    pub(in crate::suite) const fn is_refused(&self) -> bool {
+    pub(crate) const fn is_refused(&self) -> bool {
         self.answered && self.error.is_some()
     }
 
     /// What the error number is taken for.
-    pub(in crate::suite) fn assumed(&self) -> Ack {
+    pub(crate) fn assumed(&self) -> Ack {
         match self.error {
             Some(error) => Ack::from_result(error),
             None if self.answered => Ack::Accepted,
@@ -58,7 +61,7 @@ const TRIES: usize = 8;
 
 /// As [`send`], and again while it is refused: when a CNC is unable to accept new data is said
 /// nowhere, so that room for them need not be all it takes. In silence nothing is repeated.
-pub(in crate::suite) fn send_until_taken(
+pub(crate) fn send_until_taken(
     probe: &mut Probe<'_>,
     channel: Channel,
     data: &[u8],
@@ -75,11 +78,7 @@ pub(in crate::suite) fn send_until_taken(
 }
 
 /// Sends bytes to the stream as they are, whether a client may or not.
-pub(in crate::suite) fn send(
-    probe: &mut Probe<'_>,
-    channel: Channel,
-    data: &[u8],
-) -> Step<StreamWrite> {
+pub(crate) fn send(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<StreamWrite> {
     let lines = RawCall::new(WriteProgramStream::new(channel, b"\r\n"))?;
     let exchange = heard(probe.call(&lines.with(|call| call.data = data.to_vec()))?)?;
     let answer = exchange.answer();
