@@ -29,7 +29,7 @@ fn included(folder: &str) -> io::Result<String> {
     let mut files = files.collect::<io::Result<Vec<_>>>()?;
     files.sort();
     let files = files.iter().map(|file| {
-        let path = format!("{folder}/{}", file.display());
+        let path = format!("{folder}/{}", file.to_string_lossy());
         format!("({path:?}, include_str!(concat!(env!(\"CARGO_MANIFEST_DIR\"), \"/\", {path:?})))")
     });
     Ok(format!("&[{}]", files.collect::<Vec<_>>().join(", ")))

@@ -1,11 +1,7 @@
 //! Types, access and sizes of variables (VAR).
 
-use ads_cnc::operation::Function;
-
 use super::variable::element;
-use super::{Row, dimensions, number, on, put, reply, row, u32_at};
-
-const BOTH: &[Function] = &[Function::DescribeByIndex, Function::DescribeByName];
+use super::{DESCRIPTIONS, Row, dimensions, number, on, put, reply, row, u32_at};
 
 /// The sizes of elements of the types in their order, without STRING.
 const SIZES: [u32; 9] = [0, 1, 1, 1, 2, 2, 4, 4, 8];
@@ -13,33 +9,33 @@ const SIZES: [u32; 9] = [0, 1, 1, 1, 2, 2, 4, 4, 8];
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
     on("cnc.var.types-from-0", &["VAR-5"], "types are counted from 0: BOOLEAN",
-        BOTH, |cnc, call| number(cnc.answer(call), 4, |code| code.wrapping_sub(1))),
+        DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 4, |code| code.wrapping_sub(1))),
     on("cnc.var.types-unsigned-first", &["VAR-5"],
         "UNS08, UNS16, UNS32 stand before SGN08, SGN16, SGN32 among the types",
-        BOTH, |cnc, call| number(cnc.answer(call), 4, |code| match code {
+        DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 4, |code| match code {
             2 | 4 | 6 => code.wrapping_add(1),
             3 | 5 | 7 => code.wrapping_sub(1),
             _ => code,
         })),
     on("cnc.var.types-real32", &["VAR-5"], "there is a REAL32 before REAL64: that is 9, STRING 10",
-        BOTH, |cnc, call| number(cnc.answer(call), 4, |code| code.wrapping_add(u32::from(code > 7)))),
+        DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 4, |code| code.wrapping_add(u32::from(code > 7)))),
     on("cnc.var.type-by-size", &["VAR-5"], "every type of 1 byte is UNS08, every one of 4 bytes SGN32",
-        BOTH, |cnc, call| number(cnc.answer(call), 4, |code| match code {
+        DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 4, |code| match code {
             1..=3 => 3,
             4 | 5 => 4,
             6 | 7 => 6,
             _ => code,
         })),
     on("cnc.var.access-from-0", &["VAR-6"], "access is 0 for READ_ONLY, 1 for READ_WRITE",
-        BOTH, |cnc, call| number(cnc.answer(call), 8, |code| code.wrapping_sub(1))),
+        DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 8, |code| code.wrapping_sub(1))),
     on("cnc.var.access-swapped", &["VAR-6"], "access is 2 for READ_ONLY, 1 for READ_WRITE",
-        BOTH, |cnc, call| number(cnc.answer(call), 8, |code| code ^ 3)),
+        DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 8, |code| code ^ 3)),
     on("cnc.var.access-read-write", &["VAR-6"], "access is READ_WRITE for every variable",
-        BOTH, |cnc, call| number(cnc.answer(call), 8, |_| 2)),
+        DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 8, |_| 2)),
     on("cnc.var.access-flags", &["VAR-6"], "access is a set of flags: 3 for READ_WRITE",
-        BOTH, |cnc, call| number(cnc.answer(call), 8, |code| if code == 2 { 3 } else { code })),
+        DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 8, |code| if code == 2 { 3 } else { code })),
     row("cnc.var.elementary-array-of-1", &["VAR-7"], "an elementary variable has one dimension of 1",
-        |cnc, call| reply(cnc, call, BOTH, |mut bytes| {
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             if u32_at(&bytes, 16) == Some(0) {
                 put(&mut bytes, 16, 1);
                 bytes.splice(20..20, [1, 0, 0, 0]);
@@ -47,7 +43,7 @@ pub(super) const ROWS: &[Row] = &[
             bytes
         })),
     row("cnc.var.elementary-array-of-0", &["VAR-7"], "an elementary variable has one dimension of 0",
-        |cnc, call| reply(cnc, call, BOTH, |mut bytes| {
+        |cnc, call| reply(cnc, call, DESCRIPTIONS, |mut bytes| {
             if u32_at(&bytes, 16) == Some(0) {
                 put(&mut bytes, 16, 1);
                 bytes.splice(20..20, [0; 4]);
@@ -55,13 +51,13 @@ pub(super) const ROWS: &[Row] = &[
             bytes
         })),
     on("cnc.var.size-of-element", &["VAR-8"], "the size in a description is that of one element",
-        BOTH, |cnc, call| cnc.answer(call).map(|mut bytes| {
+        DESCRIPTIONS, |cnc, call| cnc.answer(call).map(|mut bytes| {
             let size = u32::try_from(element(&bytes)).unwrap_or_default();
             put(&mut bytes, 12, size);
             bytes
         })),
     on("cnc.var.size-in-elements", &["VAR-8"], "the size in a description is a number of elements",
-        BOTH, |cnc, call| cnc.answer(call).map(|mut bytes| {
+        DESCRIPTIONS, |cnc, call| cnc.answer(call).map(|mut bytes| {
             let size =
                 dimensions(&bytes).0.iter().fold(1, |all: u32, one| all.saturating_mul(*one));
             put(&mut bytes, 12, size);
@@ -69,23 +65,23 @@ pub(super) const ROWS: &[Row] = &[
         })),
     on("cnc.var.size-of-first-dimension", &["VAR-8"],
         "the size of an array with more dimensions is that of the first",
-        BOTH, |cnc, call| cnc.answer(call).map(|mut bytes| {
+        DESCRIPTIONS, |cnc, call| cnc.answer(call).map(|mut bytes| {
             let first = dimensions(&bytes).0.first().copied().unwrap_or(1);
             let size = u32::try_from(element(&bytes)).unwrap_or_default();
             put(&mut bytes, 12, size.saturating_mul(first));
             bytes
         })),
     on("cnc.var.size-aligned", &["VAR-8"], "the size in a description is rounded up to 4 bytes",
-        BOTH, |cnc, call| number(cnc.answer(call), 12, |size| size.saturating_add(3) & !3)),
+        DESCRIPTIONS, |cnc, call| number(cnc.answer(call), 12, |size| size.saturating_add(3) & !3)),
     on("cnc.var.size-of-description", &["VAR-8"], "the size in a description is its own",
-        BOTH, |cnc, call| cnc.answer(call).map(|mut bytes| {
+        DESCRIPTIONS, |cnc, call| cnc.answer(call).map(|mut bytes| {
             let len = u32::try_from(bytes.len()).unwrap_or_default();
             put(&mut bytes, 12, len);
             bytes
         })),
     on("cnc.var.description-types-wide", &["VAR-8", "GEN-5"],
         "sizes count 4 bytes for every element of fewer",
-        BOTH, |cnc, call| cnc.answer(call).map(|mut bytes| {
+        DESCRIPTIONS, |cnc, call| cnc.answer(call).map(|mut bytes| {
             let kind = u32_at(&bytes, 4).and_then(|kind| usize::try_from(kind).ok());
             let size = kind.and_then(|kind| SIZES.get(kind)).copied().unwrap_or(8);
             let whole = u32_at(&bytes, 12).unwrap_or_default();
