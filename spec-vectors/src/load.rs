@@ -1,4 +1,4 @@
-//! The embedded files, read once.
+//! The files of `data/`, part of the program, parsed once.
 
 use crate::catalogue::{Clause, Document, Erratum, Requirement};
 use crate::sequence::Sequence;
@@ -26,7 +26,7 @@ pub struct Catalogue {
     pub sequences: Vec<Sequence>,
 }
 
-/// An embedded file is not what this crate's types expect.
+/// A file of `data/` is not what this crate's types expect.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LoadError {
     /// Path of the file in the crate.
@@ -235,14 +235,14 @@ struct SequenceFile {
     cases: Vec<Sequence>,
 }
 
-macro_rules! embedded {
+macro_rules! included {
     ($path:literal) => {
         ($path, include_str!(concat!("../", $path)))
     };
 }
 
-const REQUIREMENTS: (&str, &str) = embedded!("data/requirements.json");
-const ERRATA: (&str, &str) = embedded!("data/errata.json");
+const REQUIREMENTS: (&str, &str) = included!("data/requirements.json");
+const ERRATA: (&str, &str) = included!("data/errata.json");
 /// The files of `data/vectors` and `data/sequences`, as `build.rs` finds them.
 const VECTORS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/vectors.rs"));
 const SEQUENCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sequences.rs"));

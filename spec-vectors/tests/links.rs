@@ -23,22 +23,6 @@ fn data_is_there() {
     }
 }
 
-/// The list of embedded files is written by hand; a file that is missing there would go unnoticed.
-#[test]
-fn every_vector_file_is_embedded() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/vectors");
-    let mut ids = BTreeSet::new();
-    for entry in fs::read_dir(folder).expect("a folder of vectors") {
-        let text = fs::read_to_string(entry.expect("an entry").path()).expect("readable");
-        let file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-        for vector in file["vectors"].as_array().expect("a list") {
-            ids.insert(vector["id"].as_str().expect("an ID").to_owned());
-        }
-    }
-    let embedded: BTreeSet<String> = vectors().iter().map(|v| v.id.clone()).collect();
-    assert_eq!(ids, embedded);
-}
-
 #[test]
 fn ids_are_unique() {
     let unique = |what: &str, ids: Vec<&str>| {

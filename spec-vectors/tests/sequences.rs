@@ -5,24 +5,6 @@ use ads_cnc_vectors::{
     requirements, sequence, sequences, vector, vectors,
 };
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::Path;
-
-/// The list of embedded files is written by hand; a file that is missing there would go unnoticed.
-#[test]
-fn every_file_is_embedded() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/sequences");
-    let mut ids = BTreeSet::new();
-    for entry in fs::read_dir(folder).expect("a folder of sequences") {
-        let text = fs::read_to_string(entry.expect("an entry").path()).expect("readable");
-        let file: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-        for case in file["cases"].as_array().expect("a list") {
-            ids.insert(case["id"].as_str().expect("an ID").to_owned());
-        }
-    }
-    let embedded: BTreeSet<String> = sequences().iter().map(|case| case.id.clone()).collect();
-    assert_eq!(ids, embedded);
-}
 
 #[test]
 fn ids_are_unique() {
