@@ -60,8 +60,8 @@ pub enum Needs {
     Writes,
     /// Writes that no client should send: only to a target that cannot move.
     MalformedWrites,
-    /// A CNC in this process, to which something is done from within.
-    Embedded,
+    /// The simulated CNC in this process, whose state the case reads or changes directly.
+    Simulator,
     /// A target that claims to answer the manuals' examples.
     PrintedExamples,
     /// The frames that all other cases, or others altogether, exchanged.

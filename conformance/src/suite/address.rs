@@ -24,7 +24,7 @@ pub(super) const CASES: &[Row] = &[
         "A channel answers the same by its number and by its rank"),
     case("adr-rank-among-active", &["ADR-11"], Needs::Queries, rank_among_active,
         "By index, channels are counted without gaps"),
-    case("adr-rank-after-deactivation", &["ADR-11"], Needs::Embedded, rank_after_deactivation,
+    case("adr-rank-after-deactivation", &["ADR-11"], Needs::Simulator, rank_after_deactivation,
         "When a channel is deactivated, those behind it move up by index, and not logically"),
     case("adr-geo-answers-too", &["ADR-10"], Needs::Malformed, geo_answers_too,
         "GEO and SDA both answer for a class of the CNC"),

@@ -16,7 +16,7 @@ pub(super) const CASES: &[Row] = &[
         "Type and length of an element are what their groups say"),
     case("adr-attributes-by-index", &["ADR-1", "ADR-12"], Needs::Queries, by_index,
         "By number and by rank of the channel, an element has the same attributes"),
-    case("adr-attributes-within", &["ADR-6"], Needs::Embedded, within,
+    case("adr-attributes-within", &["ADR-6"], Needs::Simulator, within,
         "Each group has the attribute that the CNC has within"),
 ];
 

@@ -9,7 +9,7 @@ use crate::judge::{Needs, Step, Stop};
 
 #[rustfmt::skip]
 pub(super) const CASES: &[Row] = &[
-    case("axis-exchange", &["ADR-13", "SDA-13", "VAR-10"], Needs::Embedded, exchange,
+    case("axis-exchange", &["ADR-13", "SDA-13", "VAR-10"], Needs::Simulator, exchange,
         "An axis takes its values along to another place; the platform's place stays"),
 ];
 

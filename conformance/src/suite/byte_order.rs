@@ -16,7 +16,7 @@ pub(super) const CASES: &[Row] = &[
         "Counts and handles come with their lowest byte first"),
     case("gen-field-order", &["GEN-1"], Needs::Queries, field_order,
         "Numbers in descriptors, descriptions and addresses come with their lowest byte first"),
-    case("gen-value-order", &["GEN-1"], Needs::Embedded, value_order,
+    case("gen-value-order", &["GEN-1"], Needs::Simulator, value_order,
         "Values of variables and parameters come with their lowest byte first"),
 ];
 

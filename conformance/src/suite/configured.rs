@@ -1,4 +1,4 @@
-//! Cases that hold the embedded CNC against its own model, which nobody asks a CNC for.
+//! Cases that compare the simulated CNC with its model, which no request can read.
 
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ use crate::simulator::Configured;
 pub(super) const CASES: &[Row] = &[
     case("var-as-configured",
         &["VAR-2", "VAR-3", "VAR-4", "VAR-5", "VAR-6", "VAR-7", "VAR-8", "VAR-14", "VAR-15", "VAR-16"],
-        Needs::Embedded, as_configured,
+        Needs::Simulator, as_configured,
         "V.E and V.G are described, and what is READ_ONLY is read, as they are configured"),
 ];
 

@@ -16,8 +16,8 @@ pub(super) const CASES: &[Row] = &[
         "Each task says the name and version of its device"),
     case("ads-device-state", &["ADS-9"], Needs::Queries, device_state,
         "Each task says the state it is in"),
-    case("ads-device-as-it-is", &["ADS-8", "ADS-9"], Needs::Embedded, as_it_is,
-        "The embedded CNC's name, version and state are its own"),
+    case("ads-device-as-it-is", &["ADS-8", "ADS-9"], Needs::Simulator, as_it_is,
+        "The simulated CNC reports its own name, version and state"),
 ];
 
 impl Probe<'_> {

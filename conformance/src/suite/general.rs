@@ -29,7 +29,7 @@ pub(super) const CASES: &[Row] = &[
         "No channel has the number 0, and none the rank 0; no place of a channel is place 0"),
     case("gen-names-found", &["GEN-3"], Needs::Queries, names_found,
         "A name is found by the characters it is described with, those beyond ASCII too"),
-    case("gen-names-within", &["GEN-3"], Needs::Embedded, names_within,
+    case("gen-names-within", &["GEN-3"], Needs::Simulator, names_within,
         "Names and units are CP1252, as the CNC has them within"),
 ];
 

@@ -24,7 +24,7 @@ impl Needs {
             Self::MalformedWrites if gate.simulated().is_none() => {
                 not_run("writes what no client should: to the simulated CNC only")
             }
-            Self::Embedded if !inside => not_run(
+            Self::Simulator if !inside => not_run(
                 "takes something that is done to a CNC from within: to the simulated CNC only",
             ),
             Self::PrintedExamples if !profile.printed_examples => Some((

@@ -14,14 +14,14 @@ pub(super) const CASES: &[Row] = &[
     case("held-is-read",
         &["ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-4", "COM-5",
             "GEN-1", "GEN-6"],
-        Needs::Embedded, is_read,
+        Needs::Simulator, is_read,
         "What the CNC holds is read at the address of what holds it, the lowest byte first"),
     case("written-is-held",
         &["ADR-1", "ADR-2", "ADR-3", "ADR-5", "ADR-6", "ADR-7", "ADR-12", "ADR-13", "COM-5", "GEN-1",
             "GEN-6"],
-        Needs::Embedded, is_held,
+        Needs::Simulator, is_held,
         "What is written is held by what has the address, and by nothing else"),
-    case("held-is-described", &["COM-2", "OBJ-1"], Needs::Embedded, is_described,
+    case("held-is-described", &["COM-2", "OBJ-1"], Needs::Simulator, is_described,
         "All that the CNC holds is in its list, an object with its own name and size"),
 ];
 

@@ -16,7 +16,7 @@ pub(super) const CASES: &[Row] = &[
         "What an object takes by its channel's number it takes by its rank, and has it then"),
     case("write-platform-axes-of-hld", &["SDA-13"], Needs::Writes, axes_of_hld,
         "A platform axis of the first channel's HLD is the one without a channel"),
-    case("written-by-name-only", &["VAR-18"], Needs::Embedded, by_name_only,
+    case("written-by-name-only", &["VAR-18"], Needs::Simulator, by_name_only,
         "V.CYC that can be written within is written by its name"),
 ];
 

@@ -32,8 +32,8 @@ pub(super) const CASES: &[Row] = &[
         "A reply has no more bytes than are asked for, and no more than there are"),
     case("ads-in-pieces", &["ADS-5"], Needs::Queries, lengths::in_pieces,
         "A request is answered the same in whatever pieces it comes"),
-    case("ads-numbers-of-errors", &["ADS-4", "ADS-5"], Needs::Embedded, numbers::of_errors,
-        "The embedded CNC's errors have the numbers on the wire that it gives them"),
+    case("ads-numbers-of-errors", &["ADS-4", "ADS-5"], Needs::Simulator, numbers::of_errors,
+        "The simulated CNC sends its errors with the numbers that it gives them"),
     case("ads-write", &["ADS-2"], Needs::Writes, write::arrives,
         "What a Write is acknowledged for is there by another service, and nothing else is"),
 ];

@@ -32,7 +32,7 @@ pub(super) const CASES: &[Row] = &[
     case("dyn-by-index-of-channel", &["ADR-1", "ADR-12"], Needs::Queries, value::by_rank,
         "A channel's parameters are the same by its number and by its rank"),
     case("dyn-come-and-go", &["DYN-1", "DYN-2", "DYN-3", "DYN-4", "DYN-5", "DYN-6"],
-        Needs::Embedded, change::come_and_go,
+        Needs::Simulator, change::come_and_go,
         "Parameters that are made and deleted change numbers and indices, and no name"),
     case("dyn-bad-requests", &["ADS-1", "DYN-2", "DYN-3", "DYN-4", "DYN-5", "DYN-6"],
         Needs::Malformed, malformed::bad_requests,

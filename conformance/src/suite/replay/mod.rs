@@ -28,7 +28,7 @@ pub(super) fn cases() -> Vec<Case> {
             title: sequence.title.clone(),
             subject: Subject::Target,
             requirements: ids.filter(|id| !NOT_THE_TARGETS.contains(id)).collect(),
-            needs: Needs::Embedded,
+            needs: Needs::Simulator,
             body: Body::Sequence(sequence),
         }
     });
@@ -89,7 +89,7 @@ pub(super) fn run(probe: &mut Probe<'_>, sequence: &'static Sequence) -> Step {
         Err(Otherwise::Differs(expected, found)) => (false, expected, found),
         Err(Otherwise::Stop(stop)) => return Err(stop),
     };
-    // The embedded CNC does what is assumed too.
+    // The simulated CNC does what is assumed too.
     let cited = sequence.cited().into_iter().map(|one| one.id.as_str());
     let cited: Vec<&str> = cited.filter(|id| !NOT_THE_TARGETS.contains(id)).collect();
     probe.check(&cited, kept, expected, found);

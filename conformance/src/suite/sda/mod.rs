@@ -29,6 +29,6 @@ pub(super) const CASES: &[Row] = &[
         "The HLD of the first channel has the axes of the whole platform"),
     case("sda-empty-place", &["SDA-11"], Needs::Queries, empty_places::empty_place,
         "A place without an axis reads as blank"),
-    case("sda-axis-number", &["SDA-11"], Needs::Embedded, empty_places::axis_number,
+    case("sda-axis-number", &["SDA-11"], Needs::Simulator, empty_places::axis_number,
         "The logical axis number of a place is that of its axis, and 0 without one"),
 ];

@@ -1,4 +1,4 @@
-//! The embedded CNC's streams: what becomes of what was written.
+//! The program streams of the simulated CNC: which of the written bytes its buffer takes.
 
 use std::time::Duration;
 

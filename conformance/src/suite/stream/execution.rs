@@ -1,4 +1,4 @@
-//! What becomes of lines on their way through the embedded CNC.
+//! The program streams of the simulated CNC: which lines it executes.
 
 use ads_cnc::address::Channel;
 

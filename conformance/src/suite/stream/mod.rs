@@ -26,37 +26,37 @@ pub(super) const CASES: &[Row] = &[
         "A packet of 992 bytes is taken, and a line of 990 characters in it"),
     case("stream-refused-for-now", &["STM-6"], Needs::Writes, refused_for_now,
         "What is refused for now is taken later, the same bytes again"),
-    case("stream-too-long", &["STM-2"], Needs::Embedded, buffer::too_long,
+    case("stream-too-long", &["STM-2"], Needs::Simulator, buffer::too_long,
         "A packet of 993 bytes is refused, and nothing of it is taken"),
-    case("stream-full", &["STM-3", "STM-6", "STM-12", "STM-15"], Needs::Embedded, buffer::full,
+    case("stream-full", &["STM-3", "STM-6", "STM-12", "STM-15"], Needs::Simulator, buffer::full,
         "The interface holds 4094 bytes; then a write is refused until they were read"),
-    case("stream-channels", &["STM-1", "ADR-12"], Needs::Embedded, execution::channels,
+    case("stream-channels", &["STM-1", "ADR-12"], Needs::Simulator, execution::channels,
         "What is written to the stream of a channel is run there, and nowhere else"),
-    case("stream-as-written", &["STM-4", "STM-7"], Needs::Embedded, execution::as_written,
+    case("stream-as-written", &["STM-4", "STM-7"], Needs::Simulator, execution::as_written,
         "Every character is run as it was written, and every line as a line"),
-    case("stream-read-at-once", &["STM-12"], Needs::Embedded, execution::at_once,
+    case("stream-read-at-once", &["STM-12"], Needs::Simulator, execution::at_once,
         "All that is there is read at once, before any of it is run"),
-    case("stream-behind-the-end", &["STM-10", "STM-14"], Needs::Embedded, execution::behind_end,
+    case("stream-behind-the-end", &["STM-10", "STM-14"], Needs::Simulator, execution::behind_end,
         "What comes behind a program end that was read stays for the next start"),
-    case("stream-dry", &["STM-7", "STM-14", "STM-16"], Needs::Embedded, buffer::dry,
+    case("stream-dry", &["STM-7", "STM-14", "STM-16"], Needs::Simulator, buffer::dry,
         "Where nothing more is written motion stops, and the next write resumes it"),
-    case("stream-reset", &["STM-11", "STM-14"], Needs::Embedded, buffer::reset,
+    case("stream-reset", &["STM-11", "STM-14"], Needs::Simulator, buffer::reset,
         "A reset empties the interface, and the next program is another"),
-    case("stream-many-packets", &["STM-3", "STM-6", "STM-15"], Needs::Embedded, buffer::many,
+    case("stream-many-packets", &["STM-3", "STM-6", "STM-15"], Needs::Simulator, buffer::many,
         "The interface holds packets of one line as long as they fit, however many"),
-    case("stream-room-of-channels", &["STM-3", "STM-12"], Needs::Embedded, isolation::channels,
+    case("stream-room-of-channels", &["STM-3", "STM-12"], Needs::Simulator, isolation::channels,
         "The interface of each channel has all its room, however full another's is"),
-    case("stream-refused-whole", &["STM-3", "STM-6"], Needs::Embedded, isolation::in_part,
+    case("stream-refused-whole", &["STM-3", "STM-6"], Needs::Simulator, isolation::in_part,
         "Of a packet that is refused no line is taken, though some would fit"),
-    case("stream-lengths", &["STM-2", "STM-4"], Needs::Embedded, isolation::lengths,
+    case("stream-lengths", &["STM-2", "STM-4"], Needs::Simulator, isolation::lengths,
         "A packet is run whole, whatever its length up to 992 bytes"),
-    case("stream-comments", &["STM-8", "STM-9"], Needs::Embedded, words::comments,
+    case("stream-comments", &["STM-8", "STM-9"], Needs::Simulator, words::comments,
         "A comment ends where it ends: behind it the same word ends streaming"),
-    case("stream-ends", &["STM-9", "STM-10"], Needs::Embedded, words::ends,
+    case("stream-ends", &["STM-9", "STM-10"], Needs::Simulator, words::ends,
         "M2, M30, M17 and M29 end a program anywhere in a line, and no other word does"),
-    case("stream-forbidden-words", &["STM-8", "STM-9"], Needs::Embedded, words::forbidden_words,
+    case("stream-forbidden-words", &["STM-8", "STM-9"], Needs::Simulator, words::forbidden_words,
         "Each word of a loop ends streaming where it stands, unless it is in a comment"),
-    case("stream-permitted-words", &["STM-8", "STM-19"], Needs::Embedded, words::permitted_words,
+    case("stream-permitted-words", &["STM-8", "STM-19"], Needs::Simulator, words::permitted_words,
         "Branches and jumps forward may span packets"),
 ];
 
@@ -103,7 +103,7 @@ fn comment(len: usize) -> Vec<u8> {
     line
 }
 
-/// The first channel whose stream may be written. The embedded CNC's is set up anew: whatever was
+/// The first channel whose stream may be written. That of the simulated CNC is set up anew: whatever was
 /// sent before, it waits for lines.
 fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
     for channel in probe.channels()? {
@@ -125,7 +125,7 @@ fn channel(probe: &mut Probe<'_>) -> Step<Channel> {
 /// An error number does not tell for now from for good: that it is taken later does.
 fn write(probe: &mut Probe<'_>, channel: Channel, data: &[u8]) -> Step<Option<u32>> {
     let (begun, mut waited, mut refused) = (Instant::now(), Duration::ZERO, 0_u32);
-    // Of the embedded CNC it is known how fast it is.
+    // The speed of the simulated CNC is known.
     let (wait, patience) = if probe.session.cnc.is_some() {
         (Duration::from_millis(5), Duration::from_millis(300))
     } else {
